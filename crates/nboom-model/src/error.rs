@@ -1,0 +1,239 @@
+use std::fmt;
+
+use nboom_scalar::Vec3;
+
+use crate::mass::MassDefect;
+use crate::{Body, HingeLabel, HingeState, Release, SceneDescription};
+
+/// Which body a message is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyName {
+    /// The main body.
+    MainBody,
+    /// The body outboard of this hinge.
+    Segment(HingeLabel),
+}
+
+impl fmt::Display for BodyName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::MainBody => write!(f, "main body"),
+            Self::Segment(label) => write!(f, "segment {label}"),
+        }
+    }
+}
+
+/// Why a description is not a scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// No rigid body has these mass properties.
+    #[error("{body}: {defect}")]
+    Mass {
+        /// The body.
+        body: BodyName,
+        /// What is wrong with it.
+        defect: MassDefect,
+    },
+    /// A number is infinite or not a number.
+    #[error("{body}: {quantity} is not finite")]
+    NotFinite {
+        /// The body.
+        body: BodyName,
+        /// Which number.
+        quantity: &'static str,
+    },
+    /// Bodies are not listed branch by branch, inboard before outboard.
+    #[error("segment {label}: inboard body {inboard} found, an earlier body of the same branch expected")]
+    Order {
+        /// The hinge.
+        label: HingeLabel,
+        /// Index of the inboard body, from 0.
+        inboard: usize,
+    },
+    /// A hinge axis is not a unit vector.
+    #[error("segment {label}: hinge axis of length {length} found, 1 expected")]
+    Axis {
+        /// The hinge.
+        label: HingeLabel,
+        /// Length of the given axis.
+        length: f64,
+    },
+    /// A mount is not a rotation.
+    #[error("segment {label}: mounting axes that depart by {defect} from a right-handed orthonormal triad found")]
+    MountRotation {
+        /// The hinge.
+        label: HingeLabel,
+        /// Largest departure.
+        defect: f64,
+    },
+    /// A release refers to a hinge that does not exist, or to itself.
+    #[error("segment {label}: release by hinge number {trigger} found, another of the {count} hinges expected")]
+    Trigger {
+        /// The hinge.
+        label: HingeLabel,
+        /// Number of the trigger, from 1.
+        trigger: usize,
+        /// How many hinges there are.
+        count: usize,
+    },
+    /// A hinge that starts held has a rate.
+    #[error("segment {label}: rate {rate} found, zero expected of a hinge that starts held")]
+    HeldRate {
+        /// The hinge.
+        label: HingeLabel,
+        /// The given rate.
+        rate: f64,
+    },
+    /// The direction of gravity or the initial attitude does not have length 1.
+    #[error("{quantity} of length {length} found, 1 expected")]
+    NotUnit {
+        /// Which vector.
+        quantity: &'static str,
+        /// Its length.
+        length: f64,
+    },
+    /// The run ends before it starts.
+    #[error("end time {end} found, a time not before the initial time {start} expected")]
+    EndTime {
+        /// Initial time.
+        start: f64,
+        /// End time.
+        end: f64,
+    },
+    /// The thrust stops before it starts.
+    #[error("thrust from {on} to {off} found, an end not before its start expected")]
+    ThrustTimes {
+        /// Start.
+        on: f64,
+        /// Stop.
+        off: f64,
+    },
+}
+
+/// Departure from a unit vector or a rotation that is taken for rounding in the input.
+const UNIT_TOLERANCE: f64 = 1e-9;
+
+pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<ModelError> {
+    let mut errors = Vec::new();
+    if let Some(defect) = scene.main_body.defect() {
+        errors.push(ModelError::Mass { body: BodyName::MainBody, defect });
+    }
+    find_in_motion(scene, &mut errors);
+    for (i, body) in scene.bodies.iter().enumerate() {
+        find_in_tree(scene, labels, i, &mut errors);
+        find_in_hinge(body, labels[i], labels.len(), i, &mut errors);
+    }
+    errors
+}
+
+fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
+    let initial = &scene.initial;
+    let main_body_is = |quantity| ModelError::NotFinite { body: BodyName::MainBody, quantity };
+    let finite = [
+        (initial.time.is_finite(), "initial time"),
+        (initial.position_inertial.is_finite(), "initial position"),
+        (initial.velocity_inertial.is_finite(), "initial velocity"),
+        (initial.omega_body.is_finite(), "initial angular rate"),
+        (scene.end_time.is_finite(), "end time"),
+        (scene.gravity.is_none_or(|g| g.acceleration.is_finite()), "gravity"),
+        (scene.thrust.is_none_or(|f| f.force.is_finite() && f.point.is_finite()), "thrust"),
+        (scene.thrust.is_none_or(|f| !f.on.is_nan() && !f.off.is_nan()), "thrust time"),
+    ];
+    errors.extend(finite.iter().filter(|(ok, _)| !ok).map(|(_, name)| main_body_is(name)));
+    check_unit("initial attitude", initial.attitude.norm_squared().sqrt(), errors);
+    if let Some(gravity) = scene.gravity {
+        check_unit("direction of gravity", gravity.up.norm(), errors);
+    }
+    if scene.end_time < initial.time {
+        errors.push(ModelError::EndTime { start: initial.time, end: scene.end_time });
+    }
+    if let Some(thrust) = scene.thrust.filter(|thrust| thrust.off < thrust.on) {
+        errors.push(ModelError::ThrustTimes { on: thrust.on, off: thrust.off });
+    }
+}
+
+fn check_unit(quantity: &'static str, length: f64, errors: &mut Vec<ModelError>) {
+    // Written so that a length that is not a number fails.
+    if !((length - 1.0).abs() <= UNIT_TOLERANCE) {
+        errors.push(ModelError::NotUnit { quantity, length });
+    }
+}
+
+fn find_in_tree(
+    scene: &SceneDescription,
+    labels: &[HingeLabel],
+    i: usize,
+    errors: &mut Vec<ModelError>,
+) {
+    let (body, label) = (&scene.bodies[i], labels[i]);
+    if let Some(inboard) = body.inboard {
+        if inboard >= i || labels[inboard].appendage != label.appendage {
+            errors.push(ModelError::Order { label, inboard });
+        }
+    }
+    let length = body.axis.norm();
+    if !((length - 1.0).abs() <= UNIT_TOLERANCE) {
+        errors.push(ModelError::Axis { label, length });
+    }
+    let defect = body.mount.rot_inboard_from_hinge.rotation_defect();
+    if !(defect <= UNIT_TOLERANCE) {
+        errors.push(ModelError::MountRotation { label, defect });
+    }
+}
+
+fn find_in_hinge(
+    body: &Body,
+    label: HingeLabel,
+    count: usize,
+    i: usize,
+    errors: &mut Vec<ModelError>,
+) {
+    let name = BodyName::Segment(label);
+    if let Some(defect) = body.mass_properties.defect() {
+        errors.push(ModelError::Mass { body: name, defect });
+    }
+    let hinge = &body.hinge;
+    let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
+    let spring_numbers = [spring.quadratic, spring.linear, spring.preload_angle];
+    let dashpot_numbers = [
+        dashpot.rate_quadratic,
+        dashpot.rate_linear,
+        dashpot.angle_quadratic,
+        dashpot.angle_linear,
+        dashpot.preload_angle,
+    ];
+    let all_finite = |numbers: &[f64]| numbers.iter().all(|n| n.is_finite());
+    let release_finite = match hinge.release {
+        Release::Time(time) => !time.is_nan(),
+        Release::Angle { angle, .. } => angle.is_finite(),
+        Release::Never => true,
+    };
+    let finite_points = |points: &[Vec3<f64>]| points.iter().all(|p| p.is_finite());
+    let checks = [
+        (finite_points(&[body.mount.point]), "hinge point"),
+        (all_finite(&spring_numbers), "hinge spring"),
+        (all_finite(&dashpot_numbers), "hinge dashpot"),
+        (all_finite(&[hinge.start.angle, hinge.start.rate]), "initial angle or rate"),
+        (hinge.lock_angle.is_none_or(f64::is_finite), "lock angle"),
+        (release_finite, "release"),
+        (
+            hinge.kick_off.is_none_or(|k| {
+                finite_points(&[k.main_body_point, k.body_point])
+                    && all_finite(&k.coefficients)
+                    && k.limit_length.is_finite()
+            }),
+            "kick-off spring",
+        ),
+    ];
+    let bad = checks.into_iter().filter(|(ok, _)| !ok);
+    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: name, quantity }));
+    if let Release::Angle { hinge: trigger, .. } = hinge.release {
+        if trigger >= count || trigger == i {
+            errors.push(ModelError::Trigger { label, trigger: trigger + 1, count });
+        }
+    }
+    if hinge.start.state != HingeState::Free && hinge.start.rate != 0.0 {
+        errors.push(ModelError::HeldRate { label, rate: hinge.start.rate });
+    }
+}

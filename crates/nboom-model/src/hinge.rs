@@ -1,0 +1,138 @@
+use nboom_scalar::{Mat3, Vec3};
+
+/// Where a hinge sits on its inboard body, and how the body axes stand at hinge angle zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mount {
+    /// The hinge point from the inboard body's origin, inboard body's axes.
+    pub point: Vec3<f64>,
+    /// Turns the outboard body's components at hinge angle zero into the inboard body's.
+    pub rot_inboard_from_hinge: Mat3<f64>,
+}
+
+impl Mount {
+    /// A hinge at `point` (inboard axes) whose axes are parallel to the inboard body's.
+    pub fn at(point: Vec3<f64>) -> Self {
+        Self { point, rot_inboard_from_hinge: Mat3::identity() }
+    }
+}
+
+/// Hinge spring of eq. (6.1): torque κ₁(β + θ)² + κ₂(β + θ); restoring when κ₂ is negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spring {
+    /// κ₁ \[torque/rad²\].
+    pub quadratic: f64,
+    /// κ₂ \[torque/rad\].
+    pub linear: f64,
+    /// θ, the preload angle \[rad\].
+    pub preload_angle: f64,
+}
+
+/// Hinge dashpot of eq. (6.1): torque q₁τ² + q₂τ + q₃(β + γ)² + q₄(β + γ); damping when q₂ is
+/// negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Dashpot {
+    /// q₁ \[torque·T²/rad²\].
+    pub rate_quadratic: f64,
+    /// q₂ \[torque·T/rad\].
+    pub rate_linear: f64,
+    /// q₃ \[torque/rad²\].
+    pub angle_quadratic: f64,
+    /// q₄ \[torque/rad\].
+    pub angle_linear: f64,
+    /// γ, the preload angle \[rad\].
+    pub preload_angle: f64,
+}
+
+/// A spring that pushes a body off the main body until it has reached its limit length,
+/// eqs. (6.9), (6.10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KickOffSpring {
+    /// Attachment on the main body, from O, main-body axes.
+    pub main_body_point: Vec3<f64>,
+    /// Attachment on the hinged body, from its hinge, body axes.
+    pub body_point: Vec3<f64>,
+    /// Force a₀ + a₁x + a₂x² + a₃x³ in the spring's length x.
+    pub coefficients: [f64; 4],
+    /// Length beyond which the force is zero.
+    pub limit_length: f64,
+}
+
+/// When a hinge that starts unreleased becomes free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Release {
+    /// At this time \[T\], or at the initial time when that is later.
+    Time(f64),
+    /// When the relative angle of hinge number `hinge` passes `angle` \[rad\] either way.
+    Angle {
+        /// Index of the triggering hinge, from 0.
+        hinge: usize,
+        /// The relative angle of that hinge \[rad\].
+        angle: f64,
+    },
+    /// Not during the run.
+    Never,
+}
+
+/// Whether a hinge turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum HingeState {
+    /// Held in its stowed position, to be released.
+    Unreleased,
+    /// Free to turn.
+    Free,
+    /// Held by its latch for good.
+    Locked,
+}
+
+impl HingeState {
+    /// −1 unreleased, 0 free, 1 locked: the report's state vector.
+    pub fn code(self) -> i8 {
+        match self {
+            Self::Unreleased => -1,
+            Self::Free => 0,
+            Self::Locked => 1,
+        }
+    }
+}
+
+/// How a hinge starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HingeStart {
+    /// β, angle relative to the inboard body \[rad\].
+    pub angle: f64,
+    /// τ, rate relative to the inboard body \[rad/T\]; zero unless the hinge starts free.
+    pub rate: f64,
+    /// Unreleased, free or locked.
+    pub state: HingeState,
+}
+
+/// What acts about a hinge, and when it is released and locks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge {
+    /// Spring about the hinge axis.
+    pub spring: Spring,
+    /// Dashpot about the hinge axis.
+    pub dashpot: Dashpot,
+    /// Kick-off spring between the outboard body and the main body.
+    pub kick_off: Option<KickOffSpring>,
+    /// When the hinge becomes free, if it starts unreleased.
+    pub release: Release,
+    /// Relative angle at which the hinge locks \[rad\]; `None` never locks.
+    pub lock_angle: Option<f64>,
+    /// Angle, rate and state at the initial time.
+    pub start: HingeStart,
+}
+
+impl Hinge {
+    /// A free hinge at angle zero and at rest, with nothing about it.
+    pub fn free() -> Self {
+        Self {
+            spring: Spring::default(),
+            dashpot: Dashpot::default(),
+            kick_off: None,
+            release: Release::Never,
+            lock_angle: None,
+            start: HingeStart { angle: 0.0, rate: 0.0, state: HingeState::Free },
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! What the user described: a rooted tree of rigid bodies joined by one-axis hinges.
+//!
+//! A [`SceneDescription`] is plain data; [`Scene::new`] checks it and is the only way to a
+//! [`Scene`], so whatever holds a scene need not check it again. The report's regular and
+//! paddle appendages ([`Appendage`]) are two ways to write bodies of such a tree.
+//!
+//! Angles are radians; every other unit is the scene's own consistent set. This crate reads
+//! no files and solves no equations.
+//!
+//! ```
+//! use nboom_model::{Appendage, Hinge, MassProperties, Mount, SceneDescription, Scene, Segment};
+//! use nboom_scalar::{Sym3, Vec3};
+//!
+//! let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
+//! let boom = MassProperties::new(3.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
+//! let mut description = SceneDescription::at_rest("one boom", hub, 10.0);
+//! description.attach(&Appendage::Regular {
+//!     mount: Mount::at(Vec3::new(0.0, 0.5, 0.1)),
+//!     segments: vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }],
+//! });
+//! let scene = Scene::new(description).expect("the bodies are physical");
+//! assert_eq!(scene.degrees_of_freedom(), 7);
+//! ```
+
+mod appendage;
+mod environment;
+mod error;
+mod facts;
+mod hinge;
+mod label;
+mod mass;
+mod mode;
+mod scene;
+mod warning;
+
+pub use appendage::{Appendage, Segment};
+pub use environment::{Gravity, InitialMotion, Thrust};
+pub use error::{BodyName, ModelError};
+pub use facts::Facts;
+pub use hinge::{Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, Spring};
+pub use label::HingeLabel;
+pub use mass::{MassProperties, TRIANGLE_TOLERANCE};
+pub use mode::Mode;
+pub use scene::{Body, Scene, SceneDescription};
+pub use warning::ModelWarning;

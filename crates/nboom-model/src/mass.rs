@@ -1,0 +1,125 @@
+use nboom_scalar::{Sym3, Vec3};
+
+/// Share of the largest principal moment by which an inertia may miss the triangle inequality.
+pub const TRIANGLE_TOLERANCE: f64 = 1e-9;
+
+/// Mass, mass centre and inertia of one rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassProperties {
+    /// Mass.
+    pub mass: f64,
+    /// Mass centre from the body's origin (its hinge; the main body's O), body axes.
+    pub center_of_mass: Vec3<f64>,
+    /// Inertia about the mass centre, body axes; products carry the tensor's sign (−∫xy dm).
+    pub inertia: Sym3<f64>,
+}
+
+/// Why mass properties are not those of a body.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MassDefect {
+    /// The mass is zero, negative or not finite.
+    #[error("mass {0} found, a positive finite mass expected")]
+    Mass(f64),
+    /// A component of the mass centre is not finite.
+    #[error("mass centre ({}, {}, {}) found, finite components expected", .0.x, .0.y, .0.z)]
+    CenterOfMass(Vec3<f64>),
+    /// An entry of the inertia is not finite.
+    #[error("inertia with an entry that is not finite found")]
+    InertiaNotFinite,
+    /// A principal moment of inertia is negative.
+    #[error("principal moment of inertia {0} found, none below zero expected")]
+    NegativeMoment(f64),
+    /// The largest principal moment exceeds the sum of the two others.
+    #[error(
+        "principal moments of inertia {}, {}, {} found, the largest at most the sum of the \
+         two others expected", .0[0], .0[1], .0[2]
+    )]
+    Triangle([f64; 3]),
+}
+
+impl MassProperties {
+    /// Mass, mass centre (from the body's origin) and inertia (about the mass centre), the two
+    /// latter in body axes.
+    pub fn new(mass: f64, center_of_mass: Vec3<f64>, inertia: Sym3<f64>) -> Self {
+        Self { mass, center_of_mass, inertia }
+    }
+
+    /// Principal moments of inertia about the mass centre, ascending.
+    pub fn principal_moments(&self) -> [f64; 3] {
+        let i = &self.inertia;
+        let matrix = nalgebra::Matrix3::new(
+            i.xx, i.xy, i.xz, //
+            i.xy, i.yy, i.yz, //
+            i.xz, i.yz, i.zz,
+        );
+        let mut moments: [f64; 3] = matrix.symmetric_eigenvalues().into();
+        moments.sort_by(f64::total_cmp);
+        moments
+    }
+
+    /// The first reason why no rigid body has these properties, if there is one.
+    pub fn defect(&self) -> Option<MassDefect> {
+        if !(self.mass > 0.0 && self.mass.is_finite()) {
+            return Some(MassDefect::Mass(self.mass));
+        }
+        if !self.center_of_mass.is_finite() {
+            return Some(MassDefect::CenterOfMass(self.center_of_mass));
+        }
+        if !self.inertia.is_finite() {
+            return Some(MassDefect::InertiaNotFinite);
+        }
+        let moments = self.principal_moments();
+        let slack = TRIANGLE_TOLERANCE * moments[2].abs();
+        if moments[0] < -slack || moments[2] < 0.0 {
+            return Some(MassDefect::NegativeMoment(moments[0]));
+        }
+        if moments[2] - moments[1] - moments[0] > slack {
+            return Some(MassDefect::Triangle(moments));
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with_inertia(xx: f64, yy: f64, zz: f64) -> Option<MassDefect> {
+        MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(xx, yy, zz)).defect()
+    }
+
+    #[test]
+    fn a_plate_at_equality_is_a_body_and_beyond_it_is_not() {
+        assert_eq!(with_inertia(45.0, 40.0, 85.0), None);
+        assert_eq!(with_inertia(45.0, 40.0, 85.0 * (1.0 + 0.9e-9)), None);
+        assert!(matches!(
+            with_inertia(45.0, 40.0, 85.0 * (1.0 + 2e-9)),
+            Some(MassDefect::Triangle(_))
+        ));
+        assert!(matches!(with_inertia(-1.0, 2.0, 2.0), Some(MassDefect::NegativeMoment(_))));
+    }
+
+    #[test]
+    fn a_point_mass_is_a_body() {
+        assert_eq!(with_inertia(0.0, 0.0, 0.0), None);
+    }
+
+    #[test]
+    fn principal_moments_do_not_depend_on_the_axes() {
+        let rot = nboom_scalar::Mat3::from_euler_121(0.3, 1.2, -2.0);
+        let inertia = Sym3::diagonal(1.0, 2.0, 2.5).rotated(&rot);
+        let moments = MassProperties::new(1.0, Vec3::zero(), inertia).principal_moments();
+        for (found, expected) in moments.iter().zip([1.0, 2.0, 2.5]) {
+            assert!((found - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn impossible_masses_are_refused() {
+        for mass in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let body = MassProperties::new(mass, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+            assert!(matches!(body.defect(), Some(MassDefect::Mass(_))));
+        }
+    }
+}

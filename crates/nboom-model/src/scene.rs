@@ -1,0 +1,157 @@
+use std::ops::Deref;
+
+use nboom_scalar::Vec3;
+
+use crate::{
+    Appendage, Gravity, Hinge, HingeLabel, InitialMotion, MassProperties, ModelError, ModelWarning,
+    Mount, Thrust, error, warning,
+};
+
+/// One body of the tree with the hinge that joins it to its inboard body.
+///
+/// Its origin is a point on the hinge axis. Its axes stand parallel to the hinge axes of
+/// `mount` when the hinge angle is zero, and turn about `axis` by the hinge angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Index of the inboard body; `None` is the main body.
+    pub inboard: Option<usize>,
+    /// Where the hinge sits on the inboard body.
+    pub mount: Mount,
+    /// Unit vector along the hinge axis, body axes.
+    pub axis: Vec3<f64>,
+    /// Mass properties, from the hinge, body axes.
+    pub mass_properties: MassProperties,
+    /// What acts about the hinge and when it is released and locks.
+    pub hinge: Hinge,
+}
+
+/// A scene as written, not yet checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneDescription {
+    /// Name, used for output folders.
+    pub name: String,
+    /// The main body, from O.
+    pub main_body: MassProperties,
+    /// The hinged bodies, branch by branch, inboard before outboard.
+    pub bodies: Vec<Body>,
+    /// Uniform gravity.
+    pub gravity: Option<Gravity>,
+    /// The thrust pulse.
+    pub thrust: Option<Thrust>,
+    /// Motion of the main body at the initial time.
+    pub initial: InitialMotion,
+    /// Time at which the run ends \[T\].
+    pub end_time: f64,
+}
+
+impl SceneDescription {
+    /// A main body alone, at rest at the inertial origin at time zero.
+    pub fn at_rest(name: &str, main_body: MassProperties, end_time: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            main_body,
+            bodies: Vec::new(),
+            gravity: None,
+            thrust: None,
+            initial: InitialMotion::at_rest(),
+            end_time,
+        }
+    }
+
+    /// Adds the bodies of one more appendage.
+    pub fn attach(&mut self, appendage: &Appendage) {
+        self.bodies.extend(appendage.bodies(self.bodies.len()));
+    }
+}
+
+/// A scene that has been checked: masses are positive, inertias physical, numbers finite and
+/// references valid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    description: SceneDescription,
+    labels: Vec<HingeLabel>,
+}
+
+impl Scene {
+    /// Checks a description.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, not only the first.
+    pub fn new(description: SceneDescription) -> Result<Self, Vec<ModelError>> {
+        let labels = labels(&description.bodies);
+        let errors = error::find(&description, &labels);
+        if errors.is_empty() { Ok(Self { description, labels }) } else { Err(errors) }
+    }
+
+    /// The scene with another end of the run.
+    ///
+    /// # Errors
+    /// When that time is not finite or before the initial one.
+    pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
+        Self::new(SceneDescription { end_time, ..self.description.clone() })
+    }
+
+    /// What is allowed but probably not meant.
+    pub fn warnings(&self) -> Vec<ModelWarning> {
+        warning::find(self)
+    }
+
+    /// How users count hinge `i`.
+    pub fn label(&self, i: usize) -> HingeLabel {
+        self.labels[i]
+    }
+
+    /// Six and one for each hinge, whether it is held or free.
+    pub fn degrees_of_freedom(&self) -> usize {
+        6 + self.description.bodies.len()
+    }
+
+    /// Mass of all bodies, m_T.
+    pub fn total_mass(&self) -> f64 {
+        let hinged = self.description.bodies.iter().map(|body| body.mass_properties.mass);
+        self.description.main_body.mass + hinged.sum::<f64>()
+    }
+
+    /// Whether hinge `i` turns about an axis parallel to its inboard hinge, so that the angles
+    /// of the two add up to α.
+    pub fn adds_to_inboard_angle(&self, i: usize) -> bool {
+        let body = &self.description.bodies[i];
+        body.inboard.is_some_and(|inboard| {
+            let axis_inboard = body.mount.rot_inboard_from_hinge * body.axis;
+            (axis_inboard - self.description.bodies[inboard].axis).norm() < 1e-9
+        })
+    }
+
+    /// Sums along each appendage of hinge angles β or rates τ, in place: α or σ.
+    pub fn accumulate_along_appendages(&self, values: &mut [f64]) {
+        for i in 0..values.len() {
+            if let (true, Some(inboard)) =
+                (self.adds_to_inboard_angle(i), self.description.bodies[i].inboard)
+            {
+                values[i] += values[inboard];
+            }
+        }
+    }
+}
+
+impl Deref for Scene {
+    type Target = SceneDescription;
+
+    fn deref(&self) -> &SceneDescription {
+        &self.description
+    }
+}
+
+fn labels(bodies: &[Body]) -> Vec<HingeLabel> {
+    let mut labels = Vec::with_capacity(bodies.len());
+    let (mut appendages, mut segment) = (0, 0);
+    for body in bodies {
+        if body.inboard.is_none() {
+            appendages += 1;
+            segment = 0;
+        }
+        labels.push(HingeLabel { appendage: appendages.max(1) - 1, segment });
+        segment += 1;
+    }
+    labels
+}

@@ -1,0 +1,26 @@
+//! Numbers and 3-vectors that every equation of nboom is written over.
+//!
+//! An equation is written once over [`Real`] and then runs on `f64`, or on any other scalar
+//! that implements the trait. The operations of [`Vec3`], [`Mat3`] and [`Sym3`] are spelled
+//! out in one fixed order, so that the same source gives the same roundings wherever it runs.
+//!
+//! This crate knows no bodies and no units.
+//!
+//! ```
+//! use nboom_scalar::{Mat3, Vec3};
+//! let quarter_turn = Mat3::about_x(std::f64::consts::FRAC_PI_2);
+//! let turned = quarter_turn * Vec3::new(0.0, 1.0, 0.0);
+//! assert!((turned - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-15);
+//! ```
+
+mod matrix;
+mod quaternion;
+mod real;
+mod symmetric;
+mod vector;
+
+pub use matrix::Mat3;
+pub use quaternion::Quaternion;
+pub use real::Real;
+pub use symmetric::Sym3;
+pub use vector::Vec3;

@@ -1,0 +1,53 @@
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A scalar that equations of motion can be evaluated on.
+///
+/// Implementations may record, carry derivatives or hold several states at once, so the trait
+/// has no comparison: code written over it never branches on a value.
+pub trait Real:
+    Copy
+    + Debug
+    + PartialEq
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    /// The scalar that holds the constant `value`.
+    fn constant(value: f64) -> Self;
+
+    /// Square root; the argument is not negative.
+    fn sqrt(self) -> Self;
+
+    /// Sine and cosine of an angle \[rad\].
+    fn sin_cos(self) -> (Self, Self);
+
+    /// The constant zero.
+    fn zero() -> Self {
+        Self::constant(0.0)
+    }
+
+    /// The constant one.
+    fn one() -> Self {
+        Self::constant(1.0)
+    }
+}
+
+impl Real for f64 {
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+}

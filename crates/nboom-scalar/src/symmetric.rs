@@ -1,0 +1,171 @@
+use std::ops::{Add, AddAssign, Mul, Sub};
+
+use crate::{Mat3, Real, Vec3};
+
+/// A symmetric 3×3 matrix by its six entries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the fields are the entries they are named after")]
+pub struct Sym3<R> {
+    pub xx: R,
+    pub yy: R,
+    pub zz: R,
+    pub xy: R,
+    pub xz: R,
+    pub yz: R,
+}
+
+impl<R: Real> Sym3<R> {
+    /// The zero matrix.
+    pub fn zero() -> Self {
+        Self::diagonal(R::zero(), R::zero(), R::zero())
+    }
+
+    /// The diagonal matrix with these entries.
+    #[inline]
+    pub fn diagonal(xx: R, yy: R, zz: R) -> Self {
+        Self { xx, yy, zz, xy: R::zero(), xz: R::zero(), yz: R::zero() }
+    }
+
+    /// The same matrix with every entry made a scalar of this kind.
+    #[inline]
+    pub fn constant(m: Sym3<f64>) -> Self {
+        Self {
+            xx: R::constant(m.xx),
+            yy: R::constant(m.yy),
+            zz: R::constant(m.zz),
+            xy: R::constant(m.xy),
+            xz: R::constant(m.xz),
+            yz: R::constant(m.yz),
+        }
+    }
+
+    /// The dyad `v vᵀ`.
+    #[inline]
+    pub fn outer(v: Vec3<R>) -> Self {
+        Self {
+            xx: v.x * v.x,
+            yy: v.y * v.y,
+            zz: v.z * v.z,
+            xy: v.x * v.y,
+            xz: v.x * v.z,
+            yz: v.y * v.z,
+        }
+    }
+
+    /// Twice the symmetric part of the dyad, `a bᵀ + b aᵀ`.
+    #[inline]
+    pub fn outer_twice(a: Vec3<R>, b: Vec3<R>) -> Self {
+        let two = |p: R| p + p;
+        Self {
+            xx: two(a.x * b.x),
+            yy: two(a.y * b.y),
+            zz: two(a.z * b.z),
+            xy: a.x * b.y + a.y * b.x,
+            xz: a.x * b.z + a.z * b.x,
+            yz: a.y * b.z + a.z * b.y,
+        }
+    }
+
+    /// The symmetric matrix whose upper triangle is that of `m`.
+    #[inline]
+    pub fn upper_of(m: &Mat3<R>) -> Self {
+        let [a, b, c] = m.rows;
+        Self { xx: a.x, yy: b.y, zz: c.z, xy: a.y, xz: a.z, yz: b.z }
+    }
+
+    /// All nine entries.
+    #[inline]
+    pub fn to_matrix(self) -> Mat3<R> {
+        Mat3::from_rows(
+            Vec3::new(self.xx, self.xy, self.xz),
+            Vec3::new(self.xy, self.yy, self.yz),
+            Vec3::new(self.xz, self.yz, self.zz),
+        )
+    }
+
+    /// `rot self rotᵀ`: the same tensor along other axes.
+    #[inline]
+    pub fn rotated(self, rot: &Mat3<R>) -> Self {
+        let [a, b, c] = rot.rows;
+        let (sa, sb, sc) = (self * a, self * b, self * c);
+        Self {
+            xx: a.dot(sa),
+            yy: b.dot(sb),
+            zz: c.dot(sc),
+            xy: a.dot(sb),
+            xz: a.dot(sc),
+            yz: b.dot(sc),
+        }
+    }
+}
+
+impl Sym3<f64> {
+    /// Whether all entries are finite.
+    pub fn is_finite(&self) -> bool {
+        [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz].iter().all(|e| e.is_finite())
+    }
+}
+
+impl<R: Real> Mul<Vec3<R>> for Sym3<R> {
+    type Output = Vec3<R>;
+    #[inline]
+    fn mul(self, v: Vec3<R>) -> Vec3<R> {
+        Vec3::new(
+            self.xx * v.x + self.xy * v.y + self.xz * v.z,
+            self.xy * v.x + self.yy * v.y + self.yz * v.z,
+            self.xz * v.x + self.yz * v.y + self.zz * v.z,
+        )
+    }
+}
+
+impl<R: Real> Mul<R> for Sym3<R> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, f: R) -> Self {
+        Self {
+            xx: self.xx * f,
+            yy: self.yy * f,
+            zz: self.zz * f,
+            xy: self.xy * f,
+            xz: self.xz * f,
+            yz: self.yz * f,
+        }
+    }
+}
+
+impl<R: Real> Add for Sym3<R> {
+    type Output = Self;
+    #[inline]
+    fn add(self, o: Self) -> Self {
+        Self {
+            xx: self.xx + o.xx,
+            yy: self.yy + o.yy,
+            zz: self.zz + o.zz,
+            xy: self.xy + o.xy,
+            xz: self.xz + o.xz,
+            yz: self.yz + o.yz,
+        }
+    }
+}
+
+impl<R: Real> Sub for Sym3<R> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, o: Self) -> Self {
+        Self {
+            xx: self.xx - o.xx,
+            yy: self.yy - o.yy,
+            zz: self.zz - o.zz,
+            xy: self.xy - o.xy,
+            xz: self.xz - o.xz,
+            yz: self.yz - o.yz,
+        }
+    }
+}
+
+impl<R: Real> AddAssign for Sym3<R> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}

@@ -1,0 +1,147 @@
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+use crate::{Mat3, Real};
+
+/// A vector of three components; which axes they refer to is said where it is used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vec3<R> {
+    /// First component.
+    pub x: R,
+    /// Second component.
+    pub y: R,
+    /// Third component.
+    pub z: R,
+}
+
+impl<R> Vec3<R> {
+    /// The vector (x, y, z).
+    pub const fn new(x: R, y: R, z: R) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl<R: Real> Vec3<R> {
+    /// The zero vector.
+    #[inline]
+    pub fn zero() -> Self {
+        Self::new(R::zero(), R::zero(), R::zero())
+    }
+
+    /// The unit vector along the first axis.
+    pub fn unit_x() -> Self {
+        Self::new(R::one(), R::zero(), R::zero())
+    }
+
+    /// The unit vector along the second axis.
+    pub fn unit_y() -> Self {
+        Self::new(R::zero(), R::one(), R::zero())
+    }
+
+    /// The unit vector along the third axis.
+    pub fn unit_z() -> Self {
+        Self::new(R::zero(), R::zero(), R::one())
+    }
+
+    /// The same vector with every component made a scalar of this kind.
+    #[inline]
+    pub fn constant(v: Vec3<f64>) -> Self {
+        Self::new(R::constant(v.x), R::constant(v.y), R::constant(v.z))
+    }
+
+    /// Inner product.
+    #[inline]
+    pub fn dot(self, other: Self) -> R {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// Cross product, `self` first.
+    #[inline]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+    }
+
+    /// Square of the length.
+    #[inline]
+    pub fn norm_squared(self) -> R {
+        self.dot(self)
+    }
+
+    /// Length.
+    #[inline]
+    pub fn norm(self) -> R {
+        self.norm_squared().sqrt()
+    }
+
+    /// The dyad `self otherᵀ`.
+    pub fn outer(self, other: Self) -> Mat3<R> {
+        Mat3::from_rows(other * self.x, other * self.y, other * self.z)
+    }
+
+    /// The components in order.
+    pub fn to_array(self) -> [R; 3] {
+        [self.x, self.y, self.z]
+    }
+}
+
+impl<R> From<[R; 3]> for Vec3<R> {
+    fn from([x, y, z]: [R; 3]) -> Self {
+        Self::new(x, y, z)
+    }
+}
+
+impl Vec3<f64> {
+    /// Whether all components are finite.
+    pub fn is_finite(self) -> bool {
+        self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
+    }
+}
+
+impl<R: Real> Add for Vec3<R> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+
+impl<R: Real> Sub for Vec3<R> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+    }
+}
+
+impl<R: Real> Neg for Vec3<R> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y, -self.z)
+    }
+}
+
+impl<R: Real> Mul<R> for Vec3<R> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: R) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
+
+impl<R: Real> AddAssign for Vec3<R> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<R: Real> SubAssign for Vec3<R> {
+    #[inline]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}

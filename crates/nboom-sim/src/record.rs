@@ -1,0 +1,182 @@
+use std::io;
+
+use nboom_model::HingeState;
+use nboom_scalar::{Quaternion, Vec3};
+
+/// What a run tells while it goes on: a snapshot at every output time, and every event.
+///
+/// Calls come in time order. An error ends the run with everything recorded so far kept.
+pub trait Recorder {
+    /// Whether snapshots are wanted with [`Snapshot::detail`], which costs one more evaluation
+    /// of the equations of motion each.
+    fn needs_detail(&self) -> bool;
+
+    /// The motion at an output time; an event at that time is already over.
+    ///
+    /// # Errors
+    /// When it cannot be kept, for example on a full disk.
+    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()>;
+
+    /// An event, and the motion after all events of its instant.
+    ///
+    /// # Errors
+    /// When it cannot be kept.
+    fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()>;
+}
+
+/// The motion at one time. Vectors over hinges have one entry for each hinge of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Time.
+    pub time: f64,
+    /// Position of O, inertial axes.
+    pub position_inertial: Vec3<f64>,
+    /// Inertial velocity of O, inertial axes.
+    pub velocity_inertial: Vec3<f64>,
+    /// Attitude of the main body, norm 1, continuous from a non-negative scalar on.
+    pub attitude: Quaternion<f64>,
+    /// Angular rate of the main body, main-body axes \[rad/T\].
+    pub omega_body: Vec3<f64>,
+    /// β: angle of each hinge relative to its inboard body \[rad\].
+    pub beta: Vec<f64>,
+    /// τ: rate of each hinge relative to its inboard body \[rad/T\].
+    pub tau: Vec<f64>,
+    /// α: sum of β along the appendage \[rad\].
+    pub alpha: Vec<f64>,
+    /// σ: sum of τ along the appendage \[rad/T\].
+    pub sigma: Vec<f64>,
+    /// State of each hinge.
+    pub hinges: Vec<HingeState>,
+    /// Kinetic energy T, eq. (8.1).
+    pub kinetic_energy: f64,
+    /// Linear momentum P̄, inertial axes.
+    pub linear_momentum_inertial: Vec3<f64>,
+    /// Angular momentum H̄_c about the system mass centre, inertial axes.
+    pub angular_momentum_inertial: Vec3<f64>,
+    /// Angle between H̄_c and the main body's x axis \[rad\].
+    pub nutation: f64,
+    /// Accelerations and forces, when the recorder asked for them.
+    pub detail: Option<Detail>,
+    /// Steps accepted since the initial time.
+    pub steps: usize,
+    /// The step that the integrator tries next.
+    pub next_step: f64,
+}
+
+/// Accelerations and forces at one time. Vectors over hinges have one entry for each hinge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detail {
+    /// Angular acceleration of the main body, main-body axes \[rad/T²\].
+    pub omega_dot_body: Vec3<f64>,
+    /// Acceleration of each hinge angle β; zero while held.
+    pub beta_ddot: Vec<f64>,
+    /// Acceleration of each sum α.
+    pub alpha_ddot: Vec<f64>,
+    /// Spring and dashpot torque by the law of eq. (6.1), whether or not the hinge is held.
+    pub hinge_torque: Vec<f64>,
+    /// Force of each kick-off spring; zero where there is none.
+    pub kick_off_force: Vec<f64>,
+    /// Length of each kick-off spring; zero where there is none.
+    pub kick_off_length: Vec<f64>,
+    /// S̄: system mass centre from O, main-body axes.
+    pub mass_center_body: Vec3<f64>,
+    /// System mass centre, inertial axes.
+    pub mass_center_inertial: Vec3<f64>,
+    /// Velocity of the system mass centre, inertial axes.
+    pub mass_center_velocity_inertial: Vec3<f64>,
+    /// Acceleration of the system mass centre, inertial axes.
+    pub mass_center_acceleration_inertial: Vec3<f64>,
+}
+
+/// What happens in an instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum EventKind {
+    /// A hinge reaches its lock angle and is held from then on.
+    LockUp,
+    /// An unreleased hinge becomes free.
+    Release,
+    /// A kick-off spring grows beyond its limit length.
+    KickOffDisengage,
+    /// A kick-off spring becomes shorter than its limit length again.
+    KickOffEngage,
+    /// The thrust starts.
+    ThrustOn,
+    /// The thrust stops.
+    ThrustOff,
+    /// The run has reached its end time.
+    End,
+}
+
+impl EventKind {
+    /// The name used in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LockUp => "lock_up",
+            Self::Release => "release",
+            Self::KickOffDisengage => "kick_off_disengage",
+            Self::KickOffEngage => "kick_off_engage",
+            Self::ThrustOn => "thrust_on",
+            Self::ThrustOff => "thrust_off",
+            Self::End => "end",
+        }
+    }
+}
+
+/// One event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// Time.
+    pub time: f64,
+    /// What happens.
+    pub kind: EventKind,
+    /// Index of the hinge it happens to, if to one.
+    pub hinge: Option<usize>,
+    /// Impulsive torque of a lock-up on the outboard side, positive along the hinge axis.
+    pub impulse: Option<f64>,
+    /// Energy and momenta just before the instant.
+    pub before: Totals,
+    /// Energy and momenta after the event; for lock-ups of one instant, after all of them.
+    pub after: Totals,
+}
+
+/// Energy and momenta of all bodies together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Totals {
+    /// Kinetic energy.
+    pub kinetic_energy: f64,
+    /// Linear momentum, inertial axes.
+    pub linear_momentum_inertial: Vec3<f64>,
+    /// Angular momentum about the system mass centre, inertial axes.
+    pub angular_momentum_inertial: Vec3<f64>,
+}
+
+/// Largest residuals of the conservation laws over a run, after every impulse and all work of
+/// thrust, gravity, springs, dashpots and lock-ups have been accounted for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Conservation {
+    /// Linear momentum, relative to the sum of the bodies' own momenta.
+    pub linear_momentum: f64,
+    /// Angular momentum about the mass centre, relative to the sum of the bodies' own.
+    pub angular_momentum: f64,
+    /// Energy, relative to the sum of the bodies' kinetic energies and potentials.
+    pub energy: f64,
+}
+
+/// How a run went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Time reached.
+    pub end_time: f64,
+    /// Steps accepted.
+    pub steps_accepted: usize,
+    /// Steps rejected.
+    pub steps_rejected: usize,
+    /// Evaluations of the accelerations.
+    pub evaluations: usize,
+    /// Events recorded, the end included.
+    pub events: usize,
+    /// Largest residuals of the conservation laws at output times and events.
+    pub conservation: Conservation,
+    /// Name of the integrator.
+    pub integrator: &'static str,
+}
