@@ -1,1 +1,40 @@
-//! Result files of a run.
+//! Files of a run: `states.csv`, `events.csv`, `summary.json` and `listing.txt`.
+//!
+//! [`RunDirectory`] is a [`nboom_sim::Recorder`]: it writes each row as soon as it is known, so
+//! that a run that fails leaves everything computed before, with a summary that says
+//! `"complete": false`. Each writer also works alone, on anything that is [`std::io::Write`].
+//!
+//! Angles in the tables are radians and numbers read back to the same `f64`; only the listing
+//! is for people, in degrees and with ten digits.
+
+mod directory;
+mod error;
+mod euler;
+mod events;
+mod layout;
+mod listing;
+mod number;
+mod states;
+mod summary;
+mod units;
+
+#[cfg(test)]
+mod fixture;
+
+pub use directory::{Outcome, RunDirectory};
+pub use error::{ResultsError, with_causes};
+pub use euler::euler_angles;
+pub use events::{EventsWriter, event_order};
+pub use listing::ListingWriter;
+pub use states::StatesWriter;
+pub use summary::{RunDescription, SummaryFile};
+pub use units::UnitSystem;
+
+/// Name of the table of states within a run's directory.
+pub const STATES_FILE: &str = "states.csv";
+/// Name of the table of events within a run's directory.
+pub const EVENTS_FILE: &str = "events.csv";
+/// Name of the summary within a run's directory.
+pub const SUMMARY_FILE: &str = "summary.json";
+/// Name of the printout within a run's directory.
+pub const LISTING_FILE: &str = "listing.txt";

@@ -1,0 +1,142 @@
+use nboom_scalar::{Real, Vec3};
+
+use crate::base::BaseFactor;
+use crate::merged_tree::MergedTree;
+use crate::pose::LinkPose;
+use crate::spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
+
+/// What eliminating one hinge leaves behind.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HingeFactor<R> {
+    /// A S: the wrench that unit acceleration of the hinge alone takes.
+    pub column: Wrench<R>,
+    /// 1 / (Sᵀ A S).
+    pub inverse_pivot: R,
+}
+
+impl<R: Real> HingeFactor<R> {
+    pub fn unset() -> Self {
+        Self { column: Wrench::zero(), inverse_pivot: R::zero() }
+    }
+}
+
+/// Eliminates the hinges from the tips inward; the poses' inertias must be turned.
+#[inline]
+pub(crate) fn factor<R: Real>(
+    tree: &MergedTree<R>,
+    poses: &[LinkPose<R>],
+    articulated: &mut [ArticulatedInertia<R>],
+    hinges: &mut [HingeFactor<R>],
+) -> BaseFactor<R> {
+    for (pose, inertia) in poses.iter().zip(articulated.iter_mut()) {
+        *inertia = ArticulatedInertia::of(&pose.inertia);
+    }
+    let mut main = ArticulatedInertia::of(&tree.main);
+    for j in (0..tree.links.len()).rev() {
+        let (pose, inertia) = (&poses[j], articulated[j]);
+        let column = Wrench {
+            moment: inertia.angular * pose.axis,
+            force: inertia.coupling.transpose_mul(pose.axis),
+        };
+        let inverse_pivot = R::one() / pose.axis.dot(column.moment);
+        hinges[j] = HingeFactor { column, inverse_pivot };
+        let transmitted = inertia.without(&column, inverse_pivot).seen_from(pose.offset);
+        match tree.links[j].inboard {
+            Some(i) => articulated[i].add(&transmitted),
+            None => main.add(&transmitted),
+        }
+    }
+    BaseFactor::new(&main)
+}
+
+/// Solves B₀ (ω̇, a_O, τ̇) = right side with the factors of [`factor`].
+///
+/// `wrenches[j]` is what acts against link j about its hinge, `main` what acts against the main
+/// link about O, and `tau_dot[j]` the hinge torque on entry and the hinge acceleration on exit.
+/// `wrenches` is used up. Returns (ω̇, a_O).
+#[inline]
+pub(crate) fn solve<R: Real>(
+    tree: &MergedTree<R>,
+    poses: &[LinkPose<R>],
+    hinges: &[HingeFactor<R>],
+    base: &BaseFactor<R>,
+    load: Load<'_, R>,
+) -> Twist<R> {
+    let Load { wrenches, mut main, tau_dot, twists } = load;
+    for j in (0..tree.links.len()).rev() {
+        let (pose, hinge) = (&poses[j], &hinges[j]);
+        let excess = tau_dot[j] - pose.axis.dot(wrenches[j].moment);
+        tau_dot[j] = excess;
+        let ratio = excess * hinge.inverse_pivot;
+        let transmitted = Wrench {
+            moment: wrenches[j].moment + hinge.column.moment * ratio,
+            force: wrenches[j].force + hinge.column.force * ratio,
+        }
+        .seen_from(pose.offset);
+        match tree.links[j].inboard {
+            Some(i) => wrenches[i].add(transmitted),
+            None => main.add(transmitted),
+        }
+    }
+    let of_main = base.solve(Wrench { moment: -main.moment, force: -main.force });
+    for (j, link) in tree.links.iter().enumerate() {
+        let (pose, hinge) = (&poses[j], &hinges[j]);
+        let inboard = link.inboard.map_or(of_main, |i| twists[i]).at(pose.offset);
+        let carried = hinge.column.moment.dot(inboard.angular)
+            + hinge.column.force.dot(inboard.linear);
+        tau_dot[j] = (tau_dot[j] - carried) * hinge.inverse_pivot;
+        twists[j] = Twist {
+            angular: inboard.angular + pose.axis * tau_dot[j],
+            linear: inboard.linear,
+        };
+    }
+    of_main
+}
+
+/// The right side of [`solve`] and its work space.
+pub(crate) struct Load<'a, R> {
+    pub wrenches: &'a mut [Wrench<R>],
+    pub main: Wrench<R>,
+    pub tau_dot: &'a mut [R],
+    pub twists: &'a mut [Twist<R>],
+}
+
+/// Rates of every link, and what inertia alone would take to keep ω̇, a_O and τ̇ at zero.
+///
+/// `twists` and `omegas` are work space; `wrenches[j]` is about the hinge of link j. Returns
+/// the main link's share, about O.
+#[inline]
+pub(crate) fn bias<R: Real>(
+    tree: &MergedTree<R>,
+    poses: &[LinkPose<R>],
+    omega_body: Vec3<R>,
+    tau: &[R],
+    omegas: &mut [Vec3<R>],
+    twists: &mut [Twist<R>],
+    wrenches: &mut [Wrench<R>],
+) -> Wrench<R> {
+    for (j, link) in tree.links.iter().enumerate() {
+        let pose = &poses[j];
+        let (omega_inboard, inboard) = match link.inboard {
+            Some(i) => (omegas[i], twists[i]),
+            None => (omega_body, Twist::zero()),
+        };
+        let turning = pose.axis * tau[j];
+        let moved = inboard.at(pose.offset);
+        omegas[j] = omega_inboard + turning;
+        twists[j] = Twist {
+            angular: moved.angular + omega_inboard.cross(turning),
+            linear: moved.linear + omega_inboard.cross(omega_inboard.cross(pose.offset)),
+        };
+        wrenches[j] = pose.inertia.inertia_wrench(omegas[j], twists[j]);
+    }
+    inertia_wrench_at_rest(&tree.main, omega_body)
+}
+
+#[inline]
+fn inertia_wrench_at_rest<R: Real>(body: &RigidInertia<R>, omega: Vec3<R>) -> Wrench<R> {
+    Wrench {
+        moment: omega.cross(body.about_origin * omega),
+        force: omega.cross(omega.cross(body.first_moment)),
+    }
+}

@@ -1,0 +1,87 @@
+use nboom_scalar::{Mat3, Real, Vec3};
+
+use crate::merged_tree::MergedTree;
+use crate::pose::LinkPose;
+use crate::spatial::{RigidInertia, Wrench};
+
+/// Fills the kinetic-energy matrix B₀ of (V, ω, τ), row by row, both triangles.
+///
+/// `composite` is work space; the poses' inertias must be turned. `out` has (6 + links)²
+/// entries.
+pub(crate) fn mass_matrix<R: Real>(
+    tree: &MergedTree<R>,
+    poses: &[LinkPose<R>],
+    composite: &mut [RigidInertia<R>],
+    out: &mut [R],
+) {
+    let size = 6 + tree.links.len();
+    let mut put = |row: usize, column: usize, value: R| {
+        out[row * size + column] = value;
+        out[column * size + row] = value;
+    };
+    for (pose, inertia) in poses.iter().zip(composite.iter_mut()) {
+        *inertia = pose.inertia;
+    }
+    let mut main = tree.main;
+    for j in (0..tree.links.len()).rev() {
+        let moved = composite[j].seen_from(poses[j].offset);
+        match tree.links[j].inboard {
+            Some(i) => composite[i].add(moved),
+            None => main.add(moved),
+        }
+        let mut wrench = Wrench {
+            moment: composite[j].about_origin * poses[j].axis,
+            force: poses[j].axis.cross(composite[j].first_moment),
+        };
+        let mut at = j;
+        put(6 + j, 6 + j, poses[j].axis.dot(wrench.moment));
+        while let Some(i) = tree.links[at].inboard {
+            wrench = wrench.seen_from(poses[at].offset);
+            put(6 + i, 6 + j, poses[i].axis.dot(wrench.moment));
+            at = i;
+        }
+        wrench = wrench.seen_from(poses[at].offset);
+        put_column(&mut put, 6 + j, wrench);
+    }
+    put_base(&mut put, &main);
+}
+
+fn put_column<R: Real>(put: &mut impl FnMut(usize, usize, R), column: usize, wrench: Wrench<R>) {
+    let (f, m) = (wrench.force.to_array(), wrench.moment.to_array());
+    for i in 0..3 {
+        put(i, column, f[i]);
+        put(3 + i, column, m[i]);
+    }
+}
+
+fn put_base<R: Real>(put: &mut impl FnMut(usize, usize, R), main: &RigidInertia<R>) {
+    let angular = main.about_origin.to_matrix().rows.map(Vec3::to_array);
+    let coupling = Mat3::skew(main.first_moment).rows.map(Vec3::to_array);
+    for i in 0..3 {
+        for j in 0..3 {
+            put(i, j, if i == j { main.mass } else { R::zero() });
+            put(3 + i, 3 + j, angular[i][j]);
+            put(3 + i, j, coupling[i][j]);
+        }
+    }
+}
+
+/// Gathers what acts against each link into one right side: `torques[j]` is the hinge torque
+/// on entry and u₀ of hinge j on exit. Returns the total against the main link, about O.
+pub(crate) fn gather<R: Real>(
+    tree: &MergedTree<R>,
+    poses: &[LinkPose<R>],
+    wrenches: &mut [Wrench<R>],
+    mut main: Wrench<R>,
+    torques: &mut [R],
+) -> Wrench<R> {
+    for j in (0..tree.links.len()).rev() {
+        torques[j] -= poses[j].axis.dot(wrenches[j].moment);
+        let moved = wrenches[j].seen_from(poses[j].offset);
+        match tree.links[j].inboard {
+            Some(i) => wrenches[i].add(moved),
+            None => main.add(moved),
+        }
+    }
+    main
+}

@@ -1,0 +1,184 @@
+use nboom_scalar::{Real, Vec3};
+
+use crate::merged_tree::Member;
+use crate::pose;
+use crate::spatial::{RigidInertia, Twist};
+use crate::{Motion, Recursive};
+
+/// Energy and momenta of all bodies, main-body axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Invariants<R> {
+    /// S̄: system mass centre from O.
+    pub mass_center: Vec3<R>,
+    /// V: inertial velocity of O.
+    pub origin_velocity: Vec3<R>,
+    /// Kinetic energy, eq. (8.1).
+    pub kinetic_energy: R,
+    /// Linear momentum P̄, the sum over the bodies.
+    pub linear_momentum: Vec3<R>,
+    /// Angular momentum H̄_c about the system mass centre.
+    pub angular_momentum: Vec3<R>,
+    /// Sum of the magnitudes of the bodies' linear momenta.
+    pub linear_momentum_scale: R,
+    /// Sum of the magnitudes of the bodies' angular momenta about the mass centre.
+    pub angular_momentum_scale: R,
+}
+
+/// Length of a kick-off spring, and how it changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringLength<R> {
+    /// |x̄|².
+    pub squared: R,
+    /// Rate of |x̄|².
+    pub squared_rate: R,
+}
+
+impl<R: Real> Recursive<R> {
+    /// Energy and momenta when the system mass centre moves with `center_velocity` (inertial,
+    /// main-body axes).
+    pub fn invariants(
+        &mut self,
+        motion: &Motion<'_, R>,
+        center_velocity: Vec3<R>,
+    ) -> Invariants<R> {
+        self.place(motion.beta);
+        self.velocities_with_origin_at_rest(motion);
+        let inverse_mass = R::one() / self.total_mass();
+        let (mut first_moment, mut momentum) = (Vec3::zero(), Vec3::zero());
+        self.for_each_link(motion, |position, inertia, twist| {
+            first_moment += inertia.first_moment + position * inertia.mass;
+            momentum += momentum_of(inertia, twist);
+        });
+        let mass_center = first_moment * inverse_mass;
+        let origin_velocity = center_velocity - momentum * inverse_mass;
+        let mut found = Invariants {
+            mass_center,
+            origin_velocity,
+            kinetic_energy: R::constant(0.5)
+                * (self.total_mass() * center_velocity.norm_squared()),
+            linear_momentum: Vec3::zero(),
+            angular_momentum: Vec3::zero(),
+            linear_momentum_scale: R::zero(),
+            angular_momentum_scale: R::zero(),
+        };
+        let from_center = origin_velocity - center_velocity;
+        self.for_each_link(motion, |position, inertia, twist| {
+            let relative = Twist { linear: twist.linear + from_center, ..twist };
+            found.add_body(position - mass_center, inertia, relative, center_velocity);
+        });
+        found
+    }
+
+    /// Length and rate of the kick-off spring of hinge `hinge`; `None` without a spring.
+    pub fn spring_length(
+        &mut self,
+        motion: &Motion<'_, R>,
+        hinge: usize,
+    ) -> Option<SpringLength<R>> {
+        pose::place(&self.tree, motion.beta, &mut self.poses);
+        let (along, end, link) = self.spring_vector(hinge)?;
+        let mut velocity = Vec3::zero();
+        for j in self.path_inward(link) {
+            let turning = self.poses[j].axis * motion.tau[j];
+            velocity += turning.cross(end - self.poses[j].position);
+        }
+        let rate = along.dot(velocity);
+        Some(SpringLength { squared: along.norm_squared(), squared_rate: rate + rate })
+    }
+
+    /// |x̄|² of the kick-off springs of `hinges` at the angles `beta` of the free hinges.
+    ///
+    /// # Panics
+    /// When one of the hinges has no kick-off spring.
+    pub fn spring_lengths_squared(&mut self, beta: &[R], hinges: &[usize], out: &mut [R]) {
+        pose::place(&self.tree, beta, &mut self.poses);
+        for (length, &hinge) in out.iter_mut().zip(hinges) {
+            let spring = self.spring_vector(hinge).expect("only hinges with springs are asked for");
+            *length = spring.0.norm_squared();
+        }
+    }
+
+    /// For the kick-off spring of `hinge`, each free hinge that moves its end (a position in
+    /// [`Recursive::free_hinges`]) with the largest distance the end can have from it.
+    pub fn spring_reach(&self, hinge: usize) -> Vec<(usize, R)> {
+        let Some(spring) = self.scene.bodies[hinge].hinge.kick_off else { return Vec::new() };
+        let Member { link, point, rot } = self.tree.members[hinge];
+        let mut reach = (point + rot * Vec3::constant(spring.body_point)).norm();
+        let mut reaches = Vec::new();
+        for j in self.path_inward(link) {
+            reaches.push((j, reach));
+            reach += self.tree.links[j].point.norm();
+        }
+        reaches
+    }
+
+    fn path_inward(&self, from: Option<usize>) -> impl Iterator<Item = usize> {
+        std::iter::successors(from, |&j| self.tree.links[j].inboard)
+    }
+
+    /// x̄, the position of its end on the body from O, and the link of that body.
+    fn spring_vector(&self, hinge: usize) -> Option<(Vec3<R>, Vec3<R>, Option<usize>)> {
+        let spring = self.scene.bodies[hinge].hinge.kick_off?;
+        let Member { link, point, rot } = self.tree.members[hinge];
+        let in_link = point + rot * Vec3::constant(spring.body_point);
+        let end = link.map_or(in_link, |j| self.poses[j].position + self.poses[j].rot * in_link);
+        Some((end - Vec3::constant(spring.main_body_point), end, link))
+    }
+
+    fn total_mass(&self) -> R {
+        R::constant(self.scene.total_mass())
+    }
+
+    fn velocities_with_origin_at_rest(&mut self, motion: &Motion<'_, R>) {
+        for (j, link) in self.tree.links.iter().enumerate() {
+            let of_main = Twist { angular: motion.omega_body, linear: Vec3::zero() };
+            let inboard = link.inboard.map_or(of_main, |i| self.twists[i]);
+            let pose = &self.poses[j];
+            self.twists[j] = Twist {
+                angular: inboard.angular + pose.axis * motion.tau[j],
+                linear: inboard.linear + inboard.angular.cross(pose.offset),
+            };
+        }
+    }
+
+    /// Visits every link, the main one first: hinge position from O, mass properties about the
+    /// hinge, rates with O at rest.
+    fn for_each_link(
+        &self,
+        motion: &Motion<'_, R>,
+        mut visit: impl FnMut(Vec3<R>, &RigidInertia<R>, Twist<R>),
+    ) {
+        let of_main = Twist { angular: motion.omega_body, linear: Vec3::zero() };
+        visit(Vec3::zero(), &self.tree.main, of_main);
+        for (pose, &twist) in self.poses.iter().zip(&self.twists) {
+            visit(pose.position, &pose.inertia, twist);
+        }
+    }
+}
+
+impl<R: Real> Invariants<R> {
+    /// Adds a body whose hinge is at `arm` from the mass centre and moves as `relative` to it.
+    fn add_body(
+        &mut self,
+        arm: Vec3<R>,
+        inertia: &RigidInertia<R>,
+        relative: Twist<R>,
+        center_velocity: Vec3<R>,
+    ) {
+        let momentum = momentum_of(inertia, relative);
+        let about_hinge = inertia.first_moment.cross(relative.linear)
+            + inertia.about_origin * relative.angular;
+        let twice_energy = relative.linear.dot(momentum) + relative.angular.dot(about_hinge);
+        let inertial_momentum = momentum + center_velocity * inertia.mass;
+        let about_center = about_hinge + arm.cross(momentum);
+        self.kinetic_energy += R::constant(0.5) * twice_energy;
+        self.linear_momentum += inertial_momentum;
+        self.angular_momentum += about_center;
+        self.linear_momentum_scale += inertial_momentum.norm();
+        self.angular_momentum_scale += about_center.norm();
+    }
+}
+
+fn momentum_of<R: Real>(inertia: &RigidInertia<R>, twist: Twist<R>) -> Vec3<R> {
+    twist.linear * inertia.mass + twist.angular.cross(inertia.first_moment)
+}

@@ -1,0 +1,185 @@
+use nboom_model::{Mode, Scene};
+use nboom_scalar::{Real, Vec3};
+
+use crate::articulated_body::{self, HingeFactor, Load};
+use crate::base::BaseFactor;
+use crate::composite_body;
+use crate::merged_tree::MergedTree;
+use crate::pose::{self, LinkPose};
+use crate::spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
+
+/// Rates of the main body and angles and rates of the free hinges, in the order of
+/// [`Recursive::free_hinges`].
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a, R> {
+    /// ω, main-body axes \[rad/T\].
+    pub omega_body: Vec3<R>,
+    /// β of the free hinges \[rad\].
+    pub beta: &'a [R],
+    /// τ of the free hinges \[rad/T\].
+    pub tau: &'a [R],
+}
+
+/// Accelerations of the main body and the free hinges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accelerations<R> {
+    /// ω̇, main-body axes \[rad/T²\].
+    pub omega_dot_body: Vec3<R>,
+    /// a_O, inertial acceleration of O without gravity, main-body axes \[L/T²\].
+    pub origin_body: Vec3<R>,
+    /// τ̇ of the free hinges \[rad/T²\].
+    pub tau_dot: Vec<R>,
+}
+
+impl<R: Real> Accelerations<R> {
+    /// Zero accelerations of a scene with this many free hinges.
+    pub fn for_hinges(free: usize) -> Self {
+        Self {
+            omega_dot_body: Vec3::zero(),
+            origin_body: Vec3::zero(),
+            tau_dot: vec![R::zero(); free],
+        }
+    }
+}
+
+/// The recursive formulation of one scene, in one mode at a time.
+///
+/// Evaluations allocate nothing; setting the mode does.
+#[derive(Clone, Debug)]
+pub struct Recursive<R> {
+    pub(crate) scene: Scene,
+    pub(crate) tree: MergedTree<R>,
+    free: Vec<usize>,
+    thrust: Option<Wrench<R>>,
+    pub(crate) poses: Vec<LinkPose<R>>,
+    pub(crate) hinges: Vec<HingeFactor<R>>,
+    pub(crate) base: BaseFactor<R>,
+    articulated: Vec<ArticulatedInertia<R>>,
+    composite: Vec<RigidInertia<R>>,
+    omegas: Vec<Vec3<R>>,
+    pub(crate) twists: Vec<Twist<R>>,
+    pub(crate) wrenches: Vec<Wrench<R>>,
+}
+
+impl<R: Real> Recursive<R> {
+    /// The formulation of `scene` in the mode in which the scene starts.
+    pub fn new(scene: &Scene) -> Self {
+        let mode = Mode::at_start(scene);
+        let beta: Vec<R> =
+            scene.bodies.iter().map(|body| R::constant(body.hinge.start.angle)).collect();
+        let mut recursive = Self {
+            scene: scene.clone(),
+            tree: MergedTree::new(scene, &mode, &beta),
+            free: Vec::new(),
+            thrust: None,
+            poses: Vec::new(),
+            hinges: Vec::new(),
+            base: BaseFactor::unset(),
+            articulated: Vec::new(),
+            composite: Vec::new(),
+            omegas: Vec::new(),
+            twists: Vec::new(),
+            wrenches: Vec::new(),
+        };
+        recursive.set_mode(&mode, &beta);
+        recursive
+    }
+
+    /// Changes the mode; `beta` has the angle of every hinge of the scene \[rad\], of which
+    /// those of the held ones are built in.
+    pub fn set_mode(&mut self, mode: &Mode, beta: &[R]) {
+        self.tree = MergedTree::new(&self.scene, mode, beta);
+        self.free = self.tree.links.iter().map(|link| link.hinge).collect();
+        self.thrust = self.scene.thrust.filter(|_| mode.thrust).map(|thrust| {
+            let (point, force) = (Vec3::constant(thrust.point), Vec3::constant(thrust.force));
+            Wrench::of_force(point, force)
+        });
+        let links = self.tree.links.len();
+        self.poses = vec![LinkPose::unset(); links];
+        self.hinges = vec![HingeFactor::unset(); links];
+        self.composite = vec![RigidInertia::zero(); links];
+        self.articulated = vec![ArticulatedInertia::of(&RigidInertia::zero()); links];
+        self.omegas = vec![Vec3::zero(); links];
+        self.twists = vec![Twist::zero(); links];
+        self.wrenches = vec![Wrench::zero(); links];
+    }
+
+    /// The hinges that turn in this mode, as numbered in the scene, ascending.
+    pub fn free_hinges(&self) -> &[usize] {
+        &self.free
+    }
+
+    /// Accelerations by articulated bodies: ω̇, a_O without gravity, τ̇.
+    pub fn accelerations(&mut self, motion: &Motion<'_, R>, out: &mut Accelerations<R>) {
+        self.factor(motion.beta);
+        let main = self.load(motion, &mut out.tau_dot);
+        let of_main = self.solve(main, &mut out.tau_dot);
+        out.omega_dot_body = of_main.angular;
+        out.origin_body = of_main.linear;
+    }
+
+    /// The kinetic-energy matrix B₀ of (V, ω, τ) by composite bodies: (6 + free)² entries, row
+    /// by row.
+    pub fn mass_matrix(&mut self, beta: &[R], out: &mut [R]) {
+        self.place(beta);
+        composite_body::mass_matrix(&self.tree, &self.poses, &mut self.composite, out);
+    }
+
+    /// The right side u₀ of B₀ (a_O, ω̇, τ̇) = u₀, gravity left out: 6 + free entries.
+    pub fn forcing(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
+        self.place(motion.beta);
+        let (of_base, torques) = out.split_at_mut(6);
+        let load = self.load(motion, torques);
+        let (tree, poses) = (&self.tree, &self.poses);
+        let main = composite_body::gather(tree, poses, &mut self.wrenches, load, torques);
+        let (f, m) = (-main.force, -main.moment);
+        of_base.copy_from_slice(&[f.x, f.y, f.z, m.x, m.y, m.z]);
+    }
+
+    pub(crate) fn place(&mut self, beta: &[R]) {
+        pose::place(&self.tree, beta, &mut self.poses);
+        pose::turn_inertias(&self.tree, &mut self.poses);
+    }
+
+    pub(crate) fn factor(&mut self, beta: &[R]) {
+        self.place(beta);
+        let (tree, poses) = (&self.tree, &self.poses);
+        self.base =
+            articulated_body::factor(tree, poses, &mut self.articulated, &mut self.hinges);
+    }
+
+    pub(crate) fn solve(&mut self, main: Wrench<R>, tau_dot: &mut [R]) -> Twist<R> {
+        let load =
+            Load { wrenches: &mut self.wrenches, main, tau_dot, twists: &mut self.twists };
+        articulated_body::solve(&self.tree, &self.poses, &self.hinges, &self.base, load)
+    }
+
+    /// Sets `wrenches` and `torques` to what acts in this motion; returns the main link's share.
+    fn load(&mut self, motion: &Motion<'_, R>, torques: &mut [R]) -> Wrench<R> {
+        let mut main = articulated_body::bias(
+            &self.tree,
+            &self.poses,
+            motion.omega_body,
+            motion.tau,
+            &mut self.omegas,
+            &mut self.twists,
+            &mut self.wrenches,
+        );
+        for (j, link) in self.tree.links.iter().enumerate() {
+            torques[j] = link.law.torque(motion.beta[j], motion.tau[j]);
+        }
+        for spring in &self.tree.pushing {
+            let (link, pose) = (spring.link, &self.poses[spring.link]);
+            let arm = pose.rot * spring.point;
+            let along = pose.position + arm - spring.main_body_point;
+            let length = along.norm();
+            let force = along * (spring.law.force(length) / length);
+            self.wrenches[link].subtract(Wrench::of_force(arm, force));
+            main.add(Wrench::of_force(spring.main_body_point, force));
+        }
+        if let Some(thrust) = self.thrust {
+            main.subtract(thrust);
+        }
+        main
+    }
+}

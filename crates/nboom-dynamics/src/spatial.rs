@@ -1,0 +1,228 @@
+use nboom_model::MassProperties;
+use nboom_scalar::{Mat3, Real, Sym3, Vec3};
+
+/// Moment about a point and force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Wrench<R> {
+    pub moment: Vec3<R>,
+    pub force: Vec3<R>,
+}
+
+impl<R: Real> Wrench<R> {
+    pub fn zero() -> Self {
+        Self { moment: Vec3::zero(), force: Vec3::zero() }
+    }
+
+    /// The wrench of a force acting at `point` from the reference point.
+    #[inline]
+    pub fn of_force(point: Vec3<R>, force: Vec3<R>) -> Self {
+        Self { moment: point.cross(force), force }
+    }
+
+    /// The same wrench about a reference point from which the old one is seen at `offset`.
+    #[inline]
+    pub fn seen_from(self, offset: Vec3<R>) -> Self {
+        Self { moment: self.moment + offset.cross(self.force), force: self.force }
+    }
+
+    #[inline]
+    pub fn add(&mut self, other: Self) {
+        self.moment += other.moment;
+        self.force += other.force;
+    }
+
+    #[inline]
+    pub fn subtract(&mut self, other: Self) {
+        self.moment -= other.moment;
+        self.force -= other.force;
+    }
+}
+
+/// Angular acceleration and linear acceleration of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Twist<R> {
+    pub angular: Vec3<R>,
+    pub linear: Vec3<R>,
+}
+
+impl<R: Real> Twist<R> {
+    pub fn zero() -> Self {
+        Self { angular: Vec3::zero(), linear: Vec3::zero() }
+    }
+
+    /// The acceleration of a point at `offset` of the same body.
+    #[inline]
+    pub fn at(self, offset: Vec3<R>) -> Self {
+        Self { angular: self.angular, linear: self.linear + self.angular.cross(offset) }
+    }
+}
+
+/// Inertia of a rigid body about its origin: mass, first moment m C̄ and the tensor
+/// Ī + m (C² U − C̄ C̄ᵀ).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RigidInertia<R> {
+    pub mass: R,
+    pub first_moment: Vec3<R>,
+    pub about_origin: Sym3<R>,
+}
+
+impl<R: Real> RigidInertia<R> {
+    pub fn zero() -> Self {
+        Self { mass: R::zero(), first_moment: Vec3::zero(), about_origin: Sym3::zero() }
+    }
+
+    pub fn of(body: &MassProperties) -> Self {
+        let mass = R::constant(body.mass);
+        let at_center = Self {
+            mass,
+            first_moment: Vec3::zero(),
+            about_origin: Sym3::constant(body.inertia),
+        };
+        at_center.seen_from(Vec3::constant(body.center_of_mass))
+    }
+
+    /// The same body about an origin from which the old one is seen at `offset`.
+    #[inline]
+    pub fn seen_from(self, offset: Vec3<R>) -> Self {
+        let c = self.first_moment;
+        let (m, p) = (self.mass, offset);
+        let two_c_plus_mp = c + c + p * m;
+        let trace = two_c_plus_mp.dot(p);
+        // (2c·p + m p²) U − (c pᵀ + p cᵀ) − m p pᵀ, with both dyads taken together.
+        let dyads = Sym3::outer_twice(two_c_plus_mp, p) * R::constant(0.5);
+        Self {
+            mass: m,
+            first_moment: c + p * m,
+            about_origin: self.about_origin + Sym3::diagonal(trace, trace, trace) - dyads,
+        }
+    }
+
+    /// The same body along other axes.
+    #[inline]
+    pub fn rotated(self, rot: &Mat3<R>) -> Self {
+        Self {
+            mass: self.mass,
+            first_moment: *rot * self.first_moment,
+            about_origin: self.about_origin.rotated(rot),
+        }
+    }
+
+    pub fn add(&mut self, other: Self) {
+        self.mass += other.mass;
+        self.first_moment += other.first_moment;
+        self.about_origin += other.about_origin;
+    }
+
+    /// Rate of change of momentum, and of angular momentum about the origin, of a body that
+    /// turns at `omega` while its origin accelerates with `acceleration`.
+    #[inline]
+    pub fn inertia_wrench(&self, omega: Vec3<R>, acceleration: Twist<R>) -> Wrench<R> {
+        let (c, alpha) = (self.first_moment, acceleration.angular);
+        Wrench {
+            moment: c.cross(acceleration.linear)
+                + self.about_origin * alpha
+                + omega.cross(self.about_origin * omega),
+            force: acceleration.linear * self.mass
+                + alpha.cross(c)
+                + omega.cross(omega.cross(c)),
+        }
+    }
+}
+
+/// Inertia that a body shows at its hinge when everything outboard may give way:
+/// moment = `angular` ω̇ + `coupling` a, force = `coupling`ᵀ ω̇ + `linear` a.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ArticulatedInertia<R> {
+    pub angular: Sym3<R>,
+    pub coupling: Mat3<R>,
+    pub linear: Sym3<R>,
+}
+
+impl<R: Real> ArticulatedInertia<R> {
+    #[inline]
+    pub fn of(body: &RigidInertia<R>) -> Self {
+        Self {
+            angular: body.about_origin,
+            coupling: Mat3::skew(body.first_moment),
+            linear: Sym3::diagonal(body.mass, body.mass, body.mass),
+        }
+    }
+
+    #[inline]
+    pub fn add(&mut self, other: &Self) {
+        self.angular += other.angular;
+        self.coupling += other.coupling;
+        self.linear += other.linear;
+    }
+
+    /// Takes away what turning about the hinge cannot transmit: A − u uᵀ / d.
+    #[inline]
+    pub fn without(&self, u: &Wrench<R>, inverse_d: R) -> Self {
+        Self {
+            angular: self.angular - Sym3::outer(u.moment) * inverse_d,
+            coupling: self.coupling - (u.moment * inverse_d).outer(u.force),
+            linear: self.linear - Sym3::outer(u.force) * inverse_d,
+        }
+    }
+
+    /// The same inertia at a point from which the old one is seen at `offset`.
+    #[inline]
+    pub fn seen_from(&self, offset: Vec3<R>) -> Self {
+        let linear = self.linear.to_matrix();
+        let coupling = self.coupling + skew_times(offset, &linear);
+        // H J(r) has the rows hᵢ × r; the sum below is symmetric although its parts are not.
+        let old = times_skew(&self.coupling, offset);
+        let new = times_skew(&coupling, offset);
+        let angular = self.angular - Sym3::upper_of(&(old.transpose() + new));
+        Self { angular, coupling, linear: self.linear }
+    }
+}
+
+#[inline]
+fn times_skew<R: Real>(m: &Mat3<R>, r: Vec3<R>) -> Mat3<R> {
+    Mat3 { rows: m.rows.map(|row| row.cross(r)) }
+}
+
+#[inline]
+fn skew_times<R: Real>(r: Vec3<R>, m: &Mat3<R>) -> Mat3<R> {
+    let [a, b, c] = m.rows;
+    Mat3::from_rows(c * r.y - b * r.z, a * r.z - c * r.x, b * r.x - a * r.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn body() -> RigidInertia<f64> {
+        RigidInertia::of(&MassProperties::new(
+            2.5,
+            Vec3::new(0.3, -0.7, 0.2),
+            Sym3 { xx: 1.0, yy: 1.4, zz: 0.9, xy: 0.1, xz: -0.2, yz: 0.05 },
+        ))
+    }
+
+    #[test]
+    fn moving_the_origin_of_a_rigid_body_agrees_with_the_articulated_form() {
+        let offset = Vec3::new(-1.1, 0.4, 2.3);
+        let direct = ArticulatedInertia::of(&body().seen_from(offset));
+        let shifted = ArticulatedInertia::of(&body()).seen_from(offset);
+        for (a, b) in [
+            (direct.angular.to_matrix(), shifted.angular.to_matrix()),
+            (direct.coupling, shifted.coupling),
+            (direct.linear.to_matrix(), shifted.linear.to_matrix()),
+        ] {
+            assert!((a - b).rows.iter().all(|r| r.norm() < 1e-14), "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn power_of_the_inertia_wrench_is_the_rate_of_kinetic_energy() {
+        // With the origin at rest and no outside force: ω·(ω × J ω) = 0 and c × a adds nothing.
+        let omega = Vec3::new(0.4, -1.0, 0.7);
+        let alpha = Vec3::new(0.2, 0.3, -0.6);
+        let wrench =
+            body().inertia_wrench(omega, Twist { angular: alpha, linear: Vec3::zero() });
+        let expected = omega.dot(body().about_origin * alpha);
+        assert!((omega.dot(wrench.moment) - expected).abs() < 1e-14);
+    }
+}

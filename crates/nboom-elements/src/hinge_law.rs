@@ -1,0 +1,94 @@
+use nboom_model::{Dashpot, Spring};
+use nboom_scalar::Real;
+
+/// Torque of spring and dashpot about a hinge axis, eq. (6.1), with its powers of β collected:
+/// Q = (q₁τ + q₂)τ + (A₂β + A₁)β + A₀.
+///
+/// It acts on the outboard body along the hinge axis, and reversed on the inboard one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HingeLaw<R> {
+    q1: R,
+    q2: R,
+    a2: R,
+    a1: R,
+    a0: R,
+}
+
+impl<R: Real> HingeLaw<R> {
+    /// The law of this spring and this dashpot.
+    pub fn new(spring: &Spring, dashpot: &Dashpot) -> Self {
+        let (q3, q4, gamma) =
+            (dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle);
+        let (k1, k2, theta) = (spring.quadratic, spring.linear, spring.preload_angle);
+        Self {
+            q1: R::constant(dashpot.rate_quadratic),
+            q2: R::constant(dashpot.rate_linear),
+            a2: R::constant(q3 + k1),
+            a1: R::constant(q4 + k2 + 2.0 * (q3 * gamma + k1 * theta)),
+            a0: R::constant((q3 * gamma + q4) * gamma + (k1 * theta + k2) * theta),
+        }
+    }
+
+    /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
+    #[inline]
+    pub fn torque(&self, beta: R, tau: R) -> R {
+        self.rate_torque(tau) + (self.a2 * beta + self.a1) * beta + self.a0
+    }
+
+    /// The part of the torque that depends on the rate, and does work no potential accounts for.
+    #[inline]
+    pub fn rate_torque(&self, tau: R) -> R {
+        (self.q1 * tau + self.q2) * tau
+    }
+
+    /// Potential energy of the part that depends on the angle; zero at β = 0.
+    pub fn potential(&self, beta: R) -> R {
+        let (half, third) = (R::constant(1.0 / 2.0), R::constant(1.0 / 3.0));
+        -(((self.a2 * third * beta + self.a1 * half) * beta + self.a0) * beta)
+    }
+}
+
+impl HingeLaw<f64> {
+    /// Whether the torque depends on the rate.
+    pub fn depends_on_rate(&self) -> bool {
+        self.q1 != 0.0 || self.q2 != 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPRING: Spring = Spring { quadratic: 0.3, linear: -1.7, preload_angle: 0.4 };
+    const DASHPOT: Dashpot = Dashpot {
+        rate_quadratic: 0.05,
+        rate_linear: -0.6,
+        angle_quadratic: -0.2,
+        angle_linear: 0.9,
+        preload_angle: -1.1,
+    };
+
+    #[test]
+    fn torque_is_eq_6_1_term_by_term() {
+        let law = HingeLaw::<f64>::new(&SPRING, &DASHPOT);
+        for (beta, tau) in [(0.0, 0.0), (1.3, -2.0), (-4.0, 0.7)] {
+            let (from_dashpot, from_spring): (f64, f64) = (beta - 1.1, beta + 0.4);
+            let expected = 0.05 * tau * tau - 0.6 * tau - 0.2 * from_dashpot.powi(2)
+                + 0.9 * from_dashpot
+                + 0.3 * from_spring.powi(2)
+                - 1.7 * from_spring;
+            assert!((law.torque(beta, tau) - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn work_is_the_loss_of_potential() {
+        let law = HingeLaw::<f64>::new(&SPRING, &Dashpot { rate_linear: 0.0, ..DASHPOT });
+        let (from, to, parts) = (-1.0, 2.0, 2000);
+        let width = (to - from) / f64::from(parts);
+        let middle = |i: i32| law.torque(from + width * (f64::from(i) + 0.5), 0.0);
+        let work: f64 = (0..parts).map(|i| middle(i) * width).sum();
+        // The midpoint rule of a quadratic errs by width² (to - from) A₂ / 12, about 6e-8.
+        assert!((work - (law.potential(from) - law.potential(to))).abs() < 1e-7);
+    }
+}

@@ -1,0 +1,127 @@
+use std::cmp::Ordering;
+use std::io::{self, Write};
+
+use nboom_model::HingeLabel;
+use nboom_sim::{Event, EventKind};
+
+use crate::number::field;
+
+const HEADER: &str = "t,kind,appendage,segment,impulse,energy_before,energy_after";
+
+/// Order of events in files: by time; within an instant lock-ups, releases, others; then by
+/// hinge, those of no hinge last.
+pub fn event_order(a: &Event, b: &Event) -> Ordering {
+    let place = |event: &Event| {
+        let hinge = event.hinge.unwrap_or(usize::MAX);
+        (rank(event.kind), hinge, event.kind)
+    };
+    a.time.total_cmp(&b.time).then_with(|| place(a).cmp(&place(b)))
+}
+
+fn rank(kind: EventKind) -> u8 {
+    match kind {
+        EventKind::LockUp => 0,
+        EventKind::Release => 1,
+        EventKind::KickOffDisengage
+        | EventKind::KickOffEngage
+        | EventKind::ThrustOn
+        | EventKind::ThrustOff => 2,
+        EventKind::End => 3,
+    }
+}
+
+/// Writes the table of events; what is written is handed to the system at once.
+#[derive(Debug)]
+pub struct EventsWriter<W> {
+    out: W,
+    hinges: Vec<HingeLabel>,
+}
+
+impl<W: Write> EventsWriter<W> {
+    /// Writes the header; `hinges` has the label of every hinge of the scene.
+    ///
+    /// # Errors
+    /// When `out` refuses it.
+    pub fn new(mut out: W, hinges: Vec<HingeLabel>) -> io::Result<Self> {
+        writeln!(out, "{HEADER}")?;
+        out.flush()?;
+        Ok(Self { out, hinges })
+    }
+
+    /// Writes the events of one instant, sorted by [`event_order`].
+    ///
+    /// # Errors
+    /// When `out` refuses them.
+    pub fn write_instant(&mut self, events: &[Event]) -> io::Result<()> {
+        let mut sorted = events.to_vec();
+        sorted.sort_by(event_order);
+        sorted.iter().try_for_each(|event| self.write(event))?;
+        self.out.flush()
+    }
+
+    fn write(&mut self, event: &Event) -> io::Result<()> {
+        let out = &mut self.out;
+        write!(out, "{:?},{}", event.time, event.kind.name())?;
+        match event.hinge.map(|i| self.hinges[i]) {
+            Some(label) => write!(out, ",{},{}", label.appendage + 1, label.segment + 1)?,
+            None => write!(out, ",,")?,
+        }
+        match event.impulse {
+            Some(impulse) => field(out, impulse)?,
+            None => write!(out, ",")?,
+        }
+        field(out, event.before.kinetic_energy)?;
+        field(out, event.after.kinetic_energy)?;
+        writeln!(out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{self, event};
+
+    fn table(instants: &[&[Event]]) -> String {
+        let mut bytes = Vec::new();
+        let mut writer = EventsWriter::new(&mut bytes, fixture::labels()).expect("memory");
+        for instant in instants {
+            writer.write_instant(instant).expect("memory");
+        }
+        String::from_utf8(bytes).expect("text")
+    }
+
+    #[test]
+    fn rows_of_an_instant_are_sorted_by_what_happens_and_then_by_hinge() {
+        use EventKind::{End, KickOffDisengage, LockUp, Release, ThrustOff};
+        let text = table(&[&[
+            event(1.5, End, None),
+            event(1.5, KickOffDisengage, Some(1)),
+            event(1.5, ThrustOff, None),
+            event(1.5, Release, Some(1)),
+            event(1.5, LockUp, Some(2)),
+            event(1.5, Release, Some(0)),
+            event(1.5, LockUp, Some(0)),
+        ]]);
+        let rows: Vec<&str> = text.lines().collect();
+        assert_eq!(rows[0], "t,kind,appendage,segment,impulse,energy_before,energy_after");
+        assert_eq!(
+            rows[1..],
+            [
+                "1.5,lock_up,1,1,-0.25,3.0,2.0",
+                "1.5,lock_up,2,1,-0.25,3.0,2.0",
+                "1.5,release,1,1,,3.0,2.0",
+                "1.5,release,1,2,,3.0,2.0",
+                "1.5,kick_off_disengage,1,2,,3.0,2.0",
+                "1.5,thrust_off,,,,3.0,2.0",
+                "1.5,end,,,,3.0,2.0",
+            ]
+        );
+    }
+
+    #[test]
+    fn time_comes_before_kind() {
+        let early = event(1.0, EventKind::ThrustOn, None);
+        let late = event(2.0, EventKind::LockUp, Some(0));
+        assert_eq!(event_order(&early, &late), Ordering::Less);
+    }
+}

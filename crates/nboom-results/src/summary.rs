@@ -1,0 +1,169 @@
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use nboom_model::{Facts, Scene};
+use nboom_sim::{Conservation, Summary};
+use serde::Serialize;
+
+use crate::{ResultsError, UnitSystem};
+
+/// What is known about a run before it starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunDescription {
+    /// Name of the scene.
+    pub scene: String,
+    /// Six and one for each hinge.
+    pub degrees_of_freedom: usize,
+    /// Which code computes the accelerations: `generic` or `generated`.
+    pub path: &'static str,
+    /// Name of the formulation.
+    pub formulation: &'static str,
+    /// Name of the integrator.
+    pub integrator: &'static str,
+    /// Relative error allowed in a step.
+    pub rtol: f64,
+    /// Absolute error allowed in a step.
+    pub atol: f64,
+    /// Output times are the initial time and this many after it.
+    pub samples: usize,
+    /// Labels of the scene's units.
+    pub units: UnitSystem,
+    /// What the scene does not pay for.
+    pub skipped: Vec<String>,
+    /// What is allowed about the scene but probably not meant.
+    pub warnings: Vec<String>,
+}
+
+impl RunDescription {
+    /// The description of a run of `scene` on the generic path with the recursive formulation
+    /// and the integrator `dop853`, under `options`.
+    pub fn new(scene: &Scene, options: &nboom_sim::Options, units: UnitSystem) -> Self {
+        Self {
+            scene: scene.name.clone(),
+            degrees_of_freedom: scene.degrees_of_freedom(),
+            path: "generic",
+            formulation: "recursive",
+            integrator: "dop853",
+            rtol: options.rtol,
+            atol: options.atol,
+            samples: options.samples,
+            units,
+            skipped: Facts::of(scene).skipped(),
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// The keys of `summary.json`.
+///
+/// A number that is not finite is written as `null`.
+#[derive(Clone, Debug, Serialize)]
+pub struct SummaryFile<'a> {
+    scene: &'a str,
+    degrees_of_freedom: usize,
+    path: &'a str,
+    formulation: &'a str,
+    integrator: &'a str,
+    rtol: f64,
+    atol: f64,
+    samples: usize,
+    units: &'a str,
+    complete: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<&'a str>,
+    end_time: Option<f64>,
+    steps_accepted: usize,
+    steps_rejected: usize,
+    evaluations: usize,
+    events: usize,
+    wall_seconds: f64,
+    conservation: ConservationKeys,
+    skipped: &'a [String],
+    warnings: &'a [String],
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct ConservationKeys {
+    linear_momentum: f64,
+    angular_momentum: f64,
+    energy: f64,
+}
+
+impl From<Conservation> for ConservationKeys {
+    fn from(residuals: Conservation) -> Self {
+        let Conservation { linear_momentum, angular_momentum, energy } = residuals;
+        Self { linear_momentum, angular_momentum, energy }
+    }
+}
+
+impl<'a> SummaryFile<'a> {
+    /// What holds from before the first step until the run says otherwise: not complete.
+    pub fn unfinished(run: &'a RunDescription) -> Self {
+        Self {
+            scene: &run.scene,
+            degrees_of_freedom: run.degrees_of_freedom,
+            path: run.path,
+            formulation: run.formulation,
+            integrator: run.integrator,
+            rtol: run.rtol,
+            atol: run.atol,
+            samples: run.samples,
+            units: run.units.name(),
+            complete: false,
+            error: Some("the run is going on or was interrupted"),
+            end_time: None,
+            steps_accepted: 0,
+            steps_rejected: 0,
+            evaluations: 0,
+            events: 0,
+            wall_seconds: 0.0,
+            conservation: Conservation::default().into(),
+            skipped: &run.skipped,
+            warnings: &run.warnings,
+        }
+    }
+
+    /// The summary of a run that has ended; it is complete when there is no `error`.
+    pub fn ended(
+        run: &'a RunDescription,
+        summary: &Summary,
+        wall_seconds: f64,
+        error: Option<&'a str>,
+    ) -> Self {
+        Self {
+            integrator: summary.integrator,
+            complete: error.is_none(),
+            error,
+            end_time: Some(summary.end_time),
+            steps_accepted: summary.steps_accepted,
+            steps_rejected: summary.steps_rejected,
+            evaluations: summary.evaluations,
+            events: summary.events,
+            wall_seconds,
+            conservation: summary.conservation.into(),
+            ..Self::unfinished(run)
+        }
+    }
+
+    /// Replaces the file at `path` by this summary, all of it or nothing.
+    ///
+    /// # Errors
+    /// When the file or its neighbour `*.tmp` cannot be written.
+    pub fn replace(&self, path: &Path) -> Result<(), ResultsError> {
+        let new = path.with_extension("json.tmp");
+        let written = serde_json::to_vec_pretty(self).map_err(Into::into).and_then(|mut text| {
+            text.push(b'\n');
+            let mut file = fs::File::create(&new)?;
+            file.write_all(&text)?;
+            // A rename may reach the disk before the data it names.
+            file.sync_all()?;
+            fs::rename(&new, path)
+        });
+        written.map_err(|source| {
+            // What is left of a full disk is worth more than half a summary.
+            let _ = fs::remove_file(&new);
+            ResultsError::writing(path)(source)
+        })
+    }
+}

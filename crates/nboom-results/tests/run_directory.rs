@@ -1,0 +1,200 @@
+//! The directory of a run as a whole: what is in it at each stage, and when the disk is full.
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+
+use nboom_model::{Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, Segment};
+use nboom_results::{Outcome, ResultsError, RunDescription, RunDirectory, UnitSystem};
+use nboom_scalar::{Quaternion, Sym3, Vec3};
+use nboom_sim::{Conservation, Detail, Event, EventKind, Options, Recorder, Snapshot, Summary, Totals};
+
+fn scene() -> Scene {
+    let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
+    let boom = MassProperties::new(3.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
+    let mut description = SceneDescription::at_rest("one boom", hub, 10.0);
+    description.attach(&Appendage::Regular {
+        mount: Mount::at(Vec3::zero()),
+        segments: vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }],
+    });
+    Scene::new(description).expect("the bodies are physical")
+}
+
+fn create(path: &Path, listing: bool) -> Result<RunDirectory, ResultsError> {
+    let scene = scene();
+    let run = RunDescription::new(&scene, &Options::default(), UnitSystem::Si);
+    RunDirectory::create(path, &scene, run, listing)
+}
+
+fn snapshot(time: f64) -> Snapshot {
+    Snapshot {
+        time,
+        position_inertial: Vec3::zero(),
+        velocity_inertial: Vec3::zero(),
+        attitude: Quaternion::identity(),
+        omega_body: Vec3::unit_x(),
+        beta: vec![0.1],
+        tau: vec![0.2],
+        alpha: vec![0.1],
+        sigma: vec![0.2],
+        hinges: vec![HingeState::Free],
+        kinetic_energy: 1.0,
+        linear_momentum_inertial: Vec3::zero(),
+        angular_momentum_inertial: Vec3::unit_x(),
+        nutation: 0.0,
+        detail: Some(Detail {
+            omega_dot_body: Vec3::zero(),
+            beta_ddot: vec![0.0],
+            alpha_ddot: vec![0.0],
+            hinge_torque: vec![0.0],
+            kick_off_force: vec![0.0],
+            kick_off_length: vec![0.0],
+            mass_center_body: Vec3::zero(),
+            mass_center_inertial: Vec3::zero(),
+            mass_center_velocity_inertial: Vec3::zero(),
+            mass_center_acceleration_inertial: Vec3::zero(),
+        }),
+        steps: 3,
+        next_step: 0.5,
+    }
+}
+
+fn event(time: f64, kind: EventKind, hinge: Option<usize>) -> Event {
+    let totals = Totals {
+        kinetic_energy: 1.0,
+        linear_momentum_inertial: Vec3::zero(),
+        angular_momentum_inertial: Vec3::unit_x(),
+    };
+    Event { time, kind, hinge, impulse: None, before: totals, after: totals }
+}
+
+fn outcome(error: Option<&str>) -> Outcome {
+    let conservation = Conservation { linear_momentum: 1e-15, angular_momentum: 2e-15, energy: 3e-13 };
+    let summary = Summary {
+        end_time: 10.0,
+        steps_accepted: 7,
+        steps_rejected: 1,
+        evaluations: 96,
+        events: 2,
+        conservation,
+        integrator: "dop853",
+    };
+    Outcome { summary, wall_seconds: 0.25, error: error.map(str::to_owned) }
+}
+
+fn summary(directory: &Path) -> serde_json::Value {
+    let text = fs::read_to_string(directory.join("summary.json")).expect("a summary");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn lines(directory: &Path, file: &str) -> Vec<String> {
+    let text = fs::read_to_string(directory.join(file)).expect("a table");
+    text.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn a_finished_run_has_all_rows_and_every_key() {
+    let place = tempfile::tempdir().expect("a directory");
+    let path = place.path().join("out/run");
+    let mut directory = create(&path, false).expect("writable");
+    assert!(!directory.needs_detail());
+    directory.sample(&snapshot(0.0)).expect("writable");
+    directory.event(&event(5.0, EventKind::Release, Some(0)), &snapshot(5.0)).expect("writable");
+    directory.event(&event(5.0, EventKind::LockUp, Some(0)), &snapshot(5.0)).expect("writable");
+    directory.sample(&snapshot(10.0)).expect("writable");
+    directory.event(&event(10.0, EventKind::End, None), &snapshot(10.0)).expect("writable");
+    directory.finish(&outcome(None)).expect("writable");
+
+    assert_eq!(lines(&path, "states.csv").len(), 3);
+    let events = lines(&path, "events.csv");
+    let kinds: Vec<&str> = events[1..].iter().filter_map(|row| row.split(',').nth(1)).collect();
+    assert_eq!(kinds, ["lock_up", "release", "end"]);
+    let expected = serde_json::json!({
+        "scene": "one boom",
+        "degrees_of_freedom": 7,
+        "path": "generic",
+        "formulation": "recursive",
+        "integrator": "dop853",
+        "rtol": Options::default().rtol,
+        "atol": Options::default().atol,
+        "samples": 200,
+        "units": "SI",
+        "complete": true,
+        "end_time": 10.0,
+        "steps_accepted": 7,
+        "steps_rejected": 1,
+        "evaluations": 96,
+        "events": 2,
+        "wall_seconds": 0.25,
+        "conservation": {"linear_momentum": 1e-15, "angular_momentum": 2e-15, "energy": 3e-13},
+        "skipped": nboom_model::Facts::of(&scene()).skipped(),
+        "warnings": [],
+    });
+    assert_eq!(summary(&path), expected);
+    assert!(!path.join("listing.txt").exists());
+    assert!(!path.join("summary.json.tmp").exists());
+}
+
+#[test]
+fn an_earlier_run_in_the_directory_is_never_taken_for_this_one() {
+    let place = tempfile::tempdir().expect("a directory");
+    let first = create(place.path(), true).expect("writable");
+    first.finish(&outcome(None)).expect("writable");
+    assert_eq!(summary(place.path())["complete"], true);
+    assert!(place.path().join("listing.txt").exists());
+
+    let abandoned = create(place.path(), false).expect("writable");
+    assert_eq!(summary(place.path())["complete"], false);
+    drop(abandoned);
+    assert_eq!(summary(place.path())["complete"], false);
+    assert!(!place.path().join("listing.txt").exists());
+}
+
+#[test]
+fn a_failed_run_keeps_what_was_computed_and_says_why() {
+    let place = tempfile::tempdir().expect("a directory");
+    let mut directory = create(place.path(), true).expect("writable");
+    assert!(directory.needs_detail());
+    directory.sample(&snapshot(0.0)).expect("writable");
+    directory.event(&event(1.0, EventKind::Release, Some(0)), &snapshot(1.0)).expect("writable");
+    directory.finish(&outcome(Some("step too small at 1.5"))).expect("writable");
+
+    assert_eq!(lines(place.path(), "states.csv").len(), 2);
+    assert_eq!(lines(place.path(), "events.csv").len(), 2);
+    let listing = lines(place.path(), "listing.txt").join("\n");
+    assert_eq!(listing.matches("SYSTEM MOTION").count(), 2);
+    let summary = summary(place.path());
+    assert_eq!(summary["complete"], false);
+    assert_eq!(summary["error"], "step too small at 1.5");
+    assert_eq!(summary["steps_accepted"], 7);
+}
+
+#[test]
+fn a_full_disk_names_the_file_and_leaves_the_run_incomplete() {
+    let place = tempfile::tempdir().expect("a directory");
+    symlink("/dev/full", place.path().join("states.csv")).expect("a unix system");
+    let mut directory = create(place.path(), false).expect("the header is not flushed yet");
+    let refused = (0..1000)
+        .find_map(|i| directory.sample(&snapshot(f64::from(i))).err())
+        .expect("the disk is full");
+    assert_eq!(refused.kind(), std::io::ErrorKind::StorageFull);
+    assert!(refused.to_string().contains("states.csv"), "{refused}");
+
+    // The run did not hear of it: the summary must not be taken in either.
+    let refused = directory.finish(&outcome(None)).expect_err("the disk is still full");
+    assert!(matches!(refused, ResultsError::Write { .. }));
+    let summary = summary(place.path());
+    assert_eq!(summary["complete"], false);
+    let error = summary["error"].as_str().expect("a text");
+    assert!(error.contains("states.csv") && error.contains("No space left"), "{error}");
+}
+
+#[test]
+fn a_directory_that_cannot_be_made_is_named() {
+    let place = tempfile::tempdir().expect("a directory");
+    let file = place.path().join("file");
+    fs::write(&file, "").expect("writable");
+    let refused = create(&file.join("run"), false).expect_err("a file is no directory");
+    assert!(matches!(refused, ResultsError::Directory { .. }));
+    assert!(refused.to_string().contains("file/run"), "{refused}");
+}
