@@ -1,1 +1,13 @@
-//! x
+//! Fast, exact simulation of spacecraft that unfold.
+//!
+//! This crate gathers the parts that a program needs to simulate a deployment: the scene
+//! ([`model`]), its file formats ([`io`]), equations of motion ([`dynamics`]) and the runner
+//! ([`sim`]). `docs/architecture.md` shows how they fit together.
+
+pub use nboom_dynamics as dynamics;
+pub use nboom_elements as elements;
+pub use nboom_io as io;
+pub use nboom_model as model;
+pub use nboom_ode as ode;
+pub use nboom_scalar as scalar;
+pub use nboom_sim as sim;

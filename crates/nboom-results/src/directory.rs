@@ -1,16 +1,15 @@
-use std::fs::{self, File};
-use std::io::{self, BufWriter};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
 use nboom_sim::{Event, Recorder, Snapshot, Summary};
 
+use crate::rows::{self, Output};
 use crate::{
     EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, ResultsError, RunDescription,
     STATES_FILE, SUMMARY_FILE, StatesWriter, SummaryFile, with_causes,
 };
-
-type Output = BufWriter<File>;
 
 /// The directory of one run: creates it, writes its tables while the run goes on, and its
 /// summary at the end.
@@ -77,8 +76,7 @@ impl RunDirectory {
         let tables = instant.and(states).and(listing);
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
-        let summary =
-            SummaryFile::ended(&self.run, &outcome.summary, outcome.wall_seconds, error);
+        let summary = SummaryFile::ended(&self.run, &outcome.summary, outcome.wall_seconds, error);
         tables.and(summary.replace(&self.path.join(SUMMARY_FILE)))
     }
 
@@ -103,22 +101,21 @@ impl RunDirectory {
     fn write_sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         self.close_instant()?;
         self.states.write(snapshot).map_err(self.writing(STATES_FILE))?;
-        match &mut self.listing {
-            Some(listing) => {
-                let written = listing.write(snapshot);
-                written.map_err(self.writing(LISTING_FILE))
-            }
-            None => Ok(()),
-        }
+        let Some(listing) = &mut self.listing else { return Ok(()) };
+        // A printout that fills the disk must not take the room of rows that wait in memory.
+        let flushed = self.states.flush();
+        let listed = listing.write(snapshot);
+        flushed.map_err(self.writing(STATES_FILE))?;
+        listed.map_err(self.writing(LISTING_FILE))
     }
 
     fn add_event(&mut self, event: &Event, after: &Snapshot) -> Result<(), ResultsError> {
-        if let Some((events, latest)) = &mut self.instant {
-            if events.iter().all(|earlier| earlier.time == event.time) {
-                events.push(*event);
-                latest.clone_from(after);
-                return Ok(());
-            }
+        if let Some((events, latest)) = &mut self.instant
+            && events.iter().all(|earlier| earlier.time == event.time)
+        {
+            events.push(*event);
+            latest.clone_from(after);
+            return Ok(());
         }
         self.close_instant()?;
         self.instant = Some((vec![*event], after.clone()));
@@ -150,7 +147,7 @@ fn open<T>(
     start: impl FnOnce(Output) -> io::Result<T>,
 ) -> Result<T, ResultsError> {
     let path = directory.join(file);
-    let started = File::create(&path).map(BufWriter::new).and_then(start);
+    let started = rows::create(&path).and_then(start);
     started.map_err(ResultsError::writing(&path))
 }
 

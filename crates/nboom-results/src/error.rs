@@ -25,7 +25,7 @@ pub enum ResultsError {
 }
 
 impl ResultsError {
-    pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {
         let path = path.to_owned();
         move |source| Self::Write { path, source }
     }

@@ -10,7 +10,8 @@ pub fn euler_angles(attitude: Quaternion<f64>) -> [f64; 3] {
     // θ = acos M11, written so that small angles keep their digits.
     let theta = first.y.hypot(first.z).atan2(first.x);
     if first.y == 0.0 && first.z == 0.0 {
-        return [0.0, theta, (-second.z).atan2(second.y)];
+        // A difference, because a negated zero would turn into an angle of minus zero.
+        return [0.0, theta, (0.0 - second.z).atan2(second.y)];
     }
     [second.x.atan2(-third.x), theta, first.y.atan2(first.z)]
 }

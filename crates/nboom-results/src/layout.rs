@@ -103,11 +103,7 @@ impl Columns {
     }
 
     /// Three rows X, Y, Z with a column for each vector.
-    pub(crate) fn components(
-        &self,
-        out: &mut impl Write,
-        vectors: &[Vec3<f64>],
-    ) -> io::Result<()> {
+    pub(crate) fn components(&self, out: &mut impl Write, vectors: &[Vec3<f64>]) -> io::Result<()> {
         for (j, name) in ["X", "Y", "Z"].into_iter().enumerate() {
             let values: Vec<f64> = vectors.iter().map(|v| v.to_array()[j]).collect();
             self.numbers(out, name, &values)?;

@@ -5,7 +5,16 @@
 //! `"complete": false`. Each writer also works alone, on anything that is [`std::io::Write`].
 //!
 //! Angles in the tables are radians and numbers read back to the same `f64`; only the listing
-//! is for people, in degrees and with ten digits.
+//! is for people, in degrees and with ten digits. Nothing is computed here but the Euler angles
+//! of the listing, and no unit is converted.
+//!
+//! ```
+//! let mut table = Vec::new();
+//! let mut states = nboom_results::StatesWriter::new(&mut table, &[])?;
+//! states.flush()?;
+//! assert!(table.starts_with(b"t,rho_x,rho_y,rho_z,v_x,v_y,v_z,chi,"));
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 mod directory;
 mod error;
@@ -14,6 +23,7 @@ mod events;
 mod layout;
 mod listing;
 mod number;
+mod rows;
 mod states;
 mod summary;
 mod units;

@@ -14,7 +14,7 @@ const SYSTEM: Columns = Columns { first: 6, others: 23 };
 /// Writes the printout in the form of the report's output, Table 18.1: a block for each output
 /// time and for each instant with events, angles in degrees, ten digits.
 ///
-/// Snapshots need [`Snapshot::detail`].
+/// Snapshots must have [`Snapshot::detail`]; without it the writer panics.
 #[derive(Debug)]
 pub struct ListingWriter<W> {
     out: W,
@@ -336,10 +336,8 @@ mod tests {
     #[test]
     fn an_output_time_at_an_event_is_printed_once() {
         let text = listing(UnitSystem::None, |w| {
-            let events = [
-                event(0.5, EventKind::Release, Some(1)),
-                event(0.5, EventKind::LockUp, Some(0)),
-            ];
+            let events =
+                [event(0.5, EventKind::Release, Some(1)), event(0.5, EventKind::LockUp, Some(0))];
             w.write_instant(&events, &snapshot(0.5)).expect("memory");
             w.write(&snapshot(0.5)).expect("memory");
             w.write_instant(&[event(0.5, EventKind::End, None)], &snapshot(0.5)).expect("memory");

@@ -4,9 +4,9 @@ pub enum UnitSystem {
     /// Not said; the labels are the letters L, T and F.
     #[default]
     None,
-    /// Metre, second, newton, kilogram.
+    /// Metre, second, newton.
     Si,
-    /// Foot, second, pound of force, slug.
+    /// Foot, second, pound of force.
     FtLbfS,
     /// Inch, second, pound of force.
     InLbfS,
@@ -55,16 +55,6 @@ impl UnitSystem {
             Self::None => "F",
             Self::Si => "N",
             Self::FtLbfS | Self::InLbfS => "lbf",
-        }
-    }
-
-    /// Label of a mass.
-    pub fn mass(self) -> &'static str {
-        match self {
-            Self::None => "M",
-            Self::Si => "kg",
-            Self::FtLbfS => "slug",
-            Self::InLbfS => "lbf s^2/in",
         }
     }
 

@@ -4,10 +4,14 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
 
-use nboom_model::{Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, Segment};
+use nboom_model::{
+    Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, Segment,
+};
 use nboom_results::{Outcome, ResultsError, RunDescription, RunDirectory, UnitSystem};
 use nboom_scalar::{Quaternion, Sym3, Vec3};
-use nboom_sim::{Conservation, Detail, Event, EventKind, Options, Recorder, Snapshot, Summary, Totals};
+use nboom_sim::{
+    Conservation, Detail, Event, EventKind, Options, Recorder, Snapshot, Summary, Totals,
+};
 
 fn scene() -> Scene {
     let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
@@ -69,7 +73,8 @@ fn event(time: f64, kind: EventKind, hinge: Option<usize>) -> Event {
 }
 
 fn outcome(error: Option<&str>) -> Outcome {
-    let conservation = Conservation { linear_momentum: 1e-15, angular_momentum: 2e-15, energy: 3e-13 };
+    let conservation =
+        Conservation { linear_momentum: 1e-15, angular_momentum: 2e-15, energy: 3e-13 };
     let summary = Summary {
         end_time: 10.0,
         steps_accepted: 7,
@@ -187,6 +192,14 @@ fn a_full_disk_names_the_file_and_leaves_the_run_incomplete() {
     assert_eq!(summary["complete"], false);
     let error = summary["error"].as_str().expect("a text");
     assert!(error.contains("states.csv") && error.contains("No space left"), "{error}");
+}
+
+#[test]
+fn rows_do_not_wait_in_memory_for_a_printout_to_fill_the_disk() {
+    let place = tempfile::tempdir().expect("a directory");
+    let mut directory = create(place.path(), true).expect("writable");
+    directory.sample(&snapshot(0.0)).expect("writable");
+    assert_eq!(lines(place.path(), "states.csv").len(), 2);
 }
 
 #[test]

@@ -1,0 +1,154 @@
+use std::path::PathBuf;
+
+use clap::builder::TypedValueParser;
+use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use nboom_results::UnitSystem;
+
+use crate::choice;
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 done; 2 the input or the command line is wrong; 3 the computation or the writing \
+failed, and what was computed before is on disk, marked incomplete.";
+
+/// Simulates spacecraft that unfold.
+#[derive(Debug, Parser)]
+#[command(name = "nboom", version, after_help = EXIT_CODES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Simulate a scene and write what happens.
+    ///
+    /// Writes states.csv, events.csv and summary.json, and prints a short account.
+    Run(RunArgs),
+    /// Read and validate a scene, and say what it contains.
+    ///
+    /// Nothing is computed. Also says what the scene does not pay for because it lacks it.
+    Check(CheckArgs),
+}
+
+/// Options of `nboom run`.
+#[derive(Args, Debug)]
+pub struct RunArgs {
+    /// Legacy deck, a file NAME.nml.
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+
+    /// Directory for the results, made if need be; without it out/<scene name>.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+
+    /// Output times after the initial one, uniform to the end time; they never change the steps.
+    #[arg(long, value_name = "N", default_value = "200", value_parser = samples_parser(),
+          allow_negative_numbers = true)]
+    pub samples: usize,
+
+    /// Form of the equations of motion; this build has recursive.
+    #[arg(long, value_name = "NAME", default_value = "recursive",
+          value_parser = choice::formulation)]
+    pub formulation: &'static str,
+
+    /// Integrator; this build has dop853.
+    #[arg(long, value_name = "NAME", default_value = "dop853",
+          value_parser = choice::integrator)]
+    pub integrator: &'static str,
+
+    /// Relative error allowed in a step, at least 1e-14.
+    #[arg(long, value_name = "R", default_value = "1e-9", value_parser = choice::rtol,
+          allow_negative_numbers = true)]
+    pub rtol: f64,
+
+    /// Absolute error allowed in a step, in the units of each variable.
+    #[arg(long, value_name = "A", default_value = "1e-12", value_parser = choice::atol,
+          allow_negative_numbers = true)]
+    pub atol: f64,
+
+    /// Which code computes the accelerations; auto takes generated code where there is some.
+    #[arg(long, value_name = "PATH", value_enum, default_value = "auto")]
+    pub path: PathChoice,
+
+    /// End of the run, instead of the scene's.
+    #[arg(long, value_name = "T", value_parser = choice::finite, allow_negative_numbers = true)]
+    pub end_time: Option<f64>,
+
+    /// Labels of the units: none, SI, ft-lbf-s or in-lbf-s; no number is converted.
+    #[arg(long, value_name = "NAME", default_value = "none", value_parser = choice::units)]
+    pub units: UnitSystem,
+
+    /// Also write listing.txt, a printout at the output times and at every event.
+    #[arg(long)]
+    pub listing: bool,
+
+    /// Do not write report.html; this build writes none.
+    #[arg(long)]
+    pub no_report: bool,
+
+    /// Print nothing but errors.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Options of `nboom check`.
+#[derive(Args, Debug)]
+pub struct CheckArgs {
+    /// Legacy deck, a file NAME.nml.
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+}
+
+/// Which code computes the accelerations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PathChoice {
+    /// Generated code where there is some for the scene's topology, else library code.
+    Auto,
+    /// Generated code.
+    Generated,
+    /// Library code.
+    Generic,
+}
+
+fn samples_parser() -> impl TypedValueParser<Value = usize> {
+    value_parser!(u32).range(1..=10_000_000).map(|n| n as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nboom_sim::Options;
+
+    fn run_args(extra: &[&str]) -> Result<RunArgs, clap::Error> {
+        let words = ["nboom", "run", "scene.nml"].iter().chain(extra);
+        match Cli::try_parse_from(words)?.command {
+            Command::Run(args) => Ok(args),
+            Command::Check(_) => unreachable!("the words say run"),
+        }
+    }
+
+    #[test]
+    fn defaults_are_those_of_a_run() {
+        let args = run_args(&[]).expect("a scene is enough");
+        let defaults = Options::default();
+        assert_eq!(args.samples, defaults.samples);
+        assert_eq!((args.rtol, args.atol), (defaults.rtol, defaults.atol));
+        assert_eq!(args.units, UnitSystem::None);
+    }
+
+    #[test]
+    fn samples_have_limits() {
+        assert_eq!(run_args(&["--samples", "10000000"]).map(|a| a.samples).ok(), Some(10_000_000));
+        for wrong in ["0", "10000001", "-1", "2.5", "many"] {
+            assert_eq!(run_args(&["--samples", wrong]).map_err(|e| e.exit_code()).err(), Some(2));
+        }
+    }
+
+    #[test]
+    fn end_time_may_be_negative() {
+        let args = run_args(&["--end-time", "-2.5"]).expect("a time");
+        assert_eq!(args.end_time, Some(-2.5));
+    }
+}

@@ -1,0 +1,110 @@
+//! Values of options, checked where they are read.
+
+use nboom_results::UnitSystem;
+
+const FORMULATIONS: [&str; 6] =
+    ["report", "relative", "symmetric", "articulated", "momentum", "recursive"];
+const FORMULATIONS_BUILT: [&str; 1] = ["recursive"];
+const INTEGRATORS_BUILT: [&str; 1] = ["dop853"];
+
+/// Below this a relative error is smaller than the rounding of a step.
+const SMALLEST_RTOL: f64 = 1e-14;
+
+/// Why the value of an option is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ChoiceError {
+    /// The name is right but this build has nothing behind it.
+    #[error("{name} is not in this build, which has {}", .available.join(", "))]
+    NotBuilt {
+        /// The name.
+        name: &'static str,
+        /// What there is.
+        available: &'static [&'static str],
+    },
+    /// Nothing has this name.
+    #[error("unknown name, {} expected", .available.join(", "))]
+    Unknown {
+        /// What there is.
+        available: Vec<&'static str>,
+    },
+    /// The text is not a number.
+    #[error("a number expected")]
+    NotANumber,
+    /// The number is infinite or not a number.
+    #[error("a finite number expected")]
+    NotFinite,
+    /// A tolerance is zero or negative.
+    #[error("a number above zero expected")]
+    NotPositive,
+    /// A relative tolerance is below rounding.
+    #[error("a number not below {SMALLEST_RTOL:e} expected")]
+    BelowRounding,
+}
+
+pub(crate) fn formulation(name: &str) -> Result<&'static str, ChoiceError> {
+    let available = &FORMULATIONS_BUILT;
+    match FORMULATIONS.into_iter().find(|known| *known == name) {
+        Some(name) if available.contains(&name) => Ok(name),
+        Some(name) => Err(ChoiceError::NotBuilt { name, available }),
+        None => Err(ChoiceError::Unknown { available: available.into() }),
+    }
+}
+
+pub(crate) fn integrator(name: &str) -> Result<&'static str, ChoiceError> {
+    let available = INTEGRATORS_BUILT;
+    let found = available.into_iter().find(|known| *known == name);
+    found.ok_or_else(|| ChoiceError::Unknown { available: available.into() })
+}
+
+pub(crate) fn units(name: &str) -> Result<UnitSystem, ChoiceError> {
+    let names = || UnitSystem::ALL.map(UnitSystem::name).into();
+    UnitSystem::from_name(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
+}
+
+pub(crate) fn finite(text: &str) -> Result<f64, ChoiceError> {
+    let value: f64 = text.parse().map_err(|_| ChoiceError::NotANumber)?;
+    if value.is_finite() { Ok(value) } else { Err(ChoiceError::NotFinite) }
+}
+
+pub(crate) fn atol(text: &str) -> Result<f64, ChoiceError> {
+    let value = finite(text)?;
+    if value > 0.0 { Ok(value) } else { Err(ChoiceError::NotPositive) }
+}
+
+pub(crate) fn rtol(text: &str) -> Result<f64, ChoiceError> {
+    let value = atol(text)?;
+    if value >= SMALLEST_RTOL { Ok(value) } else { Err(ChoiceError::BelowRounding) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_have_limits() {
+        assert_eq!(rtol("1e-14"), Ok(1e-14));
+        assert_eq!(rtol("1e-15"), Err(ChoiceError::BelowRounding));
+        assert_eq!(atol("1e-30"), Ok(1e-30));
+        for (text, error) in [
+            ("0", ChoiceError::NotPositive),
+            ("-1e-9", ChoiceError::NotPositive),
+            ("nan", ChoiceError::NotFinite),
+            ("inf", ChoiceError::NotFinite),
+            ("tight", ChoiceError::NotANumber),
+        ] {
+            assert_eq!(rtol(text), Err(error.clone()));
+            assert_eq!(atol(text), Err(error));
+        }
+    }
+
+    #[test]
+    fn refusals_say_what_there_is() {
+        let refused = formulation("momentum").expect_err("not built").to_string();
+        assert_eq!(refused, "momentum is not in this build, which has recursive");
+        let refused = integrator("euler").expect_err("unknown").to_string();
+        assert_eq!(refused, "unknown name, dop853 expected");
+        let refused = units("cubits").expect_err("unknown").to_string();
+        assert_eq!(refused, "unknown name, none, SI, ft-lbf-s, in-lbf-s expected");
+    }
+}

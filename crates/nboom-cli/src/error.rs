@@ -1,0 +1,63 @@
+use std::io;
+use std::path::PathBuf;
+
+use nboom_io::InputError;
+use nboom_model::ModelError;
+use nboom_results::{ResultsError, with_causes};
+use nboom_sim::SimError;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CliError {
+    /// The scene cannot be read, or is wrong.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The scene is wrong with the end time of the command line.
+    #[error("--end-time: {}", .0.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; "))]
+    EndTime(Vec<ModelError>),
+    /// `--path generated` was asked for.
+    #[error(
+        "--path generated: no generated routine for this topology; auto and generic are available"
+    )]
+    NoGeneratedRoutine,
+    /// The motion cannot be computed, or its results not be kept.
+    #[error("{error}")]
+    Simulation {
+        /// What stopped it.
+        #[source]
+        error: SimError,
+        /// Where the results up to then are.
+        directory: PathBuf,
+    },
+    /// The results cannot be written.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    /// Standard output takes no more.
+    #[error("cannot write to standard output")]
+    Stdout(#[source] io::Error),
+}
+
+impl CliError {
+    /// 2 when the input or the command line is wrong, 3 when computing or writing failed.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Input(_) | Self::EndTime(_) | Self::NoGeneratedRoutine => 2,
+            Self::Simulation { .. } | Self::Results(_) | Self::Stdout(_) => 3,
+        }
+    }
+
+    /// What to tell the user, a line for each thing that is wrong.
+    pub fn lines(&self) -> Vec<String> {
+        match self {
+            Self::Input(error @ InputError::Deck(_)) => {
+                error.to_string().lines().map(str::to_owned).collect()
+            }
+            Self::Simulation { directory, .. } => {
+                let (why, kept) = (with_causes(self), directory.display());
+                vec![format!("{why}; what was computed before is in {kept}, marked incomplete")]
+            }
+            _ => vec![with_causes(self)],
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Numbers for people.
+
+use nboom_scalar::Vec3;
+
+/// A number with at most `digits` significant digits, without needless zeros; with an exponent
+/// where it is very small or large.
+pub(crate) fn short(value: f64, digits: usize) -> String {
+    let scientific = format!("{value:.*e}", digits.saturating_sub(1));
+    let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
+    let places = exponent.parse::<i32>().ok().map(|e| digits as i32 - 1 - e);
+    // Fewer places than none would print digits that are not known.
+    match places.filter(|p| (0..digits as i32 + 4).contains(p)) {
+        Some(places) => trimmed(&format!("{value:.*}", places as usize)),
+        None => format!("{}e{exponent}", trimmed(mantissa)),
+    }
+}
+
+fn trimmed(text: &str) -> String {
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text.to_owned()
+    }
+}
+
+pub(crate) fn vector(v: Vec3<f64>) -> String {
+    let [x, y, z] = v.to_array().map(|component| short(component, 6));
+    format!("({x}, {y}, {z})")
+}
+
+/// An angle in degrees, with their name.
+pub(crate) fn degrees(radians: f64) -> String {
+    format!("{} deg", short(radians.to_degrees(), 6))
+}
+
+/// A number and the right form of the noun it counts.
+pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_their_significant_digits_only() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (-2.5, "-2.5"),
+            (1.0 / 3.0, "0.333333"),
+            (1234567.0, "1.23457e6"),
+            (123456.0, "123456"),
+            (100.0, "100"),
+            (0.000123, "0.000123"),
+            (1.5e-12, "1.5e-12"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(short(value, 6), text);
+        }
+    }
+}

@@ -1,0 +1,198 @@
+use std::path::Path;
+
+use nboom_model::Scene;
+use nboom_results::{EVENTS_FILE, Outcome, RunDescription, event_order};
+use nboom_sim::{Event, EventKind, Totals};
+
+use crate::format::{count, short};
+
+/// Events beyond these are only in the file.
+pub(crate) const EVENTS_SHOWN: usize = 100;
+
+/// What a run tells on standard output when it is done.
+pub(crate) struct Account<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) run: &'a RunDescription,
+    pub(crate) outcome: &'a Outcome,
+    /// The first events, the end left out.
+    pub(crate) events: Vec<Event>,
+}
+
+impl Account<'_> {
+    pub(crate) fn text(&self, directory: &Path) -> String {
+        let mut lines = vec![self.scene_line(), String::new()];
+        lines.extend(self.event_lines());
+        lines.push(self.conservation_line());
+        lines.push(self.effort_line());
+        lines.push(format!("files         {}", directory.display()));
+        lines.join("\n") + "\n"
+    }
+
+    fn scene_line(&self) -> String {
+        let RunDescription { scene, path, formulation, integrator, .. } = self.run;
+        let bodies = count(1 + self.scene.bodies.len(), "body", "bodies");
+        let freedom = count(self.run.degrees_of_freedom, "degree", "degrees");
+        format!(
+            "{scene}: {bodies}, {freedom} of freedom; {path} path, {formulation} formulation, \
+             integrator {integrator}"
+        )
+    }
+
+    fn event_lines(&self) -> Vec<String> {
+        // The end is counted but not shown.
+        let total = self.outcome.summary.events.saturating_sub(1);
+        if self.events.is_empty() {
+            return vec!["no events".to_owned(), String::new()];
+        }
+        let mut events = self.events.clone();
+        events.sort_by(event_order);
+        let mut rows = vec![self.headings()];
+        rows.extend(events.iter().map(|event| self.cells(event)));
+        let mut lines = aligned(&rows);
+        if total > events.len() {
+            lines.push(format!("... and {} more in {EVENTS_FILE}", total - events.len()));
+        }
+        lines.push(String::new());
+        lines
+    }
+
+    fn headings(&self) -> Vec<String> {
+        let units = self.run.units;
+        vec![
+            format!("time [{}]", units.time()),
+            "event".to_owned(),
+            "hinge".to_owned(),
+            format!("impulse [{}]", units.angular_momentum()),
+            format!("kinetic energy [{}]", units.energy()),
+            format!("|H| [{}]", units.angular_momentum()),
+            format!("|P| [{}]", units.momentum()),
+        ]
+    }
+
+    fn cells(&self, event: &Event) -> Vec<String> {
+        let energy = |totals: &Totals| totals.kinetic_energy;
+        let h = |totals: &Totals| totals.angular_momentum_inertial.norm();
+        let p = |totals: &Totals| totals.linear_momentum_inertial.norm();
+        let mut cells = vec![
+            short(event.time, 10),
+            event.kind.name().replace('_', " "),
+            event.hinge.map_or(String::new(), |i| self.scene.label(i).to_string()),
+            event.impulse.map_or(String::new(), |impulse| short(impulse, 8)),
+            change(event, energy),
+        ];
+        if event.kind == EventKind::LockUp {
+            cells.extend([change(event, h), change(event, p)]);
+        }
+        cells
+    }
+
+    fn conservation_line(&self) -> String {
+        let residuals = self.outcome.summary.conservation;
+        let [p, h, e] = [residuals.linear_momentum, residuals.angular_momentum, residuals.energy]
+            .map(|residual| short(residual, 2));
+        format!("conservation  linear momentum {p}, angular momentum {h}, energy {e} (relative)")
+    }
+
+    fn effort_line(&self) -> String {
+        let summary = &self.outcome.summary;
+        let accepted = count(summary.steps_accepted, "step", "steps");
+        let evaluations = count(summary.evaluations, "evaluation", "evaluations");
+        let seconds = short(self.outcome.wall_seconds, 3);
+        format!(
+            "effort        {accepted} and {} rejected, {evaluations}, {seconds} s",
+            summary.steps_rejected
+        )
+    }
+}
+
+fn change(event: &Event, of: impl Fn(&Totals) -> f64) -> String {
+    format!("{} -> {}", short(of(&event.before), 8), short(of(&event.after), 8))
+}
+
+/// Rows with their cells under one another, two spaces apart.
+fn aligned(rows: &[Vec<String>]) -> Vec<String> {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width_of = |j: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(j));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width_of).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}  "));
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    rows.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nboom_model::{Appendage, Hinge, MassProperties, Mount, SceneDescription, Segment};
+    use nboom_results::UnitSystem;
+    use nboom_scalar::{Sym3, Vec3};
+    use nboom_sim::{Conservation, Options, Summary};
+
+    fn scene() -> Scene {
+        let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+        let segment = Segment { length: 1.0, mass_properties: body, hinge: Hinge::free() };
+        let mut description = SceneDescription::at_rest("boom", body, 1.0);
+        let mount = Mount::at(Vec3::zero());
+        description.attach(&Appendage::Regular { mount, segments: vec![segment] });
+        Scene::new(description).expect("the bodies are physical")
+    }
+
+    fn lock_up(time: f64) -> Event {
+        let totals = |kinetic_energy, momentum| Totals {
+            kinetic_energy,
+            linear_momentum_inertial: Vec3::zero(),
+            angular_momentum_inertial: Vec3::unit_y() * momentum,
+        };
+        Event {
+            time,
+            kind: EventKind::LockUp,
+            hinge: Some(0),
+            impulse: Some(-0.125),
+            before: totals(2.0, 3.0),
+            after: totals(1.5, 3.0),
+        }
+    }
+
+    fn account(events: Vec<Event>, counted: usize) -> String {
+        let scene = scene();
+        let run = RunDescription::new(&scene, &Options::default(), UnitSystem::FtLbfS);
+        let conservation =
+            Conservation { linear_momentum: 0.0, angular_momentum: 1.25e-15, energy: 3e-13 };
+        let summary = Summary {
+            end_time: 1.0,
+            steps_accepted: 10,
+            steps_rejected: 2,
+            evaluations: 144,
+            events: counted,
+            conservation,
+            integrator: "dop853",
+        };
+        let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
+        Account { scene: &scene, run: &run, outcome: &outcome, events }.text(Path::new("out/boom"))
+    }
+
+    #[test]
+    fn an_account_names_bodies_events_residuals_effort_and_files() {
+        let expected = "\
+boom: 2 bodies, 7 degrees of freedom; generic path, recursive formulation, integrator dop853
+
+time [s]  event    hinge  impulse [ft lbf s]  kinetic energy [ft lbf]  |H| [ft lbf s]  |P| [lbf s]
+0.25      lock up  1,1    -0.125              2 -> 1.5                 3 -> 3          0 -> 0
+
+conservation  linear momentum 0, angular momentum 1.2e-15, energy 3e-13 (relative)
+effort        10 steps and 2 rejected, 144 evaluations, 0.0123 s
+files         out/boom
+";
+        assert_eq!(account(vec![lock_up(0.25)], 2), expected);
+    }
+
+    #[test]
+    fn events_that_are_not_shown_are_counted() {
+        assert!(account(vec![lock_up(0.25)], 9).contains("\n... and 7 more in events.csv\n"));
+        assert!(account(Vec::new(), 1).contains("\nno events\n"));
+    }
+}

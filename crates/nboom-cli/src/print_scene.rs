@@ -1,0 +1,218 @@
+use nboom_model::{
+    Body, Dashpot, Facts, Hinge, HingeState, KickOffSpring, MassProperties, Release, Scene, Spring,
+};
+use nboom_scalar::Vec3;
+
+use crate::format::{count, degrees, short, vector};
+
+/// What a scene contains, for people; numbers to six digits.
+pub(crate) fn text(scene: &Scene) -> String {
+    let mut lines = vec![heading(scene)];
+    lines.push(format!("main body: {}", mass_properties(&scene.main_body)));
+    for branch in branches(scene) {
+        lines.extend(branch_lines(scene, &branch));
+    }
+    lines.extend(environment(scene));
+    let (start, end) = (short(scene.initial.time, 10), short(scene.end_time, 10));
+    lines.push(format!("span: {start} to {end}"));
+    lines.push(skipped(scene));
+    lines.join("\n") + "\n"
+}
+
+fn heading(scene: &Scene) -> String {
+    let bodies = count(1 + scene.bodies.len(), "body", "bodies");
+    let freedom = count(scene.degrees_of_freedom(), "degree", "degrees");
+    let mass = short(scene.total_mass(), 6);
+    format!("{}: {bodies}, {freedom} of freedom, total mass {mass}", scene.name)
+}
+
+fn mass_properties(body: &MassProperties) -> String {
+    let [a, b, c] = body.principal_moments().map(|moment| short(moment, 6));
+    let (mass, center) = (short(body.mass, 6), vector(body.center_of_mass));
+    format!("mass {mass}, mass centre {center}, principal moments of inertia {a}, {b}, {c}")
+}
+
+/// Indices of the bodies of each branch that leaves the main body.
+fn branches(scene: &Scene) -> Vec<Vec<usize>> {
+    let mut branches: Vec<Vec<usize>> = Vec::new();
+    for (i, body) in scene.bodies.iter().enumerate() {
+        match branches.last_mut() {
+            Some(branch) if body.inboard.is_some() => branch.push(i),
+            _ => branches.push(vec![i]),
+        }
+    }
+    branches
+}
+
+fn branch_lines(scene: &Scene, branch: &[usize]) -> Vec<String> {
+    let segments = count(branch.len(), "segment", "segments");
+    let number = scene.label(branch[0]).appendage + 1;
+    let mut lines = vec![format!("appendage {number}: {}, {segments}", kind(scene, branch))];
+    lines.extend(branch.iter().flat_map(|&i| hinge_lines(scene, i)));
+    lines
+}
+
+fn kind(scene: &Scene, branch: &[usize]) -> &'static str {
+    let is_chain = branch.windows(2).all(|pair| scene.bodies[pair[1]].inboard == Some(pair[0]));
+    let outer = &branch[1..];
+    let is_parallel = outer.iter().all(|&i| scene.adds_to_inboard_angle(i));
+    let turns_about_eta = outer.iter().all(|&i| scene.bodies[i].axis == Vec3::unit_y());
+    match (is_chain, is_parallel, outer.len()) {
+        (true, true, _) => "regular",
+        (true, false, 1) if turns_about_eta => "paddle",
+        (true, false, _) => "chain",
+        (false, ..) => "tree",
+    }
+}
+
+fn hinge_lines(scene: &Scene, i: usize) -> Vec<String> {
+    let Body { mount, axis, mass_properties: mass, hinge, .. } = &scene.bodies[i];
+    let (point, axis) = (vector(mount.point), vector(*axis));
+    let forces =
+        [spring(&hinge.spring), dashpot(&hinge.dashpot), hinge.kick_off.as_ref().map(kick_off)];
+    let mut lines = vec![
+        format!("  hinge {}: at {point}, axis {axis}", scene.label(i)),
+        format!("    {}", course(scene, hinge)),
+    ];
+    lines.extend(forces.into_iter().flatten().map(|force| format!("    {force}")));
+    lines.push(format!("    body: {}", mass_properties(mass)));
+    lines
+}
+
+/// How a hinge starts, is released and locks.
+fn course(scene: &Scene, hinge: &Hinge) -> String {
+    let at = degrees(hinge.start.angle);
+    let start = match hinge.start.state {
+        HingeState::Unreleased => format!("unreleased at {at}, {}", release(scene, hinge.release)),
+        HingeState::Free => {
+            format!("free at {at}, rate {} per time unit", degrees(hinge.start.rate))
+        }
+        HingeState::Locked => return format!("locked at {at}"),
+    };
+    let lock = match hinge.lock_angle {
+        Some(angle) => format!("locks at {}", degrees(angle)),
+        None => "never locks".to_owned(),
+    };
+    format!("{start}, {lock}")
+}
+
+fn release(scene: &Scene, release: Release) -> String {
+    match release {
+        Release::Time(time) => format!("released at time {}", short(time, 10)),
+        Release::Angle { hinge, angle } => {
+            format!("released when hinge {} passes {}", scene.label(hinge), degrees(angle))
+        }
+        Release::Never => "never released".to_owned(),
+    }
+}
+
+fn spring(spring: &Spring) -> Option<String> {
+    let Spring { quadratic, linear, preload_angle } = *spring;
+    ([quadratic, linear] != [0.0; 2]).then(|| {
+        let (quadratic, linear) = (short(quadratic, 6), short(linear, 6));
+        let preload = degrees(preload_angle);
+        format!("spring: quadratic {quadratic}, linear {linear}, preload {preload}")
+    })
+}
+
+fn dashpot(dashpot: &Dashpot) -> Option<String> {
+    let Dashpot { rate_quadratic, rate_linear, angle_quadratic, angle_linear, preload_angle } =
+        *dashpot;
+    let coefficients = [rate_quadratic, rate_linear, angle_quadratic, angle_linear];
+    (coefficients != [0.0; 4]).then(|| {
+        let [a, b, c, d] = coefficients.map(|coefficient| short(coefficient, 6));
+        let preload = degrees(preload_angle);
+        format!("dashpot: rate {a} quadratic, {b} linear; angle {c} quadratic, {d} linear, preload {preload}")
+    })
+}
+
+fn kick_off(spring: &KickOffSpring) -> String {
+    let from = vector(spring.main_body_point);
+    let to = vector(spring.body_point);
+    let coefficients = spring.coefficients.map(|coefficient| short(coefficient, 6)).join(", ");
+    let limit = short(spring.limit_length, 6);
+    format!("kick-off spring: {from} to {to}, coefficients {coefficients}, up to length {limit}")
+}
+
+fn environment(scene: &Scene) -> [String; 2] {
+    let gravity = scene.gravity.as_ref().map_or_else(
+        || "gravity: none".to_owned(),
+        |g| format!("gravity: {}, up is {}", short(g.acceleration, 6), vector(g.up)),
+    );
+    let thrust = scene.thrust.as_ref().map_or_else(
+        || "thrust: none".to_owned(),
+        |thrust| {
+            let (force, point) = (vector(thrust.force), vector(thrust.point));
+            let (on, off) = (short(thrust.on, 10), short(thrust.off, 10));
+            format!("thrust: {force} at {point}, on from {on} to {off}")
+        },
+    );
+    [gravity, thrust]
+}
+
+fn skipped(scene: &Scene) -> String {
+    let skipped = Facts::of(scene).skipped();
+    let what = if skipped.is_empty() { "nothing".to_owned() } else { skipped.join("; ") };
+    format!("not paid for: {what}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nboom_model::{Appendage, Gravity, HingeStart, Mount, SceneDescription, Segment, Thrust};
+    use nboom_scalar::Sym3;
+
+    fn segment(hinge: Hinge) -> Segment {
+        let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+        Segment { length: 1.0, mass_properties: body, hinge }
+    }
+
+    fn with_everything() -> Scene {
+        let mut arm = Hinge { lock_angle: Some(1.0_f64.to_radians()), ..Hinge::free() };
+        arm.dashpot.rate_linear = -0.5;
+        arm.kick_off = Some(KickOffSpring {
+            main_body_point: Vec3::unit_x(),
+            body_point: Vec3::unit_y(),
+            coefficients: [1.0, -2.0, 0.0, 0.0],
+            limit_length: 3.0,
+        });
+        let start = HingeStart { angle: 0.0, rate: 0.0, state: HingeState::Unreleased };
+        let release = Release::Angle { hinge: 0, angle: 90.0_f64.to_radians() };
+        let paddle = Hinge { start, release, ..Hinge::free() };
+        let mut description = SceneDescription::at_rest("all", segment(arm).mass_properties, 2.0);
+        description.gravity = Some(Gravity { acceleration: 9.81, up: Vec3::unit_z() });
+        let (force, point) = (Vec3::unit_x(), Vec3::zero());
+        description.thrust = Some(Thrust { force, point, on: 0.5, off: 1.5 });
+        description.attach(&Appendage::Paddle {
+            mount: Mount::at(Vec3::zero()),
+            arm: segment(arm),
+            paddle: segment(paddle),
+        });
+        Scene::new(description).expect("the bodies are physical")
+    }
+
+    #[test]
+    fn everything_a_scene_may_have_is_said() {
+        let text = text(&with_everything());
+        for words in [
+            "appendage 1: paddle, 2 segments",
+            "free at 0 deg, rate 0 deg per time unit, locks at 1 deg",
+            "dashpot: rate 0 quadratic, -0.5 linear",
+            "kick-off spring: (1, 0, 0) to (0, 1, 0), coefficients 1, -2, 0, 0, up to length 3",
+            "unreleased at 0 deg, released when hinge 1,1 passes 90 deg, never locks",
+            "gravity: 9.81, up is (0, 0, 1)",
+            "thrust: (1, 0, 0) at (0, 0, 0), on from 0.5 to 1.5",
+        ] {
+            assert!(text.contains(words), "no {words:?} in {text}");
+        }
+    }
+
+    #[test]
+    fn a_branch_that_forks_is_a_tree() {
+        let scene = with_everything();
+        let mut description = SceneDescription::clone(&scene);
+        description.bodies.push(Body { inboard: Some(0), ..description.bodies[1] });
+        let scene = Scene::new(description).expect("the bodies are physical");
+        assert!(text(&scene).contains("appendage 1: tree, 3 segments"));
+    }
+}

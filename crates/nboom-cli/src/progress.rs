@@ -1,0 +1,39 @@
+use std::io::{self, IsTerminal};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use nboom_model::Scene;
+
+const PARTS: u64 = 1000;
+
+/// How far the run has come, on a terminal's standard error; elsewhere nothing.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    start: f64,
+    span: f64,
+}
+
+impl Progress {
+    pub(crate) fn of(scene: &Scene, quiet: bool) -> Self {
+        let bar = if quiet || !io::stderr().is_terminal() {
+            ProgressBar::hidden()
+        } else {
+            ProgressBar::new(PARTS).with_style(style())
+        };
+        Self { bar, start: scene.initial.time, span: scene.end_time - scene.initial.time }
+    }
+
+    pub(crate) fn reach(&self, time: f64) {
+        let share = ((time - self.start) / self.span).clamp(0.0, 1.0);
+        self.bar.set_position((share * PARTS as f64) as u64);
+    }
+
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn style() -> ProgressStyle {
+    let template = "{wide_bar} {percent:>3} %  {elapsed} of about {duration}";
+    ProgressStyle::with_template(template).expect("the template is well formed")
+}

@@ -1,0 +1,33 @@
+use std::io;
+
+use nboom_results::RunDirectory;
+use nboom_sim::{Event, EventKind, Recorder, Snapshot};
+
+use crate::progress::Progress;
+
+/// Passes everything on to the files and keeps what the terminal shows: the progress, and the
+/// first events.
+pub(crate) struct Watch {
+    pub(crate) files: RunDirectory,
+    pub(crate) progress: Progress,
+    pub(crate) events: Vec<Event>,
+    pub(crate) events_to_keep: usize,
+}
+
+impl Recorder for Watch {
+    fn needs_detail(&self) -> bool {
+        self.files.needs_detail()
+    }
+
+    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+        self.progress.reach(snapshot.time);
+        self.files.sample(snapshot)
+    }
+
+    fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {
+        if self.events.len() < self.events_to_keep && event.kind != EventKind::End {
+            self.events.push(*event);
+        }
+        self.files.event(event, after)
+    }
+}

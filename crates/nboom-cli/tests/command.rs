@@ -1,0 +1,304 @@
+//! The binary as its users meet it: exit codes, messages and files.
+
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+/// A main body with one boom that is released, swings and latches.
+const BOOM: &str = "
+ &DIM
+ NA=1,IXYZ=0,IAB=0,NP=0,NOPLT=1,IXK=1,
+ &END
+ &NXPUT
+ INSTR=0,
+ BETAIK=80.0,BSIK=0.0,EKNIK(1,2)=-30.0,
+ OMEG=1.0,2.0,-1.0,
+ NK=1,DBK=0.0,0.5,0.1,FTSIK=0.0,90.0,0.0,
+ ELIK=2.0,EMIK=3.0,HIIK=1.1,3*0.0,0.05,3*0.0,1.1,CNIK(1,2)=1.0,
+ EMM=100.0,HM=40.0,3*0.0,30.0,3*0.0,35.0,
+ IREL=0,RELTB=0.25,
+ &END
+ &ROCK
+ TF=4.0,SEGSTT=0.0,
+ &END
+";
+
+/// A directory of its own with `boom.nml` in it.
+struct Place {
+    directory: TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        let directory = tempfile::tempdir().expect("a directory");
+        fs::write(directory.path().join("boom.nml"), BOOM).expect("writable");
+        Self { directory }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).expect("writable");
+    }
+
+    fn command<A: AsRef<OsStr>>(&self, args: &[A]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+        command.current_dir(self.directory.path()).args(args);
+        command
+    }
+
+    fn nboom(&self, args: &[&str]) -> Output {
+        self.command(args).output().expect("the binary starts")
+    }
+
+    fn summary(&self, directory: &str) -> serde_json::Value {
+        let text = fs::read_to_string(self.path(directory).join("summary.json"));
+        serde_json::from_str(&text.expect("a summary")).expect("JSON")
+    }
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("no signal")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("text")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("text")
+}
+
+/// Refused with this exit code, and a message with all these words on standard error alone.
+fn refused(output: &Output, exit_code: i32, words: &[&str]) {
+    let message = stderr(output);
+    assert_eq!(code(output), exit_code, "{message}");
+    assert_eq!(stdout(output), "");
+    for word in words {
+        assert!(message.contains(word), "no {word:?} in {message:?}");
+    }
+    assert!(!message.contains("panicked"), "{message}");
+}
+
+fn rows(path: &Path) -> Vec<String> {
+    fs::read_to_string(path).expect("a table").lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn run_writes_its_files_and_an_account() {
+    let place = Place::new();
+    let output = place.nboom(&["run", "boom.nml", "--samples", "8", "--units", "SI"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    // Neither a warning nor, into a pipe, a progress bar.
+    assert_eq!(stderr(&output), "");
+    let account = stdout(&output);
+    for words in [
+        "boom: 2 bodies, 7 degrees of freedom; generic path, recursive formulation",
+        "time [s]",
+        "impulse [N m s]",
+        "release",
+        "lock up",
+        "1,1",
+        "conservation",
+        "evaluations",
+        "out/boom",
+    ] {
+        assert!(account.contains(words), "no {words:?} in {account}");
+    }
+    assert_eq!(rows(&place.path("out/boom/states.csv")).len(), 1 + 9);
+    let events = rows(&place.path("out/boom/events.csv"));
+    assert_eq!(events[0], "t,kind,appendage,segment,impulse,energy_before,energy_after");
+    assert!(events.last().is_some_and(|row| row.contains(",end,,,,")), "{events:?}");
+    let summary = place.summary("out/boom");
+    assert_eq!(summary["complete"], true);
+    assert_eq!(summary["samples"], 8);
+    assert!(!place.path("out/boom/listing.txt").exists());
+}
+
+#[test]
+fn options_reach_the_run() {
+    let place = Place::new();
+    let output = place.nboom(&[
+        "run",
+        "boom.nml",
+        "-o",
+        "there",
+        "--end-time",
+        "0.5",
+        "--samples",
+        "2",
+        "--rtol",
+        "1e-8",
+        "--atol",
+        "1e-10",
+        "--path",
+        "generic",
+        "--formulation",
+        "recursive",
+        "--integrator",
+        "dop853",
+        "--listing",
+        "--no-report",
+    ]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let summary = place.summary("there");
+    assert_eq!(summary["rtol"], 1e-8);
+    assert_eq!(summary["atol"], 1e-10);
+    assert_eq!(summary["end_time"], 0.5);
+    let states = rows(&place.path("there/states.csv"));
+    assert!(states[3].starts_with("0.5,"), "{}", states[3]);
+    let listing = fs::read_to_string(place.path("there/listing.txt")).expect("a listing");
+    assert!(listing.contains("EVENT: RELEASE OF HINGE 1,1"), "{listing}");
+}
+
+#[test]
+fn quiet_is_silent() {
+    let place = Place::new();
+    let output = place.nboom(&["run", "boom.nml", "--samples", "2", "--quiet"]);
+    assert_eq!(
+        (code(&output), stdout(&output), stderr(&output)),
+        (0, String::new(), String::new())
+    );
+    assert_eq!(place.summary("out/boom")["complete"], true);
+}
+
+#[test]
+fn check_says_what_the_scene_contains_and_computes_nothing() {
+    let place = Place::new();
+    let output = place.nboom(&["check", "boom.nml"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = stdout(&output);
+    for words in [
+        "boom: 2 bodies, 7 degrees of freedom, total mass 103",
+        "main body: mass 100, mass centre (0, 0, 0), principal moments of inertia 30, 35, 40",
+        "appendage 1: regular, 1 segment",
+        "hinge 1,1: at (0, 0.5, 0.1), axis (1, 0, 0)",
+        "unreleased at 80 deg, released at time 0.25, locks at 0 deg",
+        "spring: quadratic 0, linear -30",
+        "gravity: none",
+        "thrust: none",
+        "span: 0 to 4",
+        "not paid for: gravity; thrust",
+    ] {
+        assert!(text.contains(words), "no {words:?} in {text}");
+    }
+    assert!(!place.path("out").exists());
+}
+
+#[test]
+fn a_scene_that_cannot_be_read_is_refused() {
+    let place = Place::new();
+    fs::create_dir(place.path("folder.nml")).expect("writable");
+    for verb in ["run", "check"] {
+        refused(&place.nboom(&[verb, "missing.nml"]), 2, &["missing.nml", "No such file"]);
+        refused(&place.nboom(&[verb, "folder.nml"]), 2, &["folder.nml"]);
+    }
+    assert!(!place.path("out").exists());
+}
+
+#[test]
+fn every_error_of_a_deck_has_a_line() {
+    let place = Place::new();
+    let wrong = BOOM.replace("INSTR=0", "BOGUS=0").replace("EMM=100.0", "BAFFLE=1.0");
+    place.write("wrong.nml", &wrong);
+    let output = place.nboom(&["check", "wrong.nml"]);
+    refused(&output, 2, &["wrong.nml:6:", "BOGUS", "BAFFLE"]);
+    assert!(stderr(&output).lines().all(|line| line.starts_with("error: ")), "{}", stderr(&output));
+}
+
+#[test]
+fn a_wrong_command_line_is_refused() {
+    let place = Place::new();
+    let cases: [(&[&str], &[&str]); 14] = [
+        (&[], &["Usage"]),
+        (&["fly", "boom.nml"], &["fly"]),
+        (&["run"], &["SCENE"]),
+        (&["run", "boom.nml", "--fast"], &["--fast"]),
+        (&["run", "boom.nml", "--rtol", "0"], &["--rtol", "above zero"]),
+        (&["run", "boom.nml", "--rtol", "1e-17"], &["--rtol", "1e-14"]),
+        (&["run", "boom.nml", "--rtol", "-1"], &["--rtol", "above zero"]),
+        (&["run", "boom.nml", "--atol", "nan"], &["--atol", "finite"]),
+        (&["run", "boom.nml", "--samples", "0"], &["--samples"]),
+        (&["run", "boom.nml", "--formulation", "report"], &["report", "recursive"]),
+        (&["run", "boom.nml", "--integrator", "euler"], &["euler", "dop853"]),
+        (&["run", "boom.nml", "--path", "generated"], &["no generated routine"]),
+        (&["run", "boom.nml", "--units", "cubits"], &["cubits", "ft-lbf-s"]),
+        (&["run", "boom.nml", "--end-time", "-1"], &["--end-time", "initial time"]),
+    ];
+    for (args, words) in cases {
+        refused(&place.nboom(args), 2, words);
+    }
+    assert!(!place.path("out").exists());
+}
+
+#[test]
+fn an_output_directory_that_cannot_be_made_is_a_failure() {
+    let place = Place::new();
+    place.write("file", "");
+    refused(&place.nboom(&["run", "boom.nml", "-o", "file/run"]), 3, &["file/run"]);
+    // Here not even the superuser may write.
+    refused(&place.nboom(&["run", "boom.nml", "-o", "/proc/nboom"]), 3, &["/proc/nboom"]);
+}
+
+#[test]
+fn a_full_disk_is_a_failure_that_is_marked_incomplete() {
+    for file in ["states.csv", "events.csv"] {
+        let place = Place::new();
+        fs::create_dir(place.path("run")).expect("writable");
+        symlink("/dev/full", place.path("run").join(file)).expect("a unix system");
+        let output = place.nboom(&["run", "boom.nml", "-o", "run", "--samples", "1000"]);
+        refused(&output, 3, &[&format!("run/{file}"), "No space left"]);
+        let summary = place.summary("run");
+        assert_eq!(summary["complete"], false, "{summary}");
+    }
+}
+
+#[test]
+fn a_full_standard_output_is_a_failure() {
+    let place = Place::new();
+    let full = File::options().write(true).open("/dev/full").expect("a unix system");
+    let mut command = place.command(&["check", "boom.nml"]);
+    let output = command.stdout(full).output().expect("the binary starts");
+    refused(&output, 3, &["standard output", "No space left"]);
+}
+
+#[test]
+fn a_reader_who_leaves_is_no_error() {
+    let place = Place::new();
+    let mut command = place.command(&["run", "boom.nml", "--samples", "2"]);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the binary starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+}
+
+#[test]
+fn help_names_every_option_of_the_contract() {
+    let place = Place::new();
+    let output = place.nboom(&["run", "--help"]);
+    assert_eq!(code(&output), 0);
+    let help = stdout(&output);
+    for option in [
+        "-o",
+        "--samples",
+        "--formulation",
+        "--integrator",
+        "--rtol",
+        "--atol",
+        "--path",
+        "--end-time",
+        "--units",
+        "--listing",
+        "--no-report",
+        "--quiet",
+    ] {
+        assert!(help.contains(option), "no {option} in {help}");
+    }
+}

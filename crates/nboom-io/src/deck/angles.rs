@@ -1,0 +1,65 @@
+use nboom_scalar::{Mat3, Vec3};
+
+/// The rotation R_x(ψ) R_y(θ) R_x(φ) of eqs. (9.6) and (9.7), angles in degrees.
+///
+/// Quarter turns, which most decks consist of, give exact zeros and ones.
+pub(crate) fn rotation_from_degrees(psi: f64, theta: f64, phi: f64) -> Mat3<f64> {
+    about_x(psi) * about_y(theta) * about_x(phi)
+}
+
+pub(crate) fn vector_to_radians(degrees: Vec3<f64>) -> Vec3<f64> {
+    Vec3::from(degrees.to_array().map(f64::to_radians))
+}
+
+fn about_x(degrees: f64) -> Mat3<f64> {
+    let (s, c) = sin_cos(degrees);
+    Mat3::from_rows(Vec3::unit_x(), Vec3::new(0.0, c, -s), Vec3::new(0.0, s, c))
+}
+
+fn about_y(degrees: f64) -> Mat3<f64> {
+    let (s, c) = sin_cos(degrees);
+    Mat3::from_rows(Vec3::new(c, 0.0, s), Vec3::unit_y(), Vec3::new(-s, 0.0, c))
+}
+
+fn sin_cos(degrees: f64) -> (f64, f64) {
+    let quarters = degrees.rem_euclid(360.0) / 90.0;
+    if quarters == 0.0 {
+        (0.0, 1.0)
+    } else if quarters == 1.0 {
+        (1.0, 0.0)
+    } else if quarters == 2.0 {
+        (0.0, -1.0)
+    } else if quarters == 3.0 {
+        (-1.0, 0.0)
+    } else {
+        degrees.to_radians().sin_cos()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        for k in -9..9 {
+            let (s, c) = sin_cos(f64::from(k) * 90.0);
+            assert_eq!(s.abs() + c.abs(), 1.0, "{k}");
+        }
+        let rot = rotation_from_degrees(90.0, 90.0, 0.0);
+        assert_eq!(rot.column(0), Vec3::new(0.0, 1.0, 0.0));
+        assert_eq!(rot.column(1), Vec3::new(0.0, 0.0, 1.0));
+        assert_eq!(rot.column(2), Vec3::new(1.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn any_angles_agree_with_radians() {
+        let found = rotation_from_degrees(10.0, -20.0, 450.5);
+        let expected = Mat3::from_euler_121(
+            10.0_f64.to_radians(),
+            (-20.0_f64).to_radians(),
+            450.5_f64.to_radians(),
+        );
+        assert!((found - expected).rows.iter().all(|row| row.norm() < 1e-15));
+    }
+}

@@ -1,0 +1,77 @@
+//! The NAMELIST deck: text to tokens to values to a scene.
+
+mod angles;
+mod assignment;
+mod builder;
+mod group;
+mod hinges;
+mod layout;
+mod lexer;
+mod model_error;
+mod motion;
+mod names;
+mod number;
+mod required;
+mod settings;
+mod stress;
+mod symbols;
+mod values;
+
+use nboom_model::Scene;
+
+use crate::diagnostic::Report;
+use crate::{InputError, SceneFile};
+use builder::Builder;
+use values::{Sizes, Values};
+
+pub use stress::{SectionShape, StressInput, StressSegment, StressStation, Vertex};
+pub use symbols::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
+pub use values::LARGEST_COUNT;
+
+/// Reads the text of a deck, Table 16.1 and Section 17.
+///
+/// `file` is the file's name for messages, `name` becomes the name of the scene. The symbols
+/// and what their absence means are in [`SYMBOLS`]; angles become radians.
+///
+/// # Errors
+/// [`InputError::Deck`] with everything that is wrong, in the order of the lines.
+pub fn parse_deck(file: &str, text: &str, name: &str) -> Result<SceneFile, InputError> {
+    let mut report = Report::new(file);
+    let values = group::read(text, &mut report);
+    required::check(&values, &mut report);
+    let parts = values.sizes.and_then(|sizes| assemble(name, &values, sizes, &mut report));
+    report.sort();
+    match parts {
+        Some((scene, legacy, stress)) if report.errors.is_empty() => {
+            Ok(SceneFile { scene, warnings: report.warnings, legacy, stress })
+        }
+        _ => Err(InputError::Deck(report.errors)),
+    }
+}
+
+type Parts = (Scene, crate::LegacySettings, Option<StressInput>);
+
+/// The parts of a scene; what is wrong is reported, and stand-ins let the rest be checked.
+fn assemble(name: &str, values: &Values, sizes: Sizes, report: &mut Report<'_>) -> Option<Parts> {
+    let mut builder = Builder { values, sizes, report };
+    let description = builder.description(name);
+    let legacy = builder.settings();
+    let stress = builder.stress(&legacy);
+    match Scene::new(description) {
+        Ok(scene) => Some((scene, legacy, stress)),
+        Err(errors) => {
+            model_error::report(&errors, &mut builder);
+            None
+        }
+    }
+}
+
+/// A number as messages show it.
+fn shown(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || (1e-4..1e15).contains(&size) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}

@@ -1,0 +1,109 @@
+use nboom_model::{BodyName, HingeLabel, ModelError};
+
+use super::builder::Builder;
+use super::values::plain;
+
+/// Says of each error of the scene which assignment of the deck is responsible.
+pub(crate) fn report(errors: &[ModelError], builder: &mut Builder<'_, '_, '_>) {
+    let starts = builder.first_segments();
+    for error in errors {
+        let (name, index) = responsible(error, &starts, builder);
+        let (found, expected) = phrases(error);
+        builder.error(plain(name), index, found, &expected);
+    }
+}
+
+impl Builder<'_, '_, '_> {
+    /// Number of the first segment of each appendage.
+    fn first_segments(&self) -> Vec<usize> {
+        let counts = (0..self.sizes.appendages).map(|k| self.values.real("NK", k) as usize);
+        counts
+            .scan(0, |next, count| {
+                let first = *next;
+                *next += count;
+                Some(first)
+            })
+            .collect()
+    }
+
+    fn initial_angle_name(&self) -> &'static str {
+        if self.values.real("IAB", 0) == 0.0 { "BETAIK" } else { "ALIK" }
+    }
+
+    fn initial_rate_name(&self) -> &'static str {
+        if self.values.real("IAB", 0) == 0.0 { "TAUIK" } else { "SIGIK" }
+    }
+
+    fn orientation_name(&self) -> &'static str {
+        if self.values.real("IXYZ", 0) == 0.0 { "FTSM" } else { "EMO" }
+    }
+}
+
+/// The symbol and the element in storage order.
+fn responsible(
+    error: &ModelError,
+    starts: &[usize],
+    builder: &Builder<'_, '_, '_>,
+) -> (&'static str, usize) {
+    let number = |label: HingeLabel| {
+        starts.get(label.appendage).copied().unwrap_or_default() + label.segment
+    };
+    match error {
+        ModelError::Mass { body: BodyName::MainBody, .. } => {
+            if builder.values.get("EMM", 0).is_none_or(|mass| mass > 0.0) {
+                ("HM", 0)
+            } else {
+                ("EMM", 0)
+            }
+        }
+        ModelError::Mass { body: BodyName::Segment(label), .. } => {
+            let i = number(*label);
+            if builder.values.get("EMIK", i).is_none_or(|mass| mass > 0.0) {
+                ("HIIK", 9 * i)
+            } else {
+                ("EMIK", i)
+            }
+        }
+        ModelError::NotFinite { body, quantity } => {
+            let i = if let BodyName::Segment(label) = body { number(*label) } else { 0 };
+            not_finite(quantity, i, builder)
+        }
+        ModelError::Order { label, .. } => ("NK", label.appendage),
+        ModelError::Axis { label, .. } | ModelError::MountRotation { label, .. } => {
+            ("FTSIK", 3 * label.appendage)
+        }
+        ModelError::Trigger { label, .. } => ("IREL", number(*label)),
+        ModelError::HeldRate { label, .. } => (builder.initial_rate_name(), number(*label)),
+        ModelError::NotUnit { quantity: "direction of gravity", .. } => ("GHAT", 0),
+        ModelError::NotUnit { .. } => (builder.orientation_name(), 0),
+        ModelError::ThrustTimes { .. } => ("TFIN", 0),
+        // The end of the run, and what later versions of the model may add about a whole scene.
+        _ => ("TF", 0),
+    }
+}
+
+/// Numbers of a deck are finite; these are overflows of what is computed from them.
+fn not_finite(quantity: &str, i: usize, builder: &Builder<'_, '_, '_>) -> (&'static str, usize) {
+    match quantity {
+        "initial position" => ("RHO", 0),
+        "initial velocity" => ("VBAR", 0),
+        "initial angular rate" => ("OMEG", 0),
+        "thrust" => ("FT", 0),
+        "hinge point" => ("ELIK", i),
+        "initial angle or rate" => (builder.initial_angle_name(), i),
+        _ => ("TF", 0),
+    }
+}
+
+/// What was found and what expected; the model's messages have both in this order.
+fn phrases(error: &ModelError) -> (String, String) {
+    let message = match error {
+        ModelError::Mass { defect, .. } => defect.to_string(),
+        other => other.to_string(),
+    };
+    let parts = message.strip_suffix(" expected").and_then(|text| text.split_once(" found, "));
+    match parts {
+        Some((found, expected)) => (found.to_owned(), expected.to_owned()),
+        None => (message, "finite numbers".to_owned()),
+    }
+}

@@ -1,0 +1,34 @@
+use super::builder::Builder;
+use super::shown;
+use super::values::plain;
+use crate::LegacySettings;
+
+impl Builder<'_, '_, '_> {
+    /// What steers the original's integrator and printer.
+    pub fn settings(&mut self) -> LegacySettings {
+        LegacySettings {
+            first_step: self.positive("HZO"),
+            upper_error: self.positive("EU1"),
+            lower_error: self.not_negative("EL1"),
+            min_step: self.not_negative("HMIN"),
+            max_step: self.positive("HMAX"),
+            max_steps: self.positive("LSTEP").map(|steps| steps as usize),
+            print_interval: self.positive("IAX").map(|steps| steps as usize),
+            stress_interval: self.not_negative("INSTR").unwrap_or(0.0) as usize,
+            no_plots: self.values.real("NOPLT", 0) == 1.0,
+        }
+    }
+
+    fn positive(&mut self, name: &'static str) -> Option<f64> {
+        self.not_negative(name).filter(|value| *value > 0.0)
+    }
+
+    fn not_negative(&mut self, name: &'static str) -> Option<f64> {
+        let value = self.values.get(name, 0)?;
+        if value < 0.0 {
+            self.error(plain(name), 0, shown(value), "none below zero");
+            return None;
+        }
+        Some(value)
+    }
+}

@@ -1,0 +1,91 @@
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use crate::Diagnostic;
+use crate::diagnostic::MOST_KEPT;
+
+/// How many errors of a deck the message shows.
+const MOST_SHOWN: usize = 50;
+
+/// Why a file is not a scene.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum InputError {
+    /// The file cannot be opened or read.
+    #[error("{}: the file cannot be read", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        #[source]
+        source: std::io::Error,
+    },
+    /// The path names a directory, a pipe or a device.
+    #[error("{}: found a directory or a device, expected a file", path.display())]
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The file's name does not say that it is a deck.
+    #[error("{}: found a name without the ending .nml, expected a deck NAME.nml", path.display())]
+    NotAScene {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is too long to be a deck.
+    #[error("{}: found more than {limit} bytes, expected a deck of at most that many", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The longest file that is read \[bytes\].
+        limit: u64,
+    },
+    /// The file contains a zero byte, so it is not text.
+    #[error("{}: found a zero byte at offset {offset}, expected text", path.display())]
+    Binary {
+        /// The file.
+        path: PathBuf,
+        /// Where, in bytes from 0.
+        offset: usize,
+    },
+    /// Everything that is wrong with a deck, in the order of its lines; reading stops at the
+    /// thousandth error.
+    #[error("{}", listing(.0))]
+    Deck(Vec<Diagnostic>),
+}
+
+/// The first errors, one to a line, and how many more there are.
+fn listing(diagnostics: &[Diagnostic]) -> String {
+    let shown = diagnostics.iter().take(MOST_SHOWN).map(Diagnostic::to_string);
+    let mut text = shown.collect::<Vec<_>>().join("\n");
+    let more = diagnostics.len().saturating_sub(MOST_SHOWN);
+    if more > 0 {
+        let at_least = if diagnostics.len() >= MOST_KEPT { "at least " } else { "" };
+        let _ = write!(text, "\nand {at_least}{more} more");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors(count: usize) -> String {
+        let diagnostic = |line| Diagnostic {
+            file: "a.nml".to_owned(),
+            line,
+            column: 2,
+            symbol: "EMM".to_owned(),
+            found: "a".to_owned(),
+            expected: "b".to_owned(),
+        };
+        InputError::Deck((1..=count).map(diagnostic).collect()).to_string()
+    }
+
+    #[test]
+    fn a_long_list_of_errors_is_cut() {
+        assert_eq!(errors(50).lines().count(), 50);
+        assert_eq!(errors(53).lines().last(), Some("and 3 more"));
+        assert_eq!(errors(MOST_KEPT).lines().last(), Some("and at least 950 more"));
+    }
+}

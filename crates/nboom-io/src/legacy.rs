@@ -1,0 +1,24 @@
+/// What a deck says to the original's integrator and printer (group &ROCK and flags), Table 16.1.
+///
+/// Nothing here changes a scene. `None`: not given (or zero, where zero cannot be meant).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LegacySettings {
+    /// `HZO`: first step of the `rkam` integrator \[T\], positive.
+    pub first_step: Option<f64>,
+    /// `EU1` or `EU`: halve the step above this difference of predictor and corrector, positive.
+    pub upper_error: Option<f64>,
+    /// `EL1` or `EL`: double the step below this difference, not negative.
+    pub lower_error: Option<f64>,
+    /// `HMIN`: smallest step \[T\], not negative.
+    pub min_step: Option<f64>,
+    /// `HMAX`: largest step \[T\], positive.
+    pub max_step: Option<f64>,
+    /// `LSTEP`: most steps, positive.
+    pub max_steps: Option<usize>,
+    /// `IAX`: steps from one printout to the next after the twentieth, positive.
+    pub print_interval: Option<usize>,
+    /// `INSTR`: printouts from one stress computation to the next; 0 for no stresses.
+    pub stress_interval: usize,
+    /// `NOPLT` = 1: no plots.
+    pub no_plots: bool,
+}

@@ -1,0 +1,91 @@
+//! The stress groups: when they are read, and what is checked in them.
+
+use super::{REPORT_DECK, errors, lines, read, replaced};
+
+fn changed(old: &str, new: &str) -> String {
+    assert_eq!(REPORT_DECK.matches(old).count(), 1, "{old}");
+    REPORT_DECK.replace(old, new)
+}
+
+fn without_groups() -> String {
+    let start = REPORT_DECK.find(" &DYNSTA").unwrap();
+    let end = REPORT_DECK.find(" &ROCK").unwrap();
+    format!("{}{}", &REPORT_DECK[..start], &REPORT_DECK[end..])
+}
+
+#[test]
+fn groups_and_flag_together_ask_for_stresses() {
+    assert!(read(REPORT_DECK).stress.is_some());
+    assert!(read(&changed("INSTR=3", "INSTR=1")).stress.is_some());
+
+    let flag_alone = read(&without_groups());
+    assert!(flag_alone.stress.is_none());
+    assert_eq!(flag_alone.warnings[0].symbol, "INSTR");
+
+    let groups_alone = read(&changed("INSTR=3", "INSTR=0"));
+    assert!(groups_alone.stress.is_none());
+    assert_eq!(groups_alone.warnings[0].symbol, "INSTR");
+    assert_eq!(groups_alone.warnings.len(), 3);
+
+    let neither = read(&without_groups().replace("INSTR=3", "INSTR=0"));
+    assert!(neither.stress.is_none() && neither.warnings.is_empty());
+}
+
+#[test]
+fn one_group_needs_the_other() {
+    let start = REPORT_DECK.find(" &DYNSTB").unwrap();
+    let end = REPORT_DECK.find(" &ROCK").unwrap();
+    let deck = format!("{}{}", &REPORT_DECK[..start], &REPORT_DECK[end..]);
+    assert_eq!(
+        lines(&errors(&deck)),
+        ["a.nml:46:2: &DYNSTA: found &DYNSTA alone, expected &DYNSTB after it"]
+    );
+}
+
+#[test]
+fn what_is_checked() {
+    let table = [
+        ("NSTA=1,3,2,1,", "NSTA=1,6,2,1,", "NSTA(2)", "6", "a number from 1 to 5"),
+        ("NSTA=1,3,2,1,", "NSTA=1,3,2,", "NSTA(4)", "nothing", "a number from 1 to 5"),
+        ("NVER(2,2)=3", "NVER(2,2)=2", "NVER(2,2)", "2", "a number from 3 to 6"),
+        ("NVER(2,2)=3,", "", "NVER(2,2)", "nothing", "a number from 3 to 6"),
+        ("R(1,1)=2.0,", "", "R(1,1)", "nothing", "a positive value"),
+        ("T1=.05", "T1=-.05", "T1(1,1)", "-0.05", "a positive value"),
+        ("E=4*30.0E6", "E=3*30.0E6", "E(4)", "nothing", "a positive value"),
+        ("CMN=4*.1", "CMN=4*.1,CMN(2)=0.0", "CMN(2)", "0", "a positive value"),
+        ("DELM(2,2)=.2", "DELM(2,2)=-.2", "DELM(2,2)", "-0.2", "none below zero"),
+        (
+            "S(2,2)=10.0",
+            "S(2,2)=25.0",
+            "S(2,2)",
+            "25 after 20",
+            "distances from the inboard hinge, outboard station first",
+        ),
+        ("DELC4=", "DELC5=", "DELC", "segment 5", "a segment from 1 to 4"),
+        ("DLI41=", "DLI46=", "DLI", "station 6", "a station from 1 to 5"),
+        ("DLI41=", "DLI51=", "DLI", "segment 5", "a segment from 1 to 4"),
+        (
+            "DLI41=20.0,3*0.0",
+            "DLI41=20.0,1.0,2*0.0",
+            "DLI41(2,1)",
+            "1 beside DLI41(1,2) of 0",
+            "a symmetric matrix",
+        ),
+        ("ICIR=0,1,0,1,", "ICIR=0,1,0,1,S(6,1)=0.0,", "S", "6", "a subscript from 1 to 5"),
+    ];
+    for (old, new, symbol, found, expected) in table {
+        let errors = errors(&changed(old, new));
+        assert_eq!(errors.len(), 1, "{new}: {errors:?}");
+        let error = &errors[0];
+        assert_eq!((&*error.symbol, &*error.found, &*error.expected), (symbol, found, expected));
+    }
+}
+
+#[test]
+fn spelling_is_checked_even_when_no_stresses_are_wanted() {
+    let deck = replaced(" &ROCK", " &DYNSTA\n BAD=1.0,\n &END\n &ROCK");
+    assert_eq!(
+        lines(&errors(&deck)),
+        ["a.nml:18:2: &DYNSTA: found `BAD`, expected a symbol of the deck"]
+    );
+}

@@ -1,0 +1,194 @@
+/// Highest degree of a polynomial.
+const DEGREE: usize = 7;
+
+/// Width below which an interval counts as a point, in parts of the whole.
+const RESOLUTION: f64 = 1e-14;
+
+/// A polynomial on [0, 1] by its Bernstein coefficients, between whose extremes it lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bernstein {
+    degree: usize,
+    coefficients: [f64; DEGREE + 1],
+}
+
+impl Bernstein {
+    /// The polynomial of degree 7 with these coefficients.
+    pub fn new(coefficients: [f64; DEGREE + 1]) -> Self {
+        Self { degree: DEGREE, coefficients }
+    }
+
+    /// Its coefficients; the first and last are its values at 0 and 1.
+    pub fn coefficients(&self) -> &[f64] {
+        &self.coefficients[..=self.degree]
+    }
+
+    /// The polynomial lowered by `level`.
+    pub fn minus(mut self, level: f64) -> Self {
+        self.coefficients.iter_mut().for_each(|c| *c -= level);
+        self
+    }
+
+    /// A bound on the distance from its value at 0, over [0, 1].
+    pub fn excursion(&self) -> f64 {
+        let start = self.coefficients[0];
+        self.coefficients().iter().map(|c| (c - start).abs()).fold(0.0, f64::max)
+    }
+
+    /// The polynomial divided by its variable, its value at 0 being taken for zero.
+    pub fn without_root_at_start(&self) -> Self {
+        let mut coefficients = [0.0; DEGREE + 1];
+        let degree = self.degree.max(1) - 1;
+        for (j, c) in coefficients[..=degree].iter_mut().enumerate() {
+            *c = self.coefficients[j + 1] * self.degree as f64 / (j + 1) as f64;
+        }
+        Self { degree, coefficients }
+    }
+
+    /// The first point of [0, 1] beyond which the polynomial, times `side`, is negative.
+    ///
+    /// Touching zero without going through is not a change of side.
+    pub fn leaves_side(&self, side: f64) -> Option<f64> {
+        let mut scaled = *self;
+        scaled.coefficients.iter_mut().for_each(|c| *c *= side);
+        scaled.first_negative(0.0, 1.0)
+    }
+
+    fn first_negative(&self, from: f64, to: f64) -> Option<f64> {
+        let c = self.coefficients();
+        if c.iter().all(|&c| c >= 0.0) {
+            return None;
+        }
+        if c[0] < 0.0 {
+            return Some(from);
+        }
+        if to - from < RESOLUTION {
+            return (c[self.degree] < 0.0).then_some(from);
+        }
+        let middle = 0.5 * (from + to);
+        let (left, right) = self.halves();
+        left.first_negative(from, middle).or_else(|| right.first_negative(middle, to))
+    }
+
+    /// The polynomial on the left and right half of its interval (de Casteljau).
+    fn halves(&self) -> (Self, Self) {
+        let (mut left, mut right) = (*self, *self);
+        let mut row = self.coefficients;
+        for level in 0..=self.degree {
+            left.coefficients[level] = row[0];
+            right.coefficients[self.degree - level] = row[self.degree - level];
+            for j in 0..self.degree - level {
+                row[j] = 0.5 * (row[j] + row[j + 1]);
+            }
+        }
+        (left, right)
+    }
+}
+
+/// The polynomial of degree 7 through values at eight fixed points of [0, 1].
+#[derive(Clone, Debug)]
+pub struct Interpolation {
+    from_values: [[f64; DEGREE + 1]; DEGREE + 1],
+}
+
+impl Interpolation {
+    /// How many values are needed.
+    pub const POINTS: usize = DEGREE + 1;
+
+    /// Prepares the interpolation.
+    pub fn new() -> Self {
+        let basis = std::array::from_fn(|i| basis_at(Self::point(i)));
+        Self { from_values: inverse(basis) }
+    }
+
+    /// Where value `i` belongs: Chebyshev points with both ends.
+    pub fn point(i: usize) -> f64 {
+        0.5 - 0.5 * (std::f64::consts::PI * i as f64 / DEGREE as f64).cos()
+    }
+
+    /// The polynomial with these values at the points.
+    pub fn through(&self, values: &[f64; DEGREE + 1]) -> Bernstein {
+        let dot = |row: &[f64; DEGREE + 1]| row.iter().zip(values).map(|(a, v)| a * v).sum();
+        Bernstein::new(std::array::from_fn(|j| dot(&self.from_values[j])))
+    }
+}
+
+impl Default for Interpolation {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn basis_at(x: f64) -> [f64; DEGREE + 1] {
+    let mut values = [0.0; DEGREE + 1];
+    values[0] = 1.0;
+    for degree in 1..=DEGREE {
+        for j in (0..=degree).rev() {
+            let from_left = if j > 0 { values[j - 1] * x } else { 0.0 };
+            values[j] = values[j] * (1.0 - x) + from_left;
+        }
+    }
+    values
+}
+
+/// Gauss-Jordan; the basis at distinct points is regular and totally positive, so pivots in
+/// order are safe.
+fn inverse(mut m: [[f64; DEGREE + 1]; DEGREE + 1]) -> [[f64; DEGREE + 1]; DEGREE + 1] {
+    let mut inverse = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
+    for p in 0..=DEGREE {
+        let pivot = m[p][p];
+        for j in 0..=DEGREE {
+            m[p][j] /= pivot;
+            inverse[p][j] /= pivot;
+        }
+        let (pivot_row, inverse_row) = (m[p], inverse[p]);
+        for i in (0..=DEGREE).filter(|&i| i != p) {
+            let factor = m[i][p];
+            for j in 0..=DEGREE {
+                m[i][j] -= factor * pivot_row[j];
+                inverse[i][j] -= factor * inverse_row[j];
+            }
+        }
+    }
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn through(f: impl Fn(f64) -> f64) -> Bernstein {
+        let values = std::array::from_fn(|i| f(Interpolation::point(i)));
+        Interpolation::new().through(&values)
+    }
+
+    #[test]
+    fn a_double_crossing_inside_is_seen_at_its_first_root() {
+        let dip = through(|x| (x - 0.5) * (x - 0.5001));
+        let root = dip.leaves_side(1.0).expect("it dips below zero");
+        assert!((root - 0.5).abs() < 1e-10, "{root}");
+    }
+
+    #[test]
+    fn touching_is_not_crossing() {
+        let exact = Bernstein { degree: 2, coefficients: [0.25, -0.25, 0.25, 0., 0., 0., 0., 0.] };
+        assert_eq!(exact.leaves_side(1.0), None);
+        assert_eq!(through(|x| (x - 0.3).powi(2) + 1e-9).leaves_side(1.0), None);
+    }
+
+    #[test]
+    fn a_root_at_the_start_can_be_divided_out() {
+        let p = through(|x| x * (x - 0.25));
+        assert!(p.leaves_side(1.0).is_some_and(|root| root < 1e-12));
+        let quotient = p.without_root_at_start();
+        let root = quotient.leaves_side(-1.0).expect("it comes back");
+        assert!((root - 0.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn first_of_seven_roots() {
+        let roots = [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95];
+        let p = through(|x| roots.iter().map(|r| x - r).product());
+        let side = p.coefficients()[0].signum();
+        assert!((p.leaves_side(side).expect("seven roots") - 0.05).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,23 @@
+/// Why no step could be taken.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The step that meets the tolerance is too short to change the time.
+    #[error("the step size fell to {step:e} at time {time}")]
+    Underflow {
+        /// Time of the step's start.
+        time: f64,
+        /// The step size.
+        step: f64,
+        /// The variable with the largest error.
+        variable: usize,
+    },
+    /// The derivative is infinite or not a number.
+    #[error("the derivative is not finite at time {time}")]
+    NotFinite {
+        /// Time of the step's start.
+        time: f64,
+        /// The first variable concerned.
+        variable: usize,
+    },
+}

@@ -1,0 +1,6 @@
+//! The recursive formulation against reference data and identities.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod forward_dynamics;
