@@ -62,7 +62,7 @@ fn simulate_into_files(
     watch.progress.finish();
     let (summary, failed) = match result {
         Ok(summary) => (summary, None),
-        Err(failure) => (failure.summary, Some(failure.error)),
+        Err(failure) => (*failure.summary, Some(failure.error)),
     };
     let error = failed.as_ref().map(|error| with_causes(error));
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };

@@ -59,6 +59,12 @@ impl<R: Real> BaseFactor<R> {
     }
 }
 
+impl BaseFactor<f64> {
+    pub fn is_positive_definite(&self) -> bool {
+        self.inverse_pivots.iter().all(|&p| p > 0.0 && p.is_finite())
+    }
+}
+
 /// The lower triangle of the 6×6 matrix, moments first.
 #[inline]
 fn to_matrix<R: Real>(inertia: &ArticulatedInertia<R>) -> [[R; 6]; 6] {

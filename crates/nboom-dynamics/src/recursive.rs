@@ -183,3 +183,15 @@ impl<R: Real> Recursive<R> {
         main
     }
 }
+
+impl Recursive<f64> {
+    /// The first free hinge (numbered as in the scene; `Some(None)` is the main body) about
+    /// which nothing has inertia at the angles `beta` of the free hinges.
+    pub fn singular_hinge(&mut self, beta: &[f64]) -> Option<Option<usize>> {
+        self.factor(beta);
+        let regular = |inverse_pivot: f64| inverse_pivot > 0.0 && inverse_pivot.is_finite();
+        let singular = self.hinges.iter().rposition(|hinge| !regular(hinge.inverse_pivot));
+        let of_hinge = singular.map(|j| Some(self.free[j]));
+        of_hinge.or_else(|| (!self.base.is_positive_definite()).then_some(None))
+    }
+}

@@ -103,14 +103,14 @@ fn push_bounded(list: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
     }
 }
 
-/// A piece of the input in quotes, cut short when it is long.
+/// A piece of the input in quotes, cut short when it is long; control characters, which would
+/// reach the terminal, are replaced.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 40;
-    let mut shown: String = text.chars().take(LONGEST).collect();
-    if shown.len() < text.len() {
-        shown.push_str("...");
-    }
-    format!("`{shown}`")
+    let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let shown: String = text.chars().take(LONGEST).map(visible).collect();
+    let dots = if text.chars().nth(LONGEST).is_some() { "..." } else { "" };
+    format!("`{shown}{dots}`")
 }
 
 #[cfg(test)]
@@ -127,6 +127,7 @@ mod tests {
     #[test]
     fn long_text_is_cut_between_characters() {
         assert_eq!(quoted("ab"), "`ab`");
+        assert_eq!(quoted("\u{1b}[2J"), "`\u{fffd}[2J`");
         assert_eq!(quoted(&"Ø".repeat(50)), format!("`{}...`", "Ø".repeat(40)));
     }
 

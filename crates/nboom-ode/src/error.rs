@@ -1,6 +1,5 @@
 /// Why no step could be taken.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
 pub enum StepError {
     /// The step that meets the tolerance is too short to change the time.
     #[error("the step size fell to {step:e} at time {time}")]

@@ -105,7 +105,7 @@ impl<'t> Reader<'t, '_, '_> {
                 Some(group)
             }
             None => {
-                let found = quoted(mark.text);
+                let found = quoted(&format!("&{}", mark.text));
                 let known = Group::ALL.map(Group::name).join(", ");
                 self.report.error(mark.at, DECK, found, format!("one of the groups {known}"));
                 None

@@ -137,7 +137,7 @@ fn one_wrong_group_mark() {
         (
             "&NXPUT\n",
             "&NXPUTS\n",
-            "4:2: deck: found `NXPUTS`, expected one of the groups &DIM, &NXPUT, &DYNSTA, &DYNSTB, &ROCK",
+            "4:2: deck: found `&NXPUTS`, expected one of the groups &DIM, &NXPUT, &DYNSTA, &DYNSTB, &ROCK",
         ),
         (" &END\n &NXPUT", " &NXPUT", "3:2: &DIM: found `&NXPUT`, expected &END before it"),
         (

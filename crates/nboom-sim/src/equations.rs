@@ -1,0 +1,199 @@
+use nboom_dynamics::{Accelerations, Invariants, Motion, Recursive};
+use nboom_elements::HingeLaw;
+use nboom_model::{Mode, Scene, Thrust};
+use nboom_ode::System;
+use nboom_scalar::{Quaternion, Vec3};
+
+use crate::layout::Layout;
+use crate::state::{MassCenter, State};
+
+/// The differential equations of one mode, and the way from their variables to a [`State`].
+pub(crate) struct Equations {
+    pub dynamics: Recursive<f64>,
+    pub layout: Layout,
+    /// The state in which the mode began; held hinges keep its angles.
+    origin: State,
+    thrust: Option<Thrust>,
+    gravity: Vec3<f64>,
+    total_mass: f64,
+    laws: Vec<HingeLaw<f64>>,
+    accelerations: Accelerations<f64>,
+}
+
+impl Equations {
+    pub fn new(scene: &Scene, state: &State) -> Self {
+        let laws: Vec<HingeLaw<f64>> = scene
+            .bodies
+            .iter()
+            .map(|body| HingeLaw::new(&body.hinge.spring, &body.hinge.dashpot))
+            .collect();
+        Self {
+            dynamics: Recursive::new(scene),
+            layout: Layout { free: 0, thrust: false, dashpots: false },
+            origin: state.clone(),
+            thrust: None,
+            gravity: scene.gravity.map_or(Vec3::zero(), |g| g.up * -g.acceleration),
+            total_mass: scene.total_mass(),
+            laws,
+            accelerations: Accelerations::for_hinges(0),
+        }
+    }
+
+    /// Goes on from `state` in `mode`; writes the variables to `y`.
+    pub fn enter(&mut self, scene: &Scene, mode: &Mode, state: &State, y: &mut Vec<f64>) {
+        self.dynamics.set_mode(mode, &state.beta);
+        self.origin.clone_from(state);
+        self.thrust = scene.thrust.filter(|_| mode.thrust);
+        let free = self.dynamics.free_hinges();
+        self.layout = Layout {
+            free: free.len(),
+            thrust: self.thrust.is_some(),
+            dashpots: free.iter().any(|&i| self.laws[i].depends_on_rate()),
+        };
+        self.accelerations = Accelerations::for_hinges(free.len());
+        y.clear();
+        let q = state.attitude;
+        y.push(q.scalar);
+        y.extend(q.vector.to_array());
+        y.extend(state.omega_body.to_array());
+        y.extend(free.iter().map(|&i| state.beta[i]));
+        y.extend(free.iter().map(|&i| state.tau[i]));
+        y.resize(self.layout.len(), 0.0);
+    }
+
+    /// The state that the variables `y` at time `t` stand for.
+    pub fn read(&self, t: f64, y: &[f64], state: &mut State) {
+        let layout = &self.layout;
+        state.time = t;
+        state.attitude = attitude(y).normalized();
+        state.omega_body = omega(y);
+        state.beta.clone_from(&self.origin.beta);
+        state.tau.fill(0.0);
+        for (j, &i) in self.dynamics.free_hinges().iter().enumerate() {
+            state.beta[i] = y[layout.beta()][j];
+            state.tau[i] = y[layout.tau()][j];
+        }
+        state.center = self.center(t, y);
+        state.work = self.origin.work;
+        if let [work] = y[layout.dashpot_work()] {
+            state.work.dashpots += work;
+        }
+        if let [work, mx, my, mz] = y[layout.thrust_work()] {
+            state.work.thrust += work;
+            state.work.thrust_angular_impulse += Vec3::new(mx, my, mz);
+        }
+        if let [_, _, _, vx, vy, vz] = y[layout.thrust_motion()] {
+            state.work.thrust_impulse += Vec3::new(vx, vy, vz) * self.total_mass;
+        }
+    }
+
+    /// The system mass centre: free fall since the mode began, and what the thrust added.
+    fn center(&self, t: f64, y: &[f64]) -> MassCenter {
+        let mut center = self.origin.center.after(t - self.origin.time, self.gravity);
+        if let [x, y, z, vx, vy, vz] = y[self.layout.thrust_motion()] {
+            center.position += Vec3::new(x, y, z);
+            center.velocity += Vec3::new(vx, vy, vz);
+        }
+        center
+    }
+
+    /// The free hinges' share of a vector over all hinges.
+    pub fn of_free(&self, all: &[f64]) -> Vec<f64> {
+        self.dynamics.free_hinges().iter().map(|&i| all[i]).collect()
+    }
+
+    /// Energy and momenta in main-body axes.
+    pub fn invariants(&mut self, state: &State) -> Invariants<f64> {
+        let (beta, tau) = (self.of_free(&state.beta), self.of_free(&state.tau));
+        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
+        let to_body = state.attitude.to_matrix().transpose();
+        self.dynamics.invariants(&motion, to_body * state.center.velocity)
+    }
+
+    /// Accelerations without gravity in the mode that was entered.
+    pub fn accelerations(&mut self, state: &State) -> &Accelerations<f64> {
+        let (beta, tau) = (self.of_free(&state.beta), self.of_free(&state.tau));
+        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
+        self.dynamics.accelerations(&motion, &mut self.accelerations);
+        &self.accelerations
+    }
+
+    /// Length of the kick-off spring of hinge `i` and its rate; zero without one.
+    pub fn spring_length(&mut self, state: &State, i: usize) -> (f64, f64) {
+        let (beta, tau) = (self.of_free(&state.beta), self.of_free(&state.tau));
+        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
+        let Some(found) = self.dynamics.spring_length(&motion, i) else { return (0.0, 0.0) };
+        let length = found.squared.sqrt();
+        (length, found.squared_rate / (length + length))
+    }
+
+    /// The acceleration of the mass centre, inertial axes.
+    pub fn center_acceleration(&self, state: &State) -> Vec3<f64> {
+        let thrust = self.thrust.map_or(Vec3::zero(), |thrust| {
+            state.attitude.to_matrix() * thrust.force * (1.0 / self.total_mass)
+        });
+        self.gravity + thrust
+    }
+
+    /// The spring and dashpot law of each hinge.
+    pub fn laws(&self) -> &[HingeLaw<f64>] {
+        &self.laws
+    }
+
+    /// Uniform gravity as an acceleration, inertial axes.
+    pub fn gravity(&self) -> Vec3<f64> {
+        self.gravity
+    }
+
+    fn thrust_rates(&mut self, t: f64, y: &[f64], thrust: &Thrust, dy: &mut [f64]) {
+        let layout = self.layout;
+        let to_inertial = attitude(y).normalized().to_matrix();
+        let force = to_inertial * thrust.force;
+        let velocity = self.center(t, y).velocity;
+        let motion = motion(&layout, y);
+        let found = self.dynamics.invariants(&motion, to_inertial.transpose_mul(velocity));
+        let at_point = found.origin_velocity + motion.omega_body.cross(thrust.point);
+        let moment = to_inertial * (thrust.point - found.mass_center).cross(thrust.force);
+        let (displacement, acceleration) = (layout.thrust_motion(), force * (1.0 / self.total_mass));
+        dy[displacement.start..][..3].copy_from_slice(&y[displacement.start + 3..][..3]);
+        dy[displacement.start + 3..][..3].copy_from_slice(&acceleration.to_array());
+        let work = layout.thrust_work().start;
+        dy[work] = thrust.force.dot(at_point);
+        dy[work + 1..][..3].copy_from_slice(&moment.to_array());
+    }
+}
+
+impl System for Equations {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        let layout = self.layout;
+        let motion = motion(&layout, y);
+        self.dynamics.accelerations(&motion, &mut self.accelerations);
+        let rate = attitude(y).rate(motion.omega_body);
+        dy[0] = rate.scalar;
+        dy[1..4].copy_from_slice(&rate.vector.to_array());
+        dy[Layout::OMEGA].copy_from_slice(&self.accelerations.omega_dot_body.to_array());
+        dy[layout.beta()].copy_from_slice(motion.tau);
+        dy[layout.tau()].copy_from_slice(&self.accelerations.tau_dot);
+        if let [work] = &mut dy[layout.dashpot_work()] {
+            let free = self.dynamics.free_hinges().iter();
+            let power = free.zip(motion.tau).map(|(&i, &tau)| self.laws[i].rate_torque(tau) * tau);
+            *work = power.sum();
+        }
+        if let Some(thrust) = self.thrust {
+            self.thrust_rates(t, y, &thrust, dy);
+        }
+    }
+}
+
+/// The rates and free hinges among the variables.
+pub(crate) fn motion<'a>(layout: &Layout, y: &'a [f64]) -> Motion<'a, f64> {
+    Motion { omega_body: omega(y), beta: &y[layout.beta()], tau: &y[layout.tau()] }
+}
+
+fn attitude(y: &[f64]) -> Quaternion<f64> {
+    Quaternion { scalar: y[0], vector: Vec3::new(y[1], y[2], y[3]) }
+}
+
+fn omega(y: &[f64]) -> Vec3<f64> {
+    Vec3::new(y[4], y[5], y[6])
+}

@@ -1,0 +1,102 @@
+use std::io;
+
+use nboom_model::HingeLabel;
+use nboom_ode::StepError;
+
+use crate::Summary;
+
+/// Why a run could not be finished.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimError {
+    /// No step meets the tolerance.
+    #[error("at time {time}, {}: the step size fell to {step:e}; the motion may be too stiff or the tolerance too small", place(.hinge))]
+    StepUnderflow {
+        /// Time reached.
+        time: f64,
+        /// The step size.
+        step: f64,
+        /// The hinge with the largest error; `None` is the main body.
+        hinge: Option<HingeLabel>,
+    },
+    /// An acceleration is infinite or not a number.
+    #[error("at time {time}, {}: the acceleration is not finite; the mass matrix may be singular there", place(.hinge))]
+    NotFinite {
+        /// Time reached.
+        time: f64,
+        /// The first hinge concerned; `None` is the main body.
+        hinge: Option<HingeLabel>,
+    },
+    /// A body has no inertia about a hinge that is free.
+    #[error("at time {time}, {}: nothing has inertia about this hinge, so the mass matrix is singular", place(.hinge))]
+    SingularMassMatrix {
+        /// Time reached.
+        time: f64,
+        /// The hinge; `None` is the main body.
+        hinge: Option<HingeLabel>,
+    },
+    /// No impulse locks these hinges.
+    #[error("at time {time}, {}: no impulse locks this hinge; the mass matrix is singular", place(.hinge))]
+    LockUp {
+        /// Time of the lock-up.
+        time: f64,
+        /// The first hinge that locks.
+        hinge: Option<HingeLabel>,
+    },
+    /// The allowed number of steps is used up.
+    #[error("at time {time}: {steps} steps are used up")]
+    TooManySteps {
+        /// Time reached.
+        time: f64,
+        /// The allowed number.
+        steps: usize,
+    },
+    /// Events follow one another without the time getting on.
+    #[error("at time {time}, {}: {events} events within {within:e} time units; a spring at its limit length may chatter", place(.hinge))]
+    Chatter {
+        /// Time reached.
+        time: f64,
+        /// The hinge of the last event.
+        hinge: Option<HingeLabel>,
+        /// How many events.
+        events: usize,
+        /// The time they took.
+        within: f64,
+    },
+    /// The recorder could not keep something.
+    #[error("at time {time}: {source}")]
+    Record {
+        /// Time reached.
+        time: f64,
+        /// Why not.
+        source: io::Error,
+    },
+}
+
+impl SimError {
+    pub(crate) fn from_step(error: StepError, hinge_of: impl Fn(usize) -> Option<HingeLabel>) -> Self {
+        match error {
+            StepError::Underflow { time, step, variable } => {
+                Self::StepUnderflow { time, step, hinge: hinge_of(variable) }
+            }
+            StepError::NotFinite { time, variable } => {
+                Self::NotFinite { time, hinge: hinge_of(variable) }
+            }
+        }
+    }
+}
+
+fn place(hinge: &Option<HingeLabel>) -> String {
+    hinge.map_or_else(|| "main body".to_owned(), |label| format!("hinge {label}"))
+}
+
+/// A run that ended early.
+#[derive(Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct Failure {
+    /// Why.
+    #[source]
+    pub error: SimError,
+    /// How far it came.
+    pub summary: Box<Summary>,
+}

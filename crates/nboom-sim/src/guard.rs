@@ -1,0 +1,259 @@
+use nboom_model::{HingeState, Mode, Release, Scene};
+use nboom_ode::{Bernstein, Dop853, Interpolation};
+
+use crate::equations::{Equations, motion};
+use crate::state::State;
+
+/// A quantity whose change of sign is an event.
+#[derive(Clone, Debug)]
+pub(crate) struct Guard {
+    pub kind: GuardKind,
+    side: Side,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum GuardKind {
+    /// β of the hinge less its lock angle.
+    Lock { hinge: usize },
+    /// β of `trigger` less the angle at which it releases `hinge`.
+    Trigger { hinge: usize, trigger: usize },
+    /// |x̄| of the hinge's kick-off spring less its limit length.
+    KickOff { hinge: usize },
+}
+
+/// On which side of zero a guard is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Side {
+    /// It has this sign.
+    Known(f64),
+    /// It is zero and takes this sign at once; without a sign, that of its first motion.
+    Leaving(Option<f64>),
+}
+
+impl Guard {
+    /// Whether it leaves its side within `duration` before or after the reading.
+    pub fn is_passing(&self, reading: Reading, duration: f64) -> bool {
+        match self.side {
+            Side::Known(sign) => {
+                reading.rate * sign < 0.0 && reading.value.abs() <= duration * reading.rate.abs()
+            }
+            Side::Leaving(_) => false,
+        }
+    }
+}
+
+/// What a guard is at one state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reading {
+    pub value: f64,
+    pub rate: f64,
+}
+
+/// The largest hinge motion over which a spring's length is represented by one polynomial.
+const PIECE: f64 = 0.5;
+
+/// Share of the largest coefficient below which a first rate counts as zero.
+const AT_REST: f64 = 1e-13;
+
+/// The guards of one mode.
+pub(crate) struct Guards {
+    pub list: Vec<Guard>,
+    interpolation: Interpolation,
+}
+
+impl Guards {
+    pub fn new() -> Self {
+        Self { list: Vec::new(), interpolation: Interpolation::new() }
+    }
+
+    /// Sets the guards of `mode` at `state`. `lock_sides` has the sign of β − β_lock when each
+    /// hinge became free, zero for one that was on its lock angle and has not left it;
+    /// `toggled` names the hinges whose kick-off spring is at its limit length just now.
+    pub fn set(
+        &mut self,
+        scene: &Scene,
+        mode: &Mode,
+        equations: &Equations,
+        state: &State,
+        lock_sides: &[f64],
+        toggled: &[usize],
+    ) {
+        self.list.clear();
+        for (i, body) in scene.bodies.iter().enumerate() {
+            if mode.is_free(i) && body.hinge.lock_angle.is_some() {
+                let side = match lock_sides[i] {
+                    0.0 => Side::Leaving(None),
+                    sign => Side::Known(sign),
+                };
+                self.list.push(Guard { kind: GuardKind::Lock { hinge: i }, side });
+            }
+            if mode.hinges[i] == HingeState::Unreleased {
+                if let Release::Angle { hinge: trigger, angle } = body.hinge.release {
+                    if mode.is_free(trigger) {
+                        let side = Side::Known((state.beta[trigger] - angle).signum());
+                        let kind = GuardKind::Trigger { hinge: i, trigger };
+                        self.list.push(Guard { kind, side });
+                    }
+                }
+            }
+            if body.hinge.kick_off.is_some() && !equations.dynamics.spring_reach(i).is_empty() {
+                let sign = if mode.kick_off[i] { -1.0 } else { 1.0 };
+                let just = toggled.contains(&i);
+                let side = if just { Side::Leaving(Some(sign)) } else { Side::Known(sign) };
+                self.list.push(Guard { kind: GuardKind::KickOff { hinge: i }, side });
+            }
+        }
+    }
+
+    /// The guard that first changes sign within the step that dense output was prepared for,
+    /// and at which fraction of it.
+    pub fn first_change(
+        &self,
+        scene: &Scene,
+        equations: &mut Equations,
+        stepper: &Dop853,
+    ) -> Option<(GuardKind, f64)> {
+        let mut first: Option<(GuardKind, f64)> = None;
+        for guard in &self.list {
+            let change = match guard.kind {
+                GuardKind::KickOff { hinge } => {
+                    self.spring_change(scene, equations, stepper, hinge, guard.side)
+                }
+                _ => guard.side.change(&angle_polynomial(guard.kind, scene, equations, stepper)),
+            };
+            if let Some(fraction) = change.filter(|&f| first.is_none_or(|(_, g)| f < g)) {
+                first = Some((guard.kind, fraction));
+            }
+        }
+        first
+    }
+
+    /// Notes on which side of zero each guard that had been leaving it is at `state`.
+    pub fn settle(&mut self, scene: &Scene, equations: &mut Equations, state: &State) {
+        for guard in &mut self.list {
+            if let Side::Leaving(_) = guard.side {
+                let value = read(guard.kind, scene, equations, state).value;
+                if value != 0.0 {
+                    guard.side = Side::Known(value.signum());
+                }
+            }
+        }
+    }
+
+    /// The side that a lock guard of `hinge` is known to be on.
+    pub fn lock_side(&self, hinge: usize) -> Option<f64> {
+        self.list.iter().find(|guard| guard.kind == GuardKind::Lock { hinge }).and_then(|guard| {
+            match guard.side {
+                Side::Known(sign) => Some(sign),
+                Side::Leaving(_) => None,
+            }
+        })
+    }
+
+    /// Follows a spring's length in pieces, each so short that a polynomial represents it.
+    fn spring_change(
+        &self,
+        scene: &Scene,
+        equations: &mut Equations,
+        stepper: &Dop853,
+        hinge: usize,
+        side: Side,
+    ) -> Option<f64> {
+        let limit = scene.bodies[hinge].hinge.kick_off?.limit_length;
+        let layout = equations.layout;
+        let mut turned = 0.0;
+        let mut displaced = 0.0;
+        for (j, reach) in equations.dynamics.spring_reach(hinge) {
+            let excursion = stepper.polynomial(layout.beta().start + j).excursion();
+            turned += excursion;
+            displaced += excursion * reach;
+        }
+        let mut length_squared = [0.0];
+        let start = motion(&layout, stepper.state()).beta;
+        equations.dynamics.spring_lengths_squared(start, &[hinge], &mut length_squared);
+        let clearance = (length_squared[0].sqrt() - limit).abs();
+        if matches!(side, Side::Known(_)) && clearance > displaced {
+            return None;
+        }
+        let pieces = (turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
+        let mut variables = vec![0.0; layout.len()];
+        let mut side = side;
+        (0..pieces).find_map(|piece| {
+            let values = std::array::from_fn(|i| {
+                let fraction = (piece as f64 + Interpolation::point(i)) / pieces as f64;
+                stepper.interpolate(fraction, &mut variables);
+                let beta = motion(&layout, &variables).beta;
+                equations.dynamics.spring_lengths_squared(beta, &[hinge], &mut length_squared);
+                length_squared[0] - limit * limit
+            });
+            let change = side.change(&self.interpolation.through(&values));
+            if let Side::Leaving(_) = side {
+                side = Side::Known(values[Interpolation::POINTS - 1].signum());
+            }
+            change.map(|within| (piece as f64 + within) / pieces as f64)
+        })
+    }
+}
+
+impl Side {
+    /// Where on [0, 1] a guard that starts on this side leaves it.
+    fn change(self, polynomial: &Bernstein) -> Option<f64> {
+        match self {
+            Self::Known(sign) => polynomial.leaves_side(sign),
+            Self::Leaving(Some(sign)) => polynomial.without_root_at_start().leaves_side(sign),
+            Self::Leaving(None) => {
+                let mut moved = polynomial.without_root_at_start();
+                let largest = moved.coefficients().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+                if moved.coefficients()[0].abs() <= AT_REST * largest {
+                    moved = moved.without_root_at_start();
+                }
+                moved.leaves_side(moved.coefficients()[0].signum())
+            }
+        }
+    }
+}
+
+/// Value and rate of a guard at `state`.
+pub(crate) fn read(
+    kind: GuardKind,
+    scene: &Scene,
+    equations: &mut Equations,
+    state: &State,
+) -> Reading {
+    match kind {
+        GuardKind::KickOff { hinge } => {
+            let (length, rate) = equations.spring_length(state, hinge);
+            let limit = scene.bodies[hinge].hinge.kick_off.map_or(0.0, |k| k.limit_length);
+            Reading { value: length - limit, rate }
+        }
+        _ => {
+            let (hinge, angle) = watched(kind, scene);
+            Reading { value: state.beta[hinge] - angle, rate: state.tau[hinge] }
+        }
+    }
+}
+
+/// The hinge whose angle a lock or trigger guard watches, and the angle it waits for.
+fn watched(kind: GuardKind, scene: &Scene) -> (usize, f64) {
+    match kind {
+        GuardKind::Lock { hinge } | GuardKind::KickOff { hinge } => {
+            (hinge, scene.bodies[hinge].hinge.lock_angle.unwrap_or(f64::INFINITY))
+        }
+        GuardKind::Trigger { hinge, trigger } => match scene.bodies[hinge].hinge.release {
+            Release::Angle { angle, .. } => (trigger, angle),
+            _ => (trigger, f64::INFINITY),
+        },
+    }
+}
+
+fn angle_polynomial(
+    kind: GuardKind,
+    scene: &Scene,
+    equations: &Equations,
+    stepper: &Dop853,
+) -> Bernstein {
+    let (hinge, angle) = watched(kind, scene);
+    let position = equations.dynamics.free_hinges().binary_search(&hinge);
+    let position = position.expect("guards watch only free hinges");
+    stepper.polynomial(equations.layout.beta().start + position).minus(angle)
+}

@@ -1,0 +1,185 @@
+use nboom_model::{HingeState, Mode, Release, Scene};
+
+use crate::equations::Equations;
+use crate::error::SimError;
+use crate::guard::{GuardKind, Guards, read};
+use crate::ledger::totals;
+use crate::record::{Event, EventKind, Totals};
+use crate::state::State;
+
+/// Crossings within this many time units of each other are one instant.
+pub(crate) const ONE_INSTANT: f64 = 1e-11;
+
+/// Angles closer than this \[rad\] are the same when a lock angle serves as a release angle.
+const SAME_ANGLE: f64 = 1e-12;
+
+/// What has changed sign in an instant.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Arrivals {
+    locks: Vec<usize>,
+    triggered: Vec<usize>,
+    springs: Vec<usize>,
+}
+
+impl Arrivals {
+    /// The guards at zero: the one that ended the step, and those that reach zero within the
+    /// same instant.
+    pub fn find(
+        scene: &Scene,
+        guards: &Guards,
+        equations: &mut Equations,
+        state: &State,
+        located: Option<GuardKind>,
+    ) -> Self {
+        let mut arrivals = Self::default();
+        for guard in &guards.list {
+            let arrived = located == Some(guard.kind)
+                || guard.is_passing(read(guard.kind, scene, equations, state), ONE_INSTANT);
+            match guard.kind {
+                _ if !arrived => {}
+                GuardKind::Lock { hinge } => arrivals.locks.push(hinge),
+                GuardKind::Trigger { hinge, .. } => arrivals.triggered.push(hinge),
+                GuardKind::KickOff { hinge } => arrivals.springs.push(hinge),
+            }
+        }
+        arrivals
+    }
+
+    /// What the initial time itself brings: releases by an angle that holds already.
+    pub fn at_start(scene: &Scene) -> Self {
+        let holds = |i: &usize| match scene.bodies[*i].hinge.release {
+            Release::Angle { hinge, angle } => {
+                (scene.bodies[hinge].hinge.start.angle - angle).abs() <= SAME_ANGLE
+            }
+            _ => false,
+        };
+        let triggered = (0..scene.bodies.len()).filter(holds).collect();
+        Self { triggered, ..Self::default() }
+    }
+}
+
+/// The result of an instant: events in the order in which they are reported, and the hinges
+/// whose kick-off spring has just passed its limit length.
+pub(crate) struct Outcome {
+    pub events: Vec<Event>,
+    pub toggled: Vec<usize>,
+}
+
+/// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then springs
+/// and thrust. `lock_sides` is kept for the hinges that become free. `equations` are in the
+/// mode before and are left there.
+pub(crate) fn pass(
+    scene: &Scene,
+    equations: &mut Equations,
+    arrivals: &Arrivals,
+    state: &mut State,
+    mode: &mut Mode,
+    lock_sides: &mut [f64],
+) -> Result<Outcome, SimError> {
+    let before = totals(state, &equations.invariants(state));
+    let mut events = Vec::new();
+    let impulses = lock(scene, equations, &arrivals.locks, state, mode)?;
+    let after = totals(state, &equations.invariants(state));
+    let time = state.time;
+    let event = |kind, hinge, impulse, before: Totals| Event {
+        time,
+        kind,
+        hinge,
+        impulse,
+        before,
+        after,
+    };
+    for (&hinge, impulse) in arrivals.locks.iter().zip(impulses) {
+        events.push(event(EventKind::LockUp, Some(hinge), Some(impulse), before));
+    }
+    for i in released(scene, mode, arrivals, time) {
+        mode.hinges[i] = HingeState::Free;
+        let lock_angle = scene.bodies[i].hinge.lock_angle;
+        let from_lock = lock_angle.map_or(0.0, |angle| state.beta[i] - angle);
+        lock_sides[i] = if from_lock == 0.0 { 0.0 } else { from_lock.signum() };
+        events.push(event(EventKind::Release, Some(i), None, after));
+    }
+    for &i in &arrivals.springs {
+        mode.kick_off[i] = !mode.kick_off[i];
+        let acts = mode.kick_off[i];
+        let kind = if acts { EventKind::KickOffEngage } else { EventKind::KickOffDisengage };
+        events.push(event(kind, Some(i), None, after));
+    }
+    if let Some(thrust) = thrust_change(scene, mode, time) {
+        mode.thrust = thrust;
+        let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
+        events.push(event(kind, None, None, after));
+    }
+    Ok(Outcome { events, toggled: arrivals.springs.clone() })
+}
+
+/// Locks hinges with the exact change of all velocities; returns the impulses.
+fn lock(
+    scene: &Scene,
+    equations: &mut Equations,
+    locks: &[usize],
+    state: &mut State,
+    mode: &mut Mode,
+) -> Result<Vec<f64>, SimError> {
+    let Some(&first) = locks.first() else { return Ok(Vec::new()) };
+    let free = equations.dynamics.free_hinges().to_vec();
+    for &i in locks {
+        if let Some(angle) = scene.bodies[i].hinge.lock_angle {
+            state.beta[i] = angle;
+        }
+    }
+    let (beta, tau) = (equations.of_free(&state.beta), equations.of_free(&state.tau));
+    let position = |i: &usize| free.iter().position(|j| j == i);
+    let positions: Vec<usize> = locks.iter().filter_map(position).collect();
+    let lock_up = equations.dynamics.lock_up(&beta, &tau, &positions).map_err(|_| {
+        SimError::LockUp { time: state.time, hinge: Some(scene.label(first)) }
+    })?;
+    state.omega_body += lock_up.delta_omega_body;
+    for (&i, change) in free.iter().zip(&lock_up.delta_tau) {
+        state.tau[i] += change;
+    }
+    state.work.lock_ups -= lock_up.delta_energy;
+    for &i in locks {
+        state.tau[i] = 0.0;
+        mode.hinges[i] = HingeState::Locked;
+    }
+    Ok(lock_up.impulses)
+}
+
+/// The unreleased hinges whose release is due.
+fn released(scene: &Scene, mode: &Mode, arrivals: &Arrivals, time: f64) -> Vec<usize> {
+    let locked_at = |hinge: usize, angle: f64| {
+        let lock_angle = scene.bodies[hinge].hinge.lock_angle;
+        arrivals.locks.contains(&hinge)
+            && lock_angle.is_some_and(|at| (at - angle).abs() <= SAME_ANGLE)
+    };
+    let due = |i: &usize| {
+        mode.hinges[*i] == HingeState::Unreleased
+            && match scene.bodies[*i].hinge.release {
+                Release::Time(at) => at <= time + ONE_INSTANT,
+                Release::Angle { hinge, angle } => {
+                    arrivals.triggered.contains(i) || locked_at(hinge, angle)
+                }
+                Release::Never => false,
+            }
+    };
+    (0..scene.bodies.len()).filter(due).collect()
+}
+
+/// Whether the thrust is on from `time` on, if that is a change.
+fn thrust_change(scene: &Scene, mode: &Mode, time: f64) -> Option<bool> {
+    let thrust = scene.thrust?;
+    let on = thrust.on <= time + ONE_INSTANT && time + ONE_INSTANT < thrust.off;
+    (on != mode.thrust).then_some(on)
+}
+
+/// The next time after `time` at which the scene itself changes the mode.
+pub(crate) fn next_scheduled(scene: &Scene, mode: &Mode, time: f64) -> f64 {
+    let release = |(i, state): (usize, &HingeState)| match scene.bodies[i].hinge.release {
+        Release::Time(at) if *state == HingeState::Unreleased => at,
+        _ => f64::INFINITY,
+    };
+    let releases = mode.hinges.iter().enumerate().map(release);
+    let thrust = scene.thrust.iter().flat_map(|thrust| [thrust.on, thrust.off]);
+    releases.chain(thrust).filter(|&at| at > time + ONE_INSTANT).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,63 @@
+use std::ops::Range;
+
+/// Which variables are integrated in a mode, and where they stand: attitude (4), rate (3),
+/// angles and rates of the free hinges, and only where needed the thrust's displacement and
+/// velocity of the mass centre (6), the work of dashpots (1), and the work and angular impulse
+/// of the thrust (4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub free: usize,
+    pub thrust: bool,
+    pub dashpots: bool,
+}
+
+impl Layout {
+    pub const ATTITUDE: Range<usize> = 0..4;
+    pub const OMEGA: Range<usize> = 4..7;
+
+    pub fn beta(&self) -> Range<usize> {
+        7..7 + self.free
+    }
+
+    pub fn tau(&self) -> Range<usize> {
+        7 + self.free..7 + 2 * self.free
+    }
+
+    /// Displacement of the mass centre by the thrust, then its velocity.
+    pub fn thrust_motion(&self) -> Range<usize> {
+        let start = self.tau().end;
+        start..start + if self.thrust { 6 } else { 0 }
+    }
+
+    /// Variables that decide on the step size; the others are integrals along the way.
+    pub fn controlled(&self) -> usize {
+        self.thrust_motion().end
+    }
+
+    pub fn dashpot_work(&self) -> Range<usize> {
+        let start = self.controlled();
+        start..start + usize::from(self.dashpots)
+    }
+
+    /// Work of the thrust, then its angular impulse.
+    pub fn thrust_work(&self) -> Range<usize> {
+        let start = self.dashpot_work().end;
+        start..start + if self.thrust { 4 } else { 0 }
+    }
+
+    pub fn len(&self) -> usize {
+        self.thrust_work().end
+    }
+
+    /// The free hinge that variable `i` belongs to.
+    pub fn hinge_of(&self, i: usize) -> Option<usize> {
+        let (beta, tau) = (self.beta(), self.tau());
+        if beta.contains(&i) {
+            Some(i - beta.start)
+        } else if tau.contains(&i) {
+            Some(i - tau.start)
+        } else {
+            None
+        }
+    }
+}

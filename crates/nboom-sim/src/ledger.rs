@@ -1,0 +1,91 @@
+use nboom_dynamics::Invariants;
+use nboom_elements::KickOffLaw;
+use nboom_model::Scene;
+use nboom_scalar::Vec3;
+
+use crate::equations::Equations;
+use crate::record::{Conservation, Totals};
+use crate::state::State;
+
+/// Keeps account of momentum and energy, and of what should have changed them.
+pub(crate) struct Ledger {
+    start_time: f64,
+    start: Totals,
+    start_energy: f64,
+    residuals: Conservation,
+}
+
+impl Ledger {
+    pub fn new(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
+        let start = totals(state, &equations.invariants(state));
+        let (potential, _) = potential(scene, equations, state);
+        Self {
+            start_time: state.time,
+            start,
+            start_energy: start.kinetic_energy + potential,
+            residuals: Conservation::default(),
+        }
+    }
+
+    pub fn residuals(&self) -> Conservation {
+        self.residuals
+    }
+
+    /// Compares `state` with what impulses and work account for.
+    pub fn check(&mut self, scene: &Scene, equations: &mut Equations, state: &State) {
+        let invariants = equations.invariants(state);
+        let now = totals(state, &invariants);
+        let work = &state.work;
+        let weight = equations.gravity() * scene.total_mass();
+        let impulse = weight * (state.time - self.start_time) + work.thrust_impulse;
+        let linear = now.linear_momentum_inertial - self.start.linear_momentum_inertial - impulse;
+        let angular = now.angular_momentum_inertial
+            - self.start.angular_momentum_inertial
+            - work.thrust_angular_impulse;
+        let (potential, potential_scale) = potential(scene, equations, state);
+        let energy = now.kinetic_energy + potential - work.dashpots - work.thrust + work.lock_ups
+            - self.start_energy;
+        let energy_scale = now.kinetic_energy + potential_scale;
+        let largest = &mut self.residuals;
+        raise(&mut largest.linear_momentum, linear.norm(), invariants.linear_momentum_scale);
+        raise(&mut largest.angular_momentum, angular.norm(), invariants.angular_momentum_scale);
+        raise(&mut largest.energy, energy.abs(), energy_scale);
+    }
+}
+
+/// Energy and momenta in inertial axes.
+pub(crate) fn totals(state: &State, invariants: &Invariants<f64>) -> Totals {
+    let to_inertial = state.attitude.to_matrix();
+    Totals {
+        kinetic_energy: invariants.kinetic_energy,
+        linear_momentum_inertial: to_inertial * invariants.linear_momentum,
+        angular_momentum_inertial: to_inertial * invariants.angular_momentum,
+    }
+}
+
+fn raise(largest: &mut f64, residual: f64, scale: f64) {
+    if residual > 0.0 {
+        *largest = largest.max(residual / scale);
+    }
+}
+
+/// Potential energy, and the sum of the magnitudes of its parts.
+fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> (f64, f64) {
+    let (mut sum, mut scale) = (0.0, 0.0);
+    let mut add = |part: f64| {
+        sum += part;
+        scale += part.abs();
+    };
+    for (law, &beta) in equations.laws().iter().zip(&state.beta) {
+        add(law.potential(beta));
+    }
+    if equations.gravity() != Vec3::zero() {
+        add(-scene.total_mass() * equations.gravity().dot(state.center.position));
+    }
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let Some(spring) = body.hinge.kick_off else { continue };
+        let length = equations.spring_length(state, i).0.min(spring.limit_length);
+        add(KickOffLaw::new(spring.coefficients).potential(length));
+    }
+    (sum, scale)
+}

@@ -1,0 +1,351 @@
+use nboom_model::{HingeLabel, Mode, Scene, SceneDescription};
+use nboom_ode::{Dop853, Tolerance};
+
+use crate::equations::Equations;
+use crate::error::{Failure, SimError};
+use crate::guard::{GuardKind, Guards, read};
+use crate::instant::{self, Arrivals, ONE_INSTANT};
+use crate::layout::Layout;
+use crate::ledger::{Ledger, totals};
+use crate::options::Options;
+use crate::record::{Event, EventKind, Recorder, Snapshot, Summary};
+use crate::snapshot;
+use crate::state::{MassCenter, State};
+
+/// Runs `scene` from its initial to its end time and tells `recorder` on the way.
+///
+/// # Errors
+/// When the motion cannot be followed to the end or the recorder refuses; what was recorded
+/// until then stands, and the failure says how far the run came.
+pub fn simulate(
+    scene: &Scene,
+    options: &Options,
+    recorder: &mut dyn Recorder,
+) -> Result<Summary, Failure> {
+    let mut run = Run::new(scene, *options, recorder);
+    match run.to_the_end() {
+        Ok(()) => Ok(run.summary()),
+        Err(error) => Err(Failure { error, summary: Box::new(run.summary()) }),
+    }
+}
+
+/// Corrections after which an event's time is as good as it gets.
+const CORRECTIONS: usize = 8;
+
+/// Events within [`CHATTER_SPAN`] of the whole span after which a run is given up.
+const CHATTER_EVENTS: usize = 1000;
+const CHATTER_SPAN: f64 = 1e-9;
+
+struct Run<'a> {
+    scene: &'a Scene,
+    options: Options,
+    recorder: &'a mut dyn Recorder,
+    mode: Mode,
+    state: State,
+    scratch: State,
+    equations: Equations,
+    stepper: Dop853,
+    guards: Guards,
+    lock_sides: Vec<f64>,
+    ledger: Ledger,
+    variables: Vec<f64>,
+    next_sample: usize,
+    events: usize,
+    /// When the last [`CHATTER_EVENTS`] events began, and how many there were since.
+    burst: (f64, usize),
+}
+
+impl<'a> Run<'a> {
+    fn new(scene: &'a Scene, options: Options, recorder: &'a mut dyn Recorder) -> Self {
+        let mut state = State::initial(scene);
+        let mut mode = Mode::at_start(scene);
+        let mut equations = Equations::new(scene, &state);
+        let mut variables = Vec::new();
+        equations.enter(scene, &mode, &state, &mut variables);
+        put_mass_center(&mut equations, &mut state);
+        for (i, body) in scene.bodies.iter().enumerate() {
+            let length = equations.spring_length(&state, i).0;
+            mode.kick_off[i] = body.hinge.kick_off.is_some_and(|k| length <= k.limit_length);
+        }
+        let SceneDescription { initial, thrust, .. } = &**scene;
+        mode.thrust = thrust.is_some_and(|f| f.on <= initial.time && initial.time < f.off);
+        equations.enter(scene, &mode, &state, &mut variables);
+        let lock_sides = scene.bodies.iter().map(|body| {
+            let angle = body.hinge.lock_angle.unwrap_or(f64::NEG_INFINITY);
+            let from_lock = body.hinge.start.angle - angle;
+            if from_lock == 0.0 { 0.0 } else { from_lock.signum() }
+        });
+        let tolerance = Tolerance { relative: options.rtol, absolute: options.atol };
+        Self {
+            scene,
+            options,
+            recorder,
+            lock_sides: lock_sides.collect(),
+            ledger: Ledger::new(scene, &mut equations, &state),
+            scratch: state.clone(),
+            mode,
+            state,
+            equations,
+            stepper: Dop853::new(tolerance),
+            guards: Guards::new(),
+            variables,
+            next_sample: 0,
+            events: 0,
+            burst: (initial.time, 0),
+        }
+    }
+
+    fn to_the_end(&mut self) -> Result<(), SimError> {
+        let mut arrivals = Arrivals::at_start(self.scene);
+        loop {
+            self.pass_instant(&arrivals)?;
+            self.sample_here()?;
+            if self.state.time >= self.scene.end_time {
+                return self.finish();
+            }
+            let located = self.integrate_to_next_instant()?;
+            arrivals = Arrivals::find(
+                self.scene,
+                &self.guards,
+                &mut self.equations,
+                &self.state,
+                located,
+            );
+        }
+    }
+
+    /// Changes the mode as the instant demands and starts integration anew.
+    fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<(), SimError> {
+        for i in 0..self.lock_sides.len() {
+            self.lock_sides[i] = self.guards.lock_side(i).unwrap_or(self.lock_sides[i]);
+        }
+        let outcome = instant::pass(
+            self.scene,
+            &mut self.equations,
+            arrivals,
+            &mut self.state,
+            &mut self.mode,
+            &mut self.lock_sides,
+        )?;
+        self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
+        self.check_regular()?;
+        let controlled = self.equations.layout.controlled();
+        let time = self.state.time;
+        self.stepper.start(&mut self.equations, time, &self.variables, controlled);
+        self.guards.set(
+            self.scene,
+            &self.mode,
+            &self.equations,
+            &self.state,
+            &self.lock_sides,
+            &outcome.toggled,
+        );
+        self.report(&outcome.events)?;
+        self.check_chatter(&outcome.events)
+    }
+
+    /// Integrates until a guard changes sign, something is scheduled, or the end; leaves
+    /// `state` there. Returns the guard.
+    fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
+        let scheduled = instant::next_scheduled(self.scene, &self.mode, self.state.time);
+        let limit = scheduled.min(self.scene.end_time);
+        loop {
+            self.step(limit)?;
+            let sample_due = self.sample_time() < self.stepper.end_time() - ONE_INSTANT;
+            if sample_due || !self.guards.list.is_empty() {
+                self.stepper.prepare_dense(&mut self.equations);
+            }
+            let change = self.guards.first_change(self.scene, &mut self.equations, &self.stepper);
+            if let Some((kind, fraction)) = change {
+                let full = self.stepper.end_time() - self.stepper.time();
+                self.sample_within(full, self.stepper.time() + fraction * full)?;
+                self.locate(kind, fraction * full, full);
+                self.accept();
+                return Ok(Some(kind));
+            }
+            let full = self.stepper.end_time() - self.stepper.time();
+            self.sample_within(full, self.stepper.end_time())?;
+            self.accept();
+            self.guards.settle(self.scene, &mut self.equations, &self.state);
+            if self.state.time >= limit {
+                return Ok(None);
+            }
+        }
+    }
+
+    fn step(&mut self, limit: f64) -> Result<(), SimError> {
+        let counts = self.stepper.counts();
+        if counts.accepted + counts.rejected >= self.options.max_steps {
+            let (time, steps) = (self.stepper.time(), self.options.max_steps);
+            return Err(SimError::TooManySteps { time, steps });
+        }
+        let taken = self.stepper.step(&mut self.equations, limit);
+        taken.map_err(|error| SimError::from_step(error, |variable| self.label_of(variable)))
+    }
+
+    /// Takes the step again so that it ends where the guard is zero: Newton's method on the
+    /// integrated motion itself, from the place where dense output has the zero.
+    fn locate(&mut self, kind: GuardKind, guess: f64, full: f64) {
+        let mut step = guess;
+        let mut last_correction = f64::INFINITY;
+        for _ in 0..CORRECTIONS {
+            self.stepper.retake(&mut self.equations, step);
+            let (time, end) = (self.stepper.end_time(), self.stepper.end_state());
+            self.equations.read(time, end, &mut self.scratch);
+            let reading = read(kind, self.scene, &mut self.equations, &self.scratch);
+            let correction = -reading.value / reading.rate;
+            let better = correction.abs() < 0.5 * last_correction;
+            let matters = self.stepper.time() + (step + correction) != time;
+            if !(correction.is_finite() && better && matters) {
+                return;
+            }
+            last_correction = correction.abs();
+            // Dense output may put a zero just before the step's end that lies just after it.
+            step = (step + correction).clamp(0.0, 1.01 * full);
+        }
+    }
+
+    /// Makes the end of the step the present state, with the attitude put back to norm 1.
+    fn accept(&mut self) {
+        self.stepper.advance();
+        let norm = self.stepper.state()[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>();
+        self.stepper.scale(Layout::ATTITUDE, 1.0 / norm.sqrt());
+        self.equations.read(self.stepper.time(), self.stepper.state(), &mut self.state);
+    }
+
+    fn sample_time(&self) -> f64 {
+        let (start, end) = (self.scene.initial.time, self.scene.end_time);
+        let share = self.next_sample as f64 / self.options.samples as f64;
+        match self.next_sample {
+            n if n > self.options.samples => f64::INFINITY,
+            n if n == self.options.samples => end,
+            _ => start + (end - start) * share,
+        }
+    }
+
+    /// Records the output times before `until` (and not in its instant) from dense output over
+    /// a step of length `full`.
+    fn sample_within(&mut self, full: f64, until: f64) -> Result<(), SimError> {
+        while self.sample_time() < until - ONE_INSTANT {
+            let time = self.sample_time();
+            self.variables.resize(self.equations.layout.len(), 0.0);
+            let fraction = (time - self.stepper.time()) / full;
+            self.stepper.interpolate(fraction, &mut self.variables);
+            self.equations.read(time, &self.variables, &mut self.scratch);
+            let state = self.scratch.clone();
+            self.sample(&state)?;
+        }
+        Ok(())
+    }
+
+    /// Records the output time that the present instant coincides with, if there is one.
+    fn sample_here(&mut self) -> Result<(), SimError> {
+        while self.sample_time() <= self.state.time + ONE_INSTANT {
+            let state = State { time: self.sample_time(), ..self.state.clone() };
+            self.sample(&state)?;
+        }
+        Ok(())
+    }
+
+    fn sample(&mut self, state: &State) -> Result<(), SimError> {
+        self.next_sample += 1;
+        self.ledger.check(self.scene, &mut self.equations, state);
+        let snapshot = self.snapshot(state);
+        let kept = self.recorder.sample(&snapshot);
+        kept.map_err(|source| SimError::Record { time: state.time, source })
+    }
+
+    fn snapshot(&mut self, state: &State) -> Snapshot {
+        let detail = self.recorder.needs_detail();
+        let seen = snapshot::take(self.scene, &self.mode, &mut self.equations, state, detail);
+        let (steps, next_step) = (self.stepper.counts().accepted, self.stepper.next_step());
+        Snapshot { steps, next_step, ..seen }
+    }
+
+    fn report(&mut self, events: &[Event]) -> Result<(), SimError> {
+        if events.is_empty() {
+            return Ok(());
+        }
+        let state = self.state.clone();
+        self.ledger.check(self.scene, &mut self.equations, &state);
+        let after = self.snapshot(&state);
+        for event in events {
+            self.events += 1;
+            let kept = self.recorder.event(event, &after);
+            kept.map_err(|source| SimError::Record { time: event.time, source })?;
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), SimError> {
+        let now = totals(&self.state, &self.equations.invariants(&self.state));
+        let end = Event {
+            time: self.state.time,
+            kind: EventKind::End,
+            hinge: None,
+            impulse: None,
+            before: now,
+            after: now,
+        };
+        self.report(&[end])
+    }
+
+    /// Refuses a mode in which a link has no inertia about its hinge.
+    fn check_regular(&mut self) -> Result<(), SimError> {
+        let beta = self.equations.of_free(&self.state.beta);
+        match self.equations.dynamics.singular_hinge(&beta) {
+            None => Ok(()),
+            Some(hinge) => Err(SimError::SingularMassMatrix {
+                time: self.state.time,
+                hinge: hinge.map(|i| self.scene.label(i)),
+            }),
+        }
+    }
+
+    fn check_chatter(&mut self, events: &[Event]) -> Result<(), SimError> {
+        let span = self.scene.end_time - self.scene.initial.time;
+        let (since, count) = self.burst;
+        if self.state.time - since > CHATTER_SPAN * span {
+            self.burst = (self.state.time, events.len());
+            return Ok(());
+        }
+        let events_now = count + events.len().max(1);
+        self.burst = (since, events_now);
+        if events_now < CHATTER_EVENTS + self.scene.bodies.len() {
+            return Ok(());
+        }
+        let hinge = events.last().and_then(|event| event.hinge).map(|i| self.scene.label(i));
+        let within = self.state.time - since;
+        Err(SimError::Chatter { time: self.state.time, hinge, events: events_now, within })
+    }
+
+    fn label_of(&self, variable: usize) -> Option<HingeLabel> {
+        let position = self.equations.layout.hinge_of(variable)?;
+        Some(self.scene.label(self.equations.dynamics.free_hinges()[position]))
+    }
+
+    fn summary(&self) -> Summary {
+        let counts = self.stepper.counts();
+        Summary {
+            end_time: self.state.time,
+            steps_accepted: counts.accepted,
+            steps_rejected: counts.rejected,
+            evaluations: counts.evaluations,
+            events: self.events,
+            conservation: self.ledger.residuals(),
+            integrator: "dop853",
+        }
+    }
+}
+
+/// Moves the mass centre of `state`, which stands at O, to where it belongs.
+fn put_mass_center(equations: &mut Equations, state: &mut State) {
+    let MassCenter { position, velocity } = state.center;
+    let at_rest = MassCenter { position, velocity: nboom_scalar::Vec3::zero() };
+    let found = equations.invariants(&State { center: at_rest, ..state.clone() });
+    let to_inertial = state.attitude.to_matrix();
+    state.center = MassCenter {
+        position: position + to_inertial * found.mass_center,
+        velocity: velocity - to_inertial * found.origin_velocity,
+    };
+}
