@@ -74,7 +74,8 @@ fn condition(mass_matrix: &DMatrix<f64>) -> f64 {
 fn mass_matrix_of_all_hinges() {
     for (id, case) in cases().iter().enumerate() {
         let mut dynamics = Recursive::new(&case.scene);
-        let all_free = Mode { hinges: vec![HingeState::Free; case.beta.len()], ..case.mode.clone() };
+        let all_free =
+            Mode { hinges: vec![HingeState::Free; case.beta.len()], ..case.mode.clone() };
         dynamics.set_mode(&all_free, &case.beta);
         let size = case.scene.degrees_of_freedom();
         let mut matrix = vec![0.0; size * size];
@@ -89,8 +90,7 @@ fn accelerations() {
     let mut worst = 0.0_f64;
     for (id, case) in cases().iter().enumerate() {
         let mut dynamics = case.dynamics();
-        let (beta, tau) =
-            (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
+        let (beta, tau) = (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
         let motion = Motion { omega_body: case.omega, beta: &beta, tau: &tau };
         let mut found = Accelerations::for_hinges(beta.len());
         dynamics.accelerations(&motion, &mut found);
@@ -98,8 +98,7 @@ fn accelerations() {
         let gravity = case.scene.gravity.map_or(Vec3::zero(), |g| {
             case.attitude.normalized().to_matrix().transpose_mul(g.up) * g.acceleration
         });
-        let component_rate =
-            found.origin_body - gravity - case.omega.cross(case.velocity_body);
+        let component_rate = found.origin_body - gravity - case.omega.cross(case.velocity_body);
         let mut all_rates = component_rate.to_array().to_vec();
         all_rates.extend(found.omega_dot_body.to_array());
         let mut tau_dot = vec![0.0; case.beta.len()];
@@ -129,8 +128,7 @@ fn accelerations() {
 fn articulated_bodies_solve_the_composite_body_equation() {
     for (id, case) in cases().iter().enumerate() {
         let mut dynamics = case.dynamics();
-        let (beta, tau) =
-            (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
+        let (beta, tau) = (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
         let motion = Motion { omega_body: case.omega, beta: &beta, tau: &tau };
         let size = 6 + beta.len();
         let (mut matrix, mut forcing) = (vec![0.0; size * size], vec![0.0; size]);
@@ -154,8 +152,7 @@ fn articulated_bodies_solve_the_composite_body_equation() {
 fn energy_momenta_and_mass_center() {
     for (id, case) in cases().iter().enumerate() {
         let mut dynamics = case.dynamics();
-        let (beta, tau) =
-            (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
+        let (beta, tau) = (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
         let motion = Motion { omega_body: case.omega, beta: &beta, tau: &tau };
         // The velocity of the mass centre that belongs to the given velocity of O.
         let shift = dynamics.invariants(&motion, Vec3::zero()).origin_velocity;
@@ -183,8 +180,7 @@ fn lock_up_of_the_first_free_hinge() {
             continue;
         }
         let mut dynamics = case.dynamics();
-        let (beta, tau) =
-            (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
+        let (beta, tau) = (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
         let locking = expected["segment"].as_u64().expect("a hinge") as usize;
         let position =
             dynamics.free_hinges().iter().position(|&i| i == locking).expect("it is free");

@@ -59,8 +59,7 @@ fn read_appendage(value: &Value) -> Appendage {
             Mat3::from_euler_121(euler[0], euler[1], euler[2])
         }
     };
-    let mount =
-        Mount { point: vector(&value["hinge_point"]), rot_inboard_from_hinge: rot };
+    let mount = Mount { point: vector(&value["hinge_point"]), rot_inboard_from_hinge: rot };
     let mut segments: Vec<Segment> =
         value["segments"].as_array().expect("segments are a list").iter().map(segment).collect();
     match value["type"].as_str() {
@@ -142,7 +141,6 @@ pub fn vector(value: &Value) -> Vec3<f64> {
 
 /// A 3×3 matrix given by rows.
 pub fn matrix(value: &Value) -> Mat3<f64> {
-    let rows: Vec<Vec3<f64>> =
-        value.as_array().expect("rows").iter().map(vector).collect();
+    let rows: Vec<Vec3<f64>> = value.as_array().expect("rows").iter().map(vector).collect();
     Mat3::from_rows(rows[0], rows[1], rows[2])
 }

@@ -82,13 +82,11 @@ pub(crate) fn solve<R: Real>(
     for (j, link) in tree.links.iter().enumerate() {
         let (pose, hinge) = (&poses[j], &hinges[j]);
         let inboard = link.inboard.map_or(of_main, |i| twists[i]).at(pose.offset);
-        let carried = hinge.column.moment.dot(inboard.angular)
-            + hinge.column.force.dot(inboard.linear);
+        let carried =
+            hinge.column.moment.dot(inboard.angular) + hinge.column.force.dot(inboard.linear);
         tau_dot[j] = (tau_dot[j] - carried) * hinge.inverse_pivot;
-        twists[j] = Twist {
-            angular: inboard.angular + pose.axis * tau_dot[j],
-            linear: inboard.linear,
-        };
+        twists[j] =
+            Twist { angular: inboard.angular + pose.axis * tau_dot[j], linear: inboard.linear };
     }
     of_main
 }

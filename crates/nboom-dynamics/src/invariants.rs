@@ -54,8 +54,7 @@ impl<R: Real> Recursive<R> {
         let mut found = Invariants {
             mass_center,
             origin_velocity,
-            kinetic_energy: R::constant(0.5)
-                * (self.total_mass() * center_velocity.norm_squared()),
+            kinetic_energy: R::constant(0.5) * (self.total_mass() * center_velocity.norm_squared()),
             linear_momentum: Vec3::zero(),
             angular_momentum: Vec3::zero(),
             linear_momentum_scale: R::zero(),
@@ -166,8 +165,8 @@ impl<R: Real> Invariants<R> {
         center_velocity: Vec3<R>,
     ) {
         let momentum = momentum_of(inertia, relative);
-        let about_hinge = inertia.first_moment.cross(relative.linear)
-            + inertia.about_origin * relative.angular;
+        let about_hinge =
+            inertia.first_moment.cross(relative.linear) + inertia.about_origin * relative.angular;
         let twice_energy = relative.linear.dot(momentum) + relative.angular.dot(about_hinge);
         let inertial_momentum = momentum + center_velocity * inertia.mass;
         let about_center = about_hinge + arm.cross(momentum);

@@ -144,13 +144,11 @@ impl<R: Real> Recursive<R> {
     pub(crate) fn factor(&mut self, beta: &[R]) {
         self.place(beta);
         let (tree, poses) = (&self.tree, &self.poses);
-        self.base =
-            articulated_body::factor(tree, poses, &mut self.articulated, &mut self.hinges);
+        self.base = articulated_body::factor(tree, poses, &mut self.articulated, &mut self.hinges);
     }
 
     pub(crate) fn solve(&mut self, main: Wrench<R>, tau_dot: &mut [R]) -> Twist<R> {
-        let load =
-            Load { wrenches: &mut self.wrenches, main, tau_dot, twists: &mut self.twists };
+        let load = Load { wrenches: &mut self.wrenches, main, tau_dot, twists: &mut self.twists };
         articulated_body::solve(&self.tree, &self.poses, &self.hinges, &self.base, load)
     }
 

@@ -73,11 +73,8 @@ impl<R: Real> RigidInertia<R> {
 
     pub fn of(body: &MassProperties) -> Self {
         let mass = R::constant(body.mass);
-        let at_center = Self {
-            mass,
-            first_moment: Vec3::zero(),
-            about_origin: Sym3::constant(body.inertia),
-        };
+        let at_center =
+            Self { mass, first_moment: Vec3::zero(), about_origin: Sym3::constant(body.inertia) };
         at_center.seen_from(Vec3::constant(body.center_of_mass))
     }
 
@@ -122,9 +119,7 @@ impl<R: Real> RigidInertia<R> {
             moment: c.cross(acceleration.linear)
                 + self.about_origin * alpha
                 + omega.cross(self.about_origin * omega),
-            force: acceleration.linear * self.mass
-                + alpha.cross(c)
-                + omega.cross(omega.cross(c)),
+            force: acceleration.linear * self.mass + alpha.cross(c) + omega.cross(omega.cross(c)),
         }
     }
 }
@@ -220,8 +215,7 @@ mod tests {
         // With the origin at rest and no outside force: ω·(ω × J ω) = 0 and c × a adds nothing.
         let omega = Vec3::new(0.4, -1.0, 0.7);
         let alpha = Vec3::new(0.2, 0.3, -0.6);
-        let wrench =
-            body().inertia_wrench(omega, Twist { angular: alpha, linear: Vec3::zero() });
+        let wrench = body().inertia_wrench(omega, Twist { angular: alpha, linear: Vec3::zero() });
         let expected = omega.dot(body().about_origin * alpha);
         assert!((omega.dot(wrench.moment) - expected).abs() < 1e-14);
     }

@@ -17,6 +17,7 @@ pub struct Segment {
 ///
 /// `mount.rot_inboard_from_hinge` holds the appendage axes ê₁, ê₂, ê₃ as columns, eq. (9.6).
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a handful of these lives while a scene is written")]
 pub enum Appendage {
     /// A chain of segments whose hinge axes are all parallel to ê₁.
     Regular {

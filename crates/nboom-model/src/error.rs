@@ -44,7 +44,9 @@ pub enum ModelError {
         quantity: &'static str,
     },
     /// Bodies are not listed branch by branch, inboard before outboard.
-    #[error("segment {label}: inboard body {inboard} found, an earlier body of the same branch expected")]
+    #[error(
+        "segment {label}: inboard body {inboard} found, an earlier body of the same branch expected"
+    )]
     Order {
         /// The hinge.
         label: HingeLabel,
@@ -60,7 +62,9 @@ pub enum ModelError {
         length: f64,
     },
     /// A mount is not a rotation.
-    #[error("segment {label}: mounting axes that depart by {defect} from a right-handed orthonormal triad found")]
+    #[error(
+        "segment {label}: mounting axes that depart by {defect} from a right-handed orthonormal triad found"
+    )]
     MountRotation {
         /// The hinge.
         label: HingeLabel,
@@ -68,7 +72,9 @@ pub enum ModelError {
         defect: f64,
     },
     /// A release refers to a hinge that does not exist, or to itself.
-    #[error("segment {label}: release by hinge number {trigger} found, another of the {count} hinges expected")]
+    #[error(
+        "segment {label}: release by hinge number {trigger} found, another of the {count} hinges expected"
+    )]
     Trigger {
         /// The hinge.
         label: HingeLabel,
@@ -154,10 +160,14 @@ fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
 }
 
 fn check_unit(quantity: &'static str, length: f64, errors: &mut Vec<ModelError>) {
-    // Written so that a length that is not a number fails.
-    if !((length - 1.0).abs() <= UNIT_TOLERANCE) {
+    if !is_unit(length) {
         errors.push(ModelError::NotUnit { quantity, length });
     }
+}
+
+/// False also for a length that is not a number.
+fn is_unit(length: f64) -> bool {
+    (length - 1.0).abs() <= UNIT_TOLERANCE
 }
 
 fn find_in_tree(
@@ -167,17 +177,18 @@ fn find_in_tree(
     errors: &mut Vec<ModelError>,
 ) {
     let (body, label) = (&scene.bodies[i], labels[i]);
-    if let Some(inboard) = body.inboard {
-        if inboard >= i || labels[inboard].appendage != label.appendage {
-            errors.push(ModelError::Order { label, inboard });
-        }
+    let of_this_branch =
+        |&inboard: &usize| inboard < i && labels[inboard].appendage == label.appendage;
+    if let Some(inboard) = body.inboard.filter(|inboard| !of_this_branch(inboard)) {
+        errors.push(ModelError::Order { label, inboard });
     }
     let length = body.axis.norm();
-    if !((length - 1.0).abs() <= UNIT_TOLERANCE) {
+    if !is_unit(length) {
         errors.push(ModelError::Axis { label, length });
     }
     let defect = body.mount.rot_inboard_from_hinge.rotation_defect();
-    if !(defect <= UNIT_TOLERANCE) {
+    let is_rotation = defect <= UNIT_TOLERANCE;
+    if !is_rotation {
         errors.push(ModelError::MountRotation { label, defect });
     }
 }
@@ -228,10 +239,10 @@ fn find_in_hinge(
     ];
     let bad = checks.into_iter().filter(|(ok, _)| !ok);
     errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: name, quantity }));
-    if let Release::Angle { hinge: trigger, .. } = hinge.release {
-        if trigger >= count || trigger == i {
-            errors.push(ModelError::Trigger { label, trigger: trigger + 1, count });
-        }
+    if let Release::Angle { hinge: trigger, .. } = hinge.release
+        && (trigger >= count || trigger == i)
+    {
+        errors.push(ModelError::Trigger { label, trigger: trigger + 1, count });
     }
     if hinge.start.state != HingeState::Free && hinge.start.rate != 0.0 {
         errors.push(ModelError::HeldRate { label, rate: hinge.start.rate });

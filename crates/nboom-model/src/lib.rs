@@ -39,7 +39,7 @@ pub use error::{BodyName, ModelError};
 pub use facts::Facts;
 pub use hinge::{Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, Spring};
 pub use label::HingeLabel;
-pub use mass::{MassProperties, TRIANGLE_TOLERANCE};
+pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use mode::Mode;
 pub use scene::{Body, Scene, SceneDescription};
 pub use warning::ModelWarning;

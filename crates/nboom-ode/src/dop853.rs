@@ -132,7 +132,7 @@ impl Dop853 {
             }
             last_rejected = true;
             self.counts.rejected += 1;
-            self.next_step = step * self.factor(error).min(1.0).max(SHRINK);
+            self.next_step = step * self.factor(error).min(1.0);
             if self.t + 0.1 * self.next_step == self.t {
                 return Err(self.too_short(step));
             }
@@ -292,16 +292,16 @@ impl Dop853 {
     }
 
     fn factor(&self, error: f64) -> f64 {
-        let growth = SAFETY * self.previous_error.powf(MEMORY) / error.powf(EXPONENT - 0.2 * MEMORY);
+        let growth =
+            SAFETY * self.previous_error.powf(MEMORY) / error.powf(EXPONENT - 0.2 * MEMORY);
         growth.clamp(SHRINK, GROW)
     }
 
     fn too_short(&self, step: f64) -> StepError {
         let time = self.t;
         let n = self.y.len();
-        let not_finite = (0..n).find(|&i| {
-            (0..=STAGES).any(|stage| !self.stages[stage * n + i].is_finite())
-        });
+        let not_finite =
+            (0..n).find(|&i| (0..=STAGES).any(|stage| !self.stages[stage * n + i].is_finite()));
         if let Some(variable) = not_finite {
             return StepError::NotFinite { time, variable };
         }

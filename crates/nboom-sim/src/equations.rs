@@ -154,7 +154,8 @@ impl Equations {
         let found = self.dynamics.invariants(&motion, to_inertial.transpose_mul(velocity));
         let at_point = found.origin_velocity + motion.omega_body.cross(thrust.point);
         let moment = to_inertial * (thrust.point - found.mass_center).cross(thrust.force);
-        let (displacement, acceleration) = (layout.thrust_motion(), force * (1.0 / self.total_mass));
+        let (displacement, acceleration) =
+            (layout.thrust_motion(), force * (1.0 / self.total_mass));
         dy[displacement.start..][..3].copy_from_slice(&y[displacement.start + 3..][..3]);
         dy[displacement.start + 3..][..3].copy_from_slice(&acceleration.to_array());
         let work = layout.thrust_work().start;

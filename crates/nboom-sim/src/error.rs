@@ -74,7 +74,10 @@ pub enum SimError {
 }
 
 impl SimError {
-    pub(crate) fn from_step(error: StepError, hinge_of: impl Fn(usize) -> Option<HingeLabel>) -> Self {
+    pub(crate) fn from_step(
+        error: StepError,
+        hinge_of: impl Fn(usize) -> Option<HingeLabel>,
+    ) -> Self {
         match error {
             StepError::Underflow { time, step, variable } => {
                 Self::StepUnderflow { time, step, hinge: hinge_of(variable) }

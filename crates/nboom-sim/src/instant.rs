@@ -81,14 +81,8 @@ pub(crate) fn pass(
     let impulses = lock(scene, equations, &arrivals.locks, state, mode)?;
     let after = totals(state, &equations.invariants(state));
     let time = state.time;
-    let event = |kind, hinge, impulse, before: Totals| Event {
-        time,
-        kind,
-        hinge,
-        impulse,
-        before,
-        after,
-    };
+    let event =
+        |kind, hinge, impulse, before: Totals| Event { time, kind, hinge, impulse, before, after };
     for (&hinge, impulse) in arrivals.locks.iter().zip(impulses) {
         events.push(event(EventKind::LockUp, Some(hinge), Some(impulse), before));
     }
@@ -131,9 +125,10 @@ fn lock(
     let (beta, tau) = (equations.of_free(&state.beta), equations.of_free(&state.tau));
     let position = |i: &usize| free.iter().position(|j| j == i);
     let positions: Vec<usize> = locks.iter().filter_map(position).collect();
-    let lock_up = equations.dynamics.lock_up(&beta, &tau, &positions).map_err(|_| {
-        SimError::LockUp { time: state.time, hinge: Some(scene.label(first)) }
-    })?;
+    let lock_up = equations
+        .dynamics
+        .lock_up(&beta, &tau, &positions)
+        .map_err(|_| SimError::LockUp { time: state.time, hinge: Some(scene.label(first)) })?;
     state.omega_body += lock_up.delta_omega_body;
     for (&i, change) in free.iter().zip(&lock_up.delta_tau) {
         state.tau[i] += change;

@@ -104,13 +104,8 @@ impl<'a> Run<'a> {
                 return self.finish();
             }
             let located = self.integrate_to_next_instant()?;
-            arrivals = Arrivals::find(
-                self.scene,
-                &self.guards,
-                &mut self.equations,
-                &self.state,
-                located,
-            );
+            arrivals =
+                Arrivals::find(self.scene, &self.guards, &mut self.equations, &self.state, located);
         }
     }
 
