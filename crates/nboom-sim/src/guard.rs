@@ -87,14 +87,12 @@ impl Guards {
                 };
                 self.list.push(Guard { kind: GuardKind::Lock { hinge: i }, side });
             }
-            if mode.hinges[i] == HingeState::Unreleased {
-                if let Release::Angle { hinge: trigger, angle } = body.hinge.release {
-                    if mode.is_free(trigger) {
-                        let side = Side::Known((state.beta[trigger] - angle).signum());
-                        let kind = GuardKind::Trigger { hinge: i, trigger };
-                        self.list.push(Guard { kind, side });
-                    }
-                }
+            if let Release::Angle { hinge: trigger, angle } = body.hinge.release
+                && mode.hinges[i] == HingeState::Unreleased
+                && mode.is_free(trigger)
+            {
+                let side = Side::Known((state.beta[trigger] - angle).signum());
+                self.list.push(Guard { kind: GuardKind::Trigger { hinge: i, trigger }, side });
             }
             if body.hinge.kick_off.is_some() && !equations.dynamics.spring_reach(i).is_empty() {
                 let sign = if mode.kick_off[i] { -1.0 } else { 1.0 };

@@ -23,7 +23,7 @@ pub fn simulate(
     recorder: &mut dyn Recorder,
 ) -> Result<Summary, Failure> {
     let mut run = Run::new(scene, *options, recorder);
-    match run.to_the_end() {
+    match run.complete() {
         Ok(()) => Ok(run.summary()),
         Err(error) => Err(Failure { error, summary: Box::new(run.summary()) }),
     }
@@ -95,7 +95,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn to_the_end(&mut self) -> Result<(), SimError> {
+    fn complete(&mut self) -> Result<(), SimError> {
         let mut arrivals = Arrivals::at_start(self.scene);
         loop {
             self.pass_instant(&arrivals)?;
