@@ -1,9 +1,8 @@
-use nboom_scalar::{Real, Vec3};
+use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::base::BaseFactor;
 use crate::merged_tree::MergedTree;
 use crate::pose::LinkPose;
-use crate::spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 
 /// What eliminating one hinge leaves behind.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,4 @@
-use nboom_scalar::{Real, Vec3};
-
-use crate::spatial::{ArticulatedInertia, Twist, Wrench};
+use nboom_scalar::{ArticulatedInertia, Real, Twist, Vec3, Wrench};
 
 /// The factored 6×6 equation of the main link, L D Lᵀ (ω̇, a_O) = (moment about O, force).
 #[derive(Clone, Copy, Debug)]

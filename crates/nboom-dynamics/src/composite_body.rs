@@ -1,8 +1,7 @@
-use nboom_scalar::{Mat3, Real, Vec3};
+use nboom_scalar::{Mat3, Real, RigidInertia, Vec3, Wrench};
 
 use crate::merged_tree::MergedTree;
 use crate::pose::LinkPose;
-use crate::spatial::{RigidInertia, Wrench};
 
 /// Fills the kinetic-energy matrix B₀ of (V, ω, τ), row by row, both triangles.
 ///

@@ -1,8 +1,7 @@
 use nalgebra::{DMatrix, DVector};
-use nboom_scalar::Vec3;
+use nboom_scalar::{Vec3, Wrench};
 
 use crate::Recursive;
-use crate::spatial::Wrench;
 
 /// The exact change of all velocities when hinges lock in one instant, Section 7.
 ///

@@ -1,8 +1,7 @@
-use nboom_scalar::{Real, Vec3};
+use nboom_scalar::{Real, RigidInertia, Twist, Vec3};
 
 use crate::merged_tree::Member;
 use crate::pose;
-use crate::spatial::{RigidInertia, Twist};
 use crate::{Motion, Recursive};
 
 /// Energy and momenta of all bodies, main-body axes.

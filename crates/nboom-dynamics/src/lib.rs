@@ -37,7 +37,6 @@ mod invariants;
 mod merged_tree;
 mod pose;
 mod recursive;
-mod spatial;
 
 pub use impulse::{LockUp, LockUpError};
 pub use invariants::{Invariants, SpringLength};

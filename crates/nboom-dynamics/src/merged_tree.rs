@@ -1,8 +1,6 @@
 use nboom_elements::{HingeLaw, KickOffLaw};
-use nboom_model::{Mode, Scene};
-use nboom_scalar::{Mat3, Real, Vec3};
-
-use crate::spatial::RigidInertia;
+use nboom_model::{MassProperties, Mode, Scene};
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Vec3};
 
 /// The tree with every held hinge welded: one link for each free hinge, and the main link.
 #[derive(Clone, Debug)]
@@ -64,7 +62,7 @@ impl<R: Real> MergedTree<R> {
     /// Welds the hinges that `mode` holds, at their angles in `beta` (one for each hinge).
     pub fn new(scene: &Scene, mode: &Mode, beta: &[R]) -> Self {
         let mut tree = Self {
-            main: RigidInertia::of(&scene.main_body),
+            main: rigid(&scene.main_body),
             links: Vec::new(),
             members: Vec::with_capacity(scene.bodies.len()),
             pushing: Vec::new(),
@@ -87,7 +85,7 @@ impl<R: Real> MergedTree<R> {
         let point = inboard.point + inboard.rot * Vec3::constant(body.mount.point);
         let rot_at_zero = inboard.rot * Mat3::constant(body.mount.rot_inboard_from_hinge);
         let axis = Vec3::constant(body.axis);
-        let inertia = RigidInertia::of(&body.mass_properties);
+        let inertia = rigid(&body.mass_properties);
         if free {
             let along = axis.outer(axis);
             self.members.push(Member {
@@ -128,4 +126,9 @@ impl<R: Real> MergedTree<R> {
             });
         }
     }
+}
+
+fn rigid<R: Real>(body: &MassProperties) -> RigidInertia<R> {
+    let center = Vec3::constant(body.center_of_mass);
+    RigidInertia::new(R::constant(body.mass), center, Sym3::constant(body.inertia))
 }

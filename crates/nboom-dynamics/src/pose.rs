@@ -1,7 +1,6 @@
-use nboom_scalar::{Mat3, Real, Vec3};
+use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
 
 use crate::merged_tree::MergedTree;
-use crate::spatial::RigidInertia;
 
 /// Where one link is, main-body axes.
 #[derive(Clone, Copy, Debug)]

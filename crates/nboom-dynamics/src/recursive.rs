@@ -1,12 +1,11 @@
 use nboom_model::{Mode, Scene};
-use nboom_scalar::{Real, Vec3};
+use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
 use crate::base::BaseFactor;
 use crate::composite_body;
 use crate::merged_tree::MergedTree;
 use crate::pose::{self, LinkPose};
-use crate::spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 
 /// Rates of the main body and angles and rates of the free hinges, in the order of
 /// [`Recursive::free_hinges`].

@@ -16,11 +16,13 @@
 mod matrix;
 mod quaternion;
 mod real;
+mod spatial;
 mod symmetric;
 mod vector;
 
 pub use matrix::Mat3;
 pub use quaternion::Quaternion;
 pub use real::Real;
+pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
 pub use vector::Vec3;

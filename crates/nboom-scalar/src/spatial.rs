@@ -1,14 +1,16 @@
-use nboom_model::MassProperties;
-use nboom_scalar::{Mat3, Real, Sym3, Vec3};
+use crate::{Mat3, Real, Sym3, Vec3};
 
-/// Moment about a point and force.
+/// Moment about a reference point, and force; both along the same axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Wrench<R> {
+pub struct Wrench<R> {
+    /// Moment about the reference point.
     pub moment: Vec3<R>,
+    /// Force.
     pub force: Vec3<R>,
 }
 
 impl<R: Real> Wrench<R> {
+    /// No moment and no force.
     pub fn zero() -> Self {
         Self { moment: Vec3::zero(), force: Vec3::zero() }
     }
@@ -25,12 +27,14 @@ impl<R: Real> Wrench<R> {
         Self { moment: self.moment + offset.cross(self.force), force: self.force }
     }
 
+    /// Adds a wrench about the same point.
     #[inline]
     pub fn add(&mut self, other: Self) {
         self.moment += other.moment;
         self.force += other.force;
     }
 
+    /// Takes a wrench about the same point away.
     #[inline]
     pub fn subtract(&mut self, other: Self) {
         self.moment -= other.moment;
@@ -38,19 +42,22 @@ impl<R: Real> Wrench<R> {
     }
 }
 
-/// Angular acceleration and linear acceleration of a point.
+/// Rate of a body and of one of its points: velocities or accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Twist<R> {
+pub struct Twist<R> {
+    /// Angular rate or acceleration of the body.
     pub angular: Vec3<R>,
+    /// Velocity or acceleration of the point.
     pub linear: Vec3<R>,
 }
 
 impl<R: Real> Twist<R> {
+    /// At rest.
     pub fn zero() -> Self {
         Self { angular: Vec3::zero(), linear: Vec3::zero() }
     }
 
-    /// The acceleration of a point at `offset` of the same body.
+    /// The rate of a point at `offset` of the same body.
     #[inline]
     pub fn at(self, offset: Vec3<R>) -> Self {
         Self { angular: self.angular, linear: self.linear + self.angular.cross(offset) }
@@ -60,22 +67,24 @@ impl<R: Real> Twist<R> {
 /// Inertia of a rigid body about its origin: mass, first moment m C̄ and the tensor
 /// Ī + m (C² U − C̄ C̄ᵀ).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct RigidInertia<R> {
+pub struct RigidInertia<R> {
+    /// Mass.
     pub mass: R,
+    /// Mass times the mass centre from the origin.
     pub first_moment: Vec3<R>,
+    /// Inertia tensor about the origin.
     pub about_origin: Sym3<R>,
 }
 
 impl<R: Real> RigidInertia<R> {
+    /// A body without mass.
     pub fn zero() -> Self {
         Self { mass: R::zero(), first_moment: Vec3::zero(), about_origin: Sym3::zero() }
     }
 
-    pub fn of(body: &MassProperties) -> Self {
-        let mass = R::constant(body.mass);
-        let at_center =
-            Self { mass, first_moment: Vec3::zero(), about_origin: Sym3::constant(body.inertia) };
-        at_center.seen_from(Vec3::constant(body.center_of_mass))
+    /// A body with this mass, mass centre from the origin, and inertia about the mass centre.
+    pub fn new(mass: R, center_of_mass: Vec3<R>, inertia: Sym3<R>) -> Self {
+        Self { mass, first_moment: Vec3::zero(), about_origin: inertia }.seen_from(center_of_mass)
     }
 
     /// The same body about an origin from which the old one is seen at `offset`.
@@ -104,6 +113,7 @@ impl<R: Real> RigidInertia<R> {
         }
     }
 
+    /// Adds another body that is rigid with this one, about the same origin.
     pub fn add(&mut self, other: Self) {
         self.mass += other.mass;
         self.first_moment += other.first_moment;
@@ -127,13 +137,17 @@ impl<R: Real> RigidInertia<R> {
 /// Inertia that a body shows at its hinge when everything outboard may give way:
 /// moment = `angular` ω̇ + `coupling` a, force = `coupling`ᵀ ω̇ + `linear` a.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ArticulatedInertia<R> {
+pub struct ArticulatedInertia<R> {
+    /// Moment per angular acceleration.
     pub angular: Sym3<R>,
+    /// Moment per acceleration of the point; transposed, force per angular acceleration.
     pub coupling: Mat3<R>,
+    /// Force per acceleration of the point.
     pub linear: Sym3<R>,
 }
 
 impl<R: Real> ArticulatedInertia<R> {
+    /// That of a rigid body, at its origin.
     #[inline]
     pub fn of(body: &RigidInertia<R>) -> Self {
         Self {
@@ -143,6 +157,7 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
+    /// Adds an inertia at the same point.
     #[inline]
     pub fn add(&mut self, other: &Self) {
         self.angular += other.angular;
@@ -189,11 +204,11 @@ mod tests {
     use super::*;
 
     fn body() -> RigidInertia<f64> {
-        RigidInertia::of(&MassProperties::new(
+        RigidInertia::new(
             2.5,
             Vec3::new(0.3, -0.7, 0.2),
             Sym3 { xx: 1.0, yy: 1.4, zz: 0.9, xy: 0.1, xz: -0.2, yz: 0.05 },
-        ))
+        )
     }
 
     #[test]

@@ -1,0 +1,1 @@
+//! Closed forms of Sections 4 and 5.
