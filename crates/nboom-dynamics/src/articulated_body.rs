@@ -1,7 +1,7 @@
+use nboom_model::WeldedTree;
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::base::BaseFactor;
-use crate::merged_tree::MergedTree;
 use crate::pose::LinkPose;
 
 /// What eliminating one hinge leaves behind.
@@ -22,7 +22,7 @@ impl<R: Real> HingeFactor<R> {
 /// Eliminates the hinges from the tips inward; the poses' inertias must be turned.
 #[inline]
 pub(crate) fn factor<R: Real>(
-    tree: &MergedTree<R>,
+    tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
     articulated: &mut [ArticulatedInertia<R>],
     hinges: &mut [HingeFactor<R>],
@@ -55,7 +55,7 @@ pub(crate) fn factor<R: Real>(
 /// `wrenches` is used up. Returns (ω̇, a_O).
 #[inline]
 pub(crate) fn solve<R: Real>(
-    tree: &MergedTree<R>,
+    tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
     hinges: &[HingeFactor<R>],
     base: &BaseFactor<R>,
@@ -104,7 +104,7 @@ pub(crate) struct Load<'a, R> {
 /// the main link's share, about O.
 #[inline]
 pub(crate) fn bias<R: Real>(
-    tree: &MergedTree<R>,
+    tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
     omega_body: Vec3<R>,
     tau: &[R],

@@ -1,6 +1,6 @@
+use nboom_model::WeldedTree;
 use nboom_scalar::{Mat3, Real, RigidInertia, Vec3, Wrench};
 
-use crate::merged_tree::MergedTree;
 use crate::pose::LinkPose;
 
 /// Fills the kinetic-energy matrix B₀ of (V, ω, τ), row by row, both triangles.
@@ -8,7 +8,7 @@ use crate::pose::LinkPose;
 /// `composite` is work space; the poses' inertias must be turned. `out` has (6 + links)²
 /// entries.
 pub(crate) fn mass_matrix<R: Real>(
-    tree: &MergedTree<R>,
+    tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
     composite: &mut [RigidInertia<R>],
     out: &mut [R],
@@ -68,7 +68,7 @@ fn put_base<R: Real>(put: &mut impl FnMut(usize, usize, R), main: &RigidInertia<
 /// Gathers what acts against each link into one right side: `torques[j]` is the hinge torque
 /// on entry and u₀ of hinge j on exit. Returns the total against the main link, about O.
 pub(crate) fn gather<R: Real>(
-    tree: &MergedTree<R>,
+    tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
     wrenches: &mut [Wrench<R>],
     mut main: Wrench<R>,

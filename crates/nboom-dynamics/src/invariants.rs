@@ -1,6 +1,6 @@
+use nboom_model::Member;
 use nboom_scalar::{Real, RigidInertia, Twist, Vec3};
 
-use crate::merged_tree::Member;
 use crate::pose;
 use crate::{Motion, Recursive};
 
@@ -11,11 +11,11 @@ pub struct Invariants<R> {
     pub mass_center: Vec3<R>,
     /// V: inertial velocity of O.
     pub origin_velocity: Vec3<R>,
-    /// Kinetic energy, eq. (8.1).
+    /// Kinetic energy, eq. (8.11).
     pub kinetic_energy: R,
-    /// Linear momentum P̄, the sum over the bodies.
+    /// Linear momentum P̄, the sum over the bodies, eq. (8.7).
     pub linear_momentum: Vec3<R>,
-    /// Angular momentum H̄_c about the system mass centre.
+    /// Angular momentum H̄_c about the system mass centre, eq. (8.12).
     pub angular_momentum: Vec3<R>,
     /// Sum of the magnitudes of the bodies' linear momenta.
     pub linear_momentum_scale: R,
@@ -73,7 +73,7 @@ impl<R: Real> Recursive<R> {
         motion: &Motion<'_, R>,
         hinge: usize,
     ) -> Option<SpringLength<R>> {
-        pose::place(&self.tree, motion.beta, &mut self.poses);
+        pose::place(&self.tree, &self.constants, motion.beta, &mut self.poses);
         let (along, end, link) = self.spring_vector(hinge)?;
         let mut velocity = Vec3::zero();
         for j in self.path_inward(link) {
@@ -89,7 +89,7 @@ impl<R: Real> Recursive<R> {
     /// # Panics
     /// When one of the hinges has no kick-off spring.
     pub fn spring_lengths_squared(&mut self, beta: &[R], hinges: &[usize], out: &mut [R]) {
-        pose::place(&self.tree, beta, &mut self.poses);
+        pose::place(&self.tree, &self.constants, beta, &mut self.poses);
         for (length, &hinge) in out.iter_mut().zip(hinges) {
             let spring = self.spring_vector(hinge).expect("only hinges with springs are asked for");
             *length = spring.0.norm_squared();
@@ -100,7 +100,7 @@ impl<R: Real> Recursive<R> {
     /// [`Recursive::free_hinges`]) with the largest distance the end can have from it.
     pub fn spring_reach(&self, hinge: usize) -> Vec<(usize, R)> {
         let Some(spring) = self.scene.bodies[hinge].hinge.kick_off else { return Vec::new() };
-        let Member { link, point, rot } = self.tree.members[hinge];
+        let Member { link, point, rot_link_from_body: rot } = self.tree.members[hinge];
         let mut reach = (point + rot * Vec3::constant(spring.body_point)).norm();
         let mut reaches = Vec::new();
         for j in self.path_inward(link) {
@@ -117,7 +117,7 @@ impl<R: Real> Recursive<R> {
     /// x̄, the position of its end on the body from O, and the link of that body.
     fn spring_vector(&self, hinge: usize) -> Option<(Vec3<R>, Vec3<R>, Option<usize>)> {
         let spring = self.scene.bodies[hinge].hinge.kick_off?;
-        let Member { link, point, rot } = self.tree.members[hinge];
+        let Member { link, point, rot_link_from_body: rot } = self.tree.members[hinge];
         let in_link = point + rot * Vec3::constant(spring.body_point);
         let end = link.map_or(in_link, |j| self.poses[j].position + self.poses[j].rot * in_link);
         Some((end - Vec3::constant(spring.main_body_point), end, link))

@@ -34,8 +34,8 @@ mod base;
 mod composite_body;
 mod impulse;
 mod invariants;
-mod merged_tree;
 mod pose;
+mod pushing;
 mod recursive;
 
 pub use impulse::{LockUp, LockUpError};

@@ -1,6 +1,34 @@
+use nboom_elements::HingeLaw;
+use nboom_model::{Link, Scene, WeldedTree};
 use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
 
-use crate::merged_tree::MergedTree;
+/// Constants of one link that follow from the tree.
+#[derive(Clone, Debug)]
+pub(crate) struct LinkConstants<R> {
+    /// The hinge axis, inboard link's axes.
+    axis_inboard: Vec3<R>,
+    /// Link axes seen from the inboard link: `still + along_cos cos β + along_sin sin β`.
+    still: Mat3<R>,
+    along_cos: Mat3<R>,
+    along_sin: Mat3<R>,
+    /// Spring and dashpot about the hinge.
+    pub law: HingeLaw<R>,
+}
+
+impl<R: Real> LinkConstants<R> {
+    pub fn new(scene: &Scene, link: &Link<R>) -> Self {
+        let (rot, axis) = (link.rot_inboard_at_zero, link.axis);
+        let along = axis.outer(axis);
+        let hinge = &scene.bodies[link.hinge].hinge;
+        Self {
+            axis_inboard: rot * axis,
+            still: rot * along,
+            along_cos: rot * (Mat3::identity() - along),
+            along_sin: rot * Mat3::skew(axis),
+            law: HingeLaw::new(&hinge.spring, &hinge.dashpot),
+        }
+    }
+}
 
 /// Where one link is, main-body axes.
 #[derive(Clone, Copy, Debug)]
@@ -31,21 +59,26 @@ impl<R: Real> LinkPose<R> {
 
 /// Places every link at the hinge angles `beta` (one for each link).
 #[inline]
-pub(crate) fn place<R: Real>(tree: &MergedTree<R>, beta: &[R], poses: &mut [LinkPose<R>]) {
-    for (j, link) in tree.links.iter().enumerate() {
+pub(crate) fn place<R: Real>(
+    tree: &WeldedTree<R>,
+    constants: &[LinkConstants<R>],
+    beta: &[R],
+    poses: &mut [LinkPose<R>],
+) {
+    for (j, (link, of_link)) in tree.links.iter().zip(constants).enumerate() {
         let (rot_inboard, position_inboard) = match link.inboard {
             Some(i) => (poses[i].rot, poses[i].position),
             None => (Mat3::identity(), Vec3::zero()),
         };
         let (s, c) = beta[j].sin_cos();
-        let turned = link.still + link.along_cos * c + link.along_sin * s;
+        let turned = of_link.still + of_link.along_cos * c + of_link.along_sin * s;
         let pose = &mut poses[j];
         if link.inboard.is_none() {
-            (pose.rot, pose.offset, pose.axis) = (turned, link.point, link.axis);
+            (pose.rot, pose.offset, pose.axis) = (turned, link.point, of_link.axis_inboard);
         } else {
             pose.rot = rot_inboard * turned;
             pose.offset = rot_inboard * link.point;
-            pose.axis = rot_inboard * link.axis;
+            pose.axis = rot_inboard * of_link.axis_inboard;
         }
         pose.position = position_inboard + pose.offset;
     }
@@ -53,7 +86,7 @@ pub(crate) fn place<R: Real>(tree: &MergedTree<R>, beta: &[R], poses: &mut [Link
 
 /// Turns the mass properties of every link along with it.
 #[inline]
-pub(crate) fn turn_inertias<R: Real>(tree: &MergedTree<R>, poses: &mut [LinkPose<R>]) {
+pub(crate) fn turn_inertias<R: Real>(tree: &WeldedTree<R>, poses: &mut [LinkPose<R>]) {
     for (link, pose) in tree.links.iter().zip(poses) {
         pose.inertia = link.inertia.rotated(&pose.rot);
     }

@@ -1,11 +1,11 @@
-use nboom_model::{Mode, Scene};
+use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
 use crate::base::BaseFactor;
 use crate::composite_body;
-use crate::merged_tree::MergedTree;
-use crate::pose::{self, LinkPose};
+use crate::pose::{self, LinkConstants, LinkPose};
+use crate::pushing::PushingSpring;
 
 /// Rates of the main body and angles and rates of the free hinges, in the order of
 /// [`Recursive::free_hinges`].
@@ -47,7 +47,9 @@ impl<R: Real> Accelerations<R> {
 #[derive(Clone, Debug)]
 pub struct Recursive<R> {
     pub(crate) scene: Scene,
-    pub(crate) tree: MergedTree<R>,
+    pub(crate) tree: WeldedTree<R>,
+    pub(crate) constants: Vec<LinkConstants<R>>,
+    pushing: Vec<PushingSpring<R>>,
     free: Vec<usize>,
     thrust: Option<Wrench<R>>,
     pub(crate) poses: Vec<LinkPose<R>>,
@@ -68,7 +70,9 @@ impl<R: Real> Recursive<R> {
             scene.bodies.iter().map(|body| R::constant(body.hinge.start.angle)).collect();
         let mut recursive = Self {
             scene: scene.clone(),
-            tree: MergedTree::new(scene, &mode, &beta),
+            tree: WeldedTree::new(scene, &mode, &beta),
+            constants: Vec::new(),
+            pushing: Vec::new(),
             free: Vec::new(),
             thrust: None,
             poses: Vec::new(),
@@ -87,7 +91,10 @@ impl<R: Real> Recursive<R> {
     /// Changes the mode; `beta` has the angle of every hinge of the scene \[rad\], of which
     /// those of the held ones are built in.
     pub fn set_mode(&mut self, mode: &Mode, beta: &[R]) {
-        self.tree = MergedTree::new(&self.scene, mode, beta);
+        self.tree = WeldedTree::new(&self.scene, mode, beta);
+        let constants = |link| LinkConstants::new(&self.scene, link);
+        self.constants = self.tree.links.iter().map(constants).collect();
+        self.pushing = PushingSpring::all(&self.scene, mode, &self.tree);
         self.free = self.tree.links.iter().map(|link| link.hinge).collect();
         self.thrust = self.scene.thrust.filter(|_| mode.thrust).map(|thrust| {
             let (point, force) = (Vec3::constant(thrust.point), Vec3::constant(thrust.force));
@@ -136,7 +143,7 @@ impl<R: Real> Recursive<R> {
     }
 
     pub(crate) fn place(&mut self, beta: &[R]) {
-        pose::place(&self.tree, beta, &mut self.poses);
+        pose::place(&self.tree, &self.constants, beta, &mut self.poses);
         pose::turn_inertias(&self.tree, &mut self.poses);
     }
 
@@ -162,10 +169,10 @@ impl<R: Real> Recursive<R> {
             &mut self.twists,
             &mut self.wrenches,
         );
-        for (j, link) in self.tree.links.iter().enumerate() {
-            torques[j] = link.law.torque(motion.beta[j], motion.tau[j]);
+        for (j, constants) in self.constants.iter().enumerate() {
+            torques[j] = constants.law.torque(motion.beta[j], motion.tau[j]);
         }
-        for spring in &self.tree.pushing {
+        for spring in &self.pushing {
             let (link, pose) = (spring.link, &self.poses[spring.link]);
             let arm = pose.rot * spring.point;
             let along = pose.position + arm - spring.main_body_point;

@@ -1,1 +1,14 @@
-//! Closed forms of Sections 4 and 5.
+//! Closed forms of the equations of motion, each written once over any scalar.
+//!
+//! Nothing here is shared with the recursive path but spatial algebra: the two are compared
+//! with each other on everything that is tested.
+
+pub mod articulated;
+mod base;
+mod chain;
+mod paddle;
+mod parameters;
+
+pub use base::AtOrigin;
+pub use chain::ChainLink;
+pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Parameters, Solution};

@@ -31,7 +31,9 @@ mod label;
 mod mass;
 mod mode;
 mod scene;
+mod topology;
 mod warning;
+mod welded;
 
 pub use appendage::{Appendage, Segment};
 pub use environment::{Gravity, InitialMotion, Thrust};
@@ -42,4 +44,6 @@ pub use label::HingeLabel;
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use mode::Mode;
 pub use scene::{Body, Scene, SceneDescription};
+pub use topology::{Shape, Topology};
 pub use warning::ModelWarning;
+pub use welded::{Link, Member, WeldedTree};

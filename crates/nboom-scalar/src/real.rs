@@ -27,6 +27,12 @@ pub trait Real:
     /// Sine and cosine of an angle \[rad\].
     fn sin_cos(self) -> (Self, Self);
 
+    /// `self · factor + term`; scalars that can, round once.
+    #[inline]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
+
     /// The constant zero.
     fn zero() -> Self {
         Self::constant(0.0)

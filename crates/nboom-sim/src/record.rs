@@ -47,7 +47,7 @@ pub struct Snapshot {
     pub sigma: Vec<f64>,
     /// State of each hinge.
     pub hinges: Vec<HingeState>,
-    /// Kinetic energy T, eq. (8.1).
+    /// Kinetic energy T, eq. (8.11).
     pub kinetic_energy: f64,
     /// Linear momentum P̄, inertial axes.
     pub linear_momentum_inertial: Vec3<f64>,

@@ -1,0 +1,33 @@
+use nboom_elements::KickOffLaw;
+use nboom_model::{Mode, Scene, WeldedTree};
+use nboom_scalar::{Real, Vec3};
+
+/// A kick-off spring that pushes a link.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PushingSpring<R> {
+    pub link: usize,
+    /// Attachment on the link, from its hinge, link axes.
+    pub point: Vec3<R>,
+    /// Attachment on the main body, from O.
+    pub main_body_point: Vec3<R>,
+    pub law: KickOffLaw<R>,
+}
+
+impl<R: Real> PushingSpring<R> {
+    /// The springs that push in `mode` and whose ends move against each other.
+    pub fn all(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Vec<Self> {
+        let pushing = (0..scene.bodies.len()).filter(|&i| mode.kick_off[i]);
+        pushing.filter_map(|i| Self::of(scene, tree, i)).collect()
+    }
+
+    fn of(scene: &Scene, tree: &WeldedTree<R>, i: usize) -> Option<Self> {
+        let (member, spring) = (tree.members[i], scene.bodies[i].hinge.kick_off?);
+        let in_link = member.rot_link_from_body * Vec3::constant(spring.body_point);
+        Some(Self {
+            link: member.link?,
+            point: member.point + in_link,
+            main_body_point: Vec3::constant(spring.main_body_point),
+            law: KickOffLaw::new(spring.coefficients),
+        })
+    }
+}

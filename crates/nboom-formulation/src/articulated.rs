@@ -1,0 +1,158 @@
+//! Formulation `articulated`: O(n) elimination, form P of the cost table in
+//! `docs/formulations.md`.
+
+use nboom_model::{Shape, Topology};
+use nboom_scalar::{ArticulatedInertia, Mat3, Real, Sym3, Twist, Vec3, Wrench};
+
+use crate::base::AtOrigin;
+use crate::chain::{self, Eliminated, Outward, Shown, Spin, Turned};
+use crate::paddle::{self, ArmRates, Paddle};
+use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
+
+/// Accelerations of a satellite.
+pub fn solve<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+) -> Solution<R> {
+    let omega = coordinates.omega;
+    let mut total = AtOrigin::of_main_body(&parameters.main, omega, &coordinates.external);
+    let mut first = 0;
+    let mut appendages = Vec::new();
+    for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
+        let hinges = &coordinates.hinges[first..first + shape.hinges()];
+        let appendage = Appendage::eliminate(shape, branch, omega, hinges);
+        total.add(&appendage.at_origin(branch));
+        appendages.push(appendage);
+        first += shape.hinges();
+    }
+    let main = total.accelerations();
+    let mut tau_dot = Vec::new();
+    for (appendage, branch) in appendages.iter().zip(&parameters.branches) {
+        appendage.back(branch, main, &mut tau_dot);
+    }
+    Solution { main, tau_dot }
+}
+
+/// An appendage whose hinges have been eliminated.
+struct Appendage<R> {
+    shown: Shown<R>,
+    first_torque: R,
+    eliminated: Vec<Eliminated<R>>,
+    paddle: Option<Paddle<R>>,
+}
+
+impl<R: Real> Appendage<R> {
+    fn eliminate(
+        shape: Shape,
+        branch: &Branch<R>,
+        omega: Vec3<R>,
+        hinges: &[HingeCoordinates<R>],
+    ) -> Self {
+        let spin = Spin::new(branch.rot_body_from_appendage.transpose_mul(omega));
+        let start = Outward {
+            alpha: R::zero(),
+            sigma: R::zero(),
+            hinge: spin.bias_of_main_point(branch.point),
+        };
+        match shape {
+            Shape::Chain(_) => Self::eliminate_chain(&spin, branch, start, hinges),
+            Shape::Paddle => Self::eliminate_paddle(&spin, branch, start, hinges),
+        }
+    }
+
+    fn eliminate_chain(
+        spin: &Spin<R>,
+        branch: &Branch<R>,
+        start: Outward<R>,
+        hinges: &[HingeCoordinates<R>],
+    ) -> Self {
+        let mut reached = start;
+        let mut turned: Vec<Turned<R>> = Vec::new();
+        for (link, hinge) in branch.links.iter().zip(hinges) {
+            let (link, next) = chain::outward(spin, link, hinge.beta, hinge.tau, reached);
+            turned.push(link);
+            reached = next;
+        }
+        let mut shown = Shown::nothing();
+        let mut eliminated = Vec::new();
+        for (i, link) in turned.iter().enumerate().rev() {
+            let outer_torque = hinges.get(i + 1).map_or(R::zero(), |hinge| hinge.torque);
+            let (next, hinge) = chain::inward(link, hinges[i].torque - outer_torque, &shown);
+            shown = next;
+            eliminated.push(hinge);
+        }
+        eliminated.reverse();
+        Self { shown, first_torque: hinges[0].torque, eliminated, paddle: None }
+    }
+
+    fn eliminate_paddle(
+        spin: &Spin<R>,
+        branch: &Branch<R>,
+        start: Outward<R>,
+        hinges: &[HingeCoordinates<R>],
+    ) -> Self {
+        let (of_arm, of_paddle) = (&hinges[0], &hinges[1]);
+        let (arm, reached) = chain::outward(spin, &branch.links[0], of_arm.beta, of_arm.tau, start);
+        let rates = ArmRates {
+            arm: reached,
+            beta: of_paddle.beta,
+            tau: of_paddle.tau,
+            torque: of_paddle.torque,
+        };
+        let (inertia, wrench, paddle) = paddle::eliminate(spin, &branch.links[1].inertia, &rates);
+        let (shown, eliminated) = paddle::arm_inward(&arm, of_arm.torque, &inertia, wrench);
+        Self {
+            shown,
+            first_torque: of_arm.torque,
+            eliminated: vec![eliminated],
+            paddle: Some(paddle),
+        }
+    }
+
+    fn at_origin(&self, branch: &Branch<R>) -> AtOrigin<R> {
+        at_origin(&self.shown, self.first_torque, branch.point, &branch.rot_body_from_appendage)
+    }
+
+    fn back(&self, branch: &Branch<R>, main: Twist<R>, tau_dot: &mut Vec<R>) {
+        let (w, mut a) = first_hinge(branch.point, &branch.rot_body_from_appendage, main);
+        let mut inboard = w.x;
+        for eliminated in &self.eliminated {
+            let (epsilon, next) = chain::back(eliminated, [w.y, w.z], a);
+            tau_dot.push(epsilon - inboard);
+            (inboard, a) = (epsilon, next);
+        }
+        if let Some(paddle) = &self.paddle {
+            let hinge = Twist { angular: Vec3::new(inboard, w.y, w.z), linear: a };
+            tau_dot.push(paddle::back(paddle, hinge));
+        }
+    }
+}
+
+/// What an appendage shows at its first hinge, seen from O along main-body axes. The moment
+/// about ê₁ is the first hinge's torque.
+#[inline]
+pub fn at_origin<R: Real>(
+    shown: &Shown<R>,
+    first_torque: R,
+    point: Vec3<R>,
+    rot: &Mat3<R>,
+) -> AtOrigin<R> {
+    let zero = R::zero();
+    let [yy, zz, yz] = shown.angular;
+    let inertia = ArticulatedInertia {
+        angular: Sym3 { xx: zero, yy, zz, xy: zero, xz: zero, yz },
+        coupling: Mat3 { rows: [Vec3::zero(), shown.coupling[0], shown.coupling[1]] },
+        linear: shown.linear,
+    };
+    let [m2, m3] = shown.moment;
+    let wrench = Wrench { moment: Vec3::new(first_torque, m2, m3), force: shown.force };
+    AtOrigin { inertia: inertia.seen_from(point), wrench: wrench.seen_from(point) }.rotated(rot)
+}
+
+/// ω̇ and the acceleration of the first hinge in appendage axes.
+#[inline]
+pub fn first_hinge<R: Real>(point: Vec3<R>, rot: &Mat3<R>, main: Twist<R>) -> (Vec3<R>, Vec3<R>) {
+    let w = rot.transpose_mul(main.angular);
+    (w, rot.transpose_mul(main.linear) + w.cross(point))
+}

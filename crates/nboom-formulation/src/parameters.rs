@@ -1,0 +1,187 @@
+use nboom_model::{Shape, Topology};
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
+
+use crate::chain::ChainLink;
+
+/// Constants of a satellite of one topology.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters<R> {
+    /// The main body about O, main-body axes.
+    pub main: RigidInertia<R>,
+    /// The appendages in the topology's order.
+    pub branches: Vec<Branch<R>>,
+}
+
+/// Constants of one appendage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch<R> {
+    /// Turns appendage components into main-body components; ê₁ is along the first hinge.
+    pub rot_body_from_appendage: Mat3<R>,
+    /// The first hinge from O, appendage axes.
+    pub point: Vec3<R>,
+    /// The links, inboard before outboard. A paddle's two links are the arm and the paddle,
+    /// whose hinge is along η.
+    pub links: Vec<ChainLink<R>>,
+}
+
+/// One state of a satellite and what acts on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coordinates<R> {
+    /// ω, main-body axes \[rad/T\].
+    pub omega: Vec3<R>,
+    /// External wrench about O, main-body axes.
+    pub external: Wrench<R>,
+    /// β, τ and generalised force of each hinge, appendage by appendage.
+    pub hinges: Vec<HingeCoordinates<R>>,
+}
+
+/// Angle, rate and generalised force of one hinge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HingeCoordinates<R> {
+    /// Angle relative to the inboard link \[rad\].
+    pub beta: R,
+    /// Rate relative to the inboard link \[rad/T\].
+    pub tau: R,
+    /// Generalised force conjugate to β.
+    pub torque: R,
+}
+
+/// Accelerations in the order (ω̇, a_O, τ̇ of each hinge).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution<R> {
+    /// ω̇ and a_O, main-body axes.
+    pub main: Twist<R>,
+    /// τ̇ of each hinge.
+    pub tau_dot: Vec<R>,
+}
+
+/// Where the numbers of [`Parameters`] and [`Coordinates`] stand when they are written one
+/// after the other.
+pub struct Layout;
+
+impl Layout {
+    /// Numbers of the main body.
+    pub const MAIN: usize = 10;
+    /// Numbers of an appendage before its links.
+    pub const BRANCH: usize = 12;
+    /// Numbers of a link.
+    pub const LINK: usize = 12;
+    /// Numbers of a state before the hinges: ω, external moment, external force.
+    pub const STATE: usize = 9;
+    /// Numbers of a hinge in a state.
+    pub const HINGE: usize = 3;
+
+    /// How many numbers parameters take.
+    pub fn parameters(topology: &Topology) -> usize {
+        let branch = |shape: &Shape| Self::BRANCH + Self::LINK * shape.hinges();
+        Self::MAIN + topology.shapes().iter().map(branch).sum::<usize>()
+    }
+
+    /// How many numbers a state takes.
+    pub fn coordinates(topology: &Topology) -> usize {
+        Self::STATE + Self::HINGE * topology.hinges()
+    }
+
+    /// How many numbers accelerations take.
+    pub fn outputs(topology: &Topology) -> usize {
+        6 + topology.hinges()
+    }
+}
+
+/// Reads numbers one after the other.
+pub(crate) struct Reader<I>(pub I);
+
+impl<R: Real, I: Iterator<Item = R>> Reader<I> {
+    pub fn next(&mut self) -> R {
+        self.0.next().expect("the layout counts the numbers")
+    }
+
+    pub fn vector(&mut self) -> Vec3<R> {
+        let (x, y, z) = (self.next(), self.next(), self.next());
+        Vec3::new(x, y, z)
+    }
+
+    fn rigid(&mut self) -> RigidInertia<R> {
+        let (mass, first_moment) = (self.next(), self.vector());
+        let (diagonal, products) = (self.vector(), self.vector());
+        let about_origin = Sym3 {
+            xx: diagonal.x,
+            yy: diagonal.y,
+            zz: diagonal.z,
+            xy: products.x,
+            xz: products.y,
+            yz: products.z,
+        };
+        RigidInertia { mass, first_moment, about_origin }
+    }
+
+    fn branch(&mut self, shape: Shape) -> Branch<R> {
+        let rows = (self.vector(), self.vector(), self.vector());
+        let rot_body_from_appendage = Mat3::from_rows(rows.0, rows.1, rows.2);
+        let point = self.vector();
+        let link = |reader: &mut Self| {
+            let inertia = reader.rigid();
+            ChainLink { inertia, next: [reader.next(), reader.next()] }
+        };
+        let links = (0..shape.hinges()).map(|_| link(self)).collect();
+        Branch { rot_body_from_appendage, point, links }
+    }
+}
+
+impl<R: Real> Parameters<R> {
+    /// Reads what [`write`](Self::write) writes: mass, first moment, moments xx, yy, zz and
+    /// products xy, xz, yz of the main body; then for each appendage the rotation by rows and
+    /// the first hinge, and for each link the same ten numbers and the way to the next hinge.
+    pub fn read(topology: &Topology, numbers: impl IntoIterator<Item = R>) -> Self {
+        let mut reader = Reader(numbers.into_iter());
+        let main = reader.rigid();
+        let branches = topology.shapes().iter().map(|&shape| reader.branch(shape)).collect();
+        Self { main, branches }
+    }
+
+    /// The numbers in order.
+    pub fn write(&self) -> Vec<R> {
+        let mut numbers = Vec::new();
+        write_rigid(&self.main, &mut numbers);
+        for branch in &self.branches {
+            numbers
+                .extend(branch.rot_body_from_appendage.rows.into_iter().flat_map(Vec3::to_array));
+            numbers.extend(branch.point.to_array());
+            for link in &branch.links {
+                write_rigid(&link.inertia, &mut numbers);
+                numbers.extend(link.next);
+            }
+        }
+        numbers
+    }
+}
+
+fn write_rigid<R: Real>(body: &RigidInertia<R>, numbers: &mut Vec<R>) {
+    let i = &body.about_origin;
+    numbers.push(body.mass);
+    numbers.extend(body.first_moment.to_array());
+    numbers.extend([i.xx, i.yy, i.zz, i.xy, i.xz, i.yz]);
+}
+
+impl<R: Real> Coordinates<R> {
+    /// Reads ω, external moment and force, then β, τ and torque of each hinge.
+    pub fn read(topology: &Topology, numbers: impl IntoIterator<Item = R>) -> Self {
+        let mut reader = Reader(numbers.into_iter());
+        let omega = reader.vector();
+        let external = Wrench { moment: reader.vector(), force: reader.vector() };
+        let hinge =
+            |_| HingeCoordinates { beta: reader.next(), tau: reader.next(), torque: reader.next() };
+        let hinges = (0..topology.hinges()).map(hinge).collect();
+        Self { omega, external, hinges }
+    }
+}
+
+impl<R: Real> Solution<R> {
+    /// The numbers in order: ω̇, a_O, τ̇.
+    pub fn write(&self) -> Vec<R> {
+        let mut numbers = self.main.angular.to_array().to_vec();
+        numbers.extend(self.main.linear.to_array());
+        numbers.extend(&self.tau_dot);
+        numbers
+    }
+}

@@ -1,0 +1,100 @@
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Vec3};
+
+use crate::{MassProperties, Mode, Scene};
+
+/// The tree with every held hinge welded: one link for each free hinge, and the main link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WeldedTree<R> {
+    /// All bodies that are rigid with the main body, about O, main-body axes.
+    pub main: RigidInertia<R>,
+    /// The links, inboard before outboard.
+    pub links: Vec<Link<R>>,
+    /// For each body of the scene, where it sits in its link.
+    pub members: Vec<Member<R>>,
+}
+
+/// A body outboard of a free hinge and all that is welded to it. Its origin is on its hinge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link<R> {
+    /// The free hinge, as numbered in the scene.
+    pub hinge: usize,
+    /// The inboard link; `None` is the main link.
+    pub inboard: Option<usize>,
+    /// The hinge point from the inboard link's origin, inboard link's axes.
+    pub point: Vec3<R>,
+    /// Turns link components at hinge angle zero into inboard link components.
+    pub rot_inboard_at_zero: Mat3<R>,
+    /// Unit vector along the hinge axis, link axes.
+    pub axis: Vec3<R>,
+    /// Mass properties about the hinge, link axes.
+    pub inertia: RigidInertia<R>,
+}
+
+/// Where a body of the scene sits in its link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Member<R> {
+    /// The link; `None` is the main link.
+    pub link: Option<usize>,
+    /// The body's origin from the link's, link axes.
+    pub point: Vec3<R>,
+    /// Turns body components into link components.
+    pub rot_link_from_body: Mat3<R>,
+}
+
+impl<R: Real> WeldedTree<R> {
+    /// Welds the hinges that `mode` holds, at their angles in `beta` (one for each hinge).
+    pub fn new(scene: &Scene, mode: &Mode, beta: &[R]) -> Self {
+        let mut tree = Self {
+            main: rigid(&scene.main_body),
+            links: Vec::new(),
+            members: Vec::with_capacity(scene.bodies.len()),
+        };
+        for i in 0..scene.bodies.len() {
+            tree.place(scene, mode.is_free(i), i, beta[i]);
+        }
+        tree
+    }
+
+    fn place(&mut self, scene: &Scene, free: bool, i: usize, beta: R) {
+        let body = &scene.bodies[i];
+        let inboard = match body.inboard {
+            Some(inboard) => self.members[inboard],
+            None => {
+                Member { link: None, point: Vec3::zero(), rot_link_from_body: Mat3::identity() }
+            }
+        };
+        let rot = inboard.rot_link_from_body;
+        let point = inboard.point + rot * Vec3::constant(body.mount.point);
+        let rot_at_zero = rot * Mat3::constant(body.mount.rot_inboard_from_hinge);
+        let axis = Vec3::constant(body.axis);
+        let inertia = rigid(&body.mass_properties);
+        if free {
+            self.members.push(Member {
+                link: Some(self.links.len()),
+                point: Vec3::zero(),
+                rot_link_from_body: Mat3::identity(),
+            });
+            self.links.push(Link {
+                hinge: i,
+                inboard: inboard.link,
+                point,
+                rot_inboard_at_zero: rot_at_zero,
+                axis,
+                inertia,
+            });
+        } else {
+            let rot = rot_at_zero * Mat3::about_axis(axis, beta);
+            self.members.push(Member { link: inboard.link, point, rot_link_from_body: rot });
+            let welded = inertia.rotated(&rot).seen_from(point);
+            match inboard.link {
+                Some(link) => self.links[link].inertia.add(welded),
+                None => self.main.add(welded),
+            }
+        }
+    }
+}
+
+fn rigid<R: Real>(body: &MassProperties) -> RigidInertia<R> {
+    let center = Vec3::constant(body.center_of_mass);
+    RigidInertia::new(R::constant(body.mass), center, Sym3::constant(body.inertia))
+}
