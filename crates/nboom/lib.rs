@@ -6,6 +6,7 @@
 
 pub use nboom_dynamics as dynamics;
 pub use nboom_elements as elements;
+pub use nboom_formulation as formulation;
 pub use nboom_io as io;
 pub use nboom_model as model;
 pub use nboom_ode as ode;

@@ -9,18 +9,18 @@ use serde_json::Value;
 use crate::support::json_scene::{bodies, vector};
 use crate::support::{data, number, numbers, relative_error};
 
-struct Case {
-    scene: Scene,
-    mode: Mode,
-    attitude: Quaternion<f64>,
-    beta: Vec<f64>,
-    tau: Vec<f64>,
-    omega: Vec3<f64>,
-    velocity_body: Vec3<f64>,
-    expected: Value,
+pub struct Case {
+    pub scene: Scene,
+    pub mode: Mode,
+    pub attitude: Quaternion<f64>,
+    pub beta: Vec<f64>,
+    pub tau: Vec<f64>,
+    pub omega: Vec3<f64>,
+    pub velocity_body: Vec3<f64>,
+    pub expected: Value,
 }
 
-fn cases() -> Vec<Case> {
+pub fn cases() -> Vec<Case> {
     let file = data("forward_dynamics_cases.json");
     file["cases"].as_array().expect("cases").iter().map(case).collect()
 }
@@ -49,13 +49,13 @@ fn case(value: &Value) -> Case {
 }
 
 impl Case {
-    fn dynamics(&self) -> Recursive<f64> {
+    pub fn dynamics(&self) -> Recursive<f64> {
         let mut dynamics = Recursive::new(&self.scene);
         dynamics.set_mode(&self.mode, &self.beta);
         dynamics
     }
 
-    fn of_free(&self, dynamics: &Recursive<f64>, all: &[f64]) -> Vec<f64> {
+    pub fn of_free(&self, dynamics: &Recursive<f64>, all: &[f64]) -> Vec<f64> {
         dynamics.free_hinges().iter().map(|&i| all[i]).collect()
     }
 }

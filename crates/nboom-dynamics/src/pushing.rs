@@ -2,7 +2,10 @@ use nboom_elements::KickOffLaw;
 use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{Real, Vec3};
 
-/// A kick-off spring that pushes a link.
+use crate::pose::LinkPose;
+
+/// A kick-off spring that pushes a link; as a force on it and its reaction on the main body,
+/// which gives eqs. (6.17) and (6.20), corrected: notes 7 and 8.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PushingSpring<R> {
     pub link: usize,
@@ -29,5 +32,15 @@ impl<R: Real> PushingSpring<R> {
             main_body_point: Vec3::constant(spring.main_body_point),
             law: KickOffLaw::new(spring.coefficients),
         })
+    }
+
+    /// Where the spring's end on the link is, from O, and the force on it; main-body axes.
+    #[inline]
+    pub fn end_and_force(&self, poses: &[LinkPose<R>]) -> (Vec3<R>, Vec3<R>) {
+        let pose = &poses[self.link];
+        let end = pose.position + pose.rot * self.point;
+        let along = end - self.main_body_point;
+        let length = along.norm();
+        (end, along * (self.law.force(length) / length))
     }
 }

@@ -142,6 +142,26 @@ impl<R: Real> Recursive<R> {
         of_base.copy_from_slice(&[f.x, f.y, f.z, m.x, m.y, m.z]);
     }
 
+    /// Generalised forces conjugate to the free hinges' angles: springs, dashpots and pushing
+    /// kick-off springs, eqs. (6.1) and (6.17), corrected: note 5.
+    ///
+    /// A kick-off spring's reaction on the main body leaves no resultant, so nothing else of it
+    /// enters the equations.
+    pub fn hinge_forces(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
+        pose::place(&self.tree, &self.constants, motion.beta, &mut self.poses);
+        for (j, constants) in self.constants.iter().enumerate() {
+            out[j] = constants.law.torque(motion.beta[j], motion.tau[j]);
+        }
+        for spring in &self.pushing {
+            let (end, force) = spring.end_and_force(&self.poses);
+            let inward = std::iter::successors(Some(spring.link), |&j| self.tree.links[j].inboard);
+            for j in inward {
+                let pose = &self.poses[j];
+                out[j] += pose.axis.dot((end - pose.position).cross(force));
+            }
+        }
+    }
+
     pub(crate) fn place(&mut self, beta: &[R]) {
         pose::place(&self.tree, &self.constants, beta, &mut self.poses);
         pose::turn_inertias(&self.tree, &mut self.poses);
@@ -173,12 +193,9 @@ impl<R: Real> Recursive<R> {
             torques[j] = constants.law.torque(motion.beta[j], motion.tau[j]);
         }
         for spring in &self.pushing {
-            let (link, pose) = (spring.link, &self.poses[spring.link]);
-            let arm = pose.rot * spring.point;
-            let along = pose.position + arm - spring.main_body_point;
-            let length = along.norm();
-            let force = along * (spring.law.force(length) / length);
-            self.wrenches[link].subtract(Wrench::of_force(arm, force));
+            let (end, force) = spring.end_and_force(&self.poses);
+            let arm = end - self.poses[spring.link].position;
+            self.wrenches[spring.link].subtract(Wrench::of_force(arm, force));
             main.add(Wrench::of_force(spring.main_body_point, force));
         }
         if let Some(thrust) = self.thrust {

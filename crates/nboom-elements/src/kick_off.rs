@@ -36,7 +36,7 @@ mod tests {
 
     #[test]
     fn printed_forces_at_the_printed_lengths() {
-        // p. 18-27: forces and lengths of the four springs at the initial time.
+        // Forces and lengths of the four springs in the printout of Section 18, at the initial time.
         let springs = [
             ([10.0, -0.2, 0.0, 0.0], 8.0, 8.4),
             ([4.0, -0.5, 0.05, 0.0], 10.0, 4.0),

@@ -8,7 +8,9 @@ mod base;
 mod chain;
 mod paddle;
 mod parameters;
+mod recognise;
 
 pub use base::AtOrigin;
 pub use chain::ChainLink;
 pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Parameters, Solution};
+pub use recognise::{Recognised, recognise};

@@ -13,7 +13,8 @@ pub struct Segment {
     pub hinge: Hinge,
 }
 
-/// The report's two ways to write bodies of the tree (Section 4).
+/// The report's two ways to write bodies of the tree, Section 4; segment axes are those of
+/// eqs. (9.1) and (9.2).
 ///
 /// `mount.rot_inboard_from_hinge` holds the appendage axes ê₁, ê₂, ê₃ as columns, eq. (9.6).
 #[derive(Clone, Debug, PartialEq)]

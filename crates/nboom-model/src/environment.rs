@@ -9,7 +9,8 @@ pub struct Gravity {
     pub up: Vec3<f64>,
 }
 
-/// A thrust fixed in the main body, on while `on <= t < off`, eqs. (6.4) to (6.8).
+/// A thrust fixed in the main body, on while `on <= t < off`, eqs. (6.4) to (6.8):
+/// note 5.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {
     /// Force, main-body axes.
