@@ -16,6 +16,7 @@
 mod matrix;
 mod quaternion;
 mod real;
+mod routine;
 mod spatial;
 mod symmetric;
 mod vector;
@@ -23,6 +24,7 @@ mod vector;
 pub use matrix::Mat3;
 pub use quaternion::Quaternion;
 pub use real::Real;
+pub use routine::Routine;
 pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
 pub use vector::Vec3;

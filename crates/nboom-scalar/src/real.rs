@@ -27,6 +27,12 @@ pub trait Real:
     /// Sine and cosine of an angle \[rad\].
     fn sin_cos(self) -> (Self, Self);
 
+    /// Sines and cosines of several angles at once.
+    #[inline]
+    fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        angles.map(Self::sin_cos)
+    }
+
     /// `self · factor + term`; scalars that can, round once.
     #[inline]
     fn mul_add(self, factor: Self, term: Self) -> Self {

@@ -1,0 +1,34 @@
+use crate::Real;
+
+/// What generated code implements: accelerations of one topology by one formulation.
+///
+/// Parameters are prepared once; an evaluation then allocates nothing and does not branch.
+/// The order of all numbers is that of `nboom_formulation::Layout`.
+pub trait Routine {
+    /// Topology, for example `S2_P`.
+    const TOPOLOGY: &'static str;
+    /// Formulation, for example `articulated`.
+    const FORMULATION: &'static str;
+    /// What the routine takes for granted: parameter numbers and their values.
+    const PINNED: &'static [(usize, f64)];
+    /// How many numbers describe a satellite.
+    const PARAMETERS: usize;
+    /// How many prepared constants there are.
+    const CONSTANTS: usize;
+    /// How many numbers describe a state.
+    const COORDINATES: usize;
+    /// How many numbers accelerations are.
+    const OUTPUTS: usize;
+
+    /// Computes the constants that depend on parameters alone.
+    ///
+    /// # Panics
+    /// When a slice does not have the length given above.
+    fn prepare<R: Real>(parameters: &[R], constants: &mut [R]);
+
+    /// Computes accelerations.
+    ///
+    /// # Panics
+    /// When a slice does not have the length given above.
+    fn evaluate<R: Real>(constants: &[R], coordinates: &[R], outputs: &mut [R]);
+}
