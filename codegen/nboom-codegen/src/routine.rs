@@ -30,8 +30,8 @@ pub fn trace(request: &Request) -> Graph {
     Graph::trace_with(&pinned, |inputs| {
         let (of_satellite, of_state) = inputs.split_at(parameters);
         let satellite = Parameters::read(topology, of_satellite.iter().copied());
-        let state = Coordinates::read(topology, of_state.iter().copied());
-        articulated::solve(topology, &satellite, &state).write()
+        let state = Coordinates::read(topology, of_state);
+        articulated::solve(topology, &satellite, &state).write(topology)
     })
 }
 

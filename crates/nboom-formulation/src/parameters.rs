@@ -55,8 +55,11 @@ pub struct Solution<R> {
     pub tau_dot: Vec<R>,
 }
 
-/// Where the numbers of [`Parameters`] and [`Coordinates`] stand when they are written one
-/// after the other.
+/// Where the numbers of [`Parameters`], [`Coordinates`] and [`Solution`] stand when they are
+/// written one after the other.
+///
+/// Parameters are written appendage by appendage. In a state and in accelerations the hinges
+/// of equal appendages stand side by side, so that they can be taken together.
 pub struct Layout;
 
 impl Layout {
@@ -68,8 +71,10 @@ impl Layout {
     pub const LINK: usize = 12;
     /// Numbers of a state before the hinges: ω, external moment, external force.
     pub const STATE: usize = 9;
-    /// Numbers of a hinge in a state.
+    /// Numbers of a hinge in a state: β, τ, torque.
     pub const HINGE: usize = 3;
+    /// Numbers of accelerations before the hinges: ω̇, a_O.
+    pub const OUTPUT: usize = 6;
 
     /// How many numbers parameters take.
     pub fn parameters(topology: &Topology) -> usize {
@@ -84,7 +89,38 @@ impl Layout {
 
     /// How many numbers accelerations take.
     pub fn outputs(topology: &Topology) -> usize {
-        6 + topology.hinges()
+        Self::OUTPUT + topology.hinges()
+    }
+
+    /// For each hinge, appendage by appendage, where it stands: hinge `i` of appendage `a` of a
+    /// group of `count` equal ones is at `start + i · count + a`, where `start` counts the
+    /// hinges of the groups before.
+    pub fn places(topology: &Topology) -> Vec<usize> {
+        let mut places = Vec::with_capacity(topology.hinges());
+        let mut start = 0;
+        for (shape, count) in topology.groups() {
+            for a in 0..count {
+                places.extend((0..shape.hinges()).map(|i| start + i * count + a));
+            }
+            start += shape.hinges() * count;
+        }
+        places
+    }
+
+    /// Where β, τ and torque of the hinge at `place` of a group stand in a state: the group's
+    /// β, τ and torques of one hinge follow each other.
+    pub fn hinge_in_state(topology: &Topology, place: usize) -> [usize; 3] {
+        let mut start = 0;
+        for (shape, count) in topology.groups() {
+            let hinges = shape.hinges() * count;
+            if place < start + hinges {
+                let (i, a) = ((place - start) / count, (place - start) % count);
+                let at = Self::STATE + Self::HINGE * (start + i * count) + a;
+                return [at, at + count, at + 2 * count];
+            }
+            start += hinges;
+        }
+        panic!("hinge {place} of {start}")
     }
 }
 
@@ -164,24 +200,43 @@ fn write_rigid<R: Real>(body: &RigidInertia<R>, numbers: &mut Vec<R>) {
 }
 
 impl<R: Real> Coordinates<R> {
-    /// Reads ω, external moment and force, then β, τ and torque of each hinge.
-    pub fn read(topology: &Topology, numbers: impl IntoIterator<Item = R>) -> Self {
-        let mut reader = Reader(numbers.into_iter());
+    /// Reads ω, external moment and force, then the hinges in the order of [`Layout`].
+    pub fn read(topology: &Topology, numbers: &[R]) -> Self {
+        let mut reader = Reader(numbers.iter().copied());
         let omega = reader.vector();
         let external = Wrench { moment: reader.vector(), force: reader.vector() };
-        let hinge =
-            |_| HingeCoordinates { beta: reader.next(), tau: reader.next(), torque: reader.next() };
-        let hinges = (0..topology.hinges()).map(hinge).collect();
+        let hinge = |place| {
+            let [beta, tau, torque] =
+                Layout::hinge_in_state(topology, place).map(|at| numbers[at]);
+            HingeCoordinates { beta, tau, torque }
+        };
+        let hinges = Layout::places(topology).into_iter().map(hinge).collect();
         Self { omega, external, hinges }
+    }
+
+    /// The numbers in order.
+    pub fn write(&self, topology: &Topology) -> Vec<R> {
+        let mut numbers = self.omega.to_array().to_vec();
+        numbers.extend(self.external.moment.to_array());
+        numbers.extend(self.external.force.to_array());
+        numbers.resize(Layout::coordinates(topology), R::zero());
+        for (hinge, place) in self.hinges.iter().zip(Layout::places(topology)) {
+            let [beta, tau, torque] = Layout::hinge_in_state(topology, place);
+            (numbers[beta], numbers[tau], numbers[torque]) = (hinge.beta, hinge.tau, hinge.torque);
+        }
+        numbers
     }
 }
 
 impl<R: Real> Solution<R> {
-    /// The numbers in order: ω̇, a_O, τ̇.
-    pub fn write(&self) -> Vec<R> {
+    /// The numbers in order: ω̇, a_O, then τ̇ in the order of [`Layout`].
+    pub fn write(&self, topology: &Topology) -> Vec<R> {
         let mut numbers = self.main.angular.to_array().to_vec();
         numbers.extend(self.main.linear.to_array());
-        numbers.extend(&self.tau_dot);
+        numbers.resize(Layout::outputs(topology), R::zero());
+        for (tau_dot, place) in self.tau_dot.iter().zip(Layout::places(topology)) {
+            numbers[Layout::OUTPUT + place] = *tau_dot;
+        }
         numbers
     }
 }

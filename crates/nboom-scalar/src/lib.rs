@@ -13,14 +13,17 @@
 //! assert!((turned - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-15);
 //! ```
 
+mod lanes;
 mod matrix;
 mod quaternion;
 mod real;
 mod routine;
+mod sine;
 mod spatial;
 mod symmetric;
 mod vector;
 
+pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
 pub use quaternion::Quaternion;
 pub use real::Real;

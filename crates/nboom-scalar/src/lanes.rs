@@ -1,0 +1,174 @@
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use crate::Real;
+use crate::sine::sin_cos;
+
+/// Several numbers that go through the same operations side by side.
+///
+/// Products and sums are fused ([`Real::mul_add`]), and sines come from a polynomial. Both pay
+/// only in code compiled for a processor that fuses them; `Lanes<1>` is the single number for
+/// such code. Operations of all lanes are written as loops of fixed length, which the compiler
+/// turns into vector instructions of the widest kind it may use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Lanes<const N: usize>(pub [f64; N]);
+
+impl<const N: usize> Lanes<N> {
+    #[inline(always)]
+    fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|i| operation(self.0[i], other.0[i])))
+    }
+}
+
+impl<const N: usize> Real for Lanes<N> {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        Self([value; N])
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
+        for i in 0..N {
+            (sines[i], cosines[i]) = sin_cos(self.0[i]);
+        }
+        (Self(sines), Self(cosines))
+    }
+
+    #[inline(always)]
+    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> [(Self, Self); M] {
+        let (mut sines, mut cosines) = ([[0.0; N]; M], [[0.0; N]; M]);
+        for i in 0..M {
+            for j in 0..N {
+                (sines[i][j], cosines[i][j]) = sin_cos(angles[i].0[j]);
+            }
+        }
+        std::array::from_fn(|i| (Self(sines[i]), Self(cosines[i])))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i].mul_add(factor.0[i], term.0[i])))
+    }
+}
+
+impl<const N: usize> Add for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl<const N: usize> Sub for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl<const N: usize> Mul for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl<const N: usize> Div for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+}
+
+impl<const N: usize> Neg for Lanes<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|a| -a))
+    }
+}
+
+impl<const N: usize> AddAssign for Lanes<N> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const N: usize> SubAssign for Lanes<N> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+/// A scalar that takes its values from, and gives its sum to, numbers of kind `S`.
+///
+/// A scalar does so one to one; [`Lanes`] take neighbouring `f64` into neighbouring lanes.
+pub trait Pack<S>: Real {
+    /// The number at `at`, or the lanes from there on.
+    fn gather(from: &[S], at: usize) -> Self;
+
+    /// The same number in every lane.
+    fn spread(value: S) -> Self;
+
+    /// Writes what [`gather`](Self::gather) would read.
+    fn scatter(self, to: &mut [S], at: usize);
+
+    /// The sum of the lanes.
+    fn sum(self) -> S;
+}
+
+impl<R: Real> Pack<R> for R {
+    #[inline(always)]
+    fn gather(from: &[R], at: usize) -> Self {
+        from[at]
+    }
+
+    #[inline(always)]
+    fn spread(value: R) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn scatter(self, to: &mut [R], at: usize) {
+        to[at] = self;
+    }
+
+    #[inline(always)]
+    fn sum(self) -> R {
+        self
+    }
+}
+
+impl<const N: usize> Pack<f64> for Lanes<N> {
+    #[inline(always)]
+    fn gather(from: &[f64], at: usize) -> Self {
+        let lanes: &[f64; N] = from[at..at + N].try_into().expect("N numbers from N places");
+        Self(*lanes)
+    }
+
+    #[inline(always)]
+    fn spread(value: f64) -> Self {
+        Self([value; N])
+    }
+
+    #[inline(always)]
+    fn scatter(self, to: &mut [f64], at: usize) {
+        to[at..at + N].copy_from_slice(&self.0);
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        self.0.iter().sum()
+    }
+}
