@@ -1,7 +1,10 @@
 //! Turns a topology and a formulation into specialised Rust.
 
+mod item;
 mod request;
+mod rolled;
 mod routine;
+mod stage;
 mod straight;
 
 pub use request::{Level, Request};
@@ -9,7 +12,15 @@ pub use routine::{Generated, generate, trace};
 
 /// The routine as formatted source.
 pub fn source(request: &Request) -> String {
-    let generated = generate(request);
+    format_items(routine::generate(request))
+}
+
+/// The routine with loops, as formatted source.
+pub fn rolled_source(request: &Request) -> String {
+    format_items(rolled::generate(request))
+}
+
+fn format_items(generated: Generated) -> String {
     let file: syn::File = syn::parse2(generated.tokens).expect("generated code is Rust");
     prettyplease::unparse(&file)
 }

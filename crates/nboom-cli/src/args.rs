@@ -39,7 +39,7 @@ pub struct RunArgs {
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
 
-    /// Directory for the results, made if need be; without it out/<scene name>.
+    /// Directory for the results, made if need be; without it out/ and the scene's name.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
 

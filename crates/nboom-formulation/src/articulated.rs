@@ -16,16 +16,18 @@ pub fn solve<R: Real>(
     coordinates: &Coordinates<R>,
 ) -> Solution<R> {
     let omega = coordinates.omega;
-    let mut total = AtOrigin::of_main_body(&parameters.main, omega, &coordinates.external);
+    let mut seen = AtOrigin::nothing();
     let mut first = 0;
     let mut appendages = Vec::new();
     for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
         let hinges = &coordinates.hinges[first..first + shape.hinges()];
         let appendage = Appendage::eliminate(shape, branch, omega, hinges);
-        total.add(&appendage.at_origin(branch));
+        seen.add(&appendage.at_origin(branch));
         appendages.push(appendage);
         first += shape.hinges();
     }
+    let mut total = AtOrigin::of_main_body(&parameters.main, omega, &coordinates.external);
+    total.add(&seen);
     let main = total.accelerations();
     let mut tau_dot = Vec::new();
     for (appendage, branch) in appendages.iter().zip(&parameters.branches) {

@@ -11,6 +11,11 @@ pub struct AtOrigin<R> {
 }
 
 impl<R: Real> AtOrigin<R> {
+    /// No appendage.
+    pub fn nothing() -> Self {
+        Self { inertia: ArticulatedInertia::of(&RigidInertia::zero()), wrench: Wrench::zero() }
+    }
+
     /// The main body itself, turning at `omega`, with the external wrench about O taken off.
     #[inline]
     pub fn of_main_body(main: &RigidInertia<R>, omega: Vec3<R>, external: &Wrench<R>) -> Self {

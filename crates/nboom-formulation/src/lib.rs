@@ -9,6 +9,7 @@ mod chain;
 mod paddle;
 mod parameters;
 mod recognise;
+pub mod stages;
 
 pub use base::AtOrigin;
 pub use chain::ChainLink;

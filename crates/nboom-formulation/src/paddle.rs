@@ -3,11 +3,11 @@
 use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::chain::{Outward, Shown, Spin, Turned};
+use crate::parameters::Reader;
 
 /// What eliminating the paddle's hinge leaves for the way back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paddle<R> {
-    axis: Vec3<R>,
     column: Wrench<R>,
     inverse_pivot: R,
     excess: R,
@@ -60,7 +60,7 @@ pub fn eliminate<R: Real>(
         moment: wrench.moment + column.moment * ratio,
         force: wrench.force + column.force * ratio,
     };
-    let eliminated = Paddle { axis, column, inverse_pivot, excess };
+    let eliminated = Paddle { column, inverse_pivot, excess };
     (inertia.without(&column, inverse_pivot), left, eliminated)
 }
 
@@ -86,4 +86,21 @@ pub fn arm_inward<R: Real>(
 pub fn back<R: Real>(paddle: &Paddle<R>, hinge: Twist<R>) -> R {
     let carried = paddle.column.moment.dot(hinge.angular) + paddle.column.force.dot(hinge.linear);
     (paddle.excess - carried) * paddle.inverse_pivot
+}
+
+impl<R: Real> Paddle<R> {
+    pub(crate) fn flat(&self) -> Vec<R> {
+        let vectors = [self.column.moment, self.column.force];
+        let mut flat: Vec<R> = vectors.into_iter().flat_map(Vec3::to_array).collect();
+        flat.extend([self.inverse_pivot, self.excess]);
+        flat
+    }
+
+    pub(crate) fn read(reader: &mut Reader<std::iter::Copied<std::slice::Iter<'_, R>>>) -> Self {
+        Self {
+            column: Wrench { moment: reader.vector(), force: reader.vector() },
+            inverse_pivot: reader.next(),
+            excess: reader.next(),
+        }
+    }
 }

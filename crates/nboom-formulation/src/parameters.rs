@@ -137,7 +137,7 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
         Vec3::new(x, y, z)
     }
 
-    fn rigid(&mut self) -> RigidInertia<R> {
+    pub fn rigid(&mut self) -> RigidInertia<R> {
         let (mass, first_moment) = (self.next(), self.vector());
         let (diagonal, products) = (self.vector(), self.vector());
         let about_origin = Sym3 {
@@ -152,15 +152,20 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
     }
 
     fn branch(&mut self, shape: Shape) -> Branch<R> {
+        let links_follow = self.branch_without_links();
+        let links = (0..shape.hinges()).map(|_| self.link()).collect();
+        Branch { links, ..links_follow }
+    }
+
+    pub fn branch_without_links(&mut self) -> Branch<R> {
         let rows = (self.vector(), self.vector(), self.vector());
         let rot_body_from_appendage = Mat3::from_rows(rows.0, rows.1, rows.2);
-        let point = self.vector();
-        let link = |reader: &mut Self| {
-            let inertia = reader.rigid();
-            ChainLink { inertia, next: [reader.next(), reader.next()] }
-        };
-        let links = (0..shape.hinges()).map(|_| link(self)).collect();
-        Branch { rot_body_from_appendage, point, links }
+        Branch { rot_body_from_appendage, point: self.vector(), links: Vec::new() }
+    }
+
+    pub fn link(&mut self) -> ChainLink<R> {
+        let inertia = self.rigid();
+        ChainLink { inertia, next: [self.next(), self.next()] }
     }
 }
 
@@ -206,8 +211,7 @@ impl<R: Real> Coordinates<R> {
         let omega = reader.vector();
         let external = Wrench { moment: reader.vector(), force: reader.vector() };
         let hinge = |place| {
-            let [beta, tau, torque] =
-                Layout::hinge_in_state(topology, place).map(|at| numbers[at]);
+            let [beta, tau, torque] = Layout::hinge_in_state(topology, place).map(|at| numbers[at]);
             HingeCoordinates { beta, tau, torque }
         };
         let hinges = Layout::places(topology).into_iter().map(hinge).collect();

@@ -73,11 +73,16 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Checks a description.
+    /// Checks a description. A thrust or kick-off spring that never exerts a force is left out.
     ///
     /// # Errors
     /// Everything that is wrong with it, not only the first.
-    pub fn new(description: SceneDescription) -> Result<Self, Vec<ModelError>> {
+    pub fn new(mut description: SceneDescription) -> Result<Self, Vec<ModelError>> {
+        description.thrust = description.thrust.filter(|thrust| thrust.force != Vec3::zero());
+        for body in &mut description.bodies {
+            let kick_off = &mut body.hinge.kick_off;
+            *kick_off = kick_off.filter(|spring| spring.coefficients != [0.0; 4]);
+        }
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
         if errors.is_empty() { Ok(Self { description, labels }) } else { Err(errors) }

@@ -26,9 +26,17 @@ pub trait Routine {
     /// When a slice does not have the length given above.
     fn prepare<R: Real>(parameters: &[R], constants: &mut [R]);
 
-    /// Computes accelerations.
+    /// Computes accelerations on any scalar.
     ///
     /// # Panics
     /// When a slice does not have the length given above.
     fn evaluate<R: Real>(constants: &[R], coordinates: &[R], outputs: &mut [R]);
+
+    /// Computes accelerations of one state with equal appendages side by side in
+    /// [`Lanes`](crate::Lanes): the fast way in code compiled for a processor that fuses
+    /// products and sums.
+    ///
+    /// # Panics
+    /// When a slice does not have the length given above.
+    fn evaluate_fused(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]);
 }

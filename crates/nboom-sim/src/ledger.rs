@@ -13,6 +13,7 @@ pub(crate) struct Ledger {
     start: Totals,
     start_energy: f64,
     residuals: Conservation,
+    scales: Conservation,
 }
 
 impl Ledger {
@@ -24,11 +25,19 @@ impl Ledger {
             start,
             start_energy: start.kinetic_energy + potential,
             residuals: Conservation::default(),
+            scales: Conservation::default(),
         }
     }
 
     pub fn residuals(&self) -> Conservation {
-        self.residuals
+        let (found, scales) = (&self.residuals, &self.scales);
+        let relative =
+            |residual: f64, scale: f64| if residual > 0.0 { residual / scale } else { 0.0 };
+        Conservation {
+            linear_momentum: relative(found.linear_momentum, scales.linear_momentum),
+            angular_momentum: relative(found.angular_momentum, scales.angular_momentum),
+            energy: relative(found.energy, scales.energy),
+        }
     }
 
     /// Compares `state` with what impulses and work account for.
@@ -46,10 +55,18 @@ impl Ledger {
         let energy = now.kinetic_energy + potential - work.dashpots - work.thrust + work.lock_ups
             - self.start_energy;
         let energy_scale = now.kinetic_energy + potential_scale;
-        let largest = &mut self.residuals;
-        raise(&mut largest.linear_momentum, linear.norm(), invariants.linear_momentum_scale);
-        raise(&mut largest.angular_momentum, angular.norm(), invariants.angular_momentum_scale);
-        raise(&mut largest.energy, energy.abs(), energy_scale);
+        let (largest, scales) = (&mut self.residuals, &mut self.scales);
+        let pairs = [
+            (&mut largest.linear_momentum, linear.norm()),
+            (&mut largest.angular_momentum, angular.norm()),
+            (&mut largest.energy, energy.abs()),
+            (&mut scales.linear_momentum, invariants.linear_momentum_scale),
+            (&mut scales.angular_momentum, invariants.angular_momentum_scale),
+            (&mut scales.energy, energy_scale),
+        ];
+        for (largest, value) in pairs {
+            *largest = largest.max(value);
+        }
     }
 }
 
@@ -60,12 +77,6 @@ pub(crate) fn totals(state: &State, invariants: &Invariants<f64>) -> Totals {
         kinetic_energy: invariants.kinetic_energy,
         linear_momentum_inertial: to_inertial * invariants.linear_momentum,
         angular_momentum_inertial: to_inertial * invariants.angular_momentum,
-    }
-}
-
-fn raise(largest: &mut f64, residual: f64, scale: f64) {
-    if residual > 0.0 {
-        *largest = largest.max(residual / scale);
     }
 }
 

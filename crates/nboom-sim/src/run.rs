@@ -34,7 +34,7 @@ const CORRECTIONS: usize = 8;
 
 /// Events within [`CHATTER_SPAN`] of the whole span after which a run is given up.
 const CHATTER_EVENTS: usize = 1000;
-const CHATTER_SPAN: f64 = 1e-9;
+const CHATTER_SPAN: f64 = 1e-4;
 
 struct Run<'a> {
     scene: &'a Scene,

@@ -1,0 +1,71 @@
+use nboom_formulation::Layout;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::Request;
+
+/// The implementation of `Routine` for the request's type.
+pub(crate) struct Item<'a> {
+    pub request: &'a Request,
+    /// How many constants are prepared.
+    pub constants: usize,
+    /// Body of `prepare`: from `p` to `k`.
+    pub prepare: TokenStream,
+    /// Body of `evaluate` on `R`: from `k` and `x` to `out`.
+    pub evaluate: TokenStream,
+    /// Body of `evaluate_fused` on `f64`.
+    pub evaluate_fused: TokenStream,
+    /// Functions of the type itself.
+    pub functions: TokenStream,
+}
+
+impl Item<'_> {
+    pub fn tokens(&self) -> TokenStream {
+        let Self { request, prepare, evaluate, evaluate_fused, functions, .. } = self;
+        let name = format_ident!("{}", request.name);
+        let topology = request.topology.to_string();
+        let pinned = request.pinned.iter().enumerate().filter_map(|(i, value)| {
+            let (i, value) = (Literal::usize_unsuffixed(i), (*value)?);
+            Some(quote!((#i, #value)))
+        });
+        let [parameters, constants, coordinates, outputs] = [
+            Layout::parameters(&request.topology),
+            self.constants,
+            Layout::coordinates(&request.topology),
+            Layout::outputs(&request.topology),
+        ]
+        .map(Literal::usize_unsuffixed);
+        quote! {
+            pub struct #name;
+            impl Routine for #name {
+                const TOPOLOGY: &'static str = #topology;
+                const FORMULATION: &'static str = "articulated";
+                const PINNED: &'static [(usize, f64)] = &[#(#pinned),*];
+                const PARAMETERS: usize = #parameters;
+                const CONSTANTS: usize = #constants;
+                const COORDINATES: usize = #coordinates;
+                const OUTPUTS: usize = #outputs;
+                fn prepare<R: Real>(p: &[R], k: &mut [R]) {
+                    let p: &[R; #parameters] = p.try_into().expect("one value for each parameter");
+                    let k: &mut [R; #constants] = k.try_into().expect("room for each constant");
+                    #prepare
+                }
+                #[inline(always)]
+                fn evaluate<R: Real>(k: &[R], x: &[R], out: &mut [R]) {
+                    let k: &[R; #constants] = k.try_into().expect("one value for each constant");
+                    let x: &[R; #coordinates] = x.try_into().expect("one value for each coordinate");
+                    let out: &mut [R; #outputs] = out.try_into().expect("room for each output");
+                    #evaluate
+                }
+                #[inline(always)]
+                fn evaluate_fused(k: &[f64], x: &[f64], out: &mut [f64]) {
+                    let k: &[f64; #constants] = k.try_into().expect("one value for each constant");
+                    let x: &[f64; #coordinates] = x.try_into().expect("one value for each coordinate");
+                    let out: &mut [f64; #outputs] = out.try_into().expect("room for each output");
+                    #evaluate_fused
+                }
+            }
+            impl #name { #functions }
+        }
+    }
+}

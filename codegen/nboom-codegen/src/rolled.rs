@@ -1,0 +1,530 @@
+//! A routine whose sweeps are loops over links, and over equal appendages side by side.
+
+use nboom_expr::{Expr, Operations};
+use nboom_formulation::Layout;
+use nboom_formulation::stages::{
+    self, AT_ORIGIN, ELIMINATED, Group, PADDLE, REACHED, SHOWN, Stage, TURNED,
+};
+use nboom_model::Shape;
+use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
+use quote::{format_ident, quote};
+
+use crate::item::Item;
+use crate::stage::{Masks, Traced};
+use crate::{Generated, Request};
+
+/// Widths of lanes that equal appendages are taken in, widest first.
+const WIDTHS: [usize; 4] = [8, 4, 2, 1];
+
+/// Code for the request.
+pub fn generate(request: &Request) -> Generated {
+    let mut routine = Rolled::default();
+    let mut parameter = Layout::MAIN;
+    let mut hinge = 0;
+    for (number, (shape, count)) in request.topology.groups().into_iter().enumerate() {
+        let group = Equal { number, shape, count, parameter, hinge };
+        routine.add_group(request, &group);
+        parameter += count * group.parameters();
+        hinge += count * shape.hinges();
+    }
+    routine.finish(request)
+}
+
+/// Equal appendages.
+struct Equal {
+    number: usize,
+    shape: Shape,
+    count: usize,
+    /// Where the parameters of the first one begin.
+    parameter: usize,
+    /// Hinges before.
+    hinge: usize,
+}
+
+impl Equal {
+    fn parameters(&self) -> usize {
+        Layout::BRANCH + Layout::LINK * self.shape.hinges()
+    }
+
+    fn prefix(&self) -> String {
+        format!("g{}", self.number)
+    }
+
+    /// What is taken for granted of every appendage: `size` numbers from `offset` on, and of
+    /// every one of `repeats` repetitions `stride` apart.
+    fn pinned(
+        &self,
+        request: &Request,
+        offset: usize,
+        size: usize,
+        repeats: usize,
+    ) -> Vec<Option<f64>> {
+        let at = |appendage: usize, repeat: usize, i: usize| {
+            let start = self.parameter + appendage * self.parameters() + offset;
+            request.pinned[start + repeat * Layout::LINK + i]
+        };
+        let common = |i: usize| {
+            let first = at(0, 0, i);
+            let same = |appendage| (0..repeats).all(|repeat| at(appendage, repeat, i) == first);
+            first.filter(|_| (0..self.count).all(same))
+        };
+        (0..size).map(common).collect()
+    }
+}
+
+#[derive(Default)]
+struct Rolled {
+    functions: Vec<TokenStream>,
+    prepare: Vec<TokenStream>,
+    constants: usize,
+    scalar: Sweeps,
+    fused: Sweeps,
+    at_origin: Vec<bool>,
+    evaluation: Operations,
+    preparation: Operations,
+}
+
+/// What happens before and after the main body has been solved for.
+#[derive(Default)]
+struct Sweeps {
+    inward: Vec<TokenStream>,
+    outward: Vec<TokenStream>,
+}
+
+/// A traced step and where its constants stand.
+struct Placed {
+    traced: Traced,
+    start: usize,
+}
+
+impl Rolled {
+    fn add_group(&mut self, request: &Request, group: &Equal) {
+        match group.shape {
+            Shape::Chain(links) => self.add_chains(request, group, links),
+            Shape::Paddle => self.add_paddles(request, group),
+        }
+    }
+
+    /// Traces a step, emits its functions and makes room for its constants.
+    fn place(
+        &mut self,
+        request: &Request,
+        group: &Equal,
+        traced: Traced,
+        offset: usize,
+        parameters: usize,
+        repeats: usize,
+    ) -> Placed {
+        self.functions.push(traced.functions(request.level));
+        for _ in 0..repeats * group.count {
+            self.evaluation = self.evaluation + traced.operations();
+            self.preparation = self.preparation + traced.preparation();
+        }
+        let start = self.constants;
+        let size = traced.constants();
+        if size > 0 {
+            self.constants += size * repeats * group.count;
+            let name = traced.prepare_name();
+            let [count, stride, first, link, size_, parameters, start_, repeats_] = [
+                group.count,
+                group.parameters(),
+                group.parameter + offset,
+                Layout::LINK,
+                size,
+                parameters,
+                start,
+                repeats,
+            ]
+            .map(Literal::usize_unsuffixed);
+            self.prepare.push(quote! {
+                for a in 0..#count {
+                    for i in 0..#repeats_ {
+                        let at = #first + a * #stride + i * #link;
+                        let constants = #name(&p[at..at + #parameters]);
+                        for (c, &constant) in constants.iter().enumerate() {
+                            k[#start_ + (i * #size_ + c) * #count + a] = constant;
+                        }
+                    }
+                }
+            });
+        }
+        Placed { traced, start }
+    }
+
+    fn add_chains(&mut self, request: &Request, group: &Equal, links: usize) {
+        let prefix = group.prefix();
+        let branch = group.pinned(request, 0, Layout::BRANCH, 1);
+        let link = group.pinned(request, Layout::BRANCH, Layout::LINK, links);
+        let trace = |stage: &Stage<Expr>, pinned: &[Option<f64>], masks: &Masks| {
+            Traced::new(&prefix, stage, pinned, masks)
+        };
+        let outward = trace(&stages::outward(), &link, &Masks::new());
+        let start = trace(&stages::start(), &branch, &Masks::new())
+            .passing_on(REACHED, outward.live(REACHED));
+        let mut masks = Masks::from([
+            (TURNED.name, outward.live(TURNED).to_vec()),
+            (SHOWN.name, vec![false; SHOWN.size]),
+        ]);
+        let inward = settled(&mut masks, SHOWN, |masks| trace(&stages::inward(), &link, masks));
+        let root = trace(&stages::root(), &branch, &masks);
+        let first = trace(&stages::first(), &branch, &Masks::new());
+        masks.insert(ELIMINATED.name, inward.live(ELIMINATED).to_vec());
+        let back = trace(&stages::back(), &[], &masks);
+        let place = |rolled: &mut Self, traced, of_links: bool| {
+            let (offset, size, repeats) = if of_links {
+                (Layout::BRANCH, Layout::LINK, links)
+            } else {
+                (0, Layout::BRANCH, 1)
+            };
+            rolled.place(request, group, traced, offset, size, repeats)
+        };
+        let start = place(self, start, false);
+        let outward = place(self, outward, true);
+        let inward = place(self, inward, true);
+        let root = place(self, root, false);
+        let first = place(self, first, false);
+        let back = place(self, back, true);
+        self.functions.push(chain_sweeps(
+            group,
+            links,
+            [&start, &outward, &inward, &root, &first, &back],
+        ));
+        let saved = [(inward.traced.size(ELIMINATED), Some(links))];
+        self.call(group, &saved, root.traced.live(AT_ORIGIN));
+    }
+
+    fn add_paddles(&mut self, request: &Request, group: &Equal) {
+        let prefix = group.prefix();
+        let whole = group.pinned(request, 0, group.parameters(), 1);
+        let branch = group.pinned(request, 0, Layout::BRANCH, 1);
+        let inward = Traced::new(&prefix, &stages::paddle_in(), &whole, &Masks::new());
+        let first = Traced::new(&prefix, &stages::first(), &branch, &Masks::new());
+        let masks = Masks::from([
+            (ELIMINATED.name, inward.live(ELIMINATED).to_vec()),
+            (PADDLE.name, inward.live(PADDLE).to_vec()),
+        ]);
+        let back = Traced::new(&prefix, &stages::paddle_back(), &[], &masks);
+        let inward = self.place(request, group, inward, 0, group.parameters(), 1);
+        let first = self.place(request, group, first, 0, Layout::BRANCH, 1);
+        let back = self.place(request, group, back, 0, 0, 1);
+        self.functions.push(paddle_sweeps(group, &inward, &first, &back));
+        let saved = [(inward.traced.size(ELIMINATED), None), (inward.traced.size(PADDLE), None)];
+        self.call(group, &saved, inward.traced.live(AT_ORIGIN));
+    }
+
+    /// Calls of a group's sweeps: one appendage after the other, and in lanes.
+    fn call(&mut self, group: &Equal, saved: &[(usize, Option<usize>)], live: &[bool]) {
+        self.at_origin.resize(AT_ORIGIN.size, false);
+        for (all, live) in self.at_origin.iter_mut().zip(live) {
+            *all |= live;
+        }
+        let (inward, outward) =
+            (format_ident!("{}_in", group.prefix()), format_ident!("{}_out", group.prefix()));
+        let live_slots: Vec<Literal> = live
+            .iter()
+            .enumerate()
+            .filter(|(_, live)| **live)
+            .map(|(i, _)| Literal::usize_unsuffixed(i))
+            .collect();
+        let add = |number: TokenStream| {
+            quote! {
+                for (slot, value) in [#(#live_slots),*].into_iter().zip(part) {
+                    seen[slot] += Pack::<#number>::sum(value);
+                }
+            }
+        };
+        let (add_scalar, add_fused) = (add(quote!(R)), add(quote!(f64)));
+        let empty = saved.iter().map(|&(size, repeats)| {
+            let size = Literal::usize_unsuffixed(size);
+            match repeats.map(Literal::usize_unsuffixed) {
+                Some(repeats) => quote!([[P::zero(); #size]; #repeats]),
+                None => quote!([P::zero(); #size]),
+            }
+        });
+        let empty = quote!((#(#empty,)*));
+        let name = format_ident!("saved_{}", group.number);
+        let count = Literal::usize_unsuffixed(group.count);
+        let scalar_empty: TokenStream = with_types(&empty, &quote!(R), &quote!(R));
+        self.scalar.inward.push(quote! {
+            let mut #name = [#scalar_empty; #count];
+            for a in 0..#count {
+                let part = #inward::<R, R>(k, x, a, &mut #name[a]);
+                #add_scalar
+            }
+        });
+        self.scalar.outward.push(quote! {
+            for a in 0..#count {
+                #outward::<R, R>(k, main, a, &#name[a], out);
+            }
+        });
+        let mut a = 0;
+        while a < group.count {
+            let width = WIDTHS.into_iter().find(|&w| w <= group.count - a).unwrap_or(1);
+            let name = format_ident!("saved_{}_{a}", group.number);
+            let (width_, a_) = (Literal::usize_unsuffixed(width), Literal::usize_unsuffixed(a));
+            let pack = quote!(Lanes<#width_>);
+            let empty = with_types(&empty, &quote!(Lanes::<#width_>), &quote!(f64));
+            self.fused.inward.push(quote! {
+                let mut #name = #empty;
+                let part = #inward::<f64, #pack>(k, x, #a_, &mut #name);
+                #add_fused
+            });
+            self.fused.outward.push(quote! {
+                #outward::<f64, #pack>(k, main, #a_, &#name, out);
+            });
+            a += width;
+        }
+    }
+
+    fn finish(mut self, request: &Request) -> Generated {
+        let masks = Masks::from([
+            (AT_ORIGIN.name, {
+                self.at_origin.resize(AT_ORIGIN.size, false);
+                self.at_origin.clone()
+            }),
+            (stages::EXTERNAL.name, vec![request.external; stages::EXTERNAL.size]),
+        ]);
+        let main = &request.pinned[..Layout::MAIN];
+        let base = Traced::new("m", &stages::base(), main, &masks);
+        let alone = Equal { number: 0, shape: Shape::Chain(0), count: 1, parameter: 0, hinge: 0 };
+        let base = self.place(request, &alone, base, 0, Layout::MAIN, 1);
+        let live = self.at_origin.iter().enumerate().filter(|(_, live)| **live);
+        let live: Vec<Literal> = live.map(|(i, _)| Literal::usize_unsuffixed(i)).collect();
+        let external: Vec<TokenStream> = if request.external {
+            (3..9)
+                .map(|i| {
+                    let i = Literal::usize_unsuffixed(i);
+                    quote!(P::spread(x[#i]))
+                })
+                .collect()
+        } else {
+            Vec::new()
+        };
+        let base_name = &base.traced.name;
+        let base_constants = gather_constants(&base, 1, &Whose::MainBody);
+        let main_body = quote! {
+            let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
+            let (main,) = #base_name(#base_constants omega, [#(#external),*], [#(P::spread(seen[#live])),*]);
+            let main = main.map(Pack::<S>::sum);
+            out[..6].copy_from_slice(&main);
+        };
+        let (scalar, fused) = (&self.scalar, &self.fused);
+        let (scalar_in, scalar_out) = (&scalar.inward, &scalar.outward);
+        let (fused_in, fused_out) = (&fused.inward, &fused.outward);
+        let scalar_main = with_types(&main_body, &quote!(R), &quote!(R));
+        let fused_main = with_types(&main_body, &quote!(Lanes::<1>), &quote!(f64));
+        let origin = Literal::usize_unsuffixed(AT_ORIGIN.size);
+        let evaluate = quote! {
+            let mut seen = [R::zero(); #origin];
+            #(#scalar_in)*
+            #scalar_main
+            #(#scalar_out)*
+        };
+        let evaluate_fused = quote! {
+            let mut seen = [0.0; #origin];
+            #(#fused_in)*
+            #fused_main
+            #(#fused_out)*
+        };
+        let prepare = &self.prepare;
+        let items = Item {
+            request,
+            constants: self.constants,
+            prepare: quote!(#(#prepare)*),
+            evaluate,
+            evaluate_fused,
+            functions: quote!(),
+        };
+        let functions = &self.functions;
+        let item = items.tokens();
+        Generated {
+            tokens: quote!(#item #(#functions)*),
+            evaluation: self.evaluation,
+            preparation: self.preparation,
+        }
+    }
+}
+
+/// Replaces the type parameters `P` and `S` by types.
+fn with_types(tokens: &TokenStream, pack: &TokenStream, number: &TokenStream) -> TokenStream {
+    let replace = |token: TokenTree| -> TokenStream {
+        match token {
+            TokenTree::Group(group) => {
+                let inner = with_types(&group.stream(), pack, number);
+                TokenTree::from(proc_macro2::Group::new(group.delimiter(), inner)).into()
+            }
+            TokenTree::Ident(name) if name == "P" => pack.clone(),
+            TokenTree::Ident(name) if name == "S" => number.clone(),
+            other => other.into(),
+        }
+    };
+    tokens.clone().into_iter().map(replace).collect()
+}
+
+/// Whose constants a step is handed.
+enum Whose {
+    /// The main body's.
+    MainBody,
+    /// Those of appendage `a`.
+    Appendage,
+    /// Those of link `i` of appendage `a`.
+    Link,
+}
+
+/// The argument that hands a step its constants, if it has any.
+fn gather_constants(placed: &Placed, count: usize, whose: &Whose) -> TokenStream {
+    let size = placed.traced.constants();
+    if size == 0 {
+        return TokenStream::new();
+    }
+    let [start, size, count] = [placed.start, size, count].map(Literal::usize_unsuffixed);
+    let at = match whose {
+        Whose::MainBody => quote!(#start + c),
+        Whose::Appendage => quote!(#start + c * #count + a),
+        Whose::Link => quote!(#start + (i * #size + c) * #count + a),
+    };
+    quote!(std::array::from_fn(|c| P::gather(k, #at)),)
+}
+
+/// Traces again and again until the numbers of `group` that can be other than zero stay the
+/// same.
+fn settled(masks: &mut Masks, group: Group, trace: impl Fn(&Masks) -> Traced) -> Traced {
+    loop {
+        let traced = trace(masks);
+        let known = masks.get_mut(group.name).expect("the group has a mask to begin with");
+        let mut grown = false;
+        for (known, live) in known.iter_mut().zip(traced.live(group)) {
+            grown |= *live && !*known;
+            *known |= *live;
+        }
+        if !grown {
+            return traced.passing_on(group, known);
+        }
+    }
+}
+
+fn names(group: &Equal) -> (Ident, Ident) {
+    (format_ident!("{}_in", group.prefix()), format_ident!("{}_out", group.prefix()))
+}
+
+/// Where the group's hinge numbers begin in a state and in the accelerations.
+fn places(group: &Equal) -> (Literal, Literal) {
+    let state = Layout::STATE + Layout::HINGE * group.hinge;
+    (Literal::usize_unsuffixed(state), Literal::usize_unsuffixed(Layout::OUTPUT + group.hinge))
+}
+
+fn chain_sweeps(group: &Equal, links: usize, placed: [&Placed; 6]) -> TokenStream {
+    let [start, outward, inward, root, first, back] = placed;
+    let names_of = |placed: &Placed| placed.traced.name.clone();
+    let (start_, outward_, inward_, root_, first_, back_) = (
+        names_of(start),
+        names_of(outward),
+        names_of(inward),
+        names_of(root),
+        names_of(first),
+        names_of(back),
+    );
+    let count = group.count;
+    let (k_start, k_root, k_first) = (
+        gather_constants(start, count, &Whose::Appendage),
+        gather_constants(root, count, &Whose::Appendage),
+        gather_constants(first, count, &Whose::Appendage),
+    );
+    let (k_outward, k_inward) = (
+        gather_constants(outward, count, &Whose::Link),
+        gather_constants(inward, count, &Whose::Link),
+    );
+    let (in_name, out_name) = names(group);
+    let (state, output) = places(group);
+    let [turned, shown, eliminated, seen] = [
+        outward.traced.size(TURNED),
+        inward.traced.size(SHOWN),
+        inward.traced.size(ELIMINATED),
+        root.traced.size(AT_ORIGIN),
+    ]
+    .map(Literal::usize_unsuffixed);
+    let (links, count) = (Literal::usize_unsuffixed(links), Literal::usize_unsuffixed(count));
+    quote! {
+        #[inline(always)]
+        fn #in_name<S: Real, P: Pack<S>>(
+            k: &[S],
+            x: &[S],
+            a: usize,
+            saved: &mut ([[P; #eliminated]; #links],),
+        ) -> [P; #seen] {
+            let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
+            let (w, mut reached) = #start_(#k_start omega);
+            let mut turned = [[P::zero(); #turned]; #links];
+            for i in 0..#links {
+                let at = #state + 3 * i * #count + a;
+                let hinge = [P::gather(x, at), P::gather(x, at + #count)];
+                (turned[i], reached) = #outward_(#k_outward w, hinge, reached);
+            }
+            let mut outer = P::zero();
+            let mut shown = [P::zero(); #shown];
+            for i in (0..#links).rev() {
+                let torque = P::gather(x, #state + (3 * i + 2) * #count + a);
+                (shown, saved.0[i]) = #inward_(#k_inward turned[i], [torque - outer], shown);
+                outer = torque;
+            }
+            let (seen,) = #root_(#k_root shown, [outer]);
+            seen
+        }
+        #[inline(always)]
+        fn #out_name<S: Real, P: Pack<S>>(
+            k: &[S],
+            main: [S; 6],
+            a: usize,
+            saved: &([[P; #eliminated]; #links],),
+            out: &mut [S],
+        ) {
+            let (mut turning, mut hinge) = #first_(#k_first main.map(P::spread));
+            for i in 0..#links {
+                let tau_dot;
+                (tau_dot, turning, hinge) = #back_(saved.0[i], turning, hinge);
+                tau_dot[0].scatter(out, #output + i * #count + a);
+            }
+        }
+    }
+}
+
+fn paddle_sweeps(group: &Equal, inward: &Placed, first: &Placed, back: &Placed) -> TokenStream {
+    let (inward_, first_, back_) = (&inward.traced.name, &first.traced.name, &back.traced.name);
+    let (k_inward, k_first) = (
+        gather_constants(inward, group.count, &Whose::Appendage),
+        gather_constants(first, group.count, &Whose::Appendage),
+    );
+    let (in_name, out_name) = names(group);
+    let (state, output) = places(group);
+    let [eliminated, paddle, seen] = [ELIMINATED, PADDLE, AT_ORIGIN]
+        .map(|group| Literal::usize_unsuffixed(inward.traced.size(group)));
+    let count = Literal::usize_unsuffixed(group.count);
+    quote! {
+        #[inline(always)]
+        fn #in_name<S: Real, P: Pack<S>>(
+            k: &[S],
+            x: &[S],
+            a: usize,
+            saved: &mut ([P; #eliminated], [P; #paddle]),
+        ) -> [P; #seen] {
+            let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
+            let hinges = std::array::from_fn(|i| P::gather(x, #state + i * #count + a));
+            let seen;
+            (seen, saved.0, saved.1) = #inward_(#k_inward omega, hinges);
+            seen
+        }
+        #[inline(always)]
+        fn #out_name<S: Real, P: Pack<S>>(
+            k: &[S],
+            main: [S; 6],
+            a: usize,
+            saved: &([P; #eliminated], [P; #paddle]),
+            out: &mut [S],
+        ) {
+            let (turning, hinge) = #first_(#k_first main.map(P::spread));
+            let (tau_dot,) = #back_(saved.0, saved.1, turning, hinge);
+            tau_dot[0].scatter(out, #output + a);
+            tau_dot[1].scatter(out, #output + #count + a);
+        }
+    }
+}

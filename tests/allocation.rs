@@ -1,0 +1,169 @@
+//! Evaluations and steps allocate nothing: a global allocator counts what each thread asks for.
+//!
+//! Setting a mode and starting an integration may allocate; everything between may not.
+#![allow(unsafe_code, reason = "a global allocator is an unsafe trait")]
+
+#[path = "support/random_scene.rs"]
+mod random_scene;
+
+use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
+use std::cell::Cell;
+
+use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::model::{HingeState, Mode, Scene};
+use nboom::ode::{Dop853, System, Tolerance};
+use nboom::scalar::Vec3;
+
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    ALLOCATIONS.with(|n| n.set(n.get() + 1));
+}
+
+// SAFETY: every call is passed on to the system's allocator as it comes; the counter beside it
+// is a constant-initialised thread local without a destructor, which itself never allocates.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller's promise is the one that is asked for.
+        unsafe { SystemAllocator.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { SystemAllocator.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: as above.
+        unsafe { SystemAllocator.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+fn allocations(work: impl FnOnce()) -> usize {
+    let before = ALLOCATIONS.with(Cell::get);
+    work();
+    ALLOCATIONS.with(Cell::get) - before
+}
+
+/// A branching tree with every kind of force, and the mode in which all of them act.
+fn scene_and_mode() -> (Scene, Mode) {
+    let scene = (0..)
+        .map(|seed| random_scene::description(9, seed))
+        .find(|scene| {
+            scene.thrust.is_some() && scene.bodies.iter().any(|body| body.hinge.kick_off.is_some())
+        })
+        .expect("one in a few has both");
+    let scene = Scene::new(scene).expect("a physical scene");
+    let mut hinges = vec![HingeState::Free; 9];
+    hinges[4] = HingeState::Locked;
+    let kick_off = scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect();
+    let mode = Mode { hinges, kick_off, thrust: true };
+    (scene, mode)
+}
+
+#[test]
+fn the_counter_counts() {
+    let mut kept = Vec::new();
+    assert_eq!(allocations(|| kept.push(1)), 1);
+    assert_eq!(allocations(|| kept.reserve_exact(1000)), 1);
+    assert_eq!(allocations(|| kept[0] = 2), 0);
+}
+
+#[test]
+fn evaluations_allocate_nothing() {
+    let (scene, mode) = scene_and_mode();
+    let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
+    let mut dynamics = Recursive::new(&scene);
+    dynamics.set_mode(&mode, &beta);
+    let free = dynamics.free_hinges().len();
+    let (beta, tau) = (vec![0.3; free], vec![-0.7; free]);
+    let motion = Motion { omega_body: Vec3::new(0.4, -1.0, 0.2), beta: &beta, tau: &tau };
+    let mut found = Accelerations::for_hinges(free);
+    let mut matrix = vec![0.0; (6 + free) * (6 + free)];
+    let mut forcing = vec![0.0; 6 + free];
+    let mut lengths = [0.0];
+    let springs = scene.bodies.iter().position(|body| body.hinge.kick_off.is_some());
+    let springs = [springs.expect("the scene was chosen for it")];
+    // Not even the first evaluation in a mode does.
+    assert_eq!(allocations(|| dynamics.accelerations(&motion, &mut found)), 0);
+    assert_eq!(allocations(|| dynamics.mass_matrix(&beta, &mut matrix)), 0);
+    assert_eq!(allocations(|| dynamics.forcing(&motion, &mut forcing)), 0);
+    assert_eq!(
+        allocations(|| {
+            std::hint::black_box(dynamics.invariants(&motion, Vec3::unit_x()));
+        }),
+        0
+    );
+    assert_eq!(
+        allocations(|| {
+            std::hint::black_box(dynamics.spring_length(&motion, springs[0]));
+        }),
+        0
+    );
+    let guarded = || dynamics.spring_lengths_squared(&beta, &springs, &mut lengths);
+    assert_eq!(allocations(guarded), 0);
+    assert!(found.tau_dot.iter().chain(&matrix).chain(&forcing).all(|x| x.is_finite()));
+    assert!(lengths[0] > 0.0);
+}
+
+/// The rotational motion of a scene: ω, then β, then τ.
+struct Rotation {
+    dynamics: Recursive<f64>,
+    found: Accelerations<f64>,
+    free: usize,
+}
+
+impl System for Rotation {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        let (beta, tau) = y[3..].split_at(self.free);
+        let motion = Motion { omega_body: Vec3::new(y[0], y[1], y[2]), beta, tau };
+        self.dynamics.accelerations(&motion, &mut self.found);
+        dy[..3].copy_from_slice(&self.found.omega_dot_body.to_array());
+        dy[3..3 + self.free].copy_from_slice(tau);
+        dy[3 + self.free..].copy_from_slice(&self.found.tau_dot);
+    }
+}
+
+#[test]
+fn steps_allocate_nothing() {
+    let (scene, mode) = scene_and_mode();
+    let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
+    let mut dynamics = Recursive::new(&scene);
+    dynamics.set_mode(&mode, &beta);
+    let free = dynamics.free_hinges().len();
+    let mut system = Rotation { dynamics, found: Accelerations::for_hinges(free), free };
+    let mut stepper = Dop853::new(Tolerance { relative: 1e-9, absolute: 1e-12 });
+    let y = vec![0.1; 3 + 2 * free];
+    stepper.start(&mut system, 0.0, &y, y.len());
+    let mut within = y.clone();
+    let mut steps = 0;
+    let count = allocations(|| {
+        while stepper.time() < 0.3 {
+            stepper.step(&mut system, 0.3).expect("an ordinary motion");
+            stepper.prepare_dense(&mut system);
+            stepper.interpolate(0.4, &mut within);
+            if steps == 1 {
+                let shorter = 0.5 * (stepper.end_time() - stepper.time());
+                stepper.retake(&mut system, shorter);
+            }
+            stepper.advance();
+            stepper.scale(0..3, 1.0);
+            steps += 1;
+        }
+    });
+    assert!(steps > 3, "{steps} steps");
+    assert_eq!(count, 0, "in {steps} steps");
+    let polynomial = allocations(|| {
+        std::hint::black_box(stepper.polynomial(0));
+    });
+    assert_eq!(polynomial, 0);
+}

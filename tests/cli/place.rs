@@ -1,0 +1,145 @@
+//! A directory for one test, and the program run in it with a limit on memory and time.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// The 1970 report's deck, on which the bad ones are made.
+pub const REPORT_DECK: &str = include_str!("../../examples/n-boom-1970.nml");
+
+/// All the memory that a wrong deck may take, the program's own text included \[kB\].
+const MEMORY: u64 = 200 * 1024;
+
+/// Refusing takes well under a second; this only catches what hangs, on the slowest machine.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// The program, built once in the profile of this test.
+fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let test = std::env::current_exe().expect("the test has a file");
+        let is_release = test.components().any(|part| part.as_os_str() == "release");
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(["build", "--bin", "nboom", "--package", "nboom-cli"]);
+        cargo.args(["--message-format", "json"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+        if is_release {
+            cargo.arg("--release");
+        }
+        let output = cargo.stderr(Stdio::inherit()).output().expect("cargo runs");
+        assert!(output.status.success(), "the program does not build");
+        let messages = String::from_utf8(output.stdout).expect("messages are text");
+        let executable = |line: &str| {
+            let message: Value = serde_json::from_str(line).ok()?;
+            let of_nboom = message["target"]["name"] == "nboom";
+            Some(PathBuf::from(message["executable"].as_str().filter(|_| of_nboom)?))
+        };
+        messages.lines().find_map(executable).expect("cargo names the program")
+    })
+}
+
+/// A directory that goes away with the test.
+pub struct Place {
+    directory: PathBuf,
+}
+
+impl Place {
+    pub fn new(name: &str) -> Self {
+        let name = format!("nboom-test-{}-{name}", std::process::id());
+        let directory = std::env::temp_dir().join(name);
+        fs::create_dir_all(&directory).expect("the temporary directory is writable");
+        Self { directory }
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.directory.join(name)
+    }
+
+    /// Writes a file; an old one of that name, whatever it is, goes.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        let _ = fs::remove_file(self.path(name));
+        fs::write(self.path(name), content).expect("writable");
+    }
+
+    /// Runs the program with these arguments and no more memory than [`MEMORY`].
+    pub fn nboom(&self, args: &[&str]) -> Finished {
+        self.limited("", args)
+    }
+
+    /// The same where no file may grow beyond so many blocks of 512 bytes; the signal that
+    /// would end the program there is ignored, so that writing fails as on a full disk.
+    pub fn nboom_with_files_of(&self, blocks: u32, args: &[&str]) -> Finished {
+        self.limited(&format!("trap '' XFSZ && ulimit -f {blocks} && "), args)
+    }
+
+    fn limited(&self, limit: &str, args: &[&str]) -> Finished {
+        let program = program();
+        let started = Instant::now();
+        let output = Command::new("sh")
+            .args(["-c", &format!("{limit}ulimit -v {MEMORY} && exec \"$0\" \"$@\"")])
+            .arg(program)
+            .args(args)
+            .current_dir(&self.directory)
+            .stdin(Stdio::null())
+            .output()
+            .expect("there is a shell");
+        let took = started.elapsed();
+        assert!(took < PATIENCE, "{args:?} took {took:?}");
+        if std::env::var_os("NBOOM_TIMES").is_some() {
+            eprintln!("{took:?} {args:?} in {}", self.directory.display());
+        }
+        Finished { output }
+    }
+
+    /// A file of a run, as text.
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.directory);
+    }
+}
+
+/// The program when it has ended.
+pub struct Finished {
+    output: Output,
+}
+
+impl Finished {
+    pub fn code(&self) -> Option<i32> {
+        self.output.status.code()
+    }
+
+    pub fn stdout(&self) -> String {
+        String::from_utf8_lossy(&self.output.stdout).into_owned()
+    }
+
+    pub fn stderr(&self) -> String {
+        String::from_utf8(self.output.stderr.clone()).expect("messages are text")
+    }
+
+    /// Ended with this code, saying all of `words` in lines that a terminal can show and
+    /// nothing of the program's own insides.
+    pub fn refused(&self, told: &str, code: i32, words: &[&str]) {
+        let message = self.stderr();
+        assert_eq!(self.code(), Some(code), "{told}: {message}");
+        assert_eq!(self.stdout(), "", "{told}");
+        for word in words {
+            assert!(message.contains(word), "{told}: no {word:?} in {message:?}");
+        }
+        for inside in ["panicked", "RUST_BACKTRACE", ".rs:", "Some(", "Err(", "unwrap"] {
+            assert!(!message.contains(inside), "{told}: {message}");
+        }
+        assert!(!message.is_empty(), "{told}");
+        assert!(message.lines().all(|line| line.starts_with("error: ")), "{told}: {message}");
+        assert!(message.lines().count() <= 51 && message.len() < 20_000, "{told}: {message}");
+        let shown = |c: char| c == '\n' || !c.is_control();
+        assert!(message.chars().all(shown), "{told}: {message:?}");
+    }
+}

@@ -1,0 +1,194 @@
+//! Scenes that cannot be followed to the end say where and why, and keep what came before.
+
+use std::io;
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use nboom::model::{
+    Appendage, Dashpot, Hinge, HingeLabel, KickOffSpring, MassProperties, Mount, Scene, Segment,
+    Spring,
+};
+use nboom::scalar::{Sym3, Vec3};
+use nboom::sim::{Event, Options, Recorder, SimError, Snapshot, simulate};
+
+use crate::collect::{Collected, tight, try_run};
+use crate::rotors::{description, free, oscillating, scene};
+
+const FIRST: HingeLabel = HingeLabel { appendage: 0, segment: 0 };
+const SECOND: HingeLabel = HingeLabel { appendage: 1, segment: 0 };
+
+fn failure(scene: &Scene, options: &Options) -> (Collected, SimError) {
+    let (collected, result) = try_run(scene, options);
+    let failure = result.expect_err("this scene has no end");
+    assert!(failure.summary.end_time < scene.end_time);
+    (collected, failure.error)
+}
+
+#[test]
+fn a_segment_without_inertia_is_named() {
+    let mut description = description(&[free(0.0, 1.0)], 1.0);
+    // A point mass on its own hinge axis.
+    let mass_properties = MassProperties::new(1.0, Vec3::zero(), Sym3::zero());
+    let segment = Segment { length: 1.0, mass_properties, hinge: Hinge::free() };
+    let mount = Mount::at(Vec3::zero());
+    description.attach(&Appendage::Regular { mount, segments: vec![segment] });
+    let scene = Scene::new(description).expect("a point mass is a body");
+    let (_, error) = failure(&scene, &tight(1));
+    let SimError::SingularMassMatrix { time, hinge } = error else { panic!("{error}") };
+    assert_eq!((time, hinge), (0.0, Some(SECOND)));
+    assert!(error.to_string().contains("2,1") || error.to_string().contains("2"), "{error}");
+}
+
+#[test]
+fn a_spring_beyond_all_numbers_fails_with_time_and_hinge() {
+    let huge = Hinge {
+        spring: Spring { quadratic: 0.0, linear: 1e300, preload_angle: 0.1 },
+        ..Hinge::free()
+    };
+    let (_, error) = failure(&scene(&[free(0.0, 1.0), huge], 1.0), &tight(1));
+    match error {
+        SimError::NotFinite { time, hinge } | SimError::StepUnderflow { time, hinge, .. } => {
+            assert!((0.0..1e-10).contains(&time), "{time}");
+            assert_eq!(hinge, Some(SECOND));
+        }
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_kick_off_spring_beyond_all_numbers_fails_with_time_and_hinge() {
+    let kick_off = Some(KickOffSpring {
+        main_body_point: Vec3::new(0.0, 1.0, 0.0),
+        body_point: Vec3::new(0.0, 0.8, 0.0),
+        coefficients: [1e300; 4],
+        limit_length: 1.0,
+    });
+    let hinge = Hinge { kick_off, ..free(0.3, 0.0) };
+    let (_, error) = failure(&scene(&[hinge], 1.0), &tight(1));
+    match error {
+        SimError::NotFinite { time, .. } | SimError::StepUnderflow { time, .. } => {
+            assert!((0.0..1e-10).contains(&time), "{time}");
+        }
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_runaway_ends_at_its_pole() {
+    // τ̇ = τ² from τ = 1: τ = 1/(1 − t).
+    let dashpot = Dashpot { rate_quadratic: crate::rotors::REDUCED, ..Dashpot::default() };
+    let hinge = Hinge { dashpot, ..free(0.0, 1.0) };
+    let (found, error) = failure(&scene(&[hinge], 2.0), &tight(8));
+    match error {
+        SimError::NotFinite { time, hinge } | SimError::StepUnderflow { time, hinge, .. } => {
+            assert!((time - 1.0).abs() < 1e-8, "{time}");
+            // Boom and hub run away together, and either may be the first to be too fast.
+            assert!(hinge.is_none_or(|hinge| hinge == FIRST), "{hinge:?}");
+        }
+        other => panic!("{other}"),
+    }
+    // The output times before the pole are kept.
+    let times: Vec<f64> = found.samples.iter().map(|sample| sample.time).collect();
+    assert_eq!(times, [0.0, 0.25, 0.5, 0.75]);
+    for sample in &found.samples {
+        let expected = 1.0 / (1.0 - sample.time);
+        assert!((sample.tau[0] - expected).abs() < 1e-10, "{}", sample.time);
+    }
+}
+
+#[test]
+fn too_many_steps_are_too_many() {
+    let options = Options { max_steps: 7, ..tight(100) };
+    let (found, error) = failure(&scene(&[oscillating(free(0.0, 1.0), 50.0, 0.0)], 9.0), &options);
+    let SimError::TooManySteps { time, steps } = error else { panic!("{error}") };
+    assert_eq!(steps, 7);
+    assert!(time > 0.0 && time < 9.0);
+    let before = found.samples.iter().filter(|sample| sample.time <= time).count();
+    assert_eq!(before, found.samples.len());
+    assert_eq!(before, (time / 0.09) as usize + 1);
+}
+
+struct Full(usize);
+
+impl Recorder for Full {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
+        self.0 -= 1;
+        if self.0 == 0 { Err(io::Error::from(io::ErrorKind::StorageFull)) } else { Ok(()) }
+    }
+
+    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_recorder_that_refuses_ends_the_run() {
+    let result = simulate(&scene(&[free(0.0, 1.0)], 1.0), &tight(10), &mut Full(4));
+    let error = result.expect_err("the fourth row is refused").error;
+    let SimError::Record { time, source } = error else { panic!("{error}") };
+    assert_eq!(source.kind(), io::ErrorKind::StorageFull);
+    assert!((time - 0.3).abs() < 1e-15);
+}
+
+/// Runs a scene that may chatter; it must come to some end within a minute.
+fn ends(scene: Scene) -> Result<(), SimError> {
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || sender.send(try_run(&scene, &tight(1)).1));
+    let result = receiver.recv_timeout(Duration::from_secs(60)).expect("the run hangs");
+    result.map(|_| ()).map_err(|failure| failure.error)
+}
+
+/// A spring that pushes outward within its limit against one that pulls back, so that the boom
+/// is thrown back and forth across the limit; the dashpot makes the throws ever shorter.
+fn thrown(start_angle: f64, damping: f64, end_time: f64) -> Scene {
+    let kick_off = Some(KickOffSpring {
+        main_body_point: Vec3::new(0.0, 1.0, 0.0),
+        body_point: Vec3::new(0.0, 1.0, 0.0),
+        coefficients: [2.0, 0.0, 0.0, 0.0],
+        // |x| = 2 sin(β/2): the limit is at β = 1.
+        limit_length: 2.0 * 0.5_f64.sin(),
+    });
+    let hinge = Hinge {
+        kick_off,
+        spring: Spring { quadratic: 0.0, linear: -1.0, preload_angle: 0.0 },
+        dashpot: Dashpot { rate_linear: -damping, ..Dashpot::default() },
+        ..free(start_angle, 0.0)
+    };
+    scene(&[hinge], end_time)
+}
+
+#[test]
+fn a_boom_at_rest_between_two_springs_does_not_hang() {
+    for start in [1.0, 1.0 - 1e-15, 1.0 + 1e-15] {
+        match ends(thrown(start, 0.0, 0.1)) {
+            Ok(()) => {}
+            Err(SimError::Chatter { time, hinge, events, within }) => {
+                assert!((0.0..=0.1).contains(&time) && within < 1e-8 && events >= 1000);
+                assert_eq!(hinge, Some(FIRST));
+            }
+            Err(other) => panic!("{start}: {other}"),
+        }
+    }
+}
+
+#[test]
+fn throws_that_die_away_slowly_are_followed_to_the_end() {
+    for damping in [0.5, 2.0] {
+        assert!(ends(thrown(0.5, damping, 5.0)).is_ok(), "{damping}");
+    }
+}
+
+/// Throws shorten so that their number grows as exp(1.7 t): long before the end there are more
+/// than any run can follow.
+#[test]
+fn throws_that_die_away_fast_do_not_hang() {
+    let result = ends(thrown(0.5, 4.0, 50.0));
+    let Err(SimError::Chatter { time, hinge, .. }) = result else { panic!("{result:?}") };
+    assert!(time < 50.0);
+    assert_eq!(hinge, Some(FIRST));
+}

@@ -1,0 +1,177 @@
+//! Kick-off springs between points of coaxial rotors: |x|² = a² + b² − 2ab cos β.
+
+use std::f64::consts::TAU;
+
+use nboom::model::{
+    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
+    Segment,
+};
+use nboom::scalar::{Sym3, Vec3};
+use nboom::sim::EventKind::{KickOffDisengage, KickOffEngage};
+
+use crate::collect::{detail, run, tight};
+use crate::rotors::{HUB, REDUCED, ROUNDING, ball, free, scene};
+
+const A: f64 = 1.0;
+const B: f64 = 0.8;
+const LIMIT: f64 = 0.9;
+
+/// Too weak to change any digit of the motion, but a spring.
+const FEEBLE: [f64; 4] = [1e-200, 0.0, 0.0, 0.0];
+
+fn with_spring(hinge: Hinge, coefficients: [f64; 4]) -> Hinge {
+    with_limit(hinge, coefficients, LIMIT)
+}
+
+fn with_limit(hinge: Hinge, coefficients: [f64; 4], limit_length: f64) -> Hinge {
+    let kick_off = Some(KickOffSpring {
+        main_body_point: Vec3::new(0.0, A, 0.0),
+        body_point: Vec3::new(0.0, B, 0.0),
+        coefficients,
+        limit_length,
+    });
+    Hinge { kick_off, ..hinge }
+}
+
+fn length(beta: f64) -> f64 {
+    (A * A + B * B - 2.0 * A * B * beta.cos()).sqrt()
+}
+
+/// β at which the spring has its limit length.
+fn limit_angle() -> f64 {
+    ((A * A + B * B - LIMIT * LIMIT) / (2.0 * A * B)).acos()
+}
+
+#[test]
+fn a_boom_that_keeps_turning_lets_go_and_engages_in_every_turn() {
+    for rate in [2.0, -2.0, 31.0] {
+        let turns = 3;
+        let end = f64::from(turns) * TAU / f64::abs(rate);
+        let hinge = with_spring(free(0.0, rate), FEEBLE);
+        let (found, summary) = run(&scene(&[hinge], end), &tight(1));
+        let expected: Vec<_> = (0..turns)
+            .flat_map(|turn| {
+                let start = f64::from(turn) * TAU;
+                [
+                    (KickOffDisengage, (start + limit_angle()) / rate.abs()),
+                    (KickOffEngage, (start + TAU - limit_angle()) / rate.abs()),
+                ]
+            })
+            .collect();
+        let found = found.happenings();
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for (found, (kind, time)) in found.iter().zip(expected) {
+            assert_eq!((found.0, found.1), (kind, Some(0)));
+            // Some roundings of an angle of up to 19.
+            assert!((found.2 - time).abs() < 10.0 * ROUNDING, "{}, {time}", found.2);
+        }
+        // The motion is uniform, so that one step between two events is long enough: a crossing
+        // within it, and one back, must be found inside it.
+        assert!(summary.steps_accepted < 200);
+    }
+}
+
+#[test]
+fn what_the_spring_pushes_is_its_energy() {
+    let coefficients = [3.0, -0.5, 0.2, 0.1];
+    let hinge = with_spring(free(0.3, 0.0), coefficients);
+    let (found, _) = run(&scene(&[hinge], 2.0), &tight(50));
+    let (event, after) = &found.events[0];
+    assert_eq!((event.kind, event.hinge), (KickOffDisengage, Some(0)));
+    assert!((after.beta[0] - limit_angle()).abs() < 1e-14);
+    let integral = |x: f64| {
+        let [a0, a1, a2, a3] = coefficients;
+        x * (a0 + x * (a1 / 2.0 + x * (a2 / 3.0 + x * a3 / 4.0)))
+    };
+    let rate = (2.0 / REDUCED * (integral(LIMIT) - integral(length(0.3)))).sqrt();
+    // At the tolerance of 1e-12.
+    assert!((after.tau[0] - rate).abs() < 1e-11, "{}, {rate}", after.tau[0]);
+    assert_eq!(detail(after).kick_off_force, [0.0], "it lets go beyond its limit");
+    for sample in &found.samples {
+        let detail = detail(sample);
+        assert!((detail.kick_off_length[0] - length(sample.beta[0])).abs() < 1e-14);
+        let pushes = detail.kick_off_length[0] <= LIMIT;
+        assert_eq!(detail.kick_off_force[0] > 0.0, pushes, "at {}", sample.time);
+    }
+}
+
+#[test]
+fn without_coefficients_there_is_no_spring() {
+    let hinge = with_spring(free(0.0, 2.0), [0.0; 4]);
+    let (found, _) = run(&scene(&[hinge], TAU), &tight(1));
+    assert_eq!(found.happenings(), []);
+}
+
+#[test]
+fn a_spring_that_starts_beyond_its_limit_has_no_event_until_it_engages() {
+    let start = 3.0;
+    let (found, _) = run(&scene(&[with_spring(free(start, -1.0), FEEBLE)], 2.2), &tight(1));
+    let [(KickOffEngage, Some(0), time)] = found.happenings()[..] else { panic!("one event") };
+    assert!((time - (start - limit_angle())).abs() < ROUNDING, "{time}");
+}
+
+#[test]
+fn a_length_that_only_just_passes_its_limit_is_seen() {
+    // The length is A − B at β = 0 and A + B at β = π; the gaps are some 1e-4 of a uniform
+    // motion, over which a step may be as long as the run.
+    let hair = 1e-8;
+    let angle = |limit: f64| ((A * A + B * B - limit * limit) / (2.0 * A * B)).acos();
+    let (shortest, longest) = (A - B + hair, A + B - hair);
+    for (limit, kinds, times) in [
+        (shortest, [KickOffEngage, KickOffDisengage], [-angle(shortest), angle(shortest)]),
+        (longest, [KickOffDisengage, KickOffEngage], [angle(longest), TAU - angle(longest)]),
+    ] {
+        let hinge = with_limit(free(-1.0, 1.0), FEEBLE, limit);
+        let found = run(&scene(&[hinge], 6.0), &tight(1)).0.happenings();
+        assert_eq!(found.iter().map(|event| event.0).collect::<Vec<_>>(), kinds, "{limit}");
+        for (event, time) in found.iter().zip(times) {
+            // Rounding of the length, 1e-16, at its rate of 1e-4 here.
+            assert!((event.2 - (time + 1.0)).abs() < 2e-11, "{limit}: {}", event.2);
+        }
+    }
+    for limit in [A - B - hair, A + B + hair] {
+        let hinge = with_limit(free(-1.0, 1.0), FEEBLE, limit);
+        assert_eq!(run(&scene(&[hinge], 6.0), &tight(1)).0.happenings(), [], "{limit}");
+    }
+}
+
+/// A boom that turns uniformly, with a second segment at its end that is held at angle zero.
+fn with_held_segment(limit_length: f64) -> Scene {
+    let kick_off = Some(KickOffSpring {
+        main_body_point: Vec3::new(0.0, A, 0.0),
+        body_point: Vec3::zero(),
+        coefficients: FEEBLE,
+        limit_length,
+    });
+    let start = nboom::model::HingeStart { angle: 0.0, rate: 0.0, state: HingeState::Locked };
+    let held = Hinge { kick_off, start, ..Hinge::free() };
+    let mut description = SceneDescription::at_rest("held segment", ball(HUB), 3.0);
+    let inertia = Sym3::diagonal(1.0, 1.0, 1.0);
+    // The mass centre of the outer segment is on the hub's axis, too.
+    let outer = MassProperties::new(1.0, Vec3::new(0.0, -B, 0.0), inertia);
+    description.attach(&Appendage::Regular {
+        mount: Mount::at(Vec3::zero()),
+        segments: vec![
+            Segment { length: B, mass_properties: ball(1.0), hinge: free(0.0, 1.0) },
+            Segment { length: 1.0, mass_properties: outer, hinge: held },
+        ],
+    });
+    Scene::new(description).expect("segments are bodies")
+}
+
+#[test]
+fn the_spring_of_a_held_hinge_has_events_as_its_length_changes() {
+    let (found, _) = run(&with_held_segment(LIMIT), &tight(1));
+    let [(KickOffDisengage, Some(1), time)] = found.happenings()[..] else { panic!("one event") };
+    assert!((time - limit_angle()).abs() < ROUNDING, "{time}");
+    assert_eq!(run(&with_held_segment(5.0), &tight(1)).0.happenings(), []);
+}
+
+#[test]
+fn a_spring_between_bodies_that_do_not_move_has_no_events() {
+    let start = nboom::model::HingeStart { angle: limit_angle(), ..Hinge::free().start };
+    let start = nboom::model::HingeStart { state: HingeState::Locked, ..start };
+    let locked = with_spring(Hinge { start, ..Hinge::free() }, [1.0, 0.0, 0.0, 0.0]);
+    let (found, _) = run(&scene(&[locked, free(0.0, 1.0)], 1.0), &tight(1));
+    assert_eq!(found.happenings(), []);
+}

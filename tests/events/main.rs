@@ -1,0 +1,18 @@
+//! Events of small scenes whose motion is known in closed form.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+#[path = "../support/collect.rs"]
+mod collect;
+
+mod rotors;
+
+mod crossings;
+mod failures;
+mod kick_off;
+mod lock_ups;
+mod output;
+mod random_rotors;
+mod releases;
+mod thrust;

@@ -1,0 +1,21 @@
+//! Whole runs against closed forms and against each other: what must come out whatever the
+//! equations of motion look like inside.
+
+#[path = "../support/collect.rs"]
+mod collect;
+#[path = "../support/jacobi.rs"]
+mod jacobi;
+mod log;
+#[path = "../properties/newton_euler.rs"]
+mod newton_euler;
+#[path = "../support/random_scene.rs"]
+mod random_scene;
+
+mod free_fall;
+mod independence;
+mod latch;
+mod oscillators;
+mod thrust;
+mod torque_free;
+mod transforms;
+mod weld;

@@ -1,0 +1,332 @@
+//! An independent derivation of motion: every body by itself with Newton's and Euler's
+//! equations, the hinges as constraints, one dense system. Vectors along the main-body axes.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
+use nboom::model::{Body, HingeState, MassProperties, Mode, SceneDescription};
+use nboom::scalar::{Mat3, Vec3};
+
+type V3 = Vector3<f64>;
+type M3 = Matrix3<f64>;
+
+pub fn vector(v: Vec3<f64>) -> V3 {
+    V3::new(v.x, v.y, v.z)
+}
+
+pub fn matrix(m: &Mat3<f64>) -> M3 {
+    let [a, b, c] = m.rows;
+    M3::new(a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z)
+}
+
+fn skew(v: V3) -> M3 {
+    v.cross_matrix()
+}
+
+/// One body where it is, and how it moves; the main body is number 0, hinged body i is i + 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    pub rot: M3,
+    /// The body's origin (its hinge) from O.
+    pub origin: V3,
+    pub axis: V3,
+    pub center: V3,
+    pub mass: f64,
+    pub inertia: M3,
+    pub omega: V3,
+    pub velocity: V3,
+    /// Velocity of the mass centre.
+    pub center_velocity: V3,
+}
+
+impl Placed {
+    fn new(body: &MassProperties, rot: M3, origin: V3, axis: V3, omega: V3, velocity: V3) -> Self {
+        let i = body.inertia;
+        let own = M3::new(i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz);
+        let arm = rot * vector(body.center_of_mass);
+        Self {
+            rot,
+            origin,
+            axis,
+            center: origin + arm,
+            mass: body.mass,
+            inertia: rot * own * rot.transpose(),
+            omega,
+            velocity,
+            center_velocity: velocity + omega.cross(&arm),
+        }
+    }
+
+    /// Velocity of the body's point that is at `point` from O.
+    pub fn velocity_at(&self, point: V3) -> V3 {
+        self.velocity + self.omega.cross(&(point - self.origin))
+    }
+}
+
+/// Places all bodies; `velocity` is that of O.
+pub fn place(
+    scene: &SceneDescription,
+    beta: &[f64],
+    tau: &[f64],
+    omega: V3,
+    velocity: V3,
+) -> Vec<Placed> {
+    let zero = V3::zeros();
+    let main = Placed::new(&scene.main_body, M3::identity(), zero, zero, omega, velocity);
+    let mut placed = vec![main];
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let inboard = placed[inboard_of(body)];
+        let still = inboard.rot * matrix(&body.mount.rot_inboard_from_hinge);
+        let axis = Unit::new_normalize(vector(body.axis));
+        let rot = still * Rotation3::from_axis_angle(&axis, beta[i]).matrix();
+        let origin = inboard.origin + inboard.rot * vector(body.mount.point);
+        let axis = still * axis.into_inner();
+        let omega = inboard.omega + axis * tau[i];
+        let velocity = inboard.velocity_at(origin);
+        placed.push(Placed::new(&body.mass_properties, rot, origin, axis, omega, velocity));
+    }
+    placed
+}
+
+fn inboard_of(body: &Body) -> usize {
+    body.inboard.map_or(0, |inboard| inboard + 1)
+}
+
+/// Energy and momenta, added up body by body.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums {
+    pub mass: f64,
+    pub center: V3,
+    pub kinetic_energy: f64,
+    pub linear: V3,
+    /// About the common mass centre.
+    pub angular: V3,
+    /// The sum of the magnitudes of the bodies' own momenta.
+    pub linear_scale: f64,
+    pub angular_scale: f64,
+}
+
+pub fn sums(placed: &[Placed]) -> Sums {
+    let mass: f64 = placed.iter().map(|b| b.mass).sum();
+    let center = placed.iter().map(|b| b.center * b.mass).sum::<V3>() / mass;
+    let linear: V3 = placed.iter().map(|b| b.center_velocity * b.mass).sum();
+    let own = |b: &Placed| {
+        let relative = b.center_velocity - linear / mass;
+        b.inertia * b.omega + (b.center - center).cross(&relative) * b.mass
+    };
+    let energy = |b: &Placed| {
+        0.5 * b.mass * b.center_velocity.norm_squared() + 0.5 * b.omega.dot(&(b.inertia * b.omega))
+    };
+    Sums {
+        mass,
+        center,
+        kinetic_energy: placed.iter().map(energy).sum(),
+        linear,
+        angular: placed.iter().map(own).sum(),
+        linear_scale: placed.iter().map(|b| b.mass * b.center_velocity.norm()).sum(),
+        angular_scale: placed.iter().map(|b| own(b).norm()).sum(),
+    }
+}
+
+/// What acts on each body: force, and moment about its mass centre; and the hinge torques.
+pub struct Loads {
+    pub forces: Vec<(V3, V3)>,
+    pub torques: Vec<f64>,
+    /// Power of everything that acts.
+    pub power: f64,
+    /// Force from outside, and its moment about O.
+    pub outside: (V3, V3),
+}
+
+/// Springs, dashpots, kick-off springs and thrust by eqs. (6.1), (6.4) and (6.10) as printed.
+pub fn loads(
+    scene: &SceneDescription,
+    mode: &Mode,
+    placed: &[Placed],
+    beta: &[f64],
+    tau: &[f64],
+) -> Loads {
+    let none = (V3::zeros(), V3::zeros());
+    let mut loads = Loads {
+        forces: vec![none; placed.len()],
+        torques: vec![0.0; beta.len()],
+        power: 0.0,
+        outside: none,
+    };
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let (spring, dashpot) = (body.hinge.spring, body.hinge.dashpot);
+        let (x, y) = (beta[i] + spring.preload_angle, beta[i] + dashpot.preload_angle);
+        let torque = spring.quadratic * x * x
+            + spring.linear * x
+            + dashpot.rate_quadratic * tau[i] * tau[i]
+            + dashpot.rate_linear * tau[i]
+            + dashpot.angle_quadratic * y * y
+            + dashpot.angle_linear * y;
+        if mode.hinges[i] == HingeState::Free {
+            loads.torques[i] = torque;
+            loads.power += torque * tau[i];
+            loads.forces[i + 1].1 += placed[i + 1].axis * torque;
+            loads.forces[inboard_of(body)].1 -= placed[i + 1].axis * torque;
+        }
+        if let Some(spring) = body.hinge.kick_off.filter(|_| mode.kick_off[i]) {
+            let to = placed[i + 1].origin + placed[i + 1].rot * vector(spring.body_point);
+            let from = vector(spring.main_body_point);
+            let x = (to - from).norm();
+            let [a0, a1, a2, a3] = spring.coefficients;
+            let force = (to - from) / x * (a0 + a1 * x + a2 * x * x + a3 * x * x * x);
+            loads.push(placed, i + 1, to, force);
+            loads.push(placed, 0, from, -force);
+        }
+    }
+    if let Some(thrust) = scene.thrust.filter(|_| mode.thrust) {
+        let (point, force) = (vector(thrust.point), vector(thrust.force));
+        loads.push(placed, 0, point, force);
+        loads.outside = (force, point.cross(&force));
+    }
+    loads
+}
+
+impl Loads {
+    fn push(&mut self, placed: &[Placed], body: usize, point: V3, force: V3) {
+        self.forces[body].0 += force;
+        self.forces[body].1 += (point - placed[body].center).cross(&force);
+        self.power += force.dot(&placed[body].velocity_at(point));
+    }
+}
+
+/// Accelerations of every body's mass centre, every body's ω̇, and τ̇ of every hinge.
+pub struct Accelerated {
+    pub centers: Vec<V3>,
+    pub omega_dots: Vec<V3>,
+    pub tau_dots: Vec<f64>,
+    /// Acceleration of O.
+    pub origin: V3,
+}
+
+/// Solves all bodies' equations together with the hinges' constraints.
+pub fn accelerations(
+    scene: &SceneDescription,
+    mode: &Mode,
+    placed: &[Placed],
+    tau: &[f64],
+    loads: &Loads,
+) -> Accelerated {
+    let (bodies, hinges) = (placed.len(), scene.bodies.len());
+    let held = mode.hinges.iter().filter(|state| **state != HingeState::Free).count();
+    let (unknowns, constraints) = (6 * bodies, 5 * hinges + held);
+    let mut matrix = DMatrix::<f64>::zeros(unknowns + constraints, unknowns + constraints);
+    let mut right = DVector::<f64>::zeros(unknowns + constraints);
+    for (b, body) in placed.iter().enumerate() {
+        let (force, moment) = loads.forces[b];
+        let gyroscopic = body.omega.cross(&(body.inertia * body.omega));
+        matrix.view_mut((6 * b, 6 * b), (3, 3)).copy_from(&(M3::identity() * body.mass));
+        matrix.view_mut((6 * b + 3, 6 * b + 3), (3, 3)).copy_from(&body.inertia);
+        right.rows_mut(6 * b, 3).copy_from(&force);
+        right.rows_mut(6 * b + 3, 3).copy_from(&(moment - gyroscopic));
+    }
+    let mut row = unknowns;
+    let mut constrain = |row: usize, block: usize, entries: &DMatrix<f64>| {
+        let rows = entries.nrows();
+        matrix.view_mut((row, block), (rows, 3)).copy_from(entries);
+        matrix.view_mut((block, row), (3, rows)).copy_from(&entries.transpose());
+    };
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let (p, b) = (inboard_of(body), i + 1);
+        let (inboard, outboard) = (&placed[p], &placed[b]);
+        // The hinge point accelerates alike on both bodies.
+        let (from, to) = (outboard.origin - inboard.center, outboard.origin - outboard.center);
+        let whirl = |omega: V3, arm: V3| omega.cross(&omega.cross(&arm));
+        let dense = |m: M3| DMatrix::from_iterator(3, 3, m.iter().copied());
+        constrain(row, 6 * b, &dense(M3::identity()));
+        constrain(row, 6 * b + 3, &dense(-skew(to)));
+        constrain(row, 6 * p, &dense(-M3::identity()));
+        constrain(row, 6 * p + 3, &dense(skew(from)));
+        let difference = whirl(inboard.omega, from) - whirl(outboard.omega, to);
+        right.rows_mut(row, 3).copy_from(&difference);
+        row += 3;
+        // Across the axis (and along it, when held) the bodies turn alike.
+        let across = outboard.axis.cross(&least_parallel(outboard.axis)).normalize();
+        let turning = inboard.omega.cross(&outboard.axis) * tau[i];
+        let mut directions = vec![across, outboard.axis.cross(&across)];
+        if mode.hinges[i] != HingeState::Free {
+            directions.push(outboard.axis);
+        }
+        for e in directions {
+            let e_row = DMatrix::from_row_slice(1, 3, e.as_slice());
+            constrain(row, 6 * b + 3, &e_row);
+            constrain(row, 6 * p + 3, &(-&e_row));
+            right[row] = e.dot(&turning);
+            row += 1;
+        }
+    }
+    let solved = matrix.lu().solve(&right).expect("hinges are independent");
+    let part = |at: usize| V3::new(solved[at], solved[at + 1], solved[at + 2]);
+    let centers: Vec<V3> = (0..bodies).map(|b| part(6 * b)).collect();
+    let omega_dots: Vec<V3> = (0..bodies).map(|b| part(6 * b + 3)).collect();
+    let tau_dot = |(i, body): (usize, &Body)| {
+        placed[i + 1].axis.dot(&(omega_dots[i + 1] - omega_dots[inboard_of(body)]))
+    };
+    let tau_dots = scene.bodies.iter().enumerate().map(tau_dot).collect();
+    let (main, arm) = (&placed[0], -placed[0].center);
+    let origin = centers[0] + omega_dots[0].cross(&arm) + main.omega.cross(&main.omega.cross(&arm));
+    Accelerated { centers, omega_dots, tau_dots, origin }
+}
+
+fn least_parallel(axis: V3) -> V3 {
+    let mut unit = V3::zeros();
+    unit[axis.iamin()] = 1.0;
+    unit
+}
+
+/// Rates of energy and momenta, about O as far as moments go.
+pub struct Rates {
+    pub kinetic_energy: f64,
+    pub energy_scale: f64,
+    pub linear: V3,
+    pub linear_scale: f64,
+    pub angular: V3,
+    pub angular_scale: f64,
+}
+
+/// Spreads given accelerations (a_O, ω̇, …) and `tau_dot` over the bodies and adds up.
+pub fn rates(
+    scene: &SceneDescription,
+    placed: &[Placed],
+    tau: &[f64],
+    of_main: &DVector<f64>,
+    tau_dot: &[f64],
+) -> Rates {
+    let mut moved: Vec<(V3, V3)> = vec![(
+        V3::new(of_main[0], of_main[1], of_main[2]),
+        V3::new(of_main[3], of_main[4], of_main[5]),
+    )];
+    let at = |body: &Placed, (a, w): (V3, V3), arm: V3| {
+        a + w.cross(&arm) + body.omega.cross(&body.omega.cross(&arm))
+    };
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let (p, own) = (inboard_of(body), placed[i + 1]);
+        let origin = at(&placed[p], moved[p], own.origin - placed[p].origin);
+        let spin = placed[p].omega.cross(&(own.axis * tau[i])) + own.axis * tau_dot[i];
+        moved.push((origin, moved[p].1 + spin));
+    }
+    let mut rates = Rates {
+        kinetic_energy: 0.0,
+        energy_scale: 0.0,
+        linear: V3::zeros(),
+        linear_scale: 0.0,
+        angular: V3::zeros(),
+        angular_scale: 0.0,
+    };
+    for (body, &acceleration) in placed.iter().zip(&moved) {
+        let force = at(body, acceleration, body.center - body.origin) * body.mass;
+        let moment = body.inertia * acceleration.1 + body.omega.cross(&(body.inertia * body.omega));
+        let about_o = body.center.cross(&force) + moment;
+        let powers = [body.center_velocity.dot(&force), body.omega.dot(&moment)];
+        rates.kinetic_energy += powers[0] + powers[1];
+        rates.energy_scale += powers[0].abs() + powers[1].abs();
+        rates.linear += force;
+        rates.linear_scale += force.norm();
+        rates.angular += about_o;
+        rates.angular_scale += about_o.norm();
+    }
+    rates
+}

@@ -1,0 +1,17 @@
+//! Whole runs against reference trajectories.
+//!
+//! The references were integrated in 80-bit arithmetic with Kane's equations and agree to about
+//! 1e-13 with a second, independent program, so that every difference above 1e-12 is ours.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+#[path = "../support/collect.rs"]
+mod collect;
+
+mod catalog;
+mod compare;
+mod decks;
+mod lock_ups;
+mod tolerance;
+mod trajectories;

@@ -1,0 +1,190 @@
+//! Scenes of any topology from a seed: branching trees, hinge axes in any direction, full
+//! inertia tensors, every kind of force.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use nboom::model::{
+    Body, Dashpot, Gravity, Hinge, HingeState, KickOffSpring, MassProperties, Mode, Mount, Scene,
+    SceneDescription, Spring, Thrust,
+};
+use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
+
+/// A generator of numbers that are the same on every machine (SplitMix64).
+pub struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform below `count`.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.next() % count as u64) as usize
+    }
+
+    /// True with this probability.
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.between(0.0, 1.0) < probability
+    }
+
+    /// Components uniform within ±`size`.
+    pub fn vector(&mut self, size: f64) -> Vec3<f64> {
+        let mut one = || self.between(-size, size);
+        Vec3::new(one(), one(), one())
+    }
+
+    /// A unit vector, any direction.
+    pub fn direction(&mut self) -> Vec3<f64> {
+        loop {
+            let v = self.vector(1.0);
+            if (0.1..1.0).contains(&v.norm()) {
+                return v * (1.0 / v.norm());
+            }
+        }
+    }
+
+    /// A unit quaternion, any attitude.
+    pub fn attitude(&mut self) -> Quaternion<f64> {
+        let angle = self.between(0.0, std::f64::consts::PI);
+        let (s, c) = angle.sin_cos();
+        Quaternion { scalar: c, vector: self.direction() * s }.normalized()
+    }
+
+    /// A rotation matrix, any attitude.
+    pub fn rotation(&mut self) -> Mat3<f64> {
+        self.attitude().to_matrix()
+    }
+
+    fn pick(&mut self, probability: f64, low: f64, high: f64) -> f64 {
+        let value = self.between(low, high);
+        if self.chance(probability) { value } else { 0.0 }
+    }
+
+    /// The mass properties of five points: full inertia, physical by construction.
+    pub fn mass_properties(&mut self, mass: f64, size: f64) -> MassProperties {
+        let points: [Vec3<f64>; 5] = std::array::from_fn(|_| self.vector(size));
+        let share = mass / 5.0;
+        let mean = points.iter().fold(Vec3::zero(), |sum, &p| sum + p) * 0.2;
+        let mut inertia = Sym3::zero();
+        for point in points {
+            let r = point - mean;
+            let d = r.norm_squared();
+            inertia += (Sym3::diagonal(d, d, d) + Sym3::outer(r) * -1.0) * share;
+        }
+        let center = self.vector(size);
+        MassProperties::new(mass, center, inertia)
+    }
+}
+
+/// A tree of `bodies` hinged bodies with every kind of force; all hinges start free.
+pub fn description(bodies: usize, seed: u64) -> SceneDescription {
+    let dice = &mut Dice::new(seed);
+    let mass = dice.between(5.0, 50.0);
+    let main_body = dice.mass_properties(mass, 1.5);
+    let mut scene = SceneDescription::at_rest("random tree", main_body, 1.0);
+    let mut branch = 0;
+    for i in 0..bodies {
+        let new_branch = i == 0 || dice.chance(0.3);
+        let inboard = (!new_branch).then(|| branch + dice.below(i - branch));
+        if new_branch {
+            branch = i;
+        }
+        scene.bodies.push(body(dice, inboard));
+    }
+    if dice.chance(0.5) {
+        let (acceleration, up) = (dice.between(1.0, 10.0), dice.direction());
+        scene.gravity = Some(Gravity { acceleration, up });
+    }
+    if dice.chance(0.5) {
+        let (force, point) = (dice.vector(10.0), dice.vector(1.0));
+        scene.thrust = Some(Thrust { force, point, on: 0.0, off: 0.5 });
+    }
+    scene.initial.attitude = dice.attitude();
+    scene.initial.position_inertial = dice.vector(3.0);
+    scene.initial.velocity_inertial = dice.vector(3.0);
+    scene.initial.omega_body = dice.vector(2.0);
+    scene
+}
+
+fn body(dice: &mut Dice, inboard: Option<usize>) -> Body {
+    let mass = dice.between(0.5, 10.0);
+    let mass_properties = dice.mass_properties(mass, 0.8);
+    let mut hinge = Hinge::free();
+    hinge.spring = Spring {
+        quadratic: dice.pick(0.3, -1.0, 1.0),
+        linear: dice.pick(0.7, -8.0, 0.0),
+        preload_angle: dice.between(-1.0, 1.0),
+    };
+    hinge.dashpot = Dashpot {
+        rate_quadratic: dice.pick(0.3, -0.3, 0.3),
+        rate_linear: dice.pick(0.5, -2.0, 0.0),
+        angle_quadratic: dice.pick(0.2, -0.5, 0.5),
+        angle_linear: dice.pick(0.2, -1.0, 0.0),
+        preload_angle: dice.between(-1.0, 1.0),
+    };
+    if dice.chance(0.3) {
+        hinge.kick_off = Some(KickOffSpring {
+            main_body_point: dice.vector(1.0),
+            body_point: dice.vector(1.0),
+            coefficients: [dice.between(1.0, 5.0), dice.between(-1.0, 1.0), 0.2, -0.05],
+            limit_length: dice.between(1.0, 5.0),
+        });
+    }
+    hinge.start.angle = dice.between(-3.0, 3.0);
+    hinge.start.rate = dice.between(-2.0, 2.0);
+    let mount = Mount { point: dice.vector(1.0), rot_inboard_from_hinge: dice.rotation() };
+    Body { inboard, mount, axis: dice.direction(), mass_properties, hinge }
+}
+
+/// The same without anything that takes or gives energy: no dashpot rates and no thrust.
+pub fn conservative(bodies: usize, seed: u64) -> SceneDescription {
+    let mut scene = description(bodies, seed);
+    scene.thrust = None;
+    for body in &mut scene.bodies {
+        body.hinge.dashpot.rate_quadratic = 0.0;
+        body.hinge.dashpot.rate_linear = 0.0;
+    }
+    scene
+}
+
+/// A scene in a mode and a state: every hinge has an angle and a rate, zero where held.
+pub struct Moment {
+    pub scene: Scene,
+    pub mode: Mode,
+    pub beta: Vec<f64>,
+    pub tau: Vec<f64>,
+    pub omega: Vec3<f64>,
+    pub velocity_body: Vec3<f64>,
+}
+
+/// A random tree in a random mode; each hinge is held with probability `held`.
+pub fn moment(bodies: usize, seed: u64, held: f64) -> Moment {
+    let scene = Scene::new(description(bodies, seed)).expect("random bodies are physical");
+    let dice = &mut Dice::new(seed ^ 0x5eed);
+    let states = [HingeState::Unreleased, HingeState::Locked];
+    let hinges = (0..bodies).map(|_| match dice.chance(held) {
+        true => states[dice.below(2)],
+        false => HingeState::Free,
+    });
+    let hinges: Vec<HingeState> = hinges.collect();
+    let kick_off = scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect();
+    let thrust = scene.thrust.is_some();
+    let mode = Mode { hinges, kick_off, thrust };
+    let beta = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
+    let rate = |i: usize| if mode.is_free(i) { scene.bodies[i].hinge.start.rate } else { 0.0 };
+    let tau = (0..bodies).map(rate).collect();
+    let (omega, velocity_body) = (scene.initial.omega_body, dice.vector(2.0));
+    Moment { mode, beta, tau, omega, velocity_body, scene }
+}
