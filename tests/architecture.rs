@@ -1,5 +1,5 @@
 //! The shape of the workspace: which crate may use which (the table in `docs/architecture.md`
-//! against the manifests as cargo reads them), short files, no unsafe code, shared lints.
+//! against the manifests as cargo reads them), short files, unsafe code in named files only, shared lints.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -151,9 +151,17 @@ fn no_source_file_is_long() {
     }
 }
 
+/// Files that may have unsafe code, each for a reason that a benchmark has shown to pay.
+const UNSAFE: [&str; 1] = ["crates/nboom-scalar/src/wide.rs"];
+
 #[test]
-fn no_crate_has_unsafe_code() {
+fn unsafe_code_stands_only_where_it_pays() {
+    let safe = |path: &Path| !UNSAFE.iter().any(|allowed| path.ends_with(allowed));
     for (path, source) in sources(&["crates", "codegen"]) {
+        if !safe(&path) {
+            assert!(source.contains("SAFETY:"), "{} says why it is sound", path.display());
+            continue;
+        }
         let code = source.lines().map(|line| line.split("//").next().unwrap_or_default());
         for (i, line) in code.enumerate() {
             let words = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));

@@ -1,6 +1,6 @@
 //! Closed forms against the recursive path, which shares only spatial algebra with them.
 
-use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::dynamics::{Accelerations, Motion};
 use nboom::formulation::{Coordinates, HingeCoordinates, articulated, recognise};
 use nboom::model::WeldedTree;
 use nboom::scalar::{Vec3, Wrench};

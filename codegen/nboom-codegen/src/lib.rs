@@ -6,6 +6,7 @@ mod rolled;
 mod routine;
 mod stage;
 mod straight;
+mod sweeps;
 
 pub use request::{Level, Request};
 pub use routine::{Generated, generate, trace};

@@ -6,11 +6,12 @@ use nboom_formulation::stages::{
     self, AT_ORIGIN, ELIMINATED, Group, PADDLE, REACHED, SHOWN, Stage, TURNED,
 };
 use nboom_model::Shape;
-use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::item::Item;
 use crate::stage::{Masks, Traced};
+use crate::sweeps::{Whose, chain_sweeps, gather_constants, names, paddle_sweeps, with_types};
 use crate::{Generated, Request};
 
 /// Widths of lanes that equal appendages are taken in, widest first.
@@ -31,22 +32,22 @@ pub fn generate(request: &Request) -> Generated {
 }
 
 /// Equal appendages.
-struct Equal {
-    number: usize,
-    shape: Shape,
-    count: usize,
+pub(crate) struct Equal {
+    pub number: usize,
+    pub shape: Shape,
+    pub count: usize,
     /// Where the parameters of the first one begin.
-    parameter: usize,
+    pub parameter: usize,
     /// Hinges before.
-    hinge: usize,
+    pub hinge: usize,
 }
 
 impl Equal {
-    fn parameters(&self) -> usize {
+    pub fn parameters(&self) -> usize {
         Layout::BRANCH + Layout::LINK * self.shape.hinges()
     }
 
-    fn prefix(&self) -> String {
+    pub fn prefix(&self) -> String {
         format!("g{}", self.number)
     }
 
@@ -92,9 +93,9 @@ struct Sweeps {
 }
 
 /// A traced step and where its constants stand.
-struct Placed {
-    traced: Traced,
-    start: usize,
+pub(crate) struct Placed {
+    pub traced: Traced,
+    pub start: usize,
 }
 
 impl Rolled {
@@ -218,19 +219,18 @@ impl Rolled {
         for (all, live) in self.at_origin.iter_mut().zip(live) {
             *all |= live;
         }
-        let (inward, outward) =
-            (format_ident!("{}_in", group.prefix()), format_ident!("{}_out", group.prefix()));
+        let (inward, outward) = names(group);
         let live_slots: Vec<Literal> = live
             .iter()
             .enumerate()
             .filter(|(_, live)| **live)
             .map(|(i, _)| Literal::usize_unsuffixed(i))
             .collect();
+        let live_numbers: Vec<Literal> =
+            (0..live_slots.len()).map(Literal::usize_unsuffixed).collect();
         let add = |number: TokenStream| {
             quote! {
-                for (slot, value) in [#(#live_slots),*].into_iter().zip(part) {
-                    seen[slot] += Pack::<#number>::sum(value);
-                }
+                #(seen[#live_slots] += Pack::<#number>::sum(part[#live_numbers]);)*
             }
         };
         let (add_scalar, add_fused) = (add(quote!(R)), add(quote!(f64)));
@@ -302,10 +302,11 @@ impl Rolled {
         };
         let base_name = &base.traced.name;
         let base_constants = gather_constants(&base, 1, &Whose::MainBody);
+        let six = (0..6).map(Literal::usize_unsuffixed);
         let main_body = quote! {
             let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
             let (main,) = #base_name(#base_constants omega, [#(#external),*], [#(P::spread(seen[#live])),*]);
-            let main = main.map(Pack::<S>::sum);
+            let main = [#(Pack::<S>::sum(main[#six])),*];
             out[..6].copy_from_slice(&main);
         };
         let (scalar, fused) = (&self.scalar, &self.fused);
@@ -345,47 +346,6 @@ impl Rolled {
     }
 }
 
-/// Replaces the type parameters `P` and `S` by types.
-fn with_types(tokens: &TokenStream, pack: &TokenStream, number: &TokenStream) -> TokenStream {
-    let replace = |token: TokenTree| -> TokenStream {
-        match token {
-            TokenTree::Group(group) => {
-                let inner = with_types(&group.stream(), pack, number);
-                TokenTree::from(proc_macro2::Group::new(group.delimiter(), inner)).into()
-            }
-            TokenTree::Ident(name) if name == "P" => pack.clone(),
-            TokenTree::Ident(name) if name == "S" => number.clone(),
-            other => other.into(),
-        }
-    };
-    tokens.clone().into_iter().map(replace).collect()
-}
-
-/// Whose constants a step is handed.
-enum Whose {
-    /// The main body's.
-    MainBody,
-    /// Those of appendage `a`.
-    Appendage,
-    /// Those of link `i` of appendage `a`.
-    Link,
-}
-
-/// The argument that hands a step its constants, if it has any.
-fn gather_constants(placed: &Placed, count: usize, whose: &Whose) -> TokenStream {
-    let size = placed.traced.constants();
-    if size == 0 {
-        return TokenStream::new();
-    }
-    let [start, size, count] = [placed.start, size, count].map(Literal::usize_unsuffixed);
-    let at = match whose {
-        Whose::MainBody => quote!(#start + c),
-        Whose::Appendage => quote!(#start + c * #count + a),
-        Whose::Link => quote!(#start + (i * #size + c) * #count + a),
-    };
-    quote!(std::array::from_fn(|c| P::gather(k, #at)),)
-}
-
 /// Traces again and again until the numbers of `group` that can be other than zero stay the
 /// same.
 fn settled(masks: &mut Masks, group: Group, trace: impl Fn(&Masks) -> Traced) -> Traced {
@@ -399,132 +359,6 @@ fn settled(masks: &mut Masks, group: Group, trace: impl Fn(&Masks) -> Traced) ->
         }
         if !grown {
             return traced.passing_on(group, known);
-        }
-    }
-}
-
-fn names(group: &Equal) -> (Ident, Ident) {
-    (format_ident!("{}_in", group.prefix()), format_ident!("{}_out", group.prefix()))
-}
-
-/// Where the group's hinge numbers begin in a state and in the accelerations.
-fn places(group: &Equal) -> (Literal, Literal) {
-    let state = Layout::STATE + Layout::HINGE * group.hinge;
-    (Literal::usize_unsuffixed(state), Literal::usize_unsuffixed(Layout::OUTPUT + group.hinge))
-}
-
-fn chain_sweeps(group: &Equal, links: usize, placed: [&Placed; 6]) -> TokenStream {
-    let [start, outward, inward, root, first, back] = placed;
-    let names_of = |placed: &Placed| placed.traced.name.clone();
-    let (start_, outward_, inward_, root_, first_, back_) = (
-        names_of(start),
-        names_of(outward),
-        names_of(inward),
-        names_of(root),
-        names_of(first),
-        names_of(back),
-    );
-    let count = group.count;
-    let (k_start, k_root, k_first) = (
-        gather_constants(start, count, &Whose::Appendage),
-        gather_constants(root, count, &Whose::Appendage),
-        gather_constants(first, count, &Whose::Appendage),
-    );
-    let (k_outward, k_inward) = (
-        gather_constants(outward, count, &Whose::Link),
-        gather_constants(inward, count, &Whose::Link),
-    );
-    let (in_name, out_name) = names(group);
-    let (state, output) = places(group);
-    let [turned, shown, eliminated, seen] = [
-        outward.traced.size(TURNED),
-        inward.traced.size(SHOWN),
-        inward.traced.size(ELIMINATED),
-        root.traced.size(AT_ORIGIN),
-    ]
-    .map(Literal::usize_unsuffixed);
-    let (links, count) = (Literal::usize_unsuffixed(links), Literal::usize_unsuffixed(count));
-    quote! {
-        #[inline(always)]
-        fn #in_name<S: Real, P: Pack<S>>(
-            k: &[S],
-            x: &[S],
-            a: usize,
-            saved: &mut ([[P; #eliminated]; #links],),
-        ) -> [P; #seen] {
-            let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
-            let (w, mut reached) = #start_(#k_start omega);
-            let mut turned = [[P::zero(); #turned]; #links];
-            for i in 0..#links {
-                let at = #state + 3 * i * #count + a;
-                let hinge = [P::gather(x, at), P::gather(x, at + #count)];
-                (turned[i], reached) = #outward_(#k_outward w, hinge, reached);
-            }
-            let mut outer = P::zero();
-            let mut shown = [P::zero(); #shown];
-            for i in (0..#links).rev() {
-                let torque = P::gather(x, #state + (3 * i + 2) * #count + a);
-                (shown, saved.0[i]) = #inward_(#k_inward turned[i], [torque - outer], shown);
-                outer = torque;
-            }
-            let (seen,) = #root_(#k_root shown, [outer]);
-            seen
-        }
-        #[inline(always)]
-        fn #out_name<S: Real, P: Pack<S>>(
-            k: &[S],
-            main: [S; 6],
-            a: usize,
-            saved: &([[P; #eliminated]; #links],),
-            out: &mut [S],
-        ) {
-            let (mut turning, mut hinge) = #first_(#k_first main.map(P::spread));
-            for i in 0..#links {
-                let tau_dot;
-                (tau_dot, turning, hinge) = #back_(saved.0[i], turning, hinge);
-                tau_dot[0].scatter(out, #output + i * #count + a);
-            }
-        }
-    }
-}
-
-fn paddle_sweeps(group: &Equal, inward: &Placed, first: &Placed, back: &Placed) -> TokenStream {
-    let (inward_, first_, back_) = (&inward.traced.name, &first.traced.name, &back.traced.name);
-    let (k_inward, k_first) = (
-        gather_constants(inward, group.count, &Whose::Appendage),
-        gather_constants(first, group.count, &Whose::Appendage),
-    );
-    let (in_name, out_name) = names(group);
-    let (state, output) = places(group);
-    let [eliminated, paddle, seen] = [ELIMINATED, PADDLE, AT_ORIGIN]
-        .map(|group| Literal::usize_unsuffixed(inward.traced.size(group)));
-    let count = Literal::usize_unsuffixed(group.count);
-    quote! {
-        #[inline(always)]
-        fn #in_name<S: Real, P: Pack<S>>(
-            k: &[S],
-            x: &[S],
-            a: usize,
-            saved: &mut ([P; #eliminated], [P; #paddle]),
-        ) -> [P; #seen] {
-            let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
-            let hinges = std::array::from_fn(|i| P::gather(x, #state + i * #count + a));
-            let seen;
-            (seen, saved.0, saved.1) = #inward_(#k_inward omega, hinges);
-            seen
-        }
-        #[inline(always)]
-        fn #out_name<S: Real, P: Pack<S>>(
-            k: &[S],
-            main: [S; 6],
-            a: usize,
-            saved: &([P; #eliminated], [P; #paddle]),
-            out: &mut [S],
-        ) {
-            let (turning, hinge) = #first_(#k_first main.map(P::spread));
-            let (tau_dot,) = #back_(saved.0, saved.1, turning, hinge);
-            tau_dot[0].scatter(out, #output + a);
-            tau_dot[1].scatter(out, #output + #count + a);
         }
     }
 }

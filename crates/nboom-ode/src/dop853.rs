@@ -228,6 +228,17 @@ impl Dop853 {
         self.next_step
     }
 
+    /// Estimated error of variable `i` in the last step tried, in units of the tolerance and
+    /// per unit of time.
+    pub fn error_of(&self, i: usize) -> f64 {
+        self.estimate(E5, i).abs() / self.scale_of(i)
+    }
+
+    /// The variables at which the derivative was evaluated last.
+    pub fn last_evaluated(&self) -> &[f64] {
+        &self.stage_state
+    }
+
     /// What integration has cost so far.
     pub fn counts(&self) -> Counts {
         self.counts
@@ -301,13 +312,12 @@ impl Dop853 {
         let time = self.t;
         let n = self.y.len();
         let not_finite =
-            (0..n).find(|&i| (0..=STAGES).any(|stage| !self.stages[stage * n + i].is_finite()));
-        if let Some(variable) = not_finite {
+            |&i: &usize| (0..=STAGES).any(|stage| !self.stages[stage * n + i].is_finite());
+        if let Some(variable) = (0..n).find(not_finite) {
             return StepError::NotFinite { time, variable };
         }
-        let share = |i: usize| self.estimate(E5, i).abs() / self.scale_of(i);
-        let variable =
-            (0..self.controlled).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0);
+        let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
+        let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
         StepError::Underflow { time, step, variable }
     }
 

@@ -118,8 +118,34 @@ pub trait Pack<S>: Real {
     /// The number at `at`, or the lanes from there on.
     fn gather(from: &[S], at: usize) -> Self;
 
+    /// What [`gather`](Self::gather) reads at `at`, `at + stride`, and so on.
+    ///
+    /// A loop rather than a closure over an array: a closure need not be inlined, and code
+    /// that is not cannot use the processor features of its caller.
+    #[inline(always)]
+    fn gather_all<const N: usize>(from: &[S], at: usize, stride: usize) -> [Self; N] {
+        let mut all = [Self::zero(); N];
+        for i in 0..N {
+            all[i] = Self::gather(from, at + i * stride);
+        }
+        all
+    }
+
     /// The same number in every lane.
     fn spread(value: S) -> Self;
+
+    /// Each number in every lane.
+    #[inline(always)]
+    fn spread_all<const N: usize>(values: [S; N]) -> [Self; N]
+    where
+        S: Copy,
+    {
+        let mut all = [Self::zero(); N];
+        for i in 0..N {
+            all[i] = Self::spread(values[i]);
+        }
+        all
+    }
 
     /// Writes what [`gather`](Self::gather) would read.
     fn scatter(self, to: &mut [S], at: usize);

@@ -22,6 +22,8 @@ mod sine;
 mod spatial;
 mod symmetric;
 mod vector;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
@@ -31,3 +33,5 @@ pub use routine::Routine;
 pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
 pub use vector::Vec3;
+#[cfg(target_arch = "x86_64")]
+pub use wide::{Avx4, Avx8};

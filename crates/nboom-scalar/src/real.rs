@@ -28,23 +28,29 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
 
     /// Sines and cosines of several angles at once.
-    #[inline]
+    #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-        angles.map(Self::sin_cos)
+        let mut pairs = [(Self::zero(), Self::zero()); N];
+        for i in 0..N {
+            pairs[i] = angles[i].sin_cos();
+        }
+        pairs
     }
 
     /// `self · factor + term`; scalars that can, round once.
-    #[inline]
+    #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
 
     /// The constant zero.
+    #[inline(always)]
     fn zero() -> Self {
         Self::constant(0.0)
     }
 
     /// The constant one.
+    #[inline(always)]
     fn one() -> Self {
         Self::constant(1.0)
     }

@@ -1,5 +1,30 @@
 //! Sine and cosine without branches, so that loops over them become vector code.
 
+pub(crate) const TWO_OVER_PI: f64 = std::f64::consts::FRAC_2_PI;
+/// π/2 in three parts.
+pub(crate) const HALF_PI: [f64; 3] =
+    [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21];
+/// sin r = r + r z (…), z = r², highest power first.
+pub(crate) const SINE: [f64; 6] = [
+    1.589_623_015_765_465_7e-10,
+    -2.505_074_776_285_780_7e-8,
+    2.755_731_362_138_572_5e-6,
+    -1.984_126_982_958_954e-4,
+    8.333_333_333_322_118e-3,
+    -1.666_666_666_666_663e-1,
+];
+/// cos r = 1 − z/2 + z² (…).
+pub(crate) const COSINE: [f64; 6] = [
+    -1.135_853_652_138_768_2e-11,
+    2.087_570_084_197_473e-9,
+    -2.755_731_417_929_674e-7,
+    2.480_158_728_885_170_5e-5,
+    -1.388_888_888_887_305_6e-3,
+    4.166_666_666_666_659e-2,
+];
+/// Adding this puts the integer part into the lowest bits.
+pub(crate) const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
+
 /// Sine and cosine of an angle \[rad\] of magnitude up to 1e5, to about one unit in the last
 /// place.
 ///
@@ -9,27 +34,6 @@
 /// loses digits in proportion to the angle.
 #[inline(always)]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    const TWO_OVER_PI: f64 = std::f64::consts::FRAC_2_PI;
-    const HALF_PI: [f64; 3] =
-        [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21];
-    const SINE: [f64; 6] = [
-        1.589_623_015_765_465_7e-10,
-        -2.505_074_776_285_780_7e-8,
-        2.755_731_362_138_572_5e-6,
-        -1.984_126_982_958_954e-4,
-        8.333_333_333_322_118e-3,
-        -1.666_666_666_666_663e-1,
-    ];
-    const COSINE: [f64; 6] = [
-        -1.135_853_652_138_768_2e-11,
-        2.087_570_084_197_473e-9,
-        -2.755_731_417_929_674e-7,
-        2.480_158_728_885_170_5e-5,
-        -1.388_888_888_887_305_6e-3,
-        4.166_666_666_666_659e-2,
-    ];
-    /// Adding this puts the integer part into the lowest bits.
-    const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
     let shifted = angle.mul_add(TWO_OVER_PI, TO_INTEGER);
     let quarters = shifted - TO_INTEGER;
     let r = (-quarters).mul_add(HALF_PI[0], angle);

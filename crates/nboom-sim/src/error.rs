@@ -20,7 +20,7 @@ pub enum SimError {
         hinge: Option<HingeLabel>,
     },
     /// An acceleration is infinite or not a number.
-    #[error("at time {time}, {}: the acceleration is not finite; the mass matrix may be singular there", place(.hinge))]
+    #[error("at time {time}, {}: the acceleration is not finite; a force or torque has grown beyond all numbers", place(.hinge))]
     NotFinite {
         /// Time reached.
         time: f64,
@@ -74,17 +74,11 @@ pub enum SimError {
 }
 
 impl SimError {
-    pub(crate) fn from_step(
-        error: StepError,
-        hinge_of: impl Fn(usize) -> Option<HingeLabel>,
-    ) -> Self {
+    /// The stepper's refusal, blamed on `hinge`.
+    pub(crate) fn from_step(error: StepError, hinge: Option<HingeLabel>) -> Self {
         match error {
-            StepError::Underflow { time, step, variable } => {
-                Self::StepUnderflow { time, step, hinge: hinge_of(variable) }
-            }
-            StepError::NotFinite { time, variable } => {
-                Self::NotFinite { time, hinge: hinge_of(variable) }
-            }
+            StepError::Underflow { time, step, .. } => Self::StepUnderflow { time, step, hinge },
+            StepError::NotFinite { time, .. } => Self::NotFinite { time, hinge },
         }
     }
 }

@@ -48,16 +48,4 @@ impl Layout {
     pub fn len(&self) -> usize {
         self.thrust_work().end
     }
-
-    /// The free hinge that variable `i` belongs to.
-    pub fn hinge_of(&self, i: usize) -> Option<usize> {
-        let (beta, tau) = (self.beta(), self.tau());
-        if beta.contains(&i) {
-            Some(i - beta.start)
-        } else if tau.contains(&i) {
-            Some(i - tau.start)
-        } else {
-            None
-        }
-    }
 }

@@ -1,7 +1,7 @@
 use nboom_model::{HingeLabel, Mode, Scene, SceneDescription};
-use nboom_ode::{Dop853, Tolerance};
+use nboom_ode::{Dop853, StepError, Tolerance};
 
-use crate::equations::Equations;
+use crate::equations::{Equations, motion};
 use crate::error::{Failure, SimError};
 use crate::guard::{GuardKind, Guards, read};
 use crate::instant::{self, Arrivals, ONE_INSTANT};
@@ -31,6 +31,9 @@ pub fn simulate(
 
 /// Corrections after which an event's time is as good as it gets.
 const CORRECTIONS: usize = 8;
+
+/// Share of the largest error from which on a hinge's own error counts.
+const COUNTS: f64 = 0.01;
 
 /// Events within [`CHATTER_SPAN`] of the whole span after which a run is given up.
 const CHATTER_EVENTS: usize = 1000;
@@ -175,7 +178,26 @@ impl<'a> Run<'a> {
             return Err(SimError::TooManySteps { time, steps });
         }
         let taken = self.stepper.step(&mut self.equations, limit);
-        taken.map_err(|error| SimError::from_step(error, |variable| self.label_of(variable)))
+        taken.map_err(|error| SimError::from_step(error, self.hinge_to_blame(error)))
+    }
+
+    /// The hinge that keeps the stepper from going on: one whose torque is not finite, else the
+    /// one with the largest error, unless that is far below the main body's.
+    fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
+        let layout = self.equations.layout;
+        let free = self.equations.dynamics.free_hinges().to_vec();
+        let mut torques = vec![0.0; free.len()];
+        let motion = motion(&layout, self.stepper.last_evaluated());
+        self.equations.dynamics.hinge_forces(&motion, &mut torques);
+        let without_bound = torques.iter().position(|torque| !torque.is_finite());
+        let error_of = |position: usize| self.stepper.error_of(layout.tau().start + position);
+        let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
+        let of_all = match error {
+            StepError::Underflow { variable, .. } => self.stepper.error_of(variable),
+            StepError::NotFinite { .. } => f64::INFINITY,
+        };
+        let counts = largest.filter(|&position| error_of(position) > COUNTS * of_all);
+        without_bound.or(counts).map(|position| self.scene.label(free[position]))
     }
 
     /// Takes the step again so that it ends where the guard is zero: Newton's method on the
@@ -312,11 +334,6 @@ impl<'a> Run<'a> {
         let hinge = events.last().and_then(|event| event.hinge).map(|i| self.scene.label(i));
         let within = self.state.time - since;
         Err(SimError::Chatter { time: self.state.time, hinge, events: events_now, within })
-    }
-
-    fn label_of(&self, variable: usize) -> Option<HingeLabel> {
-        let position = self.equations.layout.hinge_of(variable)?;
-        Some(self.scene.label(self.equations.dynamics.free_hinges()[position]))
     }
 
     fn summary(&self) -> Summary {

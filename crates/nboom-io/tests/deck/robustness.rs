@@ -34,8 +34,10 @@ proptest! {
     ) {
         let mut text = REPORT_DECK.to_owned();
         for (at, piece) in changes {
-            let at = at.min(text.len() - 1);
-            text.replace_range(at..at + 1, PIECES[piece]);
+            let boundary = |&i: &usize| text.is_char_boundary(i);
+            let from = (0..=at.min(text.len() - 1)).rev().find(boundary).unwrap_or(0);
+            let to = (from + 1..=text.len()).find(boundary).unwrap_or(text.len());
+            text.replace_range(from..to, PIECES[piece]);
         }
         ends_soon(&text);
     }
