@@ -1,9 +1,9 @@
 //! Lanes in vector registers.
 //!
 //! The compiler does not reliably turn long straight lines of array arithmetic into vector
-//! code; held in registers from the start, the //! same source then runs four to six times faster). The intrinsics need a processor feature:
-//! these types may be used only in functions that are compiled for it, called only where it is
-//! there.
+//! code; held in registers from the start, the same source runs four to six times faster. The
+//! intrinsics need a processor feature: these types may be used only in functions that are
+//! compiled for it, called only where it is there.
 #![allow(unsafe_code, reason = "vector intrinsics; see above")]
 
 use std::arch::x86_64::*;

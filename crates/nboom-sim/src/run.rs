@@ -32,6 +32,9 @@ pub fn simulate(
 /// Corrections after which an event's time is as good as it gets.
 const CORRECTIONS: usize = 8;
 
+/// A torque whose square is no number any more.
+const BOUND: f64 = 1e154;
+
 /// Share of the largest error from which on a hinge's own error counts.
 const COUNTS: f64 = 0.01;
 
@@ -181,22 +184,23 @@ impl<'a> Run<'a> {
         taken.map_err(|error| SimError::from_step(error, self.hinge_to_blame(error)))
     }
 
-    /// The hinge that keeps the stepper from going on: one whose torque is not finite, else the
-    /// one with the largest error, unless that is far below the main body's.
+    /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
+    /// the one with the largest error, unless that is far below the main body's.
     fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
         let layout = self.equations.layout;
         let free = self.equations.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];
         let motion = motion(&layout, self.stepper.last_evaluated());
         self.equations.dynamics.hinge_forces(&motion, &mut torques);
-        let without_bound = torques.iter().position(|torque| !torque.is_finite());
+        let bounded = |torque: f64| torque.abs() < BOUND;
+        let without_bound = torques.iter().position(|&torque| !bounded(torque));
         let error_of = |position: usize| self.stepper.error_of(layout.tau().start + position);
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
         let of_all = match error {
             StepError::Underflow { variable, .. } => self.stepper.error_of(variable),
             StepError::NotFinite { .. } => f64::INFINITY,
         };
-        let counts = largest.filter(|&position| error_of(position) > COUNTS * of_all);
+        let counts = largest.filter(|&position| error_of(position) >= COUNTS * of_all);
         without_bound.or(counts).map(|position| self.scene.label(free[position]))
     }
 
