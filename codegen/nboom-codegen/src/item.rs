@@ -13,15 +13,15 @@ pub(crate) struct Item<'a> {
     pub prepare: TokenStream,
     /// Body of `evaluate` on `R`: from `k` and `x` to `out`.
     pub evaluate: TokenStream,
-    /// Body of `evaluate_fused` on `f64`.
-    pub evaluate_fused: TokenStream,
+    /// Body of `evaluate_packed` on the packs of `I`.
+    pub evaluate_packed: TokenStream,
     /// Functions of the type itself.
     pub functions: TokenStream,
 }
 
 impl Item<'_> {
     pub fn tokens(&self) -> TokenStream {
-        let Self { request, prepare, evaluate, evaluate_fused, functions, .. } = self;
+        let Self { request, prepare, evaluate, evaluate_packed, functions, .. } = self;
         let name = format_ident!("{}", request.name);
         let topology = request.topology.to_string();
         let pinned = request.pinned.iter().enumerate().filter_map(|(i, value)| {
@@ -58,11 +58,11 @@ impl Item<'_> {
                     #evaluate
                 }
                 #[inline(always)]
-                fn evaluate_fused(k: &[f64], x: &[f64], out: &mut [f64]) {
+                fn evaluate_packed<I: Isa>(k: &[f64], x: &[f64], out: &mut [f64]) {
                     let k: &[f64; #constants] = k.try_into().expect("one value for each constant");
                     let x: &[f64; #coordinates] = x.try_into().expect("one value for each coordinate");
                     let out: &mut [f64; #outputs] = out.try_into().expect("room for each output");
-                    #evaluate_fused
+                    #evaluate_packed
                 }
             }
             impl #name { #functions }

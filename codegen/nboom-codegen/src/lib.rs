@@ -1,5 +1,6 @@
 //! Turns a topology and a formulation into specialised Rust.
 
+mod driver;
 mod item;
 mod request;
 mod rolled;

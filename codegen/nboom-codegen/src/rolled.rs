@@ -7,15 +7,13 @@ use nboom_formulation::stages::{
 };
 use nboom_model::Shape;
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
+use crate::driver::{Call, Driver};
 use crate::item::Item;
 use crate::stage::{Masks, Traced};
-use crate::sweeps::{Whose, chain_sweeps, gather_constants, names, paddle_sweeps, with_types};
+use crate::sweeps::{Whose, chain_sweeps, gather_constants, names, paddle_sweeps};
 use crate::{Generated, Request};
-
-/// Widths of lanes that equal appendages are taken in, widest first.
-const WIDTHS: [usize; 4] = [8, 4, 2, 1];
 
 /// Code for the request.
 pub fn generate(request: &Request) -> Generated {
@@ -78,18 +76,10 @@ struct Rolled {
     functions: Vec<TokenStream>,
     prepare: Vec<TokenStream>,
     constants: usize,
-    scalar: Sweeps,
-    fused: Sweeps,
+    calls: Vec<Call>,
     at_origin: Vec<bool>,
     evaluation: Operations,
     preparation: Operations,
-}
-
-/// What happens before and after the main body has been solved for.
-#[derive(Default)]
-struct Sweeps {
-    inward: Vec<TokenStream>,
-    outward: Vec<TokenStream>,
 }
 
 /// A traced step and where its constants stand.
@@ -213,27 +203,14 @@ impl Rolled {
         self.call(group, &saved, inward.traced.live(AT_ORIGIN));
     }
 
-    /// Calls of a group's sweeps: one appendage after the other, and in lanes.
+    /// Has a group's sweeps called: `saved` has the sizes of what its inward sweep leaves, once
+    /// or for each link, and `live` tells which numbers at O it returns.
     fn call(&mut self, group: &Equal, saved: &[(usize, Option<usize>)], live: &[bool]) {
         self.at_origin.resize(AT_ORIGIN.size, false);
         for (all, live) in self.at_origin.iter_mut().zip(live) {
             *all |= live;
         }
         let (inward, outward) = names(group);
-        let live_slots: Vec<Literal> = live
-            .iter()
-            .enumerate()
-            .filter(|(_, live)| **live)
-            .map(|(i, _)| Literal::usize_unsuffixed(i))
-            .collect();
-        let live_numbers: Vec<Literal> =
-            (0..live_slots.len()).map(Literal::usize_unsuffixed).collect();
-        let add = |number: TokenStream| {
-            quote! {
-                #(seen[#live_slots] += Pack::<#number>::sum(part[#live_numbers]);)*
-            }
-        };
-        let (add_scalar, add_fused) = (add(quote!(R)), add(quote!(f64)));
         let empty = saved.iter().map(|&(size, repeats)| {
             let size = Literal::usize_unsuffixed(size);
             match repeats.map(Literal::usize_unsuffixed) {
@@ -241,107 +218,64 @@ impl Rolled {
                 None => quote!([P::zero(); #size]),
             }
         });
-        let empty = quote!((#(#empty,)*));
-        let name = format_ident!("saved_{}", group.number);
-        let count = Literal::usize_unsuffixed(group.count);
-        let scalar_empty: TokenStream = with_types(&empty, &quote!(R), &quote!(R));
-        self.scalar.inward.push(quote! {
-            let mut #name = [#scalar_empty; #count];
-            for a in 0..#count {
-                let part = #inward::<R, R>(k, x, a, &mut #name[a]);
-                #add_scalar
-            }
+        self.calls.push(Call {
+            inward,
+            outward,
+            number: group.number,
+            count: group.count,
+            empty: quote!((#(#empty,)*)),
+            seen: (0..AT_ORIGIN.size).filter(|&slot| live[slot]).collect(),
         });
-        self.scalar.outward.push(quote! {
-            for a in 0..#count {
-                #outward::<R, R>(k, main, a, &#name[a], out);
-            }
-        });
-        let mut a = 0;
-        while a < group.count {
-            let width = WIDTHS.into_iter().find(|&w| w <= group.count - a).unwrap_or(1);
-            let name = format_ident!("saved_{}_{a}", group.number);
-            let (width_, a_) = (Literal::usize_unsuffixed(width), Literal::usize_unsuffixed(a));
-            let pack = quote!(Lanes<#width_>);
-            let empty = with_types(&empty, &quote!(Lanes::<#width_>), &quote!(f64));
-            self.fused.inward.push(quote! {
-                let mut #name = #empty;
-                let part = #inward::<f64, #pack>(k, x, #a_, &mut #name);
-                #add_fused
-            });
-            self.fused.outward.push(quote! {
-                #outward::<f64, #pack>(k, main, #a_, &#name, out);
-            });
-            a += width;
-        }
     }
 
     fn finish(mut self, request: &Request) -> Generated {
+        self.at_origin.resize(AT_ORIGIN.size, false);
         let masks = Masks::from([
-            (AT_ORIGIN.name, {
-                self.at_origin.resize(AT_ORIGIN.size, false);
-                self.at_origin.clone()
-            }),
+            (AT_ORIGIN.name, self.at_origin.clone()),
             (stages::EXTERNAL.name, vec![request.external; stages::EXTERNAL.size]),
         ]);
         let main = &request.pinned[..Layout::MAIN];
         let base = Traced::new("m", &stages::base(), main, &masks);
         let alone = Equal { number: 0, shape: Shape::Chain(0), count: 1, parameter: 0, hinge: 0 };
         let base = self.place(request, &alone, base, 0, Layout::MAIN, 1);
-        let live = self.at_origin.iter().enumerate().filter(|(_, live)| **live);
-        let live: Vec<Literal> = live.map(|(i, _)| Literal::usize_unsuffixed(i)).collect();
-        let external: Vec<TokenStream> = if request.external {
-            (3..9)
-                .map(|i| {
-                    let i = Literal::usize_unsuffixed(i);
-                    quote!(P::spread(x[#i]))
-                })
-                .collect()
-        } else {
-            Vec::new()
-        };
-        let base_name = &base.traced.name;
-        let base_constants = gather_constants(&base, 1, &Whose::MainBody);
-        let six = (0..6).map(Literal::usize_unsuffixed);
-        let main_body = quote! {
-            let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
-            let (main,) = #base_name(#base_constants omega, [#(#external),*], [#(P::spread(seen[#live])),*]);
-            let main = [#(Pack::<S>::sum(main[#six])),*];
-            out[..6].copy_from_slice(&main);
-        };
-        let (scalar, fused) = (&self.scalar, &self.fused);
-        let (scalar_in, scalar_out) = (&scalar.inward, &scalar.outward);
-        let (fused_in, fused_out) = (&fused.inward, &fused.outward);
-        let scalar_main = with_types(&main_body, &quote!(R), &quote!(R));
-        let fused_main = with_types(&main_body, &quote!(Lanes::<1>), &quote!(f64));
-        let origin = Literal::usize_unsuffixed(AT_ORIGIN.size);
-        let evaluate = quote! {
-            let mut seen = [R::zero(); #origin];
-            #(#scalar_in)*
-            #scalar_main
-            #(#scalar_out)*
-        };
-        let evaluate_fused = quote! {
-            let mut seen = [0.0; #origin];
-            #(#fused_in)*
-            #fused_main
-            #(#fused_out)*
-        };
+        let main_body = self.main_body(request, &base);
+        let driver = Driver { calls: self.calls, main_body };
         let prepare = &self.prepare;
-        let items = Item {
+        let item = Item {
             request,
             constants: self.constants,
             prepare: quote!(#(#prepare)*),
-            evaluate,
-            evaluate_fused,
-            functions: quote!(),
-        };
+            evaluate: driver.on_any_scalar(),
+            evaluate_packed: driver.in_packs(),
+            functions: TokenStream::new(),
+        }
+        .tokens();
         let functions = &self.functions;
-        let item = items.tokens();
         Generated {
             tokens: quote!(#item #(#functions)*),
             evaluation: self.evaluation,
             preparation: self.preparation,
+        }
+    }
+
+    /// From what all appendages show at O to the accelerations of the main body.
+    fn main_body(&self, request: &Request, base: &Placed) -> TokenStream {
+        let live = (0..AT_ORIGIN.size).filter(|&slot| self.at_origin[slot]);
+        let live = live.map(Literal::usize_unsuffixed);
+        let external = (3..9).filter(|_| request.external).map(Literal::usize_unsuffixed);
+        let six = (0..6).map(Literal::usize_unsuffixed);
+        let name = &base.traced.name;
+        let constants = gather_constants(base, 1, &Whose::MainBody);
+        quote! {
+            let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
+            let (main,) = #name(
+                #constants
+                omega,
+                [#(P::spread(x[#external])),*],
+                [#(P::spread(seen[#live])),*],
+            );
+            let main = [#(Pack::<S>::sum(main[#six])),*];
+            out[..6].copy_from_slice(&main);
         }
     }
 }

@@ -50,7 +50,7 @@ pub fn generate(request: &Request) -> Generated {
         constants: constants.len(),
         prepare,
         evaluate: quote!(Self::evaluate_on::<R, R>(k, x, out);),
-        evaluate_fused: quote!(Self::evaluate_on::<f64, Lanes<1>>(k, x, out);),
+        evaluate_packed: quote!(Self::evaluate_on::<f64, I::One>(k, x, out);),
         functions: quote! {
             #[inline(always)]
             fn evaluate_on<S: Copy, R: Pack<S>>(k: &[S], x: &[S], out: &mut [S]) {

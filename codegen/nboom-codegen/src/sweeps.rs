@@ -2,30 +2,10 @@
 
 use nboom_formulation::Layout;
 use nboom_formulation::stages::{AT_ORIGIN, ELIMINATED, PADDLE, SHOWN, TURNED};
-use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::rolled::{Equal, Placed};
-
-/// Replaces the type parameters `P` and `S` by types.
-pub(crate) fn with_types(
-    tokens: &TokenStream,
-    pack: &TokenStream,
-    number: &TokenStream,
-) -> TokenStream {
-    let replace = |token: TokenTree| -> TokenStream {
-        match token {
-            TokenTree::Group(group) => {
-                let inner = with_types(&group.stream(), pack, number);
-                TokenTree::from(proc_macro2::Group::new(group.delimiter(), inner)).into()
-            }
-            TokenTree::Ident(name) if name == "P" => pack.clone(),
-            TokenTree::Ident(name) if name == "S" => number.clone(),
-            other => other.into(),
-        }
-    };
-    tokens.clone().into_iter().map(replace).collect()
-}
 
 /// Whose constants a step is handed.
 pub(crate) enum Whose {

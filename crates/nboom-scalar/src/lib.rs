@@ -13,6 +13,8 @@
 //! assert!((turned - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-15);
 //! ```
 
+mod isa;
+mod kernel;
 mod lanes;
 mod matrix;
 mod quaternion;
@@ -25,6 +27,8 @@ mod vector;
 #[cfg(target_arch = "x86_64")]
 mod wide;
 
+pub use isa::{Avx2, Avx512, Isa};
+pub use kernel::Kernel;
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
 pub use quaternion::Quaternion;

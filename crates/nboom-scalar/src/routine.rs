@@ -1,4 +1,4 @@
-use crate::Real;
+use crate::{Isa, Real};
 
 /// What generated code implements: accelerations of one topology by one formulation.
 ///
@@ -32,11 +32,9 @@ pub trait Routine {
     /// When a slice does not have the length given above.
     fn evaluate<R: Real>(constants: &[R], coordinates: &[R], outputs: &mut [R]);
 
-    /// Computes accelerations of one state with equal appendages side by side in
-    /// [`Lanes`](crate::Lanes): the fast way in code compiled for a processor that fuses
-    /// products and sums.
+    /// Computes accelerations of one state, equal appendages side by side in the packs of `I`.
     ///
     /// # Panics
     /// When a slice does not have the length given above.
-    fn evaluate_fused(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]);
+    fn evaluate_packed<I: Isa>(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]);
 }

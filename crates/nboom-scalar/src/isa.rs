@@ -1,0 +1,44 @@
+use crate::{Lanes, Pack};
+
+/// The packs that a kind of processor takes side by side.
+///
+/// Code that names one of these may run only where the processor has its features;
+/// [`Kernel`](crate::Kernel) sees to that.
+pub trait Isa {
+    /// The most numbers that one register holds; 4 or 8.
+    const WIDEST: usize;
+    /// One number.
+    type One: Pack<f64>;
+    /// Two numbers.
+    type Two: Pack<f64>;
+    /// Four numbers.
+    type Four: Pack<f64>;
+    /// Eight numbers.
+    type Eight: Pack<f64>;
+}
+
+/// AVX2 with fused products and sums.
+#[derive(Clone, Copy, Debug)]
+pub struct Avx2;
+
+#[cfg(target_arch = "x86_64")]
+impl Isa for Avx2 {
+    const WIDEST: usize = 4;
+    type One = Lanes<1>;
+    type Two = Lanes<2>;
+    type Four = crate::Avx4;
+    type Eight = Lanes<8>;
+}
+
+/// AVX-512.
+#[derive(Clone, Copy, Debug)]
+pub struct Avx512;
+
+#[cfg(target_arch = "x86_64")]
+impl Isa for Avx512 {
+    const WIDEST: usize = 8;
+    type One = Lanes<1>;
+    type Two = Lanes<2>;
+    type Four = crate::Avx4;
+    type Eight = crate::Avx8;
+}
