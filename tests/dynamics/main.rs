@@ -5,3 +5,4 @@ mod support;
 
 mod closed_forms;
 mod forward_dynamics;
+mod scalars;

@@ -24,6 +24,7 @@ impl Item<'_> {
         let Self { request, prepare, evaluate, evaluate_packed, functions, .. } = self;
         let name = format_ident!("{}", request.name);
         let topology = request.topology.to_string();
+        let external = request.external;
         let pinned = request.pinned.iter().enumerate().filter_map(|(i, value)| {
             let (i, value) = (Literal::usize_unsuffixed(i), (*value)?);
             Some(quote!((#i, #value)))
@@ -41,6 +42,7 @@ impl Item<'_> {
                 const TOPOLOGY: &'static str = #topology;
                 const FORMULATION: &'static str = "articulated";
                 const PINNED: &'static [(usize, f64)] = &[#(#pinned),*];
+                const EXTERNAL: bool = #external;
                 const PARAMETERS: usize = #parameters;
                 const CONSTANTS: usize = #constants;
                 const COORDINATES: usize = #coordinates;

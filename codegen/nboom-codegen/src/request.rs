@@ -23,8 +23,10 @@ impl Level {
 /// What to generate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// Name of the type that implements the routine.
+    /// Name of the type that implements the routine, a Rust identifier.
     pub name: String,
+    /// Path of the crate `nboom_scalar` where the code will stand.
+    pub scalar_path: String,
     /// The satellite's appendages.
     pub topology: Topology,
     /// Parameters that the code takes for granted; `None` stays a runtime value.
@@ -39,7 +41,28 @@ impl Request {
     /// Code for a topology with all parameters at run time, without external wrench.
     pub fn new(name: &str, topology: Topology, level: Level) -> Self {
         let pinned = vec![None; Layout::parameters(&topology)];
-        Self { name: name.to_owned(), topology, pinned, external: false, level }
+        Self {
+            name: name.to_owned(),
+            scalar_path: "::nboom_scalar".to_owned(),
+            topology,
+            pinned,
+            external: false,
+            level,
+        }
+    }
+
+    /// Code that also takes an external wrench on the main body.
+    pub fn with_external_wrench(mut self) -> Self {
+        self.external = true;
+        self
+    }
+
+    /// Takes every parameter for granted: code for one satellite.
+    ///
+    /// `parameters` are the numbers that `nboom_formulation::Parameters::write` gives.
+    pub fn baked(mut self, parameters: &[f64]) -> Self {
+        self.pinned = parameters.iter().copied().map(Some).collect();
+        self
     }
 
     /// Takes for granted what holds of the report's decks: every mass centre on its segment's

@@ -16,7 +16,7 @@ use crate::sweeps::{Whose, chain_sweeps, gather_constants, names, paddle_sweeps}
 use crate::{Generated, Request};
 
 /// Code for the request.
-pub fn generate(request: &Request) -> Generated {
+pub(crate) fn generate(request: &Request) -> Generated {
     let mut routine = Rolled::default();
     let mut parameter = Layout::MAIN;
     let mut hinge = 0;

@@ -1,6 +1,6 @@
 //! A routine whose evaluation is one straight line.
 
-use nboom_expr::{Graph, Operations};
+use nboom_expr::Graph;
 use nboom_formulation::{Coordinates, Layout, Parameters, articulated};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -8,17 +8,7 @@ use quote::quote;
 use crate::item::Item;
 use crate::stage::{constants, given};
 use crate::straight::Statements;
-use crate::{Level, Request};
-
-/// Generated code and what it costs.
-pub struct Generated {
-    /// The items.
-    pub tokens: TokenStream,
-    /// Operations of one evaluation.
-    pub evaluation: Operations,
-    /// Operations done once for each set of parameters.
-    pub preparation: Operations,
-}
+use crate::{Generated, Level, Request};
 
 /// Traces the request's formulation: parameters first, then the state.
 pub fn trace(request: &Request) -> Graph {
@@ -38,7 +28,7 @@ pub fn trace(request: &Request) -> Graph {
 }
 
 /// Code for the request.
-pub fn generate(request: &Request) -> Generated {
+pub(crate) fn generate(request: &Request) -> Generated {
     let graph = trace(request);
     let parameters = Layout::parameters(&request.topology);
     let varies = graph.depends_on(|input| input >= parameters);

@@ -48,10 +48,10 @@ pub struct RunArgs {
           allow_negative_numbers = true)]
     pub samples: usize,
 
-    /// Form of the equations of motion; this build has recursive.
-    #[arg(long, value_name = "NAME", default_value = "recursive",
-          value_parser = choice::formulation)]
-    pub formulation: &'static str,
+    /// Form of the equations of motion: articulated, in generated code, or recursive, in library
+    /// code; without it the path decides.
+    #[arg(long, value_name = "NAME", value_parser = choice::formulation)]
+    pub formulation: Option<&'static str>,
 
     /// Integrator; this build has dop853.
     #[arg(long, value_name = "NAME", default_value = "dop853",

@@ -4,7 +4,7 @@ use nboom_results::UnitSystem;
 
 const FORMULATIONS: [&str; 6] =
     ["report", "relative", "symmetric", "articulated", "momentum", "recursive"];
-const FORMULATIONS_BUILT: [&str; 1] = ["recursive"];
+const FORMULATIONS_BUILT: [&str; 2] = ["articulated", "recursive"];
 const INTEGRATORS_BUILT: [&str; 1] = ["dop853"];
 
 /// Below this a relative error is smaller than the rounding of a step.
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn refusals_say_what_there_is() {
         let refused = formulation("momentum").expect_err("not built").to_string();
-        assert_eq!(refused, "momentum is not in this build, which has recursive");
+        assert_eq!(refused, "momentum is not in this build, which has articulated, recursive");
         let refused = integrator("euler").expect_err("unknown").to_string();
         assert_eq!(refused, "unknown name, dop853 expected");
         let refused = units("cubits").expect_err("unknown").to_string();

@@ -6,6 +6,8 @@ use nboom_model::ModelError;
 use nboom_results::{ResultsError, with_causes};
 use nboom_sim::SimError;
 
+use crate::PathChoice;
+
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -16,11 +18,17 @@ pub enum CliError {
     /// The scene is wrong with the end time of the command line.
     #[error("--end-time: {}", .0.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; "))]
     EndTime(Vec<ModelError>),
-    /// `--path generated` was asked for.
+    /// The path has no code for the formulation.
     #[error(
-        "--path generated: no generated routine for this topology; auto and generic are available"
+        "--formulation {formulation} --path {path:?}: articulated is generated code and \
+         recursive is library code in this build"
     )]
-    NoGeneratedRoutine,
+    PathOfFormulation {
+        /// The path asked for.
+        path: PathChoice,
+        /// The formulation asked for.
+        formulation: &'static str,
+    },
     /// The motion cannot be computed, or its results not be kept.
     #[error("{error}")]
     Simulation {
@@ -42,7 +50,8 @@ impl CliError {
     /// 2 when the input or the command line is wrong, 3 when computing or writing failed.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Input(_) | Self::EndTime(_) | Self::NoGeneratedRoutine => 2,
+            Self::Input(_) | Self::EndTime(_) | Self::PathOfFormulation { .. } => 2,
+            Self::Simulation { error: SimError::NoRoutine { .. }, .. } => 2,
             Self::Simulation { .. } | Self::Results(_) | Self::Stdout(_) => 3,
         }
     }

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use nboom_model::Scene;
-use nboom_results::{EVENTS_FILE, Outcome, RunDescription, event_order};
+use nboom_results::{EVENTS_FILE, Outcome, RunDescription, event_order, path_and_formulation};
 use nboom_sim::{Event, EventKind, Totals};
 
 use crate::format::{count, short};
@@ -29,7 +29,8 @@ impl Account<'_> {
     }
 
     fn scene_line(&self) -> String {
-        let RunDescription { scene, path, formulation, integrator, .. } = self.run;
+        let RunDescription { scene, integrator, .. } = self.run;
+        let (path, formulation) = path_and_formulation(&self.outcome.summary);
         let bodies = count(1 + self.scene.bodies.len(), "body", "bodies");
         let freedom = count(self.run.degrees_of_freedom, "degree", "degrees");
         format!(
@@ -170,6 +171,7 @@ mod tests {
             events: counted,
             conservation,
             integrator: "dop853",
+            selections: Vec::new(),
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
         Account { scene: &scene, run: &run, outcome: &outcome, events }.text(Path::new("out/boom"))

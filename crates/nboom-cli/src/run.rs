@@ -4,7 +4,7 @@ use std::time::Instant;
 use nboom_io::read_scene;
 use nboom_model::Scene;
 use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes};
-use nboom_sim::{Options, simulate};
+use nboom_sim::{Options, Path, simulate};
 
 use crate::progress::Progress;
 use crate::watch::Watch;
@@ -15,15 +15,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
     let warnings = check::warnings(&file);
     let scene = with_end_time(file.scene, args.end_time)?;
-    if args.path == PathChoice::Generated {
-        return Err(CliError::NoGeneratedRoutine);
-    }
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));
     }
-    let options = options(args);
+    let options = options(args)?;
     let run = RunDescription {
-        formulation: args.formulation,
         integrator: args.integrator,
         warnings,
         ..RunDescription::new(&scene, &options, args.units)
@@ -39,9 +35,23 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
     }
 }
 
-fn options(args: &RunArgs) -> Options {
+fn options(args: &RunArgs) -> Result<Options, CliError> {
     let RunArgs { samples, rtol, atol, .. } = *args;
-    Options { samples, rtol, atol, ..Options::default() }
+    let path = path(args.path, args.formulation)?;
+    let kernels = nboom_routines::all();
+    Ok(Options { samples, rtol, atol, path, kernels, ..Options::default() })
+}
+
+/// The recursive formulation is library code, the articulated one generated.
+fn path(path: PathChoice, formulation: Option<&'static str>) -> Result<Path, CliError> {
+    match (path, formulation) {
+        (PathChoice::Auto, None) => Ok(Path::Auto),
+        (PathChoice::Generated, None | Some("articulated")) => Ok(Path::Generated),
+        (PathChoice::Generic, None | Some("recursive")) => Ok(Path::Generic),
+        (PathChoice::Auto, Some("recursive")) => Ok(Path::Generic),
+        (PathChoice::Auto, Some(_)) => Ok(Path::Generated),
+        (path, Some(formulation)) => Err(CliError::PathOfFormulation { path, formulation }),
+    }
 }
 
 fn simulate_into_files(

@@ -115,6 +115,11 @@ impl<R: Real> Recursive<R> {
         &self.free
     }
 
+    /// The external wrench on the main body about O, main-body axes, when there is one.
+    pub fn external(&self) -> Option<Wrench<R>> {
+        self.thrust
+    }
+
     /// Accelerations by articulated bodies: ω̇, a_O without gravity, τ̇.
     pub fn accelerations(&mut self, motion: &Motion<'_, R>, out: &mut Accelerations<R>) {
         self.factor(motion.beta);
@@ -148,10 +153,13 @@ impl<R: Real> Recursive<R> {
     /// A kick-off spring's reaction on the main body leaves no resultant, so nothing else of it
     /// enters the equations.
     pub fn hinge_forces(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
-        pose::place(&self.tree, &self.constants, motion.beta, &mut self.poses);
         for (j, constants) in self.constants.iter().enumerate() {
             out[j] = constants.law.torque(motion.beta[j], motion.tau[j]);
         }
+        if self.pushing.is_empty() {
+            return;
+        }
+        pose::place(&self.tree, &self.constants, motion.beta, &mut self.poses);
         for spring in &self.pushing {
             let (end, force) = spring.end_and_force(&self.poses);
             let inward = std::iter::successors(Some(spring.link), |&j| self.tree.links[j].inboard);

@@ -37,7 +37,7 @@ pub use euler::euler_angles;
 pub use events::{EventsWriter, event_order};
 pub use listing::ListingWriter;
 pub use states::StatesWriter;
-pub use summary::{RunDescription, SummaryFile};
+pub use summary::{RunDescription, SummaryFile, path_and_formulation};
 pub use units::UnitSystem;
 
 /// Name of the table of states within a run's directory.

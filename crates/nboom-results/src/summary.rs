@@ -3,7 +3,7 @@ use std::io::Write;
 use std::path::Path;
 
 use nboom_model::{Facts, Scene};
-use nboom_sim::{Conservation, Summary};
+use nboom_sim::{Conservation, Selection, Summary};
 use serde::Serialize;
 
 use crate::{ResultsError, UnitSystem};
@@ -15,10 +15,6 @@ pub struct RunDescription {
     pub scene: String,
     /// Six and one for each hinge.
     pub degrees_of_freedom: usize,
-    /// Which code computes the accelerations: `generic` or `generated`.
-    pub path: &'static str,
-    /// Name of the formulation.
-    pub formulation: &'static str,
     /// Name of the integrator.
     pub integrator: &'static str,
     /// Relative error allowed in a step.
@@ -36,14 +32,11 @@ pub struct RunDescription {
 }
 
 impl RunDescription {
-    /// The description of a run of `scene` on the generic path with the recursive formulation
-    /// and the integrator `dop853`, under `options`.
+    /// The description of a run of `scene` with the integrator `dop853`, under `options`.
     pub fn new(scene: &Scene, options: &nboom_sim::Options, units: UnitSystem) -> Self {
         Self {
             scene: scene.name.clone(),
             degrees_of_freedom: scene.degrees_of_freedom(),
-            path: "generic",
-            formulation: "recursive",
             integrator: "dop853",
             rtol: options.rtol,
             atol: options.atol,
@@ -55,6 +48,14 @@ impl RunDescription {
     }
 }
 
+/// The path and the formulation that stand for a whole run: those of its generated modes, if it
+/// has any.
+pub fn path_and_formulation(summary: &Summary) -> (&'static str, &'static str) {
+    let generated = summary.selections.iter().find(|selection| selection.path == "generated");
+    let stands_for_all = generated.or(summary.selections.last());
+    stands_for_all.map_or(("generic", "recursive"), |s| (s.path, s.formulation))
+}
+
 /// The keys of `summary.json`.
 ///
 /// A number that is not finite is written as `null`.
@@ -64,6 +65,7 @@ pub struct SummaryFile<'a> {
     degrees_of_freedom: usize,
     path: &'a str,
     formulation: &'a str,
+    selections: Vec<SelectionKeys<'a>>,
     integrator: &'a str,
     rtol: f64,
     atol: f64,
@@ -81,6 +83,21 @@ pub struct SummaryFile<'a> {
     conservation: ConservationKeys,
     skipped: &'a [String],
     warnings: &'a [String],
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct SelectionKeys<'a> {
+    since: f64,
+    path: &'a str,
+    formulation: &'a str,
+    reason: &'a str,
+}
+
+impl<'a> From<&'a Selection> for SelectionKeys<'a> {
+    fn from(selection: &'a Selection) -> Self {
+        let Selection { since, path, formulation, reason } = selection;
+        Self { since: *since, path, formulation, reason }
+    }
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -103,8 +120,9 @@ impl<'a> SummaryFile<'a> {
         Self {
             scene: &run.scene,
             degrees_of_freedom: run.degrees_of_freedom,
-            path: run.path,
-            formulation: run.formulation,
+            path: "generic",
+            formulation: "recursive",
+            selections: Vec::new(),
             integrator: run.integrator,
             rtol: run.rtol,
             atol: run.atol,
@@ -127,11 +145,15 @@ impl<'a> SummaryFile<'a> {
     /// The summary of a run that has ended; it is complete when there is no `error`.
     pub fn ended(
         run: &'a RunDescription,
-        summary: &Summary,
+        summary: &'a Summary,
         wall_seconds: f64,
         error: Option<&'a str>,
     ) -> Self {
+        let (path, formulation) = path_and_formulation(summary);
         Self {
+            path,
+            formulation,
+            selections: summary.selections.iter().map(SelectionKeys::from).collect(),
             integrator: summary.integrator,
             complete: error.is_none(),
             error,

@@ -83,6 +83,7 @@ fn outcome(error: Option<&str>) -> Outcome {
         events: 2,
         conservation,
         integrator: "dop853",
+        selections: Vec::new(),
     };
     Outcome { summary, wall_seconds: 0.25, error: error.map(str::to_owned) }
 }

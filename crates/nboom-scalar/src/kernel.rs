@@ -14,6 +14,8 @@ pub struct Kernel {
     pub formulation: &'static str,
     /// What the routine takes for granted: parameter numbers and their values.
     pub pinned: &'static [(usize, f64)],
+    /// Whether an external wrench on the main body is taken into account.
+    pub external: bool,
     /// How many numbers describe a satellite.
     pub parameters: usize,
     /// How many prepared constants there are.
@@ -36,6 +38,7 @@ impl Kernel {
             topology: T::TOPOLOGY,
             formulation: T::FORMULATION,
             pinned: T::PINNED,
+            external: T::EXTERNAL,
             parameters: T::PARAMETERS,
             constants: T::CONSTANTS,
             coordinates: T::COORDINATES,

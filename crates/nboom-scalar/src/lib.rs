@@ -13,6 +13,8 @@
 //! assert!((turned - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-15);
 //! ```
 
+mod double_double;
+mod dual;
 mod isa;
 mod kernel;
 mod lanes;
@@ -27,6 +29,8 @@ mod vector;
 #[cfg(target_arch = "x86_64")]
 mod wide;
 
+pub use double_double::DoubleDouble;
+pub use dual::Dual;
 pub use isa::{Avx2, Avx512, Isa};
 pub use kernel::Kernel;
 pub use lanes::{Lanes, Pack};

@@ -11,6 +11,8 @@ pub trait Routine {
     const FORMULATION: &'static str;
     /// What the routine takes for granted: parameter numbers and their values.
     const PINNED: &'static [(usize, f64)];
+    /// Whether an external wrench on the main body is taken into account.
+    const EXTERNAL: bool;
     /// How many numbers describe a satellite.
     const PARAMETERS: usize;
     /// How many prepared constants there are.

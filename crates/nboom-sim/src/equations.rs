@@ -1,15 +1,19 @@
-use nboom_dynamics::{Accelerations, Invariants, Motion, Recursive};
+use nboom_dynamics::{Accelerations, Generated, Invariants, Motion, NoRoutine, Recursive};
 use nboom_elements::HingeLaw;
 use nboom_model::{Mode, Scene, Thrust};
 use nboom_ode::System;
 use nboom_scalar::{Quaternion, Vec3};
 
 use crate::layout::Layout;
+use crate::options::{Options, Path};
+use crate::record::Selection;
 use crate::state::{MassCenter, State};
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
     pub dynamics: Recursive<f64>,
+    /// The generated routine of the mode, when one is used.
+    generated: Option<Generated>,
     pub layout: Layout,
     /// The state in which the mode began; held hinges keep its angles.
     origin: State,
@@ -29,6 +33,7 @@ impl Equations {
             .collect();
         Self {
             dynamics: Recursive::new(scene),
+            generated: None,
             layout: Layout { free: 0, thrust: false, dashpots: false },
             origin: state.clone(),
             thrust: None,
@@ -97,6 +102,40 @@ impl Equations {
         center
     }
 
+    /// Chooses the code that computes accelerations in the mode that was entered.
+    ///
+    /// # Errors
+    /// When a generated routine is demanded and none fits.
+    pub fn select(&mut self, options: &Options) -> Result<Selection, NoRoutine> {
+        let since = self.origin.time;
+        let recursive =
+            |reason| Selection { since, path: "generic", formulation: "recursive", reason };
+        self.generated = None;
+        if options.path == Path::Generic {
+            return Ok(recursive("as demanded".to_owned()));
+        }
+        match Generated::fit(&self.dynamics, options.kernels) {
+            Ok(generated) => {
+                let kernel = generated.kernel();
+                let (topology, instructions) = (kernel.topology, kernel.instructions);
+                let reason = format!("routine for {topology}, {instructions} code");
+                let formulation = kernel.formulation;
+                self.generated = Some(generated);
+                Ok(Selection { since, path: "generated", formulation, reason })
+            }
+            Err(none) if options.path == Path::Generated => Err(none),
+            Err(none) => Ok(recursive(none.to_string())),
+        }
+    }
+
+    fn compute(&mut self, motion: &Motion<'_, f64>) {
+        let out = &mut self.accelerations;
+        match &mut self.generated {
+            Some(generated) => generated.accelerations(&mut self.dynamics, motion, out),
+            None => self.dynamics.accelerations(motion, out),
+        }
+    }
+
     /// The free hinges' share of a vector over all hinges.
     pub fn of_free(&self, all: &[f64]) -> Vec<f64> {
         self.dynamics.free_hinges().iter().map(|&i| all[i]).collect()
@@ -114,7 +153,7 @@ impl Equations {
     pub fn accelerations(&mut self, state: &State) -> &Accelerations<f64> {
         let (beta, tau) = (self.of_free(&state.beta), self.of_free(&state.tau));
         let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
-        self.dynamics.accelerations(&motion, &mut self.accelerations);
+        self.compute(&motion);
         &self.accelerations
     }
 
@@ -168,7 +207,7 @@ impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let layout = self.layout;
         let motion = motion(&layout, y);
-        self.dynamics.accelerations(&motion, &mut self.accelerations);
+        self.compute(&motion);
         let rate = attitude(y).rate(motion.omega_body);
         dy[0] = rate.scalar;
         dy[1..4].copy_from_slice(&rate.vector.to_array());

@@ -1,5 +1,6 @@
 use std::io;
 
+use nboom_dynamics::NoRoutine;
 use nboom_model::HingeLabel;
 use nboom_ode::StepError;
 
@@ -34,6 +35,14 @@ pub enum SimError {
         time: f64,
         /// The hinge; `None` is the main body.
         hinge: Option<HingeLabel>,
+    },
+    /// A generated routine was demanded and none fits.
+    #[error("at time {time}: {source}; routines can be generated, or the generic path used")]
+    NoRoutine {
+        /// Time from which on.
+        time: f64,
+        /// Why none fits.
+        source: NoRoutine,
     },
     /// No impulse locks these hinges.
     #[error("at time {time}, {}: no impulse locks this hinge; the mass matrix is singular", place(.hinge))]

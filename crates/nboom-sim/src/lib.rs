@@ -51,6 +51,8 @@ mod snapshot;
 mod state;
 
 pub use error::{Failure, SimError};
-pub use options::Options;
-pub use record::{Conservation, Detail, Event, EventKind, Recorder, Snapshot, Summary, Totals};
+pub use options::{Options, Path};
+pub use record::{
+    Conservation, Detail, Event, EventKind, Recorder, Selection, Snapshot, Summary, Totals,
+};
 pub use run::simulate;

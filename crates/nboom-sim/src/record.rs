@@ -179,4 +179,19 @@ pub struct Summary {
     pub conservation: Conservation,
     /// Name of the integrator.
     pub integrator: &'static str,
+    /// Which code computed accelerations, mode by mode.
+    pub selections: Vec<Selection>,
+}
+
+/// Which code computed accelerations from a time on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selection {
+    /// Time from which on.
+    pub since: f64,
+    /// `generated` or `generic`.
+    pub path: &'static str,
+    /// Name of the formulation.
+    pub formulation: &'static str,
+    /// Which routine, or why none.
+    pub reason: String,
 }

@@ -8,7 +8,7 @@ use crate::instant::{self, Arrivals, ONE_INSTANT};
 use crate::layout::Layout;
 use crate::ledger::{Ledger, totals};
 use crate::options::Options;
-use crate::record::{Event, EventKind, Recorder, Snapshot, Summary};
+use crate::record::{Event, EventKind, Recorder, Selection, Snapshot, Summary};
 use crate::snapshot;
 use crate::state::{MassCenter, State};
 
@@ -59,6 +59,7 @@ struct Run<'a> {
     events: usize,
     /// When the last [`CHATTER_EVENTS`] events began, and how many there were since.
     burst: (f64, usize),
+    selections: Vec<Selection>,
 }
 
 impl<'a> Run<'a> {
@@ -98,6 +99,7 @@ impl<'a> Run<'a> {
             next_sample: 0,
             events: 0,
             burst: (initial.time, 0),
+            selections: Vec::new(),
         }
     }
 
@@ -130,6 +132,7 @@ impl<'a> Run<'a> {
         )?;
         self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
         self.check_regular()?;
+        self.select()?;
         let controlled = self.equations.layout.controlled();
         let time = self.state.time;
         self.stepper.start(&mut self.equations, time, &self.variables, controlled);
@@ -311,6 +314,17 @@ impl<'a> Run<'a> {
         self.report(&[end])
     }
 
+    /// Chooses the code for the mode, and notes when that is a change.
+    fn select(&mut self) -> Result<(), SimError> {
+        let time = self.state.time;
+        let selected = self.equations.select(&self.options);
+        let selection = selected.map_err(|source| SimError::NoRoutine { time, source })?;
+        if self.selections.last().is_none_or(|last| last.reason != selection.reason) {
+            self.selections.push(selection);
+        }
+        Ok(())
+    }
+
     /// Refuses a mode in which a link has no inertia about its hinge.
     fn check_regular(&mut self) -> Result<(), SimError> {
         let beta = self.equations.of_free(&self.state.beta);
@@ -350,6 +364,7 @@ impl<'a> Run<'a> {
             events: self.events,
             conservation: self.ledger.residuals(),
             integrator: "dop853",
+            selections: self.selections.clone(),
         }
     }
 }
