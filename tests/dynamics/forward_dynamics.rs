@@ -62,7 +62,7 @@ impl Case {
 
 /// Ratio of the largest to the smallest eigenvalue after each row and column has been scaled
 /// to a unit diagonal, which takes the units out.
-fn condition(mass_matrix: &DMatrix<f64>) -> f64 {
+pub fn condition(mass_matrix: &DMatrix<f64>) -> f64 {
     let scaled = DMatrix::from_fn(mass_matrix.nrows(), mass_matrix.ncols(), |i, j| {
         mass_matrix[(i, j)] / (mass_matrix[(i, i)] * mass_matrix[(j, j)]).sqrt()
     });

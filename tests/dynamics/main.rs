@@ -1,8 +1,12 @@
 //! The recursive formulation against reference data and identities.
 
+#[path = "../support/random_scene.rs"]
+mod random_scene;
 #[path = "../support/mod.rs"]
 mod support;
 
 mod closed_forms;
+mod formulations;
 mod forward_dynamics;
+mod satellites;
 mod scalars;

@@ -99,7 +99,7 @@ fn run_writes_its_files_and_an_account() {
     assert_eq!(stderr(&output), "");
     let account = stdout(&output);
     for words in [
-        "boom: 2 bodies, 7 degrees of freedom; generic path, recursive formulation",
+        "boom: 2 bodies, 7 degrees of freedom; generated path, articulated formulation",
         "time [s]",
         "impulse [N m s]",
         "release",
@@ -227,7 +227,10 @@ fn a_wrong_command_line_is_refused() {
         (&["run", "boom.nml", "--samples", "0"], &["--samples"]),
         (&["run", "boom.nml", "--formulation", "report"], &["report", "recursive"]),
         (&["run", "boom.nml", "--integrator", "euler"], &["euler", "dop853"]),
-        (&["run", "boom.nml", "--path", "generated"], &["no generated routine"]),
+        (
+            &["run", "boom.nml", "--path", "generic", "--formulation", "articulated"],
+            &["generated code"],
+        ),
         (&["run", "boom.nml", "--units", "cubits"], &["cubits", "ft-lbf-s"]),
         (&["run", "boom.nml", "--end-time", "-1"], &["--end-time", "initial time"]),
     ];

@@ -32,14 +32,12 @@
 mod articulated_body;
 mod base;
 mod composite_body;
-mod generated;
 mod impulse;
 mod invariants;
 mod pose;
 mod pushing;
 mod recursive;
 
-pub use generated::{Generated, NoRoutine};
 pub use impulse::{LockUp, LockUpError};
 pub use invariants::{Invariants, SpringLength};
 pub use recursive::{Accelerations, Motion, Recursive};

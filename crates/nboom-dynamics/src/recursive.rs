@@ -115,6 +115,11 @@ impl<R: Real> Recursive<R> {
         &self.free
     }
 
+    /// The tree of links of this mode.
+    pub fn tree(&self) -> &WeldedTree<R> {
+        &self.tree
+    }
+
     /// The external wrench on the main body about O, main-body axes, when there is one.
     pub fn external(&self) -> Option<Wrench<R>> {
         self.thrust

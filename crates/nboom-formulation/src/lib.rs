@@ -3,15 +3,25 @@
 //! Nothing here is shared with the recursive path but spatial algebra: the two are compared
 //! with each other on everything that is tested.
 
+mod arrow;
 pub mod articulated;
 mod base;
 mod chain;
+mod dense;
+mod formulation;
+pub mod momentum;
 mod paddle;
 mod parameters;
+mod pose;
 mod recognise;
+pub mod relative;
+pub mod report;
+mod section5;
 pub mod stages;
+pub mod symmetric;
 
 pub use base::AtOrigin;
 pub use chain::ChainLink;
+pub use formulation::Formulation;
 pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Parameters, Solution};
 pub use recognise::{Recognised, recognise};

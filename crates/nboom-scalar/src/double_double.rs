@@ -10,7 +10,7 @@ use crate::Real;
 /// of 2⁻¹⁰⁴ = 4.9e-32, are at most 3/4 for sums and differences (however much cancels), 5/4 for
 /// products, 15/4 for quotients and 1 for square roots (Joldes, Muller and Popescu 2017;
 /// Muller and Rideau 2022; Lefèvre and others 2023). Sines and cosines of angles up to 1e5 are
-/// off by at most one such unit (not relative), and sines of angles below π/4 by two relative.
+/// off by at most one such unit (not relative), and sines of angles below π/4 by three relative.
 ///
 /// Bounds hold while no part overflows or underflows: for magnitudes from 1e-140 to 1e140 of
 /// operands and results, and for zero. Beyond, parts may become NaN. Comparison is by value.
@@ -27,7 +27,7 @@ pub struct DoubleDouble {
     low: f64,
 }
 
-/// π/2 in three parts, to 3e-50.
+/// π/2 in three parts, to 6e-50.
 const HALF_PI: [f64; 3] =
     [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 

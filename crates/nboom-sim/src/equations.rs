@@ -1,9 +1,10 @@
-use nboom_dynamics::{Accelerations, Generated, Invariants, Motion, NoRoutine, Recursive};
+use nboom_dynamics::{Accelerations, Invariants, Motion, Recursive};
 use nboom_elements::HingeLaw;
 use nboom_model::{Mode, Scene, Thrust};
 use nboom_ode::System;
 use nboom_scalar::{Quaternion, Vec3};
 
+use crate::generated::{Generated, NoRoutine};
 use crate::layout::Layout;
 use crate::options::{Options, Path};
 use crate::record::Selection;

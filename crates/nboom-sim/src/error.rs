@@ -1,10 +1,9 @@
 use std::io;
 
-use nboom_dynamics::NoRoutine;
 use nboom_model::HingeLabel;
 use nboom_ode::StepError;
 
-use crate::Summary;
+use crate::{NoRoutine, Summary};
 
 /// Why a run could not be finished.
 #[derive(Debug, thiserror::Error)]

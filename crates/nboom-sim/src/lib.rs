@@ -40,6 +40,7 @@
 
 mod equations;
 mod error;
+mod generated;
 mod guard;
 mod instant;
 mod layout;
@@ -51,6 +52,7 @@ mod snapshot;
 mod state;
 
 pub use error::{Failure, SimError};
+pub use generated::NoRoutine;
 pub use options::{Options, Path};
 pub use record::{
     Conservation, Detail, Event, EventKind, Recorder, Selection, Snapshot, Summary, Totals,

@@ -1,12 +1,11 @@
+use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{Layout, recognise};
 use nboom_model::WeldedTree;
 use nboom_scalar::{Kernel, Vec3};
 
-use crate::{Accelerations, Motion, Recursive};
-
 /// A generated routine fitted to a scene in one mode.
 #[derive(Clone, Debug)]
-pub struct Generated {
+pub(crate) struct Generated {
     kernel: Kernel,
     constants: Vec<f64>,
     coordinates: Vec<f64>,
@@ -46,7 +45,7 @@ impl Generated {
     /// # Errors
     /// Why none does.
     pub fn fit(dynamics: &Recursive<f64>, kernels: &[Kernel]) -> Result<Self, NoRoutine> {
-        let tree: &WeldedTree<f64> = &dynamics.tree;
+        let tree: &WeldedTree<f64> = dynamics.tree();
         let recognised = recognise(tree)
             .map_err(|link| NoRoutine::Tree { hinge: tree.links[link].hinge + 1 })?;
         let topology = recognised.topology.to_string();

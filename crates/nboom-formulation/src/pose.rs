@@ -1,0 +1,141 @@
+//! The links of an appendage in one state, along appendage axes.
+
+use nboom_model::Shape;
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
+
+use crate::chain::ChainLink;
+use crate::parameters::{Branch, HingeCoordinates};
+
+/// A link turned into appendage axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Posed<R> {
+    /// Mass properties about its hinge.
+    pub inertia: RigidInertia<R>,
+    /// Unit vector along its hinge: ê₁, or η̂₁ for a paddle.
+    pub axis: Vec3<R>,
+    /// h̄, its hinge from O.
+    pub hinge: Vec3<R>,
+    /// The way to the next hinge.
+    pub way: Vec3<R>,
+}
+
+/// The links of an appendage at these hinge angles.
+pub(crate) fn place<R: Real>(shape: Shape, branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
+    match shape {
+        Shape::Chain(_) => chain(branch, beta),
+        Shape::Paddle => paddle(branch, beta[0], beta[1]),
+    }
+}
+
+fn chain<R: Real>(branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
+    let (mut alpha, mut hinge) = (R::zero(), branch.point);
+    let mut posed = Vec::new();
+    for (link, &beta) in branch.links.iter().zip(beta) {
+        alpha += beta;
+        let (s, c) = alpha.sin_cos();
+        let link = Posed { hinge, ..turned(link, s, c) };
+        hinge += link.way;
+        posed.push(link);
+    }
+    posed
+}
+
+/// eqs. (9.1) and (9.2): the arm turns with R_x(α₁), the paddle with R_x(α₁) R_y(α₂).
+fn paddle<R: Real>(branch: &Branch<R>, alpha1: R, alpha2: R) -> Vec<Posed<R>> {
+    let (s1, c1) = alpha1.sin_cos();
+    let arm = Posed { hinge: branch.point, ..turned(&branch.links[0], s1, c1) };
+    let (s2, c2) = alpha2.sin_cos();
+    let zero = R::zero();
+    let rot = Mat3::from_rows(
+        Vec3::new(c2, zero, s2),
+        Vec3::new(s1 * s2, c1, -(s1 * c2)),
+        Vec3::new(-(c1 * s2), s1, c1 * c2),
+    );
+    let paddle = Posed {
+        inertia: branch.links[1].inertia.rotated(&rot),
+        axis: Vec3::new(zero, c1, s1),
+        hinge: arm.hinge + arm.way,
+        way: Vec3::zero(),
+    };
+    vec![arm, paddle]
+}
+
+/// A link turned about ê₁; its hinge is left at the origin.
+fn turned<R: Real>(link: &ChainLink<R>, s: R, c: R) -> Posed<R> {
+    let turn = |y: R, z: R| (c * y - s * z, s * y + c * z);
+    let RigidInertia { mass, first_moment, about_origin } = link.inertia;
+    let (cy, cz) = turn(first_moment.y, first_moment.z);
+    let (ly, lz) = turn(link.next[0], link.next[1]);
+    let inertia = RigidInertia {
+        mass,
+        first_moment: Vec3::new(first_moment.x, cy, cz),
+        about_origin: turned_tensor(&about_origin, s, c),
+    };
+    let way = Vec3::new(R::zero(), ly, lz);
+    Posed { inertia, axis: Vec3::unit_x(), hinge: Vec3::zero(), way }
+}
+
+/// The tensor turned about the first axis.
+pub(crate) fn turned_tensor<R: Real>(k: &Sym3<R>, s: R, c: R) -> Sym3<R> {
+    let difference = k.yy - k.zz;
+    let shift = s * (s * difference + c * (k.yz + k.yz));
+    Sym3 {
+        xx: k.xx,
+        yy: k.yy - shift,
+        zz: k.zz + shift,
+        xy: c * k.xy - s * k.xz,
+        xz: s * k.xy + c * k.xz,
+        yz: c * (s * difference + c * (k.yz + k.yz)) - k.yz,
+    }
+}
+
+/// Rates relative to the main body: σ of a chain's links are sums of τ, a paddle's are its τ.
+pub(crate) fn absolute<R: Real>(shape: Shape, relative: &[R]) -> Vec<R> {
+    match shape {
+        Shape::Paddle => relative.to_vec(),
+        Shape::Chain(_) => {
+            let mut sum = R::zero();
+            let add = |&rate: &R| {
+                sum += rate;
+                sum
+            };
+            relative.iter().map(add).collect()
+        }
+    }
+}
+
+/// The inverse of [`absolute`].
+pub(crate) fn relative<R: Real>(shape: Shape, absolute: &[R]) -> Vec<R> {
+    let difference = |i: usize| match shape {
+        Shape::Chain(_) if i > 0 => absolute[i] - absolute[i - 1],
+        _ => absolute[i],
+    };
+    (0..absolute.len()).map(difference).collect()
+}
+
+/// Momentum and angular momentum about the origin of a body whose origin moves as `motion`.
+pub(crate) fn momentum<R: Real>(body: &RigidInertia<R>, motion: Twist<R>) -> Wrench<R> {
+    let c = body.first_moment;
+    Wrench {
+        moment: body.about_origin * motion.angular + c.cross(motion.linear),
+        force: motion.linear * body.mass + motion.angular.cross(c),
+    }
+}
+
+/// A wrench along the axes whose components `rot` gives.
+pub(crate) fn rotated<R: Real>(wrench: Wrench<R>, rot: &Mat3<R>) -> Wrench<R> {
+    Wrench { moment: *rot * wrench.moment, force: *rot * wrench.force }
+}
+
+/// The power of a wrench on a motion.
+pub(crate) fn power<R: Real>(motion: Twist<R>, wrench: Wrench<R>) -> R {
+    motion.angular.dot(wrench.moment) + motion.linear.dot(wrench.force)
+}
+
+/// One quantity of each hinge.
+pub(crate) fn each<R: Real>(
+    hinges: &[HingeCoordinates<R>],
+    quantity: impl Fn(&HingeCoordinates<R>) -> R,
+) -> Vec<R> {
+    hinges.iter().map(quantity).collect()
+}

@@ -1,0 +1,50 @@
+//! Formulation `relative`: matrix B = A a over (v̇, ω̇, τ̇), eq. (5.15).
+//!
+//! The hinge block of B is symmetric, the rest is not unless ρ̄ is zero.
+
+use nboom_model::{Shape, Topology};
+use nboom_scalar::Real;
+
+use crate::dense;
+use crate::parameters::{Coordinates, Parameters, Solution};
+use crate::report;
+use crate::section5::{self, Equations, Place};
+
+/// B and u over (v̇, ω̇, τ̇), hinges appendage by appendage, without gravity.
+///
+/// σ = a τ, eq. (5.14): a chain's σ are sums of τ, so columns are summed from the tip.
+pub fn equations<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+    place: &Place<R>,
+) -> Equations<R> {
+    let mut equations = section5::equations(topology, parameters, coordinates, place);
+    let size = equations.forcing.len();
+    let mut first = 6;
+    for &shape in topology.shapes() {
+        if matches!(shape, Shape::Chain(_)) {
+            for row in equations.matrix.chunks_exact_mut(size) {
+                for j in (first + 1..first + shape.hinges()).rev() {
+                    let outer = row[j];
+                    row[j - 1] += outer;
+                }
+            }
+        }
+        first += shape.hinges();
+    }
+    equations
+}
+
+/// Accelerations of a satellite whose O is at `place`.
+pub fn solve<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+    place: &Place<R>,
+) -> Solution<R> {
+    let Equations { matrix, forcing } = equations(topology, parameters, coordinates, place);
+    let unknowns = dense::solve(&matrix, &forcing, &dense::hinges_first(forcing.len()));
+    let main = report::main_rates(&unknowns, coordinates.omega, place);
+    Solution { main, tau_dot: unknowns[6..].to_vec() }
+}

@@ -1,0 +1,51 @@
+//! Formulation `report`: the equations of Section 5 with the report's own unknowns
+//! (v̇, ω̇, σ̇), matrix A unsymmetric.
+//!
+//! v̇ is the rate of the components of v̄, which themselves are rates of the components of ρ̄;
+//! σ is relative to the main body, while a hinge row is conjugate to τ. For comparison with
+//! the report; the other formulations are quicker, and do not lose digits as |ρ̄| grows.
+
+use nboom_model::Topology;
+use nboom_scalar::{Real, Twist, Vec3};
+
+use crate::dense;
+use crate::parameters::{Coordinates, Parameters, Solution};
+use crate::pose;
+use crate::section5;
+
+pub use crate::section5::{Equations, Place};
+
+/// A and u over (v̇, ω̇, σ̇), hinges appendage by appendage, without gravity.
+pub fn equations<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+    place: &Place<R>,
+) -> Equations<R> {
+    section5::equations(topology, parameters, coordinates, place)
+}
+
+/// Accelerations of a satellite whose O is at `place`.
+pub fn solve<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+    place: &Place<R>,
+) -> Solution<R> {
+    let Equations { matrix, forcing } = equations(topology, parameters, coordinates, place);
+    let unknowns = dense::solve(&matrix, &forcing, &dense::hinges_first(forcing.len()));
+    let mut tau_dot = Vec::new();
+    let mut first = 6;
+    for &shape in topology.shapes() {
+        tau_dot.extend(pose::relative(shape, &unknowns[first..first + shape.hinges()]));
+        first += shape.hinges();
+    }
+    Solution { main: main_rates(&unknowns, coordinates.omega, place), tau_dot }
+}
+
+/// ω̇ and a_O = v̇ + ω̇ × ρ̄ + 2 ω × v̄ + ω × (ω × ρ̄) from (v̇, ω̇).
+pub(crate) fn main_rates<R: Real>(unknowns: &[R], omega: Vec3<R>, place: &Place<R>) -> Twist<R> {
+    let v_dot = Vec3::new(unknowns[0], unknowns[1], unknowns[2]);
+    let angular = Vec3::new(unknowns[3], unknowns[4], unknowns[5]);
+    Twist { angular, linear: v_dot + angular.cross(place.rho) + place.carried(omega) }
+}

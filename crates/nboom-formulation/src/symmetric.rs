@@ -1,0 +1,108 @@
+//! Formulation `symmetric`: B₀ (a_O, ω̇, τ̇) = u₀ with B₀ the matrix of kinetic energy, an
+//! arrow of blocks whose hinges are eliminated appendage by appendage.
+//!
+//! Chains are written with augmented bodies and absolute rates: everything outboard of a link
+//! is lumped at its outboard hinge, so that a diagonal entry is a constant and any other one is
+//! an inner product. [`solve_tree`] takes any tree whatsoever.
+
+mod appendage;
+mod tree;
+
+use nboom_model::Topology;
+use nboom_scalar::{Real, Twist};
+
+use crate::arrow::Arrow;
+use crate::base::AtOrigin;
+use crate::parameters::{Branch, Coordinates, Parameters, Solution};
+use crate::pose;
+
+pub use tree::{forcing as tree_forcing, mass_matrix as tree_mass_matrix, solve as solve_tree};
+
+/// Accelerations of a satellite.
+pub fn solve<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+) -> Solution<R> {
+    let Coordinates { omega, external, .. } = coordinates;
+    let mut total = AtOrigin::of_main_body(&parameters.main, *omega, external);
+    let mut eliminated = Vec::new();
+    for (branch, arrow) in appendages(topology, parameters, coordinates) {
+        let (seen, left) = arrow.eliminate();
+        total.add(&seen.rotated(&branch.rot_body_from_appendage));
+        eliminated.push((branch.rot_body_from_appendage, left));
+    }
+    let main = total.accelerations();
+    let mut tau_dot = Vec::new();
+    for (&shape, (rot, left)) in topology.shapes().iter().zip(&eliminated) {
+        let seen = Twist {
+            angular: rot.transpose_mul(main.angular),
+            linear: rot.transpose_mul(main.linear),
+        };
+        tau_dot.extend(pose::relative(shape, &left.back(seen)));
+    }
+    Solution { main, tau_dot }
+}
+
+/// B₀, the matrix of kinetic energy over (V, ω, τ): (6 + n)² entries, row by row, hinges
+/// appendage by appendage. Only the angles are read.
+pub fn mass_matrix<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+) -> Vec<R> {
+    whole(topology, parameters, coordinates).dense()
+}
+
+/// u₀, the right side of B₀ (a_O, ω̇, τ̇) = u₀ without gravity: 6 + n entries.
+pub fn forcing<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+) -> Vec<R> {
+    whole(topology, parameters, coordinates).dense_right()
+}
+
+/// Each appendage with its arrow along appendage axes, absolute rates.
+fn appendages<'a, R: Real>(
+    topology: &'a Topology,
+    parameters: &'a Parameters<R>,
+    coordinates: &'a Coordinates<R>,
+) -> impl Iterator<Item = (&'a Branch<R>, Arrow<R>)> {
+    let mut first = 0;
+    topology.shapes().iter().zip(&parameters.branches).map(move |(&shape, branch)| {
+        let hinges = &coordinates.hinges[first..first + shape.hinges()];
+        first += shape.hinges();
+        (branch, appendage::arrow(shape, branch, coordinates.omega, hinges))
+    })
+}
+
+/// The arrow of the whole satellite along main-body axes, relative rates.
+fn whole<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+) -> Arrow<R> {
+    let Coordinates { omega, external, .. } = coordinates;
+    let mut whole = Arrow {
+        inboard: Vec::new(),
+        hinges: Vec::new(),
+        columns: Vec::new(),
+        right: Vec::new(),
+        base: AtOrigin::of_main_body(&parameters.main, *omega, external),
+    };
+    let shapes = topology.shapes().iter();
+    for (&shape, (branch, arrow)) in shapes.zip(appendages(topology, parameters, coordinates)) {
+        let rot = &branch.rot_body_from_appendage;
+        let arrow = appendage::with_relative_rates(shape, arrow);
+        let first = whole.right.len();
+        for (i, row) in arrow.hinges.into_iter().enumerate() {
+            whole.inboard.push((i > 0).then(|| first + i - 1));
+            whole.hinges.push([vec![R::zero(); first], row].concat());
+        }
+        whole.columns.extend(arrow.columns.into_iter().map(|column| pose::rotated(column, rot)));
+        whole.right.extend(arrow.right);
+        whole.base.add(&arrow.base.rotated(rot));
+    }
+    whole
+}

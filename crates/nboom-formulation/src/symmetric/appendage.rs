@@ -1,0 +1,257 @@
+//! The arrow of one chain or paddle, along appendage axes.
+
+use nboom_model::Shape;
+use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
+
+use crate::arrow::Arrow;
+use crate::base::AtOrigin;
+use crate::parameters::{Branch, HingeCoordinates};
+use crate::pose::{self, Posed, each, momentum, power};
+
+/// The arrow over the rates that [`pose::absolute`] gives, about O.
+pub(super) fn arrow<R: Real>(
+    shape: Shape,
+    branch: &Branch<R>,
+    omega: Vec3<R>,
+    hinges: &[HingeCoordinates<R>],
+) -> Arrow<R> {
+    let w = branch.rot_body_from_appendage.transpose_mul(omega);
+    let beta = each(hinges, |hinge| hinge.beta);
+    let sigma = pose::absolute(shape, &each(hinges, |hinge| hinge.tau));
+    let torque = each(hinges, |hinge| hinge.torque);
+    let links = pose::place(shape, branch, &beta);
+    match shape {
+        Shape::Chain(_) => chain(&links, &Turning::new(w), &sigma, &torque),
+        Shape::Paddle => paddle(&links, w, [sigma[0], sigma[1]], &torque),
+    }
+}
+
+/// The arrow of the same appendage over τ: a unit τ turns the link and all outboard.
+pub(super) fn with_relative_rates<R: Real>(shape: Shape, mut arrow: Arrow<R>) -> Arrow<R> {
+    if shape == Shape::Paddle {
+        return arrow;
+    }
+    let n = arrow.right.len();
+    let entry = |i: usize, j: usize| arrow.hinges[i.max(j)][i.min(j)];
+    let mut full: Vec<Vec<R>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+    full.iter_mut().for_each(|row| sum_from_the_tip(row, |sum, inner| *inner += sum));
+    sum_from_the_tip(&mut full, |sum, inner: &mut Vec<R>| {
+        inner.iter_mut().zip(sum).for_each(|(inner, sum)| *inner += sum);
+    });
+    for (i, row) in full.iter_mut().enumerate() {
+        row.truncate(i + 1);
+    }
+    arrow.hinges = full;
+    sum_from_the_tip(&mut arrow.columns, |sum, inner| inner.add(sum));
+    sum_from_the_tip(&mut arrow.right, |sum, inner| *inner += sum);
+    arrow
+}
+
+/// Replaces each item by the sum of itself and all that follow.
+fn sum_from_the_tip<T: Clone>(items: &mut [T], add: impl Fn(T, &mut T)) {
+    for i in (1..items.len()).rev() {
+        let sum = items[i].clone();
+        add(sum, &mut items[i - 1]);
+    }
+}
+
+/// The main body's rate in appendage axes with its products.
+struct Turning<R> {
+    w: Vec3<R>,
+    w22: R,
+    w33: R,
+    w12: R,
+    w13: R,
+    w23: R,
+}
+
+impl<R: Real> Turning<R> {
+    fn new(w: Vec3<R>) -> Self {
+        Self { w, w22: w.y * w.y, w33: w.z * w.z, w12: w.x * w.y, w13: w.x * w.z, w23: w.y * w.z }
+    }
+
+    /// N v, the acceleration of the tip of a vector that turns with a link at rate `sigma`
+    /// relative to the main body, when no rate changes.
+    fn bias(&self, sigma: R, v: Vec3<R>) -> Vec3<R> {
+        let whole = self.w.x + sigma;
+        let (square, twice) = (whole * whole, whole + sigma);
+        Vec3::new(
+            twice * (self.w.y * v.y + self.w.z * v.z) - (self.w22 + self.w33) * v.x,
+            self.w12 * v.x - (square + self.w33) * v.y + self.w23 * v.z,
+            self.w13 * v.x + self.w23 * v.y - (square + self.w22) * v.z,
+        )
+    }
+
+    /// K (ω × Ω) + (ω + Ω) × K (ω + Ω) for Ω = σ ê₁. The first component is free of σ.
+    fn gyroscopic(&self, sigma: R, k: &Sym3<R>) -> Vec3<R> {
+        let w = self.w;
+        let whole = w.x + sigma;
+        let h = *k * Vec3::new(whole, w.y, w.z);
+        let (b2, b3) = (sigma * w.z, sigma * w.y);
+        Vec3::new(
+            w.x * (k.xz * w.y - k.xy * w.z)
+                + k.yz * (self.w22 - self.w33)
+                + (k.zz - k.yy) * self.w23,
+            k.yy * b2 - k.yz * b3 + w.z * h.x - whole * h.z,
+            k.yz * b2 - k.zz * b3 + whole * h.y - w.y * h.x,
+        )
+    }
+}
+
+/// A link with the mass of all that is outboard lumped at its outboard hinge.
+struct Augmented<R> {
+    /// D, first moment about the inboard hinge.
+    first_moment: Vec3<R>,
+    /// K, inertia about the inboard hinge.
+    inertia: Sym3<R>,
+}
+
+/// Augmented links, and the mass of the whole appendage.
+fn augmented<R: Real>(links: &[Posed<R>]) -> (Vec<Augmented<R>>, R) {
+    let mut outboard = R::zero();
+    let mut bodies = Vec::new();
+    for link in links.iter().rev() {
+        let (way, own) = (link.way, &link.inertia);
+        let square = way.y * way.y + way.z * way.z;
+        let lumped = Sym3 {
+            xx: square,
+            yy: way.z * way.z,
+            zz: way.y * way.y,
+            yz: -(way.y * way.z),
+            ..Sym3::zero()
+        };
+        bodies.push(Augmented {
+            first_moment: own.first_moment + way * outboard,
+            inertia: own.about_origin + lumped * outboard,
+        });
+        outboard += own.mass;
+    }
+    bodies.reverse();
+    (bodies, outboard)
+}
+
+/// ê₁ × v.
+fn about_first<R: Real>(v: Vec3<R>) -> Vec3<R> {
+    Vec3::new(R::zero(), -v.z, v.y)
+}
+
+fn chain<R: Real>(links: &[Posed<R>], turning: &Turning<R>, sigma: &[R], torque: &[R]) -> Arrow<R> {
+    let (bodies, mass) = augmented(links);
+    let mut accelerations = vec![turning.bias(R::zero(), links[0].hinge)];
+    for (link, &sigma) in links.iter().zip(sigma) {
+        let last = accelerations[accelerations.len() - 1];
+        accelerations.push(last + turning.bias(sigma, link.way));
+    }
+    let mut columns = Vec::new();
+    let mut right = Vec::new();
+    // Sums over the links outboard: first moments, their bias forces, and the whole inertia.
+    let (mut moments, mut forces) = (Vec3::zero(), Vec3::zero());
+    let (mut whole, mut bias_moment) = (Sym3::zero(), Vec3::zero());
+    for (i, (link, body)) in links.iter().zip(&bodies).enumerate().rev() {
+        let d = body.first_moment;
+        let bias = d.cross(accelerations[i])
+            + link.way.cross(forces)
+            + turning.gyroscopic(sigma[i], &body.inertia);
+        let outer_torque = torque.get(i + 1).map_or(R::zero(), |&outer| outer);
+        right.push(torque[i] - outer_torque - bias.x);
+        columns.push(column(link, body, moments));
+        whole += body.inertia + crossed(link.way, moments);
+        bias_moment += bias;
+        moments += d;
+        forces += turning.bias(sigma[i], d);
+    }
+    columns.reverse();
+    right.reverse();
+    let point = links[0].hinge;
+    let rigid = RigidInertia { mass, first_moment: moments, about_origin: whole };
+    let wrench = Wrench { moment: bias_moment, force: accelerations[0] * mass + forces };
+    Arrow {
+        inboard: inboard(links.len()),
+        hinges: in_plane_products(links, &bodies),
+        columns,
+        right,
+        base: AtOrigin {
+            inertia: ArticulatedInertia::of(&rigid.seen_from(point)),
+            wrench: wrench.seen_from(point),
+        },
+    }
+}
+
+fn inboard(links: usize) -> Vec<Option<usize>> {
+    (0..links).map(|i| i.checked_sub(1)).collect()
+}
+
+/// K ê₁ + h̄ × (ê₁ × D) + R × (ê₁ × L) about O, and ê₁ × D; R sums D outboard.
+fn column<R: Real>(link: &Posed<R>, body: &Augmented<R>, outboard: Vec3<R>) -> Wrench<R> {
+    let k = &body.inertia;
+    let force = about_first(body.first_moment);
+    let moment = Vec3::new(k.xx, k.xy, k.xz)
+        + link.hinge.cross(force)
+        + outboard.cross(about_first(link.way));
+    Wrench { moment, force }
+}
+
+/// 2 L·R U − L Rᵀ − R Lᵀ with L in the plane.
+fn crossed<R: Real>(way: Vec3<R>, outboard: Vec3<R>) -> Sym3<R> {
+    let (yy, zz) = (way.y * outboard.y, way.z * outboard.z);
+    let twice = |x: R| x + x;
+    Sym3 {
+        xx: twice(yy + zz),
+        yy: twice(zz),
+        zz: twice(yy),
+        xy: -(way.y * outboard.x),
+        xz: -(way.z * outboard.x),
+        yz: -(way.y * outboard.z + way.z * outboard.y),
+    }
+}
+
+/// Entries (i, i): moment of inertia of the augmented body; (i, j), j < i: L_j · D_i in plane.
+fn in_plane_products<R: Real>(links: &[Posed<R>], bodies: &[Augmented<R>]) -> Vec<Vec<R>> {
+    let row = |(i, body): (usize, &Augmented<R>)| {
+        let d = body.first_moment;
+        let product = |link: &Posed<R>| link.way.y * d.y + link.way.z * d.z;
+        let mut row: Vec<R> = links[..i].iter().map(product).collect();
+        row.push(body.inertia.xx);
+        row
+    };
+    bodies.iter().enumerate().map(row).collect()
+}
+
+/// Arm and paddle by composite bodies, about O.
+fn paddle<R: Real>(links: &[Posed<R>], w: Vec3<R>, sigma: [R; 2], torque: &[R]) -> Arrow<R> {
+    let (arm, paddle) = (&links[0], &links[1]);
+    let turn = |link: &Posed<R>, rate: R| link.axis * rate;
+    let (of_arm, of_paddle) = (turn(arm, sigma[0]), turn(paddle, sigma[1]));
+    let omega_arm = w + of_arm;
+    let bias_arm = Twist { angular: w.cross(of_arm), linear: w.cross(w.cross(arm.hinge)) };
+    let relative = omega_arm.cross(omega_arm.cross(arm.way));
+    let bias_paddle = Twist {
+        angular: bias_arm.angular + omega_arm.cross(of_paddle),
+        linear: bias_arm.at(arm.way).linear + relative,
+    };
+    let mut wrench = arm.inertia.inertia_wrench(omega_arm, bias_arm);
+    let outer = paddle.inertia.inertia_wrench(omega_arm + of_paddle, bias_paddle);
+    wrench.add(outer.seen_from(arm.way));
+    let mut composite = paddle.inertia.seen_from(arm.way);
+    composite.add(arm.inertia);
+
+    let about = |axis| Twist { angular: axis, linear: Vec3::zero() };
+    let first = momentum(&composite, about(arm.axis));
+    let second = momentum(&paddle.inertia, about(paddle.axis));
+    let at_arm = second.seen_from(arm.way);
+    let right =
+        [torque[0] - arm.axis.dot(wrench.moment), torque[1] - paddle.axis.dot(outer.moment)];
+    Arrow {
+        inboard: inboard(2),
+        hinges: vec![
+            vec![arm.axis.dot(first.moment)],
+            vec![arm.axis.dot(at_arm.moment), power(about(paddle.axis), second)],
+        ],
+        columns: vec![first.seen_from(arm.hinge), at_arm.seen_from(arm.hinge)],
+        right: right.to_vec(),
+        base: AtOrigin {
+            inertia: ArticulatedInertia::of(&composite.seen_from(arm.hinge)),
+            wrench: wrench.seen_from(arm.hinge),
+        },
+    }
+}

@@ -1,0 +1,144 @@
+//! Any tree: hinges in any direction, links that branch. Everything is about O and along
+//! main-body axes, so that composite bodies are plain sums.
+
+use nboom_model::{Link, WeldedTree};
+use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
+
+use crate::arrow::Arrow;
+use crate::base::AtOrigin;
+use crate::parameters::{Coordinates, HingeCoordinates, Solution};
+use crate::pose::{momentum, power};
+
+/// Accelerations of any tree; hinges are in the order of its links, in `coordinates` and in
+/// the solution.
+pub fn solve<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> Solution<R> {
+    let (seen, eliminated) = arrow(tree, coordinates).eliminate();
+    let main = seen.accelerations();
+    Solution { main, tau_dot: eliminated.back(main) }
+}
+
+/// B₀ over (V, ω, τ) of any tree: (6 + links)² entries, row by row. Only the angles are read.
+pub fn mass_matrix<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> Vec<R> {
+    arrow(tree, coordinates).dense()
+}
+
+/// u₀ of any tree without gravity: 6 + links entries.
+pub fn forcing<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> Vec<R> {
+    arrow(tree, coordinates).dense_right()
+}
+
+/// A link in one state; its motions are those of its point that passes O.
+#[derive(Clone, Copy)]
+struct Moving<R> {
+    rot: Mat3<R>,
+    hinge: Vec3<R>,
+    /// Motion for a unit rate of the hinge: (a, h̄ × a).
+    axis: Twist<R>,
+    velocity: Twist<R>,
+    /// Acceleration when no rate changes.
+    bias: Twist<R>,
+}
+
+impl<R: Real> Moving<R> {
+    fn main(omega: Vec3<R>) -> Self {
+        Self {
+            rot: Mat3::identity(),
+            hinge: Vec3::zero(),
+            axis: Twist::zero(),
+            velocity: Twist { angular: omega, linear: Vec3::zero() },
+            bias: Twist::zero(),
+        }
+    }
+
+    fn outboard(&self, link: &Link<R>, hinge: &HingeCoordinates<R>) -> Self {
+        let at_zero = self.rot * link.rot_inboard_at_zero;
+        let point = self.hinge + self.rot * link.point;
+        let along = at_zero * link.axis;
+        let axis = Twist { angular: along, linear: point.cross(along) };
+        let (own, carried) = (scaled(axis, hinge.tau), self.velocity);
+        let turned = Twist {
+            angular: carried.angular.cross(own.angular),
+            linear: carried.angular.cross(own.linear) + carried.linear.cross(own.angular),
+        };
+        Self {
+            rot: at_zero * Mat3::about_axis(link.axis, hinge.beta),
+            hinge: point,
+            axis,
+            velocity: sum(carried, own),
+            bias: sum(self.bias, turned),
+        }
+    }
+
+    /// The rate of change of the momentum of a body about O that moves with the link.
+    fn bias_wrench(&self, body: &RigidInertia<R>) -> Wrench<R> {
+        let (v, h) = (self.velocity, momentum(body, self.velocity));
+        let mut wrench = momentum(body, self.bias);
+        wrench.add(Wrench {
+            moment: v.angular.cross(h.moment) + v.linear.cross(h.force),
+            force: v.angular.cross(h.force),
+        });
+        wrench
+    }
+}
+
+fn sum<R: Real>(a: Twist<R>, b: Twist<R>) -> Twist<R> {
+    Twist { angular: a.angular + b.angular, linear: a.linear + b.linear }
+}
+
+fn scaled<R: Real>(a: Twist<R>, factor: R) -> Twist<R> {
+    Twist { angular: a.angular * factor, linear: a.linear * factor }
+}
+
+fn arrow<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> Arrow<R> {
+    let Coordinates { omega, external, hinges } = coordinates;
+    let mut base = AtOrigin::of_main_body(&tree.main, *omega, external);
+    let main = Moving::main(*omega);
+    let mut moving: Vec<Moving<R>> = Vec::new();
+    for (link, hinge) in tree.links.iter().zip(hinges) {
+        let next = link.inboard.map_or(&main, |i| &moving[i]).outboard(link, hinge);
+        moving.push(next);
+    }
+    let about_origin =
+        |(link, at): (&Link<R>, &Moving<R>)| link.inertia.rotated(&at.rot).seen_from(at.hinge);
+    let mut composite: Vec<RigidInertia<R>> =
+        tree.links.iter().zip(&moving).map(about_origin).collect();
+    let own = moving.iter().zip(&composite);
+    let mut wrenches: Vec<Wrench<R>> = own.map(|(at, body)| at.bias_wrench(body)).collect();
+
+    let mut rows = Vec::new();
+    let mut columns = Vec::new();
+    for j in (0..tree.links.len()).rev() {
+        let column = momentum(&composite[j], moving[j].axis);
+        rows.push(row(tree, &moving, j, column));
+        columns.push(column);
+        let (body, wrench) = (composite[j], wrenches[j]);
+        match tree.links[j].inboard {
+            Some(i) => {
+                composite[i].add(body);
+                wrenches[i].add(wrench);
+            }
+            None => {
+                base.add(&AtOrigin { inertia: nboom_scalar::ArticulatedInertia::of(&body), wrench })
+            }
+        }
+    }
+    rows.reverse();
+    columns.reverse();
+    let right = |j: usize| hinges[j].torque - power(moving[j].axis, wrenches[j]);
+    Arrow {
+        inboard: tree.links.iter().map(|link| link.inboard).collect(),
+        hinges: rows,
+        columns,
+        right: (0..tree.links.len()).map(right).collect(),
+        base,
+    }
+}
+
+/// Row j of the hinge block: the power of column j on each hinge on the way to the main body.
+fn row<R: Real>(tree: &WeldedTree<R>, moving: &[Moving<R>], j: usize, column: Wrench<R>) -> Vec<R> {
+    let mut row = vec![R::zero(); j + 1];
+    for i in std::iter::successors(Some(j), |&i| tree.links[i].inboard) {
+        row[i] = power(moving[i].axis, column);
+    }
+    row
+}
