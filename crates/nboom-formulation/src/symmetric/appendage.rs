@@ -137,11 +137,7 @@ fn about_first<R: Real>(v: Vec3<R>) -> Vec3<R> {
 
 fn chain<R: Real>(links: &[Posed<R>], turning: &Turning<R>, sigma: &[R], torque: &[R]) -> Arrow<R> {
     let (bodies, mass) = augmented(links);
-    let mut accelerations = vec![turning.bias(R::zero(), links[0].hinge)];
-    for (link, &sigma) in links.iter().zip(sigma) {
-        let last = accelerations[accelerations.len() - 1];
-        accelerations.push(last + turning.bias(sigma, link.way));
-    }
+    let accelerations = hinge_accelerations(links, turning, sigma);
     let mut columns = Vec::new();
     let mut right = Vec::new();
     // Sums over the links outboard: first moments, their bias forces, and the whole inertia.
@@ -175,6 +171,21 @@ fn chain<R: Real>(links: &[Posed<R>], turning: &Turning<R>, sigma: &[R], torque:
             wrench: wrench.seen_from(point),
         },
     }
+}
+
+/// Bias acceleration of each hinge.
+fn hinge_accelerations<R: Real>(
+    links: &[Posed<R>],
+    turning: &Turning<R>,
+    sigma: &[R],
+) -> Vec<Vec3<R>> {
+    let mut hinge = turning.bias(R::zero(), links[0].hinge);
+    let mut all = Vec::new();
+    for (link, &sigma) in links.iter().zip(sigma) {
+        all.push(hinge);
+        hinge += turning.bias(sigma, link.way);
+    }
+    all
 }
 
 fn inboard(links: usize) -> Vec<Option<usize>> {

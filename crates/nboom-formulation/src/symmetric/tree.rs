@@ -2,7 +2,7 @@
 //! main-body axes, so that composite bodies are plain sums.
 
 use nboom_model::{Link, WeldedTree};
-use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
+use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::arrow::Arrow;
 use crate::base::AtOrigin;
@@ -89,49 +89,67 @@ fn scaled<R: Real>(a: Twist<R>, factor: R) -> Twist<R> {
     Twist { angular: a.angular * factor, linear: a.linear * factor }
 }
 
+/// The arrow of the whole tree, which has the main link as its base.
 fn arrow<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> Arrow<R> {
     let Coordinates { omega, external, hinges } = coordinates;
+    let moving = outward(tree, *omega, hinges);
     let mut base = AtOrigin::of_main_body(&tree.main, *omega, external);
-    let main = Moving::main(*omega);
+    let shares = inward(tree, &moving, &mut base);
+    let column = |(at, share): (&Moving<R>, &Share<R>)| momentum(&share.body, at.axis);
+    let columns: Vec<Wrench<R>> = moving.iter().zip(&shares).map(column).collect();
+    let right = |j: usize| hinges[j].torque - power(moving[j].axis, shares[j].bias);
+    Arrow {
+        inboard: tree.links.iter().map(|link| link.inboard).collect(),
+        hinges: (0..moving.len()).map(|j| row(tree, &moving, j, columns[j])).collect(),
+        right: (0..moving.len()).map(right).collect(),
+        columns,
+        base,
+    }
+}
+
+fn outward<R: Real>(
+    tree: &WeldedTree<R>,
+    omega: Vec3<R>,
+    hinges: &[HingeCoordinates<R>],
+) -> Vec<Moving<R>> {
+    let main = Moving::main(omega);
     let mut moving: Vec<Moving<R>> = Vec::new();
     for (link, hinge) in tree.links.iter().zip(hinges) {
         let next = link.inboard.map_or(&main, |i| &moving[i]).outboard(link, hinge);
         moving.push(next);
     }
-    let about_origin =
-        |(link, at): (&Link<R>, &Moving<R>)| link.inertia.rotated(&at.rot).seen_from(at.hinge);
-    let mut composite: Vec<RigidInertia<R>> =
-        tree.links.iter().zip(&moving).map(about_origin).collect();
-    let own = moving.iter().zip(&composite);
-    let mut wrenches: Vec<Wrench<R>> = own.map(|(at, body)| at.bias_wrench(body)).collect();
+    moving
+}
 
-    let mut rows = Vec::new();
-    let mut columns = Vec::new();
-    for j in (0..tree.links.len()).rev() {
-        let column = momentum(&composite[j], moving[j].axis);
-        rows.push(row(tree, &moving, j, column));
-        columns.push(column);
-        let (body, wrench) = (composite[j], wrenches[j]);
+/// A link and all that is outboard of it, about O, hinges frozen.
+#[derive(Clone, Copy)]
+struct Share<R> {
+    body: RigidInertia<R>,
+    bias: Wrench<R>,
+}
+
+/// Sums over what is outboard of each link; `base` receives what is outboard of the main link.
+fn inward<R: Real>(
+    tree: &WeldedTree<R>,
+    moving: &[Moving<R>],
+    base: &mut AtOrigin<R>,
+) -> Vec<Share<R>> {
+    let own = |(link, at): (&Link<R>, &Moving<R>)| {
+        let body = link.inertia.rotated(&at.rot).seen_from(at.hinge);
+        Share { body, bias: at.bias_wrench(&body) }
+    };
+    let mut shares: Vec<Share<R>> = tree.links.iter().zip(moving).map(own).collect();
+    for j in (0..shares.len()).rev() {
+        let Share { body, bias } = shares[j];
         match tree.links[j].inboard {
             Some(i) => {
-                composite[i].add(body);
-                wrenches[i].add(wrench);
+                shares[i].body.add(body);
+                shares[i].bias.add(bias);
             }
-            None => {
-                base.add(&AtOrigin { inertia: nboom_scalar::ArticulatedInertia::of(&body), wrench })
-            }
+            None => base.add(&AtOrigin { inertia: ArticulatedInertia::of(&body), wrench: bias }),
         }
     }
-    rows.reverse();
-    columns.reverse();
-    let right = |j: usize| hinges[j].torque - power(moving[j].axis, wrenches[j]);
-    Arrow {
-        inboard: tree.links.iter().map(|link| link.inboard).collect(),
-        hinges: rows,
-        columns,
-        right: (0..tree.links.len()).map(right).collect(),
-        base,
-    }
+    shares
 }
 
 /// Row j of the hinge block: the power of column j on each hinge on the way to the main body.
