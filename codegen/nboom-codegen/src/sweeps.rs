@@ -83,11 +83,18 @@ pub(crate) fn chain_sweeps(group: &Equal, links: usize, placed: [&Placed; 6]) ->
         ) -> [P; #seen] {
             let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
             let (w, mut reached) = #start_(#k_start omega);
+            let mut angles = [P::zero(); #links];
+            let mut alpha = P::zero();
+            for i in 0..#links {
+                alpha += P::gather(x, #state + 3 * i * #count + a);
+                angles[i] = alpha;
+            }
+            let turns = P::sin_cos_all(angles);
             let mut turned = [[P::zero(); #turned]; #links];
             for i in 0..#links {
-                let at = #state + 3 * i * #count + a;
-                let hinge = [P::gather(x, at), P::gather(x, at + #count)];
-                (turned[i], reached) = #outward_(#k_outward w, hinge, reached);
+                let turn = [turns[i].0, turns[i].1];
+                let tau = [P::gather(x, #state + (3 * i + 1) * #count + a)];
+                (turned[i], reached) = #outward_(#k_outward w, turn, tau, reached);
             }
             let mut outer = P::zero();
             let mut shown = [P::zero(); #shown];

@@ -143,18 +143,33 @@ pub fn outward<R: Real>(
     tau: R,
     from: Outward<R>,
 ) -> (Turned<R>, Outward<R>) {
-    let (alpha, sigma) = (from.alpha + beta, from.sigma + tau);
-    let (s, c) = alpha.sin_cos();
+    let alpha = from.alpha + beta;
+    let (turned, sigma, hinge) =
+        outward_at(spin, link, alpha.sin_cos(), tau, (from.sigma, from.hinge));
+    (turned, Outward { alpha, sigma, hinge })
+}
+
+/// The same step with sine and cosine of α at hand; from and to σ and the bias acceleration of
+/// the next hinge.
+#[inline]
+pub fn outward_at<R: Real>(
+    spin: &Spin<R>,
+    link: &ChainLink<R>,
+    (s, c): (R, R),
+    tau: R,
+    (sigma, from_hinge): (R, Vec3<R>),
+) -> (Turned<R>, R, Vec3<R>) {
+    let sigma = sigma + tau;
     let turn = |y: R, z: R| (c * y - s * z, s * y + c * z);
     let constant = link.inertia.first_moment;
     let (cy, cz) = turn(constant.y, constant.z);
     let first_moment = Vec3::new(constant.x, cy, cz);
     let about_hinge = turned_inertia(&link.inertia.about_origin, s, c);
     let (ly, lz) = turn(link.next[0], link.next[1]);
-    let force = from.hinge * link.inertia.mass + spin.bias_of(sigma, first_moment);
-    let moment = first_moment.cross(from.hinge) + gyroscopic_moment(spin, sigma, &about_hinge);
+    let force = from_hinge * link.inertia.mass + spin.bias_of(sigma, first_moment);
+    let moment = first_moment.cross(from_hinge) + gyroscopic_moment(spin, sigma, &about_hinge);
     let way = Vec3::new(R::zero(), ly, lz);
-    let hinge = from.hinge + spin.bias_of(sigma, way);
+    let hinge = from_hinge + spin.bias_of(sigma, way);
     let turned = Turned {
         first_moment,
         about_hinge,
@@ -163,7 +178,7 @@ pub fn outward<R: Real>(
         moment,
         force,
     };
-    (turned, Outward { alpha, sigma, hinge })
+    (turned, sigma, hinge)
 }
 
 /// The tensor turned about the first axis.

@@ -53,16 +53,18 @@ pub const LINK: Group = group("link", Layout::LINK);
 pub const PADDLE_LINK: Group = group("paddle_link", Layout::LINK);
 /// Parameters of the main body.
 pub const MAIN: Group = group("main", Layout::MAIN);
-/// β and τ of a hinge.
-pub const HINGE: Group = group("hinge", 2);
+/// Sine and cosine of a link's absolute angle.
+pub const TURN: Group = group("turn", 2);
+/// τ of a hinge.
+pub const TAU: Group = group("tau", 1);
 /// β, τ and torque of arm and paddle.
 pub const PADDLE_HINGES: Group = group("hinges", 6);
 /// Torque of a hinge less that of the next one.
 pub const EXCESS: Group = group("excess", 1);
 /// Torque of the first hinge.
 pub const TORQUE: Group = group("torque", 1);
-/// How far the outward sweep has come.
-pub const REACHED: Group = group("reached", 5);
+/// How far the outward sweep has come: σ, and the bias acceleration of the next hinge.
+pub const REACHED: Group = group("reached", 4);
 /// A link in appendage axes.
 pub const TURNED: Group = group("turned", 15);
 /// What a link shows its inboard neighbour.
@@ -95,12 +97,8 @@ pub fn start<R: Real>() -> Stage<R> {
             let mut reader = Reader(numbers.iter().copied());
             let branch = reader.branch_without_links();
             let w = branch.rot_body_from_appendage.transpose_mul(reader.vector());
-            let reached = Outward {
-                alpha: R::zero(),
-                sigma: R::zero(),
-                hinge: Spin::new(w).bias_of_main_point(branch.point),
-            };
-            [w.to_array().to_vec(), reached.flat()].concat()
+            let hinge = Spin::new(w).bias_of_main_point(branch.point);
+            [w.to_array().to_vec(), vec![R::zero()], hinge.to_array().to_vec()].concat()
         },
     }
 }
@@ -110,16 +108,17 @@ pub fn outward<R: Real>() -> Stage<R> {
     Stage {
         name: "outward",
         parameters: &[LINK],
-        inputs: &[W, HINGE, REACHED],
+        inputs: &[W, TURN, TAU, REACHED],
         outputs: &[TURNED, REACHED],
         run: |numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let link = reader.link();
             let spin = Spin::new(reader.vector());
-            let (beta, tau) = (reader.next(), reader.next());
-            let from = Outward::read(&mut reader);
-            let (turned, reached) = chain::outward(&spin, &link, beta, tau, from);
-            [turned.flat(), reached.flat()].concat()
+            let turn = (reader.next(), reader.next());
+            let tau = reader.next();
+            let from = (reader.next(), reader.vector());
+            let (turned, sigma, hinge) = chain::outward_at(&spin, &link, turn, tau, from);
+            [turned.flat(), vec![sigma], hinge.to_array().to_vec()].concat()
         },
     }
 }
@@ -277,17 +276,6 @@ fn sym_read<R: Real>(reader: &mut Numbers<'_, R>) -> Sym3<R> {
     let [xx, yy, zz] = diagonal.to_array();
     let [xy, xz, yz] = products.to_array();
     Sym3 { xx, yy, zz, xy, xz, yz }
-}
-
-impl<R: Real> Outward<R> {
-    fn flat(&self) -> Vec<R> {
-        let [x, y, z] = self.hinge.to_array();
-        vec![self.alpha, self.sigma, x, y, z]
-    }
-
-    fn read(reader: &mut Numbers<'_, R>) -> Self {
-        Self { alpha: reader.next(), sigma: reader.next(), hinge: reader.vector() }
-    }
 }
 
 impl<R: Real> Shown<R> {
