@@ -180,6 +180,7 @@ impl Rolled {
             links,
             [&start, &outward, &inward, &root, &first, &back],
         ));
+        self.evaluation.angles += links * group.count;
         let saved = [(inward.traced.size(ELIMINATED), Some(links))];
         self.call(group, &saved, root.traced.live(AT_ORIGIN));
     }
