@@ -6,10 +6,10 @@ use std::thread;
 use std::time::Duration;
 
 use nboom::model::{
-    Appendage, Dashpot, Hinge, HingeLabel, KickOffSpring, MassProperties, Mount, Scene, Segment,
-    Spring,
+    Appendage, Dashpot, Hinge, HingeLabel, HingeStart, KickOffSpring, MassProperties, Mount, Scene,
+    Segment, Spring,
 };
-use nboom::scalar::{Sym3, Vec3};
+use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::{Event, Options, Recorder, SimError, Snapshot, simulate};
 
 use crate::collect::{Collected, tight, try_run};
@@ -101,7 +101,7 @@ fn a_runaway_ends_at_its_pole() {
 fn too_many_steps_are_too_many() {
     let options = Options { max_steps: 7, ..tight(100) };
     let (found, error) = failure(&scene(&[oscillating(free(0.0, 1.0), 50.0, 0.0)], 9.0), &options);
-    let SimError::TooManySteps { time, steps } = error else { panic!("{error}") };
+    let SimError::TooManySteps { time, steps, .. } = error else { panic!("{error}") };
     assert_eq!(steps, 7);
     assert!(time > 0.0 && time < 9.0);
     let before = found.samples.iter().filter(|sample| sample.time <= time).count();
@@ -191,4 +191,32 @@ fn throws_that_die_away_fast_do_not_hang() {
     let Err(SimError::Chatter { time, hinge, .. }) = result else { panic!("{result:?}") };
     assert!(time < 50.0);
     assert_eq!(hinge, Some(FIRST));
+}
+
+#[test]
+fn a_slender_rod_that_turns_about_itself_is_named_however_it_stands() {
+    for turn in 0..12 {
+        let mut description = description(&[free(0.0, 1.0)], 1.0);
+        let rod = MassProperties::new(1.0, Vec3::unit_y(), Sym3::diagonal(0.3, 0.0, 0.3));
+        let arm = MassProperties::new(1.0, Vec3::unit_y(), Sym3::diagonal(0.3, 0.1, 0.3));
+        let segment = |mass_properties| Segment {
+            length: 1.0,
+            mass_properties,
+            hinge: Hinge {
+                start: HingeStart { angle: 0.7, ..Hinge::free().start },
+                ..Hinge::free()
+            },
+        };
+        let angle = f64::from(turn) * 0.5;
+        let mount = Mount {
+            point: Vec3::new(0.3, 0.1, -0.2),
+            rot_inboard_from_hinge: Mat3::from_euler_121(angle, 1.0 + angle, -2.0 * angle),
+        };
+        let (arm, paddle) = (segment(arm), segment(rod));
+        description.attach(&Appendage::Paddle { mount, arm, paddle });
+        let scene = Scene::new(description).expect("a rod is a body");
+        let (_, error) = failure(&scene, &tight(1));
+        let SimError::SingularMassMatrix { hinge, .. } = error else { panic!("{turn}: {error}") };
+        assert_eq!(hinge.map(|label| label.to_string()).as_deref(), Some("2,2"));
+    }
 }

@@ -11,6 +11,7 @@ mod rotors;
 mod crossings;
 mod failures;
 mod kick_off;
+mod limits;
 mod lock_ups;
 mod output;
 mod random_rotors;

@@ -67,13 +67,13 @@ pub(crate) fn finite(text: &str) -> Result<f64, ChoiceError> {
     if value.is_finite() { Ok(value) } else { Err(ChoiceError::NotFinite) }
 }
 
-pub(crate) fn atol(text: &str) -> Result<f64, ChoiceError> {
+pub(crate) fn positive(text: &str) -> Result<f64, ChoiceError> {
     let value = finite(text)?;
     if value > 0.0 { Ok(value) } else { Err(ChoiceError::NotPositive) }
 }
 
 pub(crate) fn rtol(text: &str) -> Result<f64, ChoiceError> {
-    let value = atol(text)?;
+    let value = positive(text)?;
     if value >= SMALLEST_RTOL { Ok(value) } else { Err(ChoiceError::BelowRounding) }
 }
 
@@ -85,7 +85,7 @@ mod tests {
     fn tolerances_have_limits() {
         assert_eq!(rtol("1e-14"), Ok(1e-14));
         assert_eq!(rtol("1e-15"), Err(ChoiceError::BelowRounding));
-        assert_eq!(atol("1e-30"), Ok(1e-30));
+        assert_eq!(positive("1e-30"), Ok(1e-30));
         for (text, error) in [
             ("0", ChoiceError::NotPositive),
             ("-1e-9", ChoiceError::NotPositive),
@@ -94,7 +94,7 @@ mod tests {
             ("tight", ChoiceError::NotANumber),
         ] {
             assert_eq!(rtol(text), Err(error.clone()));
-            assert_eq!(atol(text), Err(error));
+            assert_eq!(positive(text), Err(error));
         }
     }
 

@@ -2,7 +2,7 @@ use std::io;
 use std::path::PathBuf;
 
 use nboom_io::InputError;
-use nboom_model::ModelError;
+use nboom_model::{HingeLabel, ModelError};
 use nboom_results::{ResultsError, with_causes};
 use nboom_sim::SimError;
 
@@ -41,18 +41,40 @@ pub enum CliError {
     /// The results cannot be written.
     #[error(transparent)]
     Results(#[from] ResultsError),
+    /// Two ways to the same accelerations differ too much.
+    #[error("{code} deviates by {deviation:.1e} in state {state}, above the tolerance {tol:e}")]
+    Deviation {
+        /// What deviates most from the recursion.
+        code: String,
+        /// By how much.
+        deviation: f64,
+        /// In which state, from 1.
+        state: usize,
+        /// What is allowed.
+        tol: f64,
+    },
+    /// A random state has no accelerations to compare.
+    #[error("state {state} has no accelerations to compare: {}", no_reference(.hinge))]
+    NoReference {
+        /// The state, from 1.
+        state: usize,
+        /// The hinge about which nothing has inertia, where that is the reason.
+        hinge: Option<HingeLabel>,
+    },
     /// Standard output takes no more.
     #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),
 }
 
 impl CliError {
-    /// 2 when the input or the command line is wrong, 3 when computing or writing failed.
+    /// 1 when a comparison failed, 2 when the input or the command line is wrong, 3 when computing or writing failed.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Deviation { .. } => 1,
             Self::Input(_) | Self::EndTime(_) | Self::PathOfFormulation { .. } => 2,
             Self::Simulation { error: SimError::NoRoutine { .. }, .. } => 2,
-            Self::Simulation { .. } | Self::Results(_) | Self::Stdout(_) => 3,
+            Self::Simulation { .. } | Self::NoReference { .. } => 3,
+            Self::Results(_) | Self::Stdout(_) => 3,
         }
     }
 
@@ -68,5 +90,12 @@ impl CliError {
             }
             _ => vec![with_causes(self)],
         }
+    }
+}
+
+fn no_reference(hinge: &Option<HingeLabel>) -> String {
+    match hinge {
+        Some(hinge) => format!("nothing has inertia about hinge {hinge}"),
+        None => "the mass matrix is singular or the forces are beyond all numbers".to_owned(),
     }
 }

@@ -15,31 +15,38 @@
 //! ```
 
 mod args;
+mod bench;
 mod check;
 mod choice;
+mod codes;
+mod condition;
 mod error;
 mod format;
 mod print_run;
 mod print_scene;
 mod progress;
+mod random;
 mod reference;
 mod run;
+mod verify;
 mod watch;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-pub use args::{CheckArgs, Cli, Command, PathChoice, RunArgs};
+pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
 pub use choice::ChoiceError;
 pub use error::CliError;
 pub use reference::reference;
 
-/// Does what the command line asks for and tells how it went by the exit code: 0 done, 2 the
-/// input is wrong, 3 the computation or the writing failed.
+/// Does what the command line asks for and tells how it went by the exit code: 0 done, 1 a
+/// comparison failed, 2 the input is wrong, 3 the computation or the writing failed.
 pub fn execute(cli: &Cli) -> ExitCode {
     let printed = match &cli.command {
         Command::Run(args) => run::run(args),
         Command::Check(args) => check::check(args),
+        Command::Verify(args) => verify::verify(args),
+        Command::Bench(args) => bench::bench(args),
     };
     match printed.and_then(|text| print(&text)) {
         Ok(()) => ExitCode::SUCCESS,

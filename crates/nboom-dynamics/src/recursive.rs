@@ -218,13 +218,19 @@ impl<R: Real> Recursive<R> {
     }
 }
 
+/// Share of the inertia at a hinge below which that about its axis is rounding.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 impl Recursive<f64> {
     /// The first free hinge (numbered as in the scene; `Some(None)` is the main body) about
     /// which nothing has inertia at the angles `beta` of the free hinges.
     pub fn singular_hinge(&mut self, beta: &[f64]) -> Option<Option<usize>> {
         self.factor(beta);
-        let regular = |inverse_pivot: f64| inverse_pivot > 0.0 && inverse_pivot.is_finite();
-        let singular = self.hinges.iter().rposition(|hinge| !regular(hinge.inverse_pivot));
+        let regular = |j: usize| {
+            let (pivot, whole) = (1.0 / self.hinges[j].inverse_pivot, self.articulated[j].angular);
+            pivot > ROUNDING * (whole.xx + whole.yy + whole.zz)
+        };
+        let singular = (0..self.hinges.len()).rev().find(|&j| !regular(j));
         let of_hinge = singular.map(|j| Some(self.free[j]));
         of_hinge.or_else(|| (!self.base.is_positive_definite()).then_some(None))
     }

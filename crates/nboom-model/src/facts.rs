@@ -58,7 +58,7 @@ impl Facts {
             }
         };
         count("kick-off springs", self.hinges_without_kick_off);
-        count("equations of motion while held", self.hinges_held_at_start);
+        count("equations of motion, until they are released,", self.hinges_held_at_start);
         skipped
     }
 }

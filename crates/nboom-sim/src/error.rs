@@ -10,7 +10,7 @@ use crate::{NoRoutine, Summary};
 #[non_exhaustive]
 pub enum SimError {
     /// No step meets the tolerance.
-    #[error("at time {time}, {}: the step size fell to {step:e}; the motion may be too stiff or the tolerance too small", place(.hinge))]
+    #[error("at time {}, {}: the step size fell to {step:e}; the motion may be too stiff or the tolerance too small", moment(.time), place(.hinge))]
     StepUnderflow {
         /// Time reached.
         time: f64,
@@ -20,7 +20,7 @@ pub enum SimError {
         hinge: Option<HingeLabel>,
     },
     /// An acceleration is infinite or not a number.
-    #[error("at time {time}, {}: the acceleration is not finite; a force or torque has grown beyond all numbers", place(.hinge))]
+    #[error("at time {}, {}: the acceleration is not finite; a force or torque has grown beyond all numbers", moment(.time), place(.hinge))]
     NotFinite {
         /// Time reached.
         time: f64,
@@ -28,7 +28,7 @@ pub enum SimError {
         hinge: Option<HingeLabel>,
     },
     /// A body has no inertia about a hinge that is free.
-    #[error("at time {time}, {}: nothing has inertia about this hinge, so the mass matrix is singular", place(.hinge))]
+    #[error("at time {}, {}: nothing has inertia about this hinge, so the mass matrix is singular", moment(.time), place(.hinge))]
     SingularMassMatrix {
         /// Time reached.
         time: f64,
@@ -44,23 +44,28 @@ pub enum SimError {
         source: NoRoutine,
     },
     /// No impulse locks these hinges.
-    #[error("at time {time}, {}: no impulse locks this hinge; the mass matrix is singular", place(.hinge))]
+    #[error("at time {}, {}: no impulse locks this hinge; the mass matrix is singular", moment(.time), place(.hinge))]
     LockUp {
         /// Time of the lock-up.
         time: f64,
         /// The first hinge that locks.
         hinge: Option<HingeLabel>,
     },
-    /// The allowed number of steps is used up.
-    #[error("at time {time}: {steps} steps are used up")]
+    /// The allowed number of steps is used up, or would be at the present pace.
+    #[error("at time {}, {}: the last {steps} steps took only {within:e} time units; the motion \
+             may be running away or too stiff", moment(.time), place(.hinge))]
     TooManySteps {
         /// Time reached.
         time: f64,
-        /// The allowed number.
+        /// The hinge with the largest error; `None` is the main body.
+        hinge: Option<HingeLabel>,
+        /// How many steps.
         steps: usize,
+        /// The time they took.
+        within: f64,
     },
     /// Events follow one another without the time getting on.
-    #[error("at time {time}, {}: {events} events within {within:e} time units; a spring at its limit length may chatter", place(.hinge))]
+    #[error("at time {}, {}: {events} events within {within:e} time units; a spring at its limit length may chatter", moment(.time), place(.hinge))]
     Chatter {
         /// Time reached.
         time: f64,
@@ -89,6 +94,12 @@ impl SimError {
             StepError::NotFinite { time, .. } => Self::NotFinite { time, hinge },
         }
     }
+}
+
+/// A time in the form that needs fewer digits.
+fn moment(time: &f64) -> String {
+    let (plain, short) = (time.to_string(), format!("{time:e}"));
+    if plain.len() <= short.len() + 4 { plain } else { short }
 }
 
 fn place(hinge: &Option<HingeLabel>) -> String {

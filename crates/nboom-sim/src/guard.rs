@@ -26,8 +26,9 @@ pub(crate) enum GuardKind {
 enum Side {
     /// It has this sign.
     Known(f64),
-    /// It is zero and takes this sign at once; without a sign, that of its first motion.
-    Leaving(Option<f64>),
+    /// It is zero and takes this sign at once; without a sign, that of its first motion. At rest
+    /// its rate is zero too.
+    Leaving { sign: Option<f64>, at_rest: bool },
 }
 
 impl Guard {
@@ -37,7 +38,7 @@ impl Guard {
             Side::Known(sign) => {
                 reading.rate * sign < 0.0 && reading.value.abs() <= duration * reading.rate.abs()
             }
-            Side::Leaving(_) => false,
+            Side::Leaving { .. } => false,
         }
     }
 }
@@ -51,6 +52,13 @@ pub(crate) struct Reading {
 
 /// The largest hinge motion over which a spring's length is represented by one polynomial.
 const PIECE: f64 = 0.5;
+
+/// Share of its limit length by which a spring's length may miss it and count as being there.
+const AT_LIMIT: f64 = 1e-13;
+
+/// Share of its limit length by which a spring that leaves it must have moved before the way it
+/// moves is told from rounding.
+const BEYOND_ROUNDING: f64 = 1e-12;
 
 /// Share of the largest coefficient below which a first rate counts as zero.
 const AT_REST: f64 = 1e-13;
@@ -73,7 +81,7 @@ impl Guards {
         &mut self,
         scene: &Scene,
         mode: &Mode,
-        equations: &Equations,
+        equations: &mut Equations,
         state: &State,
         lock_sides: &[f64],
         toggled: &[usize],
@@ -82,7 +90,7 @@ impl Guards {
         for (i, body) in scene.bodies.iter().enumerate() {
             if mode.is_free(i) && body.hinge.lock_angle.is_some() {
                 let side = match lock_sides[i] {
-                    0.0 => Side::Leaving(None),
+                    0.0 => Side::Leaving { sign: None, at_rest: state.tau[i] == 0.0 },
                     sign => Side::Known(sign),
                 };
                 self.list.push(Guard { kind: GuardKind::Lock { hinge: i }, side });
@@ -96,9 +104,13 @@ impl Guards {
             }
             if body.hinge.kick_off.is_some() && !equations.dynamics.spring_reach(i).is_empty() {
                 let sign = if mode.kick_off[i] { -1.0 } else { 1.0 };
-                let just = toggled.contains(&i);
-                let side = if just { Side::Leaving(Some(sign)) } else { Side::Known(sign) };
-                self.list.push(Guard { kind: GuardKind::KickOff { hinge: i }, side });
+                let kind = GuardKind::KickOff { hinge: i };
+                let Reading { value, rate } = read(kind, scene, equations, state);
+                let at_limit =
+                    toggled.contains(&i) || value.abs() <= AT_LIMIT * limit_length(scene, i);
+                let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == 0.0 };
+                let side = if at_limit { leaving } else { Side::Known(sign) };
+                self.list.push(Guard { kind, side });
             }
         }
     }
@@ -129,9 +141,13 @@ impl Guards {
     /// Notes on which side of zero each guard that had been leaving it is at `state`.
     pub fn settle(&mut self, scene: &Scene, equations: &mut Equations, state: &State) {
         for guard in &mut self.list {
-            if let Side::Leaving(_) = guard.side {
+            if let Side::Leaving { .. } = guard.side {
                 let value = read(guard.kind, scene, equations, state).value;
-                if value != 0.0 {
+                let limit = match guard.kind {
+                    GuardKind::KickOff { hinge } => limit_length(scene, hinge),
+                    _ => 0.0,
+                };
+                if value.abs() > BEYOND_ROUNDING * limit {
                     guard.side = Side::Known(value.signum());
                 }
             }
@@ -143,7 +159,7 @@ impl Guards {
         self.list.iter().find(|guard| guard.kind == GuardKind::Lock { hinge }).and_then(|guard| {
             match guard.side {
                 Side::Known(sign) => Some(sign),
-                Side::Leaving(_) => None,
+                Side::Leaving { .. } => None,
             }
         })
     }
@@ -157,7 +173,7 @@ impl Guards {
         hinge: usize,
         side: Side,
     ) -> Option<f64> {
-        let limit = scene.bodies[hinge].hinge.kick_off?.limit_length;
+        let limit = limit_length(scene, hinge);
         let layout = equations.layout;
         let mut turned = 0.0;
         let mut displaced = 0.0;
@@ -184,8 +200,11 @@ impl Guards {
                 equations.dynamics.spring_lengths_squared(beta, &[hinge], &mut length_squared);
                 length_squared[0] - limit * limit
             });
-            let change = side.change(&self.interpolation.through(&values));
-            if let Side::Leaving(_) = side {
+            let polynomial = self.interpolation.through(&values);
+            let has_left = polynomial.excursion() > BEYOND_ROUNDING * limit * limit;
+            let known = matches!(side, Side::Known(_));
+            let change = side.change(&polynomial).filter(|_| known || has_left);
+            if let Side::Leaving { .. } = side {
                 side = Side::Known(values[Interpolation::POINTS - 1].signum());
             }
             change.map(|within| (piece as f64 + within) / pieces as f64)
@@ -198,14 +217,14 @@ impl Side {
     fn change(self, polynomial: &Bernstein) -> Option<f64> {
         match self {
             Self::Known(sign) => polynomial.leaves_side(sign),
-            Self::Leaving(Some(sign)) => polynomial.without_root_at_start().leaves_side(sign),
-            Self::Leaving(None) => {
-                let mut moved = polynomial.without_root_at_start();
+            Self::Leaving { sign, at_rest } => {
+                let from_here = polynomial.minus(polynomial.coefficients()[0]);
+                let mut moved = from_here.without_root_at_start();
                 let largest = moved.coefficients().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-                if moved.coefficients()[0].abs() <= AT_REST * largest {
+                if at_rest || moved.coefficients()[0].abs() <= AT_REST * largest {
                     moved = moved.without_root_at_start();
                 }
-                moved.leaves_side(moved.coefficients()[0].signum())
+                moved.leaves_side(sign.unwrap_or(moved.coefficients()[0].signum()))
             }
         }
     }
@@ -221,14 +240,18 @@ pub(crate) fn read(
     match kind {
         GuardKind::KickOff { hinge } => {
             let (length, rate) = equations.spring_length(state, hinge);
-            let limit = scene.bodies[hinge].hinge.kick_off.map_or(0.0, |k| k.limit_length);
-            Reading { value: length - limit, rate }
+            Reading { value: length - limit_length(scene, hinge), rate }
         }
         _ => {
             let (hinge, angle) = watched(kind, scene);
             Reading { value: state.beta[hinge] - angle, rate: state.tau[hinge] }
         }
     }
+}
+
+/// The limit length of a hinge's kick-off spring.
+fn limit_length(scene: &Scene, hinge: usize) -> f64 {
+    scene.bodies[hinge].hinge.kick_off.map_or(0.0, |spring| spring.limit_length)
 }
 
 /// The hinge whose angle a lock or trigger guard watches, and the angle it waits for.

@@ -1,7 +1,7 @@
-use nboom_model::{HingeLabel, Mode, Scene, SceneDescription};
-use nboom_ode::{Dop853, StepError, Tolerance};
+use nboom_model::{Mode, Scene, SceneDescription};
+use nboom_ode::{Dop853, Tolerance};
 
-use crate::equations::{Equations, motion};
+use crate::equations::Equations;
 use crate::error::{Failure, SimError};
 use crate::guard::{GuardKind, Guards, read};
 use crate::instant::{self, Arrivals, ONE_INSTANT};
@@ -11,6 +11,8 @@ use crate::options::Options;
 use crate::record::{Event, EventKind, Recorder, Selection, Snapshot, Summary};
 use crate::snapshot;
 use crate::state::{MassCenter, State};
+
+mod giving_up;
 
 /// Runs `scene` from its initial to its end time and tells `recorder` on the way.
 ///
@@ -32,16 +34,6 @@ pub fn simulate(
 /// Corrections after which an event's time is as good as it gets.
 const CORRECTIONS: usize = 8;
 
-/// A torque whose square is no number any more.
-const BOUND: f64 = 1e154;
-
-/// Share of the largest error from which on a hinge's own error counts.
-const COUNTS: f64 = 0.01;
-
-/// Events within [`CHATTER_SPAN`] of the whole span after which a run is given up.
-const CHATTER_EVENTS: usize = 1000;
-const CHATTER_SPAN: f64 = 1e-4;
-
 struct Run<'a> {
     scene: &'a Scene,
     options: Options,
@@ -57,8 +49,10 @@ struct Run<'a> {
     variables: Vec<f64>,
     next_sample: usize,
     events: usize,
-    /// When the last [`CHATTER_EVENTS`] events began, and how many there were since.
+    /// When the last burst of events began, and how many there were since.
     burst: (f64, usize),
+    /// Time and number of steps when progress was last looked at.
+    pace: (f64, usize),
     selections: Vec<Selection>,
 }
 
@@ -99,6 +93,7 @@ impl<'a> Run<'a> {
             next_sample: 0,
             events: 0,
             burst: (initial.time, 0),
+            pace: (initial.time, 0),
             selections: Vec::new(),
         }
     }
@@ -139,7 +134,7 @@ impl<'a> Run<'a> {
         self.guards.set(
             self.scene,
             &self.mode,
-            &self.equations,
+            &mut self.equations,
             &self.state,
             &self.lock_sides,
             &outcome.toggled,
@@ -162,8 +157,8 @@ impl<'a> Run<'a> {
             let change = self.guards.first_change(self.scene, &mut self.equations, &self.stepper);
             if let Some((kind, fraction)) = change {
                 let full = self.stepper.end_time() - self.stepper.time();
-                self.sample_within(full, self.stepper.time() + fraction * full)?;
                 self.locate(kind, fraction * full, full);
+                self.sample_within(full, self.stepper.end_time())?;
                 self.accept();
                 return Ok(Some(kind));
             }
@@ -178,33 +173,9 @@ impl<'a> Run<'a> {
     }
 
     fn step(&mut self, limit: f64) -> Result<(), SimError> {
-        let counts = self.stepper.counts();
-        if counts.accepted + counts.rejected >= self.options.max_steps {
-            let (time, steps) = (self.stepper.time(), self.options.max_steps);
-            return Err(SimError::TooManySteps { time, steps });
-        }
+        self.check_progress()?;
         let taken = self.stepper.step(&mut self.equations, limit);
         taken.map_err(|error| SimError::from_step(error, self.hinge_to_blame(error)))
-    }
-
-    /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
-    /// the one with the largest error, unless that is far below the main body's.
-    fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
-        let layout = self.equations.layout;
-        let free = self.equations.dynamics.free_hinges().to_vec();
-        let mut torques = vec![0.0; free.len()];
-        let motion = motion(&layout, self.stepper.last_evaluated());
-        self.equations.dynamics.hinge_forces(&motion, &mut torques);
-        let bounded = |torque: f64| torque.abs() < BOUND;
-        let without_bound = torques.iter().position(|&torque| !bounded(torque));
-        let error_of = |position: usize| self.stepper.error_of(layout.tau().start + position);
-        let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
-        let of_all = match error {
-            StepError::Underflow { variable, .. } => self.stepper.error_of(variable),
-            StepError::NotFinite { .. } => f64::INFINITY,
-        };
-        let counts = largest.filter(|&position| error_of(position) >= COUNTS * of_all);
-        without_bound.or(counts).map(|position| self.scene.label(free[position]))
     }
 
     /// Takes the step again so that it ends where the guard is zero: Newton's method on the
@@ -323,35 +294,6 @@ impl<'a> Run<'a> {
             self.selections.push(selection);
         }
         Ok(())
-    }
-
-    /// Refuses a mode in which a link has no inertia about its hinge.
-    fn check_regular(&mut self) -> Result<(), SimError> {
-        let beta = self.equations.of_free(&self.state.beta);
-        match self.equations.dynamics.singular_hinge(&beta) {
-            None => Ok(()),
-            Some(hinge) => Err(SimError::SingularMassMatrix {
-                time: self.state.time,
-                hinge: hinge.map(|i| self.scene.label(i)),
-            }),
-        }
-    }
-
-    fn check_chatter(&mut self, events: &[Event]) -> Result<(), SimError> {
-        let span = self.scene.end_time - self.scene.initial.time;
-        let (since, count) = self.burst;
-        if self.state.time - since > CHATTER_SPAN * span {
-            self.burst = (self.state.time, events.len());
-            return Ok(());
-        }
-        let events_now = count + events.len().max(1);
-        self.burst = (since, events_now);
-        if events_now < CHATTER_EVENTS + self.scene.bodies.len() {
-            return Ok(());
-        }
-        let hinge = events.last().and_then(|event| event.hinge).map(|i| self.scene.label(i));
-        let within = self.state.time - since;
-        Err(SimError::Chatter { time: self.state.time, hinge, events: events_now, within })
     }
 
     fn summary(&self) -> Summary {

@@ -1,0 +1,191 @@
+//! Generated text does not change unnoticed, and what is checked in is compiled and gives the
+//! closed form's numbers; requests that describe no routine are refused.
+
+use std::path::{Path, PathBuf};
+
+use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, generate, source};
+use nboom_formulation::{Coordinates, Layout, Parameters, articulated};
+use nboom_model::{Shape, Topology};
+use nboom_scalar::{Kernel, Mat3, Routine, Vec3};
+
+#[allow(missing_docs)]
+mod golden {
+    include!("golden/s1.rs");
+    include!("golden/four_s3.rs");
+}
+
+/// One boom, as straight-line code.
+fn s1() -> Request {
+    Request::new("S1", Topology::new([Shape::Chain(1)]), Level::Exact)
+}
+
+/// Four equal booms along principal axes: loops over links, and all four side by side.
+fn four_s3() -> Request {
+    Request::new("FourS3", Topology::new([Shape::Chain(3); 4]), Level::Fast)
+        .with_external_wrench()
+        .with_principal_axes()
+}
+
+fn text_of(request: &Request) -> String {
+    source(request).expect("the request describes a routine")
+}
+
+/// Compares with the file of that name, or writes it when `NBOOM_BLESS` is 1.
+fn is_checked_in(name: &str, found: &str) {
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
+    if std::env::var_os("NBOOM_BLESS").is_some_and(|bless| bless == "1") {
+        std::fs::write(&path, found).expect("the golden file can be written");
+        return;
+    }
+    let expected = std::fs::read_to_string(&path).expect("the golden file can be read");
+    let differs = expected.lines().zip(found.lines()).position(|(a, b)| a != b);
+    assert!(
+        expected == found,
+        "{name}: first difference after line {}; NBOOM_BLESS=1 cargo test -p nboom-codegen \
+         --test golden rewrites it",
+        differs.unwrap_or_else(|| expected.lines().count().min(found.lines().count()))
+    );
+}
+
+#[test]
+fn generated_text_is_what_is_checked_in() {
+    is_checked_in("s1.rs", &text_of(&s1()));
+    is_checked_in("four_s3.rs", &text_of(&four_s3()));
+}
+
+#[test]
+fn the_same_request_gives_the_same_bytes() {
+    for request in [s1(), four_s3()] {
+        assert_eq!(text_of(&request), text_of(&request.clone()));
+    }
+}
+
+#[test]
+fn small_satellites_are_straight_lines_and_large_ones_loops() {
+    assert!(!text_of(&s1()).contains(" in 0.."));
+    assert!(text_of(&four_s3()).contains("for i in (0..3).rev()"));
+    let evaluation = generate(&s1()).expect("S1 can be generated").evaluation;
+    assert_eq!(evaluation.angles, 1);
+    assert!(evaluation.flops() <= nboom_codegen::STRAIGHT_LIMIT);
+}
+
+/// A satellite with a positive mass matrix, other numbers for each `case`.
+fn parameters<T: Routine>(topology: &Topology, case: usize) -> Vec<f64> {
+    let mut count = 0;
+    let mut wave = || {
+        count += 1;
+        (1.3 * f64::from(count) + 0.7 * case as f64).sin()
+    };
+    let body = |mass: f64, wave: &mut dyn FnMut() -> f64| {
+        let mut body = vec![mass * (1.5 + 0.5 * wave())];
+        body.extend((0..3).map(|_| 0.3 * mass * wave()));
+        body.extend((0..3).map(|_| mass * (1.75 + 0.25 * wave())));
+        body.extend((0..3).map(|_| 0.1 * mass * wave()));
+        body
+    };
+    let mut all = body(100.0, &mut wave);
+    for shape in topology.shapes() {
+        let rot = Mat3::from_euler_121(3.0 * wave(), 3.0 * wave(), 3.0 * wave());
+        all.extend(rot.rows.into_iter().flat_map(Vec3::to_array));
+        all.extend((0..3).map(|_| wave()));
+        for _ in 0..shape.hinges() {
+            all.extend(body(1.0, &mut wave));
+            all.extend((0..2).map(|_| 0.6 + 0.4 * wave()));
+        }
+    }
+    T::PINNED.iter().for_each(|&(i, value)| all[i] = value);
+    all
+}
+
+fn state<T: Routine>(case: usize) -> Vec<f64> {
+    let number = |i: usize| 2.0 * (1.7 * i as f64 + 0.9 * case as f64 + 0.3).sin();
+    let mut state: Vec<f64> = (0..T::COORDINATES).map(number).collect();
+    if !T::EXTERNAL {
+        state[3..9].fill(0.0);
+    }
+    state
+}
+
+fn is_the_closed_form<T: Routine>(request: &Request) {
+    let topology = &request.topology;
+    assert_eq!(T::TOPOLOGY, topology.to_string());
+    assert_eq!(T::PARAMETERS, Layout::parameters(topology));
+    let kernel = Kernel::of::<T>();
+    for case in 0..50 {
+        let (parameters, state) = (parameters::<T>(topology, case), state::<T>(case));
+        let satellite = Parameters::read(topology, parameters.iter().copied());
+        let coordinates = Coordinates::read(topology, &state);
+        let expected = articulated::solve(topology, &satellite, &coordinates).write(topology);
+
+        let (mut constants, mut found) = (vec![0.0; T::CONSTANTS], vec![0.0; T::OUTPUTS]);
+        T::prepare(&parameters, &mut constants);
+        T::evaluate(&constants, &state, &mut found);
+        // `f64` takes products and sums one by one at level `fast`, too.
+        assert_eq!(found, expected, "{} case {case}", T::TOPOLOGY);
+
+        kernel.evaluate(&constants, &state, &mut found);
+        let scale = expected.iter().fold(1.0_f64, |largest, e| largest.max(e.abs()));
+        for (found, expected) in found.iter().zip(&expected) {
+            // Fused and regrouped rounding, on mass matrices of condition up to 1e3.
+            assert!((found - expected).abs() < 1e-12 * scale, "{} case {case}", T::TOPOLOGY);
+        }
+    }
+}
+
+#[test]
+fn what_is_checked_in_computes_the_closed_form() {
+    is_the_closed_form::<golden::S1>(&s1());
+    is_the_closed_form::<golden::FourS3>(&four_s3());
+}
+
+fn refusal(request: &Request) -> CodegenError {
+    source(request).expect_err("the request describes no routine")
+}
+
+#[test]
+fn names_and_paths_that_are_none_are_refused() {
+    for name in ["", "S1 P", "4xS1", "fn", "S-1"] {
+        let request = Request { name: name.to_owned(), ..s1() };
+        assert_eq!(refusal(&request), CodegenError::Name(name.to_owned()));
+    }
+    for path in ["", "::", "not a path", "scalar::{Real}"] {
+        let request = Request { scalar_path: path.to_owned(), ..s1() };
+        let expected = CodegenError::Path { name: "S1".to_owned(), path: path.to_owned() };
+        assert_eq!(refusal(&request), expected);
+    }
+    let elsewhere = Request { scalar_path: "::nboom::scalar".to_owned(), ..s1() };
+    assert!(text_of(&elsewhere).contains("use ::nboom::scalar::{"));
+}
+
+#[test]
+fn parameters_that_do_not_fit_are_refused() {
+    let (topology, expected) = (s1().topology.to_string(), s1().pinned.len());
+    for found in [0, expected - 1, expected + 1] {
+        let request = Request { pinned: vec![None; found], ..s1() };
+        assert_eq!(
+            refusal(&request),
+            CodegenError::Parameters { topology: topology.clone(), found, expected }
+        );
+    }
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut request = s1();
+        request.pinned[7] = Some(bad);
+        let error = refusal(&request);
+        let CodegenError::NotFinite { number, value, .. } = error else {
+            panic!("{topology}: {error}");
+        };
+        assert_eq!((number, value.to_bits()), (7, bad.to_bits()));
+    }
+}
+
+#[test]
+fn more_hinges_than_the_limit_are_refused() {
+    let links = HINGE_LIMIT + 1;
+    let topology = Topology::new([Shape::Chain(links)]);
+    let name = topology.to_string();
+    let request = Request::new("Long", topology, Level::Fast);
+    let expected = CodegenError::TooLarge { topology: name, links, limit: HINGE_LIMIT };
+    assert_eq!(refusal(&request), expected);
+    let request = Request::new("Longest", Topology::new([Shape::Chain(HINGE_LIMIT)]), Level::Fast);
+    assert!(source(&request).is_ok());
+}

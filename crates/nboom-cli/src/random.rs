@@ -1,0 +1,48 @@
+/// Random numbers that are the same everywhere for the same seed.
+pub(crate) struct Dice {
+    state: u64,
+}
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self { state: seed }
+    }
+
+    /// A number between `low` and `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A number from 0 to below 1, of 53 random bits.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Steele, Lea and Flood's SplitMix64.
+    fn next(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_fill_their_interval() {
+        let mut dice = Dice::new(1970);
+        let numbers: Vec<f64> = (0..1000).map(|_| dice.between(-2.0, 6.0)).collect();
+        assert!(numbers.iter().all(|x| (-2.0..6.0).contains(x)));
+        let mean = numbers.iter().sum::<f64>() / 1000.0;
+        assert!((mean - 2.0).abs() < 0.3, "{mean}");
+    }
+
+    #[test]
+    fn a_seed_gives_the_published_numbers() {
+        assert_eq!(Dice::new(1234567).next(), 6_457_827_717_110_365_317);
+    }
+}

@@ -1,0 +1,146 @@
+//! `nboom verify` and `nboom bench` as their users meet them.
+
+use std::fs;
+use std::process::{Command, Output};
+
+/// A main body with one boom.
+const BOOM: &str = "
+ &DIM
+ NA=1,IXYZ=0,IAB=0,NP=0,NOPLT=1,IXK=1,
+ &END
+ &NXPUT
+ INSTR=0,
+ BETAIK=80.0,BSIK=0.0,EKNIK(1,2)=-30.0,
+ OMEG=1.0,2.0,-1.0,
+ NK=1,DBK=0.0,0.5,0.1,FTSIK=0.0,90.0,0.0,
+ ELIK=2.0,EMIK=3.0,HIIK=1.1,3*0.0,0.05,3*0.0,1.1,CNIK(1,2)=1.0,
+ EMM=100.0,HM=40.0,3*0.0,30.0,3*0.0,35.0,
+ IREL=0,RELTB=0.25,
+ &END
+ &ROCK
+ TF=4.0,SEGSTT=0.0,
+ &END
+";
+
+/// Runs the binary on a scene `boom.nml` with this text.
+fn nboom_on(deck: &str, args: &[&str]) -> Output {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("boom.nml"), deck).expect("writable");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+    command.current_dir(directory.path()).args(args).output().expect("the binary starts")
+}
+
+fn nboom(args: &[&str]) -> Output {
+    nboom_on(BOOM, args)
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("no signal")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("text")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("text")
+}
+
+#[test]
+fn verify_compares_all_code_that_covers_the_scene() {
+    let output = nboom(&["verify", "boom.nml", "--states", "20"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let table = stdout(&output);
+    assert!(table.starts_with("boom: accelerations in 20 random states from seed 1970"), "{table}");
+    for form in ["recursive", "report", "relative", "symmetric", "articulated", "momentum"] {
+        let row = format!("generic    {form}");
+        assert!(table.lines().any(|line| line.starts_with(&row)), "no {form} in {table}");
+    }
+    assert!(table.contains("\ngenerated  articulated"), "{table}");
+    assert!(!table.contains("not covered"), "{table}");
+}
+
+#[test]
+fn verify_gives_the_same_for_the_same_seed() {
+    let of_seed = |seed| stdout(&nboom(&["verify", "boom.nml", "--states", "5", "--seed", seed]));
+    assert_eq!(of_seed("7"), of_seed("7"));
+    assert_ne!(of_seed("7"), of_seed("8"));
+}
+
+#[test]
+fn verify_fails_above_the_tolerance() {
+    let output = nboom(&["verify", "boom.nml", "--tol", "1e-30"]);
+    assert_eq!(code(&output), 1);
+    assert!(stdout(&output).contains("largest deviation"), "the table is printed all the same");
+    let message = stderr(&output);
+    for words in ["error: ", "deviates by", "in state", "above the tolerance 1e-30"] {
+        assert!(message.contains(words), "no {words:?} in {message}");
+    }
+}
+
+#[test]
+fn a_hinge_without_inertia_has_nothing_to_verify() {
+    let point_on_the_axis = "HIIK=9*0.0,CNIK(1,2)=0.0";
+    let deck = BOOM.replace("HIIK=1.1,3*0.0,0.05,3*0.0,1.1,CNIK(1,2)=1.0", point_on_the_axis);
+    let output = nboom_on(&deck, &["verify", "boom.nml"]);
+    assert_eq!(code(&output), 3, "{}{}", stdout(&output), stderr(&output));
+    assert!(stderr(&output).contains("nothing has inertia about hinge 1,1"), "{}", stderr(&output));
+}
+
+#[test]
+fn wrong_input_is_refused() {
+    for args in [
+        ["verify", "absent.nml", "--states", "1"],
+        ["verify", "boom.nml", "--states", "0"],
+        ["verify", "boom.nml", "--tol", "0"],
+        ["verify", "boom.nml", "--seed", "-1"],
+        ["bench", "absent.nml", "--seconds", "1e-3"],
+        ["bench", "boom.nml", "--seconds", "0"],
+        ["bench", "boom.nml", "--json", "--harness"],
+    ] {
+        let output = nboom(&args);
+        assert_eq!(code(&output), 2, "{args:?}");
+        assert_eq!(stdout(&output), "", "{args:?}");
+    }
+}
+
+#[test]
+fn bench_gives_json() {
+    let output = nboom(&["bench", "boom.nml", "--json", "--seconds", "1e-3"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let rows: serde_json::Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    let rows = rows.as_array().expect("an array");
+    let has = |path: &str, formulation: &str| {
+        rows.iter().any(|row| row["path"] == path && row["formulation"] == formulation)
+    };
+    assert!(has("generic", "recursive") && has("generic", "report"), "{rows:?}");
+    assert!(has("generated", "articulated"), "{rows:?}");
+    for row in rows {
+        let number = |key: &str| row[key].as_f64().expect("a number");
+        assert!(0.0 < number("ns_min") && number("ns_min") <= number("ns_median"), "{row}");
+        assert!(row["facts"].is_string() && row["instructions"].is_string(), "{row}");
+    }
+}
+
+#[test]
+fn bench_gives_lines_of_words_and_numbers() {
+    let output = nboom(&["bench", "boom.nml", "--harness", "--seconds", "1e-3"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = stdout(&output);
+    assert!(text.starts_with("nboom_generic_recursive boom ns_min "), "{text}");
+    assert!(text.contains("\nnboom_generated_articulated_general boom ns_min "), "{text}");
+    for line in text.lines() {
+        let words: Vec<&str> = line.split(' ').collect();
+        let [_, "boom", "ns_min", least, "ns_median", median] = words[..] else { panic!("{line}") };
+        assert!(least.parse::<f64>().is_ok_and(|ns| ns > 0.0), "{line}");
+        assert!(median.parse::<f64>().is_ok_and(|ns| ns > 0.0), "{line}");
+    }
+}
+
+#[test]
+fn bench_gives_a_table() {
+    let output = nboom(&["bench", "boom.nml", "--seconds", "1e-3"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let table = stdout(&output);
+    assert!(table.contains("of recursive") && table.contains(" 1.000\n"), "{table}");
+}

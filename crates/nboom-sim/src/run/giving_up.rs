@@ -1,0 +1,102 @@
+//! When a run is given up, and whom that is blamed on.
+
+use nboom_model::HingeLabel;
+use nboom_ode::StepError;
+
+use super::Run;
+use crate::equations::motion;
+use crate::error::SimError;
+use crate::record::Event;
+
+/// A torque whose square is no number any more.
+const BOUND: f64 = 1e154;
+
+/// Share of the largest error from which on a hinge's own error counts.
+const COUNTS: f64 = 0.01;
+
+/// Steps that must take a run by [`PACE_SPAN`] of the whole span, or it is given up.
+const PACE_STEPS: usize = 20_000;
+const PACE_SPAN: f64 = 1e-7;
+
+/// Events within [`CHATTER_SPAN`] of the whole span after which a run is given up.
+const CHATTER_EVENTS: usize = 1000;
+const CHATTER_SPAN: f64 = 1e-4;
+
+impl Run<'_> {
+    /// Gives up a run that has used up its steps, or that would at its present pace.
+    pub(super) fn check_progress(&mut self) -> Result<(), SimError> {
+        let counts = self.stepper.counts();
+        let (time, steps) = (self.stepper.time(), counts.accepted + counts.rejected);
+        let span = self.scene.end_time - self.scene.initial.time;
+        let (since, steps_then) = self.pace;
+        let crawls = steps - steps_then >= PACE_STEPS && time - since < PACE_SPAN * span;
+        if crawls || steps >= self.options.max_steps {
+            let within = time - since;
+            let steps_within = steps - steps_then;
+            let hinge = self.worst_hinge();
+            return Err(SimError::TooManySteps { time, hinge, steps: steps_within, within });
+        }
+        if steps - steps_then >= PACE_STEPS {
+            self.pace = (time, steps);
+        }
+        Ok(())
+    }
+
+    /// The hinge with the largest error in the last step.
+    pub(super) fn worst_hinge(&self) -> Option<HingeLabel> {
+        let start = self.equations.layout.tau().start;
+        let error_of = |position: usize| self.stepper.error_of(start + position);
+        let free = self.equations.dynamics.free_hinges();
+        let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
+        largest.map(|position| self.scene.label(free[position]))
+    }
+
+    /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
+    /// the one with the largest error, unless that is far below the main body's.
+    pub(super) fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
+        let layout = self.equations.layout;
+        let free = self.equations.dynamics.free_hinges().to_vec();
+        let mut torques = vec![0.0; free.len()];
+        let motion = motion(&layout, self.stepper.last_evaluated());
+        self.equations.dynamics.hinge_forces(&motion, &mut torques);
+        let bounded = |torque: f64| torque.abs() < BOUND;
+        let without_bound = torques.iter().position(|&torque| !bounded(torque));
+        let error_of = |position: usize| self.stepper.error_of(layout.tau().start + position);
+        let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
+        let of_all = match error {
+            StepError::Underflow { variable, .. } => self.stepper.error_of(variable),
+            StepError::NotFinite { .. } => f64::INFINITY,
+        };
+        let counts = largest.filter(|&position| error_of(position) >= COUNTS * of_all);
+        without_bound.or(counts).map(|position| self.scene.label(free[position]))
+    }
+
+    /// Refuses a mode in which a link has no inertia about its hinge.
+    pub(super) fn check_regular(&mut self) -> Result<(), SimError> {
+        let beta = self.equations.of_free(&self.state.beta);
+        match self.equations.dynamics.singular_hinge(&beta) {
+            None => Ok(()),
+            Some(hinge) => Err(SimError::SingularMassMatrix {
+                time: self.state.time,
+                hinge: hinge.map(|i| self.scene.label(i)),
+            }),
+        }
+    }
+
+    pub(super) fn check_chatter(&mut self, events: &[Event]) -> Result<(), SimError> {
+        let span = self.scene.end_time - self.scene.initial.time;
+        let (since, count) = self.burst;
+        if self.state.time - since > CHATTER_SPAN * span {
+            self.burst = (self.state.time, events.len());
+            return Ok(());
+        }
+        let events_now = count + events.len().max(1);
+        self.burst = (since, events_now);
+        if events_now < CHATTER_EVENTS + self.scene.bodies.len() {
+            return Ok(());
+        }
+        let hinge = events.last().and_then(|event| event.hinge).map(|i| self.scene.label(i));
+        let within = self.state.time - since;
+        Err(SimError::Chatter { time: self.state.time, hinge, events: events_now, within })
+    }
+}
