@@ -199,24 +199,22 @@ fn zeros_and_ones_are_folded() {
 
 #[test]
 fn signs_move_outward() {
+    type Pair = fn(&[Expr]) -> [Expr; 2];
     // What each becomes: the other one, recorded in the same graph, is the same node.
-    let pairs: [fn(&[Expr]) -> (Expr, Expr); 10] = [
-        |x| (-x[0] + x[1], x[1] - x[0]),
-        |x| (x[0] + -x[1], x[0] - x[1]),
-        |x| (-x[0] + -x[1], -(x[0] + x[1])),
-        |x| (x[0] - -x[1], x[0] + x[1]),
-        |x| (-x[0] - x[1], -(x[0] + x[1])),
-        |x| (-(x[0] - x[1]), x[1] - x[0]),
-        |x| (-x[0] * x[1], -(x[0] * x[1])),
-        |x| (-x[0] * -x[1], x[0] * x[1]),
-        |x| (-x[0] / x[1], -(x[0] / x[1])),
-        |x| (Expr::zero() - x[0], -x[0]),
+    let pairs: [Pair; 10] = [
+        |x| [-x[0] + x[1], x[1] - x[0]],
+        |x| [x[0] + -x[1], x[0] - x[1]],
+        |x| [-x[0] + -x[1], -(x[0] + x[1])],
+        |x| [x[0] - -x[1], x[0] + x[1]],
+        |x| [-x[0] - x[1], -(x[0] + x[1])],
+        |x| [-(x[0] - x[1]), x[1] - x[0]],
+        |x| [-x[0] * x[1], -(x[0] * x[1])],
+        |x| [-x[0] * -x[1], x[0] * x[1]],
+        |x| [-x[0] / x[1], -(x[0] / x[1])],
+        |x| [Expr::zero() - x[0], -x[0]],
     ];
     for (i, pair) in pairs.into_iter().enumerate() {
-        let graph = Graph::trace(2, |x| {
-            let (found, expected) = pair(x);
-            vec![found, expected]
-        });
+        let graph = Graph::trace(2, |x| pair(x).to_vec());
         assert_eq!(graph.outputs()[0], graph.outputs()[1], "pair {i}");
     }
 }
