@@ -10,7 +10,7 @@ use nboom_model::{
 use nboom_results::{Outcome, ResultsError, RunDescription, RunDirectory, UnitSystem};
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
-    Conservation, Detail, Event, EventKind, Options, Recorder, Snapshot, Summary, Totals,
+    Conservation, Detail, Event, EventKind, Options, Recorder, Selection, Snapshot, Summary, Totals,
 };
 
 fn scene() -> Scene {
@@ -72,6 +72,10 @@ fn event(time: f64, kind: EventKind, hinge: Option<usize>) -> Event {
     Event { time, kind, hinge, impulse: None, before: totals, after: totals }
 }
 
+fn selection(since: f64, path: &'static str, formulation: &'static str, reason: &str) -> Selection {
+    Selection { since, path, formulation, reason: reason.to_owned() }
+}
+
 fn outcome(error: Option<&str>) -> Outcome {
     let conservation =
         Conservation { linear_momentum: 1e-15, angular_momentum: 2e-15, energy: 3e-13 };
@@ -83,7 +87,10 @@ fn outcome(error: Option<&str>) -> Outcome {
         events: 2,
         conservation,
         integrator: "dop853",
-        selections: Vec::new(),
+        selections: vec![
+            selection(0.0, "generic", "recursive", "no routine"),
+            selection(5.0, "generated", "articulated", "routine"),
+        ],
     };
     Outcome { summary, wall_seconds: 0.25, error: error.map(str::to_owned) }
 }
@@ -118,8 +125,12 @@ fn a_finished_run_has_all_rows_and_every_key() {
     let expected = serde_json::json!({
         "scene": "one boom",
         "degrees_of_freedom": 7,
-        "path": "generic",
-        "formulation": "recursive",
+        "path": "generated",
+        "formulation": "articulated",
+        "selections": [
+            {"since": 0.0, "path": "generic", "formulation": "recursive", "reason": "no routine"},
+            {"since": 5.0, "path": "generated", "formulation": "articulated", "reason": "routine"},
+        ],
         "integrator": "dop853",
         "rtol": Options::default().rtol,
         "atol": Options::default().atol,
