@@ -11,6 +11,7 @@ use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::EventKind;
 
 use crate::collect::{run, tight, try_run};
+use crate::support::json_scene;
 
 /// A boom of two segments, mounted askew on a spinning body that is not symmetric.
 fn askew(turn: f64, hinges: [Hinge; 2], end_time: f64) -> SceneDescription {
@@ -123,18 +124,21 @@ fn a_hinge_at_rest_on_its_lock_angle_leaves_it_and_locks_when_it_returns() {
 }
 
 #[test]
-fn output_times_hold_the_state_after_the_events_before_them_at_any_tolerance() {
-    for rtol in [1e-3, 1e-5, 1e-7] {
-        let spring = Spring { quadratic: 0.0, linear: -3.0, preload_angle: 0.0 };
-        let hinge = Hinge { spring, lock_angle: Some(-0.3), ..at(1.5) };
-        let scene = Scene::new(askew(0.3, [hinge, held()], 2.0)).expect("a valid scene");
-        let options = nboom::sim::Options { rtol, atol: rtol, samples: 40_000, ..tight(1) };
-        let (found, _) = run(&scene, &options);
-        let lock = found.events.iter().find(|(event, _)| event.kind == EventKind::LockUp);
-        let time = lock.expect("it locks").0.time;
+fn output_times_hold_the_state_after_the_events_before_them_at_loose_tolerance() {
+    // At this tolerance dense output puts the lock-ups a little later than the motion does, and
+    // with so many output times some lie between.
+    let data = crate::support::data("scenes/s10_symmetric_lock.json");
+    let scene = json_scene::scene(&data, 2.5);
+    let options = nboom::sim::Options { rtol: 1e-3, atol: 1e-3, samples: 40_000, ..tight(1) };
+    let (found, _) = run(&scene, &options);
+    let locks = found.events.iter().filter(|(event, _)| event.kind == EventKind::LockUp);
+    let locks: Vec<_> = locks.map(|(event, _)| (event.time, event.hinge)).collect();
+    assert_eq!(locks.len(), 2);
+    for (time, hinge) in locks {
+        let hinge = hinge.expect("a lock-up has a hinge");
         for sample in &found.samples {
-            let locked = sample.hinges[0] == HingeState::Locked;
-            assert_eq!(locked, sample.time >= time - 1e-11, "rtol {rtol}, t {}", sample.time);
+            let locked = sample.hinges[hinge] == HingeState::Locked;
+            assert_eq!(locked, sample.time >= time - 1e-11, "t {}", sample.time);
         }
     }
 }
