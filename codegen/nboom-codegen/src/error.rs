@@ -1,3 +1,5 @@
+use nboom_formulation::Formulation;
+
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -33,14 +35,53 @@ pub enum CodegenError {
         /// Its value.
         value: f64,
     },
-    /// The topology has more links than generated loops are meant for.
-    #[error("topology {topology}: {links} hinges found, at most {limit} expected")]
+    /// The topology has more links than code is generated for.
+    #[error(
+        "topology {topology}, formulation {formulation}: {links} hinges found, at most {limit} \
+         expected"
+    )]
     TooLarge {
         /// The topology.
         topology: String,
+        /// The formulation.
+        formulation: Formulation,
         /// Its hinges.
         links: usize,
         /// The most that is generated.
         limit: usize,
+    },
+    /// A straight line would be too long for a compiler.
+    #[error(
+        "topology {topology}, formulation {formulation}: the evaluation takes {operations} \
+         operations, at most {limit} expected; only articulated is emitted as loops"
+    )]
+    Budget {
+        /// The topology.
+        topology: String,
+        /// The formulation.
+        formulation: Formulation,
+        /// Additions, multiplications, divisions and square roots of an evaluation.
+        operations: usize,
+        /// The most that is emitted.
+        limit: usize,
+    },
+    /// The formulation has no matrix and no right side.
+    #[error(
+        "topology {topology}, formulation {formulation}: it forms no equations; accelerations, or \
+         report, relative or symmetric expected"
+    )]
+    NoEquations {
+        /// The topology.
+        topology: String,
+        /// The formulation.
+        formulation: Formulation,
+    },
+    /// A scene is not made of chains and paddles.
+    #[error("scene {scene}: hinge {hinge} belongs neither to a chain nor to a paddle")]
+    NotCovered {
+        /// The scene.
+        scene: String,
+        /// The first hinge that does not.
+        hinge: String,
     },
 }

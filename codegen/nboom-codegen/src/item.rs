@@ -24,6 +24,7 @@ impl Item<'_> {
         let Self { request, prepare, evaluate, evaluate_packed, functions, .. } = self;
         let name = format_ident!("{}", request.name);
         let topology = request.topology.to_string();
+        let formulation = request.formulation.name();
         let external = request.external;
         let pinned = request.pinned.iter().enumerate().filter_map(|(i, value)| {
             let (i, value) = (Literal::usize_unsuffixed(i), (*value)?);
@@ -33,14 +34,14 @@ impl Item<'_> {
             Layout::parameters(&request.topology),
             self.constants,
             Layout::coordinates(&request.topology),
-            Layout::outputs(&request.topology),
+            request.output.size(&request.topology),
         ]
         .map(Literal::usize_unsuffixed);
         quote! {
             pub struct #name;
             impl Routine for #name {
                 const TOPOLOGY: &'static str = #topology;
-                const FORMULATION: &'static str = "articulated";
+                const FORMULATION: &'static str = #formulation;
                 const PINNED: &'static [(usize, f64)] = &[#(#pinned),*];
                 const EXTERNAL: bool = #external;
                 const PARAMETERS: usize = #parameters;

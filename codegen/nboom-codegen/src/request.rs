@@ -1,5 +1,7 @@
-use nboom_formulation::Layout;
-use nboom_model::{Shape, Topology};
+use nboom_formulation::{Formulation, Layout};
+use nboom_model::Topology;
+
+use crate::granted::links;
 
 /// How freely generated code may rearrange arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,6 +22,37 @@ impl Level {
     }
 }
 
+/// What an evaluation writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    /// ω̇, a_O and τ̇, in the order of [`Layout`].
+    Accelerations,
+    /// The formulation's matrix row by row, then its right side, hinges appendage by appendage
+    /// (`Formulation::equations`).
+    Equations,
+}
+
+impl Output {
+    /// `accelerations` or `equations`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accelerations => "accelerations",
+            Self::Equations => "equations",
+        }
+    }
+
+    /// How many numbers an evaluation writes.
+    pub fn size(self, topology: &Topology) -> usize {
+        match self {
+            Self::Accelerations => Layout::outputs(topology),
+            Self::Equations => {
+                let unknowns = 6 + topology.hinges();
+                unknowns * unknowns + unknowns
+            }
+        }
+    }
+}
+
 /// What to generate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
@@ -29,6 +62,10 @@ pub struct Request {
     pub scalar_path: String,
     /// The satellite's appendages.
     pub topology: Topology,
+    /// The closed form that is traced.
+    pub formulation: Formulation,
+    /// What an evaluation writes.
+    pub output: Output,
     /// Parameters that the code takes for granted; `None` stays a runtime value.
     pub pinned: Vec<Option<f64>>,
     /// Whether anything acts on the main body from outside.
@@ -38,13 +75,16 @@ pub struct Request {
 }
 
 impl Request {
-    /// Code for a topology with all parameters at run time, without external wrench.
+    /// Code for a topology with all parameters at run time, without external wrench:
+    /// accelerations by `articulated`.
     pub fn new(name: &str, topology: Topology, level: Level) -> Self {
         let pinned = vec![None; Layout::parameters(&topology)];
         Self {
             name: name.to_owned(),
             scalar_path: "::nboom_scalar".to_owned(),
             topology,
+            formulation: Formulation::Articulated,
+            output: Output::Accelerations,
             pinned,
             external: false,
             level,
@@ -54,6 +94,18 @@ impl Request {
     /// Code that also takes an external wrench on the main body.
     pub fn with_external_wrench(mut self) -> Self {
         self.external = true;
+        self
+    }
+
+    /// Code by another formulation.
+    pub fn by(mut self, formulation: Formulation) -> Self {
+        self.formulation = formulation;
+        self
+    }
+
+    /// Code for the matrix and the right side that the formulation solves.
+    pub fn for_equations(mut self) -> Self {
+        self.output = Output::Equations;
         self
     }
 
@@ -82,18 +134,4 @@ impl Request {
         }
         self
     }
-}
-
-/// Where the numbers of each link begin.
-fn links(topology: &Topology) -> Vec<usize> {
-    let mut at = Layout::MAIN;
-    let mut links = Vec::new();
-    for shape in topology.shapes() {
-        at += Layout::BRANCH;
-        for _ in 0..Shape::hinges(*shape) {
-            links.push(at);
-            at += Layout::LINK;
-        }
-    }
-    links
 }

@@ -1,18 +1,21 @@
 //! A routine whose evaluation is one straight line.
 
 use nboom_expr::Graph;
-use nboom_formulation::{Coordinates, Layout, Parameters, articulated};
+use nboom_formulation::{Coordinates, Equations, Layout, Parameters};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::item::Item;
 use crate::stage::{constants, given};
 use crate::straight::Statements;
-use crate::{Generated, Level, Request};
+use crate::{Generated, Level, Output, Request};
 
 /// Traces the request's formulation: parameters first, then the state.
+///
+/// # Panics
+/// When equations are asked of a formulation that forms none.
 pub fn trace(request: &Request) -> Graph {
-    let topology = &request.topology;
+    let Request { topology, formulation, output, .. } = request;
     let parameters = Layout::parameters(topology);
     let mut pinned = request.pinned.clone();
     pinned.resize(parameters + Layout::coordinates(topology), None);
@@ -23,7 +26,17 @@ pub fn trace(request: &Request) -> Graph {
         let (of_satellite, of_state) = inputs.split_at(parameters);
         let satellite = Parameters::read(topology, of_satellite.iter().copied());
         let state = Coordinates::read(topology, of_state);
-        articulated::solve(topology, &satellite, &state).write(topology)
+        match output {
+            Output::Accelerations => {
+                formulation.solve(topology, &satellite, &state).write(topology)
+            }
+            Output::Equations => {
+                let found = formulation.equations(topology, &satellite, &state);
+                let Equations { mut matrix, forcing } = found.expect("the request was checked");
+                matrix.extend(forcing);
+                matrix
+            }
+        }
     })
 }
 

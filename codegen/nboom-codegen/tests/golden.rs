@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, generate, source};
-use nboom_formulation::{Coordinates, Layout, Parameters, articulated};
+use nboom_formulation::{Coordinates, Formulation, Layout, Parameters, articulated};
 use nboom_model::{Shape, Topology};
 use nboom_scalar::{Kernel, Mat3, Routine, Vec3};
 
@@ -184,8 +184,30 @@ fn more_hinges_than_the_limit_are_refused() {
     let topology = Topology::new([Shape::Chain(links)]);
     let name = topology.to_string();
     let request = Request::new("Long", topology, Level::Fast);
-    let expected = CodegenError::TooLarge { topology: name, links, limit: HINGE_LIMIT };
+    let formulation = Formulation::Articulated;
+    let limit = HINGE_LIMIT;
+    let expected = CodegenError::TooLarge { topology: name, formulation, links, limit };
     assert_eq!(refusal(&request), expected);
     let request = Request::new("Longest", Topology::new([Shape::Chain(HINGE_LIMIT)]), Level::Fast);
     assert!(source(&request).is_ok());
+}
+
+#[test]
+fn what_a_formulation_cannot_give_is_refused() {
+    let of = |name: &str, formulation| {
+        let topology: Topology = name.parse().expect("a topology");
+        Request::new("Refused", topology, Level::Fast).by(formulation)
+    };
+    for formulation in [Formulation::Articulated, Formulation::Momentum] {
+        let expected = CodegenError::NoEquations { topology: "S2".to_owned(), formulation };
+        assert_eq!(refusal(&of("S2", formulation).for_equations()), expected);
+    }
+    let dense = refusal(&of("S60", Formulation::Report));
+    assert!(
+        matches!(&dense, CodegenError::Budget { topology, formulation: Formulation::Report, operations, limit }
+            if topology == "S60" && operations > limit),
+        "{dense}"
+    );
+    let long = refusal(&of("S101", Formulation::Symmetric));
+    assert!(matches!(long, CodegenError::TooLarge { links: 101, .. }), "{long}");
 }

@@ -5,7 +5,7 @@ use nboom_scalar::Real;
 
 use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::recognise::recognise;
-use crate::report::Place;
+use crate::section5::{Equations, Place};
 use crate::{articulated, momentum, relative, report, symmetric};
 
 /// A closed form of the equations of motion.
@@ -66,6 +66,34 @@ impl Formulation {
         match self {
             Self::Symmetric => Ok(()),
             _ => recognise(tree).map(|_| ()),
+        }
+    }
+
+    /// Whether it solves a system for the accelerations, whose matrix and right side can be had.
+    pub fn has_equations(self) -> bool {
+        matches!(self, Self::Report | Self::Relative | Self::Symmetric)
+    }
+
+    /// The system that it solves, hinges appendage by appendage, with O at the inertial origin;
+    /// `None` where it never forms one.
+    ///
+    /// The unknowns are (v̇, ω̇, σ̇) for `report`, (v̇, ω̇, τ̇) for `relative` and (a_O, ω̇, τ̇) for
+    /// `symmetric`; gravity is left out.
+    pub fn equations<R: Real>(
+        self,
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Option<Equations<R>> {
+        let at = Place::origin();
+        match self {
+            Self::Report => Some(report::equations(topology, parameters, coordinates, &at)),
+            Self::Relative => Some(relative::equations(topology, parameters, coordinates, &at)),
+            Self::Symmetric => Some(Equations {
+                matrix: symmetric::mass_matrix(topology, parameters, coordinates),
+                forcing: symmetric::forcing(topology, parameters, coordinates),
+            }),
+            Self::Articulated | Self::Momentum => None,
         }
     }
 

@@ -25,3 +25,4 @@ pub use chain::ChainLink;
 pub use formulation::Formulation;
 pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Parameters, Solution};
 pub use recognise::{Recognised, recognise};
+pub use section5::Equations;

@@ -44,6 +44,6 @@ pub use label::HingeLabel;
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use mode::Mode;
 pub use scene::{Body, Scene, SceneDescription};
-pub use topology::{Shape, Topology};
+pub use topology::{Shape, Topology, TopologyError};
 pub use warning::ModelWarning;
 pub use welded::{Link, Member, WeldedTree};

@@ -1,4 +1,5 @@
 use std::fmt;
+use std::str::FromStr;
 
 /// The hinges of one appendage that turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -29,6 +30,9 @@ pub struct Topology {
 }
 
 impl Topology {
+    /// The most hinges that a name can stand for.
+    pub const MOST_HINGES: usize = 10_000;
+
     /// The topology of appendages given in any order; chains without links are left out.
     pub fn new(shapes: impl IntoIterator<Item = Shape>) -> Self {
         let mut shapes: Vec<Shape> =
@@ -81,6 +85,55 @@ impl fmt::Display for Topology {
     }
 }
 
+/// Why a text names no topology.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "`{text}` found, a topology like 4xS5_P expected: M, or appendages joined by _, each S and its \
+     links or P, at most {} hinges in all",
+    Topology::MOST_HINGES
+)]
+pub struct TopologyError {
+    /// What was found.
+    pub text: String,
+}
+
+impl FromStr for Topology {
+    type Err = TopologyError;
+
+    /// Reads what [`Display`](fmt::Display) writes; appendages may stand in any order.
+    fn from_str(text: &str) -> Result<Self, TopologyError> {
+        let topology = if text == "M" { Some(Vec::new()) } else { shapes(text) }.map(Self::new);
+        topology.ok_or_else(|| TopologyError { text: text.to_owned() })
+    }
+}
+
+fn shapes(text: &str) -> Option<Vec<Shape>> {
+    let mut shapes = Vec::new();
+    for group in text.split('_') {
+        let (count, shape) = match group.split_once('x') {
+            Some((count, shape)) => (number(count)?, shape),
+            None => (1, group),
+        };
+        let shape = match shape.strip_prefix('S') {
+            Some(links) => Shape::Chain(number(links)?),
+            None => (shape == "P").then_some(Shape::Paddle)?,
+        };
+        let hinges = count.checked_mul(shape.hinges())?;
+        if hinges > Topology::MOST_HINGES - shapes.iter().map(|s: &Shape| s.hinges()).sum::<usize>()
+        {
+            return None;
+        }
+        shapes.extend(std::iter::repeat_n(shape, count));
+    }
+    Some(shapes)
+}
+
+/// A positive number without sign or leading zeros.
+fn number(text: &str) -> Option<usize> {
+    let plain = text.bytes().all(|digit| digit.is_ascii_digit()) && !text.starts_with('0');
+    text.parse().ok().filter(|_| plain)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,5 +145,25 @@ mod tests {
         assert_eq!(a, b);
         assert_eq!(a.to_string(), "S5_2xS2_P");
         assert_eq!(a.hinges(), 11);
+    }
+
+    #[test]
+    fn a_name_reads_back() {
+        for name in ["M", "S1", "P", "4xS5_P", "S100", "S5_2xS2_3xP"] {
+            let topology: Topology = name.parse().expect("a topology");
+            assert_eq!(topology.to_string(), name);
+        }
+        assert_eq!("P_S2".parse::<Topology>().map(|t| t.to_string()).ok(), Some("S2_P".to_owned()));
+    }
+
+    #[test]
+    fn what_is_no_name_is_refused() {
+        let huge = "99999999999999999999xS1";
+        let wrong = ["", "S", "S0", "S-1", "0xP", "4x", "xS1", "S2__P", "Q", "M_P", "S+2", "S1e3"];
+        for text in wrong.into_iter().chain([huge, "S10001", "9999xP", "9999xS1_P"]) {
+            let error = text.parse::<Topology>().expect_err(text);
+            assert_eq!(error.text, text);
+        }
+        assert!("9998xS1_P".parse::<Topology>().is_ok());
     }
 }

@@ -13,12 +13,15 @@
 //! assert!((turned - Vec3::new(0.0, 0.0, 1.0)).norm() < 1e-15);
 //! ```
 
+mod batch;
 mod double_double;
 mod dual;
+mod instructions;
 mod isa;
 mod kernel;
 mod lanes;
 mod matrix;
+mod pair;
 mod quaternion;
 mod real;
 mod routine;
@@ -29,15 +32,18 @@ mod vector;
 #[cfg(target_arch = "x86_64")]
 mod wide;
 
+pub use batch::{Batch, Eight};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
+pub use instructions::InstructionSet;
 pub use isa::{Avx2, Avx512, Isa};
 pub use kernel::Kernel;
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
+pub use pair::Pair;
 pub use quaternion::Quaternion;
 pub use real::Real;
-pub use routine::Routine;
+pub use routine::{CONTRACT, Routine};
 pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
 pub use vector::Vec3;

@@ -1,6 +1,11 @@
 use crate::{Isa, Real};
 
-/// What generated code implements: accelerations of one topology by one formulation.
+/// Version of what generated code and its callers agree on; code for another one does not
+/// compile.
+pub const CONTRACT: u32 = 1;
+
+/// What generated code implements: accelerations of one topology by one formulation, or the
+/// equations that the formulation solves for them.
 ///
 /// Parameters are prepared once; an evaluation then allocates nothing and does not branch.
 /// The order of all numbers is that of `nboom_formulation::Layout`.
@@ -19,7 +24,7 @@ pub trait Routine {
     const CONSTANTS: usize;
     /// How many numbers describe a state.
     const COORDINATES: usize;
-    /// How many numbers accelerations are.
+    /// How many numbers an evaluation writes.
     const OUTPUTS: usize;
 
     /// Computes the constants that depend on parameters alone.
@@ -28,13 +33,13 @@ pub trait Routine {
     /// When a slice does not have the length given above.
     fn prepare<R: Real>(parameters: &[R], constants: &mut [R]);
 
-    /// Computes accelerations on any scalar.
+    /// Evaluates on any scalar.
     ///
     /// # Panics
     /// When a slice does not have the length given above.
     fn evaluate<R: Real>(constants: &[R], coordinates: &[R], outputs: &mut [R]);
 
-    /// Computes accelerations of one state, equal appendages side by side in the packs of `I`.
+    /// Evaluates one state, equal appendages side by side in the packs of `I`.
     ///
     /// # Panics
     /// When a slice does not have the length given above.

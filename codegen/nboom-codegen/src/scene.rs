@@ -1,0 +1,197 @@
+//! What to generate for a scene.
+
+use std::collections::BTreeMap;
+
+use nboom_formulation::{Layout, Recognised, recognise};
+use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
+
+use crate::{CodegenError, Level, Request};
+
+/// Where a routine of a scene has the satellite's numbers from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Numbers {
+    /// They are handed in; what is zero in the scene is taken for granted.
+    RunTime,
+    /// They are those of the scene.
+    Baked,
+}
+
+/// Up to this many hinges, all combinations of held ones are looked at.
+const FEW_HINGES: usize = 10;
+
+/// The most routines for states with held hinges.
+const LOCK_STATES: usize = 32;
+
+/// Angles for which held hinges are welded to see which numbers are zero at any angle.
+const ANGLES: [f64; 2] = [0.723, -1.931];
+
+impl Request {
+    /// Code for a scene whose hinges are all free, with external wrench if the scene has a
+    /// thrust. The type's name is that of the topology after `Satellite` or `Baked`.
+    ///
+    /// # Errors
+    /// When the scene is not made of chains and paddles.
+    pub fn of_scene(scene: &Scene, numbers: Numbers, level: Level) -> Result<Self, CodegenError> {
+        let free = vec![true; scene.bodies.len()];
+        let Recognised { topology, parameters, .. } = welded(scene, &free, 0.0)?;
+        let parameters = parameters.write();
+        let word = match numbers {
+            Numbers::RunTime => "Satellite",
+            Numbers::Baked => "Baked",
+        };
+        let request = Self::new(&name(word, &topology), topology.clone(), level);
+        let request = if scene.thrust.is_some() { request.with_external_wrench() } else { request };
+        Ok(match numbers {
+            Numbers::RunTime => Self { pinned: fixed(&topology, &[parameters]), ..request },
+            Numbers::Baked => request.baked(&parameters),
+        })
+    }
+
+    /// Code for the topologies that a scene comes through while hinges are held, the most free
+    /// hinges first.
+    ///
+    /// All combinations of up to ten hinges are looked at; of more, those in which all
+    /// appendages hold equally many hinges at their inboard or outboard end. There are at most
+    /// 32 routines.
+    ///
+    /// # Errors
+    /// When the scene is not made of chains and paddles.
+    pub fn lock_states(scene: &Scene, level: Level) -> Result<Vec<Self>, CodegenError> {
+        let mut found: BTreeMap<Topology, Vec<Vec<f64>>> = BTreeMap::new();
+        for free in combinations(scene) {
+            for angle in ANGLES {
+                let Recognised { topology, parameters, .. } = welded(scene, &free, angle)?;
+                found.entry(topology).or_default().push(parameters.write());
+            }
+        }
+        let mut requests: Vec<Self> = found
+            .into_iter()
+            .map(|(topology, cases)| Self {
+                pinned: fixed(&topology, &cases),
+                external: scene.thrust.is_some(),
+                ..Self::new(&name("Satellite", &topology), topology, level)
+            })
+            .collect();
+        requests.sort_by_key(|request| usize::MAX - request.topology.hinges());
+        requests.truncate(LOCK_STATES);
+        Ok(requests)
+    }
+}
+
+/// `word` and the topology without what cannot stand in a name.
+fn name(word: &str, topology: &Topology) -> String {
+    format!("{word}{}", topology.to_string().replace('_', ""))
+}
+
+/// The scene with the hinges that are not `free` held at different angles around `angle`.
+fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
+    let state = |&free: &bool| if free { HingeState::Free } else { HingeState::Locked };
+    let mode = Mode {
+        hinges: free.iter().map(state).collect(),
+        kick_off: vec![false; free.len()],
+        thrust: scene.thrust.is_some(),
+    };
+    let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
+    let tree = WeldedTree::new(scene, &mode, &beta);
+    recognise(&tree).map_err(|link| {
+        let hinge = scene.label(tree.links[link].hinge).to_string();
+        CodegenError::NotCovered { scene: scene.name.clone(), hinge }
+    })
+}
+
+/// Which hinges are free in each state to look at; all free is not among them.
+fn combinations(scene: &Scene) -> Vec<Vec<bool>> {
+    let hinges = scene.bodies.len();
+    if hinges <= FEW_HINGES {
+        let free = |bits: usize| (0..hinges).map(|i| bits >> i & 1 == 1).collect();
+        return (0..(1 << hinges) - 1).map(free).collect();
+    }
+    let mut inboard = vec![0; hinges];
+    let mut outboard = vec![0; hinges];
+    for (i, body) in scene.bodies.iter().enumerate() {
+        inboard[i] = body.inboard.map_or(0, |inner| inboard[inner] + 1);
+    }
+    for (i, body) in scene.bodies.iter().enumerate().rev() {
+        if let Some(inner) = body.inboard {
+            outboard[inner] = outboard[inner].max(outboard[i] + 1);
+        }
+    }
+    let longest = inboard.iter().max().map_or(0, |most| most + 1);
+    let beyond = |depths: &[usize], held: usize| depths.iter().map(|&d| d >= held).collect();
+    (1..=longest).flat_map(|held| [beyond(&inboard, held), beyond(&outboard, held)]).collect()
+}
+
+/// What is the same number in all cases: zeros, and ones in rotations.
+fn fixed(topology: &Topology, cases: &[Vec<f64>]) -> Vec<Option<f64>> {
+    let rotations = rotations(topology);
+    let simple = |i: usize, value: f64| value == 0.0 || (rotations[i] && value.abs() == 1.0);
+    let fixed = |i: usize| {
+        let value = cases[0][i];
+        let same = cases.iter().all(|case| case[i] == value);
+        (same && simple(i, value)).then_some(value + 0.0)
+    };
+    (0..Layout::parameters(topology)).map(fixed).collect()
+}
+
+/// Which parameters are entries of an appendage's rotation.
+fn rotations(topology: &Topology) -> Vec<bool> {
+    let mut all = vec![false; Layout::MAIN];
+    for shape in topology.shapes() {
+        all.extend((0..Layout::BRANCH).map(|i| i < 9));
+        all.resize(all.len() + shape.hinges() * Layout::LINK, false);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nboom_model::{Appendage, Hinge, MassProperties, Mount, SceneDescription, Segment};
+    use nboom_scalar::{Sym3, Vec3};
+
+    fn booms(count: usize, segments: usize) -> Scene {
+        let body = MassProperties::new(1.0, Vec3::unit_y() * 0.5, Sym3::diagonal(1.0, 0.4, 1.2));
+        let segment = Segment { length: 1.0, mass_properties: body, hinge: Hinge::free() };
+        let mut description = SceneDescription::at_rest("booms", body, 1.0);
+        for i in 0..count {
+            let (mount, segments) =
+                (Mount::at(Vec3::unit_z() * i as f64), vec![segment.clone(); segments]);
+            description.attach(&Appendage::Regular { mount, segments });
+        }
+        Scene::new(description).expect("the bodies are physical")
+    }
+
+    fn states(scene: &Scene) -> Vec<String> {
+        let requests = Request::lock_states(scene, Level::Fast).expect("chains are covered");
+        requests.iter().map(|request| request.topology.to_string()).collect()
+    }
+
+    #[test]
+    fn lock_states_are_all_topologies_with_fewer_hinges() {
+        assert_eq!(states(&booms(1, 3)), ["S2", "S1", "M"]);
+        assert_eq!(states(&booms(2, 2)), ["S2_S1", "2xS1", "S2", "S1", "M"]);
+    }
+
+    #[test]
+    fn many_hinges_are_held_in_step() {
+        assert_eq!(states(&booms(3, 4)), ["3xS3", "3xS2", "3xS1", "M"]);
+        assert_eq!(states(&booms(1, 100)).len(), LOCK_STATES);
+    }
+
+    #[test]
+    fn what_a_held_hinge_makes_other_than_zero_is_not_taken_for_granted() {
+        let scene = booms(1, 2);
+        let requests = Request::lock_states(&scene, Level::Fast).expect("chains are covered");
+        let link = Layout::MAIN + Layout::BRANCH;
+        let (across, along_axis) = (link + 3, link + 1);
+        // With the outer hinge held at an angle, the mass centre is off the η axis.
+        assert_eq!(requests[0].pinned[across], None);
+        assert_eq!(requests[0].pinned[along_axis], Some(0.0));
+        let all_free = Request::of_scene(&scene, Numbers::RunTime, Level::Fast).expect("a chain");
+        assert_eq!(all_free.pinned[across], Some(0.0));
+        assert_eq!(all_free.name, "SatelliteS2");
+        assert!(all_free.pinned[link].is_none(), "a mass is handed in");
+        let baked = Request::of_scene(&scene, Numbers::Baked, Level::Fast).expect("a chain");
+        assert!(baked.pinned.iter().all(Option::is_some) && baked.name == "BakedS2");
+    }
+}
