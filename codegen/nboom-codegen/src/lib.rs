@@ -27,6 +27,7 @@ mod scene;
 mod stage;
 mod straight;
 mod sweeps;
+mod table;
 
 use nboom_expr::Operations;
 use nboom_formulation::{Formulation, Layout};
@@ -34,11 +35,12 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 pub use error::CodegenError;
-pub use file::{Standing, file, key, standing};
+pub use file::{Standing, file, hash, key, standing};
 pub use granted::granted;
 pub use request::{Level, Output, Request};
 pub use routine::trace;
 pub use scene::Numbers;
+pub use table::table;
 
 /// Operations beyond which an evaluation is emitted as loops: more straight-line code than this
 /// no longer fits the processor's instruction cache.
@@ -99,9 +101,12 @@ fn straight(request: &Request) -> Result<Generated, CodegenError> {
 /// # Errors
 /// As [`generate`].
 pub fn source(request: &Request) -> Result<String, CodegenError> {
-    let generated = generate(request)?;
-    let file: syn::File = syn::parse2(generated.tokens).expect("generated code is Rust");
-    Ok(prettyplease::unparse(&file))
+    Ok(formatted(generate(request)?.tokens))
+}
+
+fn formatted(tokens: TokenStream) -> String {
+    let file: syn::File = syn::parse2(tokens).expect("generated code is Rust");
+    prettyplease::unparse(&file)
 }
 
 /// Hinges beyond which no straight line is tried: none is shorter than the limit.
@@ -109,7 +114,8 @@ const STRAIGHT_HINGES: usize = 16;
 
 fn check(request: &Request) -> Result<(), CodegenError> {
     let Request { name, topology, formulation, output, pinned, .. } = request;
-    if syn::parse_str::<syn::Ident>(name).is_err() {
+    // A raw identifier cannot be part of the module's name.
+    if name.starts_with("r#") || syn::parse_str::<syn::Ident>(name).is_err() {
         return Err(CodegenError::Name(name.clone()));
     }
     let of_topology = || topology.to_string();
@@ -140,9 +146,8 @@ fn check(request: &Request) -> Result<(), CodegenError> {
 }
 
 fn in_module(request: &Request, generated: &Generated) -> Result<TokenStream, CodegenError> {
-    let Request { name, scalar_path, topology, formulation, output, level, .. } = request;
-    let scalar: syn::Path = syn::parse_str(scalar_path)
-        .map_err(|_| CodegenError::Path { name: name.clone(), path: scalar_path.clone() })?;
+    let Request { name, topology, formulation, output, level, .. } = request;
+    let scalar = request.scalar()?;
     let module = format_ident!("{}", snake_case(name));
     let ident = format_ident!("{name}");
     let lines = [

@@ -42,9 +42,16 @@ pub fn trace(request: &Request) -> Graph {
 
 /// Code for the request.
 pub(crate) fn generate(request: &Request) -> Generated {
-    let graph = trace(request);
     let parameters = Layout::parameters(&request.topology);
-    let varies = graph.depends_on(|input| input >= parameters);
+    let of_state = |input| input >= parameters;
+    let graph = match request.level {
+        Level::Exact => trace(request),
+        Level::Fast => {
+            let graph = trace(request);
+            graph.regrouped(&graph.depends_on(of_state))
+        }
+    };
+    let varies = graph.depends_on(of_state);
     let constants = constants(&graph, &varies);
     let prepare = prepare(&graph, &varies, &constants, request.level);
     let evaluate = evaluate(&graph, &varies, &constants, parameters, request.level);

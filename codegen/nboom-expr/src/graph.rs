@@ -83,6 +83,10 @@ impl Builder {
     pub fn node(&self, id: Id) -> Node {
         self.nodes[id.index()]
     }
+
+    pub fn into_nodes(self) -> Vec<Node> {
+        self.nodes
+    }
 }
 
 impl Graph {
@@ -151,7 +155,7 @@ impl Graph {
         uses
     }
 
-    fn without_dead_nodes(self) -> Self {
+    pub(crate) fn without_dead_nodes(self) -> Self {
         let mut live = vec![false; self.nodes.len()];
         self.outputs.iter().for_each(|id| live[id.index()] = true);
         for i in (0..self.nodes.len()).rev() {

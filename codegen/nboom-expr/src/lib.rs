@@ -23,6 +23,7 @@ mod expr;
 mod fold;
 mod graph;
 mod interpret;
+mod regroup;
 
 pub use count::Operations;
 pub use expr::Expr;
