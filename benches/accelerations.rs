@@ -1,27 +1,22 @@
-//! Nanoseconds for the accelerations of one state: the recursive path, and the generated
-//! routine in this processor's code, on the four satellites of `benches/scenes`.
+//! Nanoseconds for the accelerations of one state: the recursive path, the generated routine in
+//! this processor's code, the same on eight states at once, and the same with one directional
+//! derivative, on the four satellites of `benches/scenes`.
 //!
 //! `cargo bench --bench accelerations` prints a line for each, with the shortest and the median
 //! of many samples and the ratio to the recursive path measured in the same run.
 
 use std::hint::black_box;
 use std::path::Path;
-use std::time::Instant;
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::recognise;
 use nboom::model::{HingeState, Mode, Scene};
-use nboom::scalar::Vec3;
+use nboom::scalar::{Dual, Eight, Real, Routine};
+use nboom_routines::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
+use timing::{STATES, State, numbers, state, time};
 
-/// Different states, so that nothing can be learnt from one.
-const STATES: usize = 64;
-const SAMPLES: usize = 1000;
-
-struct State {
-    omega: Vec3<f64>,
-    beta: Vec<f64>,
-    tau: Vec<f64>,
-}
+#[path = "timing/mod.rs"]
+mod timing;
 
 fn main() {
     for name in ["T1", "T2", "T3", "T4"] {
@@ -63,34 +58,51 @@ fn measure(name: &str, scene: &Scene) {
         let label = format!("generated_articulated_{facts}_{}", kernel.instructions);
         report(name, &label, generated, recursive);
     }
+    let eight = eight_at_once(&topology, &parameters);
+    report(name, "generated_articulated_principal_lanes8", eight, recursive);
+    let dual = match topology.as_str() {
+        "S2_P" => with_derivative::<PrincipalS2P>(&parameters),
+        "4xS5" => with_derivative::<Principal4S5>(&parameters),
+        "S100" => with_derivative::<PrincipalS100>(&parameters),
+        _ => with_derivative::<Principal20S5>(&parameters),
+    };
+    report(name, "generated_articulated_principal_dual", dual, recursive);
 }
 
-fn state(i: usize, hinges: usize) -> State {
-    let all = numbers(i, 3 + 2 * hinges);
-    State {
-        omega: Vec3::new(all[0], all[1], all[2]),
-        beta: all[3..3 + hinges].to_vec(),
-        tau: all[3 + hinges..].to_vec(),
-    }
+/// Time per state when eight are evaluated at once, each with parameters of its own.
+fn eight_at_once(topology: &str, parameters: &[f64]) -> (f64, f64) {
+    let mut batches = nboom_routines::batches().iter();
+    let batch = batches.find(|batch| batch.topology == topology).expect("a batch for each scene");
+    let parameters: Vec<Eight> = parameters.iter().map(|&value| Eight::splat(value)).collect();
+    let mut constants = vec![Eight::default(); batch.constants];
+    let mut out = vec![Eight::default(); batch.outputs];
+    batch.prepare(&parameters, &mut constants);
+    let eight = |i: usize| -> Vec<Eight> {
+        let states: [Vec<f64>; 8] =
+            std::array::from_fn(|lane| numbers(8 * i + lane, batch.coordinates));
+        let side_by_side = |j: usize| Eight(std::array::from_fn(|lane| states[lane][j]));
+        (0..batch.coordinates).map(side_by_side).collect()
+    };
+    let states: Vec<Vec<Eight>> = (0..STATES).map(eight).collect();
+    let (least, median) = time(|i| {
+        batch.evaluate(black_box(&constants), black_box(&states[i]), black_box(&mut out));
+    });
+    (least / 8.0, median / 8.0)
 }
 
-/// Numbers between −2 and 2, different for each `i`.
-fn numbers(i: usize, count: usize) -> Vec<f64> {
-    (0..count).map(|j| 2.0 * (1.7 * j as f64 + 0.9 * i as f64 + 0.3).sin()).collect()
-}
-
-/// Shortest and median time of a call.
-fn time(mut call: impl FnMut(usize)) -> (f64, f64) {
-    (0..2000).for_each(|i| call(i % STATES));
-    let mut samples: Vec<f64> = (0..SAMPLES)
-        .map(|_| {
-            let start = Instant::now();
-            (0..STATES).for_each(&mut call);
-            start.elapsed().as_secs_f64() * 1e9 / STATES as f64
-        })
-        .collect();
-    samples.sort_by(f64::total_cmp);
-    (samples[0], samples[SAMPLES / 2])
+/// Accelerations with their derivative in one direction of the state, on plain `f64`.
+fn with_derivative<T: Routine>(parameters: &[f64]) -> (f64, f64) {
+    let parameters: Vec<_> = parameters.iter().map(|&value| Dual::constant(value)).collect();
+    let mut constants = vec![Dual::zero(); T::CONSTANTS];
+    let mut out = vec![Dual::zero(); T::OUTPUTS];
+    T::prepare(&parameters, &mut constants);
+    let dual = |i: usize| -> Vec<Dual<f64>> {
+        let (values, directions) = (numbers(i, T::COORDINATES), numbers(i + 7, T::COORDINATES));
+        let both = values.into_iter().zip(directions);
+        both.map(|(value, derivative)| Dual { value, derivative }).collect()
+    };
+    let states: Vec<_> = (0..STATES).map(dual).collect();
+    time(|i| T::evaluate(black_box(&constants), black_box(&states[i]), black_box(&mut out)))
 }
 
 fn report(scene: &str, path: &str, (least, median): (f64, f64), recursive: (f64, f64)) {

@@ -66,7 +66,7 @@ fn crates_use_what_the_table_allows_and_no_others() {
     assert!(arrows.len() > 8, "{arrows:?}");
     // The facade gathers all others but what writes programs.
     let facade = arrows.remove("nboom").expect("the root package is the facade");
-    for generator in ["nboom-codegen", "nboom-expr", "nboom-cli"] {
+    for generator in ["nboom-codegen", "nboom-build", "nboom-expr", "nboom-cli"] {
         assert!(!facade.contains(generator), "the facade uses {generator}");
     }
     for (name, uses) in &arrows {
@@ -170,6 +170,17 @@ fn unsafe_code_stands_only_where_it_pays() {
             assert!(!line.contains("allow(unsafe_code"), "{}:{}", path.display(), i + 1);
         }
     }
+}
+
+/// Whoever simulates does not build the generator.
+#[test]
+fn the_facade_has_the_macros_on_request_only() {
+    let packages = packages();
+    let facade = packages.iter().find(|package| package["name"] == "nboom").expect("the root");
+    let all = facade["dependencies"].as_array().expect("a list");
+    let macros = all.iter().find(|uses| uses["name"] == "nboom-macros").expect("a feature");
+    assert_eq!(macros["optional"], true);
+    assert!(facade["features"].get("default").is_none(), "{}", facade["features"]);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use nboom_codegen::{Level, Request, source};
+use nboom_formulation::Formulation;
 use nboom_model::Shape::{Chain, Paddle};
 use nboom_model::{Shape, Topology};
 
@@ -30,43 +31,87 @@ fn stock() -> Vec<Vec<Shape>> {
     ]
 }
 
+/// Formulations that have a routine of S2_P besides that of `articulated`.
+const OTHERS: [Formulation; 4] =
+    [Formulation::Report, Formulation::Relative, Formulation::Symmetric, Formulation::Momentum];
+
 fn main() {
-    let mut code = String::new();
-    let mut rows = String::new();
+    let routines = [table("stock", &accelerations()), table("of_equations", &equations())];
+    let exact: Vec<String> = exact().iter().map(source_of).collect();
+    let directory = std::env::var_os("OUT_DIR").expect("cargo runs build scripts");
+    let directory = PathBuf::from(directory);
+    for (file, code) in [("routines.rs", routines.concat()), ("exact.rs", exact.concat())] {
+        std::fs::write(directory.join(file), code).expect("the output directory can be written");
+    }
+    println!("cargo::rerun-if-changed=build.rs");
+}
+
+/// Routines for each topology of the stock, then S2_P by the other formulations.
+fn accelerations() -> Vec<Request> {
+    let mut requests = Vec::new();
     for shapes in stock() {
         let topology = Topology::new(shapes);
         for principal in [true, false] {
             let name = name(&topology, principal);
             let request = Request::new(&name, topology.clone(), Level::Fast).with_external_wrench();
-            let request = if principal { request.with_principal_axes() } else { request };
-            code += &source_of(&request);
-            writeln!(rows, "        Kernel::of::<{name}>(),").expect("a string takes any text");
+            requests.push(if principal { request.with_principal_axes() } else { request });
         }
     }
-    write!(code, "fn stock() -> Vec<Kernel> {{\n    vec![\n{rows}    ]\n}}\n")
-        .expect("a string takes any text");
-    let directory = std::env::var_os("OUT_DIR").expect("cargo runs build scripts");
-    let directory = PathBuf::from(directory);
-    std::fs::write(directory.join("routines.rs"), code)
-        .expect("the output directory can be written");
-    let exact: Vec<String> = exact().iter().map(source_of).collect();
-    std::fs::write(directory.join("exact.rs"), exact.concat())
-        .expect("the output directory can be written");
-    println!("cargo::rerun-if-changed=build.rs");
+    requests.extend(OTHERS.map(|formulation| s2_p("", Level::Fast, formulation)));
+    requests
 }
 
-/// Routines that keep the closed form's every rounding, for the tests.
+/// Matrix and right side of S2_P by each formulation that has them.
+fn equations() -> Vec<Request> {
+    with_equations(|formulation| s2_p("Equations", Level::Fast, formulation).for_equations())
+}
+
+/// Routines that keep the closed form's every rounding on `f64`, for the tests.
 fn exact() -> Vec<Request> {
     let satellite =
-        |name, shapes: Vec<Shape>| Request::new(name, Topology::new(shapes), Level::Exact);
-    vec![
-        satellite("StraightS2P", vec![Chain(2), Paddle]).with_external_wrench(),
-        satellite("PrincipalS1P", vec![Chain(1), Paddle]).with_principal_axes(),
+        |name: &str, shapes: Vec<Shape>| Request::new(name, Topology::new(shapes), Level::Exact);
+    let rolled = [
         satellite("RolledS3", vec![Chain(3); 4]).with_external_wrench(),
         satellite("RolledP", vec![Paddle; 3]).with_external_wrench(),
         satellite("RolledS30", vec![Chain(30)]),
         satellite("RolledMixed", vec![Chain(4), Chain(4), Chain(2), Paddle, Paddle]),
-    ]
+    ];
+    let general = Formulation::ALL.map(|formulation| s2_p("", Level::Exact, formulation));
+    let principal = Formulation::ALL.map(|formulation| {
+        let name = camel_case(formulation) + "S1P";
+        satellite(&name, vec![Chain(1), Paddle]).with_principal_axes().by(formulation)
+    });
+    let equations =
+        with_equations(|formulation| s2_p("Equations", Level::Exact, formulation).for_equations());
+    rolled.into_iter().chain(general).chain(principal).chain(equations).collect()
+}
+
+fn with_equations(request: impl Fn(Formulation) -> Request) -> Vec<Request> {
+    let all = Formulation::ALL.into_iter();
+    all.filter(|formulation| formulation.has_equations()).map(request).collect()
+}
+
+/// S2_P with external wrench, nothing taken for granted: for example `ReportEquationsS2P`.
+fn s2_p(word: &str, level: Level, formulation: Formulation) -> Request {
+    let name = camel_case(formulation) + word + "S2P";
+    Request::new(&name, Topology::new([Chain(2), Paddle]), level)
+        .with_external_wrench()
+        .by(formulation)
+}
+
+fn camel_case(formulation: Formulation) -> String {
+    let (first, rest) = formulation.name().split_at(1);
+    first.to_uppercase() + rest
+}
+
+/// Routines, and a function that lists them.
+fn table(function: &str, requests: &[Request]) -> String {
+    let mut code: String = requests.iter().map(source_of).collect();
+    let row = |request: &Request| format!("        Kernel::of::<{}>(),\n", request.name);
+    let rows: String = requests.iter().map(row).collect();
+    write!(code, "fn {function}() -> Vec<Kernel> {{\n    vec![\n{rows}    ]\n}}\n")
+        .expect("a string takes any text");
+    code
 }
 
 fn source_of(request: &Request) -> String {

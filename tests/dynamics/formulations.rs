@@ -12,13 +12,16 @@ use nboom::scalar::{Dual, Twist, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, cases};
 use crate::random_scene::{Dice, moment};
-use crate::satellites::{Satellite, flat, random};
+use crate::satellites::{Satellite, extreme, flat, random};
 use crate::support::{numbers, relative_error};
 
 /// Rounding of a sum of some dozen products, each of a few roundings.
 const ROUNDING: f64 = 1e-13;
 
 const RANDOM_SATELLITES: u64 = 1000;
+
+/// For accelerations: each one another satellite in another state with other hinges held.
+const MANY_SATELLITES: u64 = 10_000;
 
 fn assert_same_accelerations(satellite: &Satellite, label: &str) {
     let recognised = satellite.recognised();
@@ -43,12 +46,29 @@ fn all_give_the_accelerations_of_the_reference_states() {
 #[test]
 fn all_give_the_accelerations_of_random_satellites() {
     let mut topologies = std::collections::BTreeSet::new();
-    for seed in 0..RANDOM_SATELLITES {
+    for seed in 0..MANY_SATELLITES {
         let satellite = Satellite::of_moment(&random(seed));
         assert_same_accelerations(&satellite, &format!("seed {seed}"));
         topologies.insert(satellite.recognised().topology);
     }
     assert!(topologies.len() > 150, "{} topologies", topologies.len());
+}
+
+#[test]
+fn all_give_the_accelerations_of_satellites_with_masses_over_many_decades() {
+    for seed in 0..MANY_SATELLITES {
+        let satellite = Satellite::of_moment(&extreme(seed));
+        let recognised = satellite.recognised();
+        let coordinates = satellite.coordinates_of(&recognised);
+        let expected = satellite.expected(&recognised.links);
+        let Recognised { topology, parameters, .. } = &recognised;
+        for formulation in Formulation::ALL {
+            let found = formulation.solve(topology, parameters, &coordinates);
+            let error = relative_error(&flat(&found), &expected, 0.0);
+            let allowed = satellite.allowed();
+            assert!(error < allowed, "seed {seed}, {topology}, {formulation}: {error:e}");
+        }
+    }
 }
 
 #[test]

@@ -5,7 +5,9 @@ mod random_scene;
 #[path = "../support/mod.rs"]
 mod support;
 
+mod accuracy;
 mod closed_forms;
+mod embedding;
 mod formulations;
 mod forward_dynamics;
 mod satellites;

@@ -7,7 +7,7 @@ use nboom::model::{
     Appendage, Dashpot, Hinge, HingeState, Mode, Mount, Scene, SceneDescription, Segment, Spring,
     Thrust, WeldedTree,
 };
-use nboom::scalar::{Vec3, Wrench};
+use nboom::scalar::{DoubleDouble, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, condition};
 use crate::random_scene::{Dice, Moment};
@@ -96,8 +96,32 @@ impl Satellite {
     /// as such, and beyond a condition of 1e4 in proportion to it: rounding of the matrix, a
     /// few 1e-16 of each entry, is magnified by the condition.
     pub fn allowed(&self) -> f64 {
-        1e-11 * (condition(&self.mass_matrix) / 1e4).max(1.0)
+        1e-11 * (self.condition() / 1e4).max(1.0)
     }
+
+    /// Of B₀ with its diagonal scaled to 1.
+    pub fn condition(&self) -> f64 {
+        condition(&self.mass_matrix)
+    }
+}
+
+/// (a_O, ω̇, τ̇) by the recursive path in double-double, hinges in this order.
+pub fn exact(moment: &Moment, links: &[usize]) -> Vec<DoubleDouble> {
+    let wide = |numbers: &[f64]| -> Vec<DoubleDouble> {
+        numbers.iter().map(|&number| DoubleDouble::from(number)).collect()
+    };
+    let mut dynamics = Recursive::new(&moment.scene);
+    dynamics.set_mode(&moment.mode, &wide(&moment.beta));
+    let of_free =
+        |all: &[f64]| -> Vec<f64> { dynamics.free_hinges().iter().map(|&i| all[i]).collect() };
+    let (beta, tau) = (wide(&of_free(&moment.beta)), wide(&of_free(&moment.tau)));
+    let omega_body = Vec3::constant(moment.omega);
+    let mut found = Accelerations::for_hinges(beta.len());
+    dynamics.accelerations(&Motion { omega_body, beta: &beta, tau: &tau }, &mut found);
+    let Accelerations { origin_body, omega_dot_body, tau_dot } = &found;
+    let mut all = [origin_body.to_array(), omega_dot_body.to_array()].concat();
+    all.extend(links.iter().map(|&j| tau_dot[j]));
+    all
 }
 
 /// (a_O, ω̇, τ̇) in one list.
@@ -111,12 +135,41 @@ pub fn flat(solution: &Solution<f64>) -> Vec<f64> {
 /// Chains and paddles with full inertias in any direction, in a random state; each hinge is
 /// held with probability 0.25.
 pub fn random(seed: u64) -> Moment {
+    of_kind(seed, Kind { longest: 6, decades: 0.0 })
+}
+
+/// The same with masses over six decades, light main bodies with heavy booms among them, and
+/// chains of up to 20 links.
+pub fn extreme(seed: u64) -> Moment {
+    of_kind(seed, Kind { longest: 20, decades: 3.0 })
+}
+
+/// What random satellites are like.
+#[derive(Clone, Copy)]
+struct Kind {
+    /// The most links of a chain.
+    longest: usize,
+    /// By how many powers of ten masses are scaled up or down.
+    decades: f64,
+}
+
+impl Kind {
+    fn mass(self, dice: &mut Dice, (low, high): (f64, f64)) -> f64 {
+        let mass = dice.between(low, high);
+        if self.decades == 0.0 {
+            return mass;
+        }
+        mass * 10.0_f64.powf(dice.between(-self.decades, self.decades))
+    }
+}
+
+fn of_kind(seed: u64, kind: Kind) -> Moment {
     let dice = &mut Dice::new(seed);
-    let mass = dice.between(5.0, 50.0);
+    let mass = kind.mass(dice, (5.0, 50.0));
     let main_body = dice.mass_properties(mass, 1.5);
     let mut description = SceneDescription::at_rest("chains and paddles", main_body, 1.0);
     for _ in 0..1 + dice.below(4) {
-        description.attach(&appendage(dice));
+        description.attach(&appendage(dice, kind));
     }
     if dice.chance(0.5) {
         let (force, point) = (dice.vector(10.0), dice.vector(1.0));
@@ -138,17 +191,17 @@ pub fn random(seed: u64) -> Moment {
     Moment { scene, mode, beta, tau, omega, velocity_body }
 }
 
-fn appendage(dice: &mut Dice) -> Appendage {
+fn appendage(dice: &mut Dice, kind: Kind) -> Appendage {
     let mount = Mount { point: dice.vector(1.0), rot_inboard_from_hinge: dice.rotation() };
     if dice.chance(0.4) {
-        return Appendage::Paddle { mount, arm: segment(dice), paddle: segment(dice) };
+        return Appendage::Paddle { mount, arm: segment(dice, kind), paddle: segment(dice, kind) };
     }
-    let segments = (0..1 + dice.below(6)).map(|_| segment(dice)).collect();
+    let segments = (0..1 + dice.below(kind.longest)).map(|_| segment(dice, kind)).collect();
     Appendage::Regular { mount, segments }
 }
 
-fn segment(dice: &mut Dice) -> Segment {
-    let mass = dice.between(0.5, 10.0);
+fn segment(dice: &mut Dice, kind: Kind) -> Segment {
+    let mass = kind.mass(dice, (0.5, 10.0));
     let mass_properties = dice.mass_properties(mass, 0.8);
     let mut hinge = Hinge::free();
     hinge.spring = Spring {

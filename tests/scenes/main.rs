@@ -10,8 +10,10 @@ mod support;
 mod collect;
 
 mod catalog;
+mod code;
 mod compare;
 mod decks;
+mod embedding;
 mod lock_ups;
 mod tolerance;
 mod trajectories;

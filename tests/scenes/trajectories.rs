@@ -3,7 +3,7 @@
 use nboom::model::Scene;
 
 use crate::catalog::Reference;
-use crate::collect::{run, tight};
+use crate::collect::{Collected, run, tight};
 use crate::compare::compare;
 
 /// Limits at a relative tolerance of 1e-12: states relative to the largest value of each series,
@@ -12,16 +12,20 @@ const STATES: f64 = 1e-9;
 const TIMES: f64 = 1e-10;
 const IMPULSES: f64 = 1e-9;
 
+/// A run at that tolerance is within the limits.
+pub fn agrees(told: &str, found: &Collected, reference: &Reference) {
+    let deviation = compare(found, reference);
+    println!("{} {told}: {deviation}", reference.name);
+    let within =
+        deviation.states <= STATES && deviation.times <= TIMES && deviation.impulses <= IMPULSES;
+    assert!(within, "{} {told}: {deviation}", reference.name);
+}
+
 fn check(from: &str, scene_of: impl Fn(&Reference) -> Scene) {
     let mut events = 0;
     for reference in Reference::all() {
         let (found, _) = run(&scene_of(&reference), &tight(reference.intervals()));
-        let deviation = compare(&found, &reference);
-        println!("{} from {from}: {deviation}", reference.name);
-        let within = deviation.states <= STATES
-            && deviation.times <= TIMES
-            && deviation.impulses <= IMPULSES;
-        assert!(within, "{} from {from}: {deviation}", reference.name);
+        agrees(&format!("from {from}"), &found, &reference);
         events += found.happenings().len();
     }
     // All events of all scenes; a reference that lost its own would otherwise go unnoticed.

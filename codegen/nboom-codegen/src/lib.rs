@@ -15,6 +15,7 @@
 //! # Ok::<(), nboom_codegen::CodegenError>(())
 //! ```
 
+mod blocks;
 mod driver;
 mod error;
 mod file;
@@ -80,7 +81,8 @@ pub fn generate(request: &Request) -> Result<Generated, CodegenError> {
 }
 
 fn articulated(request: &Request) -> Generated {
-    let straight = (request.topology.hinges() <= STRAIGHT_HINGES)
+    let side_by_side = request.topology.groups().iter().any(|&(_, count)| count >= PACK);
+    let straight = (request.topology.hinges() <= STRAIGHT_HINGES && !side_by_side)
         .then(|| routine::generate(request))
         .filter(|straight| straight.evaluation.flops() <= STRAIGHT_LIMIT);
     straight.unwrap_or_else(|| rolled::generate(request))
@@ -108,6 +110,9 @@ fn formatted(tokens: TokenStream) -> String {
     let file: syn::File = syn::parse2(tokens).expect("generated code is Rust");
     prettyplease::unparse(&file)
 }
+
+/// So many equal appendages fill a register, and a loop over it beats a straight line.
+const PACK: usize = 4;
 
 /// Hinges beyond which no straight line is tried: none is shorter than the limit.
 const STRAIGHT_HINGES: usize = 16;

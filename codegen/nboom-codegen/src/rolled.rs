@@ -236,7 +236,7 @@ impl Rolled {
             (stages::EXTERNAL.name, vec![request.external; stages::EXTERNAL.size]),
         ]);
         let main = &request.pinned[..Layout::MAIN];
-        let base = Traced::new("m", &stages::base(), main, &masks);
+        let base = Traced::new("m", &stages::base(), main, &masks).regrouped(request.level);
         let alone = Equal { number: 0, shape: Shape::Chain(0), count: 1, parameter: 0, hinge: 0 };
         let base = self.place(request, &alone, base, 0, Layout::MAIN, 1);
         let main_body = self.main_body(request, &base);

@@ -88,7 +88,7 @@ fn prepare(
         quote!(p[#i])
     });
     let statements = Statements::new(graph, &wanted, &given, level);
-    let lines = &statements.lines;
+    let lines = statements.lines(graph, constants.iter().copied());
     let writes = constants.iter().enumerate().map(|(slot, &id)| {
         let (slot, value) = (Literal::usize_unsuffixed(slot), statements.read(graph, id));
         quote!(k[#slot] = #value;)
@@ -112,7 +112,7 @@ fn evaluate(
         given.insert(id.index(), quote!(R::gather(k, #slot)));
     }
     let statements = Statements::new(graph, varies, &given, level);
-    let lines = &statements.lines;
+    let lines = statements.lines(graph, graph.outputs().iter().copied());
     let writes = graph.outputs().iter().enumerate().map(|(slot, &id)| {
         let (slot, value) = (Literal::usize_unsuffixed(slot), statements.read(graph, id));
         quote!(R::scatter(#value, out, #slot);)

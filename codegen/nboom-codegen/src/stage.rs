@@ -48,6 +48,16 @@ impl Traced {
         Self { name, graph, parameters, varies, constants, inputs, outputs }
     }
 
+    /// With sums regrouped, for a step that is taken once and that all others wait for.
+    pub fn regrouped(self, level: Level) -> Self {
+        if level == Level::Exact {
+            return self;
+        }
+        let graph = self.graph.regrouped(&self.varies);
+        let varies = graph.depends_on(|input| input >= self.parameters);
+        Self { constants: constants(&graph, &varies), varies, graph, ..self }
+    }
+
     /// Passes on the numbers of an output group that `mask` names, zeros among them, so that
     /// several steps hand over the same numbers.
     pub fn passing_on(mut self, group: Group, mask: &[bool]) -> Self {
@@ -104,7 +114,7 @@ impl Traced {
             quote!(p[#i])
         });
         let statements = Statements::new(&self.graph, &wanted, &given, level);
-        let lines = &statements.lines;
+        let lines = statements.lines(&self.graph, self.constants.iter().copied());
         let values = self.constants.iter().map(|&id| statements.read(&self.graph, id));
         let name = self.prepare_name();
         let (parameters, constants) = (
@@ -141,7 +151,7 @@ impl Traced {
             given.insert(id.index(), quote!(k[#slot]));
         }
         let statements = Statements::new(&self.graph, &self.varies, &given, level);
-        let lines = &statements.lines;
+        let lines = statements.lines(&self.graph, self.graph.outputs().iter().copied());
         let mut ids = self.graph.outputs().iter();
         let groups = self.outputs.iter().map(|(group, mask)| {
             let of_group = ids.by_ref().take(group.size).zip(mask);

@@ -7,13 +7,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::Level;
+use crate::blocks::{Line, in_blocks};
 
 /// Where the value of a node that other code computes can be read.
 pub(crate) type Given = BTreeMap<usize, TokenStream>;
 
 /// Statements for the nodes in `wanted`, operands first, and how to read any node afterwards.
 pub(crate) struct Statements {
-    pub lines: Vec<TokenStream>,
+    lines: Vec<Line>,
     names: BTreeMap<usize, TokenStream>,
 }
 
@@ -41,6 +42,12 @@ impl Statements {
             statements.push(graph, id, node, &fused);
         }
         statements
+    }
+
+    /// The statements, after which `results` can be read.
+    pub fn lines(&self, graph: &Graph, results: impl IntoIterator<Item = Id>) -> Vec<TokenStream> {
+        let results = results.into_iter().map(|id| self.read(graph, id));
+        in_blocks(&self.lines, &results.collect::<Vec<_>>())
     }
 
     /// An expression that reads node `id`.
@@ -95,7 +102,7 @@ impl Statements {
             }
         };
         let name = format_ident!("t{}", id.index());
-        self.lines.push(quote!(let #name = #value;));
+        self.lines.push(Line::Value { name: name.clone(), value });
         self.names.insert(id.index(), quote!(#name));
     }
 
@@ -109,7 +116,7 @@ impl Statements {
         });
         let values = angles.iter().map(|angle| &self.names[&angle.index()]);
         let line = quote!(let [#(#pairs),*] = R::sin_cos_all([#(#values),*]););
-        self.lines.push(line);
+        self.lines.push(Line::Other(line));
     }
 }
 

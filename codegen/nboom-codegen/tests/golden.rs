@@ -144,7 +144,7 @@ fn refusal(request: &Request) -> CodegenError {
 
 #[test]
 fn names_and_paths_that_are_none_are_refused() {
-    for name in ["", "S1 P", "4xS1", "fn", "S-1"] {
+    for name in ["", "S1 P", "4xS1", "fn", "r#fn", "S-1"] {
         let request = Request { name: name.to_owned(), ..s1() };
         assert_eq!(refusal(&request), CodegenError::Name(name.to_owned()));
     }

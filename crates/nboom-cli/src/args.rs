@@ -2,12 +2,18 @@ use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+#[cfg(feature = "generator")]
+use nboom_formulation::Formulation;
+#[cfg(feature = "generator")]
+use nboom_package::Level;
 use nboom_results::UnitSystem;
+use nboom_sim::Form;
 
 use crate::choice;
 
 const EXIT_CODES: &str = "\
-Exit codes: 0 done; 1 a comparison failed (verify); 2 the input or the command line is wrong; 3 the computation or the writing \
+Exit codes: 0 done; 1 a comparison failed (verify, \
+generate --check); 2 the input or the command line is wrong; 3 the computation or the writing \
 failed, and what was computed before is on disk, marked incomplete.";
 
 /// Simulates spacecraft that unfold.
@@ -33,10 +39,15 @@ pub enum Command {
     /// Compare all code that computes accelerations, on random states.
     ///
     /// All hinges are free, the thrust is on and kick-off springs are disengaged. Closed forms
-    /// and generated routines are compared with the recursion: accelerations alone, deviations
-    /// relative to the largest one. Where the mass matrix, scaled to diagonal 1, has a condition
-    /// above 1e4, they are divided by its ratio to 1e4, since it magnifies rounding as much.
-    /// Exits with 1 where a deviation is above the tolerance.
+    /// and generated routines are compared with the recursion in f64, and all of them with the
+    /// recursion in double-double, which has 32 digits. Deviations of accelerations are relative
+    /// to the largest one. Where the mass matrix, scaled to diagonal 1, has a condition above 1e4,
+    /// they are divided by its ratio to 1e4, since it magnifies rounding as much. Mass matrix and
+    /// forcing are compared where a formulation has them, O at the inertial origin, with those of
+    /// the recursion for the formulation's unknowns: an entry of the matrix relative to the root
+    /// of the product of its diagonal entries in the matrix of kinetic energy, the forcing relative
+    /// to its largest entry. Exits with 1 where a deviation is above the tolerance, with the file
+    /// written all the same.
     Verify(VerifyArgs),
     /// Time all code that computes accelerations.
     ///
@@ -44,6 +55,23 @@ pub enum Command {
     /// shortest and the median sample. The recursion's time includes the hinges' springs and
     /// dashpots; the others are given their torques.
     Bench(BenchArgs),
+    /// Write a crate with routines specialised for the scene.
+    ///
+    /// The crate needs nothing but Rust: what its code uses goes with it. CERTIFICATE.json says how
+    /// far its accelerations are from the recursion on 100 random states, and its tests compare the
+    /// compiled code with recursion in double-double. An up-to-date crate is left alone; a file that
+    /// was changed, or written by somebody else, is not overwritten.
+    #[cfg(feature = "generator")]
+    Generate(GenerateArgs),
+    /// Build a stand-alone simulator around the scene's routines.
+    ///
+    /// The program takes SCENE and the options of nboom run; run, check, verify and bench as first
+    /// word do what they do here. It has routines with the scene's numbers, with numbers at run time
+    /// and for the topologies that the scene comes through while hinges are held; other scenes run
+    /// too. Cargo, which comes with Rust, builds it in a folder that is kept, so that the next
+    /// build is quicker.
+    #[cfg(feature = "generator")]
+    Compile(CompileArgs),
 }
 
 /// Options of `nboom run`.
@@ -62,10 +90,10 @@ pub struct RunArgs {
           allow_negative_numbers = true)]
     pub samples: usize,
 
-    /// Form of the equations of motion: articulated, in generated code, or recursive, in library
-    /// code; without it the path decides.
+    /// Form of the equations of motion: report, relative, symmetric, articulated, momentum or
+    /// recursive; without it articulated in generated code, recursive in library code.
     #[arg(long, value_name = "NAME", value_parser = choice::formulation)]
-    pub formulation: Option<&'static str>,
+    pub formulation: Option<Form>,
 
     /// Integrator; this build has dop853.
     #[arg(long, value_name = "NAME", default_value = "dop853",
@@ -82,7 +110,8 @@ pub struct RunArgs {
           allow_negative_numbers = true)]
     pub atol: f64,
 
-    /// Which code computes the accelerations; auto takes generated code where there is some.
+    /// Which code computes the accelerations; auto takes generated code where there is some, and
+    /// recursive where the formulation does not cover the scene.
     #[arg(long, value_name = "PATH", value_enum, default_value = "auto")]
     pub path: PathChoice,
 
@@ -115,12 +144,88 @@ pub struct CheckArgs {
     pub scene: PathBuf,
 }
 
+/// Options of `nboom generate`.
+#[cfg(feature = "generator")]
+#[derive(Args, Debug)]
+pub struct GenerateArgs {
+    /// Legacy deck, a file NAME.nml.
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+
+    /// Directory of the crate, made if need be.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+
+    /// Take the satellite's numbers from the scene; without it they are handed in, and only zeros
+    /// of the scene are taken for granted.
+    #[arg(long)]
+    pub baked: bool,
+
+    /// Form of the equations of motion: report, relative, symmetric, articulated or momentum.
+    #[arg(long, value_name = "NAME", default_value = "articulated",
+          value_parser = choice::closed_form)]
+    pub formulation: Formulation,
+
+    /// How freely arithmetic may be rearranged: exact keeps every rounding of the closed form, fast
+    /// fuses products and sums.
+    #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
+    pub level: Level,
+
+    /// Also generate the formulation's matrix and right side: report, relative or symmetric.
+    #[arg(long)]
+    pub equations: bool,
+
+    /// Also generate the topologies that the scene comes through while hinges are held.
+    #[arg(long)]
+    pub lock_states: bool,
+
+    /// Write nothing; exit with 1 unless the crate is what would be written.
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// Options of `nboom compile`.
+#[cfg(feature = "generator")]
+#[derive(Args, Debug)]
+pub struct CompileArgs {
+    /// Legacy deck, a file NAME.nml.
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+
+    /// The program to build.
+    #[arg(short, long, value_name = "BINARY")]
+    pub output: PathBuf,
+
+    /// Form of the equations of motion: report, relative, symmetric, articulated or momentum.
+    #[arg(long, value_name = "NAME", default_value = "articulated",
+          value_parser = choice::closed_form)]
+    pub formulation: Formulation,
+
+    /// How freely arithmetic may be rearranged: exact keeps every rounding of the closed form, fast
+    /// fuses products and sums.
+    #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
+    pub level: Level,
+
+    /// Folder to build in; without it nboom in $XDG_CACHE_HOME or in ~/.cache.
+    #[arg(long, value_name = "DIR")]
+    pub work: Option<PathBuf>,
+
+    /// Build with what cargo has at hand, without network.
+    #[arg(long)]
+    pub offline: bool,
+}
+
 /// Options of `nboom verify`.
 #[derive(Args, Debug)]
 pub struct VerifyArgs {
     /// Legacy deck, a file NAME.nml.
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
+
+    /// File for the deviations, in JSON, its folder made if need be; without it verify.json in
+    /// out/ and the scene's name.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 
     /// Random states: angles of any size, rates as large as the scene's initial angular rate,
     /// or of order 1 where it has none.

@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use nboom_formulation::{Recognised, symmetric};
 use nboom_io::read_scene;
+use nboom_verify::{Code, Label, Subject};
 
-use crate::codes::{Code, Label, Subject, head};
-use crate::{BenchArgs, CliError, check, say};
+use crate::format::{code_columns, code_head, not_covered};
+use crate::{BenchArgs, CliError, Routines, check, say};
 
 /// Different states, so that nothing can be learnt from one.
 const STATES: usize = 64;
@@ -25,17 +26,17 @@ struct Times {
 }
 
 /// Times all code that computes accelerations and returns the account for standard output.
-pub(crate) fn bench(args: &BenchArgs) -> Result<String, CliError> {
+pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
     check::warnings(&file).iter().for_each(|warning| say("warning", warning));
-    let subject = Subject::new(file.scene, STATES, SEED);
-    let codes = std::iter::once(subject.recursion()).chain(subject.others());
+    let subject = Subject::new(file.scene, STATES, SEED)?;
+    let codes = subject.codes(routines.accelerations)?.into_iter();
     let rows: Vec<_> =
         codes.map(|(label, mut code)| (label, time_of(&mut code, args.seconds))).collect();
     Ok(match (args.json, args.harness) {
         (true, _) => json(&rows),
-        (_, true) => harness(&subject.scene.name, &rows),
-        _ => table(&subject, &rows),
+        (_, true) => harness(&subject.scene().name, &rows),
+        _ => table(&subject, routines, &rows),
     })
 }
 
@@ -52,9 +53,8 @@ fn time_of(code: &mut Code<'_>, seconds: f64) -> Times {
                 black_box(formulation.solve(topology, parameters, state));
             })
         }
-        Code::Tree { subject, states } => time(seconds, |i| {
-            let tree = black_box(subject.dynamics.tree());
-            black_box(symmetric::solve_tree(tree, black_box(&states[i])));
+        Code::Tree { tree, states } => time(seconds, |i| {
+            black_box(symmetric::solve_tree(black_box(tree), black_box(&states[i])));
         }),
         Code::Routine { kernel, constants, states, found, .. } => time(seconds, |i| {
             kernel.evaluate(black_box(constants), black_box(&states[i]), black_box(found));
@@ -79,11 +79,11 @@ fn time(seconds: f64, mut call: impl FnMut(usize)) -> Times {
     Times { least: samples[0], median: samples[samples.len() / 2] }
 }
 
-fn table(subject: &Subject, rows: &[(Label, Times)]) -> String {
+fn table(subject: &Subject, routines: &Routines, rows: &[(Label, Times)]) -> String {
     let mut text = format!(
         "{}: ns per evaluation of the accelerations, all hinges free\n{} {:>10} {:>10} {:>12}\n",
-        subject.scene.name,
-        head(),
+        subject.scene().name,
+        code_head(),
         "ns min",
         "ns median",
         "of recursive",
@@ -92,9 +92,9 @@ fn table(subject: &Subject, rows: &[(Label, Times)]) -> String {
     let recursive = rows[0].1.least;
     for (label, Times { least, median }) in rows {
         let ratio = least / recursive;
-        line(format!("{} {least:>10.1} {median:>10.1} {ratio:>12.3}", label.columns()));
+        line(format!("{} {least:>10.1} {median:>10.1} {ratio:>12.3}", code_columns(label)));
     }
-    subject.not_covered().into_iter().for_each(line);
+    subject.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);
     text
 }
 
@@ -115,8 +115,11 @@ fn harness(scene: &str, rows: &[(Label, Times)]) -> String {
     let line = |(label, Times { least, median }): &(Label, Times)| {
         let Label { path, formulation, facts, .. } = label;
         // Code of the library has one form only, which takes any facts.
-        let general = *path == "generated" && *facts == "general";
-        let suffix = if general { "_general" } else { "" };
+        let suffix = match (*path, *facts) {
+            ("generated", "general") => "_general",
+            ("generated", "baked") => "_baked",
+            _ => "",
+        };
         format!(
             "nboom_{path}_{formulation}{suffix} {scene} ns_min {least:.1} ns_median {median:.1}\n"
         )

@@ -1,10 +1,12 @@
 //! Values of options, checked where they are read.
 
+#[cfg(feature = "generator")]
+use nboom_formulation::Formulation;
+#[cfg(feature = "generator")]
+use nboom_package::Level;
 use nboom_results::UnitSystem;
+use nboom_sim::Form;
 
-const FORMULATIONS: [&str; 6] =
-    ["report", "relative", "symmetric", "articulated", "momentum", "recursive"];
-const FORMULATIONS_BUILT: [&str; 2] = ["articulated", "recursive"];
 const INTEGRATORS_BUILT: [&str; 1] = ["dop853"];
 
 /// Below this a relative error is smaller than the rounding of a step.
@@ -14,14 +16,6 @@ const SMALLEST_RTOL: f64 = 1e-14;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChoiceError {
-    /// The name is right but this build has nothing behind it.
-    #[error("{name} is not in this build, which has {}", .available.join(", "))]
-    NotBuilt {
-        /// The name.
-        name: &'static str,
-        /// What there is.
-        available: &'static [&'static str],
-    },
     /// Nothing has this name.
     #[error("unknown name, {} expected", .available.join(", "))]
     Unknown {
@@ -42,13 +36,22 @@ pub enum ChoiceError {
     BelowRounding,
 }
 
-pub(crate) fn formulation(name: &str) -> Result<&'static str, ChoiceError> {
-    let available = &FORMULATIONS_BUILT;
-    match FORMULATIONS.into_iter().find(|known| *known == name) {
-        Some(name) if available.contains(&name) => Ok(name),
-        Some(name) => Err(ChoiceError::NotBuilt { name, available }),
-        None => Err(ChoiceError::Unknown { available: available.into() }),
-    }
+pub(crate) fn formulation(name: &str) -> Result<Form, ChoiceError> {
+    let names = || Form::all().map(Form::name).collect();
+    Form::named(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
+}
+
+#[cfg(feature = "generator")]
+pub(crate) fn closed_form(name: &str) -> Result<Formulation, ChoiceError> {
+    let names = || Formulation::ALL.map(Formulation::name).into();
+    Formulation::named(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
+}
+
+#[cfg(feature = "generator")]
+pub(crate) fn level(name: &str) -> Result<Level, ChoiceError> {
+    let levels = [Level::Exact, Level::Fast];
+    let found = levels.into_iter().find(|level| level.name() == name);
+    found.ok_or_else(|| ChoiceError::Unknown { available: levels.map(Level::name).into() })
 }
 
 pub(crate) fn integrator(name: &str) -> Result<&'static str, ChoiceError> {
@@ -100,8 +103,11 @@ mod tests {
 
     #[test]
     fn refusals_say_what_there_is() {
-        let refused = formulation("momentum").expect_err("not built").to_string();
-        assert_eq!(refused, "momentum is not in this build, which has articulated, recursive");
+        let refused = formulation("kane").expect_err("unknown").to_string();
+        assert_eq!(
+            refused,
+            "unknown name, report, relative, symmetric, articulated, momentum, recursive expected"
+        );
         let refused = integrator("euler").expect_err("unknown").to_string();
         assert_eq!(refused, "unknown name, dop853 expected");
         let refused = units("cubits").expect_err("unknown").to_string();

@@ -2,11 +2,12 @@ use std::io;
 use std::path::PathBuf;
 
 use nboom_io::InputError;
-use nboom_model::{HingeLabel, ModelError};
+use nboom_model::ModelError;
+#[cfg(feature = "generator")]
+use nboom_package::PackageError;
 use nboom_results::{ResultsError, with_causes};
 use nboom_sim::SimError;
-
-use crate::PathChoice;
+use nboom_verify::VerifyError;
 
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -18,17 +19,11 @@ pub enum CliError {
     /// The scene is wrong with the end time of the command line.
     #[error("--end-time: {}", .0.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; "))]
     EndTime(Vec<ModelError>),
-    /// The path has no code for the formulation.
+    /// The recursion is asked for as generated code.
     #[error(
-        "--formulation {formulation} --path {path:?}: articulated is generated code and \
-         recursive is library code in this build"
+        "--path generated --formulation recursive: the recursion is library code, which --path generic runs"
     )]
-    PathOfFormulation {
-        /// The path asked for.
-        path: PathChoice,
-        /// The formulation asked for.
-        formulation: &'static str,
-    },
+    GeneratedRecursion,
     /// The motion cannot be computed, or its results not be kept.
     #[error("{error}")]
     Simulation {
@@ -53,14 +48,13 @@ pub enum CliError {
         /// What is allowed.
         tol: f64,
     },
-    /// A random state has no accelerations to compare.
-    #[error("state {state} has no accelerations to compare: {}", no_reference(.hinge))]
-    NoReference {
-        /// The state, from 1.
-        state: usize,
-        /// The hinge about which nothing has inertia, where that is the reason.
-        hinge: Option<HingeLabel>,
-    },
+    /// There is nothing to compare, or the outcome cannot be written.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+    /// A crate or a simulator is not what it should be, or cannot be made.
+    #[cfg(feature = "generator")]
+    #[error(transparent)]
+    Package(#[from] PackageError),
     /// Standard output takes no more.
     #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),
@@ -71,10 +65,19 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Deviation { .. } => 1,
-            Self::Input(_) | Self::EndTime(_) | Self::PathOfFormulation { .. } => 2,
-            Self::Simulation { error: SimError::NoRoutine { .. }, .. } => 2,
-            Self::Simulation { .. } | Self::NoReference { .. } => 3,
+            Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
+            Self::Simulation {
+                error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
+                ..
+            } => 2,
+            Self::Simulation { .. } | Self::Verify(_) => 3,
             Self::Results(_) | Self::Stdout(_) => 3,
+            #[cfg(feature = "generator")]
+            Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
+            #[cfg(feature = "generator")]
+            Self::Package(PackageError::Codegen(_) | PackageError::NotOurs { .. }) => 2,
+            #[cfg(feature = "generator")]
+            Self::Package(_) => 3,
         }
     }
 
@@ -90,12 +93,5 @@ impl CliError {
             }
             _ => vec![with_causes(self)],
         }
-    }
-}
-
-fn no_reference(hinge: &Option<HingeLabel>) -> String {
-    match hinge {
-        Some(hinge) => format!("nothing has inertia about hinge {hinge}"),
-        None => "the mass matrix is singular or the forces are beyond all numbers".to_owned(),
     }
 }

@@ -1,6 +1,7 @@
 //! Numbers for people.
 
 use nboom_scalar::Vec3;
+use nboom_verify::{Label, NotCovered};
 
 /// A number with at most `digits` significant digits, without needless zeros; with an exponent
 /// where it is very small or large.
@@ -36,6 +37,24 @@ pub(crate) fn degrees(radians: f64) -> String {
 /// A number and the right form of the noun it counts.
 pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
+}
+
+/// Path, formulation, facts and instructions of code in columns.
+pub(crate) fn code_columns(label: &Label) -> String {
+    let Label { path, formulation, facts, instructions } = label;
+    format!("{path:<10} {formulation:<12} {facts:<10} {instructions:<13}")
+}
+
+/// The head of [`code_columns`].
+pub(crate) fn code_head() -> String {
+    let [path, formulation, facts, instructions] = ["path", "formulation", "facts", "instructions"];
+    code_columns(&Label { path, formulation, facts, instructions })
+}
+
+/// Code that does not cover a scene, in the same columns.
+pub(crate) fn not_covered(code: &NotCovered) -> String {
+    let NotCovered { path, formulation, why } = code;
+    format!("{path:<10} {:<12} not covered: {why}", formulation.unwrap_or_default())
 }
 
 #[cfg(test)]

@@ -18,35 +18,62 @@ mod args;
 mod bench;
 mod check;
 mod choice;
-mod codes;
-mod condition;
+#[cfg(feature = "generator")]
+mod compile;
 mod error;
 mod format;
+#[cfg(feature = "generator")]
+mod generate;
 mod print_run;
 mod print_scene;
 mod progress;
-mod random;
 mod reference;
 mod run;
+mod simulator;
 mod verify;
 mod watch;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use nboom_scalar::Kernel;
+
 pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
+#[cfg(feature = "generator")]
+pub use args::{CompileArgs, GenerateArgs};
 pub use choice::ChoiceError;
 pub use error::CliError;
 pub use reference::reference;
+pub use simulator::simulator;
+
+/// Generated routines that commands choose from.
+#[derive(Clone, Copy, Debug)]
+pub struct Routines {
+    /// Those for accelerations.
+    pub accelerations: &'static [Kernel],
+    /// Those for the matrix and the right side of a formulation.
+    pub equations: &'static [Kernel],
+}
 
 /// Does what the command line asks for and tells how it went by the exit code: 0 done, 1 a
 /// comparison failed, 2 the input is wrong, 3 the computation or the writing failed.
+#[cfg(feature = "generator")]
 pub fn execute(cli: &Cli) -> ExitCode {
+    let (accelerations, equations) = (nboom_routines::all(), nboom_routines::equations());
+    execute_with(cli, &Routines { accelerations, equations })
+}
+
+/// The same with other routines than the stock ones.
+pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
     let printed = match &cli.command {
-        Command::Run(args) => run::run(args),
+        Command::Run(args) => run::run(args, routines),
         Command::Check(args) => check::check(args),
-        Command::Verify(args) => verify::verify(args),
-        Command::Bench(args) => bench::bench(args),
+        Command::Verify(args) => verify::verify(args, routines),
+        Command::Bench(args) => bench::bench(args, routines),
+        #[cfg(feature = "generator")]
+        Command::Generate(args) => generate::generate(args),
+        #[cfg(feature = "generator")]
+        Command::Compile(args) => compile::compile(args),
     };
     match printed.and_then(|text| print(&text)) {
         Ok(()) => ExitCode::SUCCESS,

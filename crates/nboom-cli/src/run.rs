@@ -4,21 +4,21 @@ use std::time::Instant;
 use nboom_io::read_scene;
 use nboom_model::Scene;
 use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes};
-use nboom_sim::{Options, Path, simulate};
+use nboom_sim::{Form, Options, Path, simulate};
 
 use crate::progress::Progress;
 use crate::watch::Watch;
-use crate::{CliError, PathChoice, RunArgs, check, print_run, say};
+use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say};
 
 /// Simulates a scene, writes its files and returns the account of it for standard output.
-pub(crate) fn run(args: &RunArgs) -> Result<String, CliError> {
+pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
     let warnings = check::warnings(&file);
     let scene = with_end_time(file.scene, args.end_time)?;
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));
     }
-    let options = options(args)?;
+    let options = options(args, routines)?;
     let run = RunDescription {
         integrator: args.integrator,
         warnings,
@@ -35,23 +35,18 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
     }
 }
 
-fn options(args: &RunArgs) -> Result<Options, CliError> {
-    let RunArgs { samples, rtol, atol, .. } = *args;
-    let path = path(args.path, args.formulation)?;
-    let kernels = nboom_routines::all();
-    Ok(Options { samples, rtol, atol, path, kernels, ..Options::default() })
-}
-
-/// The recursive formulation is library code, the articulated one generated.
-fn path(path: PathChoice, formulation: Option<&'static str>) -> Result<Path, CliError> {
-    match (path, formulation) {
-        (PathChoice::Auto, None) => Ok(Path::Auto),
-        (PathChoice::Generated, None | Some("articulated")) => Ok(Path::Generated),
-        (PathChoice::Generic, None | Some("recursive")) => Ok(Path::Generic),
-        (PathChoice::Auto, Some("recursive")) => Ok(Path::Generic),
-        (PathChoice::Auto, Some(_)) => Ok(Path::Generated),
-        (path, Some(formulation)) => Err(CliError::PathOfFormulation { path, formulation }),
-    }
+fn options(args: &RunArgs, routines: &Routines) -> Result<Options, CliError> {
+    let RunArgs { samples, rtol, atol, formulation, .. } = *args;
+    let path = match args.path {
+        PathChoice::Generated if formulation == Some(Form::Recursive) => {
+            return Err(CliError::GeneratedRecursion);
+        }
+        PathChoice::Auto => Path::Auto,
+        PathChoice::Generated => Path::Generated,
+        PathChoice::Generic => Path::Generic,
+    };
+    let kernels = routines.accelerations;
+    Ok(Options { samples, rtol, atol, path, formulation, kernels, ..Options::default() })
 }
 
 fn simulate_into_files(
@@ -87,7 +82,7 @@ fn simulate_into_files(
 }
 
 /// `out/` and the scene's name, with what a file name cannot hold replaced.
-fn default_directory(scene: &str) -> PathBuf {
+pub(crate) fn default_directory(scene: &str) -> PathBuf {
     let safe = |c: char| if c.is_control() || matches!(c, '/' | '\\') { '_' } else { c };
     let name: String = scene.trim().chars().map(safe).collect();
     let name = if name.trim_matches('.').is_empty() { "scene".to_owned() } else { name };

@@ -158,6 +158,37 @@ fn options_reach_the_run() {
 }
 
 #[test]
+fn the_formulation_that_is_asked_for_runs() {
+    let place = Place::new();
+    for (path, formulation, path_used) in [
+        ("generic", "report", "generic"),
+        ("generic", "relative", "generic"),
+        ("generic", "symmetric", "generic"),
+        ("generic", "articulated", "generic"),
+        ("generic", "momentum", "generic"),
+        ("generic", "recursive", "generic"),
+        ("auto", "recursive", "generic"),
+        ("auto", "articulated", "generated"),
+        ("generated", "articulated", "generated"),
+    ] {
+        let options = ["run", "boom.nml", "--samples", "2", "--path", path];
+        let output = place.nboom(&[&options[..], &["--formulation", formulation]].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let head = format!("{path_used} path, {formulation} formulation");
+        assert!(stdout(&output).contains(&head), "no {head:?} in {}", stdout(&output));
+        let summary = place.summary("out/boom");
+        let selections = summary["selections"].as_array().expect("a list");
+        for told in selections.iter().chain([&summary]) {
+            assert_eq!(
+                (&told["path"], &told["formulation"]),
+                (&path_used.into(), &formulation.into())
+            );
+        }
+        assert!(!selections.is_empty());
+    }
+}
+
+#[test]
 fn quiet_is_silent() {
     let place = Place::new();
     let output = place.nboom(&["run", "boom.nml", "--samples", "2", "--quiet"]);
@@ -225,11 +256,11 @@ fn a_wrong_command_line_is_refused() {
         (&["run", "boom.nml", "--rtol", "-1"], &["--rtol", "above zero"]),
         (&["run", "boom.nml", "--atol", "nan"], &["--atol", "finite"]),
         (&["run", "boom.nml", "--samples", "0"], &["--samples"]),
-        (&["run", "boom.nml", "--formulation", "report"], &["report", "recursive"]),
+        (&["run", "boom.nml", "--formulation", "kane"], &["kane", "symmetric", "recursive"]),
         (&["run", "boom.nml", "--integrator", "euler"], &["euler", "dop853"]),
         (
-            &["run", "boom.nml", "--path", "generic", "--formulation", "articulated"],
-            &["generated code"],
+            &["run", "boom.nml", "--path", "generated", "--formulation", "recursive"],
+            &["--path generated", "recursion is library code"],
         ),
         (&["run", "boom.nml", "--units", "cubits"], &["cubits", "ft-lbf-s"]),
         (&["run", "boom.nml", "--end-time", "-1"], &["--end-time", "initial time"]),

@@ -1,6 +1,7 @@
 //! `nboom verify` and `nboom bench` as their users meet them.
 
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Output};
 
 /// A main body with one boom.
@@ -22,12 +23,16 @@ const BOOM: &str = "
  &END
 ";
 
-/// Runs the binary on a scene `boom.nml` with this text.
+/// Runs the binary in a directory that has a scene `boom.nml` with this text.
+fn nboom_in(directory: &Path, deck: &str, args: &[&str]) -> Output {
+    fs::write(directory.join("boom.nml"), deck).expect("writable");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+    command.current_dir(directory).args(args).output().expect("the binary starts")
+}
+
 fn nboom_on(deck: &str, args: &[&str]) -> Output {
     let directory = tempfile::tempdir().expect("a directory");
-    fs::write(directory.path().join("boom.nml"), deck).expect("writable");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
-    command.current_dir(directory.path()).args(args).output().expect("the binary starts")
+    nboom_in(directory.path(), deck, args)
 }
 
 fn nboom(args: &[&str]) -> Output {
@@ -51,13 +56,70 @@ fn verify_compares_all_code_that_covers_the_scene() {
     let output = nboom(&["verify", "boom.nml", "--states", "20"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let table = stdout(&output);
-    assert!(table.starts_with("boom: accelerations in 20 random states from seed 1970"), "{table}");
+    assert!(
+        table.starts_with("boom: largest deviations in 20 random states from seed 1970"),
+        "{table}"
+    );
     for form in ["recursive", "report", "relative", "symmetric", "articulated", "momentum"] {
         let row = format!("generic    {form}");
         assert!(table.lines().any(|line| line.starts_with(&row)), "no {form} in {table}");
     }
     assert!(table.contains("\ngenerated  articulated"), "{table}");
+    for words in ["\naccelerations\n", "\nmass matrix\n", "\nforcing\n", " from double-double "] {
+        assert!(table.contains(words), "no {words:?} in {table}");
+    }
     assert!(!table.contains("not covered"), "{table}");
+}
+
+/// The JSON in a file.
+fn json(path: &Path) -> serde_json::Value {
+    let text = fs::read_to_string(path).expect("the file is there");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+#[test]
+fn verify_writes_what_it_prints() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let output = nboom_in(directory.path(), BOOM, &["verify", "boom.nml", "--states", "7"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let table = stdout(&output);
+    assert!(table.ends_with("results in out/boom/verify.json\n"), "{table}");
+    let file = json(&directory.path().join("out/boom/verify.json"));
+    assert_eq!((&file["scene"], &file["topology"]), (&"boom".into(), &"S1".into()));
+    assert_eq!((&file["states"], &file["seed"]), (&7.into(), &1970.into()));
+    assert_eq!((&file["tolerance"], &file["passed"]), (&1e-11.into(), &true.into()));
+    let rows = file["rows"].as_array().expect("rows");
+    let printed = |line: &&str| line.starts_with("generic ") || line.starts_with("generated ");
+    assert_eq!(rows.len(), table.lines().filter(printed).count());
+    let has = |path: &str, formulation: &str, quantity: &str| {
+        rows.iter().any(|row| {
+            row["path"] == path && row["formulation"] == formulation && row["quantity"] == quantity
+        })
+    };
+    assert!(has("generic", "recursive", "accelerations"), "{file}");
+    assert!(has("generated", "articulated", "accelerations"), "{file}");
+    for form in ["recursive", "report", "relative", "symmetric"] {
+        assert!(has("generic", form, "mass_matrix") && has("generic", form, "forcing"), "{file}");
+    }
+    for row in rows {
+        assert_eq!(row["from_recursion"].is_null(), row["formulation"] == "recursive", "{row}");
+        assert!(row["from_double_double"].as_f64().is_some_and(|off| off < 1e-12), "{row}");
+        assert!(row["state"].as_u64().is_some_and(|state| (1..=7).contains(&state)), "{row}");
+    }
+}
+
+#[test]
+fn verify_writes_where_it_is_told_to() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let args = ["verify", "boom.nml", "--states", "2", "-o"];
+    let output = nboom_in(directory.path(), BOOM, &[&args[..], &["new/found.json"]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(json(&directory.path().join("new/found.json"))["states"], 2);
+    assert!(!directory.path().join("out").exists());
+
+    let output = nboom_in(directory.path(), BOOM, &[&args[..], &["boom.nml/found.json"]].concat());
+    assert_eq!(code(&output), 3, "{}", stderr(&output));
+    assert!(stderr(&output).contains("cannot write boom.nml/found.json"), "{}", stderr(&output));
 }
 
 #[test]
@@ -69,11 +131,14 @@ fn verify_gives_the_same_for_the_same_seed() {
 
 #[test]
 fn verify_fails_above_the_tolerance() {
-    let output = nboom(&["verify", "boom.nml", "--tol", "1e-30"]);
+    let directory = tempfile::tempdir().expect("a directory");
+    let output = nboom_in(directory.path(), BOOM, &["verify", "boom.nml", "--tol", "1e-30"]);
     assert_eq!(code(&output), 1);
     assert!(stdout(&output).contains("largest deviation"), "the table is printed all the same");
+    let file = json(&directory.path().join("out/boom/verify.json"));
+    assert_eq!((&file["passed"], &file["tolerance"]), (&false.into(), &1e-30.into()));
     let message = stderr(&output);
-    for words in ["error: ", "deviates by", "in state", "above the tolerance 1e-30"] {
+    for words in ["error: ", " of gener", "deviates by", "in state", "above the tolerance 1e-30"] {
         assert!(message.contains(words), "no {words:?} in {message}");
     }
 }

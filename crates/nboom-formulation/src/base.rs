@@ -44,16 +44,14 @@ impl<R: Real> AtOrigin<R> {
         Self { inertia, wrench }
     }
 
-    /// The accelerations (ω̇, a_O) under which the wrench vanishes.
-    ///
-    /// a_O is eliminated first. Both 3×3 systems are solved by cofactors, whose products do not
-    /// wait for each other as the pivots of a 6×6 factorisation do.
+    /// The accelerations (ω̇, a_O) under which the wrench vanishes; a_O is eliminated first.
     #[inline]
     pub fn accelerations(&self) -> Twist<R> {
         let ArticulatedInertia { angular, coupling, linear } = &self.inertia;
-        let inverse = inverse(linear);
-        let [h1, h2, h3] = coupling.rows;
-        let (g1, g2, g3) = (inverse * h1, inverse * h2, inverse * h3);
+        let Wrench { moment, force } = self.wrench;
+        let linear = Factored::new(linear);
+        let [h1, h2, h3] = coupling.rows.map(|row| linear.forward(row));
+        let [g1, g2, g3] = [h1, h2, h3].map(|row| linear.over_pivots(row));
         let central = Sym3 {
             xx: angular.xx - h1.dot(g1),
             yy: angular.yy - h2.dot(g2),
@@ -62,38 +60,61 @@ impl<R: Real> AtOrigin<R> {
             xz: angular.xz - h1.dot(g3),
             yz: angular.yz - h2.dot(g3),
         };
-        let Wrench { moment, force } = self.wrench;
+        let force = linear.forward(force);
         let carried = Vec3::new(g1.dot(force), g2.dot(force), g3.dot(force));
-        let omega_dot = solve(&central, carried - moment);
+        let omega_dot = Factored::new(&central).solve(carried - moment);
         let shared = g1 * omega_dot.x + g2 * omega_dot.y + g3 * omega_dot.z;
-        let linear = -(inverse * force) - shared;
+        let linear = linear.back(-linear.over_pivots(force) - shared);
         Twist { angular: omega_dot, linear }
     }
 }
 
-/// Cofactors of a symmetric matrix and its determinant.
-#[inline]
-fn cofactors<R: Real>(m: &Sym3<R>) -> (Sym3<R>, R) {
-    let adjugate = Sym3 {
-        xx: m.yy * m.zz - m.yz * m.yz,
-        yy: m.xx * m.zz - m.xz * m.xz,
-        zz: m.xx * m.yy - m.xy * m.xy,
-        xy: m.xz * m.yz - m.xy * m.zz,
-        xz: m.xy * m.yz - m.xz * m.yy,
-        yz: m.xy * m.xz - m.yz * m.xx,
-    };
-    let determinant = m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz;
-    (adjugate, determinant)
+/// L D Lᵀ of a positive definite matrix.
+///
+/// Cofactors would wait for fewer divisions, but where entries differ by decades they lose many
+/// more digits than the matrix's condition takes.
+struct Factored<R> {
+    inverse_pivots: Vec3<R>,
+    yx: R,
+    zx: R,
+    zy: R,
 }
 
-#[inline]
-fn inverse<R: Real>(m: &Sym3<R>) -> Sym3<R> {
-    let (adjugate, determinant) = cofactors(m);
-    adjugate * (R::one() / determinant)
-}
+impl<R: Real> Factored<R> {
+    #[inline]
+    fn new(m: &Sym3<R>) -> Self {
+        let x = R::one() / m.xx;
+        let (yx, zx) = (m.xy * x, m.xz * x);
+        let y = R::one() / (m.yy - yx * m.xy);
+        let below = m.yz - yx * m.xz;
+        let zy = below * y;
+        let z = R::one() / (m.zz - zx * m.xz - zy * below);
+        Self { inverse_pivots: Vec3::new(x, y, z), yx, zx, zy }
+    }
 
-#[inline]
-fn solve<R: Real>(m: &Sym3<R>, right: Vec3<R>) -> Vec3<R> {
-    let (adjugate, determinant) = cofactors(m);
-    (adjugate * right) * (R::one() / determinant)
+    /// L⁻¹ v
+    #[inline]
+    fn forward(&self, v: Vec3<R>) -> Vec3<R> {
+        let y = v.y - self.yx * v.x;
+        Vec3::new(v.x, y, v.z - self.zx * v.x - self.zy * y)
+    }
+
+    /// D⁻¹ v
+    #[inline]
+    fn over_pivots(&self, v: Vec3<R>) -> Vec3<R> {
+        let Vec3 { x, y, z } = self.inverse_pivots;
+        Vec3::new(v.x * x, v.y * y, v.z * z)
+    }
+
+    /// L⁻ᵀ v
+    #[inline]
+    fn back(&self, v: Vec3<R>) -> Vec3<R> {
+        let y = v.y - self.zy * v.z;
+        Vec3::new(v.x - self.yx * y - self.zx * v.z, y, v.z)
+    }
+
+    #[inline]
+    fn solve(&self, right: Vec3<R>) -> Vec3<R> {
+        self.back(self.over_pivots(self.forward(right)))
+    }
 }

@@ -8,6 +8,7 @@ pub mod articulated;
 mod base;
 mod chain;
 mod dense;
+mod embedding;
 mod formulation;
 pub mod momentum;
 mod paddle;
@@ -22,6 +23,7 @@ pub mod symmetric;
 
 pub use base::AtOrigin;
 pub use chain::ChainLink;
+pub use embedding::Embedding;
 pub use formulation::Formulation;
 pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Parameters, Solution};
 pub use recognise::{Recognised, recognise};

@@ -49,11 +49,12 @@ impl RunDescription {
 }
 
 /// The path and the formulation that stand for a whole run: those of its generated modes, if it
-/// has any.
+/// has any, else of its closed forms, else the recursion.
 pub fn path_and_formulation(summary: &Summary) -> (&'static str, &'static str) {
-    let generated = summary.selections.iter().find(|selection| selection.path == "generated");
-    let stands_for_all = generated.or(summary.selections.last());
-    stands_for_all.map_or(("generic", "recursive"), |s| (s.path, s.formulation))
+    const RECURSION: (&str, &str) = ("generic", "recursive");
+    let each = || summary.selections.iter().map(|s| (s.path, s.formulation));
+    let generated = each().find(|(path, _)| *path == "generated");
+    generated.or_else(|| each().find(|code| *code != RECURSION)).unwrap_or(RECURSION)
 }
 
 /// The keys of `summary.json`.

@@ -7,7 +7,9 @@ use std::path::Path;
 use nboom_model::{
     Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, Segment,
 };
-use nboom_results::{Outcome, ResultsError, RunDescription, RunDirectory, UnitSystem};
+use nboom_results::{
+    Outcome, ResultsError, RunDescription, RunDirectory, UnitSystem, path_and_formulation,
+};
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
     Conservation, Detail, Event, EventKind, Options, Recorder, Selection, Snapshot, Summary, Totals,
@@ -222,4 +224,20 @@ fn a_directory_that_cannot_be_made_is_named() {
     let refused = create(&file.join("run"), false).expect_err("a file is no directory");
     assert!(matches!(refused, ResultsError::Directory { .. }));
     assert!(refused.to_string().contains("file/run"), "{refused}");
+}
+
+#[test]
+fn the_most_special_code_stands_for_the_whole_run() {
+    let recursion = || selection(0.0, "generic", "recursive", "not covered");
+    let closed_form = || selection(1.0, "generic", "symmetric", "no routine");
+    let routine = || selection(2.0, "generated", "articulated", "routine");
+    for (selections, expected) in [
+        (vec![], ("generic", "recursive")),
+        (vec![recursion()], ("generic", "recursive")),
+        (vec![closed_form(), recursion()], ("generic", "symmetric")),
+        (vec![closed_form(), routine(), recursion()], ("generated", "articulated")),
+    ] {
+        let summary = Summary { selections, ..outcome(None).summary };
+        assert_eq!(path_and_formulation(&summary), expected);
+    }
 }

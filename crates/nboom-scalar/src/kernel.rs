@@ -1,9 +1,11 @@
 #![allow(unsafe_code, reason = "calls of functions compiled for processors that have more")]
 
-use crate::Routine;
+use std::marker::PhantomData;
+
+use crate::batch::{Eight, PortableEight};
+use crate::{InstructionSet, Real, Routine};
 
 type Prepare = fn(&[f64], &mut [f64]);
-type Evaluate = fn(&[f64], &[f64], &mut [f64]);
 
 /// A routine on `f64`, in the form that is fastest on this processor.
 #[derive(Clone, Copy, Debug)]
@@ -27,14 +29,19 @@ pub struct Kernel {
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
     prepare: Prepare,
-    evaluate: Evaluate,
+    evaluate: Evaluate<f64>,
 }
 
 impl Kernel {
     /// The routine `T` on this processor.
     pub fn of<T: Routine>() -> Self {
-        let (instructions, evaluate) = fastest::<T>();
-        Self {
+        Self::with::<T>(InstructionSet::of_this_processor())
+            .expect("the processor has what it is found to have")
+    }
+
+    /// The routine `T` in code for an instruction set, if this processor has it.
+    pub fn with<T: Routine>(instructions: InstructionSet) -> Option<Self> {
+        Some(Self {
             topology: T::TOPOLOGY,
             formulation: T::FORMULATION,
             pinned: T::PINNED,
@@ -43,10 +50,10 @@ impl Kernel {
             constants: T::CONSTANTS,
             coordinates: T::COORDINATES,
             outputs: T::OUTPUTS,
-            instructions,
+            instructions: instructions.name(),
             prepare: T::prepare::<f64>,
-            evaluate,
-        }
+            evaluate: compiled::<OneState<T>>(instructions)?,
+        })
     }
 
     /// Whether these parameters are what the routine takes for granted.
@@ -72,43 +79,111 @@ impl Kernel {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-fn fastest<T: Routine>() -> (&'static str, Evaluate) {
-    let fused = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
-    if fused
-        && is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512dq")
-        && is_x86_feature_detected!("avx512vl")
-    {
-        ("avx512", on_avx512::<T>)
-    } else if fused {
-        ("avx2", on_avx2::<T>)
-    } else {
-        ("portable", T::evaluate::<f64>)
-    }
-}
+/// A routine on one state.
+struct OneState<T>(PhantomData<T>);
 
-#[cfg(not(target_arch = "x86_64"))]
-fn fastest<T: Routine>() -> (&'static str, Evaluate) {
-    ("portable", T::evaluate::<f64>)
-}
+impl<T: Routine> Compiled for OneState<T> {
+    type Number = f64;
 
-#[cfg(target_arch = "x86_64")]
-fn on_avx512<T: Routine>(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]) {
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-    fn compiled<T: Routine>(k: &[f64], x: &[f64], out: &mut [f64]) {
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn avx512(k: &[f64], x: &[f64], out: &mut [f64]) {
         T::evaluate_packed::<crate::Avx512>(k, x, out);
     }
-    // SAFETY: `fastest` hands this function out only where the features are there.
-    unsafe { compiled::<T>(constants, coordinates, outputs) }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn avx2(k: &[f64], x: &[f64], out: &mut [f64]) {
+        T::evaluate_packed::<crate::Avx2>(k, x, out);
+    }
+
+    fn portable(k: &[f64], x: &[f64], out: &mut [f64]) {
+        T::evaluate::<f64>(k, x, out);
+    }
+}
+
+/// An evaluation on constants and coordinates, with what it computes.
+pub(crate) type Evaluate<N> = fn(&[N], &[N], &mut [N]);
+
+/// An evaluation that has a form for each instruction set; to be inlined into a function that is
+/// compiled for it.
+pub(crate) trait Compiled {
+    /// What slices are made of.
+    type Number;
+
+    #[cfg(target_arch = "x86_64")]
+    fn avx512(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
+
+    #[cfg(target_arch = "x86_64")]
+    fn avx2(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
+
+    fn portable(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
+}
+
+/// The evaluation in code for an instruction set, if this processor has it.
+pub(crate) fn compiled<C: Compiled>(instructions: InstructionSet) -> Option<Evaluate<C::Number>> {
+    if instructions > InstructionSet::of_this_processor() {
+        return None;
+    }
+    match instructions {
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx512 => Some(on_avx512::<C>),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx2 => Some(on_avx2::<C>),
+        _ => Some(C::portable),
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
-fn on_avx2<T: Routine>(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]) {
-    #[target_feature(enable = "avx2,fma")]
-    fn compiled<T: Routine>(k: &[f64], x: &[f64], out: &mut [f64]) {
-        T::evaluate_packed::<crate::Avx2>(k, x, out);
+fn on_avx512<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+        C::avx512(k, x, out);
     }
-    // SAFETY: `fastest` hands this function out only where the features are there.
-    unsafe { compiled::<T>(constants, coordinates, outputs) }
+    // SAFETY: `compiled` hands this function out only where the features are there.
+    unsafe { inlined::<C>(k, x, out) }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn on_avx2<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+    #[target_feature(enable = "avx2,fma")]
+    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+        C::avx2(k, x, out);
+    }
+    // SAFETY: `compiled` hands this function out only where the features are there.
+    unsafe { inlined::<C>(k, x, out) }
+}
+
+/// Eight `f64` one after the other and nothing else, any of which may be any number.
+///
+/// # Safety
+/// A type of another content or layout would be read from memory that holds [`Eight`].
+pub(crate) unsafe trait EightNumbers: Real {}
+
+// SAFETY: arrays of eight in all but name; pairs are `repr(C)`, registers of one field
+// `repr(transparent)`.
+unsafe impl EightNumbers for PortableEight {}
+#[cfg(target_arch = "x86_64")]
+// SAFETY: as above.
+unsafe impl EightNumbers for crate::Pair<crate::Avx4> {}
+#[cfg(target_arch = "x86_64")]
+// SAFETY: as above.
+unsafe impl EightNumbers for crate::Avx8 {}
+
+/// The same numbers as scalars.
+#[inline(always)]
+pub(crate) fn as_registers<R: EightNumbers>(numbers: &[Eight]) -> &[R] {
+    const { assert!(size_of::<R>() == size_of::<Eight>()) };
+    const { assert!(align_of::<R>() <= align_of::<Eight>()) };
+    // SAFETY: size and alignment are as just asserted, and `R` is eight numbers.
+    unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) }
+}
+
+/// The same places as scalars.
+#[inline(always)]
+pub(crate) fn as_registers_mut<R: EightNumbers>(numbers: &mut [Eight]) -> &mut [R] {
+    const { assert!(size_of::<R>() == size_of::<Eight>()) };
+    const { assert!(align_of::<R>() <= align_of::<Eight>()) };
+    // SAFETY: size and alignment are as just asserted, and `R` is eight numbers.
+    unsafe { std::slice::from_raw_parts_mut(numbers.as_mut_ptr().cast(), numbers.len()) }
 }

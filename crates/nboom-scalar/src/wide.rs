@@ -22,6 +22,7 @@ macro_rules! wide {
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
+        #[repr(transparent)]
         pub struct $name($register);
 
         impl $name {

@@ -4,17 +4,18 @@ use nboom_model::{Mode, Scene, Thrust};
 use nboom_ode::System;
 use nboom_scalar::{Quaternion, Vec3};
 
-use crate::generated::{Generated, NoRoutine};
+use crate::code::Code;
+use crate::error::SimError;
 use crate::layout::Layout;
-use crate::options::{Options, Path};
+use crate::options::Options;
 use crate::record::Selection;
 use crate::state::{MassCenter, State};
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
     pub dynamics: Recursive<f64>,
-    /// The generated routine of the mode, when one is used.
-    generated: Option<Generated>,
+    /// What computes the accelerations of the mode.
+    code: Code,
     pub layout: Layout,
     /// The state in which the mode began; held hinges keep its angles.
     origin: State,
@@ -34,7 +35,7 @@ impl Equations {
             .collect();
         Self {
             dynamics: Recursive::new(scene),
-            generated: None,
+            code: Code::Recursion,
             layout: Layout { free: 0, thrust: false, dashpots: false },
             origin: state.clone(),
             thrust: None,
@@ -106,35 +107,15 @@ impl Equations {
     /// Chooses the code that computes accelerations in the mode that was entered.
     ///
     /// # Errors
-    /// When a generated routine is demanded and none fits.
-    pub fn select(&mut self, options: &Options) -> Result<Selection, NoRoutine> {
-        let since = self.origin.time;
-        let recursive =
-            |reason| Selection { since, path: "generic", formulation: "recursive", reason };
-        self.generated = None;
-        if options.path == Path::Generic {
-            return Ok(recursive("as demanded".to_owned()));
-        }
-        match Generated::fit(&self.dynamics, options.kernels) {
-            Ok(generated) => {
-                let kernel = generated.kernel();
-                let (topology, instructions) = (kernel.topology, kernel.instructions);
-                let reason = format!("routine for {topology}, {instructions} code");
-                let formulation = kernel.formulation;
-                self.generated = Some(generated);
-                Ok(Selection { since, path: "generated", formulation, reason })
-            }
-            Err(none) if options.path == Path::Generated => Err(none),
-            Err(none) => Ok(recursive(none.to_string())),
-        }
+    /// When the code that is demanded does not fit.
+    pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, SimError> {
+        let (code, selection) = Code::choose(scene, &self.dynamics, options, self.origin.time)?;
+        self.code = code;
+        Ok(selection)
     }
 
     fn compute(&mut self, motion: &Motion<'_, f64>) {
-        let out = &mut self.accelerations;
-        match &mut self.generated {
-            Some(generated) => generated.accelerations(&mut self.dynamics, motion, out),
-            None => self.dynamics.accelerations(motion, out),
-        }
+        self.code.accelerations(&mut self.dynamics, motion, &mut self.accelerations);
     }
 
     /// The free hinges' share of a vector over all hinges.

@@ -3,7 +3,7 @@ use std::io;
 use nboom_model::HingeLabel;
 use nboom_ode::StepError;
 
-use crate::{NoRoutine, Summary};
+use crate::{NoRoutine, NotCovered, Summary};
 
 /// Why a run could not be finished.
 #[derive(Debug, thiserror::Error)]
@@ -42,6 +42,14 @@ pub enum SimError {
         time: f64,
         /// Why none fits.
         source: NoRoutine,
+    },
+    /// A closed form was demanded that does not cover the mode.
+    #[error("at time {time}: {source}; symmetric and recursive cover any tree")]
+    NotCovered {
+        /// Time from which on.
+        time: f64,
+        /// What is not covered.
+        source: NotCovered,
     },
     /// No impulse locks these hinges.
     #[error("at time {}, {}: no impulse locks this hinge; the mass matrix is singular", moment(.time), place(.hinge))]

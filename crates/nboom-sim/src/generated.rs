@@ -1,12 +1,15 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_formulation::{Layout, recognise};
-use nboom_model::WeldedTree;
-use nboom_scalar::{Kernel, Vec3};
+use nboom_formulation::recognise;
+use nboom_model::{HingeLabel, Scene};
+use nboom_scalar::Vec3;
+
+use crate::fit::Fit;
+use crate::options::{Form, Options};
 
 /// A generated routine fitted to a scene in one mode.
 #[derive(Clone, Debug)]
 pub(crate) struct Generated {
-    kernel: Kernel,
+    fit: Fit,
     constants: Vec<f64>,
     coordinates: Vec<f64>,
     outputs: Vec<f64>,
@@ -26,62 +29,62 @@ struct Place {
 #[non_exhaustive]
 pub enum NoRoutine {
     /// The mode is not made of chains and paddles.
-    #[error("hinge number {hinge} belongs neither to a chain nor to a paddle")]
+    #[error("no {}: hinge {hinge} belongs neither to a chain nor to a paddle", routine(.form))]
     Tree {
-        /// The first hinge that does not, from 1.
-        hinge: usize,
+        /// The formulation asked for.
+        form: Option<Form>,
+        /// The first hinge that does not.
+        hinge: HingeLabel,
     },
-    /// No routine has the mode's topology and takes nothing for granted that does not hold.
-    #[error("no routine for topology {topology}")]
+    /// The mode's topology fits into that of no routine which takes nothing for granted that does
+    /// not hold and is not too large for it.
+    #[error("no {} for topology {topology}", routine(.form))]
     Topology {
+        /// The formulation asked for.
+        form: Option<Form>,
         /// The mode's topology.
         topology: String,
     },
 }
 
+fn routine(form: &Option<Form>) -> String {
+    form.map_or_else(|| "routine".to_owned(), |form| format!("{form} routine"))
+}
+
 impl Generated {
-    /// The most specialised of `kernels` that fits what `dynamics` computes in its mode.
+    /// The routine that [`Fit::best`] finds for what `dynamics` computes in its mode.
     ///
     /// # Errors
     /// Why none does.
-    pub fn fit(dynamics: &Recursive<f64>, kernels: &[Kernel]) -> Result<Self, NoRoutine> {
-        let tree: &WeldedTree<f64> = dynamics.tree();
+    pub fn fit(
+        scene: &Scene,
+        dynamics: &Recursive<f64>,
+        options: &Options,
+    ) -> Result<Self, NoRoutine> {
+        let (form, tree) = (options.formulation, dynamics.tree());
         let recognised = recognise(tree)
-            .map_err(|link| NoRoutine::Tree { hinge: tree.links[link].hinge + 1 })?;
-        let topology = recognised.topology.to_string();
-        let parameters = recognised.parameters.write();
-        let external = dynamics.external().is_some();
-        let fits = |kernel: &&Kernel| {
-            kernel.topology == topology
-                && (kernel.external || !external)
-                && kernel.accepts(&parameters)
-        };
-        let best = kernels.iter().filter(fits).max_by_key(|kernel| kernel.pinned.len());
-        let Some(&kernel) = best else { return Err(NoRoutine::Topology { topology }) };
-        let mut constants = vec![0.0; kernel.constants];
-        kernel.prepare(&parameters, &mut constants);
-        let places = Layout::places(&recognised.topology);
-        let place_of = |place| Place {
-            in_state: Layout::hinge_in_state(&recognised.topology, place),
-            in_output: Layout::OUTPUT + place,
-        };
-        let mut hinges = vec![Place { in_state: [0; 3], in_output: 0 }; places.len()];
-        for (&link, place) in recognised.links.iter().zip(places) {
-            hinges[link] = place_of(place);
+            .map_err(|link| NoRoutine::Tree { form, hinge: scene.label(tree.links[link].hinge) })?;
+        let fit =
+            Fit::best(&recognised, dynamics.external().is_some(), options).ok_or_else(|| {
+                NoRoutine::Topology { form, topology: recognised.topology.to_string() }
+            })?;
+        let mut hinges = vec![Place { in_state: [0; 3], in_output: 0 }; recognised.links.len()];
+        for (&link, (in_state, in_output)) in recognised.links.iter().zip(fit.hinges()) {
+            hinges[link] = Place { in_state, in_output };
         }
         Ok(Self {
-            constants,
-            coordinates: vec![0.0; kernel.coordinates],
-            outputs: vec![0.0; kernel.outputs],
+            constants: fit.constants(),
+            coordinates: vec![0.0; fit.kernel.coordinates],
+            outputs: vec![0.0; fit.kernel.outputs],
             torques: vec![0.0; hinges.len()],
             hinges,
-            kernel,
+            fit,
         })
     }
 
-    /// The routine.
-    pub fn kernel(&self) -> &Kernel {
-        &self.kernel
+    /// The routine, and how the mode fits it.
+    pub fn routine(&self) -> &Fit {
+        &self.fit
     }
 
     /// Accelerations of the mode it was fitted to: ω̇, a_O without gravity, τ̇.
@@ -102,7 +105,7 @@ impl Generated {
             let [beta, tau, torque] = place.in_state;
             (x[beta], x[tau], x[torque]) = (motion.beta[j], motion.tau[j], self.torques[j]);
         }
-        self.kernel.evaluate(&self.constants, x, &mut self.outputs);
+        self.fit.kernel.evaluate(&self.constants, x, &mut self.outputs);
         let vector =
             |at: usize| Vec3::new(self.outputs[at], self.outputs[at + 1], self.outputs[at + 2]);
         out.omega_dot_body = vector(0);

@@ -38,8 +38,11 @@
 //! # Ok::<(), nboom_sim::Failure>(())
 //! ```
 
+mod closed_form;
+mod code;
 mod equations;
 mod error;
+mod fit;
 mod generated;
 mod guard;
 mod instant;
@@ -51,9 +54,11 @@ mod run;
 mod snapshot;
 mod state;
 
+pub use closed_form::NotCovered;
 pub use error::{Failure, SimError};
+pub use fit::Fit;
 pub use generated::NoRoutine;
-pub use options::{Options, Path};
+pub use options::{Form, Options, Path};
 pub use record::{
     Conservation, Detail, Event, EventKind, Recorder, Selection, Snapshot, Summary, Totals,
 };

@@ -1,15 +1,54 @@
+use std::fmt;
+
+use nboom_formulation::Formulation;
 use nboom_scalar::Kernel;
 
-/// Which code computes accelerations.
+/// Whether generated or library code computes accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Path {
-    /// A generated routine where one fits, else the recursive formulation.
+    /// A generated routine where one fits, else library code: of the formulation that is asked
+    /// for where that covers the mode, else the recursion.
     #[default]
     Auto,
     /// A generated routine in every mode, or none.
     Generated,
-    /// The recursive formulation.
+    /// Library code: the formulation that is asked for in every mode, the recursion if none is.
     Generic,
+}
+
+/// The equations that accelerations come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The recursion over any tree, which exists as library code alone.
+    Recursive,
+    /// A closed form, as library code and in generated routines.
+    Closed(Formulation),
+}
+
+impl Form {
+    /// All: the closed forms, then the recursion.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Formulation::ALL.into_iter().map(Self::Closed).chain([Self::Recursive])
+    }
+
+    /// The name in commands and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Recursive => "recursive",
+            Self::Closed(formulation) => formulation.name(),
+        }
+    }
+
+    /// The form with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|form| form.name() == name)
+    }
+}
+
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
 }
 
 /// How to run a scene.
@@ -23,8 +62,10 @@ pub struct Options {
     pub atol: f64,
     /// Steps after which the run is given up.
     pub max_steps: usize,
-    /// Which code computes accelerations.
+    /// Whether generated or library code computes accelerations.
     pub path: Path,
+    /// The equations that accelerations come from; `None` leaves that to the path.
+    pub formulation: Option<Form>,
     /// The generated routines to choose from.
     pub kernels: &'static [Kernel],
 }
@@ -37,6 +78,7 @@ impl Default for Options {
             atol: 1e-12,
             max_steps: 10_000_000,
             path: Path::Auto,
+            formulation: None,
             kernels: &[],
         }
     }

@@ -287,10 +287,9 @@ impl<'a> Run<'a> {
 
     /// Chooses the code for the mode, and notes when that is a change.
     fn select(&mut self) -> Result<(), SimError> {
-        let time = self.state.time;
-        let selected = self.equations.select(&self.options);
-        let selection = selected.map_err(|source| SimError::NoRoutine { time, source })?;
-        if self.selections.last().is_none_or(|last| last.reason != selection.reason) {
+        let selection = self.equations.select(self.scene, &self.options)?;
+        let same = |last: &Selection| Selection { since: last.since, ..selection.clone() } == *last;
+        if !self.selections.last().is_some_and(same) {
             self.selections.push(selection);
         }
         Ok(())

@@ -1,0 +1,113 @@
+//! Nanoseconds for the accelerations of one state against the number of free hinges: hinges of
+//! three satellites of `benches/scenes` are held one after the other, from the tips inward and
+//! from the roots outward.
+//!
+//! `cargo bench --bench free_hinges` prints a line for each number of free hinges: the topology
+//! that is left, the recursion in that mode, and the generated routine that a run would take (its
+//! topology, the axes it is for, how many of its links are virtual), or `-` where it would find
+//! none. Holding a hinge should never cost: no time should be longer than one above it.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::formulation::{Layout, recognise};
+use nboom::model::{HingeState, Mode, Scene};
+use nboom::sim::{Fit, Options};
+use timing::{STATES, numbers, state, time};
+
+#[path = "timing/mod.rs"]
+mod timing;
+
+fn main() {
+    println!("scene order free topology recursion_ns routine axes virtual routine_ns");
+    for (name, orders) in [
+        ("T1", &[Order::TipsFirst, Order::RootsFirst][..]),
+        ("T2", &[Order::TipsFirst, Order::RootsFirst]),
+        ("T4", &[Order::TipsFirst]),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("benches/scenes/{name}.nml"));
+        let scene = nboom::io::read_scene(&path).expect("the scene is in the clone").scene;
+        for &order in orders {
+            table(name, &scene, order);
+        }
+    }
+}
+
+/// Which hinges are held first.
+#[derive(Clone, Copy, Debug)]
+enum Order {
+    /// The outermost of each appendage in turn, as booms do that lock from their tips.
+    TipsFirst,
+    /// Those at the main body, as booms do that are released from their tips.
+    RootsFirst,
+}
+
+impl Order {
+    fn hinges(self, scene: &Scene) -> Vec<usize> {
+        let mut depths = vec![0; scene.bodies.len()];
+        for (i, body) in scene.bodies.iter().enumerate() {
+            depths[i] = body.inboard.map_or(0, |inboard| depths[inboard] + 1);
+        }
+        let mut hinges: Vec<usize> = (0..depths.len()).collect();
+        hinges.sort_by_key(|&i| depths[i]);
+        if matches!(self, Self::TipsFirst) {
+            hinges.reverse();
+        }
+        hinges
+    }
+}
+
+fn table(name: &str, scene: &Scene, order: Order) {
+    let hinges = scene.bodies.len();
+    let mut mode = Mode { hinges: vec![HingeState::Free; hinges], ..Mode::at_start(scene) };
+    let mut dynamics = Recursive::<f64>::new(scene);
+    let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
+    let order_of_holding = order.hinges(scene);
+    let options = Options { kernels: nboom_routines::all(), ..Options::default() };
+    for held in 0..=hinges {
+        if held > 0 {
+            mode.hinges[order_of_holding[held - 1]] = HingeState::Locked;
+        }
+        dynamics.set_mode(&mode, &beta);
+        let free = hinges - held;
+        let recursion = recursion(&mut dynamics, free);
+        let (topology, routine) = recognise(dynamics.tree()).map_or_else(
+            |_| ("no_chains".to_owned(), None),
+            |found| (found.topology.to_string(), Fit::best(&found, false, &options)),
+        );
+        let routine = routine.map_or_else(|| "- - - -".to_owned(), |fit| timed(&fit));
+        println!("{name} {order:?} {free} {topology} {recursion:.1} {routine}");
+    }
+}
+
+/// The routine's topology, the axes it is for, its virtual links and its time.
+fn timed(fit: &Fit) -> String {
+    let kernel = &fit.kernel;
+    let constants = fit.constants();
+    let mut coordinates: Vec<Vec<f64>> = vec![vec![0.0; kernel.coordinates]; STATES];
+    for (i, state) in coordinates.iter_mut().enumerate() {
+        let any = numbers(i, kernel.coordinates);
+        let of_hinges = fit.hinges().flat_map(|(in_state, _)| in_state);
+        for at in (0..Layout::STATE).chain(of_hinges) {
+            state[at] = any[at];
+        }
+    }
+    let mut out = vec![0.0; kernel.outputs];
+    let (ns, _) = time(|i| {
+        kernel.evaluate(black_box(&constants), black_box(&coordinates[i]), black_box(&mut out));
+    });
+    let axes = if kernel.pinned.is_empty() { "general" } else { "principal" };
+    format!("{} {axes} {} {ns:.1}", kernel.topology, fit.embedding.virtual_links())
+}
+
+fn recursion(dynamics: &mut Recursive<f64>, free: usize) -> f64 {
+    let states: Vec<_> = (0..STATES).map(|i| state(i, free)).collect();
+    let mut found = Accelerations::for_hinges(free);
+    time(|i| {
+        let motion =
+            Motion { omega_body: states[i].omega, beta: &states[i].beta, tau: &states[i].tau };
+        dynamics.accelerations(black_box(&motion), black_box(&mut found));
+    })
+    .0
+}

@@ -1,0 +1,248 @@
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
+
+use nboom_codegen::{Level, Numbers, Request, Standing, file, standing};
+use nboom_formulation::Formulation;
+use nboom_io::read_scene;
+
+use crate::BuildError;
+
+/// What a file of generated routines holds.
+///
+/// `topology`, `scene` and `baked_scene` add routines; everything else applies to all routines of
+/// the file. Paths are relative to the folder of `Cargo.toml`, where cargo runs build scripts.
+#[derive(Clone, Debug)]
+pub struct Config {
+    sources: Vec<Source>,
+    lock_states: bool,
+    external_wrench: bool,
+    principal_axes: bool,
+    equations: bool,
+    formulation: Formulation,
+    level: Level,
+    scalar_path: String,
+}
+
+#[derive(Clone, Debug)]
+enum Source {
+    Topology { name: String, topology: String },
+    Scene { path: PathBuf, numbers: Numbers },
+}
+
+/// The variable of the environment that lets [`Config::check`] write.
+const BLESS: &str = "NBOOM_BLESS";
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            sources: Vec::new(),
+            lock_states: false,
+            external_wrench: false,
+            principal_axes: false,
+            equations: false,
+            formulation: Formulation::Articulated,
+            level: Level::Fast,
+            scalar_path: "::nboom_scalar".to_owned(),
+        }
+    }
+}
+
+impl Config {
+    /// No routines yet: accelerations by `articulated`, level `fast`, for programs that use the
+    /// crate `nboom_scalar`.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a routine for a topology, for example `4xS5_P`, all numbers at run time. `name` is the
+    /// name of its type.
+    pub fn topology(mut self, name: &str, topology: &str) -> Self {
+        let (name, topology) = (name.to_owned(), topology.to_owned());
+        self.sources.push(Source::Topology { name, topology });
+        self
+    }
+
+    /// Adds a routine for the topology of a scene, numbers at run time; what is zero in the scene
+    /// is taken for granted. Its type is named after the topology: `SatelliteS2P`.
+    pub fn scene(self, path: impl Into<PathBuf>) -> Self {
+        self.of_scene(path.into(), Numbers::RunTime)
+    }
+
+    /// Adds a routine with all numbers of a scene built in. Its type is named after the topology:
+    /// `BakedS2P`.
+    pub fn baked_scene(self, path: impl Into<PathBuf>) -> Self {
+        self.of_scene(path.into(), Numbers::Baked)
+    }
+
+    fn of_scene(mut self, path: PathBuf, numbers: Numbers) -> Self {
+        self.sources.push(Source::Scene { path, numbers });
+        self
+    }
+
+    /// Adds routines for the topologies that each scene comes through while hinges are held.
+    pub fn with_lock_states(self) -> Self {
+        Self { lock_states: true, ..self }
+    }
+
+    /// Routines of topologies take an external wrench on the main body. Those of scenes do where
+    /// the scene has a thrust.
+    pub fn with_external_wrench(self) -> Self {
+        Self { external_wrench: true, ..self }
+    }
+
+    /// Routines of topologies take for granted that inertias stand along the segment axes, every
+    /// mass centre is on its segment's η axis, and O is at the main body's mass centre.
+    pub fn with_principal_axes(self) -> Self {
+        Self { principal_axes: true, ..self }
+    }
+
+    /// Routines write the matrix and the right side that the formulation solves, instead of
+    /// accelerations.
+    pub fn for_equations(self) -> Self {
+        Self { equations: true, ..self }
+    }
+
+    /// The closed form that routines compute.
+    pub fn formulation(self, formulation: Formulation) -> Self {
+        Self { formulation, ..self }
+    }
+
+    /// How freely arithmetic may be rearranged.
+    pub fn level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// Where the program has the crate `nboom_scalar`: `::nboom::scalar` if it uses the facade.
+    pub fn scalar_path(self, path: &str) -> Self {
+        Self { scalar_path: path.to_owned(), ..self }
+    }
+
+    /// Writes the file into the build script's output directory, unless it is there.
+    ///
+    /// # Errors
+    /// When a scene cannot be read, a routine cannot be generated, or the file cannot be written.
+    pub fn write(&self, file: &str) -> Result<(), BuildError> {
+        let folder = env::var_os("OUT_DIR").ok_or(BuildError::NoOutDir)?;
+        // Whatever is in this folder was written by a build script.
+        self.bring_up_to_date(&Path::new(&folder).join(file), |_| true)
+    }
+
+    /// Writes the file to `path`, unless it is there.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write); and when there is a file that was not generated, or that was
+    /// changed since.
+    pub fn write_to(&self, path: impl AsRef<Path>) -> Result<(), BuildError> {
+        println!("cargo::rerun-if-changed={}", path.as_ref().display());
+        self.bring_up_to_date(path.as_ref(), |found| found.is_none_or(|f| f == Standing::Stale))
+    }
+
+    /// Checks that the file at `path`, part of the program's source, is what would be generated.
+    /// In a build with `NBOOM_BLESS=1` in the environment it is as [`write_to`](Self::write_to).
+    ///
+    /// # Errors
+    /// As [`write_to`](Self::write_to); and when the file is missing or out of date.
+    pub fn check(&self, path: impl AsRef<Path>) -> Result<(), BuildError> {
+        println!("cargo::rerun-if-env-changed={BLESS}");
+        let bless = env::var_os(BLESS).is_some_and(|bless| bless == "1");
+        self.check_or_bless(path.as_ref(), bless)
+    }
+
+    fn check_or_bless(&self, path: &Path, bless: bool) -> Result<(), BuildError> {
+        if bless {
+            return self.write_to(path);
+        }
+        println!("cargo::rerun-if-changed={}", path.display());
+        self.bring_up_to_date(path, |_| false)
+    }
+
+    /// Writes what is not current, if it `may` be overwritten; there `None` is no file at all.
+    fn bring_up_to_date(
+        &self,
+        path: &Path,
+        may: impl Fn(Option<Standing>) -> bool,
+    ) -> Result<(), BuildError> {
+        let requests = self.requests()?;
+        let io = |source| BuildError::Io { path: path.to_owned(), source };
+        let found = match fs::read(path) {
+            // What is not text was not generated.
+            Ok(bytes) => Some(standing(&String::from_utf8_lossy(&bytes), &requests)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(io(error)),
+        };
+        if found == Some(Standing::Current) {
+            return Ok(());
+        }
+        if !may(found) {
+            return Err(BuildError::NotCurrent { path: path.to_owned(), standing: found });
+        }
+        fs::write(path, file(&requests)?).map_err(io)
+    }
+
+    /// One request for each routine; a routine that several scenes have in common comes once.
+    fn requests(&self) -> Result<Vec<Request>, BuildError> {
+        println!("cargo::rerun-if-changed=build.rs");
+        let mut requests: Vec<Request> = Vec::new();
+        for source in &self.sources {
+            for request in self.requests_of(source)? {
+                let request = self.as_configured(request);
+                match requests.iter().find(|other| other.name == request.name) {
+                    Some(other) if *other == request => {}
+                    Some(_) => return Err(BuildError::Twice { name: request.name }),
+                    None => requests.push(request),
+                }
+            }
+        }
+        Ok(requests)
+    }
+
+    fn requests_of(&self, source: &Source) -> Result<Vec<Request>, BuildError> {
+        match source {
+            Source::Topology { name, topology } => {
+                let topology = topology
+                    .parse()
+                    .map_err(|source| BuildError::Topology { name: name.clone(), source })?;
+                let mut request = Request::new(name, topology, self.level);
+                request.external = self.external_wrench;
+                if self.principal_axes {
+                    request = request.with_principal_axes();
+                }
+                Ok(vec![request])
+            }
+            Source::Scene { path, numbers } => {
+                println!("cargo::rerun-if-changed={}", path.display());
+                let scene = read_scene(path)?.scene;
+                let mut requests = vec![Request::of_scene(&scene, *numbers, self.level)?];
+                if self.lock_states {
+                    requests.extend(Request::lock_states(&scene, self.level)?);
+                }
+                Ok(requests)
+            }
+        }
+    }
+
+    fn as_configured(&self, request: Request) -> Request {
+        let request = Request { scalar_path: self.scalar_path.clone(), ..request };
+        let request = request.by(self.formulation);
+        if self.equations { request.for_equations() } else { request }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_blessed_check_writes_what_is_missing_or_stale_only() {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let path = folder.path().join("routines.rs");
+        let (old, new) = (Config::new().topology("Old", "M"), Config::new().topology("New", "M"));
+        for config in [&old, &new] {
+            assert!(config.check_or_bless(&path, false).is_err());
+            config.check_or_bless(&path, true).expect("it is missing or stale");
+            config.check_or_bless(&path, false).expect("it has just been written");
+        }
+        fs::write(&path, "fn main() {}\n").expect("the folder is ours");
+        assert!(new.check_or_bless(&path, true).is_err());
+    }
+}

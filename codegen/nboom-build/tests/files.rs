@@ -1,0 +1,140 @@
+//! What a build script does to files: an up-to-date one is left alone, a stale one is written
+//! anew, and nothing of the user's is overwritten.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use nboom_build::{BuildError, Config, Formulation, Level};
+
+const SAMPLE: &str = "../../examples/n-boom-1970.nml";
+
+fn satellite() -> Config {
+    Config::new().topology("Satellite", "S1_P").scalar_path("::nboom::scalar")
+}
+
+/// A folder, and the path of a file in it.
+fn place() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let path = folder.path().join("routines.rs");
+    (folder, path)
+}
+
+fn text(path: &Path) -> String {
+    fs::read_to_string(path).expect("the file is there")
+}
+
+fn written(config: &Config) -> String {
+    let (_folder, path) = place();
+    config.write_to(&path).expect("there is no file");
+    text(&path)
+}
+
+fn message(result: Result<(), BuildError>) -> String {
+    format!("{:?}", result.expect_err("refused"))
+}
+
+#[test]
+fn an_up_to_date_file_is_not_written_again() {
+    let (_folder, path) = place();
+    satellite().write_to(&path).expect("there is no file");
+    let long_ago = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000);
+    let modified = || fs::metadata(&path).and_then(|data| data.modified()).expect("a time");
+    let file = fs::File::options().write(true).open(&path).expect("the file is there");
+    file.set_modified(long_ago).expect("the file is ours");
+    satellite().write_to(&path).expect("it is current");
+    satellite().check(&path).expect("it is current");
+    assert_eq!(modified(), long_ago);
+    satellite().level(Level::Exact).write_to(&path).expect("a stale file is written anew");
+    assert_ne!(modified(), long_ago);
+    assert!(text(&path).contains("level exact"));
+}
+
+#[test]
+fn a_checked_in_file_that_is_not_current_is_named_with_the_remedy() {
+    let (_folder, path) = place();
+    let missing = message(satellite().check(&path));
+    assert!(missing.contains("routines.rs: there is no such file; NBOOM_BLESS=1 cargo build"));
+    assert!(!path.exists());
+
+    satellite().write_to(&path).expect("there is no file");
+    let (current, other) = (text(&path), satellite().formulation(Formulation::Symmetric));
+    let stale = message(other.check(&path));
+    assert!(stale.contains("routines.rs: generated from another scene or request"), "{stale}");
+    assert!(stale.contains("NBOOM_BLESS=1 cargo build writes it anew"));
+
+    let changed = current.replacen("EXTERNAL: bool = false", "EXTERNAL: bool = true", 1);
+    fs::write(&path, changed).expect("the folder is ours");
+    let edited = message(satellite().check(&path));
+    assert!(edited.contains("routines.rs: changed by hand since it was generated"), "{edited}");
+
+    fs::write(&path, "fn main() {}\n").expect("the folder is ours");
+    let foreign = message(satellite().check(&path));
+    assert!(foreign.contains("routines.rs: not a generated file"), "{foreign}");
+}
+
+#[test]
+fn nothing_of_the_users_is_overwritten() {
+    let (_folder, path) = place();
+    let edited = written(&satellite()) + "// mine\n";
+    for theirs in [edited.as_bytes(), b"fn main() {}\n", b"", b"\xff\xfe"] {
+        fs::write(&path, theirs).expect("the folder is ours");
+        let error = satellite().write_to(&path).expect_err("refused");
+        assert!(matches!(error, BuildError::NotCurrent { .. }), "{error}");
+        assert_eq!(fs::read(&path).expect("the file is there"), theirs);
+    }
+}
+
+#[test]
+fn options_reach_the_code() {
+    let plain = written(&satellite());
+    assert!(plain.contains("use ::nboom::scalar::{"));
+    assert!(plain.contains("by formulation articulated, level fast"));
+    assert!(plain.contains("pub fn kernels() -> &'static [::nboom::scalar::Kernel]"));
+    assert!(plain.contains("const EXTERNAL: bool = false"));
+    let forced = written(&satellite().with_external_wrench().with_principal_axes());
+    assert!(forced.contains("const EXTERNAL: bool = true"));
+    assert!(forced.contains("O at the main body's mass centre"));
+    let equations = satellite().formulation(Formulation::Symmetric).for_equations();
+    let equations = written(&equations);
+    assert!(equations.contains("equations by formulation symmetric"));
+    // Equations are no accelerations, which is what a run takes kernels for.
+    assert!(!equations.contains("kernels()"));
+}
+
+#[test]
+fn a_scene_gives_its_routines() {
+    let both = Config::new().scene(SAMPLE).baked_scene(SAMPLE).with_lock_states();
+    let text = written(&both);
+    for name in ["SatelliteS2P", "BakedS2P", "SatelliteS2", "SatelliteM"] {
+        assert_eq!(text.matches(&format!("pub struct {name};")).count(), 1, "{name}");
+        assert!(text.contains(&format!("Kernel::of::<{name}>()")), "{name}");
+    }
+    let alone = written(&Config::new().scene(SAMPLE));
+    assert_eq!(alone.matches("pub struct ").count(), 1);
+}
+
+#[test]
+fn what_cannot_be_generated_is_said_in_words() {
+    let (_folder, path) = place();
+    let topology = message(Config::new().topology("Satellite", "S2_Q").write_to(&path));
+    assert!(
+        topology.starts_with("routine `Satellite`: `S2_Q` found, a topology like"),
+        "{topology}"
+    );
+    let twice = satellite().topology("Satellite", "S2");
+    assert!(message(twice.write_to(&path)).starts_with("two routines are named `Satellite`"));
+    let dense = Config::new().topology("Dense", "S60").formulation(Formulation::Report);
+    assert!(message(dense.write_to(&path)).contains("topology S60, formulation report"));
+    let nowhere = message(Config::new().scene("nowhere.nml").write_to(&path));
+    assert!(nowhere.starts_with("nowhere.nml: the file cannot be read: "), "{nowhere}");
+    assert!(!path.exists());
+    let folder = message(satellite().write_to(path.join("none.rs")));
+    assert!(folder.contains("none.rs: "), "{folder}");
+}
+
+#[test]
+fn output_goes_where_cargo_says() {
+    // Cargo sets OUT_DIR for packages that have a build script, which this one has not.
+    assert!(message(satellite().write("routines.rs")).starts_with("OUT_DIR is not set"));
+}

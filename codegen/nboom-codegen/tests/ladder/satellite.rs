@@ -1,0 +1,188 @@
+//! Satellites of any topology from a seed: chains and paddles with hinges held, their parameters,
+//! states, and what a routine may take for granted about them.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nboom_formulation::{Layout, Recognised, recognise};
+use nboom_model::{
+    Appendage, Hinge, HingeState, MassProperties, Mode, Mount, Scene, SceneDescription, Segment,
+    Topology, WeldedTree,
+};
+use nboom_scalar::{Mat3, Sym3, Vec3};
+
+/// States of each satellite.
+const STATES: usize = 2;
+
+/// A satellite with all that a request and an evaluation of it take.
+#[derive(Clone, Debug)]
+pub struct Satellite {
+    pub topology: Topology,
+    /// How many hinges of the scene it came from are held.
+    pub held: usize,
+    pub parameters: Vec<f64>,
+    /// Some of the parameters.
+    pub pinned: Vec<Option<f64>>,
+    pub external: bool,
+    pub states: Vec<Vec<f64>>,
+}
+
+impl Satellite {
+    pub fn random(seed: u64) -> Self {
+        let dice = &mut Dice(seed);
+        let (topology, held, mut parameters) = welded(dice);
+        let pinned = pinned(dice, &topology, &mut parameters);
+        let external = dice.chance(0.5);
+        let states = (0..STATES).map(|_| state(dice, &topology, external)).collect();
+        Self { topology, held, parameters, pinned, external, states }
+    }
+}
+
+/// A generator of numbers that are the same on every machine (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() % count as u64) as usize
+    }
+
+    fn chance(&mut self, probability: f64) -> bool {
+        self.between(0.0, 1.0) < probability
+    }
+
+    fn vector(&mut self, size: f64) -> Vec3<f64> {
+        let mut one = || self.between(-size, size);
+        Vec3::new(one(), one(), one())
+    }
+
+    /// Any rotation, or one by quarter turns.
+    fn rotation(&mut self, quarters: bool) -> Mat3<f64> {
+        let mut angle = || match quarters {
+            true => FRAC_PI_2 * self.below(4) as f64,
+            false => self.between(-3.0, 3.0),
+        };
+        let rot = Mat3::from_euler_121(angle(), angle(), angle());
+        if !quarters {
+            return rot;
+        }
+        let exact = |v: Vec3<f64>| Vec3::new(v.x.round(), v.y.round(), v.z.round());
+        Mat3 { rows: rot.rows.map(exact) }
+    }
+
+    /// Along the axes and on the second one, or anyhow.
+    fn body(&mut self, mass: f64, along_axes: bool) -> MassProperties {
+        let [x, y, z] = [(); 3].map(|()| self.between(0.05, 0.5) * mass);
+        let moments = Sym3::diagonal(y + z, x + z, x + y);
+        if along_axes {
+            return MassProperties::new(mass, Vec3::unit_y() * self.between(-1.0, 1.0), moments);
+        }
+        let inertia = moments.rotated(&self.rotation(false));
+        MassProperties::new(mass, self.vector(0.6), inertia)
+    }
+}
+
+/// Topology, held hinges and parameters of a random scene: mostly up to 10 hinges, now and then
+/// up to 30.
+fn welded(dice: &mut Dice) -> (Topology, usize, Vec<f64>) {
+    let hinges = if dice.chance(0.97) { dice.below(11) } else { 11 + dice.below(20) };
+    let scene = scene(dice, hinges);
+    let share = if dice.chance(0.5) { 0.3 } else { 0.0 };
+    let states: Vec<HingeState> = (0..scene.bodies.len())
+        .map(|_| if dice.chance(share) { HingeState::Locked } else { HingeState::Free })
+        .collect();
+    let held = states.iter().filter(|state| **state == HingeState::Locked).count();
+    let mode = Mode { kick_off: vec![false; states.len()], thrust: false, hinges: states };
+    let beta: Vec<f64> = scene.bodies.iter().map(|_| dice.between(-3.0, 3.0)).collect();
+    let tree = WeldedTree::new(&scene, &mode, &beta);
+    let Recognised { topology, parameters, .. } = recognise(&tree).expect("chains and paddles");
+    (topology, held, parameters.write())
+}
+
+fn scene(dice: &mut Dice, hinges: usize) -> Scene {
+    let along_axes = dice.chance(0.5);
+    let mut main_body = dice.body(50.0, along_axes);
+    if along_axes {
+        main_body.center_of_mass = Vec3::zero();
+    }
+    let mut description = SceneDescription::at_rest("random", main_body, 1.0);
+    while description.bodies.len() < hinges {
+        let most = hinges - description.bodies.len();
+        description.attach(&appendage(dice, along_axes, most));
+    }
+    Scene::new(description).expect("the bodies are physical")
+}
+
+/// A chain or a paddle of at most this many hinges.
+fn appendage(dice: &mut Dice, along_axes: bool, most: usize) -> Appendage {
+    let rot_inboard_from_hinge = dice.rotation(along_axes);
+    let mount = Mount { point: dice.vector(1.0), rot_inboard_from_hinge };
+    let is_paddle = most >= 2 && dice.chance(0.3);
+    let longest = 1 + dice.below(most);
+    let links = 1 + dice.below(longest);
+    let mut segment = || Segment {
+        length: dice.between(0.2, 1.5),
+        mass_properties: dice.body(2.0, along_axes),
+        hinge: Hinge::free(),
+    };
+    if is_paddle {
+        return Appendage::Paddle { mount, arm: segment(), paddle: segment() };
+    }
+    Appendage::Regular { mount, segments: (0..links).map(|_| segment()).collect() }
+}
+
+/// Nothing, all zeros and ones, some numbers, or all. Of those that may be zero, some are set to
+/// zero first.
+fn pinned(dice: &mut Dice, topology: &Topology, parameters: &mut [f64]) -> Vec<Option<f64>> {
+    match dice.below(4) {
+        0 => vec![None; parameters.len()],
+        1 => {
+            let plain = |&value: &f64| (value == 0.0 || value.abs() == 1.0).then_some(value);
+            parameters.iter().map(plain).collect()
+        }
+        2 => {
+            let share = dice.between(0.0, 1.0);
+            for at in rigid_bodies(topology) {
+                for couples in [1, 2, 3, 7, 8, 9].map(|i| at + i) {
+                    if dice.chance(0.5 * share) {
+                        parameters[couples] = 0.0;
+                    }
+                }
+            }
+            parameters.iter().map(|&value| dice.chance(share).then_some(value)).collect()
+        }
+        _ => parameters.iter().copied().map(Some).collect(),
+    }
+}
+
+/// Where the ten numbers of the main body and of each link begin.
+fn rigid_bodies(topology: &Topology) -> Vec<usize> {
+    let (mut at, mut all) = (Layout::MAIN, vec![0]);
+    for shape in topology.shapes() {
+        at += Layout::BRANCH;
+        all.extend((0..shape.hinges()).map(|i| at + i * Layout::LINK));
+        at += shape.hinges() * Layout::LINK;
+    }
+    all
+}
+
+/// Numbers of order one, some of them zero at times.
+fn state(dice: &mut Dice, topology: &Topology, external: bool) -> Vec<f64> {
+    let zeros = if dice.chance(0.3) { 0.5 } else { 0.0 };
+    let mut number = |_| if dice.chance(zeros) { 0.0 } else { dice.between(-3.0, 3.0) };
+    let mut state: Vec<f64> = (0..Layout::coordinates(topology)).map(&mut number).collect();
+    if !external {
+        state[3..9].fill(0.0);
+    }
+    state
+}

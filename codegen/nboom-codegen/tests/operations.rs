@@ -1,0 +1,36 @@
+//! What generated code of S2_P costs is what the documents say.
+
+use nboom_codegen::{Level, Request, generate};
+use nboom_formulation::Formulation;
+
+const DOCUMENT: &str = include_str!("../../../docs/formulations.md");
+
+/// Rows between the marks, and the last of their cells.
+fn documented() -> Vec<(String, String)> {
+    let (_, rest) = DOCUMENT.split_once("<!-- generated code of S2_P -->\n").expect("a begin mark");
+    let (table, _) = rest.split_once("<!-- end of generated code -->").expect("an end mark");
+    let cells = |row: &str| -> Option<(String, String)> {
+        let (name, counts) = row.strip_prefix("| `")?.split_once("` | ")?;
+        Some((name.to_owned(), counts.trim_end_matches(" |").to_owned()))
+    };
+    table.lines().filter_map(cells).collect()
+}
+
+/// Additions, multiplications and divisions of an evaluation with external wrench, in general and
+/// with principal axes.
+fn counted(formulation: Formulation) -> String {
+    let topology = "S2_P".parse().expect("a topology");
+    let general = Request::new("S2P", topology, Level::Fast).with_external_wrench().by(formulation);
+    let requests = [general.clone(), general.with_principal_axes()];
+    let cells = requests.map(|request| {
+        let cost = generate(&request).expect("S2_P can be generated").evaluation;
+        format!("{} + {} + {}", cost.additions, cost.multiplications, cost.divisions)
+    });
+    cells.join(" | ")
+}
+
+#[test]
+fn costs_of_generated_code_are_those_of_the_table() {
+    let expected = Formulation::ALL.map(|f| (f.name().to_owned(), counted(f)));
+    assert_eq!(documented(), expected);
+}

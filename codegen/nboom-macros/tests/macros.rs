@@ -1,0 +1,146 @@
+//! What the macros expand to, compiled and run: routines against the closed form, a scene against
+//! the recursion.
+
+use nboom::formulation::{Coordinates, Formulation, HingeCoordinates, Parameters, recognise};
+use nboom::model::{HingeState, Mode, Scene, Topology, WeldedTree};
+use nboom::scalar::{Kernel, Routine, Vec3, Wrench};
+use nboom::sim::{Event, EventKind, Options, Path, Recorder, Snapshot, simulate};
+
+nboom::routine! { pub Satellite: S2_P }
+nboom::routine! {
+    /// In a different order, with every option.
+    Forced: P_S2, equations, external, level = exact, formulation = symmetric, facts = principal,
+}
+nboom::routine! { ByName: "2xS1", level = exact }
+nboom::routine! { OneToken: 4xS1_P }
+
+/// Satellite S2_P of the report, with a deployment to run.
+const SAMPLE: nboom::CompiledScene = nboom::scene!("../../examples/n-boom-1970.nml");
+
+fn sample() -> Scene {
+    SAMPLE.scene().expect("it was read when this was compiled")
+}
+
+/// Its numbers with all hinges free.
+fn parameters() -> Parameters<f64> {
+    let scene = sample();
+    let hinges = scene.bodies.len();
+    let mode = Mode {
+        hinges: vec![HingeState::Free; hinges],
+        kick_off: vec![false; hinges],
+        thrust: false,
+    };
+    let tree = WeldedTree::new(&scene, &mode, &vec![0.0; hinges]);
+    recognise(&tree).expect("a chain and a paddle").parameters
+}
+
+fn state() -> Coordinates<f64> {
+    let hinge = |i: usize| HingeCoordinates {
+        beta: 0.4 * i as f64 - 0.7,
+        tau: 0.3 - 0.2 * i as f64,
+        torque: 1.1 * i as f64,
+    };
+    Coordinates {
+        omega: Vec3::new(0.9, -0.2, 0.1),
+        external: Wrench::zero(),
+        hinges: (0..4).map(hinge).collect(),
+    }
+}
+
+fn outputs<T: Routine>() -> Vec<f64> {
+    let topology: Topology = T::TOPOLOGY.parse().expect("routines have topologies");
+    let kernel = Kernel::of::<T>();
+    let parameters = parameters().write();
+    assert!(kernel.accepts(&parameters));
+    let (mut constants, mut out) = (vec![0.0; kernel.constants], vec![0.0; kernel.outputs]);
+    kernel.prepare(&parameters, &mut constants);
+    kernel.evaluate(&constants, &state().write(&topology), &mut out);
+    out
+}
+
+fn agree(found: &[f64], expected: &[f64]) {
+    let scale = expected.iter().fold(0.0_f64, |largest, e| largest.max(e.abs()));
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-12 * scale, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_routine_gives_the_closed_forms_accelerations() {
+    let topology: Topology = "S2_P".parse().expect("a topology");
+    let expected = Formulation::Articulated.solve(&topology, &parameters(), &state());
+    agree(&outputs::<Satellite>(), &expected.write(&topology));
+    assert!(!Satellite::EXTERNAL && Satellite::PINNED.is_empty());
+}
+
+#[test]
+fn a_routine_for_equations_gives_the_formulations_matrix() {
+    let topology: Topology = "S2_P".parse().expect("a topology");
+    let expected = Formulation::Symmetric.equations(&topology, &parameters(), &state());
+    let expected = expected.expect("it solves a system");
+    agree(&outputs::<Forced>(), &[expected.matrix, expected.forcing].concat());
+    assert!(Forced::EXTERNAL && !Forced::PINNED.is_empty());
+}
+
+#[test]
+fn topologies_are_names_numbers_or_strings() {
+    assert_eq!(
+        (Forced::TOPOLOGY, ByName::TOPOLOGY, OneToken::TOPOLOGY),
+        ("S2_P", "2xS1", "4xS1_P")
+    );
+}
+
+/// Times of lock-ups, and the last rates.
+#[derive(Default)]
+struct Latches(Vec<f64>);
+
+impl Recorder for Latches {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+    fn sample(&mut self, _: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn event(&mut self, event: &Event, _: &Snapshot) -> std::io::Result<()> {
+        self.0.extend(Some(event.time).filter(|_| event.kind == EventKind::LockUp));
+        Ok(())
+    }
+}
+
+#[test]
+fn a_compiled_scene_runs_in_its_own_code_alone() {
+    let latches = |path, kernels| {
+        let mut latches = Latches::default();
+        let options = Options { path, kernels, ..Options::default() };
+        simulate(&sample(), &options, &mut latches).expect("the sample deck runs");
+        latches.0
+    };
+    let (generated, recursion) =
+        (latches(Path::Generated, SAMPLE.kernels()), latches(Path::Generic, &[]));
+    assert_eq!(generated.len(), 4);
+    for (generated, recursion) in generated.iter().zip(recursion) {
+        assert!((generated - recursion).abs() < 1e-7 * recursion, "{generated} {recursion}");
+    }
+}
+
+#[test]
+fn a_compiled_scene_has_its_numbers_built_in() {
+    let numbers = parameters().write();
+    let all_free: Vec<&Kernel> =
+        SAMPLE.kernels().iter().filter(|kernel| kernel.topology == "S2_P").collect();
+    assert_eq!(all_free.len(), 2);
+    assert_eq!(all_free[0].pinned.len(), numbers.len());
+    assert!(all_free[0].pinned.iter().all(|&(i, value)| numbers[i] == value));
+    assert!(all_free[1].pinned.len() < numbers.len() && all_free[1].accepts(&numbers));
+}
+
+#[test]
+fn a_compiled_scene_is_the_scene_of_the_file() {
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/n-boom-1970.nml");
+    let file = nboom::io::read_scene(&path).expect("the sample deck is right");
+    assert_eq!(sample(), file.scene);
+    assert_eq!(SAMPLE.name(), "n-boom-1970");
+    assert_eq!(SAMPLE.text(), std::fs::read_to_string(path).expect("it was read above"));
+}

@@ -1,0 +1,21 @@
+use nboom_io::read_scene;
+use nboom_package::{Build, Built, compile as build};
+
+use crate::{CliError, CompileArgs, check, say};
+
+/// Builds a simulator around the scene's routines and returns an account.
+pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
+    let file = read_scene(&args.scene)?;
+    check::warnings(&file).iter().for_each(|warning| say("warning", warning));
+    let CompileArgs { formulation, level, offline, .. } = *args;
+    let how = Build { formulation, level, work: args.work.clone(), offline };
+    let Built { up_to_date, topology, routines, folder } = build(&file.scene, &how, &args.output)?;
+    let (scene, program) = (&file.scene.name, args.output.display());
+    if up_to_date {
+        return Ok(format!("{scene}: {program} is up to date\n"));
+    }
+    let sources = folder.display();
+    Ok(format!(
+        "{scene}: topology {topology}, {routines} routines, built {program}\nsources in {sources}\n"
+    ))
+}

@@ -1,0 +1,106 @@
+//! `nboom generate` and `nboom compile` as their users meet them: exit codes, messages, files.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// A main body with one boom of two segments.
+const BOOM: &str = "
+ &DIM
+ NA=1,IXYZ=0,IAB=0,NP=0,NOPLT=1,IXK=2,
+ &END
+ &NXPUT
+ INSTR=0,
+ BETAIK=80.0,-60.0,BSIK=0.0,0.0,
+ OMEG=1.0,2.0,-1.0,
+ NK=2,DBK=0.0,0.5,0.1,FTSIK=0.0,90.0,0.0,
+ ELIK=2*2.0,EMIK=2*3.0,HIIK=1.1,3*0.0,0.05,3*0.0,1.1,1.1,3*0.0,0.05,3*0.0,1.1,
+ CNIK(1,2)=1.0,CNIK(2,2)=1.0,
+ EMM=100.0,HM=40.0,3*0.0,30.0,3*0.0,35.0,
+ &END
+ &ROCK
+ TF=4.0,SEGSTT=0.0,
+ &END
+";
+
+fn place() -> TempDir {
+    let place = tempfile::tempdir().expect("a directory");
+    fs::write(place.path().join("boom.nml"), BOOM).expect("writable");
+    place
+}
+
+fn command(place: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+    command.current_dir(place).args(args);
+    command
+}
+
+fn nboom(place: &Path, args: &[&str]) -> Output {
+    command(place, args).output().expect("the binary starts")
+}
+
+/// It ends with this code and says all these words: on standard output when it is done, on
+/// standard error alone when it is not.
+fn ends(output: &Output, code: i32, words: &[&str]) {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("text");
+    let (out, error) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{out}{error}");
+    let said = if code == 0 { &out } else { &error };
+    words.iter().for_each(|word| assert!(said.contains(word), "no {word:?} in {said:?}"));
+    assert!(code == 0 || out.is_empty(), "{out}");
+    assert!(!error.contains("panicked"), "{error}");
+}
+
+#[test]
+fn a_crate_is_written_once_checked_and_not_overwritten() {
+    let place = place();
+    let place = place.path();
+    let generate = ["generate", "boom.nml", "-o", "crate"];
+    let check = ["generate", "boom.nml", "-o", "crate", "--check"];
+    ends(&nboom(place, &check), 1, &["crate/GENERATED", "is missing"]);
+    ends(&nboom(place, &generate), 0, &["topology S2", "SatelliteS2", "deviation"]);
+    ends(&nboom(place, &generate), 0, &["crate is up to date"]);
+    ends(&nboom(place, &check), 0, &["crate is up to date"]);
+    let baked = [&check[..], &["--baked"]].concat();
+    ends(&nboom(place, &baked), 1, &["is out of date"]);
+
+    let routines = place.join("crate/src/routines.rs");
+    let edited = fs::read_to_string(&routines).expect("readable") + "// mine\n";
+    fs::write(&routines, &edited).expect("writable");
+    ends(&nboom(place, &generate), 2, &["crate/src/routines.rs", "was changed"]);
+    ends(&nboom(place, &check), 1, &["crate/src/routines.rs", "was changed"]);
+    assert_eq!(fs::read_to_string(&routines).ok(), Some(edited));
+}
+
+#[test]
+fn what_cannot_be_generated_is_said() {
+    let place = place();
+    let place = place.path();
+    let with = |options: &[&str]| {
+        nboom(place, &[&["generate", "boom.nml", "-o", "crate"], options].concat())
+    };
+    ends(&with(&["--equations"]), 2, &["topology S2", "formulation articulated", "symmetric"]);
+    ends(&with(&["--formulation", "kane"]), 2, &["symmetric, articulated, momentum expected"]);
+    ends(&with(&["--level", "best"]), 2, &["exact, fast expected"]);
+    ends(&nboom(place, &["generate", "none.nml", "-o", "crate"]), 2, &["none.nml"]);
+    assert!(!place.join("crate").exists());
+    fs::write(place.join("file"), "").expect("writable");
+    ends(&nboom(place, &["generate", "boom.nml", "-o", "file"]), 3, &["file"]);
+}
+
+#[test]
+fn a_compiler_that_is_not_there_or_fails_is_said() {
+    let place = place();
+    let place = place.path();
+    let compile = ["compile", "boom.nml", "-o", "boom", "--work", "work"];
+    let without = command(place, &compile).env("CARGO", "no-such-cargo").output();
+    ends(&without.expect("it starts"), 3, &["cannot start no-such-cargo"]);
+    let failing = command(place, &compile).env("CARGO", "false").output();
+    ends(&failing.expect("it starts"), 3, &["cargo has failed in", "work/nboom-simulator-"]);
+    let nowhere =
+        command(place, &compile[..4]).env_remove("HOME").env_remove("XDG_CACHE_HOME").output();
+    ends(&nowhere.expect("it starts"), 3, &["XDG_CACHE_HOME", "HOME"]);
+    assert!(!place.join("boom").exists());
+}

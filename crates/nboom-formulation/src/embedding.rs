@@ -1,0 +1,217 @@
+//! A satellite inside a topology that has more hinges, for code that exists for that topology
+//! alone.
+//!
+//! The additional links are **virtual**: without mass, at the tips of chains or in appendages of
+//! their own, with nothing but a moment of inertia [`VIRTUAL`] about their hinges. They divide
+//! by that in `articulated` and show nothing at their inboard hinges, so that accelerations of
+//! the real satellite are what they are without them.
+
+use nboom_model::{Shape, Topology};
+use nboom_scalar::{Mat3, RigidInertia, Sym3, Vec3};
+
+use crate::chain::ChainLink;
+use crate::parameters::{Branch, Layout, Parameters};
+
+/// A virtual link's moment of inertia about its hinge, 2⁻⁴⁰⁰.
+///
+/// Any pivot will do for an elimination that carries nothing inboard, but a rotor of moment J
+/// that is carried along resists with a gyroscopic moment of J ω², whatever its mass. Here it is
+/// lost in rounding; squares and inverses are normal numbers all the same.
+const VIRTUAL: f64 = f64::from_bits((1023 - 400) << 52);
+
+/// Which appendage of an outer topology each appendage of an inner one is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Embedding {
+    outer: Topology,
+    /// For each inner appendage, the outer one.
+    branches: Vec<usize>,
+    /// For each inner hinge, its place among the outer hinges.
+    places: Vec<usize>,
+}
+
+impl Embedding {
+    /// The inner topology in the outer one: each chain, the longest first, in the shortest chain
+    /// that is left and long enough, each paddle in a paddle. `None` if one is left over, and
+    /// then no other way to place them does better.
+    pub fn new(inner: &Topology, outer: &Topology) -> Option<Self> {
+        let mut left: Vec<usize> = (0..outer.shapes().len()).collect();
+        let mut take = |shape: &Shape| {
+            let of = |&branch: &usize| outer.shapes()[branch];
+            let holds = |branch: &usize| holds(of(branch), *shape);
+            let least = left.iter().copied().filter(holds).min_by_key(|branch| of(branch).hinges());
+            left.retain(|&branch| Some(branch) != least);
+            least
+        };
+        let branches = inner.shapes().iter().map(&mut take).collect::<Option<Vec<usize>>>()?;
+        let outer_places = Layout::places(outer);
+        let firsts = first_hinges(outer);
+        let place = |(&branch, shape): (&usize, &Shape)| {
+            let first = firsts[branch];
+            outer_places[first..first + shape.hinges()].to_vec()
+        };
+        let places = branches.iter().zip(inner.shapes()).flat_map(place).collect();
+        Some(Self { outer: outer.clone(), branches, places })
+    }
+
+    /// The outer topology.
+    pub fn outer(&self) -> &Topology {
+        &self.outer
+    }
+
+    /// For each inner hinge, in the order of the inner topology, its place among the outer hinges
+    /// as [`Layout::places`] has it.
+    pub fn places(&self) -> &[usize] {
+        &self.places
+    }
+
+    /// How many links are virtual.
+    pub fn virtual_links(&self) -> usize {
+        self.outer.hinges() - self.places.len()
+    }
+
+    /// The numbers of the outer satellite, in the order of [`Parameters::write`], for `inner` of
+    /// the inner topology.
+    ///
+    /// Some numbers nothing depends on: where a virtual appendage sits, how it is turned, and the
+    /// way to a virtual hinge. They are as `pinned` has them (parameter numbers and values), or
+    /// else nothing is turned and all stand at one point.
+    pub fn parameters(&self, inner: &Parameters<f64>, pinned: &[(usize, f64)]) -> Vec<f64> {
+        let mut branches: Vec<Branch<f64>> =
+            self.outer.shapes().iter().map(|&shape| virtual_branch(shape)).collect();
+        for (&branch, real) in self.branches.iter().zip(&inner.branches) {
+            let Branch { rot_body_from_appendage, point, links } = &mut branches[branch];
+            (*rot_body_from_appendage, *point) = (real.rot_body_from_appendage, real.point);
+            links[..real.links.len()].copy_from_slice(&real.links);
+        }
+        let mut numbers = Parameters { main: inner.main, branches }.write();
+        let arbitrary = self.arbitrary(inner);
+        for &(at, value) in pinned.iter().filter(|&&(at, _)| arbitrary.get(at) == Some(&true)) {
+            numbers[at] = value;
+        }
+        numbers
+    }
+
+    /// For each number of the outer satellite, whether nothing depends on it.
+    fn arbitrary(&self, inner: &Parameters<f64>) -> Vec<bool> {
+        let mut real = vec![0; self.outer.shapes().len()];
+        for (&branch, of_inner) in self.branches.iter().zip(&inner.branches) {
+            real[branch] = of_inner.links.len();
+        }
+        let mut arbitrary = vec![false; Layout::MAIN];
+        for (shape, real) in self.outer.shapes().iter().zip(real) {
+            arbitrary.extend([real == 0; Layout::BRANCH]);
+            for link in 0..shape.hinges() {
+                arbitrary.extend([false; Layout::LINK - WAY]);
+                let next_is_virtual = link + 1 >= real && shape.hinges() > real;
+                arbitrary.extend([next_is_virtual; WAY]);
+            }
+        }
+        arbitrary
+    }
+}
+
+/// Numbers of a link's way to the next hinge, its last ones.
+const WAY: usize = 2;
+
+/// Whether an appendage can be filled up to the outer one.
+fn holds(outer: Shape, inner: Shape) -> bool {
+    match (outer, inner) {
+        (Shape::Chain(outer), Shape::Chain(inner)) => outer >= inner,
+        (outer, inner) => outer == inner,
+    }
+}
+
+/// The number of each appendage's first hinge, appendage by appendage.
+fn first_hinges(topology: &Topology) -> Vec<usize> {
+    let before = |first: &mut usize, shape: &Shape| {
+        let this = *first;
+        *first += shape.hinges();
+        Some(this)
+    };
+    topology.shapes().iter().scan(0, before).collect()
+}
+
+fn virtual_branch(shape: Shape) -> Branch<f64> {
+    let about = |axis: Vec3<f64>| ChainLink {
+        inertia: RigidInertia { about_origin: Sym3::outer(axis) * VIRTUAL, ..RigidInertia::zero() },
+        next: [0.0; 2],
+    };
+    let links = match shape {
+        Shape::Chain(links) => vec![about(Vec3::unit_x()); links],
+        Shape::Paddle => vec![about(Vec3::unit_x()), about(Vec3::unit_y())],
+    };
+    Branch { rot_body_from_appendage: Mat3::identity(), point: Vec3::zero(), links }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn topology(name: &str) -> Topology {
+        name.parse().expect("a topology")
+    }
+
+    fn embedding(inner: &str, outer: &str) -> Option<Embedding> {
+        Embedding::new(&topology(inner), &topology(outer))
+    }
+
+    #[test]
+    fn a_topology_is_in_itself_as_it_is() {
+        for name in ["M", "S1", "P", "4xS5", "S5_2xS2_3xP"] {
+            let found = embedding(name, name).expect("it is in itself");
+            assert_eq!(found.places(), Layout::places(&topology(name)));
+            assert_eq!(found.virtual_links(), 0);
+            let numbers: Vec<f64> =
+                (0..Layout::parameters(&topology(name))).map(|i| i as f64).collect();
+            let inner = Parameters::read(&topology(name), numbers.clone());
+            let pinned: Vec<(usize, f64)> = (0..numbers.len()).map(|i| (i, -1.0)).collect();
+            assert_eq!(found.parameters(&inner, &pinned), numbers);
+        }
+    }
+
+    #[test]
+    fn each_chain_is_in_the_shortest_that_holds_it() {
+        // The outer chains S4, S3, S1 have their hinges at 0 to 3, 4 to 6 and 7.
+        let found = embedding("S3_S1", "S4_S3_S1").expect("it fits");
+        assert_eq!((found.places(), found.virtual_links()), (&[4, 5, 6, 7][..], 4));
+        // Hinges of equal appendages are side by side.
+        let found = embedding("S2_S1_P", "2xS2_2xP").expect("it fits");
+        assert_eq!((found.places(), found.virtual_links()), (&[0, 2, 1, 4, 6][..], 3));
+    }
+
+    #[test]
+    fn what_does_not_fit_is_told() {
+        for (inner, outer) in [
+            ("S2", "S1"),
+            ("2xS1", "S2"),
+            ("P", "S2"),
+            ("S1", "P"),
+            ("S2", "P"),
+            ("S3_S2", "S4_S1"),
+            ("2xP", "4xS5_P"),
+            ("S1", "M"),
+        ] {
+            assert_eq!(embedding(inner, outer), None, "{inner} in {outer}");
+        }
+    }
+
+    #[test]
+    fn pinned_numbers_are_taken_where_nothing_depends_on_them_and_nowhere_else() {
+        let (inner, outer) = (topology("S1"), topology("S2_P"));
+        let numbers: Vec<f64> = (1..=Layout::parameters(&inner)).map(|i| i as f64).collect();
+        let inner_parameters = Parameters::read(&inner, numbers.clone());
+        let found = Embedding::new(&inner, &outer).expect("it fits");
+        let count = Layout::parameters(&outer);
+        let pinned: Vec<(usize, f64)> = (0..count).map(|i| (i, -1.0)).collect();
+        let taken: Vec<usize> = found
+            .parameters(&inner_parameters, &pinned)
+            .iter()
+            .enumerate()
+            .filter_map(|(i, &number)| (number == -1.0).then_some(i))
+            .collect();
+        // Ways of both links of S2, place and attitude of P, ways of arm and paddle.
+        let expected = (32..34).chain(44..46).chain(46..58).chain(68..70).chain(80..82);
+        assert_eq!(taken, expected.collect::<Vec<_>>());
+        assert_eq!(found.parameters(&inner_parameters, &[])[..32], numbers[..32]);
+    }
+}

@@ -1,0 +1,107 @@
+//! `src/lib.rs` of a crate of routines.
+
+use std::fmt::Write;
+
+use nboom_codegen::{Request, granted};
+use nboom_formulation::{Formulation, Layout, Recognised};
+use nboom_model::Scene;
+
+use crate::choices::Requests;
+use crate::manifest::rust_name;
+
+const TEMPLATE: &str = include_str!("../templates/lib.rs");
+
+/// What only a crate with equations has.
+const EQUATIONS: &str = include_str!("../templates/equations.rs");
+
+/// The text for a scene; `name` is the crate's.
+pub(crate) fn text(
+    scene: &Scene,
+    name: &str,
+    requests: &Requests,
+    recognised: &Recognised,
+) -> String {
+    let names: Vec<String> = requests.all().iter().map(|request| request.name.clone()).collect();
+    let parameters = recognised.parameters.write();
+    let equations = requests.equations.as_ref().map(|request| {
+        EQUATIONS
+            .replace("UNKNOWNS", unknowns(request.formulation))
+            .replace("EQUATIONS", &request.name)
+    });
+    let hinges = hinges(scene, recognised);
+    let values = [
+        ("SCENE", in_words(&scene.name)),
+        ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
+        ("TOPOLOGY", requests.whole.topology.to_string()),
+        ("ROUTINE_TABLE", table(&requests.all())),
+        ("CRATE", rust_name(name)),
+        ("NAMES", names.join(", ")),
+        ("PARAMETER_COUNT", parameters.len().to_string()),
+        ("PARAMETER_LIST", parameters.iter().map(|p| format!("    {p:?},\n")).collect()),
+        ("KERNELS", kernels(requests)),
+        ("HINGE_COUNT", recognised.links.len().to_string()),
+        ("HINGE_LIST", hinges),
+        ("EQUATIONS_FUNCTION", equations.unwrap_or_default()),
+    ];
+    values
+        .iter()
+        .fold(TEMPLATE.to_owned(), |text, (key, value)| text.replace(&format!("/*{key}*/"), value))
+}
+
+/// A scene's name as it can stand in a comment of one line.
+fn in_words(name: &str) -> String {
+    name.chars()
+        .filter(|c| !c.is_control())
+        .map(|c| if "`[]<>*/".contains(c) { ' ' } else { c })
+        .collect()
+}
+
+/// A row for each routine.
+fn table(requests: &[Request]) -> String {
+    let mut rows = String::new();
+    for request in requests {
+        let Request { name, topology, formulation, output, level, .. } = request;
+        let facts = granted(topology, &request.pinned, request.external).join("; ");
+        let facts = if facts.is_empty() { "nothing".to_owned() } else { facts };
+        writeln!(
+            rows,
+            "//! | [`{name}`] | {topology} | {} | {formulation} | {} | {facts} |",
+            output.name(),
+            level.name()
+        )
+        .expect("a string takes any text");
+    }
+    rows
+}
+
+fn kernels(requests: &Requests) -> String {
+    let row = |request: &Request| format!("            Kernel::of::<{}>(),\n", request.name);
+    requests.accelerations().map(row).collect()
+}
+
+/// A line for each hinge in the order of the scene.
+fn hinges(scene: &Scene, recognised: &Recognised) -> String {
+    let topology = &recognised.topology;
+    let mut rows = vec![String::new(); recognised.links.len()];
+    for (&link, place) in recognised.links.iter().zip(Layout::places(topology)) {
+        let label = scene.label(link);
+        let [angle, rate, torque] = Layout::hinge_in_state(topology, place);
+        rows[link] = format!(
+            "    Hinge {{ appendage: {}, segment: {}, angle: {angle}, rate: {rate}, \
+             torque: {torque}, acceleration: {} }},\n",
+            label.appendage + 1,
+            label.segment + 1,
+            Layout::OUTPUT + place
+        );
+    }
+    rows.concat()
+}
+
+/// What a formulation's equations are solved for.
+fn unknowns(formulation: Formulation) -> &'static str {
+    match formulation {
+        Formulation::Report => "v̇, ω̇ and σ̇",
+        Formulation::Relative => "v̇, ω̇ and τ̇",
+        _ => "a_O, ω̇ and τ̇",
+    }
+}

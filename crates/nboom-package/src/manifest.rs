@@ -1,0 +1,77 @@
+//! Manifests of written packages, and their names.
+
+/// The crate's name for a scene: `satellite-` and what a name can hold of the scene's.
+pub(crate) fn name(scene: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    let plain: String = scene.chars().map(letter).collect();
+    let words: Vec<&str> = plain.split('-').filter(|word| !word.is_empty()).collect();
+    [&["satellite"], &words[..]].concat().join("-")
+}
+
+/// The name in Rust.
+pub(crate) fn rust_name(name: &str) -> String {
+    name.replace('-', "_")
+}
+
+/// `Cargo.toml` of a crate of routines.
+pub(crate) fn of_library(name: &str) -> String {
+    format!(
+        "{}\
+         [dependencies]\n\
+         nboom-scalar = {{ path = \"nboom-scalar\" }}\n\
+         \n\
+         [profile.release]\n\
+         opt-level = 3\n\
+         \n\
+         [workspace]\n",
+        package(name)
+    )
+}
+
+/// `Cargo.toml` of a simulator whose crates are in the folder `crates`.
+pub(crate) fn of_simulator(name: &str, crates: &str) -> String {
+    format!(
+        "{}\
+         [dependencies]\n\
+         nboom-cli = {{ path = \"{crates}/nboom-cli\", default-features = false }}\n\
+         nboom-scalar = {{ path = \"{crates}/nboom-scalar\" }}\n\
+         \n\
+         [profile.release]\n\
+         lto = \"thin\"\n\
+         \n\
+         [workspace]\n",
+        package(name)
+    )
+}
+
+fn package(name: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let rust = env!("CARGO_PKG_RUST_VERSION");
+    format!(
+        "[package]\n\
+         name = \"{name}\"\n\
+         version = \"{version}\"\n\
+         edition = \"2024\"\n\
+         rust-version = \"{rust}\"\n\
+         publish = false\n\
+         \n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_crates() {
+        for (scene, expected) in [
+            ("n-boom-1970", "satellite-n-boom-1970"),
+            ("1970", "satellite-1970"),
+            ("Two  Booms, Ω", "satellite-two-booms"),
+            ("", "satellite"),
+        ] {
+            assert_eq!(name(scene), expected);
+        }
+        assert_eq!(rust_name("satellite-t1"), "satellite_t1");
+    }
+}

@@ -1,0 +1,101 @@
+//! Which code computes accelerations in a mode.
+
+use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_model::Scene;
+
+use crate::closed_form::{ClosedForm, NotCovered};
+use crate::error::SimError;
+use crate::generated::{Generated, NoRoutine};
+use crate::options::{Form, Options, Path};
+use crate::record::Selection;
+
+/// Code that computes the accelerations of one mode.
+#[derive(Clone, Debug)]
+pub(crate) enum Code {
+    Recursion,
+    ClosedForm(ClosedForm),
+    Generated(Generated),
+}
+
+/// Code, and why that.
+type Chosen = (Code, String);
+
+impl Code {
+    /// What `options` demand for the mode of `dynamics`, which begins at `since`.
+    ///
+    /// # Errors
+    /// When it cannot be had.
+    pub fn choose(
+        scene: &Scene,
+        dynamics: &Recursive<f64>,
+        options: &Options,
+        since: f64,
+    ) -> Result<(Self, Selection), SimError> {
+        let as_demanded = "as demanded".to_owned();
+        let chosen = match (options.path, options.formulation) {
+            (Path::Generated, _) => generated(scene, dynamics, options)
+                .map_err(|source| SimError::NoRoutine { time: since, source }),
+            (Path::Generic, form) => library(scene, dynamics, form, as_demanded)
+                .map_err(|source| SimError::NotCovered { time: since, source }),
+            (Path::Auto, Some(Form::Recursive)) => Ok((Self::Recursion, as_demanded)),
+            (Path::Auto, _) => Ok(whatever_fits(scene, dynamics, options)),
+        };
+        let (code, reason) = chosen?;
+        let (path, formulation) = code.path_and_formulation();
+        Ok((code, Selection { since, path, formulation, reason }))
+    }
+
+    fn path_and_formulation(&self) -> (&'static str, &'static str) {
+        match self {
+            Self::Recursion => ("generic", Form::Recursive.name()),
+            Self::ClosedForm(form) => ("generic", form.formulation().name()),
+            Self::Generated(routine) => ("generated", routine.routine().kernel.formulation),
+        }
+    }
+
+    /// Accelerations in the mode of `dynamics`: ω̇, a_O without gravity, τ̇.
+    pub fn accelerations(
+        &mut self,
+        dynamics: &mut Recursive<f64>,
+        motion: &Motion<'_, f64>,
+        out: &mut Accelerations<f64>,
+    ) {
+        match self {
+            Self::Recursion => dynamics.accelerations(motion, out),
+            Self::ClosedForm(form) => form.accelerations(dynamics, motion, out),
+            Self::Generated(routine) => routine.accelerations(dynamics, motion, out),
+        }
+    }
+}
+
+fn generated(
+    scene: &Scene,
+    dynamics: &Recursive<f64>,
+    options: &Options,
+) -> Result<Chosen, NoRoutine> {
+    let routine = Generated::fit(scene, dynamics, options)?;
+    let reason = routine.routine().reason();
+    Ok((Code::Generated(routine), reason))
+}
+
+fn library(
+    scene: &Scene,
+    dynamics: &Recursive<f64>,
+    form: Option<Form>,
+    reason: String,
+) -> Result<Chosen, NotCovered> {
+    match form {
+        None | Some(Form::Recursive) => Ok((Code::Recursion, reason)),
+        Some(Form::Closed(formulation)) => {
+            let form = ClosedForm::fit(scene, dynamics, formulation)?;
+            Ok((Code::ClosedForm(form), reason))
+        }
+    }
+}
+
+/// A generated routine, else library code of the same formulation, else the recursion.
+fn whatever_fits(scene: &Scene, dynamics: &Recursive<f64>, options: &Options) -> Chosen {
+    generated(scene, dynamics, options)
+        .or_else(|none| library(scene, dynamics, options.formulation, none.to_string()))
+        .unwrap_or_else(|not_covered| (Code::Recursion, not_covered.to_string()))
+}

@@ -1,0 +1,58 @@
+use serde::Serialize;
+
+use crate::VerifyError;
+use crate::reference::Referee;
+use crate::subject::Subject;
+
+/// How far the accelerations of one code are from the truth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Certificate {
+    /// How many states were compared.
+    pub states: usize,
+    /// What they were drawn from.
+    pub seed: u64,
+    /// Largest deviation from the recursion in `f64`, as of
+    /// [`Quantity::Accelerations`](crate::Quantity::Accelerations).
+    pub from_recursion: f64,
+    /// Largest deviation from the recursion in double-double, rounded to `f64`.
+    pub from_double_double: f64,
+    /// The largest condition of the mass matrix, scaled to diagonal 1.
+    pub condition: f64,
+}
+
+/// Compares code with both recursions. `accelerations` gives ω̇, a_O, then τ̇ in the order of the
+/// scene's hinges, in state `i` of the subject, counted from 0.
+///
+/// Results that are too few or too many, or no numbers, deviate infinitely.
+///
+/// # Errors
+/// [`VerifyError::NoReference`] where the recursion has no accelerations in a state.
+pub fn certify(
+    subject: &Subject,
+    mut accelerations: impl FnMut(usize) -> Vec<f64>,
+) -> Result<Certificate, VerifyError> {
+    let (states, seed) = (subject.states().len(), subject.seed());
+    let nothing =
+        Certificate { states, seed, from_recursion: 0.0, from_double_double: 0.0, condition: 1.0 };
+    let mut referee = Referee::new(subject);
+    (0..states).try_fold(nothing, |most, i| {
+        let reference = referee.reference(i)?;
+        let off = reference.off_accelerations(&accelerations(i));
+        Ok(Certificate {
+            from_recursion: most.from_recursion.max(off.from_recursion),
+            from_double_double: most.from_double_double.max(off.from_double_double),
+            condition: most.condition.max(reference.condition),
+            ..most
+        })
+    })
+}
+
+/// The accelerations in each state, computed in double-double and rounded once: ω̇, a_O, then τ̇ in
+/// the order of the scene's hinges.
+///
+/// # Errors
+/// [`VerifyError::NoReference`] where a state has none.
+pub fn truth(subject: &Subject) -> Result<Vec<Vec<f64>>, VerifyError> {
+    let mut referee = Referee::new(subject);
+    (0..subject.states().len()).map(|i| Ok(referee.reference(i)?.truth())).collect()
+}

@@ -1,0 +1,113 @@
+use nboom_dynamics::{Accelerations, Recursive};
+use nboom_formulation::{Coordinates, Formulation, Layout, Recognised, symmetric};
+use nboom_model::WeldedTree;
+use nboom_scalar::{Kernel, Twist, Vec3};
+
+use crate::subject::State;
+
+/// Code that computes accelerations, with the states of a subject as it takes them.
+///
+/// What each variant holds is there for those who time it.
+#[derive(Clone, Debug)]
+pub enum Code<'a> {
+    /// The recursion, hinge forces included.
+    Recursion {
+        /// The recursion in the subject's mode.
+        dynamics: Box<Recursive<f64>>,
+        /// The states.
+        states: &'a [State],
+        /// Where accelerations go.
+        found: Accelerations<f64>,
+    },
+    /// A closed form for chains and paddles.
+    ClosedForm {
+        /// Which one.
+        formulation: Formulation,
+        /// Topology and parameters.
+        recognised: &'a Recognised,
+        /// The states.
+        states: Vec<Coordinates<f64>>,
+    },
+    /// `symmetric` for a tree that is not made of chains and paddles.
+    Tree {
+        /// The tree.
+        tree: &'a WeldedTree<f64>,
+        /// The states.
+        states: Vec<Coordinates<f64>>,
+    },
+    /// A generated routine.
+    Routine {
+        /// The routine.
+        kernel: Kernel,
+        /// Topology and parameters.
+        recognised: &'a Recognised,
+        /// What it has prepared.
+        constants: Vec<f64>,
+        /// The states.
+        states: Vec<Vec<f64>>,
+        /// Where accelerations go.
+        found: Vec<f64>,
+    },
+}
+
+impl<'a> Code<'a> {
+    pub(crate) fn recursion(dynamics: &Recursive<f64>, states: &'a [State]) -> Self {
+        let found = Accelerations::for_hinges(dynamics.free_hinges().len());
+        Self::Recursion { dynamics: Box::new(dynamics.clone()), states, found }
+    }
+
+    /// The kernel fits the topology and accepts the parameters.
+    pub(crate) fn routine(
+        kernel: Kernel,
+        recognised: &'a Recognised,
+        states: &[Coordinates<f64>],
+    ) -> Self {
+        let mut constants = vec![0.0; kernel.constants];
+        kernel.prepare(&recognised.parameters.write(), &mut constants);
+        let states = states.iter().map(|state| state.write(&recognised.topology)).collect();
+        Self::Routine { kernel, recognised, constants, states, found: vec![0.0; kernel.outputs] }
+    }
+
+    /// ω̇, a_O, then τ̇ in the order of the scene's hinges, in state `i`.
+    ///
+    /// # Panics
+    /// When there is no state `i`.
+    pub fn accelerations(&mut self, i: usize) -> Vec<f64> {
+        match self {
+            Self::Recursion { dynamics, states, found } => {
+                dynamics.accelerations(&states[i].motion(), found);
+                let Accelerations { omega_dot_body, origin_body, tau_dot } = found;
+                let main = Twist { angular: *omega_dot_body, linear: *origin_body };
+                flat(main, tau_dot, 0..tau_dot.len())
+            }
+            Self::ClosedForm { formulation, recognised, states } => {
+                let Recognised { topology, parameters, links } = recognised;
+                let found = formulation.solve(topology, parameters, &states[i]);
+                flat(found.main, &found.tau_dot, links.iter().copied())
+            }
+            Self::Tree { tree, states } => {
+                let found = symmetric::solve_tree(tree, &states[i]);
+                flat(found.main, &found.tau_dot, 0..found.tau_dot.len())
+            }
+            Self::Routine { kernel, recognised, constants, states, found } => {
+                kernel.evaluate(constants, &states[i], found);
+                let vector = |at: usize| Vec3::new(found[at], found[at + 1], found[at + 2]);
+                let main = Twist { angular: vector(0), linear: vector(3) };
+                let places = Layout::places(&recognised.topology);
+                let tau_dot: Vec<f64> =
+                    places.iter().map(|place| found[Layout::OUTPUT + place]).collect();
+                flat(main, &tau_dot, recognised.links.iter().copied())
+            }
+        }
+    }
+}
+
+/// Accelerations in one list, τ̇ of a hinge where its link says.
+fn flat(main: Twist<f64>, tau_dot: &[f64], links: impl Iterator<Item = usize>) -> Vec<f64> {
+    let mut all = [main.angular.to_array(), main.linear.to_array()].concat();
+    all.resize(6 + tau_dot.len(), 0.0);
+    for (tau_dot, link) in tau_dot.iter().zip(links) {
+        all[6 + link] = *tau_dot;
+    }
+    all
+}

@@ -1,0 +1,114 @@
+//! Matrix and right side: code that computes them, and what they should be by recursion.
+
+use nboom_formulation::{Coordinates, Equations, Formulation, Recognised, symmetric};
+use nboom_model::{Shape, Topology, WeldedTree};
+use nboom_scalar::{Kernel, Real};
+
+use crate::VerifyError;
+use crate::label::Label;
+use crate::subject::Subject;
+
+/// Code that computes the matrix and the right side of one formulation, hinges in the order of
+/// [`Subject::links`].
+pub(crate) struct EquationsCode<'a> {
+    pub label: Label,
+    pub formulation: Formulation,
+    way: Way<'a>,
+}
+
+enum Way<'a> {
+    ClosedForm(&'a Recognised),
+    Tree(&'a WeldedTree<f64>),
+    Routine { kernel: Kernel, recognised: &'a Recognised, constants: Vec<f64> },
+}
+
+impl<'a> EquationsCode<'a> {
+    /// All that covers the subject: closed forms, then those of `kernels` that take the scene.
+    pub fn all(subject: &'a Subject, kernels: &[Kernel]) -> Result<Vec<Self>, VerifyError> {
+        let generic = |formulation: Formulation, way| {
+            let label = Label::generic(formulation.name());
+            Self { label, formulation, way }
+        };
+        let Some(recognised) = subject.recognised() else {
+            return Ok(vec![generic(Formulation::Symmetric, Way::Tree(subject.tree()))]);
+        };
+        let size = 6 + recognised.topology.hinges();
+        let mut routines = Vec::new();
+        for kernel in subject.fitting(kernels, size * size + size)? {
+            let named = Formulation::named(kernel.formulation);
+            let formulation = named.filter(|formulation| formulation.has_equations());
+            let Some(formulation) = formulation else {
+                return Err(VerifyError::NoEquations { formulation: kernel.formulation });
+            };
+            let mut constants = vec![0.0; kernel.constants];
+            kernel.prepare(&recognised.parameters.write(), &mut constants);
+            let way = Way::Routine { kernel, recognised, constants };
+            routines.push(Self { label: Label::generated(&kernel), formulation, way });
+        }
+        let closed = Formulation::ALL.into_iter().filter(|formulation| formulation.has_equations());
+        let closed = closed.map(|formulation| generic(formulation, Way::ClosedForm(recognised)));
+        Ok(closed.chain(routines).collect())
+    }
+
+    /// Matrix and right side in a state.
+    pub fn equations(&self, state: &Coordinates<f64>) -> Equations<f64> {
+        match &self.way {
+            Way::ClosedForm(Recognised { topology, parameters, .. }) => {
+                let found = self.formulation.equations(topology, parameters, state);
+                found.expect("the formulation has equations")
+            }
+            Way::Tree(tree) => Equations {
+                matrix: symmetric::tree_mass_matrix(tree, state),
+                forcing: symmetric::tree_forcing(tree, state),
+            },
+            Way::Routine { kernel, recognised, constants } => {
+                let topology = &recognised.topology;
+                let mut found = vec![0.0; kernel.outputs];
+                kernel.evaluate(constants, &state.write(topology), &mut found);
+                let forcing = found.split_off(found.len() - 6 - topology.hinges());
+                Equations { matrix: found, forcing }
+            }
+        }
+    }
+}
+
+/// What the recursion's matrix and right side, over (a_O, ω̇, τ̇) and hinges in the scene's order,
+/// are for the formulation's unknowns when O is at the inertial origin.
+pub(crate) fn expected<R: Real>(
+    formulation: Formulation,
+    subject: &Subject,
+    of_recursion: &Equations<R>,
+) -> Equations<R> {
+    let order = order(subject);
+    let size = order.len();
+    let entry = |(&i, &j): (&usize, &usize)| of_recursion.matrix[i * size + j];
+    let pairs = order.iter().flat_map(|i| order.iter().map(move |j| (i, j)));
+    let mut matrix: Vec<R> = pairs.map(entry).collect();
+    if let (Formulation::Report, Some(recognised)) = (formulation, subject.recognised()) {
+        to_absolute_rates(&recognised.topology, &mut matrix);
+    }
+    Equations { matrix, forcing: order.iter().map(|&i| of_recursion.forcing[i]).collect() }
+}
+
+/// The rows of the recursion's matrix in the order of closed forms.
+pub(crate) fn order(subject: &Subject) -> Vec<usize> {
+    (0..6).chain(subject.links().iter().map(|link| 6 + link)).collect()
+}
+
+/// The matrix over σ from that over τ = a⁻¹ σ, eq. (5.14): in a chain τᵢ is σᵢ less the σ
+/// inboard of it.
+fn to_absolute_rates<R: Real>(topology: &Topology, matrix: &mut [R]) {
+    let size = 6 + topology.hinges();
+    let mut first = 6;
+    for &shape in topology.shapes() {
+        if matches!(shape, Shape::Chain(_)) {
+            for row in matrix.chunks_exact_mut(size) {
+                for j in first..first + shape.hinges() - 1 {
+                    let outer = row[j + 1];
+                    row[j] -= outer;
+                }
+            }
+        }
+        first += shape.hinges();
+    }
+}

@@ -1,0 +1,50 @@
+//! Compares and certifies code that computes accelerations.
+//!
+//! A [`Subject`] is a scene with all hinges free, and random states of it. [`compare`] takes all
+//! code that covers it, the recursion, the closed forms and generated routines, through these
+//! states; [`certify`] does so with any one code. Both measure twice: against the recursion in
+//! `f64`, and against the recursion in double-double, which has 32 digits and stands for the
+//! truth. The latter tells the error of the recursion itself too.
+//!
+//! Deviations are relative. See [`Quantity`] for what they are relative to.
+//!
+//! ```
+//! use nboom_model::{Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment};
+//! use nboom_scalar::{Sym3, Vec3};
+//! use nboom_verify::{Subject, certify, compare};
+//!
+//! let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
+//! let boom = MassProperties::new(3.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
+//! let mut description = SceneDescription::at_rest("one boom", hub, 10.0);
+//! let segments = vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }];
+//! description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
+//! let scene = Scene::new(description).expect("the bodies are physical");
+//!
+//! let subject = Subject::new(scene, 20, 1970)?;
+//! let comparison = compare(&subject, &[], &[], 1e-11)?;
+//! assert!(comparison.passed());
+//!
+//! let mut code = subject.recursion();
+//! let certificate = certify(&subject, |i| code.accelerations(i))?;
+//! assert_eq!(certificate.from_recursion, 0.0);
+//! assert!(certificate.from_double_double < 1e-13);
+//! # Ok::<(), nboom_verify::VerifyError>(())
+//! ```
+
+mod certificate;
+mod code;
+mod comparison;
+mod condition;
+mod equations;
+mod error;
+mod label;
+mod random;
+mod reference;
+mod subject;
+
+pub use certificate::{Certificate, certify, truth};
+pub use code::Code;
+pub use comparison::{Comparison, Row, compare};
+pub use error::VerifyError;
+pub use label::{Label, Quantity};
+pub use subject::{NotCovered, State, Subject};

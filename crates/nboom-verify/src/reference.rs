@@ -1,0 +1,205 @@
+//! What code is compared with: the recursion in `f64` and in double-double.
+
+use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_formulation::{Equations, Formulation};
+use nboom_scalar::{DoubleDouble, Real, Vec3};
+
+use crate::VerifyError;
+use crate::condition::condition;
+use crate::equations::{expected, order};
+use crate::subject::{State, Subject};
+
+/// Up to this condition of the mass matrix deviations count as they are; beyond it they are
+/// divided by what it magnifies rounding by.
+const HARMLESS_CONDITION: f64 = 1e4;
+
+/// Beyond this condition f64 holds no accelerations to compare.
+const LARGEST_CONDITION: f64 = 1e14;
+
+/// Deviations of one code in one state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Off {
+    pub from_recursion: f64,
+    pub from_double_double: f64,
+}
+
+impl Off {
+    pub fn worst(self) -> f64 {
+        self.from_recursion.max(self.from_double_double)
+    }
+}
+
+/// Both recursions of a subject.
+pub(crate) struct Referee<'a> {
+    subject: &'a Subject,
+    recursion: Recursive<f64>,
+    exact: Recursive<DoubleDouble>,
+}
+
+impl<'a> Referee<'a> {
+    pub fn new(subject: &'a Subject) -> Self {
+        Self { subject, recursion: subject.recursive(), exact: subject.recursive() }
+    }
+
+    /// Both recursions in state `i`.
+    ///
+    /// # Errors
+    /// [`VerifyError::NoReference`] where they have no accelerations.
+    pub fn reference(&mut self, i: usize) -> Result<Reference<'a>, VerifyError> {
+        let state = &self.subject.states()[i];
+        let singular = self.recursion.singular_hinge(&state.beta);
+        let recursion = OneState::of(&mut self.recursion, state);
+        let exact = OneState::of(&mut self.exact, state);
+        let condition = condition(&recursion.equations.matrix);
+        let reference = Reference { subject: self.subject, recursion, exact, condition };
+        if singular.is_some() || !reference.is_good() {
+            let hinge = singular.flatten().map(|hinge| self.subject.scene().label(hinge));
+            return Err(VerifyError::NoReference { state: i + 1, hinge });
+        }
+        Ok(reference)
+    }
+}
+
+/// What the recursion says about one state, hinges in the scene's order.
+#[derive(Clone, Debug)]
+struct OneState<R> {
+    accelerations: Vec<R>,
+    equations: Equations<R>,
+}
+
+impl<R: Real> OneState<R> {
+    fn of(dynamics: &mut Recursive<R>, state: &State) -> Self {
+        let on_scalar = |numbers: &[f64]| numbers.iter().map(|&x| R::constant(x)).collect();
+        let (beta, tau): (Vec<R>, Vec<R>) = (on_scalar(&state.beta), on_scalar(&state.tau));
+        let omega_body = Vec3::constant(state.omega);
+        let motion = Motion { omega_body, beta: &beta, tau: &tau };
+        let size = 6 + beta.len();
+        let mut equations =
+            Equations { matrix: vec![R::zero(); size * size], forcing: vec![R::zero(); size] };
+        dynamics.mass_matrix(&beta, &mut equations.matrix);
+        dynamics.forcing(&motion, &mut equations.forcing);
+        Self { accelerations: accelerations(dynamics, &motion), equations }
+    }
+}
+
+/// ω̇, a_O, then τ̇ in the scene's order.
+fn accelerations<R: Real>(dynamics: &mut Recursive<R>, motion: &Motion<'_, R>) -> Vec<R> {
+    let mut found = Accelerations::for_hinges(motion.beta.len());
+    dynamics.accelerations(motion, &mut found);
+    let Accelerations { omega_dot_body, origin_body, tau_dot } = found;
+    [&omega_dot_body.to_array()[..], &origin_body.to_array(), &tau_dot].concat()
+}
+
+/// What one state is compared with.
+pub(crate) struct Reference<'a> {
+    subject: &'a Subject,
+    recursion: OneState<f64>,
+    exact: OneState<DoubleDouble>,
+    /// Of the mass matrix, scaled to diagonal 1.
+    pub condition: f64,
+}
+
+impl Reference<'_> {
+    /// Whether there is something to compare with.
+    fn is_good(&self) -> bool {
+        let mut numbers = self.recursion.accelerations.iter().copied().chain(self.truth());
+        self.condition < LARGEST_CONDITION && numbers.all(f64::is_finite)
+    }
+
+    /// The accelerations in double-double, rounded once.
+    pub fn truth(&self) -> Vec<f64> {
+        rounded(&self.exact.accelerations)
+    }
+
+    /// Deviations of accelerations.
+    pub fn off_accelerations(&self, found: &[f64]) -> Off {
+        let allowance = allowance(self.condition);
+        Off {
+            from_recursion: of_largest(found, &self.recursion.accelerations) / allowance,
+            from_double_double: of_largest(found, &self.truth()) / allowance,
+        }
+    }
+
+    /// Deviations of a formulation's matrix and right side.
+    pub fn off_equations(&self, formulation: Formulation, found: &Equations<f64>) -> [Off; 2] {
+        let recursion = expected(formulation, self.subject, &self.recursion.equations);
+        let exact = expected(formulation, self.subject, &self.exact.equations);
+        let (scale, matrix) = (self.scale(), &found.matrix);
+        let of_matrix = Off {
+            from_recursion: largest(matrix, &recursion.matrix, |at| scale[at]),
+            from_double_double: largest(matrix, &rounded(&exact.matrix), |at| scale[at]),
+        };
+        let of_forcing = Off {
+            from_recursion: of_largest(&found.forcing, &recursion.forcing),
+            from_double_double: of_largest(&found.forcing, &rounded(&exact.forcing)),
+        };
+        [of_matrix, of_forcing]
+    }
+
+    /// Deviations of the recursion's own matrix and right side.
+    pub fn off_recursion(&self) -> [Off; 2] {
+        let own = expected(Formulation::Symmetric, self.subject, &self.recursion.equations);
+        self.off_equations(Formulation::Symmetric, &own)
+    }
+
+    /// √(Mᵢᵢ Mⱼⱼ) of each entry of the matrix of kinetic energy, in the order of closed forms.
+    fn scale(&self) -> Vec<f64> {
+        let order = order(self.subject);
+        let matrix = &self.recursion.equations.matrix;
+        let root = |&i: &usize| matrix[i * order.len() + i].sqrt();
+        let roots: Vec<f64> = order.iter().map(root).collect();
+        roots.iter().flat_map(|of_row| roots.iter().map(move |root| of_row * root)).collect()
+    }
+}
+
+/// How many times as large deviations of accelerations may be.
+fn allowance(condition: f64) -> f64 {
+    (condition / HARMLESS_CONDITION).max(1.0)
+}
+
+fn rounded(numbers: &[DoubleDouble]) -> Vec<f64> {
+    numbers.iter().map(|number| number.to_f64()).collect()
+}
+
+/// The largest deviation, relative to the largest number expected.
+fn of_largest(found: &[f64], expected: &[f64]) -> f64 {
+    let scale = expected.iter().fold(f64::MIN_POSITIVE, |most, number| most.max(number.abs()));
+    largest(found, expected, |_| scale)
+}
+
+/// The largest deviation, each in terms of its scale; infinite where something found is no number
+/// or where there are not as many as expected.
+fn largest(found: &[f64], expected: &[f64], scale: impl Fn(usize) -> f64) -> f64 {
+    if found.len() != expected.len() {
+        return f64::INFINITY;
+    }
+    let pairs = found.iter().zip(expected).enumerate();
+    let off = pairs.map(|(at, (found, expected))| (found - expected).abs() / scale(at));
+    off.fold(0.0, |worst, off| if off.is_nan() { f64::INFINITY } else { worst.max(off) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn deviations_are_relative() {
+        assert_eq!(of_largest(&[1.0, -4.0], &[1.0, -4.0]), 0.0);
+        assert_eq!(of_largest(&[1.0, -3.0], &[1.0, -4.0]), 0.25);
+        assert_eq!(largest(&[1.0, -3.0], &[0.5, -3.5], |at| [1.0, 2.0][at]), 0.5);
+        assert_eq!(of_largest(&[0.0], &[0.0]), 0.0);
+    }
+
+    #[test]
+    fn a_bad_condition_allows_more() {
+        assert_eq!(allowance(10.0), 1.0);
+        assert_eq!(allowance(1e5), 10.0);
+    }
+
+    #[test]
+    fn what_cannot_be_compared_deviates_infinitely() {
+        assert!(of_largest(&[f64::NAN, -4.0], &[1.0, -4.0]).is_infinite());
+        assert!(of_largest(&[-4.0, f64::NAN], &[-5.0, 1.0]).is_infinite());
+        assert!(of_largest(&[1.0], &[1.0, -4.0]).is_infinite());
+    }
+}

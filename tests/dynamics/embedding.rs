@@ -1,0 +1,248 @@
+//! Satellites in topologies with more hinges: what is virtual does not show.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use nboom::formulation::{
+    Coordinates, Embedding, Layout, Parameters, Recognised, articulated, recognise,
+};
+use nboom::model::{HingeState, Mode, Scene, Shape, Topology, WeldedTree};
+use nboom::scalar::Kernel;
+use nboom::sim::{Fit, Options};
+
+use crate::random_scene::{Dice, Moment};
+use crate::satellites::{Satellite, flat, random};
+use crate::support::relative_error;
+
+const RANDOM_SATELLITES: u64 = 3000;
+
+/// What virtual links may change, relative to the largest acceleration and times the condition:
+/// no term of a sum, but the order in which appendages are added up.
+const ROUNDING: f64 = 1e-15;
+
+/// A topology that holds the inner one: chains up to two links longer, and appendages added.
+fn larger(inner: &Topology, dice: &mut Dice) -> Topology {
+    let mut shapes = Vec::new();
+    for &shape in inner.shapes() {
+        shapes.push(match shape {
+            Shape::Chain(links) => Shape::Chain(links + dice.below(3)),
+            Shape::Paddle => Shape::Paddle,
+        });
+    }
+    shapes.extend((0..dice.below(3)).map(|_| Shape::Chain(1 + dice.below(4))));
+    shapes.extend((0..dice.below(2)).map(|_| Shape::Paddle));
+    Topology::new(shapes)
+}
+
+/// The state with virtual hinges at zero.
+fn embedded(embedding: &Embedding, inner: &Coordinates<f64>) -> Vec<f64> {
+    let outer = embedding.outer();
+    let mut numbers = vec![0.0; Layout::coordinates(outer)];
+    numbers[..3].copy_from_slice(&inner.omega.to_array());
+    numbers[3..6].copy_from_slice(&inner.external.moment.to_array());
+    numbers[6..9].copy_from_slice(&inner.external.force.to_array());
+    for (hinge, &place) in inner.hinges.iter().zip(embedding.places()) {
+        let [beta, tau, torque] = Layout::hinge_in_state(outer, place);
+        (numbers[beta], numbers[tau], numbers[torque]) = (hinge.beta, hinge.tau, hinge.torque);
+    }
+    numbers
+}
+
+/// (a_O, ω̇, τ̇ of the real hinges) from outputs of the outer topology.
+fn of_real(embedding: &Embedding, outputs: &[f64]) -> Vec<f64> {
+    assert!(outputs.iter().all(|number| number.is_finite()), "{outputs:?}");
+    let mut all = [&outputs[3..6], &outputs[..3]].concat();
+    all.extend(embedding.places().iter().map(|place| outputs[Layout::OUTPUT + place]));
+    all
+}
+
+/// A number for each parameter, to be taken where nothing depends on it.
+fn any_numbers(count: usize, dice: &mut Dice) -> Vec<(usize, f64)> {
+    (0..count).map(|i| (i, dice.between(-2.0, 2.0))).collect()
+}
+
+#[test]
+fn closed_forms_of_embedded_satellites_give_the_same_accelerations() {
+    let mut worst = 0.0_f64;
+    for seed in 0..RANDOM_SATELLITES {
+        let satellite = Satellite::of_moment(&random(seed));
+        let recognised = satellite.recognised();
+        let Recognised { topology: inner, parameters, links } = &recognised;
+        let coordinates = satellite.coordinates_of(&recognised);
+        let own = flat(&articulated::solve(inner, parameters, &coordinates));
+        let dice = &mut Dice::new(seed ^ 0xe1b);
+        let outer = larger(inner, dice);
+        let embedding = Embedding::new(inner, &outer).expect("it is larger");
+        let state = Coordinates::read(&outer, &embedded(&embedding, &coordinates));
+        for pinned in [vec![], any_numbers(Layout::parameters(&outer), dice)] {
+            let numbers = embedding.parameters(parameters, &pinned);
+            let satellite_in_it = Parameters::read(&outer, numbers);
+            let found = articulated::solve(&outer, &satellite_in_it, &state).write(&outer);
+            let found = of_real(&embedding, &found);
+            let error = relative_error(&found, &own, 0.0) / satellite.condition();
+            worst = worst.max(error);
+            assert!(error < ROUNDING, "seed {seed}, {inner} in {outer}: {error:e}");
+            let error = relative_error(&found, &satellite.expected(links), 0.0);
+            assert!(error < satellite.allowed(), "seed {seed}, {inner} in {outer}: {error:e}");
+        }
+    }
+    println!("worst difference {worst:.1e} of the condition");
+}
+
+fn choosing_from(kernels: impl Iterator<Item = Kernel>) -> Options {
+    Options { kernels: kernels.collect::<Vec<_>>().leak(), ..Options::default() }
+}
+
+/// Accelerations by a routine, against the recursive path.
+fn check_routine(satellite: &Satellite, recognised: &Recognised, fit: &Fit, told: &str) {
+    let state = embedded(&fit.embedding, &satellite.coordinates_of(recognised));
+    let mut found = vec![0.0; fit.kernel.outputs];
+    fit.kernel.evaluate(&fit.constants(), &state, &mut found);
+    let found = of_real(&fit.embedding, &found);
+    let error = relative_error(&found, &satellite.expected(&recognised.links), 0.0);
+    let inner = &recognised.topology;
+    assert!(error < satellite.allowed(), "{told}, {inner}, {}: {error:e}", fit.reason());
+}
+
+#[test]
+fn stock_routines_give_the_accelerations_of_satellites_embedded_in_them() {
+    let general = |kernel: &&Kernel| {
+        kernel.pinned.is_empty() && kernel.formulation == "articulated" && kernel.parameters > 10
+    };
+    let mut checked = BTreeMap::new();
+    for &kernel in nboom_routines::all().iter().filter(general) {
+        let options = choosing_from([kernel].into_iter());
+        for seed in 0..RANDOM_SATELLITES {
+            let satellite = Satellite::of_moment(&random(seed));
+            let recognised = satellite.recognised();
+            let Some(fit) = Fit::best(&recognised, true, &options) else { continue };
+            if fit.embedding.virtual_links() > 0 {
+                check_routine(&satellite, &recognised, &fit, &format!("seed {seed}"));
+                *checked.entry(kernel.topology).or_insert(0) += 1;
+            }
+        }
+    }
+    println!("{checked:?}");
+    for topology in ["4xS5", "4xS3", "S2_P", "S2_S1", "2xS3"] {
+        assert!(checked.get(topology).is_some_and(|&count| count > 20), "{topology}: {checked:?}");
+    }
+}
+
+/// A scene of the benches in a random state of a random mode; hinges are held at angle zero, those
+/// at the main body never.
+fn with_principal_axes(scene: &Scene, seed: u64) -> Moment {
+    let dice = &mut Dice::new(seed);
+    let at_main_body = |i: usize| scene.bodies[i].inboard.is_none();
+    let held = dice.between(0.0, 0.7);
+    let hinges: Vec<HingeState> = (0..scene.bodies.len())
+        .map(|i| match dice.chance(held) && !at_main_body(i) {
+            true => HingeState::Locked,
+            false => HingeState::Free,
+        })
+        .collect();
+    let mode = Mode { hinges, ..Mode::at_start(scene) };
+    let of_free = |size: f64, dice: &mut Dice| -> Vec<f64> {
+        let any = |i| if mode.is_free(i) { dice.between(-size, size) } else { 0.0 };
+        (0..scene.bodies.len()).map(any).collect()
+    };
+    let (beta, tau) = (of_free(3.0, dice), of_free(2.0, dice));
+    let (omega, velocity_body) = (dice.vector(2.0), dice.vector(2.0));
+    Moment { scene: scene.clone(), mode, beta, tau, omega, velocity_body }
+}
+
+fn bench_scene(name: &str) -> Scene {
+    let path = format!("{}/benches/scenes/{name}.nml", env!("CARGO_MANIFEST_DIR"));
+    nboom::io::read_scene(Path::new(&path)).expect("the scene is in the clone").scene
+}
+
+#[test]
+fn routines_for_principal_axes_take_satellites_with_fewer_links() {
+    for (name, topology) in [("T2", "4xS5"), ("T4", "20xS5"), ("T1", "S2_P")] {
+        let scene = bench_scene(name);
+        let of_it = |kernel: &Kernel| kernel.topology == topology && !kernel.pinned.is_empty();
+        let options = choosing_from(nboom_routines::all().iter().copied().filter(of_it));
+        let mut checked = 0;
+        for seed in 0..200 {
+            let satellite = Satellite::of_moment(&with_principal_axes(&scene, seed));
+            let recognised = satellite.recognised();
+            let Some(fit) = Fit::best(&recognised, false, &options) else { continue };
+            check_routine(&satellite, &recognised, &fit, &format!("{name}, seed {seed}"));
+            checked += usize::from(fit.embedding.virtual_links() > 0);
+        }
+        println!("{name}: {checked}");
+        assert!(checked > 20, "{name}: {checked}");
+    }
+}
+
+/// The stock routine of this topology with every parameter of a satellite taken for granted.
+fn baked(topology: &str, parameters: &[f64]) -> Kernel {
+    let general = |kernel: &&Kernel| kernel.topology == topology && kernel.pinned.is_empty();
+    let mut kernel = *nboom_routines::all().iter().find(general).expect("a stock topology");
+    kernel.pinned = parameters.iter().copied().enumerate().collect::<Vec<_>>().leak();
+    kernel
+}
+
+#[test]
+fn a_routine_for_one_satellite_alone_takes_nothing_that_is_embedded() {
+    let scene = bench_scene("T2");
+    let of = |mode: Mode| {
+        let beta = vec![0.0; scene.bodies.len()];
+        recognise(&WeldedTree::new(&scene, &mode, &beta)).expect("four booms")
+    };
+    let at_start = Mode::at_start(&scene);
+    let all_free = of(at_start.clone());
+    let kernel = baked("4xS5", &all_free.parameters.write());
+    let options = choosing_from([kernel].into_iter());
+    assert!(Fit::best(&all_free, false, &options).is_some());
+    for i in 0..scene.bodies.len() {
+        let mut mode = at_start.clone();
+        mode.hinges[i] = HingeState::Locked;
+        let one_held = of(mode);
+        assert!(Embedding::new(&one_held.topology, &all_free.topology).is_some());
+        assert!(Fit::best(&one_held, false, &options).is_none(), "hinge {i} held");
+    }
+}
+
+#[test]
+fn the_choice_is_the_own_topology_then_the_fewest_hinges_and_never_a_huge_routine() {
+    let stock = choosing_from(nboom_routines::all().iter().copied());
+    let reversed = choosing_from(nboom_routines::all().iter().rev().copied());
+    for (inner, chosen) in [
+        ("M", Some("M")),
+        ("S2_S1", Some("S2_S1")),
+        ("S4", None),
+        ("4xS4", Some("4xS5")),
+        ("3xS5_S4", Some("4xS5")),
+        ("3xS1", Some("4xS1")),
+        ("S3_S1", Some("2xS3")),
+        ("7xS1", None),
+        ("20xS2", Some("20xS5")),
+        ("S33", None),
+        ("S34", Some("S100")),
+        ("2xP", None),
+        ("S3_P", None),
+    ] {
+        let topology: Topology = inner.parse().expect("a topology");
+        let numbers = (0..Layout::parameters(&topology)).map(|i| 1.0 + i as f64);
+        let parameters = Parameters::read(&topology, numbers);
+        let links = (0..topology.hinges()).collect();
+        let recognised = Recognised { topology, parameters, links };
+        for options in [&stock, &reversed] {
+            let found = Fit::best(&recognised, true, options).map(|fit| fit.kernel.topology);
+            assert_eq!(found, chosen, "{inner}");
+        }
+    }
+}
+
+#[test]
+fn only_articulated_is_embedded() {
+    let topology: Topology = "S1_P".parse().expect("a topology");
+    let numbers = (0..Layout::parameters(&topology)).map(|i| 1.0 + i as f64);
+    let parameters = Parameters::read(&topology, numbers);
+    let recognised = Recognised { topology, parameters, links: vec![0, 1, 2] };
+    for &kernel in nboom_routines::all().iter().filter(|kernel| kernel.topology == "S2_P") {
+        let found = Fit::best(&recognised, true, &choosing_from([kernel].into_iter()));
+        let may = kernel.formulation == "articulated" && kernel.pinned.is_empty();
+        assert_eq!(found.is_some(), may, "{}", kernel.formulation);
+    }
+}

@@ -1,0 +1,164 @@
+//! Which code computes accelerations: every formulation leads to the reference trajectories, and
+//! what cannot be had is refused, or replaced where that is allowed.
+
+use nboom::formulation::Formulation;
+use nboom::model::{
+    Body, Hinge, HingeState, MassProperties, Mount, Release, Scene, SceneDescription,
+};
+use nboom::scalar::{Kernel, Sym3, Vec3};
+use nboom::sim::{Form, NoRoutine, Options, Path, Selection, SimError};
+
+use crate::catalog::Reference;
+use crate::collect::{run, tight, try_run};
+use crate::trajectories::agrees;
+
+fn asking(path: Path, formulation: Option<Form>, kernels: &'static [Kernel]) -> Options {
+    Options { path, formulation, kernels, ..tight(20) }
+}
+
+/// Path, formulation and reason.
+fn told(selection: &Selection) -> (&str, &str, &str) {
+    (selection.path, selection.formulation, &selection.reason)
+}
+
+#[test]
+fn every_closed_form_agrees_with_the_references() {
+    for reference in Reference::all() {
+        let scene = reference.scene();
+        let samples = reference.intervals();
+        let with = |form| Options { samples, ..asking(Path::Generic, Some(form), &[]) };
+        let (recursive, _) = run(&scene, &with(Form::Recursive));
+        for formulation in Formulation::ALL {
+            let (found, summary) = run(&scene, &with(Form::Closed(formulation)));
+            agrees(formulation.name(), &found, &reference);
+            let [only] = &summary.selections[..] else { panic!("{:?}", summary.selections) };
+            assert_eq!(told(only), ("generic", formulation.name(), "as demanded"));
+            // Other operations leave other roundings; with the same ones it is the same code.
+            let rounded_alike = found.samples == recursive.samples;
+            assert!(!rounded_alike || scene.bodies.is_empty(), "{} {formulation}", reference.name);
+        }
+    }
+}
+
+/// A hub with a boom, and from 0.5 on a second one on the boom, their hinges 45 degrees apart.
+fn skew() -> Scene {
+    let inertia = Sym3::diagonal(1.0, 1.2, 1.4);
+    let mass_properties = MassProperties::new(1.0, Vec3::new(0.1, 0.5, 0.2), inertia);
+    let mut scene = SceneDescription::at_rest("skew", mass_properties, 1.0);
+    let mount = Mount::at(Vec3::unit_y());
+    let boom =
+        Body { inboard: None, mount, axis: Vec3::unit_x(), mass_properties, hinge: Hinge::free() };
+    let mut hinge = Hinge::free();
+    (hinge.start.state, hinge.release) = (HingeState::Unreleased, Release::Time(0.5));
+    let axis = Vec3::new(0.5_f64.sqrt(), 0.5_f64.sqrt(), 0.0);
+    scene.bodies = vec![boom, Body { inboard: Some(0), axis, hinge, ..boom }];
+    scene.initial.omega_body = Vec3::new(0.3, -0.5, 1.0);
+    Scene::new(scene).expect("a physical scene")
+}
+
+#[test]
+fn a_closed_form_that_is_demanded_of_a_tree_is_refused() {
+    for formulation in Formulation::ALL.into_iter().filter(|&f| f != Formulation::Symmetric) {
+        let options = asking(Path::Generic, Some(Form::Closed(formulation)), &[]);
+        let (found, result) = try_run(&skew(), &options);
+        let error = result.expect_err("not covered").error;
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "at time 0.5: formulation {formulation} does not cover hinge 1,2, which belongs \
+                 neither to a chain nor to a paddle; symmetric and recursive cover any tree"
+            )
+        );
+        // Until then it is one boom, which all of them cover.
+        assert_eq!(found.last().time, 0.45);
+    }
+}
+
+#[test]
+fn symmetric_takes_a_tree_where_the_recursion_takes_it() {
+    let with = |form| run(&skew(), &asking(Path::Generic, Some(form), &[])).0;
+    let recursive = with(Form::Recursive);
+    let symmetric = with(Form::Closed(Formulation::Symmetric));
+    assert_ne!(symmetric.samples, recursive.samples, "the same roundings");
+    for (a, b) in symmetric.samples.iter().zip(&recursive.samples) {
+        let apart = (a.omega_body - b.omega_body).norm()
+            + a.tau.iter().zip(&b.tau).map(|(a, b)| (a - b).abs()).sum::<f64>();
+        assert!(apart < 1e-11, "{apart:e} at {}", a.time);
+    }
+    let moved = recursive.last().tau[1].abs();
+    assert!(moved > 0.01, "{moved}");
+}
+
+#[test]
+fn the_automatic_path_replaces_what_does_not_cover_the_mode() {
+    let articulated = Some(Form::Closed(Formulation::Articulated));
+    let (_, summary) = run(&skew(), &asking(Path::Auto, articulated, &[]));
+    let [boom, tree] = &summary.selections[..] else { panic!("{:?}", summary.selections) };
+    let why = "no articulated routine for topology S1";
+    assert_eq!(told(boom), ("generic", "articulated", why));
+    let why = "formulation articulated does not cover hinge 1,2, which belongs neither to a chain \
+               nor to a paddle";
+    assert_eq!((tree.since, told(tree)), (0.5, ("generic", "recursive", why)));
+
+    let (_, summary) = run(&skew(), &asking(Path::Auto, None, nboom_routines::all()));
+    let [boom, tree] = &summary.selections[..] else { panic!("{:?}", summary.selections) };
+    assert_eq!((boom.path, boom.formulation), ("generated", "articulated"));
+    let why = "no routine: hinge 1,2 belongs neither to a chain nor to a paddle";
+    assert_eq!(told(tree), ("generic", "recursive", why));
+}
+
+/// The stock routines for a boom under the name of this formulation.
+fn named(formulation: Formulation) -> impl Iterator<Item = Kernel> {
+    let stock = nboom_routines::all().iter().filter(|kernel| {
+        kernel.topology == "S1" && kernel.formulation == Formulation::Articulated.name()
+    });
+    stock.map(move |&kernel| {
+        let mut named = kernel;
+        named.formulation = formulation.name();
+        named
+    })
+}
+
+#[test]
+fn a_routine_is_of_the_formulation_that_is_asked_for() {
+    use Formulation::{Articulated, Momentum, Report};
+    let scene = skew().ending_at(0.4).expect("the boom alone");
+    let chosen = |path, formulation: Option<Formulation>, kernels| {
+        let options = asking(path, formulation.map(Form::Closed), kernels);
+        let (_, result) = try_run(&scene, &options);
+        let mut selections = result.map_err(|failure| failure.error)?.selections;
+        Ok::<Selection, SimError>(selections.pop().expect("one mode"))
+    };
+    let report: &'static [Kernel] = named(Report).collect::<Vec<_>>().leak();
+    let of_articulated = named(Articulated).filter(|kernel| kernel.pinned.is_empty());
+    let both: &'static [Kernel] =
+        named(Report).chain(of_articulated).chain(named(Report)).collect::<Vec<_>>().leak();
+    for (path, asked, kernels, path_used, formulation) in [
+        (Path::Generated, None, report, "generated", Report),
+        (Path::Generated, None, both, "generated", Articulated),
+        (Path::Generated, Some(Report), both, "generated", Report),
+        (Path::Auto, None, both, "generated", Articulated),
+        (Path::Auto, Some(Report), both, "generated", Report),
+        (Path::Auto, Some(Momentum), both, "generic", Momentum),
+        (Path::Generic, Some(Report), both, "generic", Report),
+    ] {
+        let found = chosen(path, asked, kernels).expect("it can be had");
+        assert_eq!((found.path, found.formulation), (path_used, formulation.name()), "{asked:?}");
+    }
+    let Err(SimError::NoRoutine { source, .. }) = chosen(Path::Generated, Some(Momentum), both)
+    else {
+        panic!("no routine is momentum's")
+    };
+    assert_eq!(source.to_string(), "no momentum routine for topology S1");
+}
+
+#[test]
+fn the_recursion_has_no_routine() {
+    let kernels = nboom_routines::all();
+    let with = |path| try_run(&skew(), &asking(path, Some(Form::Recursive), kernels)).1;
+    let automatic = with(Path::Auto).expect("library code").selections;
+    let [only] = &automatic[..] else { panic!("{automatic:?}") };
+    assert_eq!(told(only), ("generic", "recursive", "as demanded"));
+    let error = with(Path::Generated).expect_err("it is library code").error;
+    assert!(matches!(error, SimError::NoRoutine { source: NoRoutine::Topology { .. }, .. }));
+}
