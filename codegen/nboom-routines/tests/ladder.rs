@@ -26,10 +26,12 @@ macro_rules! for_each_exact_routine {
         $check::<exact::RelativeS2P>();
         $check::<exact::SymmetricS2P>();
         $check::<exact::ArticulatedS2P>();
+        $check::<exact::MomentumS2P>();
         $check::<exact::ReportS1P>();
         $check::<exact::RelativeS1P>();
         $check::<exact::SymmetricS1P>();
         $check::<exact::ArticulatedS1P>();
+        $check::<exact::MomentumS1P>();
         $check::<exact::ReportEquationsS2P>();
         $check::<exact::RelativeEquationsS2P>();
         $check::<exact::SymmetricEquationsS2P>();
