@@ -24,7 +24,8 @@ fn program() -> &'static Path {
         let test = std::env::current_exe().expect("the test has a file");
         let is_release = test.components().any(|part| part.as_os_str() == "release");
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.args(["build", "--bin", "nboom", "--package", "nboom-cli"]);
+        // As the tests themselves are built, or everything would be compiled again.
+        cargo.args(["build", "--workspace", "--bin", "nboom"]);
         cargo.args(["--message-format", "json"]).current_dir(env!("CARGO_MANIFEST_DIR"));
         if is_release {
             cargo.arg("--release");

@@ -15,5 +15,7 @@ mod compare;
 mod decks;
 mod embedding;
 mod lock_ups;
+mod stiff;
 mod tolerance;
 mod trajectories;
+mod trust;

@@ -79,7 +79,12 @@ impl Config {
         self
     }
 
-    /// Adds routines for the topologies that each scene comes through while hinges are held.
+    /// Adds routines for states of each scene with held hinges: one for each topology of a scene of
+    /// up to 10 hinges; with more, those in which all appendages are held in step; at most 32, those
+    /// of the most free hinges. Other states run embedded where a routine by `articulated` accepts
+    /// them, for example one of [`topology`](Self::topology) with
+    /// [`with_external_wrench`](Self::with_external_wrench) for the whole scene, and else by library
+    /// code.
     pub fn with_lock_states(self) -> Self {
         Self { lock_states: true, ..self }
     }
@@ -91,7 +96,8 @@ impl Config {
     }
 
     /// Routines of topologies take for granted that inertias stand along the segment axes, every
-    /// mass centre is on its segment's η axis, and O is at the main body's mass centre.
+    /// mass centre and next hinge is on its segment's η axis, and O is at the main body's mass
+    /// centre. Only `Kernel::accepts` refuses the numbers of other satellites.
     pub fn with_principal_axes(self) -> Self {
         Self { principal_axes: true, ..self }
     }

@@ -53,9 +53,9 @@ pub const HINGE_LIMIT: usize = 1000;
 /// The most hinges that any other formulation is traced for: its code is one straight line.
 pub const STRAIGHT_HINGE_LIMIT: usize = 100;
 
-/// The most operations of an evaluation that cannot be emitted as loops; a compiler takes ten
-/// seconds or so for that much code.
-pub const OPERATION_LIMIT: usize = 60_000;
+/// The most operations of an evaluation that cannot be emitted as loops: an optimising compiler
+/// takes 17 seconds for that much code in all instruction sets, and 95 for twice as much.
+pub const OPERATION_LIMIT: usize = 20_000;
 
 /// Generated code and what it costs.
 pub struct Generated {

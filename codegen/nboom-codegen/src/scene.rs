@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nboom_formulation::{Layout, Recognised, recognise};
+use nboom_formulation::{Formulation, Layout, Recognised, recognise};
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 
 use crate::{CodegenError, Level, Request};
@@ -47,12 +47,37 @@ impl Request {
         })
     }
 
-    /// Code for the topologies that a scene comes through while hinges are held, the most free
+    /// What a simulator for a scene has: code with the scene's numbers, with numbers at run time,
+    /// for [`lock_states`](Self::lock_states), and by `articulated` also code `General` that takes
+    /// nothing for granted, in which other states with held hinges and other numbers can be
+    /// embedded.
+    ///
+    /// # Errors
+    /// When the scene is not made of chains and paddles.
+    pub fn of_simulator(
+        scene: &Scene,
+        formulation: Formulation,
+        level: Level,
+    ) -> Result<Vec<Self>, CodegenError> {
+        let mut all = vec![
+            Self::of_scene(scene, Numbers::Baked, level)?,
+            Self::of_scene(scene, Numbers::RunTime, level)?,
+        ];
+        let topology = all[0].topology.clone();
+        all.extend(Self::lock_states(scene, level)?);
+        if formulation == Formulation::Articulated {
+            let general = Self::new(&name("General", &topology), topology, level);
+            all.push(general.with_external_wrench());
+        }
+        Ok(all.into_iter().map(|request| request.by(formulation)).collect())
+    }
+
+    /// Code for topologies that a scene comes through while hinges are held, the most free
     /// hinges first.
     ///
     /// All combinations of up to ten hinges are looked at; of more, those in which all
     /// appendages hold equally many hinges at their inboard or outboard end. There are at most
-    /// 32 routines.
+    /// 32 routines, those of the most free hinges.
     ///
     /// # Errors
     /// When the scene is not made of chains and paddles.
@@ -75,6 +100,20 @@ impl Request {
         requests.sort_by_key(|request| usize::MAX - request.topology.hinges());
         requests.truncate(LOCK_STATES);
         Ok(requests)
+    }
+
+    /// Which hinges are free in the first of a scene's lock states that has the request's
+    /// topology.
+    ///
+    /// # Errors
+    /// When the scene is not made of chains and paddles.
+    pub fn free_hinges(&self, scene: &Scene) -> Result<Option<Vec<bool>>, CodegenError> {
+        for free in combinations(scene) {
+            if welded(scene, &free, ANGLES[0])?.topology == self.topology {
+                return Ok(Some(free));
+            }
+        }
+        Ok(None)
     }
 }
 
@@ -176,6 +215,32 @@ mod tests {
     fn many_hinges_are_held_in_step() {
         assert_eq!(states(&booms(3, 4)), ["3xS3", "3xS2", "3xS1", "M"]);
         assert_eq!(states(&booms(1, 100)).len(), LOCK_STATES);
+    }
+
+    #[test]
+    fn every_lock_state_is_told_which_hinges_are_free() {
+        let scene = booms(2, 2);
+        for request in Request::lock_states(&scene, Level::Fast).expect("chains are covered") {
+            let free = request.free_hinges(&scene).expect("chains").expect("it is one of them");
+            assert_eq!(free.iter().filter(|&&free| free).count(), request.topology.hinges());
+        }
+        let whole = Request::of_scene(&scene, Numbers::RunTime, Level::Fast).expect("chains");
+        assert_eq!(whole.free_hinges(&scene), Ok(None));
+    }
+
+    #[test]
+    fn a_simulator_has_code_that_takes_nothing_for_granted() {
+        let names = |formulation| -> Vec<String> {
+            let all = Request::of_simulator(&booms(1, 2), formulation, Level::Fast);
+            all.expect("a chain").into_iter().map(|request| request.name).collect()
+        };
+        let special = ["BakedS2", "SatelliteS2", "SatelliteS1", "SatelliteM"];
+        assert_eq!(names(Formulation::Relative), special);
+        let articulated = names(Formulation::Articulated);
+        assert_eq!(articulated, [&special[..], &["GeneralS2"]].concat());
+        let all = Request::of_simulator(&booms(1, 2), Formulation::Articulated, Level::Fast);
+        let general = all.expect("a chain").pop().expect("it is the last");
+        assert!(general.external && general.pinned.iter().all(Option::is_none));
     }
 
     #[test]

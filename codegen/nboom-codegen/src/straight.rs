@@ -133,9 +133,8 @@ pub(crate) fn constant(value: f64) -> TokenStream {
 /// The angles whose sine or cosine is wanted.
 fn angles(graph: &Graph, wanted: &[bool]) -> Vec<Id> {
     let mut angles = Vec::new();
-    for (id, node) in graph.nodes().filter(|(id, _)| wanted[id.index()]) {
+    for (_, node) in graph.nodes().filter(|(id, _)| wanted[id.index()]) {
         if let Node::Sin(angle) | Node::Cos(angle) = node {
-            let _ = id;
             if !angles.contains(&angle) {
                 angles.push(angle);
             }

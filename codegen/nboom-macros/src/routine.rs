@@ -128,6 +128,7 @@ fn unknown(found: &Ident, all: &[&str]) -> syn::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nboom_codegen::OPERATION_LIMIT;
 
     /// The message, and the text it points at.
     fn refusal(text: &str) -> (String, String) {
@@ -181,7 +182,7 @@ mod tests {
         is_refused(
             "Dense: S60, formulation = report",
             "S60",
-            &["topology S60, formulation report", "operations, at most 60000"],
+            &["topology S60, formulation report", &format!("at most {OPERATION_LIMIT}")],
         );
     }
 

@@ -3,7 +3,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use nboom_codegen::{CodegenError, Level, Numbers, Request, generate, table};
+use nboom_codegen::{CodegenError, Level, Request, generate, table};
+use nboom_formulation::Formulation;
 use nboom_model::Scene;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -37,11 +38,9 @@ pub(crate) fn expand(input: TokenStream, folder: &Path) -> Result<TokenStream> {
     }})
 }
 
-/// Routines of all states of the scene, the most specialised first, and their table.
+/// Routines for the scene, the most specialised first, and their table.
 fn routines(scene: &Scene) -> std::result::Result<TokenStream, CodegenError> {
-    let free = |numbers| Request::of_scene(scene, numbers, Level::Fast);
-    let mut requests = vec![free(Numbers::Baked)?, free(Numbers::RunTime)?];
-    requests.extend(Request::lock_states(scene, Level::Fast)?);
+    let mut requests = Request::of_simulator(scene, Formulation::Articulated, Level::Fast)?;
     for request in &mut requests {
         request.scalar_path = SCALAR.to_owned();
     }

@@ -7,7 +7,7 @@ use nboom_formulation::Formulation;
 #[cfg(feature = "generator")]
 use nboom_package::Level;
 use nboom_results::UnitSystem;
-use nboom_sim::Form;
+use nboom_sim::{Form, Method};
 
 use crate::choice;
 
@@ -34,13 +34,15 @@ pub enum Command {
     Run(RunArgs),
     /// Read and validate a scene, and say what it contains.
     ///
-    /// Nothing is computed. Also says what the scene does not pay for because it lacks it.
+    /// No motion is computed. Also says what the scene does not pay for because it lacks it, what
+    /// code generated for it takes for granted, and which code a run begins with.
     Check(CheckArgs),
     /// Compare all code that computes accelerations, on random states.
     ///
-    /// All hinges are free, the thrust is on and kick-off springs are disengaged. Closed forms
-    /// and generated routines are compared with the recursion in f64, and all of them with the
-    /// recursion in double-double, which has 32 digits. Deviations of accelerations are relative
+    /// In half of the states all hinges are free; in the others random ones, at least one, are held
+    /// at random angles. The thrust is on and kick-off springs are disengaged. Closed forms and
+    /// generated routines, also one of a larger topology if a run takes it, are compared with the
+    /// recursion in f64, and all of them with the recursion in double-double, which has 32 digits. Deviations of accelerations are relative
     /// to the largest one. Where the mass matrix, scaled to diagonal 1, has a condition above 1e4,
     /// they are divided by its ratio to 1e4, since it magnifies rounding as much. Mass matrix and
     /// forcing are compared where a formulation has them, O at the inertial origin, with those of
@@ -52,24 +54,27 @@ pub enum Command {
     /// Time all code that computes accelerations.
     ///
     /// Nanoseconds per evaluation, in samples of 64 random states with all hinges free: the
-    /// shortest and the median sample. The recursion's time includes the hinges' springs and
+    /// shortest and the median sample. Of code that takes eight states at once, an eighth of that. The recursion's time includes the hinges' springs and
     /// dashpots; the others are given their torques.
     Bench(BenchArgs),
     /// Write a crate with routines specialised for the scene.
     ///
-    /// The crate needs nothing but Rust: what its code uses goes with it. CERTIFICATE.json says how
-    /// far its accelerations are from the recursion on 100 random states, and its tests compare the
-    /// compiled code with recursion in double-double. An up-to-date crate is left alone; a file that
-    /// was changed, or written by somebody else, is not overwritten.
+    /// The crate needs nothing but Rust: what its code uses is a module of it. CERTIFICATE.json says
+    /// how far the formulation of each routine is from the recursion on random states, and the
+    /// crate's tests compare the compiled code with the recursion in double-double and print its
+    /// largest deviation. An up-to-date crate is left alone; a file that was changed, or written by
+    /// somebody else, is not overwritten.
     #[cfg(feature = "generator")]
     Generate(GenerateArgs),
     /// Build a stand-alone simulator around the scene's routines.
     ///
     /// The program takes SCENE and the options of nboom run; run, check, verify and bench as first
-    /// word do what they do here. It has routines with the scene's numbers, with numbers at run time
-    /// and for the topologies that the scene comes through while hinges are held; other scenes run
-    /// too. Cargo, which comes with Rust, builds it in a folder that is kept, so that the next
-    /// build is quicker.
+    /// word do what they do here. It has routines with the scene's numbers, with numbers at run time,
+    /// and for states with held hinges: all of them with up to 10 hinges; with more, those in which
+    /// all appendages are held in step; at most 32. By articulated it also has a routine that takes
+    /// nothing for granted, in which other states and changed scenes are embedded. All else runs by
+    /// the recursion. Cargo, which comes with Rust, builds it in a folder that is kept, so that the
+    /// next build is quicker.
     #[cfg(feature = "generator")]
     Compile(CompileArgs),
 }
@@ -95,10 +100,11 @@ pub struct RunArgs {
     #[arg(long, value_name = "NAME", value_parser = choice::formulation)]
     pub formulation: Option<Form>,
 
-    /// Integrator; this build has dop853.
+    /// Method of integration: dop853, dopri5 for loose tolerances, radau5 for stiff hinges, or rkam,
+    /// the original's.
     #[arg(long, value_name = "NAME", default_value = "dop853",
           value_parser = choice::integrator)]
-    pub integrator: &'static str,
+    pub integrator: Method,
 
     /// Relative error allowed in a step, at least 1e-14.
     #[arg(long, value_name = "R", default_value = "1e-9", value_parser = choice::rtol,
@@ -126,6 +132,11 @@ pub struct RunArgs {
     /// Also write listing.txt, a printout at the output times and at every event.
     #[arg(long)]
     pub listing: bool,
+
+    /// Run again with tolerances a thousand times tighter and say how many digits of event times,
+    /// impulses and the final state can be trusted; also writes certificate.json.
+    #[arg(long)]
+    pub certify: bool,
 
     /// Do not write report.html; this build writes none.
     #[arg(long)]
@@ -175,7 +186,8 @@ pub struct GenerateArgs {
     #[arg(long)]
     pub equations: bool,
 
-    /// Also generate the topologies that the scene comes through while hinges are held.
+    /// Also generate states with held hinges: all topologies with up to 10 hinges; with more, those
+    /// in which all appendages are held in step; at most 32.
     #[arg(long)]
     pub lock_states: bool,
 
@@ -192,7 +204,7 @@ pub struct CompileArgs {
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
 
-    /// The program to build.
+    /// The program to build; only a simulator that this command has built is replaced.
     #[arg(short, long, value_name = "BINARY")]
     pub output: PathBuf,
 
@@ -257,6 +269,15 @@ pub struct BenchArgs {
     /// Print a line of words and numbers for each code instead of a table.
     #[arg(long)]
     pub harness: bool,
+
+    /// Instead, time whole runs against their error: every code that covers the scene with every
+    /// integrator at relative tolerances from 1e-3 to 1e-13. Writes work-precision.csv and .svg.
+    #[arg(long, conflicts_with_all = ["json", "harness"])]
+    pub work_precision: bool,
+
+    /// Directory for these files; without it out/ and the scene's name.
+    #[arg(short, long, value_name = "DIR", requires = "work_precision")]
+    pub output: Option<PathBuf>,
 
     /// Seconds for each code.
     #[arg(long, value_name = "S", default_value = "0.3", value_parser = choice::positive,

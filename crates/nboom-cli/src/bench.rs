@@ -4,9 +4,12 @@ use std::time::Instant;
 
 use nboom_formulation::{Recognised, symmetric};
 use nboom_io::read_scene;
+use nboom_scalar::{Batch, Eight};
 use nboom_verify::{Code, Label, Subject};
 
-use crate::format::{code_columns, code_head, not_covered};
+use crate::format::{code_columns, code_head, embedded, not_covered};
+use crate::run::default_directory;
+use crate::work_precision::work_precision;
 use crate::{BenchArgs, CliError, Routines, check, say};
 
 /// Different states, so that nothing can be learnt from one.
@@ -25,18 +28,87 @@ struct Times {
     median: f64,
 }
 
+/// States that a batch takes at once.
+const LANES: usize = 8;
+
+/// What was found about one code.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    label: Label,
+    /// States that an evaluation takes; times are those of one.
+    lanes: usize,
+    times: Times,
+    /// The shortest time over that of the recursion.
+    of_recursive: f64,
+}
+
 /// Times all code that computes accelerations and returns the account for standard output.
 pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
     check::warnings(&file).iter().for_each(|warning| say("warning", warning));
+    if args.work_precision {
+        let directory = default_directory(&file.scene.name);
+        return work_precision(&file.scene, routines, args.output.as_ref().unwrap_or(&directory));
+    }
     let subject = Subject::new(file.scene, STATES, SEED)?;
-    let codes = subject.codes(routines.accelerations)?.into_iter();
-    let rows: Vec<_> =
-        codes.map(|(label, mut code)| (label, time_of(&mut code, args.seconds))).collect();
+    let rows = rows(&subject, routines, args.seconds)?;
     Ok(match (args.json, args.harness) {
         (true, _) => json(&rows),
         (_, true) => harness(&subject.scene().name, &rows),
         _ => table(&subject, routines, &rows),
+    })
+}
+
+/// The recursion first.
+fn rows(subject: &Subject, routines: &Routines, seconds: f64) -> Result<Vec<Row>, CliError> {
+    let codes = subject.codes(routines.accelerations)?;
+    let mut timed: Vec<(Label, usize, Times)> = Vec::new();
+    for (label, mut code) in codes {
+        timed.push((label, 1, time_of(&mut code, seconds)));
+        if let Code::Routine { fit, states, .. } = &code {
+            let batch = routines.batches.iter().find(|batch| is_of(batch, &label));
+            let parameters: Vec<Eight> = fit.parameters.iter().map(|&p| Eight::splat(p)).collect();
+            if let Some(batch) = batch.filter(|batch| batch.accepts(&parameters)) {
+                timed.push((label, LANES, time_of_batch(batch, &parameters, states, seconds)));
+            }
+        }
+    }
+    let recursive = timed[0].2.least;
+    let row = |(label, lanes, times): (Label, usize, Times)| Row {
+        label,
+        lanes,
+        times,
+        of_recursive: times.least / recursive,
+    };
+    Ok(timed.into_iter().map(row).collect())
+}
+
+/// Whether a batch is the same routine.
+fn is_of(batch: &Batch, label: &Label) -> bool {
+    let facts = match batch.pinned.len() {
+        0 => "general",
+        pinned if pinned == batch.parameters => "baked",
+        _ => "principal",
+    };
+    (Some(batch.topology), batch.formulation, facts)
+        == (label.topology, label.formulation, label.facts)
+}
+
+/// The same satellite in eight states at once; times are those of one of them.
+fn time_of_batch(batch: &Batch, parameters: &[Eight], states: &[Vec<f64>], seconds: f64) -> Times {
+    let mut constants = vec![Eight::default(); batch.constants];
+    batch.prepare(parameters, &mut constants);
+    let side_by_side = |of_eight: &[Vec<f64>]| -> Vec<Eight> {
+        let number = |i: usize| Eight(std::array::from_fn(|lane| of_eight[lane][i]));
+        (0..batch.coordinates).map(number).collect()
+    };
+    let packs: Vec<Vec<Eight>> = states.chunks_exact(LANES).map(side_by_side).collect();
+    let mut found = vec![Eight::default(); batch.outputs];
+    time(seconds, |i| {
+        if i.is_multiple_of(LANES) {
+            let pack = black_box(&packs[i / LANES]);
+            batch.evaluate(black_box(&constants), pack, black_box(&mut found));
+        }
     })
 }
 
@@ -56,8 +128,8 @@ fn time_of(code: &mut Code<'_>, seconds: f64) -> Times {
         Code::Tree { tree, states } => time(seconds, |i| {
             black_box(symmetric::solve_tree(black_box(tree), black_box(&states[i])));
         }),
-        Code::Routine { kernel, constants, states, found, .. } => time(seconds, |i| {
-            kernel.evaluate(black_box(constants), black_box(&states[i]), black_box(found));
+        Code::Routine { fit, constants, states, found, .. } => time(seconds, |i| {
+            fit.kernel.evaluate(black_box(constants), black_box(&states[i]), black_box(found));
         }),
     }
 }
@@ -79,50 +151,66 @@ fn time(seconds: f64, mut call: impl FnMut(usize)) -> Times {
     Times { least: samples[0], median: samples[samples.len() / 2] }
 }
 
-fn table(subject: &Subject, routines: &Routines, rows: &[(Label, Times)]) -> String {
+fn table(subject: &Subject, routines: &Routines, rows: &[Row]) -> String {
     let mut text = format!(
-        "{}: ns per evaluation of the accelerations, all hinges free\n{} {:>10} {:>10} {:>12}\n",
+        "{}: ns per evaluation of the accelerations, all hinges free\n{} {:>5} {:>10} {:>10} {:>12}\n",
         subject.scene().name,
         code_head(),
+        "lanes",
         "ns min",
         "ns median",
         "of recursive",
     );
     let mut line = |line: String| writeln!(text, "{line}").expect("a string takes any text");
-    let recursive = rows[0].1.least;
-    for (label, Times { least, median }) in rows {
-        let ratio = least / recursive;
-        line(format!("{} {least:>10.1} {median:>10.1} {ratio:>12.3}", code_columns(label)));
+    for Row { label, lanes, times: Times { least, median }, of_recursive } in rows {
+        let (columns, embedded) = (code_columns(label), embedded(label));
+        line(format!(
+            "{columns} {lanes:>5} {least:>10.1} {median:>10.1} {of_recursive:>12.3}{embedded}"
+        ));
     }
     subject.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);
     text
 }
 
-fn json(rows: &[(Label, Times)]) -> String {
-    let object = |(label, times): &(Label, Times)| {
-        let Label { path, formulation, facts, instructions } = label;
-        let Times { least, median } = times;
+fn json(rows: &[Row]) -> String {
+    let object = |row: &Row| {
+        let Row { label, lanes, times: Times { least, median }, of_recursive } = row;
+        let Label { path, formulation, facts, instructions, topology, virtual_links } = label;
+        let topology = topology.map_or("null".to_owned(), |topology| format!("\"{topology}\""));
         format!(
             "  {{\"path\": \"{path}\", \"formulation\": \"{formulation}\", \
              \"facts\": \"{facts}\", \"instructions\": \"{instructions}\", \
-             \"ns_min\": {least:?}, \"ns_median\": {median:?}}}"
+             \"topology\": {topology}, \"virtual_links\": {virtual_links}, \"lanes\": {lanes}, \
+             \"ns_min\": {least:?}, \"ns_median\": {median:?}, \
+             \"of_recursive\": {of_recursive:?}}}"
         )
     };
     format!("[\n{}\n]\n", rows.iter().map(object).collect::<Vec<_>>().join(",\n"))
 }
 
-fn harness(scene: &str, rows: &[(Label, Times)]) -> String {
-    let line = |(label, Times { least, median }): &(Label, Times)| {
-        let Label { path, formulation, facts, .. } = label;
-        // Code of the library has one form only, which takes any facts.
-        let suffix = match (*path, *facts) {
-            ("generated", "general") => "_general",
-            ("generated", "baked") => "_baked",
-            _ => "",
-        };
-        format!(
-            "nboom_{path}_{formulation}{suffix} {scene} ns_min {least:.1} ns_median {median:.1}\n"
-        )
+/// A line for each name: of routines with the same one, that which a run takes.
+fn harness(scene: &str, rows: &[Row]) -> String {
+    let scene: String = scene.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect();
+    let is_taken = |row: &&Row| {
+        let same = rows.iter().filter(|other| name(other) == name(row));
+        same.max_by_key(|row| precedence(&row.label)).is_some_and(|best| best.label == row.label)
     };
-    rows.iter().map(line).collect()
+    let line = |row: &Row| {
+        let Times { least, median } = row.times;
+        format!("{} {scene} ns_min {least:.1} ns_median {median:.1}\n", name(row))
+    };
+    rows.iter().filter(is_taken).map(line).collect()
+}
+
+fn name(row: &Row) -> String {
+    let Label { path, formulation, facts, .. } = row.label;
+    let baked = if facts == "baked" { "_baked" } else { "" };
+    let lanes = if row.lanes > 1 { format!("_lanes{}", row.lanes) } else { String::new() };
+    format!("nboom_{path}_{formulation}{baked}{lanes}")
+}
+
+/// Larger for what a run takes rather: a routine of a larger topology, which is there only if a run
+/// takes it, then the more specialised one.
+fn precedence(label: &Label) -> (bool, bool) {
+    (label.virtual_links > 0, label.facts != "general")
 }

@@ -1,12 +1,22 @@
-use nboom_io::{SceneFile, read_scene};
+use std::io;
 
-use crate::{CheckArgs, CliError, print_scene, say};
+use nboom_io::{SceneFile, read_scene};
+use nboom_model::Scene;
+use nboom_results::with_causes;
+use nboom_sim::{Event, Options, Recorder, Snapshot, simulate};
+
+use crate::{CheckArgs, CliError, Routines, print_scene, say};
 
 /// Reads a scene and returns what it contains for standard output.
-pub(crate) fn check(args: &CheckArgs) -> Result<String, CliError> {
+pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
     warnings(&file).iter().for_each(|warning| say("warning", warning));
-    Ok(print_scene::text(&file.scene))
+    let scene = &file.scene;
+    #[cfg(feature = "generator")]
+    let generated = generated_code(scene);
+    #[cfg(not(feature = "generator"))]
+    let generated = "";
+    Ok(format!("{}{generated}{}\n", print_scene::text(scene), code_at_start(scene, routines)))
 }
 
 /// What reading the file and looking at the scene warn of.
@@ -14,4 +24,47 @@ pub(crate) fn warnings(file: &SceneFile) -> Vec<String> {
     let of_file = file.warnings.iter().map(ToString::to_string);
     let of_scene = file.scene.warnings();
     of_file.chain(of_scene.iter().map(ToString::to_string)).collect()
+}
+
+/// The topology with all hinges free, and what code generated for the scene takes for granted.
+#[cfg(feature = "generator")]
+fn generated_code(scene: &Scene) -> String {
+    use nboom_codegen::{Level, Numbers, Request, granted};
+    let request = match Request::of_scene(scene, Numbers::RunTime, Level::Fast) {
+        Ok(request) => request,
+        Err(error) => return format!("generated code: none, {error}\n"),
+    };
+    let phrases = granted(&request.topology, &request.pinned, request.external);
+    let phrases = if phrases.is_empty() { "nothing".to_owned() } else { phrases.join("; ") };
+    format!("topology: {}\ngenerated code takes for granted: {phrases}\n", request.topology)
+}
+
+/// The code that a run begins with, and why: that of a run that ends where it starts.
+fn code_at_start(scene: &Scene, routines: &Routines) -> String {
+    let options = Options { kernels: routines.accelerations, ..Options::default() };
+    let instant = scene.ending_at(scene.initial.time);
+    let instant = instant.expect("the initial time is not before itself");
+    match simulate(&instant, &options, &mut Nobody) {
+        Ok(summary) => summary.selections.last().map_or_else(String::new, |code| {
+            format!("code at the start: {} {}, {}", code.path, code.formulation, code.reason)
+        }),
+        Err(failure) => format!("code at the start: none, {}", with_causes(&failure.error)),
+    }
+}
+
+/// Records nothing.
+struct Nobody;
+
+impl Recorder for Nobody {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
 }

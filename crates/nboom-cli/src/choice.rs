@@ -5,9 +5,7 @@ use nboom_formulation::Formulation;
 #[cfg(feature = "generator")]
 use nboom_package::Level;
 use nboom_results::UnitSystem;
-use nboom_sim::Form;
-
-const INTEGRATORS_BUILT: [&str; 1] = ["dop853"];
+use nboom_sim::{Form, Method};
 
 /// Below this a relative error is smaller than the rounding of a step.
 const SMALLEST_RTOL: f64 = 1e-14;
@@ -54,10 +52,9 @@ pub(crate) fn level(name: &str) -> Result<Level, ChoiceError> {
     found.ok_or_else(|| ChoiceError::Unknown { available: levels.map(Level::name).into() })
 }
 
-pub(crate) fn integrator(name: &str) -> Result<&'static str, ChoiceError> {
-    let available = INTEGRATORS_BUILT;
-    let found = available.into_iter().find(|known| *known == name);
-    found.ok_or_else(|| ChoiceError::Unknown { available: available.into() })
+pub(crate) fn integrator(name: &str) -> Result<Method, ChoiceError> {
+    let names = || Method::ALL.map(Method::name).into();
+    Method::named(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
 }
 
 pub(crate) fn units(name: &str) -> Result<UnitSystem, ChoiceError> {
@@ -109,7 +106,7 @@ mod tests {
             "unknown name, report, relative, symmetric, articulated, momentum, recursive expected"
         );
         let refused = integrator("euler").expect_err("unknown").to_string();
-        assert_eq!(refused, "unknown name, dop853 expected");
+        assert_eq!(refused, "unknown name, rkam, dopri5, dop853, radau5 expected");
         let refused = units("cubits").expect_err("unknown").to_string();
         assert_eq!(refused, "unknown name, none, SI, ft-lbf-s, in-lbf-s expected");
     }

@@ -60,6 +60,13 @@ pub enum CliError {
     Stdout(#[source] io::Error),
 }
 
+/// Whether a path leads through a file, or to a directory where a file is expected or the reverse.
+#[cfg(feature = "generator")]
+fn is_wrong_path(kind: io::ErrorKind) -> bool {
+    use io::ErrorKind::{AlreadyExists, IsADirectory, NotADirectory};
+    matches!(kind, AlreadyExists | IsADirectory | NotADirectory)
+}
+
 impl CliError {
     /// 1 when a comparison failed, 2 when the input or the command line is wrong, 3 when computing or writing failed.
     pub fn exit_code(&self) -> u8 {
@@ -70,12 +77,19 @@ impl CliError {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
                 ..
             } => 2,
+            Self::Verify(VerifyError::NotFinite { .. }) => 2,
             Self::Simulation { .. } | Self::Verify(_) => 3,
             Self::Results(_) | Self::Stdout(_) => 3,
             #[cfg(feature = "generator")]
             Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
             #[cfg(feature = "generator")]
-            Self::Package(PackageError::Codegen(_) | PackageError::NotOurs { .. }) => 2,
+            Self::Package(
+                PackageError::Codegen(_) | PackageError::NotOurs { .. } | PackageError::NoFolder,
+            ) => 2,
+            #[cfg(feature = "generator")]
+            Self::Package(
+                PackageError::Read { source, .. } | PackageError::Write { source, .. },
+            ) if is_wrong_path(source.kind()) => 2,
             #[cfg(feature = "generator")]
             Self::Package(_) => 3,
         }

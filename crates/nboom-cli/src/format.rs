@@ -41,14 +41,24 @@ pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
 
 /// Path, formulation, facts and instructions of code in columns.
 pub(crate) fn code_columns(label: &Label) -> String {
-    let Label { path, formulation, facts, instructions } = label;
+    let Label { path, formulation, facts, instructions, .. } = label;
     format!("{path:<10} {formulation:<12} {facts:<10} {instructions:<13}")
 }
 
 /// The head of [`code_columns`].
 pub(crate) fn code_head() -> String {
     let [path, formulation, facts, instructions] = ["path", "formulation", "facts", "instructions"];
-    code_columns(&Label { path, formulation, facts, instructions })
+    code_columns(&Label { path, formulation, facts, instructions, ..Label::RECURSION })
+}
+
+/// What a routine is for where that is not the satellite itself, after a line of columns.
+pub(crate) fn embedded(label: &Label) -> String {
+    match (label.topology, label.virtual_links) {
+        (Some(topology), links) if links > 0 => {
+            format!("  in {topology}, {}", count(links, "virtual link", "virtual links"))
+        }
+        _ => String::new(),
+    }
 }
 
 /// Code that does not cover a scene, in the same columns.

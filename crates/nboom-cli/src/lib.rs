@@ -24,6 +24,7 @@ mod error;
 mod format;
 #[cfg(feature = "generator")]
 mod generate;
+mod picture;
 mod print_run;
 mod print_scene;
 mod progress;
@@ -32,11 +33,12 @@ mod run;
 mod simulator;
 mod verify;
 mod watch;
+mod work_precision;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use nboom_scalar::Kernel;
+use nboom_scalar::{Batch, Kernel};
 
 pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
 #[cfg(feature = "generator")]
@@ -53,6 +55,8 @@ pub struct Routines {
     pub accelerations: &'static [Kernel],
     /// Those for the matrix and the right side of a formulation.
     pub equations: &'static [Kernel],
+    /// Those for accelerations of eight states at once.
+    pub batches: &'static [Batch],
 }
 
 /// Does what the command line asks for and tells how it went by the exit code: 0 done, 1 a
@@ -60,14 +64,15 @@ pub struct Routines {
 #[cfg(feature = "generator")]
 pub fn execute(cli: &Cli) -> ExitCode {
     let (accelerations, equations) = (nboom_routines::all(), nboom_routines::equations());
-    execute_with(cli, &Routines { accelerations, equations })
+    let batches = nboom_routines::batches();
+    execute_with(cli, &Routines { accelerations, equations, batches })
 }
 
 /// The same with other routines than the stock ones.
 pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
     let printed = match &cli.command {
         Command::Run(args) => run::run(args, routines),
-        Command::Check(args) => check::check(args),
+        Command::Check(args) => check::check(args, routines),
         Command::Verify(args) => verify::verify(args, routines),
         Command::Bench(args) => bench::bench(args, routines),
         #[cfg(feature = "generator")]

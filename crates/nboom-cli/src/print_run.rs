@@ -2,7 +2,7 @@ use std::path::Path;
 
 use nboom_model::Scene;
 use nboom_results::{EVENTS_FILE, Outcome, RunDescription, event_order, path_and_formulation};
-use nboom_sim::{Event, EventKind, Totals};
+use nboom_sim::{Digits, Event, EventKind, Totals, Trust};
 
 use crate::format::{count, short};
 
@@ -16,6 +16,8 @@ pub(crate) struct Account<'a> {
     pub(crate) outcome: &'a Outcome,
     /// The first events, the end left out.
     pub(crate) events: Vec<Event>,
+    /// What a reference run has shown, if there was one.
+    pub(crate) trust: Option<Trust>,
 }
 
 impl Account<'_> {
@@ -24,6 +26,7 @@ impl Account<'_> {
         lines.extend(self.event_lines());
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
+        lines.extend(self.trust.as_ref().map(trust_line));
         lines.push(format!("files         {}", directory.display()));
         lines.join("\n") + "\n"
     }
@@ -106,6 +109,20 @@ impl Account<'_> {
     }
 }
 
+/// The fewest digits of event times, of impulses, and of each quantity at the end.
+fn trust_line(trust: &Trust) -> String {
+    let mut known: Vec<String> = Vec::new();
+    let mut say = |what: &str, digits: Option<u32>| {
+        known.extend(digits.map(|digits| format!("{what} {digits}")));
+    };
+    say("event times", trust.events.iter().map(|event| event.time.count()).min());
+    let impulses = trust.events.iter().filter_map(|event| event.impulse.as_ref());
+    say("impulses", impulses.map(Digits::count).min());
+    trust.end.iter().for_each(|digits| say(digits.quantity, Some(digits.count())));
+    let other = if trust.same_events { "" } else { "; the reference has other events" };
+    format!("certified     digits against rtol {:.0e}: {}{other}", trust.rtol, known.join(", "))
+}
+
 fn change(event: &Event, of: impl Fn(&Totals) -> f64) -> String {
     format!("{} -> {}", short(of(&event.before), 8), short(of(&event.after), 8))
 }
@@ -174,7 +191,8 @@ mod tests {
             selections: Vec::new(),
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
-        Account { scene: &scene, run: &run, outcome: &outcome, events }.text(Path::new("out/boom"))
+        Account { scene: &scene, run: &run, outcome: &outcome, events, trust: None }
+            .text(Path::new("out/boom"))
     }
 
     #[test]

@@ -1,10 +1,12 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::read_scene;
+use nboom_io::{LegacySettings, read_scene};
 use nboom_model::Scene;
-use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes};
-use nboom_sim::{Form, Options, Path, simulate};
+use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes, write_trust};
+use nboom_sim::{
+    Form, Method, Options, Path, RkamSettings, Tolerance, Trust, Witness, simulate, trust,
+};
 
 use crate::progress::Progress;
 use crate::watch::Watch;
@@ -18,12 +20,8 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));
     }
-    let options = options(args, routines)?;
-    let run = RunDescription {
-        integrator: args.integrator,
-        warnings,
-        ..RunDescription::new(&scene, &options, args.units)
-    };
+    let options = options(args, routines, &file.legacy)?;
+    let run = RunDescription { warnings, ..RunDescription::new(&scene, &options, args.units) };
     let account = simulate_into_files(&scene, &options, run, args)?;
     Ok(if args.quiet { String::new() } else { account })
 }
@@ -35,8 +33,12 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
     }
 }
 
-fn options(args: &RunArgs, routines: &Routines) -> Result<Options, CliError> {
-    let RunArgs { samples, rtol, atol, formulation, .. } = *args;
+fn options(
+    args: &RunArgs,
+    routines: &Routines,
+    legacy: &LegacySettings,
+) -> Result<Options, CliError> {
+    let RunArgs { samples, integrator, rtol, atol, formulation, .. } = *args;
     let path = match args.path {
         PathChoice::Generated if formulation == Some(Form::Recursive) => {
             return Err(CliError::GeneratedRecursion);
@@ -46,7 +48,34 @@ fn options(args: &RunArgs, routines: &Routines) -> Result<Options, CliError> {
         PathChoice::Generic => Path::Generic,
     };
     let kernels = routines.accelerations;
-    Ok(Options { samples, rtol, atol, path, formulation, kernels, ..Options::default() })
+    let mut options = Options {
+        samples,
+        integrator,
+        rtol,
+        atol,
+        path,
+        formulation,
+        kernels,
+        ..Options::default()
+    };
+    if integrator == Method::Rkam {
+        options.rkam = Some(rkam(legacy, options.tolerance()));
+        options.max_steps = legacy.max_steps.unwrap_or(options.max_steps);
+    }
+    Ok(options)
+}
+
+/// What a deck says to `rkam`; where it says nothing, the tolerance does.
+fn rkam(legacy: &LegacySettings, tolerance: Tolerance) -> RkamSettings {
+    let absolute = |bound| Tolerance { relative: 0.0, absolute: bound };
+    let from_upper = RkamSettings::meeting(legacy.upper_error.map_or(tolerance, absolute));
+    RkamSettings {
+        first_step: legacy.first_step,
+        shortest: legacy.min_step.unwrap_or(from_upper.shortest),
+        longest: legacy.max_step.unwrap_or(from_upper.longest),
+        lower: legacy.lower_error.map_or(from_upper.lower, absolute),
+        ..from_upper
+    }
 }
 
 fn simulate_into_files(
@@ -62,6 +91,7 @@ fn simulate_into_files(
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
         events_to_keep: print_run::EVENTS_SHOWN,
+        witness: args.certify.then(Witness::new),
     };
     let result = simulate(scene, options, &mut watch);
     watch.progress.finish();
@@ -77,8 +107,28 @@ fn simulate_into_files(
         return Err(CliError::Simulation { error, directory });
     }
     finished?;
-    let account = print_run::Account { scene, run: &run, outcome: &outcome, events: watch.events };
+    let trust = match &watch.witness {
+        Some(witness) => Some(certify(scene, options, witness, &directory)?),
+        None => None,
+    };
+    let account =
+        print_run::Account { scene, run: &run, outcome: &outcome, events: watch.events, trust };
     Ok(account.text(&directory))
+}
+
+/// Runs again, more accurately, and writes how far the results are from that.
+fn certify(
+    scene: &Scene,
+    options: &Options,
+    witness: &Witness,
+    directory: &std::path::Path,
+) -> Result<Trust, CliError> {
+    let found = trust(scene, options, witness).map_err(|failure| CliError::Simulation {
+        error: failure.error,
+        directory: directory.to_owned(),
+    })?;
+    write_trust(directory, scene, &found)?;
+    Ok(found)
 }
 
 /// `out/` and the scene's name, with what a file name cannot hold replaced.
@@ -92,6 +142,27 @@ pub(crate) fn default_directory(scene: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_deck_steers_rkam_and_the_tolerance_says_the_rest() {
+        let tolerance = Tolerance { relative: 1e-6, absolute: 1e-8 };
+        let silent = LegacySettings::default();
+        assert_eq!(rkam(&silent, tolerance), RkamSettings::meeting(tolerance));
+        let deck = LegacySettings {
+            first_step: Some(0.1),
+            upper_error: Some(0.2),
+            min_step: Some(0.3),
+            max_step: Some(0.4),
+            ..silent
+        };
+        let absolute = |bound| Tolerance { relative: 0.0, absolute: bound };
+        let (upper, lower) = (absolute(0.2), absolute(0.2 / 50.0));
+        let first_step = Some(0.1);
+        let expected = RkamSettings { first_step, shortest: 0.3, longest: 0.4, upper, lower };
+        assert_eq!(rkam(&deck, tolerance), expected);
+        let deck = LegacySettings { lower_error: Some(0.5), ..deck };
+        assert_eq!(rkam(&deck, tolerance).lower, absolute(0.5));
+    }
 
     #[test]
     fn no_scene_name_leads_out_of_the_output_directory() {

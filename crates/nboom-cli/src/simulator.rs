@@ -8,20 +8,22 @@ use nboom_scalar::Kernel;
 use crate::{Cli, Routines, execute_with};
 
 /// The command line of a stand-alone simulator with routines of its own: `run` may be left out.
+/// `about` is what its help begins with.
 pub fn simulator(
     words: impl IntoIterator<Item = OsString>,
+    about: &'static str,
     accelerations: &'static [Kernel],
 ) -> ExitCode {
     let mut words: Vec<OsString> = words.into_iter().collect();
     let name = words.first().map(|path| Path::new(path).file_name().unwrap_or(path));
     let name = name.unwrap_or_default().to_string_lossy().into_owned();
-    let mut command = Cli::command().bin_name(name);
+    let mut command = Cli::command().bin_name(name).about(about);
     command.build();
     if words.get(1).is_some_and(|word| !is_known(&command, word)) {
         words.insert(1, "run".into());
     }
     match command.try_get_matches_from(words).and_then(|found| Cli::from_arg_matches(&found)) {
-        Ok(cli) => execute_with(&cli, &Routines { accelerations, equations: &[] }),
+        Ok(cli) => execute_with(&cli, &Routines { accelerations, equations: &[], batches: &[] }),
         Err(error) => error.exit(),
     }
 }

@@ -1,9 +1,9 @@
 use std::fmt::Write;
 
 use nboom_io::read_scene;
-use nboom_verify::{Comparison, Quantity, Row, Subject, compare};
+use nboom_verify::{Comparison, Hinges, Quantity, Row, Subject, compare};
 
-use crate::format::{code_columns, code_head, count, not_covered, short};
+use crate::format::{code_columns, code_head, count, embedded, not_covered, short};
 use crate::run::default_directory;
 use crate::{CliError, Routines, VerifyArgs, check, print, say};
 
@@ -13,8 +13,10 @@ const FILE: &str = "verify.json";
 pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
     check::warnings(&file).iter().for_each(|warning| say("warning", warning));
-    let subject = Subject::new(file.scene, args.states, args.seed)?;
-    let comparison = compare(&subject, routines.accelerations, routines.equations, args.tol)?;
+    let held = Subject::with_held_hinges(&file.scene, args.states / 2, args.seed)?;
+    let free = Subject::new(file.scene, args.states - held.len(), args.seed)?;
+    let Routines { accelerations, equations, .. } = *routines;
+    let comparison = compare(&free, &held, accelerations, equations, args.tol)?;
     print(&table(&comparison))?;
     let beside = || default_directory(&comparison.scene).join(FILE);
     let path = args.output.clone().unwrap_or_else(beside);
@@ -32,36 +34,44 @@ pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, C
 }
 
 fn table(comparison: &Comparison) -> String {
-    let states = count(comparison.states, "random state", "random states");
-    let mut text = format!(
-        "{}: largest deviations in {states} from seed {}, all hinges free\n",
-        comparison.scene, comparison.seed,
-    );
+    let Comparison { scene, states, held, seed, tolerance, .. } = comparison;
+    let random = count(*states, "random state", "random states");
+    let mut text = format!("{scene}: largest deviations in {random} from seed {seed}\n");
     let mut line = |line: String| writeln!(text, "{line}").expect("a string takes any text");
-    for quantity in [Quantity::Accelerations, Quantity::MassMatrix, Quantity::Forcing] {
-        line(format!(
-            "\n{quantity}\n{} {:>14} {:>18} {:>6}",
-            code_head(),
-            "from recursion",
-            "from double-double",
-            "state"
-        ));
-        comparison.rows.iter().filter(|row| row.quantity == quantity).map(row).for_each(&mut line);
-        if quantity == Quantity::Accelerations {
-            comparison.not_covered.iter().map(not_covered).for_each(&mut line);
+    for (hinges, states, head) in [
+        (Hinges::Free, states - held, "all hinges free"),
+        (Hinges::Held, *held, "random hinges held at random angles"),
+    ] {
+        if states == 0 {
+            continue;
+        }
+        let rows = comparison.rows.iter().filter(|row| row.hinges == hinges);
+        for quantity in [Quantity::Accelerations, Quantity::MassMatrix, Quantity::Forcing] {
+            line(format!("\n{quantity}, {head}, {}", count(states, "state", "states")));
+            line(row_head());
+            rows.clone().filter(|row| row.quantity == quantity).map(row).for_each(&mut line);
+            if (hinges, quantity) == (Hinges::Free, Quantity::Accelerations) {
+                comparison.not_covered.iter().map(not_covered).for_each(&mut line);
+            }
         }
     }
     line(format!(
-        "\ntolerance {:e}; largest condition of the mass matrix {}",
-        comparison.tolerance,
+        "\ntolerance {tolerance:e}; largest condition of the mass matrix {}",
         short(comparison.largest_condition, 3)
     ));
     text
 }
 
+fn row_head() -> String {
+    let [recursion, exact] = ["from recursion", "from double-double"];
+    format!("{} {recursion:>14} {exact:>18} {:>6} {:>7}", code_head(), "state", "covered")
+}
+
 fn row(row: &Row) -> String {
-    let Row { label, from_recursion, from_double_double, state, .. } = row;
+    let Row { label, from_recursion, from_double_double, state, states, .. } = row;
     let from_recursion = from_recursion.map_or("-".to_owned(), |off| format!("{off:.1e}"));
-    let columns = code_columns(label);
-    format!("{columns} {from_recursion:>14} {from_double_double:>18.1e} {state:>6}")
+    let (columns, embedded) = (code_columns(label), embedded(label));
+    format!(
+        "{columns} {from_recursion:>14} {from_double_double:>18.1e} {state:>6} {states:>7}{embedded}"
+    )
 }

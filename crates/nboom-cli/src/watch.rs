@@ -1,7 +1,7 @@
 use std::io;
 
 use nboom_results::RunDirectory;
-use nboom_sim::{Event, EventKind, Recorder, Snapshot};
+use nboom_sim::{Event, EventKind, Recorder, Snapshot, Witness};
 
 use crate::progress::Progress;
 
@@ -12,6 +12,8 @@ pub(crate) struct Watch {
     pub(crate) progress: Progress,
     pub(crate) events: Vec<Event>,
     pub(crate) events_to_keep: usize,
+    /// What a reference run is compared with, if there is to be one.
+    pub(crate) witness: Option<Witness>,
 }
 
 impl Recorder for Watch {
@@ -21,10 +23,16 @@ impl Recorder for Watch {
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         self.progress.reach(snapshot.time);
+        if let Some(witness) = &mut self.witness {
+            witness.sample(snapshot)?;
+        }
         self.files.sample(snapshot)
     }
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {
+        if let Some(witness) = &mut self.witness {
+            witness.event(event, after)?;
+        }
         if self.events.len() < self.events_to_keep && event.kind != EventKind::End {
             self.events.push(*event);
         }

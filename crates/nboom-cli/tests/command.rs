@@ -216,6 +216,10 @@ fn check_says_what_the_scene_contains_and_computes_nothing() {
         "thrust: none",
         "span: 0 to 4",
         "not paid for: gravity; thrust",
+        "topology: S1",
+        "generated code takes for granted: no external wrench on the main body; O at the main body",
+        // The only hinge is unreleased.
+        "code at the start: generated articulated, routine for M",
     ] {
         assert!(text.contains(words), "no {words:?} in {text}");
     }
@@ -231,6 +235,16 @@ fn a_scene_that_cannot_be_read_is_refused() {
         refused(&place.nboom(&[verb, "folder.nml"]), 2, &["folder.nml"]);
     }
     assert!(!place.path("out").exists());
+}
+
+#[test]
+fn a_body_whose_moments_overflow_is_wrong_input() {
+    let place = Place::new();
+    let far = BOOM.replace("EMIK=3.0", "EMIK=1.0E200").replace("CNIK(1,2)=1.0", "CNIK(1,2)=1.0E80");
+    place.write("far.nml", &far);
+    for verb in ["check", "run", "verify", "bench"] {
+        refused(&place.nboom(&[verb, "far.nml"]), 2, &["segment 1,1", "mass centre", "finite"]);
+    }
 }
 
 #[test]
@@ -335,4 +349,30 @@ fn help_names_every_option_of_the_contract() {
     ] {
         assert!(help.contains(option), "no {option} in {help}");
     }
+}
+
+#[test]
+fn a_certificate_tells_the_digits_and_goes_with_the_next_run() {
+    let place = Place::new();
+    let output = place.nboom(&["run", "boom.nml", "-o", "out", "--rtol", "1e-7", "--certify"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let account = String::from_utf8(output.stdout).expect("text");
+    assert!(account.contains("certified     digits against rtol 1e-10: event times "), "{account}");
+
+    let path = place.path("out").join("certificate.json");
+    let text = fs::read_to_string(&path).expect("the certificate is there");
+    let certificate: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(certificate["same_events"], true);
+    let kinds: Vec<_> =
+        certificate["events"].as_array().expect("a list").iter().map(|e| &e["kind"]).collect();
+    assert_eq!(kinds, ["release", "lock_up"]);
+    let lock_up = &certificate["events"][1];
+    for digits in [&lock_up["time"], &lock_up["impulse"], &certificate["end"][1]] {
+        // About as many as the tolerance has, and not all that a number can have.
+        let known = digits["digits"].as_u64().expect("a number");
+        assert!((5..16).contains(&known), "{digits}");
+    }
+
+    assert_eq!(place.nboom(&["run", "boom.nml", "-o", "out"]).status.code(), Some(0));
+    assert!(!path.exists(), "it was of another run");
 }

@@ -87,7 +87,10 @@ fn what_cannot_be_generated_is_said() {
     ends(&nboom(place, &["generate", "none.nml", "-o", "crate"]), 2, &["none.nml"]);
     assert!(!place.join("crate").exists());
     fs::write(place.join("file"), "").expect("writable");
-    ends(&nboom(place, &["generate", "boom.nml", "-o", "file"]), 3, &["file"]);
+    ends(&nboom(place, &["generate", "boom.nml", "-o", "file"]), 2, &["file"]);
+    ends(&nboom(place, &["generate", "boom.nml", "-o", "file/crate"]), 2, &["file"]);
+    fs::create_dir_all(place.join("crate/src/routines.rs")).expect("writable");
+    ends(&with(&[]), 2, &["routines.rs"]);
 }
 
 #[test]
@@ -101,6 +104,35 @@ fn a_compiler_that_is_not_there_or_fails_is_said() {
     ends(&failing.expect("it starts"), 3, &["cargo has failed in", "work/nboom-simulator-"]);
     let nowhere =
         command(place, &compile[..4]).env_remove("HOME").env_remove("XDG_CACHE_HOME").output();
-    ends(&nowhere.expect("it starts"), 3, &["XDG_CACHE_HOME", "HOME"]);
+    ends(&nowhere.expect("it starts"), 2, &["XDG_CACHE_HOME", "HOME"]);
     assert!(!place.join("boom").exists());
+    fs::write(place.join("file"), "").expect("writable");
+    let in_file = ["compile", "boom.nml", "-o", "boom", "--work", "file"];
+    ends(&nboom(place, &in_file), 2, &["file"]);
+}
+
+#[test]
+fn a_program_is_not_put_over_what_is_no_simulator() {
+    let place = place();
+    let place = place.path();
+    let files = [("notes", &b"mine"[..]), ("program", b"\x7fELF\xff\0 of somebody else's")];
+    files.iter().for_each(|(name, bytes)| fs::write(place.join(name), bytes).expect("writable"));
+    fs::create_dir(place.join("directory")).expect("writable");
+    let compile = |output: &str| {
+        let mut command = command(place, &["compile", "boom.nml", "--work", "work", "-o", output]);
+        // It is refused before cargo is called.
+        command.env("CARGO", "no-such-cargo").output().expect("it starts")
+    };
+    for output in ["boom.nml", "notes", "program"] {
+        ends(&compile(output), 2, &[output, "was not written by this command"]);
+    }
+    for output in ["directory", "new/", ".", "notes/program"] {
+        ends(&compile(output), 2, &["cannot write", output]);
+    }
+    ends(&compile(env!("CARGO_BIN_EXE_nboom")), 2, &["was not written by this command"]);
+    for (name, bytes) in files {
+        assert_eq!(fs::read(place.join(name)).ok().as_deref(), Some(bytes));
+    }
+    assert_eq!(fs::read_to_string(place.join("boom.nml")).ok().as_deref(), Some(BOOM));
+    assert!(!place.join("work").exists());
 }

@@ -23,6 +23,21 @@ const BOOM: &str = "
  &END
 ";
 
+/// The boom with four segments, all free from the start.
+fn long_boom() -> String {
+    let segments = "ELIK=4*2.0,EMIK=4*3.0,CNIK(1,2)=1.0,CNIK(2,2)=1.0,CNIK(3,2)=1.0,CNIK(4,2)=1.0,";
+    let inertias = "HIIK=".to_owned() + &"1.1,3*0.0,0.05,3*0.0,1.1,".repeat(4);
+    BOOM.replace("IXK=1", "IXK=4")
+        .replace("NK=1", "NK=4")
+        .replace("BETAIK=80.0,BSIK=0.0", "BETAIK=4*80.0,BSIK=4*1.0E30")
+        .replace("ELIK=2.0,EMIK=3.0,HIIK=1.1,3*0.0,0.05,3*0.0,1.1,CNIK(1,2)=1.0,", segments)
+        .replace(" EMM=100.0", &format!(" {inertias}\n EMM=100.0"))
+        .replace("IREL=0,RELTB=0.25", "IREL=4*0,RELTB=4*0.0")
+}
+
+/// A scene of the benches: two booms of two segments, a chain and a paddle.
+const S2_P: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../benches/scenes/T1.nml");
+
 /// Runs the binary in a directory that has a scene `boom.nml` with this text.
 fn nboom_in(directory: &Path, deck: &str, args: &[&str]) -> Output {
     fs::write(directory.join("boom.nml"), deck).expect("writable");
@@ -69,6 +84,46 @@ fn verify_compares_all_code_that_covers_the_scene() {
         assert!(table.contains(words), "no {words:?} in {table}");
     }
     assert!(!table.contains("not covered"), "{table}");
+}
+
+#[test]
+fn verify_and_bench_know_the_routine_that_a_run_embeds_the_scene_in() {
+    let run = nboom_on(&long_boom(), &["check", "boom.nml"]);
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    let text = stdout(&run);
+    let reason = text.lines().find(|line| line.starts_with("code at the start: ")).expect("a line");
+    let embedded = reason.contains("routine for 4xS5, 16 of 20 links virtual");
+    // Without wide registers the recursion is quicker.
+    assert!(embedded || reason.contains("no routine for topology S4"), "{reason}");
+    for args in
+        [&["verify", "boom.nml", "--states", "4"], &["bench", "boom.nml", "--seconds", "1e-3"]]
+    {
+        let table = stdout(&nboom_on(&long_boom(), args));
+        assert_eq!(table.contains("  in 4xS5, 16 virtual links"), embedded, "{table}");
+        assert_eq!(table.contains("not covered"), !embedded, "{table}");
+    }
+    let lines =
+        stdout(&nboom_on(&long_boom(), &["bench", "boom.nml", "--harness", "--seconds", "1e-3"]));
+    assert_eq!(lines.matches("nboom_generated_articulated ").count(), usize::from(embedded));
+}
+
+#[test]
+fn verify_holds_hinges_in_half_of_the_states() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let output =
+        nboom_in(directory.path(), BOOM, &["verify", S2_P, "--states", "9", "-o", "t1.json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let table = stdout(&output);
+    for words in ["all hinges free, 5 states", "random hinges held at random angles, 4 states"] {
+        assert_eq!(table.matches(words).count(), 3, "no {words:?} in {table}");
+    }
+    let file = json(&directory.path().join("t1.json"));
+    assert_eq!((&file["states"], &file["held"]), (&9.into(), &4.into()));
+    let rows = file["rows"].as_array().expect("rows");
+    for row in rows.iter().filter(|row| row["path"] == "generic") {
+        let states = if row["hinges"] == "held" { 4 } else { 5 };
+        assert_eq!(row["states"], states, "{row}");
+    }
 }
 
 /// The JSON in a file.
@@ -180,8 +235,11 @@ fn bench_gives_json() {
     };
     assert!(has("generic", "recursive") && has("generic", "report"), "{rows:?}");
     assert!(has("generated", "articulated"), "{rows:?}");
+    assert_eq!(rows[0]["of_recursive"], 1.0);
     for row in rows {
         let number = |key: &str| row[key].as_f64().expect("a number");
+        let ratio = number("ns_min") / rows[0]["ns_min"].as_f64().expect("a number");
+        assert!((number("of_recursive") - ratio).abs() <= 1e-12 * ratio, "{row}");
         assert!(0.0 < number("ns_min") && number("ns_min") <= number("ns_median"), "{row}");
         assert!(row["facts"].is_string() && row["instructions"].is_string(), "{row}");
     }
@@ -193,7 +251,9 @@ fn bench_gives_lines_of_words_and_numbers() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let text = stdout(&output);
     assert!(text.starts_with("nboom_generic_recursive boom ns_min "), "{text}");
-    assert!(text.contains("\nnboom_generated_articulated_general boom ns_min "), "{text}");
+    assert_eq!(text.matches("\nnboom_generated_articulated boom ns_min ").count(), 1, "{text}");
+    let names: Vec<_> = text.lines().filter_map(|line| line.split(' ').next()).collect();
+    assert!(names.iter().all(|name| !name.contains("general")), "{text}");
     for line in text.lines() {
         let words: Vec<&str> = line.split(' ').collect();
         let [_, "boom", "ns_min", least, "ns_median", median] = words[..] else { panic!("{line}") };
@@ -208,4 +268,20 @@ fn bench_gives_a_table() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let table = stdout(&output);
     assert!(table.contains("of recursive") && table.contains(" 1.000\n"), "{table}");
+}
+
+#[test]
+fn bench_times_eight_states_at_once_and_names_hold_no_blanks() {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::copy(S2_P, directory.path().join("two booms.nml")).expect("writable");
+    let args = ["bench", "two booms.nml", "--harness", "--seconds", "1e-3"];
+    let lines = stdout(&nboom_in(directory.path(), BOOM, &args));
+    let names: Vec<_> = lines.lines().filter_map(|line| line.split(' ').next()).collect();
+    assert!(lines.lines().all(|line| line.split(' ').nth(1) == Some("two_booms")), "{lines}");
+    for formulation in ["report", "relative", "symmetric", "articulated", "momentum"] {
+        let name = format!("nboom_generated_{formulation}");
+        assert_eq!(names.iter().filter(|other| **other == name).count(), 1, "{lines}");
+    }
+    let eight = names.iter().filter(|name| **name == "nboom_generated_articulated_lanes8");
+    assert_eq!(eight.count(), 1, "{lines}");
 }

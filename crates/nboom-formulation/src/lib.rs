@@ -11,6 +11,7 @@ mod dense;
 mod embedding;
 mod formulation;
 pub mod momentum;
+mod name;
 mod paddle;
 mod parameters;
 mod pose;

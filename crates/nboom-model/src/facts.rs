@@ -8,12 +8,6 @@ pub struct Facts {
     pub no_gravity: bool,
     /// No thrust during the run.
     pub no_thrust: bool,
-    /// O is the main body's mass centre.
-    pub main_body_centered: bool,
-    /// Hinges without any dashpot term.
-    pub hinges_without_dashpot: usize,
-    /// Hinges without any spring term.
-    pub hinges_without_spring: usize,
     /// Hinges without a kick-off spring.
     pub hinges_without_kick_off: usize,
     /// Hinges that are held at the initial time.
@@ -31,12 +25,6 @@ impl Facts {
         Self {
             no_gravity: scene.gravity.is_none(),
             no_thrust: scene.thrust.is_none(),
-            main_body_centered: scene.main_body.center_of_mass == nboom_scalar::Vec3::zero(),
-            hinges_without_dashpot: count(&|h| {
-                let d = &h.dashpot;
-                [d.rate_quadratic, d.rate_linear, d.angle_quadratic, d.angle_linear] == [0.0; 4]
-            }),
-            hinges_without_spring: count(&|h| [h.spring.quadratic, h.spring.linear] == [0.0; 2]),
             hinges_without_kick_off: count(&|h| h.kick_off.is_none()),
             hinges_held_at_start: count(&|h| h.start.state != HingeState::Free),
             hinges: scene.bodies.len(),

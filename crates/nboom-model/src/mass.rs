@@ -1,4 +1,4 @@
-use nboom_scalar::{Sym3, Vec3};
+use nboom_scalar::{RigidInertia, Sym3, Vec3};
 
 /// Share of the largest principal moment by which an inertia may miss the triangle inequality.
 pub const TRIANGLE_TOLERANCE: f64 = 1e-9;
@@ -27,6 +27,16 @@ pub enum MassDefect {
     /// An entry of the inertia is not finite.
     #[error("inertia with an entry that is not finite found")]
     InertiaNotFinite,
+    /// Mass times the distance of the mass centre, or times its square, is beyond all numbers.
+    #[error(
+        "mass {mass} with mass centre {distance} away found, finite moments about the origin expected"
+    )]
+    Overflow {
+        /// The mass.
+        mass: f64,
+        /// Distance of the mass centre from the body's origin.
+        distance: f64,
+    },
     /// A principal moment of inertia is negative.
     #[error("principal moment of inertia {0} found, none below zero expected")]
     NegativeMoment(f64),
@@ -68,6 +78,11 @@ impl MassProperties {
         }
         if !self.inertia.is_finite() {
             return Some(MassDefect::InertiaNotFinite);
+        }
+        let about_origin = RigidInertia::new(self.mass, self.center_of_mass, self.inertia);
+        if !(about_origin.first_moment.is_finite() && about_origin.about_origin.is_finite()) {
+            let distance = self.center_of_mass.norm();
+            return Some(MassDefect::Overflow { mass: self.mass, distance });
         }
         let moments = self.principal_moments();
         let slack = TRIANGLE_TOLERANCE * moments[2].abs();
@@ -112,6 +127,18 @@ mod tests {
         let moments = MassProperties::new(1.0, Vec3::zero(), inertia).principal_moments();
         for (found, expected) in moments.iter().zip([1.0, 2.0, 2.5]) {
             assert!((found - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_body_whose_moments_overflow_is_refused() {
+        let inertia = Sym3::diagonal(1.0, 1.0, 1.0);
+        for (mass, distance, is_body) in
+            [(1e100, 1e80, true), (1e200, 1e80, false), (1.0, 1e160, false), (1e200, 1e120, false)]
+        {
+            let body = MassProperties::new(mass, Vec3::unit_y() * distance, inertia);
+            let refused = matches!(body.defect(), Some(MassDefect::Overflow { .. }));
+            assert_eq!(refused, !is_body, "{mass:e} at {distance:e}");
         }
     }
 

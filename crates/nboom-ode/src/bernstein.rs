@@ -1,4 +1,7 @@
 /// Highest degree of a polynomial.
+pub(crate) const HIGHEST: usize = 24;
+
+/// Degree of the polynomials through given values.
 const DEGREE: usize = 7;
 
 /// Width below which an interval counts as a point, in parts of the whole.
@@ -8,13 +11,32 @@ const RESOLUTION: f64 = 1e-14;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bernstein {
     degree: usize,
-    coefficients: [f64; DEGREE + 1],
+    coefficients: [f64; HIGHEST + 1],
 }
 
 impl Bernstein {
-    /// The polynomial of degree 7 with these coefficients.
-    pub fn new(coefficients: [f64; DEGREE + 1]) -> Self {
-        Self { degree: DEGREE, coefficients }
+    /// The polynomial with these coefficients, whose degree is one less than their number.
+    ///
+    /// # Panics
+    /// Without coefficients, or with more than 25.
+    pub fn new(coefficients: &[f64]) -> Self {
+        let mut all = [0.0; HIGHEST + 1];
+        all[..coefficients.len()].copy_from_slice(coefficients);
+        Self { degree: coefficients.len() - 1, coefficients: all }
+    }
+
+    /// start + x (c₀ + x̄ (c₁ + x (c₂ + x̄ (…)))) with x̄ = 1 − x, as dense output of
+    /// Runge-Kutta methods is written.
+    pub(crate) fn of_terms(start: f64, terms: &[f64]) -> Self {
+        let degree = terms.len();
+        let mut coefficients = [0.0; HIGHEST + 1];
+        coefficients[..=degree].fill(start);
+        for (row, c) in TERM_COEFFICIENTS[degree].iter().zip(terms) {
+            for (sum, weight) in coefficients[..=degree].iter_mut().zip(row) {
+                *sum += c * weight;
+            }
+        }
+        Self { degree, coefficients }
     }
 
     /// Its coefficients; the first and last are its values at 0 and 1.
@@ -36,7 +58,7 @@ impl Bernstein {
 
     /// The polynomial divided by its variable, its value at 0 being taken for zero.
     pub fn without_root_at_start(&self) -> Self {
-        let mut coefficients = [0.0; DEGREE + 1];
+        let mut coefficients = [0.0; HIGHEST + 1];
         let degree = self.degree.max(1) - 1;
         for (j, c) in coefficients[..=degree].iter_mut().enumerate() {
             *c = self.coefficients[j + 1] * self.degree as f64 / (j + 1) as f64;
@@ -84,6 +106,40 @@ impl Bernstein {
     }
 }
 
+/// Most terms of dense output.
+const TERMS: usize = 7;
+
+/// For each number of terms, Bernstein coefficients of x, x(1−x), x²(1−x), x²(1−x)², …:
+/// xᵃ(1−x)ᵇ of degree n has C(n−a−b, j−a) / C(n, j) at index j.
+const TERM_COEFFICIENTS: [[[f64; TERMS + 1]; TERMS]; TERMS + 1] = {
+    let mut tables = [[[0.0; TERMS + 1]; TERMS]; TERMS + 1];
+    let mut degree = 1;
+    while degree <= TERMS {
+        let mut term = 0;
+        while term < degree {
+            let (a, b) = (term / 2 + 1, term.div_ceil(2));
+            let mut j = a;
+            while j <= degree - b {
+                tables[degree][term][j] = binomial(degree - a - b, j - a) / binomial(degree, j);
+                j += 1;
+            }
+            term += 1;
+        }
+        degree += 1;
+    }
+    tables
+};
+
+const fn binomial(n: usize, k: usize) -> f64 {
+    let mut value = 1.0;
+    let mut i = 0;
+    while i < k {
+        value = value * (n - i) as f64 / (i + 1) as f64;
+        i += 1;
+    }
+    value
+}
+
 /// The polynomial of degree 7 through values at eight fixed points of [0, 1].
 #[derive(Clone, Debug)]
 pub struct Interpolation {
@@ -108,7 +164,8 @@ impl Interpolation {
     /// The polynomial with these values at the points.
     pub fn through(&self, values: &[f64; DEGREE + 1]) -> Bernstein {
         let dot = |row: &[f64; DEGREE + 1]| row.iter().zip(values).map(|(a, v)| a * v).sum();
-        Bernstein::new(std::array::from_fn(|j| dot(&self.from_values[j])))
+        let coefficients: [f64; DEGREE + 1] = std::array::from_fn(|j| dot(&self.from_values[j]));
+        Bernstein::new(&coefficients)
     }
 }
 
@@ -170,7 +227,7 @@ mod tests {
 
     #[test]
     fn touching_is_not_crossing() {
-        let exact = Bernstein { degree: 2, coefficients: [0.25, -0.25, 0.25, 0., 0., 0., 0., 0.] };
+        let exact = Bernstein::new(&[0.25, -0.25, 0.25]);
         assert_eq!(exact.leaves_side(1.0), None);
         assert_eq!(through(|x| (x - 0.3).powi(2) + 1e-9).leaves_side(1.0), None);
     }
@@ -190,5 +247,17 @@ mod tests {
         let p = through(|x| roots.iter().map(|r| x - r).product());
         let side = p.coefficients()[0].signum();
         assert!((p.leaves_side(side).expect("seven roots") - 0.05).abs() < 1e-9);
+    }
+
+    #[test]
+    fn terms_are_the_polynomial_they_stand_for() {
+        let nested = |x: f64| 0.3 + x * (-1.0 + (1.0 - x) * (0.5 + x * (2.0 - 0.7 * (1.0 - x))));
+        let of_terms = Bernstein::of_terms(0.3, &[-1.0, 0.5, 2.0, -0.7]);
+        for x in [0.0_f64, 0.2, 0.5, 0.9, 1.0] {
+            let basis = |j: usize| binomial(4, j) * x.powi(j as i32) * (1.0 - x).powi(4 - j as i32);
+            let terms = of_terms.coefficients().iter().enumerate();
+            let found: f64 = terms.map(|(j, c)| c * basis(j)).sum();
+            assert!((found - nested(x)).abs() < 1e-15, "{x}: {found}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Integration of ordinary differential equations with dense output and root finding.
 //!
-//! [`Dop853`] takes one step at a time and hands out, for each variable, the polynomial that
+//! A [`Stepper`] takes one step at a time and hands out, for each variable, the polynomial that
 //! represents it within the step; [`Bernstein`] finds the first place where such a polynomial
 //! changes sign, however often it does. A step can be taken again to any shorter length, so
 //! that an event is reached by a step of its own and not by interpolation.
@@ -8,7 +8,7 @@
 //! This crate knows no bodies. A step allocates nothing.
 //!
 //! ```
-//! use nboom_ode::{Dop853, System, Tolerance};
+//! use nboom_ode::{RungeKutta, Stepper, System, Tolerance};
 //!
 //! struct Oscillator;
 //! impl System for Oscillator {
@@ -17,21 +17,32 @@
 //!     }
 //! }
 //!
-//! let mut stepper = Dop853::new(Tolerance { relative: 1e-12, absolute: 1e-12 });
+//! let mut stepper = RungeKutta::dop853(Tolerance { relative: 1e-12, absolute: 1e-12 });
 //! stepper.start(&mut Oscillator, 0.0, &[1.0, 0.0], 2);
-//! while stepper.time() < 10.0 {
+//! while stepper.window().time < 10.0 {
 //!     stepper.step(&mut Oscillator, 10.0)?;
 //!     stepper.advance();
 //! }
-//! assert!((stepper.state()[0] - 10.0_f64.cos()).abs() < 1e-10);
+//! assert!((stepper.window().state[0] - 10.0_f64.cos()).abs() < 1e-10);
 //! # Ok::<(), nboom_ode::StepError>(())
 //! ```
 
 mod bernstein;
-mod dop853;
 mod error;
+mod linear;
+mod method;
+mod radau;
+mod rkam;
+mod runge_kutta;
+mod stepper;
+mod system;
 mod tableau;
 
 pub use bernstein::{Bernstein, Interpolation};
-pub use dop853::{Dop853, System, Tolerance};
 pub use error::StepError;
+pub use method::Method;
+pub use radau::Radau;
+pub use rkam::{Rkam, RkamSettings};
+pub use runge_kutta::RungeKutta;
+pub use stepper::{Stepper, Window};
+pub use system::{Counts, System, Tolerance};

@@ -1,50 +1,67 @@
 //! The tests of a crate of routines, with their data.
 
-use crate::certificate::{Certified, Tested};
-use crate::choices::Requests;
+use nboom_codegen::Output;
+
+use crate::certificate::Routine;
+use crate::certified::Tested;
 use crate::manifest::rust_name;
 
-const ACCELERATIONS: &str = include_str!("../templates/certificate.rs");
+const COMMON: &str = include_str!("../templates/certificate.rs");
+const ACCELERATIONS: &str = include_str!("../templates/certificate_accelerations.rs");
 const EQUATIONS: &str = include_str!("../templates/certificate_equations.rs");
 
 /// `tests/certificate.rs` of the crate `name`.
-pub(crate) fn code(name: &str, requests: &Requests, certified: &Certified) -> String {
-    let whole = &requests.whole.name;
-    let equations = requests.equations.as_ref().map(|request| &request.name);
-    let names: Vec<&str> =
-        [Some(whole), equations].into_iter().flatten().map(String::as_str).collect();
-    let text = ACCELERATIONS.to_owned() + if equations.is_some() { EQUATIONS } else { "" };
-    let values = [
-        ("CRATE", rust_name(name)),
-        ("NAMES", names.join(", ")),
-        ("TOLERANCE", format!("{:e}", certified.tolerance())),
-        ("WHOLE", whole.clone()),
-        ("EQUATIONS", equations.cloned().unwrap_or_default()),
-    ];
-    values.iter().fold(text, |text, (key, value)| text.replace(&format!("/*{key}*/"), value))
+pub(crate) fn code(name: &str, routines: &[Routine]) -> String {
+    let has = |output| routines.iter().any(|routine| routine.request.output == output);
+    let parts = [(Output::Accelerations, ACCELERATIONS), (Output::Equations, EQUATIONS)];
+    let parts: String =
+        parts.into_iter().filter(|&(output, _)| has(output)).map(|(_, text)| text).collect();
+    let name = rust_name(name);
+    let tests: String = routines.iter().map(|routine| test(&name, routine)).collect();
+    COMMON.replace("/*CRATE*/", &name) + &parts + &tests
 }
 
-/// States and accelerations, a row for each under one that counts them.
-pub(crate) fn accelerations(certified: &Certified) -> String {
-    table(certified, "acceleration", |state| &state.accelerations)
-}
-
-/// States and what the equations are solved by.
-pub(crate) fn equations(certified: &Certified) -> String {
-    table(certified, "unknown", |state| &state.unknowns)
-}
-
-fn table(certified: &Certified, word: &str, expected: impl Fn(&Tested) -> &[f64]) -> String {
-    let Some(first) = certified.tested.first() else { return String::new() };
-    let head = |word: &str, count: usize| -> Vec<String> {
-        (0..count).map(|i| format!("{word}_{i}")).collect()
+/// The test of one routine.
+fn test(of_crate: &str, routine: &Routine) -> String {
+    let name = &routine.request.name;
+    let (function, tolerance) = (name.to_lowercase(), routine.certified.tolerance());
+    let off = match routine.request.output {
+        Output::Accelerations => "off_accelerations",
+        Output::Equations => "off_equations",
     };
-    let heads = [head("state", first.coordinates.len()), head(word, expected(first).len())];
-    let mut text = heads.concat().join(",") + "\n";
-    for state in &certified.tested {
-        let numbers = state.coordinates.iter().chain(expected(state));
-        let cells: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
-        text += &(cells.join(",") + "\n");
+    format!(
+        "\n#[test]\n\
+         fn {function}_is_as_certified() {{\n\
+         \x20   let table = include_str!(\"{name}.csv\");\n\
+         \x20   compare::<{of_crate}::{name}>(\"{name}\", table, {tolerance:e}, {off});\n\
+         }}\n"
+    )
+}
+
+/// Where the table of a routine stands.
+pub(crate) fn table_path(routine: &Routine) -> String {
+    format!("tests/{}.csv", routine.request.name)
+}
+
+/// Parameters, states and what is to come out, a row for each state under one that counts them.
+pub(crate) fn table(routine: &Routine) -> String {
+    let word = match routine.request.output {
+        Output::Accelerations => "acceleration",
+        Output::Equations => "unknown",
+    };
+    let mut text = String::new();
+    for (i, Tested { parameters, coordinates, expected }) in
+        routine.certified.tested.iter().enumerate()
+    {
+        let columns = [("parameter", parameters), ("state", coordinates), (word, expected)];
+        if i == 0 {
+            let names = columns
+                .iter()
+                .flat_map(|(word, row)| (0..row.len()).map(move |i| format!("{word}_{i}")));
+            text += &(names.collect::<Vec<_>>().join(",") + "\n");
+        }
+        let cells = columns.iter().flat_map(|(_, row)| row.iter().map(|x| format!("{x:?}")));
+        text += &(cells.collect::<Vec<_>>().join(",") + "\n");
     }
     text
 }

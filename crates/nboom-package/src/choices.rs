@@ -43,13 +43,17 @@ pub(crate) struct Requests {
 impl Requests {
     pub fn new(scene: &Scene, choices: &Choices) -> Result<Self, CodegenError> {
         let Choices { formulation, numbers, level, equations, lock_states } = *choices;
-        let whole = Request::of_scene(scene, numbers, level)?.by(formulation);
+        let inside = |request: Request| Request {
+            scalar_path: "crate::nboom_scalar".to_owned(),
+            ..request.by(formulation)
+        };
+        let whole = inside(Request::of_scene(scene, numbers, level)?);
         let equations = equations.then(|| {
             let name = format!("{}Equations", whole.name);
             Request { name, ..whole.clone().for_equations() }
         });
         let held = if lock_states { Request::lock_states(scene, level)? } else { Vec::new() };
-        let held = held.into_iter().map(|request| request.by(formulation)).collect();
+        let held = held.into_iter().map(inside).collect();
         Ok(Self { whole, equations, held })
     }
 
@@ -57,10 +61,5 @@ impl Requests {
     pub fn all(&self) -> Vec<Request> {
         let first = std::iter::once(&self.whole).chain(&self.equations);
         first.chain(&self.held).cloned().collect()
-    }
-
-    /// Those for accelerations: the whole scene first.
-    pub fn accelerations(&self) -> impl Iterator<Item = &Request> {
-        std::iter::once(&self.whole).chain(&self.held)
     }
 }

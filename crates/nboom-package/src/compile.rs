@@ -1,15 +1,15 @@
 //! A stand-alone simulator around the routines of a scene.
 
+use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::{env, fs};
 
-use nboom_codegen::{Level, Numbers, Request, Standing, file, hash, key, standing};
+use nboom_codegen::{Level, Request, Standing, file, hash, key, standing};
 use nboom_formulation::Formulation;
 use nboom_model::Scene;
 
-use crate::listing::{put, read};
-use crate::{PackageError, manifest, sources};
+use crate::files::{put, read};
+use crate::{PackageError, manifest, program, sources};
 
 const MAIN: &str = include_str!("../templates/main.rs");
 
@@ -49,17 +49,17 @@ pub struct Built {
     pub folder: PathBuf,
 }
 
-/// Builds a program that takes scenes and the options of `nboom run`, with routines for one
-/// scene: with its numbers, with others, and for the topologies that it comes through while
-/// hinges are held.
+/// Builds a program that takes scenes and the options of `nboom run`, with the routines of
+/// [`Request::of_simulator`] for one scene.
 ///
 /// What it is made of stays in a folder, so that the next build is quicker.
 ///
 /// # Errors
-/// [`PackageError`] when there is no code for the scene, when a file cannot be written and when
-/// cargo is not there or fails.
+/// [`PackageError`] when there is no code for the scene, when a file cannot be written or would
+/// overwrite what is no simulator, and when cargo is not there or fails.
 pub fn compile(scene: &Scene, build: &Build, program: &Path) -> Result<Built, PackageError> {
-    let requests = requests(scene, build)?;
+    program::require_free(program)?;
+    let requests = Request::of_simulator(scene, build.formulation, build.level)?;
     let work = work(build)?;
     let version = sources::VERSION;
     let number = hash(format!("{version} {:016x}", key(&requests)).as_bytes());
@@ -79,20 +79,11 @@ pub fn compile(scene: &Scene, build: &Build, program: &Path) -> Result<Built, Pa
     if !there.is_some_and(|text| standing(&text, &requests) == Standing::Current) {
         put(&routines, &file(&requests)?)?;
     }
-    put(&folder.join("src/main.rs"), &main_text(&requests))?;
+    put(&folder.join("src/main.rs"), &MAIN.replace("/*MADE*/", &program::made(number)))?;
     let made = cargo(&folder, &work.join("target"), build.offline)?;
-    let up_to_date = copy(&made, program)?;
+    let up_to_date = program::copy(&made, program)?;
     let topology = requests[0].topology.to_string();
     Ok(Built { up_to_date, topology, routines: requests.len(), folder })
-}
-
-fn requests(scene: &Scene, build: &Build) -> Result<Vec<Request>, PackageError> {
-    let mut all = vec![
-        Request::of_scene(scene, Numbers::Baked, build.level)?,
-        Request::of_scene(scene, Numbers::RunTime, build.level)?,
-    ];
-    all.extend(Request::lock_states(scene, build.level)?);
-    Ok(all.into_iter().map(|request| request.by(build.formulation)).collect())
 }
 
 /// The folder to build in.
@@ -105,12 +96,6 @@ fn work(build: &Build) -> Result<PathBuf, PackageError> {
     };
     // Cargo is started elsewhere.
     std::path::absolute(&work).map_err(PackageError::writing(&work))
-}
-
-fn main_text(requests: &[Request]) -> String {
-    let row =
-        |request: &Request| format!("            Kernel::of::<routines::{}>(),\n", request.name);
-    MAIN.replace("/*KERNELS*/", &requests.iter().map(row).collect::<String>())
 }
 
 /// Builds the package in a folder and returns its program.
@@ -140,22 +125,4 @@ fn cargo(folder: &Path, target: &Path, offline: bool) -> Result<PathBuf, Package
 fn executable(message: &str) -> Option<PathBuf> {
     let message: serde_json::Value = serde_json::from_str(message).ok()?;
     message["executable"].as_str().map(PathBuf::from)
-}
-
-/// Puts a program where it is wanted, and tells whether it was there already.
-fn copy(made: &Path, program: &Path) -> Result<bool, PackageError> {
-    let bytes = fs::read(made).map_err(PackageError::reading(made))?;
-    if read(program)?.is_some_and(|there| there == bytes) {
-        return Ok(true);
-    }
-    let failed = || PackageError::writing(program);
-    if let Some(folder) = program.parent() {
-        fs::create_dir_all(folder).map_err(failed())?;
-    }
-    // A program that runs cannot be written to, but its name can be given to another one.
-    let mut beside = program.as_os_str().to_owned();
-    beside.push(".new");
-    fs::copy(made, &beside).map_err(failed())?;
-    fs::rename(&beside, program).map_err(failed())?;
-    Ok(false)
 }

@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 
 use nboom_codegen::{CodegenError, Standing};
 use nboom_formulation::Formulation;
+use nboom_model::ModelError;
 use nboom_verify::VerifyError;
 
 /// Why a package was not written, is not what it should be, or was not built.
@@ -15,6 +16,17 @@ pub enum PackageError {
     /// The code cannot be compared with the recursion.
     #[error(transparent)]
     Verify(#[from] VerifyError),
+    /// Bodies welded at held hinges are no scene.
+    #[error(
+        "scene {scene} with hinges held: {}",
+        errors.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; ")
+    )]
+    Welded {
+        /// The scene.
+        scene: String,
+        /// What is wrong with them.
+        errors: Vec<ModelError>,
+    },
     /// The code is not what the recursion computes.
     #[error(
         "topology {topology}, formulation {formulation}: {quantity} deviate by {deviation:.1e}, at \

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use nboom_codegen::{Request, file, generate as routine, hash, key};
+use nboom_codegen::{Generated, Request, file, generate as emit, hash, key};
 use nboom_expr::Operations;
 use nboom_formulation::Recognised;
 use nboom_model::Scene;
 use nboom_verify::{Certificate, Subject};
 
-use crate::certificate::Certified;
+use crate::certificate::{self, Routine};
+use crate::certified::{Certified, Found};
 use crate::choices::Requests;
 use crate::listing::{self, Files, Listing};
 use crate::{Choices, PackageError, checks, library, manifest, sources};
@@ -26,7 +27,7 @@ pub enum Written {
         routines: Vec<String>,
         /// Operations of one evaluation of the first.
         evaluation: Operations,
-        /// How far its accelerations are from the truth.
+        /// How far its formulation is from the truth.
         certificate: Certificate,
     },
 }
@@ -48,14 +49,9 @@ pub fn generate(
         Err(PackageError::Outdated { .. }) => {}
         Err(error) => return Err(error),
     }
-    let crate_text = Crate::new(scene, choices, &requests, key)?;
-    listing::write(directory, key, &crate_text.files)?;
-    Ok(Written::Anew {
-        topology: requests.whole.topology.to_string(),
-        routines: requests.all().into_iter().map(|request| request.name).collect(),
-        evaluation: crate_text.evaluation,
-        certificate: crate_text.certificate,
-    })
+    let made = Crate::new(scene, &requests, key)?;
+    listing::write(directory, key, &made.files)?;
+    Ok(made.written())
 }
 
 /// Compares a directory with what [`generate`] would write into it; nothing is generated to find
@@ -74,45 +70,65 @@ fn key_of(scene: &Scene, requests: &[Request]) -> u64 {
     hash(format!("{version} {:016x} {scene:?}", key(requests)).as_bytes())
 }
 
+/// The files of a crate, and its routines.
 struct Crate {
     files: Files,
-    evaluation: Operations,
-    certificate: Certificate,
+    routines: Vec<Routine>,
 }
 
 impl Crate {
-    fn new(
-        scene: &Scene,
-        choices: &Choices,
-        requests: &Requests,
-        key: u64,
-    ) -> Result<Self, PackageError> {
-        let recognised = recognised(scene)?;
-        let all = requests.all();
+    fn new(scene: &Scene, requests: &Requests, key: u64) -> Result<Self, PackageError> {
         // The text first: it is what limits of size refuse.
-        let routines = file(&all)?;
-        let operations = |request: &Request| {
-            let generated = routine(request)?;
-            Ok([generated.evaluation, generated.preparation])
-        };
-        let operations: Vec<_> = all.iter().map(operations).collect::<Result<_, PackageError>>()?;
-        let certified = Certified::new(scene, choices, requests, &recognised)?;
+        let code = file(&requests.all())?;
+        let routines = routines(scene, requests)?;
         let name = manifest::name(&scene.name);
         let mut files = Files::from([
             ("Cargo.toml".to_owned(), manifest::of_library(&name)),
-            ("CERTIFICATE.json".to_owned(), certified.json(scene, key, &all, &operations)),
-            ("src/lib.rs".to_owned(), library::text(scene, &name, requests, &recognised)),
-            ("src/routines.rs".to_owned(), routines),
-            ("tests/certificate.rs".to_owned(), checks::code(&name, requests, &certified)),
-            ("tests/accelerations.csv".to_owned(), checks::accelerations(&certified)),
+            ("CERTIFICATE.json".to_owned(), certificate::text(scene, key, &routines)),
+            ("src/lib.rs".to_owned(), library::text(scene, &name, requests, &recognised(scene)?)),
+            ("src/routines.rs".to_owned(), code),
+            ("tests/certificate.rs".to_owned(), checks::code(&name, &routines)),
         ]);
-        if requests.equations.is_some() {
-            files.insert("tests/equations.csv".to_owned(), checks::equations(&certified));
-        }
-        files.extend(sources::of_scalar().map(|(path, text)| (path, text.to_owned())));
-        let certificate = certified.accelerations;
-        Ok(Self { files, evaluation: operations[0][0], certificate })
+        files.extend(
+            routines.iter().map(|routine| (checks::table_path(routine), checks::table(routine))),
+        );
+        files.extend(sources::of_scalar(&manifest::rust_name(&name)));
+        Ok(Self { files, routines })
     }
+
+    fn written(self) -> Written {
+        let whole = &self.routines[0];
+        let Found::Accelerations(certificate) = whole.certified.found else {
+            unreachable!("the first routine is that for the scene's accelerations");
+        };
+        Written::Anew {
+            topology: whole.request.topology.to_string(),
+            evaluation: whole.operations[0],
+            certificate,
+            routines: self.routines.into_iter().map(|routine| routine.request.name).collect(),
+        }
+    }
+}
+
+/// The routines, each certified with the hinges free or held that it is for.
+fn routines(scene: &Scene, requests: &Requests) -> Result<Vec<Routine>, PackageError> {
+    let all_free = std::iter::once(&requests.whole).chain(&requests.equations);
+    let all_free = all_free.map(|request| routine(scene, request, None));
+    let held = requests.held.iter().map(|request| {
+        let free = request.free_hinges(scene)?;
+        routine(scene, request, free.as_deref())
+    });
+    all_free.chain(held).collect()
+}
+
+fn routine(
+    scene: &Scene,
+    request: &Request,
+    free: Option<&[bool]>,
+) -> Result<Routine, PackageError> {
+    let Generated { evaluation, preparation, .. } = emit(request)?;
+    let certified = Certified::new(scene, request, free)?;
+    Ok(Routine { request: request.clone(), certified, operations: [evaluation, preparation] })
 }
 
 /// The scene's appendages with all hinges free.

@@ -38,7 +38,7 @@ pub(crate) fn text(
         ("NAMES", names.join(", ")),
         ("PARAMETER_COUNT", parameters.len().to_string()),
         ("PARAMETER_LIST", parameters.iter().map(|p| format!("    {p:?},\n")).collect()),
-        ("KERNELS", kernels(requests)),
+        ("USES", if equations.is_some() { "\nuse std::sync::OnceLock;\n" } else { "" }.to_owned()),
         ("HINGE_COUNT", recognised.links.len().to_string()),
         ("HINGE_LIST", hinges),
         ("EQUATIONS_FUNCTION", equations.unwrap_or_default()),
@@ -72,11 +72,6 @@ fn table(requests: &[Request]) -> String {
         .expect("a string takes any text");
     }
     rows
-}
-
-fn kernels(requests: &Requests) -> String {
-    let row = |request: &Request| format!("            Kernel::of::<{}>(),\n", request.name);
-    requests.accelerations().map(row).collect()
 }
 
 /// A line for each hinge in the order of the scene.

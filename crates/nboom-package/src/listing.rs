@@ -1,6 +1,6 @@
 //! What was written into a directory, so that a change by somebody else is noticed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
 use std::io::ErrorKind;
@@ -10,6 +10,7 @@ use std::path::Path;
 use nboom_codegen::{Standing, hash};
 
 use crate::PackageError;
+use crate::files::{put, read};
 
 /// Paths inside a directory, and texts.
 pub(crate) type Files = BTreeMap<String, String>;
@@ -20,18 +21,36 @@ const NAME: &str = "GENERATED";
 /// What it begins with.
 const MARK: &str = "Written by nboom; edit the scene or the options, not these files.";
 
+/// The key of a listing whose files are being written.
+const UNFINISHED: u64 = 0;
+
 /// The files that were written into a directory with the hashes of their texts.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Listing {
     /// A number for all that they were made from.
     key: u64,
-    hashes: BTreeMap<String, u64>,
+    /// A path may have several hashes while files are being written.
+    hashes: BTreeMap<String, BTreeSet<u64>>,
 }
 
 impl Listing {
     pub fn new(key: u64, files: &Files) -> Self {
-        let hashes = files.iter().map(|(path, text)| (path.clone(), hash(text.as_bytes())));
+        let of_text = |text: &String| BTreeSet::from([hash(text.as_bytes())]);
+        let hashes = files.iter().map(|(path, text)| (path.clone(), of_text(text)));
         Self { key, hashes: hashes.collect() }
+    }
+
+    /// While files are being written each is as it was or as it will be.
+    fn until(&self, after: &Self) -> Self {
+        let mut hashes = self.hashes.clone();
+        for (path, of_texts) in &after.hashes {
+            hashes.entry(path.clone()).or_default().extend(of_texts);
+        }
+        Self { key: UNFINISHED, hashes }
+    }
+
+    fn has(&self, path: &str, of_text: u64) -> bool {
+        self.hashes.get(path).is_some_and(|hashes| hashes.contains(&of_text))
     }
 
     /// The listing in a directory, if there is one.
@@ -58,12 +77,18 @@ impl Listing {
             let inside = Path::new(path).components().all(|part| matches!(part, Normal(_)));
             inside.then_some((path.to_owned(), number(hash)?))
         };
-        Some(Self { key, hashes: lines.map(row).collect::<Option<_>>()? })
+        let mut hashes: BTreeMap<String, BTreeSet<u64>> = BTreeMap::new();
+        for line in lines {
+            let (path, of_text) = row(line)?;
+            hashes.entry(path).or_default().insert(of_text);
+        }
+        Some(Self { key, hashes })
     }
 
     fn text(&self) -> String {
         let mut rows = String::new();
-        for (path, hash) in &self.hashes {
+        let of_path = |(path, hashes)| std::iter::repeat(path).zip(hashes);
+        for (path, hash) in self.hashes.iter().flat_map(of_path) {
             writeln!(rows, "{hash:016x}  {path}").expect("a string takes any text");
         }
         let of_rows = hash(rows.as_bytes());
@@ -83,11 +108,11 @@ impl Listing {
             listing => listing?,
         };
         let Some(listing) = listing else { return outdated(directory.join(NAME), None) };
-        for (path, of_text) in &listing.hashes {
-            let path = directory.join(path);
+        for name in listing.hashes.keys() {
+            let path = directory.join(name);
             match read(&path)? {
                 None => return outdated(path, None),
-                Some(bytes) if hash(&bytes) != *of_text => {
+                Some(bytes) if !listing.has(name, hash(&bytes)) => {
                     return outdated(path, Some(Standing::Edited));
                 }
                 Some(_) => {}
@@ -102,29 +127,31 @@ impl Listing {
 }
 
 /// Makes a directory hold `files` and a listing of them, and removes what an earlier listing has
-/// beyond these. Files that are as they should be are not touched.
+/// beyond these. Files that are as they should be are not touched. When the writing is broken off,
+/// the next one knows the files for its own.
 ///
 /// # Errors
 /// [`PackageError::NotOurs`] where that would destroy what somebody else has written; nothing is
 /// written then.
 pub(crate) fn write(directory: &Path, key: u64, files: &Files) -> Result<(), PackageError> {
-    let before = Listing::read(directory)?;
-    let written = before.map(|listing| listing.hashes).unwrap_or_default();
-    for path in files.keys().chain(written.keys()) {
-        let of_text = files.get(path).map(|text| hash(text.as_bytes()));
-        let path_there = directory.join(path);
-        let Some(bytes) = read(&path_there)? else { continue };
-        let found = Some(hash(&bytes));
-        if found != of_text && found != written.get(path).copied() {
-            let known = written.contains_key(path);
+    let nothing = Listing { key: UNFINISHED, hashes: BTreeMap::new() };
+    let before = Listing::read(directory)?.unwrap_or(nothing);
+    let after = Listing::new(key, files);
+    let between = before.until(&after);
+    for name in between.hashes.keys() {
+        let path = directory.join(name);
+        let Some(bytes) = read(&path)? else { continue };
+        if !between.has(name, hash(&bytes)) {
+            let known = before.hashes.contains_key(name);
             let standing = if known { Standing::Edited } else { Standing::Foreign };
-            return Err(PackageError::NotOurs { path: path_there, standing });
+            return Err(PackageError::NotOurs { path, standing });
         }
     }
+    put(&directory.join(NAME), &between.text())?;
     for (path, text) in files {
         put(&directory.join(path), text)?;
     }
-    for path in written.keys().filter(|path| !files.contains_key(*path)) {
+    for path in before.hashes.keys().filter(|path| !files.contains_key(*path)) {
         let path = directory.join(path);
         match fs::remove_file(&path) {
             Err(error) if error.kind() != ErrorKind::NotFound => {
@@ -133,31 +160,42 @@ pub(crate) fn write(directory: &Path, key: u64, files: &Files) -> Result<(), Pac
             _ => {}
         }
     }
-    put(&directory.join(NAME), &Listing::new(key, files).text())
-}
-
-/// Makes a file hold a text; its time stamp stays where it does.
-pub(crate) fn put(path: &Path, text: &str) -> Result<(), PackageError> {
-    if read(path)?.is_some_and(|bytes| bytes == text.as_bytes()) {
-        return Ok(());
-    }
-    let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).map_err(PackageError::writing(path))?;
-    fs::write(path, text).map_err(PackageError::writing(path))
-}
-
-/// What a file holds, if there is one.
-pub(crate) fn read(path: &Path) -> Result<Option<Vec<u8>>, PackageError> {
-    match fs::read(path) {
-        Ok(bytes) => Ok(Some(bytes)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(PackageError::reading(path)(error)),
-    }
+    put(&directory.join(NAME), &after.text())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_writing_that_was_broken_off_is_finished() {
+        let place = tempfile::tempdir().expect("a directory");
+        let of = |text: &str| {
+            let names = ["a", "b", "c"].into_iter();
+            names.map(|name| (name.to_owned(), text.to_owned())).collect::<Files>()
+        };
+        let holds = |text: &str| {
+            let of_file = |name| fs::read_to_string(place.path().join(name)).ok();
+            ["a", "b", "c"].map(of_file) == [(); 3].map(|()| Some(text.to_owned()))
+        };
+        // Only the first of three files is written.
+        let broken = |key, text: &str| {
+            let nothing = Listing { key: UNFINISHED, hashes: BTreeMap::new() };
+            let before = Listing::read(place.path()).expect("ours").unwrap_or(nothing);
+            let between = before.until(&Listing::new(key, &of(text)));
+            put(&place.path().join(NAME), &between.text()).expect("writable");
+            put(&place.path().join("a"), text).expect("writable");
+        };
+        broken(1, "old");
+        write(place.path(), 1, &of("old")).expect("its own files are known");
+        assert!(holds("old"));
+        broken(2, "new");
+        let unfinished = Listing::require_current(place.path(), 2).expect_err("old and new");
+        assert!(matches!(unfinished, PackageError::Outdated { .. }), "{unfinished}");
+        write(place.path(), 2, &of("new")).expect("its own files are known");
+        assert!(holds("new"));
+        Listing::require_current(place.path(), 2).expect("all is written");
+    }
 
     #[test]
     fn a_listing_reads_back() {

@@ -15,17 +15,7 @@ pub(crate) fn rust_name(name: &str) -> String {
 
 /// `Cargo.toml` of a crate of routines.
 pub(crate) fn of_library(name: &str) -> String {
-    format!(
-        "{}\
-         [dependencies]\n\
-         nboom-scalar = {{ path = \"nboom-scalar\" }}\n\
-         \n\
-         [profile.release]\n\
-         opt-level = 3\n\
-         \n\
-         [workspace]\n",
-        package(name)
-    )
+    format!("{}[dependencies]\n", package(name))
 }
 
 /// `Cargo.toml` of a simulator whose crates are in the folder `crates`.

@@ -1,8 +1,8 @@
 //! Accelerations of the satellite of the scene /*SCENE*/, topology /*TOPOLOGY*/.
 //!
 //! Written by nboom /*VERSION*/: edit the scene or the options of `nboom generate`, not this crate.
-//! `CERTIFICATE.json` says how far its code is from the truth, and `cargo test` compares what the
-//! compiler has made of it.
+//! `CERTIFICATE.json` says how far each formulation is from the truth before it is compiled, and
+//! `cargo test` measures the compiled code.
 //!
 //! | routine | topology | gives | formulation | level | takes for granted |
 //! | --- | --- | --- | --- | --- | --- |
@@ -38,13 +38,18 @@
 //! a routine that is not `EXTERNAL`), then angle, rate and torque of each hinge, where [`HINGES`]
 //! says. **Accelerations** are ω̇ and a_O (6 numbers, main-body axes; without gravity), then the
 //! acceleration of each hinge.
-
-use std::sync::OnceLock;
-
+//!
+//! # Other parts of nboom
+//!
+//! [`Kernel`] is this crate's own, in [`nboom_scalar`], so that crates of several scenes can be in
+//! one program. Simulations of the crate `nboom` take routines that its macros and build scripts
+//! generate, not these.
+/*USES*/
+pub mod nboom_scalar;
 mod routines;
 
-pub use nboom_scalar::{self, Kernel, Routine};
-pub use routines::{/*NAMES*/};
+pub use nboom_scalar::{Kernel, Routine};
+pub use routines::{/*NAMES*/, kernels};
 
 /// Where the numbers of one hinge stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,16 +76,6 @@ pub const HINGES: [Hinge; /*HINGE_COUNT*/] = [
 /// The scene's own numbers, as [`Kernel::prepare`] takes them.
 pub fn parameters() -> &'static [f64] {
     &PARAMETERS
-}
-
-/// The routines for accelerations in the form that is fastest on this processor; that of the whole
-/// scene is the first.
-pub fn kernels() -> &'static [Kernel] {
-    static KERNELS: OnceLock<Vec<Kernel>> = OnceLock::new();
-    KERNELS.get_or_init(|| {
-        vec![
-/*KERNELS*/        ]
-    })
 }
 /*EQUATIONS_FUNCTION*/
 const PARAMETERS: [f64; /*PARAMETER_COUNT*/] = [

@@ -1,20 +1,12 @@
 //! A simulator, written by `nboom compile`.
 
 use std::process::ExitCode;
-use std::sync::OnceLock;
-
-use nboom_scalar::Kernel;
 
 mod routines;
 
-fn kernels() -> &'static [Kernel] {
-    static KERNELS: OnceLock<Vec<Kernel>> = OnceLock::new();
-    KERNELS.get_or_init(|| {
-        vec![
-/*KERNELS*/        ]
-    })
-}
+/// What it says of itself; by it, `nboom compile` knows what it may replace.
+const MADE: &str = "/*MADE*/";
 
 fn main() -> ExitCode {
-    nboom_cli::simulator(std::env::args_os(), kernels())
+    nboom_cli::simulator(std::env::args_os(), MADE, routines::kernels())
 }

@@ -6,11 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use nboom_codegen::CodegenError;
+use nboom_codegen::{CodegenError, OPERATION_LIMIT};
 use nboom_formulation::{Formulation, Layout};
 use nboom_io::read_scene;
 use nboom_model::{
     Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Spring, Thrust,
+    Topology,
 };
 use nboom_package::{
     Choices, Numbers, PackageError, Standing, TOLERANCE, Written, generate, is_current,
@@ -77,9 +78,15 @@ fn written(scene: &Scene, choices: &Choices) -> TempDir {
 }
 
 /// Runs the tests of a crate, without network.
-fn cargo_test(directory: &Path) -> Result<(), String> {
+fn cargo_test(directory: &Path) -> Result<String, String> {
+    cargo(directory, &["test"])
+}
+
+/// What cargo says in a directory, without network.
+fn cargo(directory: &Path, words: &[&str]) -> Result<String, String> {
     let output = Command::new(env!("CARGO"))
-        .args(["test", "--offline", "--color", "never", "--target-dir"])
+        .args(words)
+        .args(["--offline", "--color", "never", "--target-dir"])
         .arg(directory.join("target"))
         .current_dir(directory)
         .env("RUSTFLAGS", "-D warnings")
@@ -87,7 +94,7 @@ fn cargo_test(directory: &Path) -> Result<(), String> {
         .expect("cargo starts");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     let said = text(&output.stdout) + &text(&output.stderr);
-    if output.status.success() { Ok(()) } else { Err(said) }
+    if output.status.success() { Ok(said) } else { Err(said) }
 }
 
 #[test]
@@ -100,18 +107,52 @@ fn a_crate_passes_its_tests_and_fails_them_when_its_code_is_wrong() {
     };
     // The topology is S2_S1, so that hinges stand in another order than in the scene.
     let place = written(&satellite("two booms", &[1, 2]), &choices);
-    assert_eq!(cargo_test(place.path()), Ok(()));
+    let said = cargo_test(place.path()).expect("the code is right");
+    assert!(said.contains("SatelliteM, portable code: largest deviation"), "{said}");
 
     let routines = place.path().join("src/routines.rs");
     let text = fs::read_to_string(&routines).expect("readable");
-    // The first sum of the first evaluation becomes a difference.
-    let evaluation = text.find("fn evaluate_on").expect("a straight line");
-    let (head, tail) = text.split_at(evaluation);
-    let wrong = head.to_owned() + &tail.replacen(" + ", " - ", 1);
-    assert_ne!(wrong, text);
-    fs::write(&routines, wrong).expect("writable");
-    let said = cargo_test(place.path()).expect_err("the code is wrong");
-    assert!(said.contains("accelerations_are_as_certified"), "{said}");
+    let first = text.find("fn evaluate_on").expect("a straight line");
+    let last = text.rfind("fn evaluate_on").expect("a straight line");
+    for (evaluation, test) in [(first, "satelliteS2S1"), (last, "satelliteM")] {
+        // The first sum becomes a difference.
+        let (head, tail) = text.split_at(evaluation);
+        let wrong = head.to_owned() + &tail.replacen(" + ", " - ", 1);
+        assert_ne!(wrong, text);
+        fs::write(&routines, wrong).expect("writable");
+        let said = cargo_test(place.path()).expect_err("the code is wrong");
+        let failed = format!("{}_is_as_certified ... FAILED", test.to_lowercase());
+        assert!(said.contains(&failed), "{said}");
+    }
+}
+
+#[test]
+fn two_crates_are_in_one_program() {
+    let place = place();
+    let write = |path: &str, text: &str| {
+        let path = place.path().join(path);
+        fs::create_dir_all(path.parent().expect("inside")).expect("writable");
+        fs::write(path, text).expect("writable");
+    };
+    for (name, chains) in [("one", &[1][..]), ("two", &[2])] {
+        let directory = place.path().join("crates").join(name);
+        generate(&satellite(name, chains), &Choices::default(), &directory).expect("covered");
+    }
+    write("Cargo.toml", "[workspace]\nmembers = [\"program\", \"crates/*\"]\nresolver = \"3\"\n");
+    write(
+        "program/Cargo.toml",
+        "[package]\nname = \"program\"\nedition = \"2024\"\n\n[dependencies]\n\
+         satellite-one = { path = \"../crates/one\" }\n\
+         satellite-two = { path = \"../crates/two\" }\n",
+    );
+    write(
+        "program/src/main.rs",
+        "fn main() {\n    \
+         println!(\"{} and {}\", satellite_one::kernels()[0].topology, \
+         satellite_two::kernels()[0].topology);\n}\n",
+    );
+    let said = cargo(place.path(), &["run", "--quiet"]).expect("both are in the program");
+    assert_eq!(said, "S1 and S2\n");
 }
 
 #[test]
@@ -119,21 +160,39 @@ fn a_certificate_says_what_was_compared() {
     let place = written(&one_boom(), &Choices::default());
     let found = certificate(place.path());
     assert_eq!(found["scene"], "One boom");
-    assert_eq!((&found["states"], &found["seed"]), (&100.into(), &1970.into()));
+    let routine = &found["routines"][0];
+    let formulation = &routine["formulation"];
+    assert_eq!(formulation["name"], "articulated");
+    assert_eq!((&formulation["states"], &formulation["seed"]), (&100.into(), &1970.into()));
     for key in ["deviation_from_recursion", "deviation_from_double_double"] {
-        let deviation = found[key].as_f64().expect("a number");
+        let deviation = formulation[key].as_f64().expect("a number");
         assert!(deviation > 0.0 && deviation < TOLERANCE, "{key}: {deviation:e}");
     }
-    assert!(found["condition"].as_f64().is_some_and(|condition| condition > 1.0));
-    let routine = &found["routines"][0];
-    assert_eq!(found["certified"], routine["name"]);
+    assert!(formulation["condition"].as_f64().is_some_and(|condition| condition > 1.0));
+    let allowed = routine["compiled_code"]["tolerance"].as_f64().expect("a number");
+    assert!(allowed < TOLERANCE, "{allowed:e}");
     assert_eq!((&routine["topology"], &routine["level"]), (&"S1".into(), &"fast".into()));
+    // FNV-1a of 64 bits of the two letters.
+    assert_eq!(routine["topology_hash"], "0945ff07b5d5a329");
     assert_eq!(routine["evaluation"]["angles"], 1);
     assert_eq!(routine["taken_for_granted"][0], "O at the main body's mass centre");
-    let table = fs::read_to_string(place.path().join("tests/accelerations.csv")).expect("a table");
-    let columns = (Layout::STATE + Layout::HINGE) + (Layout::OUTPUT + 1);
+    let table = fs::read_to_string(place.path().join("tests/SatelliteS1.csv")).expect("a table");
+    let topology: Topology = "S1".parse().expect("a topology");
+    let columns =
+        Layout::parameters(&topology) + Layout::coordinates(&topology) + Layout::outputs(&topology);
     assert_eq!(table.lines().count(), 21);
     assert!(table.lines().all(|line| line.split(',').count() == columns));
+}
+
+#[test]
+fn held_hinges_are_held_at_other_angles_in_each_state() {
+    let choices = Choices { lock_states: true, ..Choices::default() };
+    let place = written(&satellite("two", &[2]), &choices);
+    let table = fs::read_to_string(place.path().join("tests/SatelliteS1.csv")).expect("a table");
+    let of_satellite = Layout::parameters(&"S1".parse::<Topology>().expect("a topology"));
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows.len(), 4);
+    assert_ne!(rows[0][..of_satellite], rows[1][..of_satellite]);
 }
 
 #[test]
@@ -165,8 +224,8 @@ fn every_formulation_is_certified() {
         let choices = Choices { formulation, equations, ..Choices::default() };
         let place = written(&satellite("mixed", &[1, 2, 2]), &choices);
         let found = certificate(place.path());
-        assert_eq!(found["routines"][0]["formulation"], formulation.name());
-        let residual = found["residual_of_equations"].as_f64();
+        assert_eq!(found["routines"][0]["formulation"]["name"], formulation.name());
+        let residual = found["routines"][1]["formulation"]["residual"].as_f64();
         assert_eq!(residual.is_some(), equations);
         assert!(residual.is_none_or(|residual| residual < 1e-13), "{formulation}: {residual:?}");
     }
@@ -197,9 +256,9 @@ fn what_is_up_to_date_is_not_written_and_what_is_not_is() {
     assert!(is_stale(stale));
     let equations = Choices { formulation: Formulation::Symmetric, equations: true, ..baked };
     generate(&scene, &equations, &directory).expect("what was written here is replaced");
-    assert!(directory.join("tests/equations.csv").exists());
+    assert!(directory.join("tests/BakedS1Equations.csv").exists());
     generate(&scene, &baked, &directory).expect("what was written here is replaced");
-    assert!(!directory.join("tests/equations.csv").exists());
+    assert!(!directory.join("tests/BakedS1Equations.csv").exists());
     assert_eq!(relative(&directory), relative(written(&scene, &baked).path()));
 
     let text = fs::read_to_string(directory.join("src/routines.rs")).expect("readable");
@@ -257,7 +316,7 @@ fn what_has_no_code_is_refused() {
     let report = Choices { formulation: Formulation::Report, ..choices };
     let long = generate(&satellite("long", &[60]), &report, &directory).expect_err("too long");
     assert!(matches!(long, PackageError::Codegen(CodegenError::Budget { .. })), "{long}");
-    let words = ["S60", "report", "60000"];
+    let words = ["S60", "report", &OPERATION_LIMIT.to_string()];
     assert!(words.iter().all(|word| long.to_string().contains(word)), "{long}");
     assert!(!directory.exists());
 }
@@ -297,8 +356,9 @@ fn a_crate_says_where_the_numbers_of_a_hinge_stand() {
 fn the_example_is_covered() {
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/n-boom-1970.nml");
     let file = read_scene(&example).expect("the example is right");
-    let choices = Choices { numbers: Numbers::Baked, ..Choices::default() };
+    let choices = Choices { numbers: Numbers::Baked, lock_states: true, ..Choices::default() };
     let place = written(&file.scene, &choices);
     let found = certificate(place.path());
     assert_eq!(found["routines"][0]["topology"], "S2_P");
+    assert!(found["routines"].as_array().is_some_and(|routines| routines.len() > 5));
 }

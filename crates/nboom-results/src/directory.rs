@@ -8,7 +8,7 @@ use nboom_sim::{Event, Recorder, Snapshot, Summary};
 use crate::rows::{self, Output};
 use crate::{
     EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, ResultsError, RunDescription,
-    STATES_FILE, SUMMARY_FILE, StatesWriter, SummaryFile, with_causes,
+    STATES_FILE, SUMMARY_FILE, StatesWriter, SummaryFile, TRUST_FILE, with_causes,
 };
 
 /// The directory of one run: creates it, writes its tables while the run goes on, and its
@@ -54,6 +54,7 @@ impl RunDirectory {
             .map_err(|source| ResultsError::Directory { path: path.to_owned(), source })?;
         remove_stale(&path.join(SUMMARY_FILE))?;
         remove_stale(&path.join(LISTING_FILE))?;
+        remove_stale(&path.join(TRUST_FILE))?;
         SummaryFile::unfinished(&run).replace(&path.join(SUMMARY_FILE))?;
         let labels: Vec<_> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;

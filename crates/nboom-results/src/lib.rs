@@ -26,6 +26,7 @@ mod number;
 mod rows;
 mod states;
 mod summary;
+mod trust;
 mod units;
 
 #[cfg(test)]
@@ -38,6 +39,7 @@ pub use events::{EventsWriter, event_order};
 pub use listing::ListingWriter;
 pub use states::StatesWriter;
 pub use summary::{RunDescription, SummaryFile, path_and_formulation};
+pub use trust::{TRUST_FILE, write_trust};
 pub use units::UnitSystem;
 
 /// Name of the table of states within a run's directory.

@@ -32,12 +32,12 @@ pub struct RunDescription {
 }
 
 impl RunDescription {
-    /// The description of a run of `scene` with the integrator `dop853`, under `options`.
+    /// The description of a run of `scene` under `options`.
     pub fn new(scene: &Scene, options: &nboom_sim::Options, units: UnitSystem) -> Self {
         Self {
             scene: scene.name.clone(),
             degrees_of_freedom: scene.degrees_of_freedom(),
-            integrator: "dop853",
+            integrator: options.integrator.name(),
             rtol: options.rtol,
             atol: options.atol,
             samples: options.samples,

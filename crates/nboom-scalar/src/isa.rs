@@ -2,8 +2,8 @@ use crate::{Lanes, Pack};
 
 /// The packs that a kind of processor takes side by side.
 ///
-/// Code that names one of these may run only where the processor has its features;
-/// [`Kernel`](crate::Kernel) sees to that.
+/// Registers may be named only in code that runs where the processor has them, so the kinds that
+/// have some are this crate's own: [`Kernel`](crate::Kernel) chooses among them.
 pub trait Isa {
     /// The most numbers that one register holds; 4 or 8.
     const WIDEST: usize;
@@ -18,8 +18,9 @@ pub trait Isa {
 }
 
 /// AVX2 with fused products and sums.
+#[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy, Debug)]
-pub struct Avx2;
+pub(crate) struct Avx2;
 
 #[cfg(target_arch = "x86_64")]
 impl Isa for Avx2 {
@@ -31,8 +32,9 @@ impl Isa for Avx2 {
 }
 
 /// AVX-512.
+#[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy, Debug)]
-pub struct Avx512;
+pub(crate) struct Avx512;
 
 #[cfg(target_arch = "x86_64")]
 impl Isa for Avx512 {

@@ -36,7 +36,9 @@ pub use batch::{Batch, Eight};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use instructions::InstructionSet;
-pub use isa::{Avx2, Avx512, Isa};
+pub use isa::Isa;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use isa::{Avx2, Avx512};
 pub use kernel::Kernel;
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
@@ -48,4 +50,4 @@ pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
 pub use vector::Vec3;
 #[cfg(target_arch = "x86_64")]
-pub use wide::{Avx4, Avx8};
+pub(crate) use wide::{Avx4, Avx8};

@@ -23,7 +23,7 @@ macro_rules! wide {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         #[repr(transparent)]
-        pub struct $name($register);
+        pub(crate) struct $name($register);
 
         impl $name {
             #[inline(always)]

@@ -2,17 +2,21 @@ use nboom_dynamics::{Accelerations, Invariants, Motion, Recursive};
 use nboom_elements::HingeLaw;
 use nboom_model::{Mode, Scene, Thrust};
 use nboom_ode::System;
-use nboom_scalar::{Quaternion, Vec3};
+use nboom_scalar::{Quaternion, Real, Vec3};
 
 use crate::code::Code;
 use crate::error::SimError;
+use crate::jacobian::Jacobian;
 use crate::layout::Layout;
 use crate::options::Options;
+use crate::rates::Rates;
 use crate::record::Selection;
 use crate::state::{MassCenter, State};
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
+    scene: Scene,
+    mode: Mode,
     pub dynamics: Recursive<f64>,
     /// What computes the accelerations of the mode.
     code: Code,
@@ -24,6 +28,9 @@ pub(crate) struct Equations {
     total_mass: f64,
     laws: Vec<HingeLaw<f64>>,
     accelerations: Accelerations<f64>,
+    rates: Rates<f64>,
+    /// Made when an integrator asks for it in the mode.
+    jacobian: Option<Jacobian>,
 }
 
 impl Equations {
@@ -33,21 +40,27 @@ impl Equations {
             .iter()
             .map(|body| HingeLaw::new(&body.hinge.spring, &body.hinge.dashpot))
             .collect();
+        let layout = Layout { free: 0, thrust: false, dashpots: false };
         Self {
+            scene: scene.clone(),
+            mode: Mode::at_start(scene),
             dynamics: Recursive::new(scene),
             code: Code::Recursion,
-            layout: Layout { free: 0, thrust: false, dashpots: false },
+            layout,
             origin: state.clone(),
             thrust: None,
             gravity: scene.gravity.map_or(Vec3::zero(), |g| g.up * -g.acceleration),
             total_mass: scene.total_mass(),
             laws,
             accelerations: Accelerations::for_hinges(0),
+            rates: Rates::new(scene, layout, &[], None),
+            jacobian: None,
         }
     }
 
     /// Goes on from `state` in `mode`; writes the variables to `y`.
     pub fn enter(&mut self, scene: &Scene, mode: &Mode, state: &State, y: &mut Vec<f64>) {
+        self.mode.clone_from(mode);
         self.dynamics.set_mode(mode, &state.beta);
         self.origin.clone_from(state);
         self.thrust = scene.thrust.filter(|_| mode.thrust);
@@ -58,6 +71,8 @@ impl Equations {
             dashpots: free.iter().any(|&i| self.laws[i].depends_on_rate()),
         };
         self.accelerations = Accelerations::for_hinges(free.len());
+        self.rates = Rates::new(scene, self.layout, free, self.thrust);
+        self.jacobian = None;
         y.clear();
         let q = state.attitude;
         y.push(q.scalar);
@@ -96,12 +111,17 @@ impl Equations {
 
     /// The system mass centre: free fall since the mode began, and what the thrust added.
     fn center(&self, t: f64, y: &[f64]) -> MassCenter {
-        let mut center = self.origin.center.after(t - self.origin.time, self.gravity);
+        let mut center = self.free_fall(t);
         if let [x, y, z, vx, vy, vz] = y[self.layout.thrust_motion()] {
             center.position += Vec3::new(x, y, z);
             center.velocity += Vec3::new(vx, vy, vz);
         }
         center
+    }
+
+    /// The system mass centre as if there were no thrust.
+    fn free_fall(&self, t: f64) -> MassCenter {
+        self.origin.center.after(t - self.origin.time, self.gravity)
     }
 
     /// Chooses the code that computes accelerations in the mode that was entered.
@@ -165,57 +185,34 @@ impl Equations {
     pub fn gravity(&self) -> Vec3<f64> {
         self.gravity
     }
-
-    fn thrust_rates(&mut self, t: f64, y: &[f64], thrust: &Thrust, dy: &mut [f64]) {
-        let layout = self.layout;
-        let to_inertial = attitude(y).normalized().to_matrix();
-        let force = to_inertial * thrust.force;
-        let velocity = self.center(t, y).velocity;
-        let motion = motion(&layout, y);
-        let found = self.dynamics.invariants(&motion, to_inertial.transpose_mul(velocity));
-        let at_point = found.origin_velocity + motion.omega_body.cross(thrust.point);
-        let moment = to_inertial * (thrust.point - found.mass_center).cross(thrust.force);
-        let (displacement, acceleration) =
-            (layout.thrust_motion(), force * (1.0 / self.total_mass));
-        dy[displacement.start..][..3].copy_from_slice(&y[displacement.start + 3..][..3]);
-        dy[displacement.start + 3..][..3].copy_from_slice(&acceleration.to_array());
-        let work = layout.thrust_work().start;
-        dy[work] = thrust.force.dot(at_point);
-        dy[work + 1..][..3].copy_from_slice(&moment.to_array());
-    }
 }
 
 impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        let layout = self.layout;
-        let motion = motion(&layout, y);
-        self.compute(&motion);
-        let rate = attitude(y).rate(motion.omega_body);
-        dy[0] = rate.scalar;
-        dy[1..4].copy_from_slice(&rate.vector.to_array());
-        dy[Layout::OMEGA].copy_from_slice(&self.accelerations.omega_dot_body.to_array());
-        dy[layout.beta()].copy_from_slice(motion.tau);
-        dy[layout.tau()].copy_from_slice(&self.accelerations.tau_dot);
-        if let [work] = &mut dy[layout.dashpot_work()] {
-            let free = self.dynamics.free_hinges().iter();
-            let power = free.zip(motion.tau).map(|(&i, &tau)| self.laws[i].rate_torque(tau) * tau);
-            *work = power.sum();
-        }
-        if let Some(thrust) = self.thrust {
-            self.thrust_rates(t, y, &thrust, dy);
-        }
+        self.compute(&motion(&self.layout, y));
+        let free_fall = self.free_fall(t).velocity;
+        self.rates.write(&mut self.dynamics, &self.accelerations, free_fall, y, dy);
+    }
+
+    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
+        let free_fall = self.free_fall(t).velocity;
+        let Self { scene, mode, origin, layout, thrust, .. } = self;
+        let of_mode = || Jacobian::new(scene, mode, &origin.beta, *layout, *thrust);
+        self.jacobian.get_or_insert_with(of_mode).write(free_fall, y, out);
+        true
     }
 }
 
 /// The rates and free hinges among the variables.
-pub(crate) fn motion<'a>(layout: &Layout, y: &'a [f64]) -> Motion<'a, f64> {
+pub(crate) fn motion<'a, R: Real>(layout: &Layout, y: &'a [R]) -> Motion<'a, R> {
     Motion { omega_body: omega(y), beta: &y[layout.beta()], tau: &y[layout.tau()] }
 }
 
-fn attitude(y: &[f64]) -> Quaternion<f64> {
+/// The attitude among the variables, whose norm is near 1.
+pub(crate) fn attitude<R: Real>(y: &[R]) -> Quaternion<R> {
     Quaternion { scalar: y[0], vector: Vec3::new(y[1], y[2], y[3]) }
 }
 
-fn omega(y: &[f64]) -> Vec3<f64> {
+fn omega<R: Real>(y: &[R]) -> Vec3<R> {
     Vec3::new(y[4], y[5], y[6])
 }

@@ -18,23 +18,35 @@ pub struct Fit {
     pub parameters: Vec<f64>,
 }
 
-/// A larger routine is taken if it has at most this many steps for each of the mode's hinges: the
-/// recursion takes about 110 ns for a hinge, routines at most 55 ns for a step
-/// (`benches/README.md`).
-const STEPS_OF_A_HINGE: usize = 2;
+/// About how long an evaluation of a routine takes, in nanoseconds on the machine of
+/// `benches/README.md`; only comparisons matter.
+///
+/// Straight lines take the hinges one after the other. Loops take equal appendages side by side,
+/// as many as a register holds.
+fn duration(topology: &Topology, instructions: &str) -> usize {
+    let groups = topology.groups();
+    if topology.hinges() <= 16 && groups.iter().all(|&(_, count)| count < 4) {
+        return 20 + 36 * topology.hinges();
+    }
+    let link = |count: usize| match instructions {
+        "avx512" => 70 * (count / 8) + 50 * (count % 8 / 4 + count % 4),
+        "avx2" => 60 * (count / 4) + 50 * (count % 4),
+        _ => 50 * count,
+    };
+    let sweeps = groups.into_iter().map(|(shape, count)| shape.hinges() * link(count));
+    45 + sweeps.sum::<usize>()
+}
 
-/// Links that the sweeps of a routine take one after the other: equal appendages go side by side,
-/// in packs of eight, four, two and one.
-fn steps(topology: &Topology) -> usize {
-    let packs = |count: usize| count / 8 + (count % 8).count_ones() as usize;
-    topology.groups().into_iter().map(|(shape, count)| shape.hinges() * packs(count)).sum()
+/// The same of the recursion.
+fn duration_of_recursion(topology: &Topology) -> usize {
+    60 + 110 * topology.hinges()
 }
 
 impl Fit {
     /// The routine that a run takes for a mode in which something acts on the main body from
     /// outside or nothing does (`external`): of those that `options` allow and that compute what
-    /// is wanted, the one with fewest steps; then the one with fewest virtual links, then one of
-    /// `articulated`, then the most specialised. `None` if there is none.
+    /// is wanted, the one that is probably fastest; then the one with fewest virtual links, then
+    /// one of `articulated`, then the most specialised. `None` if there is none.
     pub fn best(recognised: &Recognised, external: bool, options: &Options) -> Option<Self> {
         let allowed = |kernel: &&Kernel| {
             options.formulation.is_none_or(|form| kernel.formulation == form.name())
@@ -47,7 +59,7 @@ impl Fit {
     fn of(kernel: &Kernel, recognised: &Recognised) -> Option<Self> {
         let (inner, outer) = (&recognised.topology, kernel.topology.parse::<Topology>().ok()?);
         let may_embed = kernel.formulation == Formulation::Articulated.name()
-            && steps(&outer) <= STEPS_OF_A_HINGE * inner.hinges();
+            && duration(&outer, kernel.instructions) < duration_of_recursion(inner);
         if *inner != outer && !may_embed {
             return None;
         }
@@ -61,7 +73,7 @@ impl Fit {
         let Kernel { formulation, pinned, .. } = self.kernel;
         let articulated = formulation == Formulation::Articulated.name();
         (
-            Reverse(steps(self.embedding.outer())),
+            Reverse(duration(self.embedding.outer(), self.kernel.instructions)),
             Reverse(self.embedding.virtual_links()),
             articulated,
             pinned.len(),
@@ -102,9 +114,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_appendages_share_steps() {
-        let steps_of = |name: &str| steps(&name.parse().expect("a topology"));
-        let names = ["M", "S5", "S2_P", "4xS5", "3xS5_S4", "20xS5"];
-        assert_eq!(names.map(steps_of), [0, 5, 4, 5, 14, 15]);
+    fn a_mode_is_embedded_only_where_registers_make_that_pay() {
+        let of = |name: &str| name.parse::<Topology>().expect("a topology");
+        let pays = |inner, outer, instructions| {
+            duration(&of(outer), instructions) < duration_of_recursion(&of(inner))
+        };
+        for (inner, outer, on) in [
+            ("S4", "4xS5", &["avx512", "avx2"][..]),
+            ("3xS5_S4", "4xS5", &["avx512", "avx2", "portable"]),
+            ("10xS1", "20xS5", &["avx512"]),
+            ("S45", "S100", &[]),
+            ("S50", "S100", &["avx512", "avx2", "portable"]),
+        ] {
+            for instructions in ["avx512", "avx2", "portable"] {
+                let expected = on.contains(&instructions);
+                assert_eq!(pays(inner, outer, instructions), expected, "{inner} {instructions}");
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_formulation::recognise;
+use nboom_formulation::{Layout, Recognised, recognise};
 use nboom_model::{HingeLabel, Scene};
-use nboom_scalar::Vec3;
+use nboom_scalar::{Kernel, Vec3};
 
 use crate::fit::Fit;
 use crate::options::{Form, Options};
@@ -25,7 +25,7 @@ struct Place {
 }
 
 /// Why no routine fits.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoRoutine {
     /// The mode is not made of chains and paddles.
@@ -36,8 +36,8 @@ pub enum NoRoutine {
         /// The first hinge that does not.
         hinge: HingeLabel,
     },
-    /// The mode's topology fits into that of no routine which takes nothing for granted that does
-    /// not hold and is not too large for it.
+    /// No routine is for the mode's topology, and none is for a larger one that it fits into and
+    /// that is not too large for it.
     #[error("no {} for topology {topology}", routine(.form))]
     Topology {
         /// The formulation asked for.
@@ -45,6 +45,63 @@ pub enum NoRoutine {
         /// The mode's topology.
         topology: String,
     },
+    /// Routines for the mode's topology take for granted what does not hold.
+    #[error("no {} for topology {topology} fits: {unmet}", routine(.form))]
+    Unmet {
+        /// The formulation asked for.
+        form: Option<Form>,
+        /// The mode's topology.
+        topology: String,
+        /// What does not hold first, of the routine that takes least for granted in vain.
+        unmet: Unmet,
+    },
+}
+
+/// What a routine takes for granted and what does not hold.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unmet {
+    /// Something acts on the main body from outside.
+    #[error("it takes for granted that nothing acts on the main body from outside")]
+    External,
+    /// A parameter has another value.
+    #[error("{parameter} is {found}, and {granted} is taken for granted")]
+    Parameter {
+        /// Which one, in words.
+        parameter: String,
+        /// The value taken for granted.
+        granted: f64,
+        /// Its value in the mode.
+        found: f64,
+    },
+}
+
+impl NoRoutine {
+    /// Why none of the routines that `options` allow fits a mode of chains and paddles, in which
+    /// something acts on the main body from outside or nothing does (`external`).
+    pub fn because(recognised: &Recognised, external: bool, options: &Options) -> Self {
+        let (form, topology) = (options.formulation, recognised.topology.to_string());
+        let parameters = recognised.parameters.write();
+        let unmet = |kernel: &Kernel| -> Vec<Unmet> {
+            let wrench = (external && !kernel.external).then_some(Unmet::External);
+            let wrong = kernel.pinned.iter().filter(|&&(i, granted)| parameters[i] != granted);
+            let parameter = |&(i, granted): &(usize, f64)| Unmet::Parameter {
+                parameter: Layout::name(&recognised.topology, i),
+                granted,
+                found: parameters[i],
+            };
+            wrench.into_iter().chain(wrong.map(parameter)).collect()
+        };
+        let asked_for = options.kernels.iter().filter(|kernel| {
+            (kernel.topology == topology && kernel.parameters == parameters.len())
+                && form.is_none_or(|form| kernel.formulation == form.name())
+        });
+        let least = asked_for.map(unmet).min_by_key(Vec::len);
+        match least.and_then(|unmet| unmet.into_iter().next()) {
+            Some(unmet) => Self::Unmet { form, topology, unmet },
+            None => Self::Topology { form, topology },
+        }
+    }
 }
 
 fn routine(form: &Option<Form>) -> String {
@@ -64,10 +121,9 @@ impl Generated {
         let (form, tree) = (options.formulation, dynamics.tree());
         let recognised = recognise(tree)
             .map_err(|link| NoRoutine::Tree { form, hinge: scene.label(tree.links[link].hinge) })?;
-        let fit =
-            Fit::best(&recognised, dynamics.external().is_some(), options).ok_or_else(|| {
-                NoRoutine::Topology { form, topology: recognised.topology.to_string() }
-            })?;
+        let external = dynamics.external().is_some();
+        let fit = Fit::best(&recognised, external, options)
+            .ok_or_else(|| NoRoutine::because(&recognised, external, options))?;
         let mut hinges = vec![Place { in_state: [0; 3], in_output: 0 }; recognised.links.len()];
         for (&link, (in_state, in_output)) in recognised.links.iter().zip(fit.hinges()) {
             hinges[link] = Place { in_state, in_output };

@@ -1,5 +1,5 @@
 use nboom_model::{HingeState, Mode, Release, Scene};
-use nboom_ode::{Bernstein, Dop853, Interpolation};
+use nboom_ode::{Bernstein, Interpolation, Stepper};
 
 use crate::equations::{Equations, motion};
 use crate::state::State;
@@ -121,7 +121,7 @@ impl Guards {
         &self,
         scene: &Scene,
         equations: &mut Equations,
-        stepper: &Dop853,
+        stepper: &dyn Stepper,
     ) -> Option<(GuardKind, f64)> {
         let mut first: Option<(GuardKind, f64)> = None;
         for guard in &self.list {
@@ -169,7 +169,7 @@ impl Guards {
         &self,
         scene: &Scene,
         equations: &mut Equations,
-        stepper: &Dop853,
+        stepper: &dyn Stepper,
         hinge: usize,
         side: Side,
     ) -> Option<f64> {
@@ -183,7 +183,7 @@ impl Guards {
             displaced += excursion * reach;
         }
         let mut length_squared = [0.0];
-        let start = motion(&layout, stepper.state()).beta;
+        let start = motion(&layout, &stepper.window().state).beta;
         equations.dynamics.spring_lengths_squared(start, &[hinge], &mut length_squared);
         let clearance = (length_squared[0].sqrt() - limit).abs();
         if matches!(side, Side::Known(_)) && clearance > displaced {
@@ -271,7 +271,7 @@ fn angle_polynomial(
     kind: GuardKind,
     scene: &Scene,
     equations: &Equations,
-    stepper: &Dop853,
+    stepper: &dyn Stepper,
 ) -> Bernstein {
     let (hinge, angle) = watched(kind, scene);
     let position = equations.dynamics.free_hinges().binary_search(&hinge);

@@ -46,20 +46,25 @@ mod fit;
 mod generated;
 mod guard;
 mod instant;
+mod jacobian;
 mod layout;
 mod ledger;
 mod options;
+mod rates;
 mod record;
 mod run;
 mod snapshot;
 mod state;
+mod trust;
 
 pub use closed_form::NotCovered;
 pub use error::{Failure, SimError};
 pub use fit::Fit;
-pub use generated::NoRoutine;
+pub use generated::{NoRoutine, Unmet};
+pub use nboom_ode::{Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
     Conservation, Detail, Event, EventKind, Recorder, Selection, Snapshot, Summary, Totals,
 };
 pub use run::simulate;
+pub use trust::{Digits, EventTrust, Trust, Witness, differences, trust};

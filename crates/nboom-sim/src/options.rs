@@ -1,6 +1,7 @@
 use std::fmt;
 
 use nboom_formulation::Formulation;
+use nboom_ode::{Method, Rkam, RkamSettings, Stepper, Tolerance};
 use nboom_scalar::Kernel;
 
 /// Whether generated or library code computes accelerations.
@@ -56,6 +57,10 @@ impl fmt::Display for Form {
 pub struct Options {
     /// Output times are the initial time and this many equal parts of the span after it.
     pub samples: usize,
+    /// The method of integration.
+    pub integrator: Method,
+    /// What steers [`Method::Rkam`]; `None` leaves that to the errors allowed.
+    pub rkam: Option<RkamSettings>,
     /// Relative error allowed in a step.
     pub rtol: f64,
     /// Absolute error allowed in a step, in the units of each variable.
@@ -74,12 +79,28 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             samples: 200,
+            integrator: Method::Dop853,
+            rkam: None,
             rtol: 1e-9,
             atol: 1e-12,
             max_steps: 10_000_000,
             path: Path::Auto,
             formulation: None,
             kernels: &[],
+        }
+    }
+}
+
+impl Options {
+    /// Errors allowed in a step.
+    pub fn tolerance(&self) -> Tolerance {
+        Tolerance { relative: self.rtol, absolute: self.atol }
+    }
+
+    pub(crate) fn stepper(&self) -> Box<dyn Stepper> {
+        match (self.integrator, self.rkam) {
+            (Method::Rkam, Some(settings)) => Box::new(Rkam::new(settings)),
+            _ => self.integrator.stepper(self.tolerance()),
         }
     }
 }

@@ -1,5 +1,5 @@
 use nboom_model::{Mode, Scene, SceneDescription};
-use nboom_ode::{Dop853, Tolerance};
+use nboom_ode::Stepper;
 
 use crate::equations::Equations;
 use crate::error::{Failure, SimError};
@@ -42,7 +42,7 @@ struct Run<'a> {
     state: State,
     scratch: State,
     equations: Equations,
-    stepper: Dop853,
+    stepper: Box<dyn Stepper>,
     guards: Guards,
     lock_sides: Vec<f64>,
     ledger: Ledger,
@@ -76,7 +76,6 @@ impl<'a> Run<'a> {
             let from_lock = body.hinge.start.angle - angle;
             if from_lock == 0.0 { 0.0 } else { from_lock.signum() }
         });
-        let tolerance = Tolerance { relative: options.rtol, absolute: options.atol };
         Self {
             scene,
             options,
@@ -87,7 +86,7 @@ impl<'a> Run<'a> {
             mode,
             state,
             equations,
-            stepper: Dop853::new(tolerance),
+            stepper: options.stepper(),
             guards: Guards::new(),
             variables,
             next_sample: 0,
@@ -150,20 +149,20 @@ impl<'a> Run<'a> {
         let limit = scheduled.min(self.scene.end_time);
         loop {
             self.step(limit)?;
-            let sample_due = self.sample_time() < self.stepper.end_time() - ONE_INSTANT;
+            let sample_due = self.sample_time() < self.stepper.window().end_time - ONE_INSTANT;
             if sample_due || !self.guards.list.is_empty() {
                 self.stepper.prepare_dense(&mut self.equations);
             }
-            let change = self.guards.first_change(self.scene, &mut self.equations, &self.stepper);
+            let change = self.guards.first_change(self.scene, &mut self.equations, &*self.stepper);
             if let Some((kind, fraction)) = change {
-                let full = self.stepper.end_time() - self.stepper.time();
+                let full = self.stepper.window().length();
                 self.locate(kind, fraction * full, full);
-                self.sample_within(full, self.stepper.end_time())?;
+                self.sample_within(full, self.stepper.window().end_time)?;
                 self.accept();
                 return Ok(Some(kind));
             }
-            let full = self.stepper.end_time() - self.stepper.time();
-            self.sample_within(full, self.stepper.end_time())?;
+            let full = self.stepper.window().length();
+            self.sample_within(full, self.stepper.window().end_time)?;
             self.accept();
             self.guards.settle(self.scene, &mut self.equations, &self.state);
             if self.state.time >= limit {
@@ -185,12 +184,13 @@ impl<'a> Run<'a> {
         let mut last_correction = f64::INFINITY;
         for _ in 0..CORRECTIONS {
             self.stepper.retake(&mut self.equations, step);
-            let (time, end) = (self.stepper.end_time(), self.stepper.end_state());
-            self.equations.read(time, end, &mut self.scratch);
+            let window = self.stepper.window();
+            let time = window.end_time;
+            self.equations.read(time, &window.end_state, &mut self.scratch);
             let reading = read(kind, self.scene, &mut self.equations, &self.scratch);
             let correction = -reading.value / reading.rate;
             let better = correction.abs() < 0.5 * last_correction;
-            let matters = self.stepper.time() + (step + correction) != time;
+            let matters = self.stepper.window().time + (step + correction) != time;
             if !(correction.is_finite() && better && matters) {
                 return;
             }
@@ -203,9 +203,10 @@ impl<'a> Run<'a> {
     /// Makes the end of the step the present state, with the attitude put back to norm 1.
     fn accept(&mut self) {
         self.stepper.advance();
-        let norm = self.stepper.state()[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>();
+        let norm = self.stepper.window().state[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>();
         self.stepper.scale(Layout::ATTITUDE, 1.0 / norm.sqrt());
-        self.equations.read(self.stepper.time(), self.stepper.state(), &mut self.state);
+        let window = self.stepper.window();
+        self.equations.read(window.time, &window.state, &mut self.state);
     }
 
     fn sample_time(&self) -> f64 {
@@ -224,7 +225,7 @@ impl<'a> Run<'a> {
         while self.sample_time() < until - ONE_INSTANT {
             let time = self.sample_time();
             self.variables.resize(self.equations.layout.len(), 0.0);
-            let fraction = (time - self.stepper.time()) / full;
+            let fraction = (time - self.stepper.window().time) / full;
             self.stepper.interpolate(fraction, &mut self.variables);
             self.equations.read(time, &self.variables, &mut self.scratch);
             let state = self.scratch.clone();
@@ -253,7 +254,8 @@ impl<'a> Run<'a> {
     fn snapshot(&mut self, state: &State) -> Snapshot {
         let detail = self.recorder.needs_detail();
         let seen = snapshot::take(self.scene, &self.mode, &mut self.equations, state, detail);
-        let (steps, next_step) = (self.stepper.counts().accepted, self.stepper.next_step());
+        let (steps, next_step) =
+            (self.stepper.window().counts.accepted, self.stepper.window().next_step);
         Snapshot { steps, next_step, ..seen }
     }
 
@@ -296,7 +298,7 @@ impl<'a> Run<'a> {
     }
 
     fn summary(&self) -> Summary {
-        let counts = self.stepper.counts();
+        let counts = self.stepper.window().counts;
         Summary {
             end_time: self.state.time,
             steps_accepted: counts.accepted,
@@ -304,7 +306,7 @@ impl<'a> Run<'a> {
             evaluations: counts.evaluations,
             events: self.events,
             conservation: self.ledger.residuals(),
-            integrator: "dop853",
+            integrator: self.options.integrator.name(),
             selections: self.selections.clone(),
         }
     }

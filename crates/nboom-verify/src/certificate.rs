@@ -34,7 +34,7 @@ pub fn certify(
     let (states, seed) = (subject.states().len(), subject.seed());
     let nothing =
         Certificate { states, seed, from_recursion: 0.0, from_double_double: 0.0, condition: 1.0 };
-    let mut referee = Referee::new(subject);
+    let mut referee = Referee::new(subject, 1);
     (0..states).try_fold(nothing, |most, i| {
         let reference = referee.reference(i)?;
         let off = reference.off_accelerations(&accelerations(i));
@@ -53,6 +53,6 @@ pub fn certify(
 /// # Errors
 /// [`VerifyError::NoReference`] where a state has none.
 pub fn truth(subject: &Subject) -> Result<Vec<Vec<f64>>, VerifyError> {
-    let mut referee = Referee::new(subject);
+    let mut referee = Referee::new(subject, 1);
     (0..subject.states().len()).map(|i| Ok(referee.reference(i)?.truth())).collect()
 }

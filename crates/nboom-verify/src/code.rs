@@ -1,7 +1,8 @@
 use nboom_dynamics::{Accelerations, Recursive};
 use nboom_formulation::{Coordinates, Formulation, Layout, Recognised, symmetric};
 use nboom_model::WeldedTree;
-use nboom_scalar::{Kernel, Twist, Vec3};
+use nboom_scalar::{Twist, Vec3};
+use nboom_sim::Fit;
 
 use crate::subject::State;
 
@@ -37,8 +38,8 @@ pub enum Code<'a> {
     },
     /// A generated routine.
     Routine {
-        /// The routine.
-        kernel: Kernel,
+        /// The routine, and how the subject is embedded in its topology.
+        fit: Fit,
         /// Topology and parameters.
         recognised: &'a Recognised,
         /// What it has prepared.
@@ -56,16 +57,15 @@ impl<'a> Code<'a> {
         Self::Recursion { dynamics: Box::new(dynamics.clone()), states, found }
     }
 
-    /// The kernel fits the topology and accepts the parameters.
     pub(crate) fn routine(
-        kernel: Kernel,
+        fit: Fit,
         recognised: &'a Recognised,
         states: &[Coordinates<f64>],
     ) -> Self {
-        let mut constants = vec![0.0; kernel.constants];
-        kernel.prepare(&recognised.parameters.write(), &mut constants);
-        let states = states.iter().map(|state| state.write(&recognised.topology)).collect();
-        Self::Routine { kernel, recognised, constants, states, found: vec![0.0; kernel.outputs] }
+        let constants = fit.constants();
+        let states = states.iter().map(|state| embedded(state, &fit)).collect();
+        let found = vec![0.0; fit.kernel.outputs];
+        Self::Routine { fit, recognised, constants, states, found }
     }
 
     /// ω̇, a_O, then τ̇ in the order of the scene's hinges, in state `i`.
@@ -89,17 +89,27 @@ impl<'a> Code<'a> {
                 let found = symmetric::solve_tree(tree, &states[i]);
                 flat(found.main, &found.tau_dot, 0..found.tau_dot.len())
             }
-            Self::Routine { kernel, recognised, constants, states, found } => {
-                kernel.evaluate(constants, &states[i], found);
+            Self::Routine { fit, recognised, constants, states, found } => {
+                fit.kernel.evaluate(constants, &states[i], found);
                 let vector = |at: usize| Vec3::new(found[at], found[at + 1], found[at + 2]);
                 let main = Twist { angular: vector(0), linear: vector(3) };
-                let places = Layout::places(&recognised.topology);
-                let tau_dot: Vec<f64> =
-                    places.iter().map(|place| found[Layout::OUTPUT + place]).collect();
+                let tau_dot: Vec<f64> = fit.hinges().map(|(_, output)| found[output]).collect();
                 flat(main, &tau_dot, recognised.links.iter().copied())
             }
         }
     }
+}
+
+/// A state as a routine takes it; virtual links stand still.
+fn embedded(state: &Coordinates<f64>, fit: &Fit) -> Vec<f64> {
+    let mut numbers = state.omega.to_array().to_vec();
+    numbers.extend(state.external.moment.to_array());
+    numbers.extend(state.external.force.to_array());
+    numbers.resize(Layout::coordinates(fit.embedding.outer()), 0.0);
+    for (hinge, ([beta, tau, torque], _)) in state.hinges.iter().zip(fit.hinges()) {
+        (numbers[beta], numbers[tau], numbers[torque]) = (hinge.beta, hinge.tau, hinge.torque);
+    }
+    numbers
 }
 
 /// Accelerations in one list, τ̇ of a hinge where its link says.

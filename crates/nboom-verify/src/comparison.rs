@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use crate::VerifyError;
 use crate::equations::EquationsCode;
-use crate::label::{Label, Quantity};
+use crate::label::{Hinges, Label, Quantity};
 use crate::reference::{Off, Referee};
 use crate::subject::{NotCovered, Subject};
 
-/// The largest deviations of one code in one quantity.
+/// The largest deviations of one code in one quantity, over the states that it covers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// The code.
@@ -18,6 +18,10 @@ pub struct Row {
     pub label: Label,
     /// What it computes.
     pub quantity: Quantity,
+    /// Which hinges turn.
+    pub hinges: Hinges,
+    /// How many states it covers.
+    pub states: usize,
     /// Its largest deviation from the recursion in `f64`; none where it is the recursion.
     pub from_recursion: Option<f64>,
     /// Its largest deviation from the recursion in double-double, rounded to `f64`.
@@ -27,9 +31,17 @@ pub struct Row {
 }
 
 impl Row {
-    fn new(label: Label, quantity: Quantity) -> Self {
+    fn new(label: Label, quantity: Quantity, hinges: Hinges) -> Self {
         let from_recursion = (label != Label::RECURSION).then_some(0.0);
-        Self { label, quantity, from_recursion, from_double_double: 0.0, state: 1 }
+        Self {
+            label,
+            quantity,
+            hinges,
+            states: 0,
+            from_recursion,
+            from_double_double: 0.0,
+            state: 0,
+        }
     }
 
     /// The larger one of both deviations.
@@ -37,12 +49,65 @@ impl Row {
         self.from_recursion.unwrap_or(0.0).max(self.from_double_double)
     }
 
-    fn note(&mut self, i: usize, off: Off) {
-        if off.worst() > self.worst() {
-            self.state = i + 1;
+    fn note(&mut self, state: usize, virtual_links: usize, off: Off) {
+        if self.states == 0 || off.worst() > self.worst() {
+            self.state = state;
         }
+        self.states += 1;
+        self.label.virtual_links = self.label.virtual_links.max(virtual_links);
         self.from_recursion = self.from_recursion.map(|most| most.max(off.from_recursion));
         self.from_double_double = self.from_double_double.max(off.from_double_double);
+    }
+}
+
+/// Rows while they are found.
+struct Rows {
+    rows: Vec<Row>,
+    largest_condition: f64,
+}
+
+impl Rows {
+    fn note(&mut self, label: Label, quantity: Quantity, hinges: Hinges, state: usize, off: Off) {
+        let same = |row: &Row| {
+            (row.label.code(), row.quantity, row.hinges) == (label.code(), quantity, hinges)
+        };
+        let at = self.rows.iter().position(same).unwrap_or_else(|| {
+            self.rows.push(Row::new(label, quantity, hinges));
+            self.rows.len() - 1
+        });
+        self.rows[at].note(state, label.virtual_links, off);
+    }
+
+    /// Takes all code through the states of a subject, the first of which has the number `first`.
+    fn compare(
+        &mut self,
+        subject: &Subject,
+        first: usize,
+        kernels: &'static [Kernel],
+        of_equations: &[Kernel],
+    ) -> Result<(), VerifyError> {
+        let all_free = subject.held().iter().all(Option::is_none);
+        let hinges = if all_free { Hinges::Free } else { Hinges::Held };
+        let mut codes = subject.codes(kernels)?;
+        let equations = EquationsCode::all(subject, of_equations)?;
+        let mut referee = Referee::new(subject, first);
+        for (i, state) in subject.coordinates().enumerate() {
+            let (reference, number) = (referee.reference(i)?, first + i);
+            self.largest_condition = self.largest_condition.max(reference.condition);
+            for (label, code) in &mut codes {
+                let off = reference.off_accelerations(&code.accelerations(i));
+                self.note(*label, Quantity::Accelerations, hinges, number, off);
+            }
+            let of_codes = equations.iter().map(|code| {
+                (code.label, reference.off_equations(code.formulation, &code.equations(&state)))
+            });
+            let of_recursion = (Label::RECURSION, reference.off_recursion());
+            for (label, [matrix, forcing]) in [of_recursion].into_iter().chain(of_codes) {
+                self.note(label, Quantity::MassMatrix, hinges, number, matrix);
+                self.note(label, Quantity::Forcing, hinges, number, forcing);
+            }
+        }
+        Ok(())
     }
 }
 
@@ -55,15 +120,18 @@ pub struct Comparison {
     pub topology: Option<String>,
     /// How many states there were.
     pub states: usize,
+    /// How many of them have held hinges; they come last.
+    pub held: usize,
     /// What they were drawn from.
     pub seed: u64,
     /// The largest deviation allowed.
     pub tolerance: f64,
     /// The largest condition of the mass matrix, scaled to diagonal 1.
     pub largest_condition: f64,
-    /// Accelerations of all code, the recursion first; then its mass matrices; then its forcings.
+    /// All hinges free: accelerations of all code, the recursion first; then its mass matrices;
+    /// then its forcings. The same with held hinges.
     pub rows: Vec<Row>,
-    /// What does not cover the scene.
+    /// What does not cover the scene with all hinges free.
     pub not_covered: Vec<NotCovered>,
 }
 
@@ -101,10 +169,10 @@ impl Comparison {
     }
 }
 
-/// Takes all code that covers the subject through its states: the recursion, the closed forms, and
+/// Takes all code that covers a subject through its states: the recursion, the closed forms, and
 /// the routines that fit among `kernels`, which compute accelerations, and `of_equations`, which
 /// compute a formulation's matrix row by row and then its right side, hinges appendage by
-/// appendage.
+/// appendage. First the subject `free`, all of whose hinges are free, then those of `held`.
 ///
 /// Matrices and right sides of a formulation are compared with those of the recursion, turned
 /// into the formulation's unknowns.
@@ -113,44 +181,28 @@ impl Comparison {
 /// [`VerifyError::NoReference`] where the recursion has no accelerations in a state, and
 /// [`VerifyError::Sizes`] or [`VerifyError::NoEquations`] where a routine is not what it says.
 pub fn compare(
-    subject: &Subject,
-    kernels: &[Kernel],
+    free: &Subject,
+    held: &[Subject],
+    kernels: &'static [Kernel],
     of_equations: &[Kernel],
     tolerance: f64,
 ) -> Result<Comparison, VerifyError> {
-    let mut codes = subject.codes(kernels)?;
-    let equations = EquationsCode::all(subject, of_equations)?;
-    let rows = |quantity| move |label| Row::new(label, quantity);
-    let labels = || [Label::RECURSION].into_iter().chain(equations.iter().map(|code| code.label));
-    let mut accelerations: Vec<Row> =
-        codes.iter().map(|(label, _)| *label).map(rows(Quantity::Accelerations)).collect();
-    let mut matrices: Vec<Row> = labels().map(rows(Quantity::MassMatrix)).collect();
-    let mut forcings: Vec<Row> = labels().map(rows(Quantity::Forcing)).collect();
-    let mut largest_condition = 1.0_f64;
-    let mut referee = Referee::new(subject);
-    for (i, state) in subject.coordinates().enumerate() {
-        let reference = referee.reference(i)?;
-        largest_condition = largest_condition.max(reference.condition);
-        for ((_, code), row) in codes.iter_mut().zip(&mut accelerations) {
-            row.note(i, reference.off_accelerations(&code.accelerations(i)));
-        }
-        let of_codes = equations
-            .iter()
-            .map(|code| reference.off_equations(code.formulation, &code.equations(&state)));
-        let all = [reference.off_recursion()].into_iter().chain(of_codes);
-        for ((off, matrix), forcing) in all.zip(&mut matrices).zip(&mut forcings) {
-            matrix.note(i, off[0]);
-            forcing.note(i, off[1]);
-        }
+    let mut found = Rows { rows: Vec::new(), largest_condition: 1.0 };
+    let mut states = 0;
+    for subject in [free].into_iter().chain(held) {
+        found.compare(subject, states + 1, kernels, of_equations)?;
+        states += subject.states().len();
     }
+    found.rows.sort_by_key(|row| (row.hinges, row.quantity));
     Ok(Comparison {
-        scene: subject.scene().name.clone(),
-        topology: subject.recognised().map(|recognised| recognised.topology.to_string()),
-        states: subject.states().len(),
-        seed: subject.seed(),
+        scene: free.scene().name.clone(),
+        topology: free.recognised().map(|recognised| recognised.topology.to_string()),
+        states,
+        held: states - free.states().len(),
+        seed: free.seed(),
         tolerance,
-        largest_condition,
-        rows: [accelerations, matrices, forcings].concat(),
-        not_covered: subject.not_covered(kernels),
+        largest_condition: found.largest_condition,
+        rows: found.rows,
+        not_covered: free.not_covered(kernels),
     })
 }

@@ -34,16 +34,15 @@ impl<'a> EquationsCode<'a> {
         };
         let size = 6 + recognised.topology.hinges();
         let mut routines = Vec::new();
-        for kernel in subject.fitting(kernels, size * size + size)? {
+        for fit in subject.fitting(kernels, size * size + size)? {
+            let kernel = fit.kernel;
             let named = Formulation::named(kernel.formulation);
             let formulation = named.filter(|formulation| formulation.has_equations());
             let Some(formulation) = formulation else {
                 return Err(VerifyError::NoEquations { formulation: kernel.formulation });
             };
-            let mut constants = vec![0.0; kernel.constants];
-            kernel.prepare(&recognised.parameters.write(), &mut constants);
-            let way = Way::Routine { kernel, recognised, constants };
-            routines.push(Self { label: Label::generated(&kernel), formulation, way });
+            let way = Way::Routine { kernel, recognised, constants: fit.constants() };
+            routines.push(Self { label: Label::generated(&fit), formulation, way });
         }
         let closed = Formulation::ALL.into_iter().filter(|formulation| formulation.has_equations());
         let closed = closed.map(|formulation| generic(formulation, Way::ClosedForm(recognised)));

@@ -9,12 +9,12 @@ use nboom_model::HingeLabel;
 pub enum VerifyError {
     /// The scene's numbers are finite, but one made of them is not. No routine is handed such a
     /// number.
-    #[error("parameter number {number} of topology {topology} is {value}, a finite one expected")]
+    #[error("{parameter} of topology {topology} is {value}, a finite one expected")]
     NotFinite {
         /// The scene's topology.
         topology: String,
-        /// Where it stands in the order of `nboom_formulation::Layout`, from 1.
-        number: usize,
+        /// Which parameter it is, in words.
+        parameter: String,
         /// What it is.
         value: f64,
     },

@@ -1,6 +1,7 @@
 use std::fmt;
 
 use nboom_scalar::Kernel;
+use nboom_sim::Fit;
 use serde::Serialize;
 
 /// Which code it is.
@@ -15,6 +16,11 @@ pub struct Label {
     pub facts: &'static str,
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
+    /// The topology that a routine is for; none of code that is for any.
+    pub topology: Option<&'static str>,
+    /// How many links of that topology are virtual, because the satellite has fewer; over several
+    /// modes, the most.
+    pub virtual_links: usize,
 }
 
 impl Label {
@@ -24,6 +30,8 @@ impl Label {
         formulation: "recursive",
         facts: "general",
         instructions: "portable",
+        topology: None,
+        virtual_links: 0,
     };
 
     /// A closed form of the library, which takes any facts.
@@ -31,15 +39,22 @@ impl Label {
         Self { formulation, ..Self::RECURSION }
     }
 
-    /// A routine.
-    pub fn generated(kernel: &Kernel) -> Self {
+    /// A routine and how a mode is embedded in its topology.
+    pub fn generated(fit: &Fit) -> Self {
+        let (kernel, virtual_links) = (&fit.kernel, fit.embedding.virtual_links());
         let facts = match kernel.pinned.len() {
             0 => "general",
             pinned if pinned == kernel.parameters => "baked",
             _ => "principal",
         };
-        let Kernel { formulation, instructions, .. } = *kernel;
-        Self { path: "generated", formulation, facts, instructions }
+        let Kernel { formulation, instructions, topology, .. } = *kernel;
+        let topology = Some(topology);
+        Self { path: "generated", formulation, facts, instructions, topology, virtual_links }
+    }
+
+    /// The code alone, however many links it takes as virtual.
+    pub(crate) fn code(self) -> Self {
+        Self { virtual_links: 0, ..self }
     }
 }
 
@@ -51,7 +66,7 @@ impl fmt::Display for Label {
 }
 
 /// What is compared, and what its deviations are relative to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// ω̇, a_O and τ̇: relative to the largest of them. Where the mass matrix, scaled to diagonal 1,
@@ -63,6 +78,16 @@ pub enum Quantity {
     MassMatrix,
     /// The right side that belongs to the matrix: relative to its largest entry.
     Forcing,
+}
+
+/// Which hinges turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hinges {
+    /// All of them.
+    Free,
+    /// Some or none, the others are held at random angles.
+    Held,
 }
 
 impl fmt::Display for Quantity {

@@ -1,8 +1,8 @@
 //! Compares and certifies code that computes accelerations.
 //!
-//! A [`Subject`] is a scene with all hinges free, and random states of it. [`compare`] takes all
-//! code that covers it, the recursion, the closed forms and generated routines, through these
-//! states; [`certify`] does so with any one code. Both measure twice: against the recursion in
+//! A [`Subject`] is a scene with all hinges free or some held, and random states of it. [`compare`]
+//! takes all code that covers it, the recursion, the closed forms and generated routines, through
+//! these states; [`certify`] does so with any one code. Both measure twice: against the recursion in
 //! `f64`, and against the recursion in double-double, which has 32 digits and stands for the
 //! truth. The latter tells the error of the recursion itself too.
 //!
@@ -20,8 +20,9 @@
 //! description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
 //! let scene = Scene::new(description).expect("the bodies are physical");
 //!
+//! let held = Subject::with_held_hinges(&scene, 10, 1970)?;
 //! let subject = Subject::new(scene, 20, 1970)?;
-//! let comparison = compare(&subject, &[], &[], 1e-11)?;
+//! let comparison = compare(&subject, &held, &[], &[], 1e-11)?;
 //! assert!(comparison.passed());
 //!
 //! let mut code = subject.recursion();
@@ -46,5 +47,5 @@ pub use certificate::{Certificate, certify, truth};
 pub use code::Code;
 pub use comparison::{Comparison, Row, compare};
 pub use error::VerifyError;
-pub use label::{Label, Quantity};
+pub use label::{Hinges, Label, Quantity};
 pub use subject::{NotCovered, State, Subject};

@@ -13,6 +13,16 @@ impl Dice {
         low + (high - low) * self.unit()
     }
 
+    /// An angle of any size.
+    pub fn angle(&mut self) -> f64 {
+        self.between(-std::f64::consts::PI, std::f64::consts::PI)
+    }
+
+    /// One of the numbers from 0 to below `count`.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.unit() * count as f64) as usize
+    }
+
     /// A number from 0 to below 1, of 53 random bits.
     fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64

@@ -32,13 +32,15 @@ impl Off {
 /// Both recursions of a subject.
 pub(crate) struct Referee<'a> {
     subject: &'a Subject,
+    /// The number of its first state.
+    first: usize,
     recursion: Recursive<f64>,
     exact: Recursive<DoubleDouble>,
 }
 
 impl<'a> Referee<'a> {
-    pub fn new(subject: &'a Subject) -> Self {
-        Self { subject, recursion: subject.recursive(), exact: subject.recursive() }
+    pub fn new(subject: &'a Subject, first: usize) -> Self {
+        Self { subject, first, recursion: subject.recursive(), exact: subject.recursive() }
     }
 
     /// Both recursions in state `i`.
@@ -54,7 +56,7 @@ impl<'a> Referee<'a> {
         let reference = Reference { subject: self.subject, recursion, exact, condition };
         if singular.is_some() || !reference.is_good() {
             let hinge = singular.flatten().map(|hinge| self.subject.scene().label(hinge));
-            return Err(VerifyError::NoReference { state: i + 1, hinge });
+            return Err(VerifyError::NoReference { state: self.first + i, hinge });
         }
         Ok(reference)
     }

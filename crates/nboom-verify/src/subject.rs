@@ -1,9 +1,10 @@
 use nboom_dynamics::{Motion, Recursive};
 use nboom_formulation::{
-    Coordinates, Formulation, HingeCoordinates, Layout, Recognised, recognise,
+    Coordinates, Embedding, Formulation, HingeCoordinates, Layout, Recognised, recognise,
 };
-use nboom_model::{HingeState, Mode, Scene, WeldedTree};
+use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 use nboom_scalar::{Kernel, Real, Vec3, Wrench};
+use nboom_sim::{Fit, NoRoutine, Options};
 use serde::Serialize;
 
 use crate::VerifyError;
@@ -11,7 +12,7 @@ use crate::code::Code;
 use crate::label::Label;
 use crate::random::Dice;
 
-/// One random state: rates and angles, in the order of the scene's hinges.
+/// One random state: rates and angles, in the order of the scene's free hinges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// ω, main-body axes \[rad/T\].
@@ -23,13 +24,12 @@ pub struct State {
 }
 
 impl State {
-    /// Angles of all hinges, and rates up to `rate`.
+    /// Angles of any size for this many hinges, and rates up to `rate`.
     fn random(dice: &mut Dice, hinges: usize, rate: f64) -> Self {
         let mut rates =
             |count: usize| -> Vec<f64> { (0..count).map(|_| dice.between(-rate, rate)).collect() };
         let (omega, tau) = (rates(3), rates(hinges));
-        let half_turn = std::f64::consts::PI;
-        let beta = (0..hinges).map(|_| dice.between(-half_turn, half_turn)).collect();
+        let beta = (0..hinges).map(|_| dice.angle()).collect();
         Self { omega: Vec3::new(omega[0], omega[1], omega[2]), beta, tau }
     }
 
@@ -50,36 +50,75 @@ pub struct NotCovered {
     pub why: String,
 }
 
-/// A scene with all hinges free, its thrust on and its kick-off springs disengaged, and random
-/// states of it.
+/// A scene with its thrust on and its kick-off springs disengaged, all hinges free or some held,
+/// and random states of it.
 #[derive(Clone, Debug)]
 pub struct Subject {
     scene: Scene,
     seed: u64,
+    /// For each hinge of the scene, the angle at which it is held.
+    held: Vec<Option<f64>>,
     states: Vec<State>,
     dynamics: Recursive<f64>,
     recognised: Result<Recognised, usize>,
 }
 
 impl Subject {
-    /// `states` random states of `scene`, the same for the same `seed` everywhere. Angles are of
-    /// any size; rates are as large as the scene's initial angular rate, or of order 1 where it has
-    /// none.
+    /// `states` random states of `scene`, all hinges free, the same for the same `seed` everywhere.
+    /// Angles are of any size; rates are as large as the scene's initial angular rate, or of order
+    /// 1 where it has none.
     ///
     /// # Errors
     /// [`VerifyError::NotFinite`] where a parameter that routines take overflows.
     pub fn new(scene: Scene, states: usize, seed: u64) -> Result<Self, VerifyError> {
+        let free = vec![None; scene.bodies.len()];
+        Self::in_mode(scene, free, states, seed, &mut Dice::new(seed))
+    }
+
+    /// Random states of `scene` with random hinges, at least one, held at random angles: a subject
+    /// for each of the states. Empty for a scene without hinges.
+    ///
+    /// # Errors
+    /// [`VerifyError::NotFinite`] where a parameter that routines take overflows.
+    pub fn with_held_hinges(
+        scene: &Scene,
+        states: usize,
+        seed: u64,
+    ) -> Result<Vec<Self>, VerifyError> {
         let hinges = scene.bodies.len();
+        let states = if hinges > 0 { states } else { 0 };
+        let mut dice = Dice::new(!seed);
+        let one = |_| {
+            let surely = dice.below(hinges);
+            let mut held = |i| (dice.below(2) == 0 || i == surely).then(|| dice.angle());
+            let held = (0..hinges).map(&mut held).collect();
+            Self::in_mode(scene.clone(), held, 1, seed, &mut dice)
+        };
+        (0..states).map(one).collect()
+    }
+
+    fn in_mode(
+        scene: Scene,
+        held: Vec<Option<f64>>,
+        states: usize,
+        seed: u64,
+        dice: &mut Dice,
+    ) -> Result<Self, VerifyError> {
         let of_scene = scene.initial.omega_body.norm();
         let rate = if of_scene > 0.0 { of_scene } else { 1.0 };
-        let mut dice = Dice::new(seed);
-        let states = (0..states).map(|_| State::random(&mut dice, hinges, rate)).collect();
-        let dynamics = recursive(&scene);
+        let free = held.iter().filter(|angle| angle.is_none()).count();
+        let states = (0..states).map(|_| State::random(dice, free, rate)).collect();
+        let dynamics = recursive(&scene, &held);
         let recognised = recognise(dynamics.tree());
         if let Ok(recognised) = &recognised {
             require_finite(recognised)?;
         }
-        Ok(Self { scene, seed, states, dynamics, recognised })
+        Ok(Self { scene, seed, held, states, dynamics, recognised })
+    }
+
+    /// For each hinge of the scene, the angle at which it is held.
+    pub fn held(&self) -> &[Option<f64>] {
+        &self.held
     }
 
     /// The scene.
@@ -105,7 +144,7 @@ impl Subject {
 
     /// The recursion on any scalar, in the subject's mode.
     pub(crate) fn recursive<R: Real>(&self) -> Recursive<R> {
-        recursive(&self.scene)
+        recursive(&self.scene, &self.held)
     }
 
     /// The states as closed forms take them, hinges in the order of [`Self::links`].
@@ -123,12 +162,12 @@ impl Subject {
         })
     }
 
-    /// The scene's hinges in the order in which closed forms take them: that of the topology,
-    /// or where there is none the scene's own.
+    /// The free hinges, numbered in the scene's order, in the order in which closed forms take them:
+    /// that of the topology, or where there is none the scene's own.
     pub fn links(&self) -> Vec<usize> {
         match &self.recognised {
             Ok(recognised) => recognised.links.clone(),
-            Err(_) => (0..self.scene.bodies.len()).collect(),
+            Err(_) => (0..self.tree().links.len()).collect(),
         }
     }
 
@@ -137,12 +176,13 @@ impl Subject {
         Code::recursion(&self.dynamics, &self.states)
     }
 
-    /// All code that covers the scene: the recursion first, then closed forms, then those of
-    /// `kernels` that compute accelerations of its topology and accept its parameters.
+    /// All code that covers the subject: the recursion first, then closed forms, then those of
+    /// `kernels` that compute accelerations of its topology and accept its parameters, and the one
+    /// that a run takes where that is of a larger topology.
     ///
     /// # Errors
     /// [`VerifyError::Sizes`] where one of these is wrong about its sizes.
-    pub fn codes(&self, kernels: &[Kernel]) -> Result<Vec<(Label, Code<'_>)>, VerifyError> {
+    pub fn codes(&self, kernels: &'static [Kernel]) -> Result<Vec<(Label, Code<'_>)>, VerifyError> {
         let states: Vec<_> = self.coordinates().collect();
         let mut codes = vec![(Label::RECURSION, self.recursion())];
         let Some(recognised) = self.recognised() else {
@@ -155,14 +195,17 @@ impl Subject {
             codes.push((Label::generic(formulation.name()), code));
         }
         let outputs = Layout::outputs(&recognised.topology);
-        for kernel in self.fitting(kernels, outputs)? {
-            codes.push((Label::generated(&kernel), Code::routine(kernel, recognised, &states)));
+        let mut fits = self.fitting(kernels, outputs)?;
+        if let Some(fit) = self.taken(kernels).filter(|fit| fit.embedding.virtual_links() > 0) {
+            fits.push(with_sizes(fit, Layout::outputs)?);
         }
+        let routine = |fit: Fit| (Label::generated(&fit), Code::routine(fit, recognised, &states));
+        codes.extend(fits.into_iter().map(routine));
         Ok(codes)
     }
 
     /// What does not cover the scene, and why.
-    pub fn not_covered(&self, kernels: &[Kernel]) -> Vec<NotCovered> {
+    pub fn not_covered(&self, kernels: &'static [Kernel]) -> Vec<NotCovered> {
         match &self.recognised {
             Err(link) => {
                 let hinge = self.dynamics.tree().links[*link].hinge;
@@ -175,61 +218,91 @@ impl Subject {
                 let line = |(path, formulation)| NotCovered { path, formulation, why: why.clone() };
                 all.map(line).collect()
             }
-            Ok(recognised) if !kernels.iter().any(|kernel| self.fits(recognised, kernel)) => {
-                let why = format!("no routine for topology {}", recognised.topology);
+            Ok(recognised) if self.taken(kernels).is_none() => {
+                let why = NoRoutine::because(recognised, self.is_pushed(), &choosing_from(kernels));
+                let why = why.to_string();
                 vec![NotCovered { path: "generated", formulation: None, why }]
             }
             Ok(_) => Vec::new(),
         }
     }
 
-    /// Those of `kernels` that take the scene, each of which gives this many numbers.
+    /// The routine that a run takes in the subject's mode.
+    fn taken(&self, kernels: &'static [Kernel]) -> Option<Fit> {
+        Fit::best(self.recognised()?, self.is_pushed(), &choosing_from(kernels))
+    }
+
+    /// Whether something acts on the main body from outside.
+    fn is_pushed(&self) -> bool {
+        self.dynamics.external().is_some()
+    }
+
+    /// Those of `kernels` that are of the subject's topology and accept its parameters, each of
+    /// which gives this many numbers.
     pub(crate) fn fitting(
         &self,
         kernels: &[Kernel],
         expected_outputs: usize,
-    ) -> Result<Vec<Kernel>, VerifyError> {
+    ) -> Result<Vec<Fit>, VerifyError> {
         let Some(recognised) = self.recognised() else { return Ok(Vec::new()) };
-        let expected_coordinates = Layout::coordinates(&recognised.topology);
-        let right = |kernel: Kernel| {
-            let Kernel { topology, formulation, coordinates, outputs, .. } = kernel;
-            if (coordinates, outputs) == (expected_coordinates, expected_outputs) {
-                return Ok(kernel);
-            }
-            Err(VerifyError::Sizes {
-                topology,
-                formulation,
-                coordinates,
-                outputs,
-                expected_coordinates,
-                expected_outputs,
-            })
+        let Recognised { topology, parameters, .. } = recognised;
+        let parameters = parameters.write();
+        let fits = |kernel: &&Kernel| {
+            kernel.topology == topology.to_string()
+                && (kernel.external || !self.is_pushed())
+                && kernel.accepts(&parameters)
         };
-        let fitting = kernels.iter().filter(|kernel| self.fits(recognised, kernel));
-        fitting.copied().map(right).collect()
+        let as_it_is = |kernel: &Kernel| Fit {
+            kernel: *kernel,
+            embedding: Embedding::new(topology, topology).expect("a topology is in itself"),
+            parameters: parameters.clone(),
+        };
+        let fitting = kernels.iter().filter(fits).map(as_it_is);
+        fitting.map(|fit| with_sizes(fit, |_| expected_outputs)).collect()
     }
 
-    fn fits(&self, recognised: &Recognised, kernel: &Kernel) -> bool {
-        kernel.topology == recognised.topology.to_string()
-            && (kernel.external || self.dynamics.external().is_none())
-            && kernel.accepts(&recognised.parameters.write())
-    }
-
-    /// The tree of the scene's bodies, all hinges free.
+    /// The tree of the scene's bodies, held hinges welded.
     pub(crate) fn tree(&self) -> &WeldedTree<f64> {
         self.dynamics.tree()
     }
 }
 
-fn recursive<R: Real>(scene: &Scene) -> Recursive<R> {
-    let hinges = scene.bodies.len();
+/// What a run chooses from where nothing else is asked for.
+fn choosing_from(kernels: &'static [Kernel]) -> Options {
+    Options { kernels, ..Options::default() }
+}
+
+/// The routine, if it takes the numbers of a state and gives as many as there are.
+fn with_sizes(fit: Fit, outputs: impl Fn(&Topology) -> usize) -> Result<Fit, VerifyError> {
+    let Kernel { topology, formulation, coordinates, outputs: given, .. } = fit.kernel;
+    let outer = fit.embedding.outer();
+    let (expected_coordinates, expected_outputs) = (Layout::coordinates(outer), outputs(outer));
+    if (coordinates, given) == (expected_coordinates, expected_outputs) {
+        return Ok(fit);
+    }
+    Err(VerifyError::Sizes {
+        topology,
+        formulation,
+        coordinates,
+        outputs: given,
+        expected_coordinates,
+        expected_outputs,
+    })
+}
+
+fn recursive<R: Real>(scene: &Scene, held: &[Option<f64>]) -> Recursive<R> {
+    let state = |angle: &Option<f64>| match angle {
+        Some(_) => HingeState::Locked,
+        None => HingeState::Free,
+    };
     let mode = Mode {
-        hinges: vec![HingeState::Free; hinges],
-        kick_off: vec![false; hinges],
+        hinges: held.iter().map(state).collect(),
+        kick_off: vec![false; held.len()],
         thrust: scene.thrust.is_some(),
     };
+    let beta: Vec<R> = held.iter().map(|angle| R::constant(angle.unwrap_or(0.0))).collect();
     let mut dynamics = Recursive::new(scene);
-    dynamics.set_mode(&mode, &vec![R::zero(); hinges]);
+    dynamics.set_mode(&mode, &beta);
     dynamics
 }
 
@@ -239,7 +312,7 @@ fn require_finite(recognised: &Recognised) -> Result<(), VerifyError> {
         None => Ok(()),
         Some(i) => Err(VerifyError::NotFinite {
             topology: recognised.topology.to_string(),
-            number: i + 1,
+            parameter: Layout::name(&recognised.topology, i),
             value: parameters[i],
         }),
     }

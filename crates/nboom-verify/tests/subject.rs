@@ -4,9 +4,11 @@ mod support;
 
 use std::fs;
 
-use nboom_model::{MassProperties, Scene};
+use nboom_formulation::{Embedding, Formulation, Layout};
+use nboom_model::{Scene, Topology};
 use nboom_scalar::{Isa, Kernel, Real, Routine, Vec3};
-use nboom_verify::{Label, Subject, VerifyError, compare};
+use nboom_sim::Fit;
+use nboom_verify::{Code, Label, Subject, VerifyError, compare};
 
 use support::{fork, s2_p, s2_p_scene};
 
@@ -22,17 +24,15 @@ fn states_are_as_fast_as_the_scene() {
 #[test]
 fn parameters_that_overflow_are_refused() {
     let mut description = s2_p_scene();
-    // Mass and place are finite; the moment about the hinge is not.
-    let far = Vec3::unit_y() * 1e160;
-    let inertia = description.bodies[0].mass_properties.inertia;
-    description.bodies[0].mass_properties = MassProperties::new(1e160, far, inertia);
+    // Each body's numbers are finite; the paddle's, seen from where a chain has its origin, is not.
+    description.bodies[3].mount.point = Vec3::unit_x() * 1e160;
     let scene = Scene::new(description).expect("every number is finite");
     let refused = Subject::new(scene, 1, 1);
-    let Err(VerifyError::NotFinite { topology, number, value }) = &refused else {
+    let Err(VerifyError::NotFinite { topology, parameter, value }) = &refused else {
         panic!("{refused:?}")
     };
     assert_eq!(topology, "S2_P");
-    assert!((1..=82).contains(number) && !value.is_finite());
+    assert!(parameter.ends_with("of link 2 of appendage 1") && !value.is_finite(), "{parameter}");
     let message = refused.expect_err("not finite").to_string();
     assert!(message.ends_with("a finite one expected"), "{message}");
 }
@@ -64,32 +64,87 @@ fn labels_say_what_is_taken_for_granted() {
         (Kernel::of::<Facts<2>>(), "principal"),
         (Kernel::of::<Facts<3>>(), "baked"),
     ] {
-        assert_eq!(Label::generated(&kernel).facts, facts);
+        let topology: Topology = "M".parse().expect("a topology");
+        let embedding = Embedding::new(&topology, &topology).expect("it is in itself");
+        let fit = Fit { kernel, embedding, parameters: vec![1.0; 3] };
+        let label = Label::generated(&fit);
+        assert_eq!((label.facts, label.topology, label.virtual_links), (facts, Some("M"), 0));
     }
 }
 
 #[test]
 fn routines_for_other_scenes_are_left_out() {
-    let codes = s2_p();
-    let codes = codes.codes(&[Kernel::of::<Facts<0>>()]).expect("none fits");
-    assert_eq!(codes.len(), 6);
-    let why = &s2_p().not_covered(&[Kernel::of::<Facts<0>>()])[0].why;
-    assert_eq!(why, "no routine for topology S2_P");
+    let subject = s2_p();
+    let other = vec![Kernel::of::<Facts<0>>()].leak();
+    assert_eq!(subject.codes(other).expect("none fits").len(), 6);
+    assert_eq!(subject.not_covered(other)[0].why, "no routine for topology S2_P");
+}
+
+#[test]
+fn what_is_taken_for_granted_in_vain_is_named() {
+    // S2_P with the chain's first mass taken for 2; it is 1.
+    const MASS: usize = Layout::MAIN + Layout::BRANCH;
+    let mut kernel = Kernel::of::<Facts<0>>();
+    (kernel.topology, kernel.parameters, kernel.pinned) = ("S2_P", 82, &[(MASS, 2.0)]);
+    let why = &s2_p().not_covered(vec![kernel].leak())[0].why;
+    let words = "mass of link 1 of appendage 1 is 1, and 2 is taken for granted";
+    assert_eq!(*why, format!("no routine for topology S2_P fits: {words}"));
+    (kernel.pinned, kernel.external) = (&[], false);
+    let why = &s2_p().not_covered(vec![kernel].leak())[0].why;
+    assert!(why.ends_with("that nothing acts on the main body from outside"), "{why}");
+}
+
+#[test]
+fn a_routine_that_a_run_embeds_the_scene_in_is_covered() {
+    let subject = s2_p();
+    let larger = support::articulated_s3_p();
+    let codes = subject.codes(larger).expect("it fits");
+    let (label, Code::Routine { fit, .. }) = codes.last().expect("codes") else {
+        panic!("no routine")
+    };
+    assert_eq!((label.topology, label.virtual_links), (Some("S3_P"), 1));
+    assert_eq!(fit.kernel.formulation, Formulation::Articulated.name());
+    assert!(subject.not_covered(larger).is_empty());
+    let comparison = compare(&subject, &[], larger, &[], 1e-11).expect("accelerations");
+    assert!(comparison.passed(), "{comparison:?}");
+    let row = comparison.rows.iter().find(|row| row.label == *label).expect("a row");
+    assert!(row.states == 40 && row.from_double_double > 0.0, "{row:?}");
+}
+
+#[test]
+fn held_hinges_are_some_and_have_all_angles() {
+    let scene = Scene::new(s2_p_scene()).expect("as before");
+    let held = Subject::with_held_hinges(&scene, 200, 3).expect("finite");
+    assert_eq!(held.len(), 200);
+    for subject in &held {
+        let free = subject.held().iter().filter(|angle| angle.is_none()).count();
+        let [state] = subject.states() else { panic!("one state each") };
+        assert!(free < 4 && state.beta.len() == free && state.tau.len() == free);
+    }
+    let angles = || held.iter().flat_map(Subject::held).flatten();
+    assert!(angles().any(|angle| *angle > 3.0) && angles().any(|angle| *angle < -3.0));
+    for hinge in 0..4 {
+        let count = held.iter().filter(|subject| subject.held()[hinge].is_some()).count();
+        assert!((100..150).contains(&count), "{count}");
+    }
+    assert!(held.iter().any(|subject| subject.held().iter().all(Option::is_some)));
 }
 
 #[test]
 fn the_file_has_what_was_found() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("new").join("fork.json");
-    let subject = Subject::new(fork(), 10, 3).expect("finite");
+    let subject = Subject::new(fork(), 7, 3).expect("finite");
+    let held = Subject::with_held_hinges(&fork(), 3, 3).expect("finite");
     for (tolerance, passed) in [(1e-11, true), (1e-30, false)] {
-        let comparison = compare(&subject, &[], &[], tolerance).expect("accelerations");
+        let comparison = compare(&subject, &held, &[], &[], tolerance).expect("accelerations");
         comparison.write(&path).expect("writable");
         let text = fs::read_to_string(&path).expect("written");
         let file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!(file["passed"], passed);
         assert_eq!(file["topology"], serde_json::Value::Null);
-        assert_eq!((&file["states"], &file["seed"]), (&10.into(), &3.into()));
+        assert_eq!((&file["states"], &file["held"]), (&10.into(), &3.into()));
+        assert_eq!(file["seed"], 3);
         // The reader of the test may be off by the last bit; the text is not.
         let same = |found: &serde_json::Value, expected: f64| {
             found.as_f64().is_some_and(|found| (found - expected).abs() <= 1e-15 * expected)
@@ -105,7 +160,10 @@ fn the_file_has_what_was_found() {
                 row.from_recursion.map_or(from_recursion.is_null(), |x| same(from_recursion, x))
             );
             assert!(same(&in_file["from_double_double"], row.from_double_double), "{in_file}");
-            assert_eq!(in_file["state"], row.state);
+            assert_eq!(
+                (&in_file["state"], &in_file["states"]),
+                (&row.state.into(), &row.states.into())
+            );
         }
     }
 }
@@ -114,7 +172,7 @@ fn the_file_has_what_was_found() {
 fn a_file_that_cannot_be_written_is_an_error() {
     let folder = tempfile::tempdir().expect("a folder");
     let subject = Subject::new(fork(), 1, 3).expect("finite");
-    let comparison = compare(&subject, &[], &[], 1e-11).expect("accelerations");
+    let comparison = compare(&subject, &[], &[], &[], 1e-11).expect("accelerations");
     let refused = comparison.write(folder.path());
     assert!(matches!(refused, Err(VerifyError::Write { .. })), "{refused:?}");
 }

@@ -5,9 +5,11 @@ mod support;
 use nboom_formulation::{Coordinates, Equations, Formulation, Parameters};
 use nboom_model::Topology;
 use nboom_scalar::{Isa, Kernel, Real, Routine};
-use nboom_verify::{Comparison, Label, Quantity, Subject, VerifyError, certify, compare, truth};
+use nboom_verify::{
+    Comparison, Hinges, Label, Quantity, Subject, VerifyError, certify, compare, truth,
+};
 
-use support::{fork, s2_p};
+use support::{articulated_s3_p, fork, s2_p, wrong_s3_p};
 
 const TOLERANCE: f64 = 1e-11;
 
@@ -95,7 +97,8 @@ impl<const RELATIVE: u32, const WRONG: usize> Routine for System<RELATIVE, WRONG
 }
 
 fn compared(kernels: &[Kernel], of_equations: &[Kernel]) -> Comparison {
-    compare(&s2_p(), kernels, of_equations, TOLERANCE).expect("all states have accelerations")
+    compare(&s2_p(), &[], kernels.to_vec().leak(), of_equations, TOLERANCE)
+        .expect("all states have accelerations")
 }
 
 /// Generated code whose deviations are above the tolerance, with what it computes.
@@ -161,11 +164,11 @@ fn the_matrix_of_another_formulation_is_caught() {
 fn routines_that_are_not_what_they_say_are_refused() {
     let subject = s2_p();
     let of_equations = Kernel::of::<System<0, EQUATIONS>>();
-    let refused = compare(&subject, &[of_equations], &[], TOLERANCE);
+    let refused = compare(&subject, &[], vec![of_equations].leak(), &[], TOLERANCE);
     assert!(matches!(refused, Err(VerifyError::Sizes { outputs: EQUATIONS, .. })), "{refused:?}");
     let mut articulated = of_equations;
     articulated.formulation = "articulated";
-    let refused = compare(&subject, &[], &[articulated], TOLERANCE);
+    let refused = compare(&subject, &[], &[], &[articulated], TOLERANCE);
     let message = refused.expect_err("articulated has no matrix").to_string();
     assert_eq!(message, "a routine gives a matrix of articulated, which has none");
 }
@@ -210,7 +213,7 @@ fn the_truth_is_that_of_double_double() {
 #[test]
 fn a_tree_is_compared_as_a_tree() {
     let subject = Subject::new(fork(), 10, 1).expect("finite");
-    let comparison = compare(&subject, &[], &[], TOLERANCE).expect("accelerations");
+    let comparison = compare(&subject, &[], &[], &[], TOLERANCE).expect("accelerations");
     assert!(comparison.passed(), "{comparison:?}");
     assert_eq!(comparison.topology, None);
     let labels: Vec<_> = comparison.rows.iter().map(|row| (row.quantity, row.label)).collect();
@@ -221,4 +224,29 @@ fn a_tree_is_compared_as_a_tree() {
     assert_eq!(labels, expected.collect::<Vec<_>>());
     assert_eq!(comparison.not_covered.len(), 5);
     assert!(comparison.not_covered.iter().all(|code| code.why.starts_with("hinge 1,")));
+}
+
+#[test]
+fn code_is_compared_while_hinges_are_held() {
+    let free = s2_p();
+    let held = Subject::with_held_hinges(free.scene(), 60, 1970).expect("finite");
+    let right = compare(&free, &held, articulated_s3_p(), &[], TOLERANCE).expect("accelerations");
+    assert!(right.passed(), "{right:?}");
+    assert_eq!((right.states, right.held), (100, 60));
+    let with_held = || right.rows.iter().filter(|row| row.hinges == Hinges::Held);
+    // Closed forms cover every mode; the routine those that are large enough for it.
+    for row in with_held() {
+        let most = if row.label.path == "generated" { 1..60 } else { 60..61 };
+        assert!(most.contains(&row.states) && (41..=100).contains(&row.state), "{row:?}");
+    }
+    let generated = with_held().filter(|row| row.label.path == "generated").collect::<Vec<_>>();
+    assert!(matches!(generated[..], [row] if row.label.virtual_links > 1), "{generated:?}");
+    // Five formulations and the recursion, three of them with equations, and the routine.
+    assert_eq!(with_held().count(), 7 + 2 * 4);
+
+    // Compared with nothing but held hinges, so that these alone can tell.
+    let free = Subject::new(free.scene().clone(), 0, 1970).expect("finite");
+    let wrong = compare(&free, &held, wrong_s3_p(), &[], TOLERANCE).expect("accelerations");
+    assert_eq!(caught(&wrong), [(Quantity::Accelerations, "generated")]);
+    assert_eq!(wrong.worst().hinges, Hinges::Held);
 }

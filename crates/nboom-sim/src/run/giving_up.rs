@@ -25,8 +25,8 @@ const CHATTER_SPAN: f64 = 1e-4;
 impl Run<'_> {
     /// Gives up a run that has used up its steps, or that would at its present pace.
     pub(super) fn check_progress(&mut self) -> Result<(), SimError> {
-        let counts = self.stepper.counts();
-        let (time, steps) = (self.stepper.time(), counts.accepted + counts.rejected);
+        let counts = self.stepper.window().counts;
+        let (time, steps) = (self.stepper.window().time, counts.accepted + counts.rejected);
         let span = self.scene.end_time - self.scene.initial.time;
         let (since, steps_then) = self.pace;
         let crawls = steps - steps_then >= PACE_STEPS && time - since < PACE_SPAN * span;

@@ -1,10 +1,11 @@
 //! Scenes.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+use nboom_formulation::{Coordinates, Formulation, Parameters};
 use nboom_model::{
     Appendage, Body, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Thrust,
 };
-use nboom_scalar::{Mat3, Sym3, Vec3};
+use nboom_scalar::{Isa, Kernel, Mat3, Real, Routine, Sym3, Vec3};
 use nboom_verify::Subject;
 
 pub fn body() -> MassProperties {
@@ -47,4 +48,48 @@ pub fn fork() -> Scene {
     let axis = Vec3::unit_z();
     description.bodies.push(Body { inboard: Some(0), axis, ..description.bodies[1] });
     with_thrust(description)
+}
+
+/// `articulated` of S3_P, nothing taken for granted, with τ̇ of the hinge at `WRONG` wrong by 1e-9
+/// of itself.
+struct ArticulatedS3P<const WRONG: usize>;
+
+impl<const WRONG: usize> Routine for ArticulatedS3P<WRONG> {
+    const TOPOLOGY: &'static str = "S3_P";
+    const FORMULATION: &'static str = "articulated";
+    const PINNED: &'static [(usize, f64)] = &[];
+    const EXTERNAL: bool = true;
+    const PARAMETERS: usize = 94;
+    const CONSTANTS: usize = 94;
+    const COORDINATES: usize = 24;
+    const OUTPUTS: usize = 11;
+
+    fn prepare<R: Real>(parameters: &[R], constants: &mut [R]) {
+        constants.copy_from_slice(parameters);
+    }
+
+    fn evaluate<R: Real>(constants: &[R], coordinates: &[R], outputs: &mut [R]) {
+        let topology = Self::TOPOLOGY.parse().expect("a topology");
+        let parameters = Parameters::read(&topology, constants.iter().copied());
+        let coordinates = Coordinates::read(&topology, coordinates);
+        let found = Formulation::Articulated.solve(&topology, &parameters, &coordinates);
+        outputs.copy_from_slice(&found.write(&topology));
+        if let Some(wrong) = outputs.get_mut(6 + WRONG) {
+            *wrong = *wrong * R::constant(1.0 + 1e-9);
+        }
+    }
+
+    fn evaluate_packed<I: Isa>(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]) {
+        Self::evaluate(constants, coordinates, outputs);
+    }
+}
+
+/// `articulated` of S3_P.
+pub fn articulated_s3_p() -> &'static [Kernel] {
+    vec![Kernel::of::<ArticulatedS3P<5>>()].leak()
+}
+
+/// The same with the paddle's τ̇ wrong by 1e-9 of itself.
+pub fn wrong_s3_p() -> &'static [Kernel] {
+    vec![Kernel::of::<ArticulatedS3P<4>>()].leak()
 }

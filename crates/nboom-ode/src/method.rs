@@ -1,0 +1,81 @@
+use std::fmt;
+
+use crate::{Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
+
+/// A method of integration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// The predictor and corrector of the 1970 program, of order 4.
+    Rkam,
+    /// Dormand and Prince's explicit Runge-Kutta method of order 5.
+    Dopri5,
+    /// Dormand and Prince's explicit Runge-Kutta method of order 8.
+    Dop853,
+    /// Radau's implicit Runge-Kutta method of order 5.
+    Radau5,
+}
+
+impl Method {
+    /// All: explicit ones from low to high order, then the implicit one.
+    pub const ALL: [Self; 4] = [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5];
+
+    /// The name in commands and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rkam => "rkam",
+            Self::Dopri5 => "dopri5",
+            Self::Dop853 => "dop853",
+            Self::Radau5 => "radau5",
+        }
+    }
+
+    /// The method with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
+    /// What it is for, in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Rkam => "Adams-Moulton 4 as in 1970, to see what the original saw",
+            Self::Dopri5 => "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
+            Self::Dop853 => "explicit Runge-Kutta 8(5,3), for smaller ones",
+            Self::Radau5 => "implicit Runge-Kutta 5(3), for stiff hinges and latches",
+        }
+    }
+
+    /// Order of the error at the end of a fixed time.
+    pub fn order(self) -> u32 {
+        match self {
+            Self::Rkam => 4,
+            Self::Dopri5 => 5,
+            Self::Dop853 => 8,
+            Self::Radau5 => 5,
+        }
+    }
+
+    /// Order of dense output.
+    pub fn dense_order(self) -> u32 {
+        match self {
+            Self::Rkam | Self::Dopri5 => 4,
+            Self::Dop853 => 7,
+            Self::Radau5 => 3,
+        }
+    }
+
+    /// A stepper without a problem.
+    pub fn stepper(self, tolerance: Tolerance) -> Box<dyn Stepper> {
+        match self {
+            Self::Rkam => Box::new(Rkam::new(RkamSettings::meeting(tolerance))),
+            Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
+            Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),
+            Self::Radau5 => Box::new(Radau::new(tolerance)),
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,86 @@
+use super::coefficients::{COMPLEX, REAL};
+use crate::linear::{Complex, Lu};
+use crate::{Counts, System};
+
+/// The matrices λI − hJ of the simplified Newton iteration, one real and one complex.
+#[derive(Clone, Debug, Default)]
+pub(super) struct IterationMatrix {
+    size: usize,
+    /// J, row by row.
+    jacobian: Vec<f64>,
+    pub real: Lu<f64>,
+    pub complex: Lu<Complex>,
+    /// h of the factors.
+    factored: Option<f64>,
+    shifted: Vec<f64>,
+    shifted_slope: Vec<f64>,
+}
+
+/// A point of a solution.
+#[derive(Clone, Copy)]
+pub(super) struct Point<'a> {
+    pub time: f64,
+    pub state: &'a [f64],
+    /// f(t, y)
+    pub slope: &'a [f64],
+}
+
+impl IterationMatrix {
+    pub fn resize(&mut self, size: usize) {
+        self.size = size;
+        self.real.resize(size);
+        self.complex.resize(size);
+        for (buffer, len) in [
+            (&mut self.jacobian, size * size),
+            (&mut self.shifted, size),
+            (&mut self.shifted_slope, size),
+        ] {
+            buffer.clear();
+            buffer.resize(len, 0.0);
+        }
+    }
+
+    /// Evaluates J.
+    pub fn evaluate(&mut self, system: &mut dyn System, point: Point<'_>, counts: &mut Counts) {
+        self.factored = None;
+        counts.jacobians += 1;
+        if !system.jacobian(point.time, point.state, &mut self.jacobian) {
+            self.take_differences(system, point);
+            counts.evaluations += self.size;
+        }
+    }
+
+    fn take_differences(&mut self, system: &mut dyn System, point: Point<'_>) {
+        let n = self.size;
+        self.shifted.copy_from_slice(point.state);
+        for j in 0..n {
+            let y = point.state[j];
+            let shift = (f64::EPSILON * y.abs().max(1e-5)).sqrt();
+            self.shifted[j] = y + shift;
+            system.derivative(point.time, &self.shifted, &mut self.shifted_slope);
+            let shift = self.shifted[j] - y;
+            for i in 0..n {
+                self.jacobian[i * n + j] = (self.shifted_slope[i] - point.slope[i]) / shift;
+            }
+            self.shifted[j] = y;
+        }
+    }
+
+    /// Factors the matrices for steps of `step`; `false` when one is singular.
+    pub fn factor(&mut self, step: f64, counts: &mut Counts) -> bool {
+        if self.factored == Some(step) {
+            return true;
+        }
+        counts.factorizations += 1;
+        let (n, jacobian) = (self.size, &self.jacobian);
+        let diagonal = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+        let real = |i, j| REAL * diagonal(i, j) - step * jacobian[i * n + j];
+        let complex = |i, j| Complex {
+            re: COMPLEX.re * diagonal(i, j) - step * jacobian[i * n + j],
+            im: COMPLEX.im * diagonal(i, j),
+        };
+        let regular = self.real.factor(real) && self.complex.factor(complex);
+        self.factored = regular.then_some(step);
+        regular
+    }
+}

@@ -1,0 +1,321 @@
+use std::ops::Range;
+
+use crate::tableau::{DOP853, DOPRI5, Row, Tableau};
+use crate::{Bernstein, StepError, Stepper, System, Tolerance, Window};
+
+/// An explicit Runge-Kutta method with step control and dense output.
+#[derive(Clone, Debug)]
+pub struct RungeKutta {
+    tableau: &'static Tableau,
+    tolerance: Tolerance,
+    controlled: usize,
+    window: Window,
+    step: f64,
+    /// The stages one after the other, each with room for a whole number of blocks.
+    stages: Vec<f64>,
+    stride: usize,
+    stage_state: Vec<f64>,
+    /// Terms of dense output, variable by variable.
+    dense: Vec<f64>,
+    previous_error: f64,
+}
+
+/// Numbers that are combined together, so that the compiler makes vector code of it.
+const BLOCK: usize = 8;
+/// An error this small does not speed up the next step any more.
+const SMALL_ERROR: f64 = 1e-4;
+
+impl RungeKutta {
+    /// The method of Dormand and Prince of order 8, with step control by estimates of order 5
+    /// and 3 and dense output of order 7.
+    pub fn dop853(tolerance: Tolerance) -> Self {
+        Self::new(&DOP853, tolerance)
+    }
+
+    /// The method of Dormand and Prince of order 5, with an estimate and dense output of
+    /// order 4.
+    pub fn dopri5(tolerance: Tolerance) -> Self {
+        Self::new(&DOPRI5, tolerance)
+    }
+
+    fn new(tableau: &'static Tableau, tolerance: Tolerance) -> Self {
+        Self {
+            tableau,
+            tolerance,
+            controlled: 0,
+            window: Window::default(),
+            step: 0.0,
+            stages: Vec::new(),
+            stride: 0,
+            stage_state: Vec::new(),
+            dense: Vec::new(),
+            previous_error: SMALL_ERROR,
+        }
+    }
+
+    fn take(&mut self, system: &mut dyn System, step: f64) {
+        let last = self.tableau.stages;
+        for stage in 1..last {
+            self.evaluate_stage(system, stage, step);
+        }
+        self.combine(last, step);
+        let size = self.size();
+        self.window.end_state.copy_from_slice(&self.stage_state[..size]);
+        self.evaluate(system, last, step);
+    }
+
+    fn size(&self) -> usize {
+        self.window.state.len()
+    }
+
+    fn terms(&self) -> usize {
+        3 + self.tableau.dense.len()
+    }
+
+    fn evaluate_stage(&mut self, system: &mut dyn System, stage: usize, step: f64) {
+        self.combine(stage, step);
+        self.evaluate(system, stage, step);
+    }
+
+    /// Writes the argument of a stage.
+    fn combine(&mut self, stage: usize, step: f64) {
+        let Self { tableau, window, stages, stride, stage_state, .. } = self;
+        for (block, out) in stage_state.chunks_exact_mut(BLOCK).enumerate() {
+            let sum = weighted(stages, *stride, block, tableau.a[stage]);
+            let (first, size) = (block * BLOCK, window.state.len());
+            let state = &window.state[first..size.min(first + BLOCK)];
+            for ((out, y), sum) in out.iter_mut().zip(state).zip(sum) {
+                *out = y + step * sum;
+            }
+        }
+    }
+
+    fn evaluate(&mut self, system: &mut dyn System, stage: usize, step: f64) {
+        let size = self.size();
+        let derivative = &mut self.stages[stage * self.stride..][..size];
+        let time = self.window.time + self.tableau.c[stage] * step;
+        system.derivative(time, &self.stage_state[..size], derivative);
+        self.window.counts.evaluations += 1;
+    }
+
+    /// Estimated error of the step in units of the tolerance.
+    fn error_norm(&self, step: f64) -> f64 {
+        let (mut error, mut lower) = (0.0, 0.0);
+        for first in (0..self.controlled).step_by(BLOCK) {
+            let of = |row| weighted(&self.stages, self.stride, first / BLOCK, row);
+            let (errors, lowers) = (of(self.tableau.error), of(self.tableau.lower_error));
+            for i in first..self.controlled.min(first + BLOCK) {
+                let inverse = 1.0 / self.scale_of(i);
+                error += (errors[i - first] * inverse).powi(2);
+                lower += (lowers[i - first] * inverse).powi(2);
+            }
+        }
+        let finite = self.window.end_state.iter().all(|y| y.is_finite());
+        if !finite || !(error + lower).is_finite() {
+            return f64::INFINITY;
+        }
+        let count = self.controlled.max(1) as f64;
+        if self.tableau.lower_error.is_empty() {
+            return step.abs() * (error / count).sqrt();
+        }
+        let denominator = error + 0.01 * lower;
+        if denominator <= 0.0 {
+            return 0.0;
+        }
+        step.abs() * error / (denominator * count).sqrt()
+    }
+
+    fn estimate(&self, weights: Row, i: usize) -> f64 {
+        weights.iter().map(|&(j, e)| e * self.stages[j * self.stride + i]).sum()
+    }
+
+    fn scale_of(&self, i: usize) -> f64 {
+        let size = self.window.state[i].abs().max(self.window.end_state[i].abs());
+        self.tolerance.absolute + self.tolerance.relative * size
+    }
+
+    fn factor(&self, error: f64) -> f64 {
+        self.tableau.control.factor(error, self.previous_error)
+    }
+
+    fn too_short(&self, step: f64) -> StepError {
+        let time = self.window.time;
+        let not_finite = |&i: &usize| {
+            (0..=self.tableau.stages).any(|stage| !self.stages[stage * self.stride + i].is_finite())
+        };
+        if let Some(variable) = (0..self.size()).find(not_finite) {
+            return StepError::NotFinite { time, variable };
+        }
+        let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
+        let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
+        StepError::Underflow { time, step, variable }
+    }
+
+    /// A first step from the sizes of the first and second derivative (Hairer, Nørsett, Wanner,
+    /// Section II.4).
+    fn first_step(&mut self, system: &mut dyn System) -> f64 {
+        let n = self.size();
+        let size = self.norm(|i| self.window.state[i]);
+        let slope = self.norm(|i| self.stages[i]);
+        let guess = 0.01 * size / slope;
+        let guess = if size < 1e-5 || slope < 1e-5 || !guess.is_finite() { 1e-6 } else { guess };
+        for i in 0..n {
+            self.stage_state[i] = self.window.state[i] + guess * self.stages[i];
+        }
+        let second = &mut self.stages[self.stride..][..n];
+        system.derivative(self.window.time + guess, &self.stage_state[..n], second);
+        self.window.counts.evaluations += 1;
+        let stride = self.stride;
+        let curvature = self.norm(|i| self.stages[stride + i] - self.stages[i]) / guess;
+        let largest = slope.max(curvature);
+        let by_order = if largest <= 1e-15 || largest.is_nan() {
+            (guess * 1e-3).max(1e-6)
+        } else {
+            (0.01 / largest).powf(self.tableau.control.exponent)
+        };
+        by_order.min(100.0 * guess)
+    }
+
+    /// Root mean square of `values` over the controlled variables, in units of the tolerance.
+    fn norm(&self, values: impl Fn(usize) -> f64) -> f64 {
+        let square = |i: usize| (values(i) / self.scale_of(i)).powi(2);
+        ((0..self.controlled).map(square).sum::<f64>() / self.controlled.max(1) as f64).sqrt()
+    }
+}
+
+/// The weighted sum of stages for the variables of one block.
+#[inline]
+fn weighted(stages: &[f64], stride: usize, block: usize, weights: Row) -> [f64; BLOCK] {
+    let mut sum = [0.0; BLOCK];
+    for &(j, weight) in weights {
+        let of_stage = &stages[j * stride + block * BLOCK..][..BLOCK];
+        for (sum, value) in sum.iter_mut().zip(of_stage) {
+            *sum += weight * value;
+        }
+    }
+    sum
+}
+
+impl Stepper for RungeKutta {
+    fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+        self.controlled = controlled;
+        self.previous_error = SMALL_ERROR;
+        self.window.start(t, y);
+        self.stride = y.len().next_multiple_of(BLOCK);
+        let terms = self.terms();
+        for (buffer, size) in [
+            (&mut self.stages, self.stride * self.tableau.c.len()),
+            (&mut self.stage_state, self.stride),
+            (&mut self.dense, y.len() * terms),
+        ] {
+            buffer.clear();
+            buffer.resize(size, 0.0);
+        }
+        system.derivative(t, y, &mut self.stages[..y.len()]);
+        self.window.counts.evaluations += 1;
+        self.window.next_step = self.first_step(system);
+    }
+
+    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+        let mut last_rejected = false;
+        loop {
+            let start = self.window.time;
+            let remaining = limit - start;
+            let wanted = self.window.next_step;
+            let reaches = wanted * 1.01 >= remaining;
+            let step = if reaches { remaining } else { wanted };
+            if !reaches && start + 0.1 * step == start {
+                return Err(self.too_short(step));
+            }
+            self.take(system, step);
+            let error = self.error_norm(step);
+            if error <= 1.0 {
+                self.step = step;
+                self.window.end_time = if reaches { limit } else { start + step };
+                let factor = self.factor(error);
+                let factor = if last_rejected { factor.min(1.0) } else { factor };
+                self.previous_error = error.max(SMALL_ERROR);
+                // A step cut short by the limit must not slow the next one down.
+                let next = step * factor;
+                self.window.next_step = if reaches { wanted.max(next) } else { next };
+                self.window.counts.accepted += 1;
+                return Ok(());
+            }
+            last_rejected = true;
+            self.window.counts.rejected += 1;
+            self.window.next_step = step * self.factor(error).min(1.0);
+            if start + 0.1 * self.window.next_step == start {
+                return Err(self.too_short(step));
+            }
+        }
+    }
+
+    fn prepare_dense(&mut self, system: &mut dyn System) {
+        let last = self.tableau.stages;
+        for stage in last + 1..self.tableau.c.len() {
+            self.evaluate_stage(system, stage, self.step);
+        }
+        let (h, stride, count) = (self.step, self.stride, self.terms());
+        for i in 0..self.size() {
+            let difference = self.window.end_state[i] - self.window.state[i];
+            let (first, end) = (h * self.stages[i], h * self.stages[last * stride + i]);
+            let terms = &mut self.dense[i * count..(i + 1) * count];
+            terms[0] = difference;
+            terms[1] = first - difference;
+            terms[2] = 2.0 * difference - (first + end);
+            for (term, row) in terms[3..].iter_mut().zip(self.tableau.dense) {
+                let sum: f64 = row.iter().map(|&(j, d)| d * self.stages[j * stride + i]).sum();
+                *term = h * sum;
+            }
+        }
+    }
+
+    fn interpolate(&self, fraction: f64, out: &mut [f64]) {
+        let (x, rest) = (fraction, 1.0 - fraction);
+        let count = self.terms();
+        for (i, value) in out.iter_mut().enumerate() {
+            let terms = &self.dense[i * count..(i + 1) * count];
+            let mut inner = 0.0;
+            for (j, term) in terms.iter().enumerate().rev() {
+                inner = (term + inner) * if j % 2 == 0 { x } else { rest };
+            }
+            *value = self.window.state[i] + inner;
+        }
+    }
+
+    fn polynomial(&self, i: usize) -> Bernstein {
+        let count = self.terms();
+        Bernstein::of_terms(self.window.state[i], &self.dense[i * count..(i + 1) * count])
+    }
+
+    fn retake(&mut self, system: &mut dyn System, step: f64) {
+        self.take(system, step);
+        self.step = step;
+        self.window.end_time = self.window.time + step;
+    }
+
+    fn advance(&mut self) {
+        self.window.advance();
+        let at = self.tableau.stages * self.stride;
+        self.stages.copy_within(at..at + self.stride, 0);
+    }
+
+    fn scale(&mut self, range: Range<usize>, factor: f64) {
+        for i in range {
+            self.window.state[i] *= factor;
+            self.stages[i] *= factor;
+        }
+    }
+
+    fn window(&self) -> &Window {
+        &self.window
+    }
+
+    fn error_of(&self, i: usize) -> f64 {
+        self.estimate(self.tableau.error, i).abs() / self.scale_of(i)
+    }
+
+    fn last_evaluated(&self) -> &[f64] {
+        &self.stage_state[..self.size()]
+    }
+}

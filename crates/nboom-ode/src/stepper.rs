@@ -1,0 +1,89 @@
+use std::ops::Range;
+
+use crate::{Bernstein, Counts, StepError, System};
+
+/// A method that takes one step at a time.
+///
+/// [`step`](Self::step) finds a step that meets the tolerance; until
+/// [`advance`](Self::advance) makes its end the new start, its inside can be looked at and it
+/// can be taken again to another length.
+pub trait Stepper {
+    /// Starts at (`t`, `y`) with nothing remembered of earlier steps. Only the first
+    /// `controlled` variables decide on the step size.
+    fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize);
+
+    /// Takes a step that meets the tolerance and does not pass `limit`, which is reached
+    /// exactly when the step comes close.
+    ///
+    /// # Errors
+    /// When no step that changes the time meets the tolerance; the start is still there.
+    fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError>;
+
+    /// Prepares [`interpolate`](Self::interpolate) and [`polynomial`](Self::polynomial) for the
+    /// step just taken, with further evaluations where the method needs some.
+    fn prepare_dense(&mut self, system: &mut dyn System);
+
+    /// The variables at `fraction` of the step that dense output was prepared for.
+    fn interpolate(&self, fraction: f64, out: &mut [f64]);
+
+    /// Variable `i` over the step that dense output was prepared for.
+    fn polynomial(&self, i: usize) -> Bernstein;
+
+    /// Takes the step again with another length, whatever its error; dense output stays that
+    /// of the step before.
+    fn retake(&mut self, system: &mut dyn System, step: f64);
+
+    /// Makes the end of the step the start of the next one.
+    fn advance(&mut self);
+
+    /// Multiplies the variables `range` and their derivatives at the start of the next step by
+    /// `factor`: a projection onto an invariant in which the equations are homogeneous.
+    fn scale(&mut self, range: Range<usize>, factor: f64);
+
+    /// The step just taken.
+    fn window(&self) -> &Window;
+
+    /// Estimated error of variable `i` in the last step tried, in units of the tolerance and
+    /// per unit of time.
+    fn error_of(&self, i: usize) -> f64;
+
+    /// The variables at which the derivative was evaluated last.
+    fn last_evaluated(&self) -> &[f64];
+}
+
+/// The step just taken, from its start to its end.
+#[derive(Clone, Debug, Default)]
+pub struct Window {
+    /// Time of the step's start.
+    pub time: f64,
+    /// Variables at the step's start.
+    pub state: Vec<f64>,
+    /// Time of the step's end.
+    pub end_time: f64,
+    /// Variables at the step's end.
+    pub end_state: Vec<f64>,
+    /// The step that is tried next.
+    pub next_step: f64,
+    /// What integration has cost so far.
+    pub counts: Counts,
+}
+
+impl Window {
+    /// Length of the step.
+    pub fn length(&self) -> f64 {
+        self.end_time - self.time
+    }
+
+    pub(crate) fn start(&mut self, t: f64, y: &[f64]) {
+        (self.time, self.end_time) = (t, t);
+        for buffer in [&mut self.state, &mut self.end_state] {
+            buffer.clear();
+            buffer.extend_from_slice(y);
+        }
+    }
+
+    pub(crate) fn advance(&mut self) {
+        self.time = self.end_time;
+        std::mem::swap(&mut self.state, &mut self.end_state);
+    }
+}

@@ -1,0 +1,35 @@
+/// A system of ordinary differential equations ẏ = f(t, y).
+pub trait System {
+    /// Writes f(t, y) to `dy`, which has the length of `y`.
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
+
+    /// Writes ∂f/∂y at (t, y) to `out`, row by row, and returns `true`; a system that returns
+    /// `false` leaves it to the method to take differences. Only implicit methods ask.
+    fn jacobian(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> bool {
+        false
+    }
+}
+
+/// Error allowed in a step: `absolute + relative · |y|` for each variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Relative part.
+    pub relative: f64,
+    /// Absolute part, in the variable's unit.
+    pub absolute: f64,
+}
+
+/// What integration has cost so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Steps accepted.
+    pub accepted: usize,
+    /// Steps rejected.
+    pub rejected: usize,
+    /// Evaluations of the derivative, those for differences included.
+    pub evaluations: usize,
+    /// Evaluations of the Jacobian.
+    pub jacobians: usize,
+    /// Factorisations of iteration matrices.
+    pub factorizations: usize,
+}

@@ -1,0 +1,184 @@
+//! Every method against closed forms: order, dense output, cut steps, refusals.
+
+use nboom_ode::{Method, StepError, Stepper, System, Tolerance};
+
+/// ÿ = −y and ż = z cos t, whose solutions are cos t and exp(sin t).
+struct Closed;
+
+impl System for Closed {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        (dy[0], dy[1], dy[2]) = (y[1], -y[0], y[2] * t.cos());
+    }
+}
+
+fn exact(t: f64) -> [f64; 3] {
+    [t.cos(), -t.sin(), t.sin().exp()]
+}
+
+fn error(found: &[f64], t: f64) -> f64 {
+    found.iter().zip(exact(t)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn with_tolerance(method: Method, tolerance: f64) -> Box<dyn Stepper> {
+    method.stepper(Tolerance { relative: tolerance, absolute: tolerance })
+}
+
+fn started(method: Method, tolerance: f64) -> Box<dyn Stepper> {
+    let mut stepper = with_tolerance(method, tolerance);
+    stepper.start(&mut Closed, 0.0, &exact(0.0), 3);
+    stepper
+}
+
+/// Error at t = 4 of `count` equal steps.
+fn with_equal_steps(method: Method, count: usize) -> f64 {
+    let mut stepper = started(method, 1e-3);
+    for _ in 0..count {
+        stepper.retake(&mut Closed, 4.0 / f64::from(u32::try_from(count).expect("small")));
+        stepper.advance();
+    }
+    error(&stepper.window().state, stepper.window().time)
+}
+
+#[test]
+fn the_order_is_what_the_table_says() {
+    for method in Method::ALL {
+        let (coarse, fine) = (with_equal_steps(method, 12), with_equal_steps(method, 24));
+        let (order, expected) = ((coarse / fine).log2(), f64::from(method.order()));
+        let near = (expected - 0.5..expected + 1.5).contains(&order);
+        assert!(near, "{method}: order {order}, {coarse:e} {fine:e}");
+    }
+}
+
+#[test]
+fn dense_output_has_the_order_of_the_table() {
+    for method in Method::ALL {
+        let largest_inside = |step: f64| {
+            let mut stepper = started(method, 1e-3);
+            stepper.retake(&mut Closed, step);
+            stepper.prepare_dense(&mut Closed);
+            let mut y = [0.0; 3];
+            let at = |fraction: f64, y: &mut [f64]| {
+                stepper.interpolate(fraction, y);
+                error(y, fraction * step)
+            };
+            (1..10).map(|i| at(f64::from(i) / 10.0, &mut y)).fold(0.0, f64::max)
+        };
+        // Short enough for the order to show, long enough not to be lost in rounding.
+        let step = if method.order() > 5 { 0.8 } else { 0.1 };
+        let local = (largest_inside(step) / largest_inside(0.5 * step)).log2();
+        assert!(local > f64::from(method.dense_order()) + 0.5, "{method}: local order {local}");
+    }
+}
+
+#[test]
+fn polynomials_are_the_dense_output() {
+    for method in Method::ALL {
+        let mut stepper = started(method, 1e-6);
+        stepper.step(&mut Closed, 5.0).expect("a smooth problem");
+        stepper.prepare_dense(&mut Closed);
+        let mut middle = [0.0; 3];
+        stepper.interpolate(0.5, &mut middle);
+        for (i, expected) in middle.iter().enumerate() {
+            let value = at_the_middle(stepper.polynomial(i).coefficients());
+            assert!((value - expected).abs() < 1e-14, "{method}: {value} {expected}");
+        }
+    }
+}
+
+/// De Casteljau's means of means.
+fn at_the_middle(coefficients: &[f64]) -> f64 {
+    let mut row = coefficients.to_vec();
+    while row.len() > 1 {
+        row = row.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    }
+    row[0]
+}
+
+#[test]
+fn smaller_tolerance_gives_smaller_error() {
+    for method in Method::ALL {
+        let at_ten = |tolerance: f64| {
+            let mut stepper = started(method, tolerance);
+            while stepper.window().time < 10.0 {
+                stepper.step(&mut Closed, 10.0).expect("a smooth problem");
+                stepper.advance();
+            }
+            error(&stepper.window().state, 10.0)
+        };
+        let tolerances = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+        let errors = tolerances.map(at_ten);
+        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{method}: {errors:?}");
+        // An error of some tolerances in each unit of time.
+        let loose = errors.iter().zip(tolerances).find(|(error, t)| **error > 100.0 * t);
+        assert!(loose.is_none(), "{method}: {errors:?}");
+    }
+}
+
+#[test]
+fn a_limit_is_reached_exactly_and_does_not_shorten_later_steps() {
+    for method in Method::ALL {
+        let mut stepper = started(method, 1e-9);
+        stepper.step(&mut Closed, 10.0).expect("a smooth problem");
+        stepper.advance();
+        let (t, usual) = (stepper.window().time, stepper.window().next_step);
+        stepper.step(&mut Closed, t + 1e-6).expect("a smooth problem");
+        stepper.advance();
+        assert_eq!(stepper.window().time, t + 1e-6, "{method}");
+        assert!(stepper.window().next_step >= usual, "{method}");
+    }
+}
+
+/// ẏ = y², which runs to infinity at t = 1.
+struct Exploding;
+
+impl System for Exploding {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        dy[0] = y[0] * y[0];
+    }
+}
+
+#[test]
+fn a_pole_ends_in_an_error_just_before_it() {
+    for method in Method::ALL {
+        let mut stepper = with_tolerance(method, 1e-9);
+        stepper.start(&mut Exploding, 0.0, &[1.0], 1);
+        let refused = (0..100_000).find_map(|_| {
+            let refused = stepper.step(&mut Exploding, 2.0).err();
+            stepper.advance();
+            refused
+        });
+        let Some(StepError::Underflow { time, .. } | StepError::NotFinite { time, .. }) = refused
+        else {
+            panic!("{method}: {refused:?}")
+        };
+        assert!((time - 1.0).abs() < 1e-6, "{method}: {time}");
+    }
+}
+
+/// A derivative that is not a number.
+struct Broken;
+
+impl System for Broken {
+    fn derivative(&mut self, _t: f64, _y: &[f64], dy: &mut [f64]) {
+        dy.fill(f64::NAN);
+    }
+}
+
+#[test]
+fn a_derivative_that_is_not_a_number_is_refused() {
+    for method in Method::ALL {
+        let mut stepper = with_tolerance(method, 1e-9);
+        stepper.start(&mut Broken, 0.0, &[1.0, 2.0], 2);
+        let refused = stepper.step(&mut Broken, 1.0);
+        let named = matches!(refused, Err(StepError::NotFinite { variable: 0, .. }));
+        assert!(named, "{method}: {refused:?}");
+    }
+}
+
+#[test]
+fn names_are_found_again() {
+    for method in Method::ALL {
+        assert_eq!(Method::named(method.name()), Some(method));
+    }
+    assert_eq!(Method::named("euler"), None);
+}

@@ -1,0 +1,169 @@
+//! The implicit method on stiff problems with known solutions.
+
+use nboom_ode::{Counts, Method, Radau, Stepper, System, Tolerance};
+
+fn tolerance(relative: f64) -> Tolerance {
+    Tolerance { relative, absolute: 1e-3 * relative }
+}
+
+/// Integrates from 0 to each of `times`; returns the variables there and what it cost.
+fn integrate(
+    stepper: &mut dyn Stepper,
+    system: &mut dyn System,
+    start: &[f64],
+    times: &[f64],
+) -> (Vec<Vec<f64>>, Counts) {
+    stepper.start(system, 0.0, start, start.len());
+    let mut found = Vec::new();
+    for &time in times {
+        while stepper.window().time < time {
+            stepper.step(system, time).expect("a solvable problem");
+            stepper.advance();
+        }
+        found.push(stepper.window().state.clone());
+    }
+    (found, stepper.window().counts)
+}
+
+fn relative_error(found: &[f64], expected: &[f64]) -> f64 {
+    found.iter().zip(expected).map(|(f, e)| (f / e - 1.0).abs()).fold(0.0, f64::max)
+}
+
+/// Van der Pol's oscillator with ε = 1e-6.
+struct VanDerPol;
+
+const EPSILON: f64 = 1e-6;
+
+impl System for VanDerPol {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        dy[0] = y[1];
+        dy[1] = ((1.0 - y[0] * y[0]) * y[1] - y[0]) / EPSILON;
+    }
+
+    fn jacobian(&mut self, _t: f64, y: &[f64], out: &mut [f64]) -> bool {
+        let slope = [(-2.0 * y[0] * y[1] - 1.0) / EPSILON, (1.0 - y[0] * y[0]) / EPSILON];
+        out.copy_from_slice(&[0.0, 1.0, slope[0], slope[1]]);
+        true
+    }
+}
+
+/// At t = 1 and 2, as Hairer and Wanner give it for their driver of RADAU5.
+const VAN_DER_POL: [[f64; 2]; 2] = [
+    [-0.186_364_625_480_813e1, 0.753_543_086_543_546],
+    [0.170_616_773_217_048_3e1, -0.892_809_701_024_797_5],
+];
+
+#[test]
+fn van_der_pol_follows_the_tolerance() {
+    // Steep parts of the cycle amplify the error of a step some ten times.
+    for (relative, most) in [(1e-4, 3000), (1e-6, 5000), (1e-8, 9000), (1e-10, 25_000)] {
+        let mut stepper = Radau::new(tolerance(relative));
+        let (found, counts) = integrate(&mut stepper, &mut VanDerPol, &[2.0, 0.0], &[1.0, 2.0]);
+        let errors = [0, 1].map(|i| relative_error(&found[i], &VAN_DER_POL[i]));
+        println!("{relative:e}: {errors:?} {counts:?}");
+        assert!(errors.iter().all(|error| *error < 10.0 * relative), "{relative:e}: {errors:?}");
+        assert!(counts.evaluations < most, "{relative:e}: {counts:?}");
+    }
+}
+
+/// Robertson's reactions, without a Jacobian.
+struct Robertson;
+
+impl System for Robertson {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        let (first, second) = (0.04 * y[0] - 1e4 * y[1] * y[2], 3e7 * y[1] * y[1]);
+        (dy[0], dy[1], dy[2]) = (-first, first - second, second);
+    }
+}
+
+#[test]
+fn robertson_without_a_jacobian() {
+    // At t = 40: Hairer and Wanner, Section IV.10.
+    let expected = [0.715_827_068_719_394, 0.918_553_476_455_742_6e-5, 0.284_163_745_745_841_3];
+    let mut stepper = Radau::new(Tolerance { relative: 1e-8, absolute: 1e-14 });
+    let (found, counts) = integrate(&mut stepper, &mut Robertson, &[1.0, 0.0, 0.0], &[40.0]);
+    let error = relative_error(&found[0], &expected);
+    println!("{error:e} {counts:?}");
+    assert!(error < 1e-8, "{error:e}");
+    assert!(counts.evaluations < 1500, "{counts:?}");
+}
+
+/// ẏ = −λ (y − cos t) − sin t, whose solution cos t has nothing of λ (Prothero and Robinson).
+struct ToTheCosine {
+    lambda: f64,
+}
+
+impl System for ToTheCosine {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        dy[0] = -self.lambda * (y[0] - t.cos()) - t.sin();
+    }
+
+    fn jacobian(&mut self, _t: f64, _y: &[f64], out: &mut [f64]) -> bool {
+        out[0] = -self.lambda;
+        true
+    }
+}
+
+#[test]
+fn stiffness_costs_nothing() {
+    let evaluations = [1e2, 1e5, 1e8].map(|lambda| {
+        let mut stepper = Radau::new(tolerance(1e-8));
+        let system = &mut ToTheCosine { lambda };
+        let (found, counts) = integrate(&mut stepper, system, &[1.0], &[10.0]);
+        let error = (found[0][0] - 10.0_f64.cos()).abs();
+        println!("{lambda:e}: {error:e} {counts:?}");
+        // Where stages are stiff, only their own order 3 is left, and the tolerance of that.
+        assert!(error < 1e-7, "{lambda:e}: {error:e}");
+        counts.evaluations
+    });
+    assert!(evaluations.iter().all(|count| *count < 1000), "{evaluations:?}");
+    let mut explicit = Method::Dop853.stepper(tolerance(1e-8));
+    let system = &mut ToTheCosine { lambda: 1e5 };
+    let (_, counts) = integrate(&mut *explicit, system, &[1.0], &[10.0]);
+    println!("dop853 {counts:?}");
+    assert!(counts.evaluations > 1000 * evaluations[1], "{counts:?}");
+}
+
+/// ÿ = −y − cẏ, and the work of the damping as an integral that does not decide on steps.
+struct Damped {
+    with_jacobian: bool,
+}
+
+const DAMPING: f64 = 1e6;
+
+impl System for Damped {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        (dy[0], dy[1]) = (y[1], -y[0] - DAMPING * y[1]);
+        dy[2] = DAMPING * y[1] * y[1];
+    }
+
+    fn jacobian(&mut self, _t: f64, y: &[f64], out: &mut [f64]) -> bool {
+        let of_work = 2.0 * DAMPING * y[1];
+        out.copy_from_slice(&[0.0, 1.0, 0.0, -1.0, -DAMPING, 0.0, 0.0, of_work, 0.0]);
+        self.with_jacobian
+    }
+}
+
+#[test]
+fn energy_of_a_damped_oscillator_goes_into_work() {
+    let costs = [true, false].map(|with_jacobian| {
+        let mut stepper = Radau::new(tolerance(1e-9));
+        let system = &mut Damped { with_jacobian };
+        stepper.start(system, 0.0, &[1.0, 0.0, 0.0], 2);
+        while stepper.window().time < 1e5 {
+            stepper.step(system, 1e5).expect("a solvable problem");
+            stepper.advance();
+        }
+        let y = &stepper.window().state;
+        let energy = 0.5 * (y[0] * y[0] + y[1] * y[1]) + y[2];
+        println!("{y:?} {energy} {:?}", stepper.window().counts);
+        // The slow root −1/c + … of s² + cs + 1, with the share of the fast one left out.
+        let expected = (-1e5_f64 / DAMPING).exp();
+        assert!((y[0] - expected).abs() < 1e-8, "{} {expected}", y[0]);
+        // An integral that decides on no step is as good as the estimate: 0.1 · 1e-9^(2/3).
+        assert!((energy - 0.5).abs() < 1e-7, "{energy}");
+        stepper.window().counts
+    });
+    let differences = costs[1].evaluations - costs[0].evaluations;
+    assert!(differences >= costs[1].jacobians, "{costs:?}");
+}

@@ -1,0 +1,237 @@
+//! How far the formulation of a routine is from the truth: its graph, interpreted on random
+//! states, and which of them the compiled code is tested on.
+
+use nboom_codegen::{Output, Request, trace};
+use nboom_expr::Graph;
+use nboom_formulation::{Formulation, Layout, Recognised};
+use nboom_model::{Scene, Shape};
+use nboom_verify::{Certificate, Subject, certify, truth};
+
+use crate::PackageError;
+use crate::held::welded;
+
+/// The largest deviation of a formulation, relative and in terms of what condition magnifies.
+pub const TOLERANCE: f64 = 1e-11;
+
+/// Compiled code may always deviate as much.
+const ROUNDING: f64 = 1e-12;
+
+/// Beyond this condition of the mass matrix accelerations may deviate in proportion.
+const HARMLESS_CONDITION: f64 = 1e4;
+
+/// What the states are drawn from.
+pub(crate) const SEED: u64 = 1970;
+
+/// Random states of the scene with all hinges free, and those of them that the compiled code is
+/// tested on.
+const FREE: [usize; 2] = [100, 20];
+
+/// The same for a state with held hinges; in each of them they are held at other angles.
+const HELD: [usize; 2] = [20, 4];
+
+/// A routine's formulation against the truth.
+pub(crate) struct Certified {
+    /// How many states were compared.
+    pub states: usize,
+    /// What was found.
+    pub found: Found,
+    /// States with what is to come out.
+    pub tested: Vec<Tested>,
+}
+
+/// Deviations of a formulation.
+pub(crate) enum Found {
+    /// Of accelerations.
+    Accelerations(Certificate),
+    /// The largest residual of equations solved by the true accelerations, each in terms of the sum
+    /// of the magnitudes of what is added up.
+    Equations(f64),
+}
+
+/// A state with what a routine gives there.
+pub(crate) struct Tested {
+    /// The satellite's numbers.
+    pub parameters: Vec<f64>,
+    /// The state as routines take it.
+    pub coordinates: Vec<f64>,
+    /// ω̇, a_O and τ̇ as routines give them, or what solves the formulation's equations.
+    pub expected: Vec<f64>,
+}
+
+impl Certified {
+    /// Compares a routine's graph with the recursion, the hinges of the scene free or those that
+    /// are not `free` held.
+    ///
+    /// # Errors
+    /// [`PackageError::Deviation`] where they compute something else.
+    pub fn new(
+        scene: &Scene,
+        request: &Request,
+        free: Option<&[bool]>,
+    ) -> Result<Self, PackageError> {
+        let (subjects, tested) = match free {
+            None => (vec![Subject::new(scene.clone(), FREE[0], SEED)?], FREE[1]),
+            Some(free) => (held(scene, free)?, HELD[1]),
+        };
+        let graph = trace(request);
+        let found = match request.output {
+            Output::Accelerations => {
+                Found::Accelerations(accelerations(&graph, request, &subjects)?)
+            }
+            Output::Equations => Found::Equations(equations(&graph, request, &subjects)?),
+        };
+        let mut cases = Vec::new();
+        for subject in &subjects {
+            let missing = tested - cases.len();
+            cases.extend(self::tested(subject, request)?.into_iter().take(missing));
+        }
+        let states = subjects.iter().map(|subject| subject.states().len()).sum();
+        let certified = Self { states, found, tested: cases };
+        certified.require_close(request)?;
+        Ok(certified)
+    }
+
+    fn require_close(&self, request: &Request) -> Result<(), PackageError> {
+        let (quantity, deviation) = match &self.found {
+            Found::Accelerations(found) => {
+                ("accelerations", found.from_recursion.max(found.from_double_double))
+            }
+            Found::Equations(residual) => ("equations", *residual),
+        };
+        if deviation <= TOLERANCE {
+            return Ok(());
+        }
+        let (topology, formulation) = (request.topology.to_string(), request.formulation);
+        let tolerance = TOLERANCE;
+        Err(PackageError::Deviation { topology, formulation, quantity, deviation, tolerance })
+    }
+
+    /// The largest deviation of compiled code from the truth: four times that of the formulation,
+    /// which rounds in another order, and never less than `ROUNDING`.
+    pub fn tolerance(&self) -> f64 {
+        match &self.found {
+            Found::Accelerations(found) => {
+                let magnified = (found.condition / HARMLESS_CONDITION).max(1.0);
+                magnified * ROUNDING.max(4.0 * found.from_double_double)
+            }
+            Found::Equations(residual) => ROUNDING.max(4.0 * residual),
+        }
+    }
+}
+
+/// The scene in states with held hinges, one random state of each.
+fn held(scene: &Scene, free: &[bool]) -> Result<Vec<Subject>, PackageError> {
+    let subject = |i: usize| {
+        let angle = 0.4 + 0.7 * i as f64;
+        Ok(Subject::new(welded(scene, free, angle)?, 1, SEED + i as u64)?)
+    };
+    (0..HELD[0]).map(subject).collect()
+}
+
+/// The largest deviations in any of the subjects' states.
+fn accelerations(
+    graph: &Graph,
+    request: &Request,
+    subjects: &[Subject],
+) -> Result<Certificate, PackageError> {
+    let mut most: Option<Certificate> = None;
+    for subject in subjects {
+        let recognised = recognised(subject);
+        let inputs = inputs(subject, request);
+        let places = Layout::places(&request.topology);
+        let found = certify(subject, |i| {
+            let found = graph.evaluate(&inputs[i].concat());
+            let mut in_scene = found.clone();
+            for (&link, place) in recognised.links.iter().zip(&places) {
+                in_scene[Layout::OUTPUT + link] = found[Layout::OUTPUT + place];
+            }
+            in_scene
+        })?;
+        most = Some(most.map_or(found, |most| Certificate {
+            states: most.states + found.states,
+            from_recursion: most.from_recursion.max(found.from_recursion),
+            from_double_double: most.from_double_double.max(found.from_double_double),
+            condition: most.condition.max(found.condition),
+            ..most
+        }));
+    }
+    Ok(most.expect("there is a subject"))
+}
+
+/// The largest residual in any of the subjects' states.
+fn equations(graph: &Graph, request: &Request, subjects: &[Subject]) -> Result<f64, PackageError> {
+    let mut most = 0.0_f64;
+    for subject in subjects {
+        for (input, truth) in inputs(subject, request).iter().zip(truth(subject)?) {
+            let unknowns = unknowns(request.formulation, recognised(subject), &truth);
+            most = most.max(residual(&graph.evaluate(&input.concat()), &unknowns));
+        }
+    }
+    Ok(most)
+}
+
+/// All states of a subject with what is to come out.
+fn tested(subject: &Subject, request: &Request) -> Result<Vec<Tested>, PackageError> {
+    let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Vec<f64>)| {
+        let expected = match request.output {
+            Output::Accelerations => in_routine(recognised(subject), &truth),
+            Output::Equations => unknowns(request.formulation, recognised(subject), &truth),
+        };
+        Tested { parameters, coordinates, expected }
+    };
+    Ok(inputs(subject, request).into_iter().zip(truth(subject)?).map(case).collect())
+}
+
+/// Parameters and coordinates of each state.
+fn inputs(subject: &Subject, request: &Request) -> Vec<[Vec<f64>; 2]> {
+    let mut parameters = recognised(subject).parameters.write();
+    // Welding and taking moments about the mass centre has rounded.
+    for (parameter, pinned) in parameters.iter_mut().zip(&request.pinned) {
+        *parameter = pinned.unwrap_or(*parameter);
+    }
+    let states = subject.coordinates();
+    states.map(|state| [parameters.clone(), state.write(&request.topology)]).collect()
+}
+
+fn recognised(subject: &Subject) -> &Recognised {
+    subject.recognised().expect("requests are refused before when there are no chains")
+}
+
+/// Accelerations in the order of [`Layout`] from those in the scene's order.
+fn in_routine(recognised: &Recognised, truth: &[f64]) -> Vec<f64> {
+    let mut all = truth.to_vec();
+    for (&link, place) in recognised.links.iter().zip(Layout::places(&recognised.topology)) {
+        all[Layout::OUTPUT + place] = truth[Layout::OUTPUT + link];
+    }
+    all
+}
+
+/// What the formulation's equations are solved by: v̇ or a_O, which are the same for O at the
+/// inertial origin at rest, ω̇, then σ̇ or τ̇ appendage by appendage.
+fn unknowns(formulation: Formulation, recognised: &Recognised, truth: &[f64]) -> Vec<f64> {
+    let mut all = [&truth[3..6], &truth[..3]].concat();
+    let mut links = recognised.links.iter();
+    for &shape in recognised.topology.shapes() {
+        let summed = formulation == Formulation::Report && matches!(shape, Shape::Chain(_));
+        let mut inboard = 0.0;
+        for link in links.by_ref().take(shape.hinges()) {
+            let rate = truth[Layout::OUTPUT + link] + if summed { inboard } else { 0.0 };
+            all.push(rate);
+            inboard = rate;
+        }
+    }
+    all
+}
+
+/// The largest residual of matrix · unknowns = right side.
+fn residual(found: &[f64], unknowns: &[f64]) -> f64 {
+    let size = unknowns.len();
+    let (matrix, forcing) = found.split_at(size * size);
+    let rows = matrix.chunks_exact(size).zip(forcing).map(|(row, right)| {
+        let terms = row.iter().zip(unknowns).map(|(entry, unknown)| entry * unknown);
+        let (sum, scale) = terms.fold((-right, right.abs()), |(s, a), t| (s + t, a + t.abs()));
+        let off = sum.abs() / scale.max(f64::MIN_POSITIVE);
+        if off.is_nan() { f64::INFINITY } else { off }
+    });
+    rows.fold(0.0, f64::max)
+}

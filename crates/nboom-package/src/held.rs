@@ -1,0 +1,43 @@
+//! A scene while hinges are held, as a scene of its own.
+
+use nboom_model::{Body, Hinge, HingeState, Link, MassProperties, Mode, Mount, Scene, WeldedTree};
+use nboom_scalar::RigidInertia;
+
+use crate::PackageError;
+
+/// The scene's bodies with the hinges that are not `free` welded, held at angles around `angle`.
+///
+/// # Errors
+/// [`PackageError::Welded`] where numbers of a welded body overflow.
+pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Scene, PackageError> {
+    let state = |&free: &bool| if free { HingeState::Free } else { HingeState::Locked };
+    let mode = Mode {
+        hinges: free.iter().map(state).collect(),
+        kick_off: vec![false; free.len()],
+        thrust: scene.thrust.is_some(),
+    };
+    let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
+    let tree = WeldedTree::new(scene, &mode, &beta);
+    let mut description = (**scene).clone();
+    description.main_body = mass_properties(tree.main);
+    let body = |link: &Link<f64>| Body {
+        inboard: link.inboard,
+        mount: Mount { point: link.point, rot_inboard_from_hinge: link.rot_inboard_at_zero },
+        axis: link.axis,
+        mass_properties: mass_properties(link.inertia),
+        hinge: without_events(&scene.bodies[link.hinge].hinge),
+    };
+    description.bodies = tree.links.iter().map(body).collect();
+    Scene::new(description)
+        .map_err(|errors| PackageError::Welded { scene: scene.name.clone(), errors })
+}
+
+/// What acts about a hinge. Its release may be by a hinge that is welded.
+fn without_events(hinge: &Hinge) -> Hinge {
+    Hinge { spring: hinge.spring, dashpot: hinge.dashpot, ..Hinge::free() }
+}
+
+fn mass_properties(body: RigidInertia<f64>) -> MassProperties {
+    let center = body.first_moment * (1.0 / body.mass);
+    MassProperties::new(body.mass, center, body.seen_from(-center).about_origin)
+}

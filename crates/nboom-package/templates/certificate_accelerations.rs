@@ -1,0 +1,10 @@
+
+/// The largest deviation, relative to the largest acceleration.
+fn off_accelerations(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let scale = expected.iter().fold(f64::MIN_POSITIVE, |most, e| most.max(e.abs()));
+    found.iter().zip(expected).fold(0.0, |most, (found, expected)| {
+        let off = (found - expected).abs() / scale;
+        if off.is_nan() { f64::INFINITY } else { most.max(off) }
+    })
+}

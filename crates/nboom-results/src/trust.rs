@@ -1,0 +1,75 @@
+use std::fs;
+use std::path::Path;
+
+use nboom_model::Scene;
+use nboom_sim::{Digits, Trust};
+use serde::Serialize;
+
+use crate::ResultsError;
+
+/// The file of a run that tells how many of its digits can be trusted.
+pub const TRUST_FILE: &str = "certificate.json";
+
+#[derive(Serialize)]
+struct TrustKeys<'a> {
+    scene: &'a str,
+    reference_rtol: f64,
+    reference_atol: f64,
+    same_events: bool,
+    events: Vec<EventKeys>,
+    end: Vec<DigitKeys>,
+}
+
+#[derive(Serialize)]
+struct EventKeys {
+    t: f64,
+    kind: &'static str,
+    appendage: Option<usize>,
+    segment: Option<usize>,
+    time: DigitKeys,
+    impulse: Option<DigitKeys>,
+}
+
+#[derive(Serialize)]
+struct DigitKeys {
+    quantity: &'static str,
+    /// `null` where it is not a finite number.
+    difference: f64,
+    digits: u32,
+}
+
+impl From<&Digits> for DigitKeys {
+    fn from(digits: &Digits) -> Self {
+        let Digits { quantity, difference } = *digits;
+        Self { quantity, difference, digits: digits.count() }
+    }
+}
+
+/// Writes [`TRUST_FILE`] into the directory of a run.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn write_trust(directory: &Path, scene: &Scene, trust: &Trust) -> Result<(), ResultsError> {
+    let events = trust.events.iter().map(|known| {
+        let label = known.event.hinge.map(|hinge| scene.label(hinge));
+        EventKeys {
+            t: known.event.time,
+            kind: known.event.kind.name(),
+            appendage: label.map(|label| label.appendage + 1),
+            segment: label.map(|label| label.segment + 1),
+            time: (&known.time).into(),
+            impulse: known.impulse.as_ref().map(DigitKeys::from),
+        }
+    });
+    let keys = TrustKeys {
+        scene: &scene.name,
+        reference_rtol: trust.rtol,
+        reference_atol: trust.atol,
+        same_events: trust.same_events,
+        events: events.collect(),
+        end: trust.end.iter().map(DigitKeys::from).collect(),
+    };
+    let text = serde_json::to_string_pretty(&keys).expect("the keys are texts and numbers");
+    let path = directory.join(TRUST_FILE);
+    fs::write(&path, text + "\n").map_err(|source| ResultsError::Write { path, source })
+}

@@ -1,0 +1,146 @@
+use nboom_dynamics::{Accelerations, Recursive};
+use nboom_model::{Mode, Scene, Thrust};
+use nboom_scalar::{Dual, Real, Vec3};
+
+use crate::equations::motion;
+use crate::layout::Layout;
+use crate::rates::Rates;
+
+/// Derivatives of the equations of one mode with respect to its variables: the recursion over
+/// dual numbers, one variable at a time.
+///
+/// They are exact whatever code computes the accelerations, as all code computes the same ones.
+pub(crate) struct Jacobian {
+    layout: Layout,
+    dynamics: Recursive<Dual<f64>>,
+    accelerations: Accelerations<Dual<f64>>,
+    rates: Rates<Dual<f64>>,
+    variables: Vec<Dual<f64>>,
+    derivatives: Vec<Dual<f64>>,
+}
+
+impl Jacobian {
+    /// Of `mode`, in which held hinges have their angles in `beta` (all hinges) and `thrust` acts.
+    pub fn new(
+        scene: &Scene,
+        mode: &Mode,
+        beta: &[f64],
+        layout: Layout,
+        thrust: Option<Thrust>,
+    ) -> Self {
+        let mut dynamics = Recursive::new(scene);
+        let beta: Vec<Dual<f64>> = beta.iter().map(|&angle| Dual::constant(angle)).collect();
+        dynamics.set_mode(mode, &beta);
+        Self {
+            layout,
+            accelerations: Accelerations::for_hinges(layout.free),
+            rates: Rates::new(scene, layout, dynamics.free_hinges(), thrust),
+            dynamics,
+            variables: vec![Dual::zero(); layout.len()],
+            derivatives: vec![Dual::zero(); layout.len()],
+        }
+    }
+
+    /// Writes ∂ẏ/∂y at `y` to `out`, row by row; `free_fall` is the velocity of the mass centre
+    /// without thrust, inertial axes.
+    pub fn write(&mut self, free_fall: Vec3<f64>, y: &[f64], out: &mut [f64]) {
+        let size = self.layout.len();
+        out.fill(0.0);
+        for (variable, &value) in self.variables.iter_mut().zip(y) {
+            *variable = Dual::constant(value);
+        }
+        // Nothing depends on the integrals that follow the controlled variables.
+        for column in 0..self.layout.controlled() {
+            self.variables[column] = Dual::variable(y[column]);
+            self.differentiate(free_fall);
+            for (row, rate) in self.derivatives.iter().enumerate() {
+                out[row * size + column] = rate.derivative;
+            }
+            self.variables[column] = Dual::constant(y[column]);
+        }
+    }
+
+    fn differentiate(&mut self, free_fall: Vec3<f64>) {
+        let Self { layout, dynamics, accelerations, rates, variables, derivatives } = self;
+        dynamics.accelerations(&motion(layout, variables), accelerations);
+        rates.write(dynamics, accelerations, free_fall, variables, derivatives);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::equations::Equations;
+    use crate::state::State;
+    use nboom_model::HingeState;
+    use nboom_ode::System;
+
+    /// A reference scene, in motion, with every hinge free and every force acting.
+    fn in_motion(name: &str) -> (Equations, Vec<f64>) {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/scenes");
+        let path = std::path::Path::new(folder).join(name).with_extension("nml");
+        let scene = nboom_io::read_scene(&path).expect("reference decks are valid").scene;
+        let mut state = State::initial(&scene);
+        for (i, (beta, tau)) in state.beta.iter_mut().zip(&mut state.tau).enumerate() {
+            *beta += 0.2 + 0.1 * i as f64;
+            *tau = 0.7 - 0.3 * i as f64;
+        }
+        state.omega_body += Vec3::new(0.3, -0.2, 0.5);
+        let mode = Mode {
+            hinges: vec![HingeState::Free; scene.bodies.len()],
+            kick_off: scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect(),
+            thrust: scene.thrust.is_some(),
+        };
+        let (mut equations, mut y) = (Equations::new(&scene, &state), Vec::new());
+        equations.enter(&scene, &mode, &state, &mut y);
+        y.iter_mut().skip(equations.layout.tau().end).for_each(|y| *y = 0.4);
+        (equations, y)
+    }
+
+    /// Central differences, row by row.
+    fn differences(equations: &mut Equations, t: f64, y: &[f64]) -> Vec<f64> {
+        let size = y.len();
+        let mut found = vec![0.0; size * size];
+        let (mut above, mut below) = (vec![0.0; size], vec![0.0; size]);
+        for column in 0..size {
+            let shift = 1e-5 * y[column].abs().max(0.1);
+            let mut shifted = y.to_vec();
+            shifted[column] = y[column] + shift;
+            equations.derivative(t, &shifted, &mut above);
+            shifted[column] = y[column] - shift;
+            equations.derivative(t, &shifted, &mut below);
+            for row in 0..size {
+                found[row * size + column] = (above[row] - below[row]) / (2.0 * shift);
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn derivatives_are_the_limits_of_differences() {
+        for name in [
+            "s01_rigid_body",
+            "s03_chain3_general",
+            "s04_paddle_general",
+            "s06_gravity_thrust",
+            "s07_quadratic_terms",
+            "s08_kickoff_disengage",
+        ] {
+            let (mut equations, y) = in_motion(name);
+            let t = 0.7;
+            let mut exact = vec![0.0; y.len() * y.len()];
+            assert!(equations.jacobian(t, &y, &mut exact));
+            let expected = differences(&mut equations, t, &y);
+            for (row, (exact, expected)) in
+                exact.chunks(y.len()).zip(expected.chunks(y.len())).enumerate()
+            {
+                let scale = expected.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+                for (column, (a, b)) in exact.iter().zip(expected).enumerate() {
+                    // Shifts squared, times a third derivative; and rounding over shifts.
+                    let close = (a - b).abs() < 1e-8 * scale;
+                    assert!(close, "{name}: row {row}, column {column}: {a} {b}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,82 @@
+use nboom_dynamics::{Accelerations, Recursive};
+use nboom_elements::HingeLaw;
+use nboom_model::{Scene, Thrust};
+use nboom_scalar::{Real, Vec3};
+
+use crate::equations::{attitude, motion};
+use crate::layout::Layout;
+
+/// The rates of change of all variables of a mode, over any scalar, once accelerations are known.
+pub(crate) struct Rates<R> {
+    layout: Layout,
+    /// Of the free hinges.
+    laws: Vec<HingeLaw<R>>,
+    thrust: Option<Thrust>,
+    total_mass: R,
+}
+
+impl<R: Real> Rates<R> {
+    /// Of the mode in which the hinges `free` turn and `thrust` acts.
+    pub fn new(scene: &Scene, layout: Layout, free: &[usize], thrust: Option<Thrust>) -> Self {
+        let law = |&i: &usize| {
+            let hinge = &scene.bodies[i].hinge;
+            HingeLaw::new(&hinge.spring, &hinge.dashpot)
+        };
+        let total_mass = R::constant(scene.total_mass());
+        Self { layout, laws: free.iter().map(law).collect(), thrust, total_mass }
+    }
+
+    /// Writes ẏ at `y` to `dy`; `dynamics` is in the same mode, and the mass centre would fall
+    /// with the velocity `free_fall` (inertial axes) without thrust.
+    pub fn write(
+        &self,
+        dynamics: &mut Recursive<R>,
+        accelerations: &Accelerations<R>,
+        free_fall: Vec3<f64>,
+        y: &[R],
+        dy: &mut [R],
+    ) {
+        let layout = &self.layout;
+        let motion = motion(layout, y);
+        let rate = attitude(y).rate(motion.omega_body);
+        dy[0] = rate.scalar;
+        dy[1..4].copy_from_slice(&rate.vector.to_array());
+        dy[Layout::OMEGA].copy_from_slice(&accelerations.omega_dot_body.to_array());
+        dy[layout.beta()].copy_from_slice(motion.tau);
+        dy[layout.tau()].copy_from_slice(&accelerations.tau_dot);
+        if let [work] = &mut dy[layout.dashpot_work()] {
+            let hinges = self.laws.iter().zip(motion.tau);
+            let power = hinges.map(|(law, &tau)| law.rate_torque(tau) * tau);
+            *work = power.fold(R::zero(), |sum, of_hinge| sum + of_hinge);
+        }
+        if let Some(thrust) = &self.thrust {
+            self.write_thrust(dynamics, thrust, free_fall, y, dy);
+        }
+    }
+
+    fn write_thrust(
+        &self,
+        dynamics: &mut Recursive<R>,
+        thrust: &Thrust,
+        free_fall: Vec3<f64>,
+        y: &[R],
+        dy: &mut [R],
+    ) {
+        let layout = &self.layout;
+        let (point, force_body) = (Vec3::constant(thrust.point), Vec3::constant(thrust.force));
+        let to_inertial = attitude(y).normalized().to_matrix();
+        let force = to_inertial * force_body;
+        let (displacement, work) = (layout.thrust_motion().start, layout.thrust_work().start);
+        let added = &y[displacement + 3..][..3];
+        let velocity = Vec3::constant(free_fall) + Vec3::new(added[0], added[1], added[2]);
+        let motion = motion(layout, y);
+        let found = dynamics.invariants(&motion, to_inertial.transpose_mul(velocity));
+        let at_point = found.origin_velocity + motion.omega_body.cross(point);
+        let moment = to_inertial * (point - found.mass_center).cross(force_body);
+        let acceleration = force * (R::one() / self.total_mass);
+        dy[displacement..][..3].copy_from_slice(added);
+        dy[displacement + 3..][..3].copy_from_slice(&acceleration.to_array());
+        dy[work] = force_body.dot(at_point);
+        dy[work + 1..][..3].copy_from_slice(&moment.to_array());
+    }
+}

@@ -1,0 +1,190 @@
+//! How many digits of a run can be trusted, from a second run with a tighter tolerance.
+
+use nboom_model::Scene;
+use nboom_ode::Method;
+use nboom_scalar::Vec3;
+
+use crate::error::Failure;
+use crate::options::Options;
+use crate::record::{Event, EventKind, Recorder, Snapshot};
+use crate::run::simulate;
+
+/// The reference's tolerances are this many times tighter, as far as rounding allows.
+const TIGHTER: f64 = 1e-3;
+
+/// The tightest relative tolerance of a reference.
+const TIGHTEST: f64 = 1e-14;
+
+/// Events beyond these are not compared.
+const MOST_EVENTS: usize = 100_000;
+
+/// What of a run is compared: its events and how it ends.
+#[derive(Clone, Debug, Default)]
+pub struct Witness {
+    events: Vec<Event>,
+    last: Option<Snapshot>,
+}
+
+impl Witness {
+    /// Nothing seen yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How the run ended, if it did.
+    pub fn end(&self) -> Option<&Snapshot> {
+        self.last.as_ref()
+    }
+}
+
+impl Recorder for Witness {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
+        self.last = Some(snapshot.clone());
+        Ok(())
+    }
+
+    fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
+        if event.kind == EventKind::End {
+            self.last = Some(after.clone());
+        } else if self.events.len() < MOST_EVENTS {
+            self.events.push(*event);
+        }
+        Ok(())
+    }
+}
+
+/// Differences between a run and its reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trust {
+    /// Relative tolerance of the reference.
+    pub rtol: f64,
+    /// Absolute tolerance of the reference.
+    pub atol: f64,
+    /// Whether the two runs have the same events in the same order.
+    pub same_events: bool,
+    /// The events up to the first that differs.
+    pub events: Vec<EventTrust>,
+    /// The final state, quantity by quantity.
+    pub end: Vec<Digits>,
+}
+
+/// How well an event is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventTrust {
+    /// The event, as the run has it.
+    pub event: Event,
+    /// Its time, relative to the time since the beginning.
+    pub time: Digits,
+    /// Its impulse, if it has one.
+    pub impulse: Option<Digits>,
+}
+
+/// A relative difference of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Digits {
+    /// What it is.
+    pub quantity: &'static str,
+    /// The difference, relative to the quantity's size.
+    pub difference: f64,
+}
+
+impl Digits {
+    fn new(quantity: &'static str, difference: f64, size: f64) -> Self {
+        let difference = if difference == 0.0 { 0.0 } else { difference / size };
+        Self { quantity, difference }
+    }
+
+    /// Significant digits that both runs agree in, 16 at most.
+    pub fn count(&self) -> u32 {
+        match self.difference {
+            difference if difference.is_nan() || difference >= 1.0 => 0,
+            // The number is from 0 to 16.
+            difference => (-difference.max(1e-16).log10()) as u32,
+        }
+    }
+}
+
+/// Runs `scene` again, more accurately than `options` say, and compares with what `witness` saw
+/// of the run under `options`.
+///
+/// # Errors
+/// When the reference cannot be computed to the end.
+///
+/// # Panics
+/// When `witness` saw no run.
+pub fn trust(scene: &Scene, options: &Options, witness: &Witness) -> Result<Trust, Failure> {
+    let rtol = (options.rtol * TIGHTER).max(TIGHTEST);
+    let atol = options.atol * TIGHTER;
+    // A method that no tolerance makes accurate is compared with one.
+    let integrator = match options.integrator {
+        Method::Radau5 => Method::Radau5,
+        _ => Method::Dop853,
+    };
+    let max_steps = Options::default().max_steps.max(options.max_steps);
+    let tighter = Options { integrator, rtol, atol, max_steps, samples: 1, ..*options };
+    let mut reference = Witness::new();
+    simulate(scene, &tighter, &mut reference)?;
+    let same = |(a, b): &(&Event, &Event)| (a.kind, a.hinge) == (b.kind, b.hinge);
+    let pairs = witness.events.iter().zip(&reference.events).take_while(same);
+    let start = scene.initial.time;
+    let events: Vec<EventTrust> = pairs.map(|(run, truth)| compare(start, run, truth)).collect();
+    let counts = [witness.events.len(), reference.events.len()];
+    let last = |witness: &Witness| witness.last.clone().expect("a run ends with an event");
+    Ok(Trust {
+        rtol,
+        atol,
+        same_events: counts == [events.len(); 2],
+        events,
+        end: differences(&last(witness), &last(&reference)),
+    })
+}
+
+fn compare(start: f64, run: &Event, truth: &Event) -> EventTrust {
+    let since = (truth.time - start).abs().max(f64::MIN_POSITIVE);
+    let impulse = run.impulse.zip(truth.impulse).map(|(run, truth)| {
+        Digits::new("impulse", (run - truth).abs(), truth.abs().max(f64::MIN_POSITIVE))
+    });
+    let time = Digits::new("time", (run.time - truth.time).abs(), since);
+    EventTrust { event: *run, time, impulse }
+}
+
+/// How far one state of a scene is from another, quantity by quantity.
+pub fn differences(run: &Snapshot, truth: &Snapshot) -> Vec<Digits> {
+    let vector = |quantity, run: Vec3<f64>, truth: Vec3<f64>| {
+        of_list(quantity, &run.to_array(), &truth.to_array())
+    };
+    // The angle between the two attitudes; half of it is the length of the difference.
+    let (a, b) = (run.attitude, truth.attitude);
+    let turned = (a.scalar - b.scalar).hypot((a.vector - b.vector).norm()) * 2.0;
+    vec![
+        Digits::new("attitude", turned, 1.0),
+        vector("omega", run.omega_body, truth.omega_body),
+        of_list("beta", &run.beta, &truth.beta),
+        of_list("tau", &run.tau, &truth.tau),
+        vector("rho", run.position_inertial, truth.position_inertial),
+        vector("v", run.velocity_inertial, truth.velocity_inertial),
+    ]
+}
+
+/// The largest difference relative to the largest number.
+fn of_list(quantity: &'static str, run: &[f64], truth: &[f64]) -> Digits {
+    let largest = truth.iter().fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
+    let off = run.iter().zip(truth).map(|(a, b)| (a - b).abs());
+    Digits::new(quantity, off.fold(0.0, f64::max), largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_counted_down_from_sixteen() {
+        let count = |difference| Digits { quantity: "x", difference }.count();
+        assert_eq!([0.0, 1e-20, 2e-10, 0.99e-9, 0.5, 1.0, 7.0].map(count), [16, 16, 9, 9, 0, 0, 0]);
+        assert_eq!(count(f64::NAN), 0);
+    }
+}
