@@ -86,7 +86,9 @@ fn compare(top: &Top, seed: u64) {
     let mut scene = SceneDescription::at_rest("top", body, periods * top.period());
     scene.initial.attitude = dice.attitude();
     scene.initial.omega_body = axes * Vec3::from(top.omega(0.0));
-    for rtol in [1e-11, 1e-13] {
+    // At 1e-13 rounding takes over: some 30 000 steps, each off by 1e-16, and near the separatrix
+    // the phase of later turns magnifies that to 1e-8.
+    for rtol in [1e-11, 1e-12] {
         follow(top, &scene, &axes, rtol, periods * top.turn_of_a_period());
     }
 }

@@ -134,10 +134,10 @@ pub(crate) fn constant(value: f64) -> TokenStream {
 fn angles(graph: &Graph, wanted: &[bool]) -> Vec<Id> {
     let mut angles = Vec::new();
     for (_, node) in graph.nodes().filter(|(id, _)| wanted[id.index()]) {
-        if let Node::Sin(angle) | Node::Cos(angle) = node {
-            if !angles.contains(&angle) {
-                angles.push(angle);
-            }
+        if let Node::Sin(angle) | Node::Cos(angle) = node
+            && !angles.contains(&angle)
+        {
+            angles.push(angle);
         }
     }
     angles

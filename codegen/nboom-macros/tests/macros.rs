@@ -129,10 +129,11 @@ fn a_compiled_scene_has_its_numbers_built_in() {
     let numbers = parameters().write();
     let all_free: Vec<&Kernel> =
         SAMPLE.kernels().iter().filter(|kernel| kernel.topology == "S2_P").collect();
-    assert_eq!(all_free.len(), 2);
+    assert_eq!(all_free.len(), 3);
     assert_eq!(all_free[0].pinned.len(), numbers.len());
     assert!(all_free[0].pinned.iter().all(|&(i, value)| numbers[i] == value));
     assert!(all_free[1].pinned.len() < numbers.len() && all_free[1].accepts(&numbers));
+    assert!(all_free[2].pinned.is_empty() && all_free[2].external);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use nboom_io::read_scene;
 use nboom_scalar::{Batch, Eight};
 use nboom_verify::{Code, Label, Subject};
 
-use crate::format::{code_columns, code_head, embedded, not_covered};
+use crate::format::{code_columns, code_head, not_covered, routine_topology};
 use crate::run::default_directory;
 use crate::work_precision::work_precision;
 use crate::{BenchArgs, CliError, Routines, check, say};
@@ -163,9 +163,9 @@ fn table(subject: &Subject, routines: &Routines, rows: &[Row]) -> String {
     );
     let mut line = |line: String| writeln!(text, "{line}").expect("a string takes any text");
     for Row { label, lanes, times: Times { least, median }, of_recursive } in rows {
-        let (columns, embedded) = (code_columns(label), embedded(label));
+        let (columns, routine) = (code_columns(label), routine_topology(label));
         line(format!(
-            "{columns} {lanes:>5} {least:>10.1} {median:>10.1} {of_recursive:>12.3}{embedded}"
+            "{columns} {lanes:>5} {least:>10.1} {median:>10.1} {of_recursive:>12.3}{routine}"
         ));
     }
     subject.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);

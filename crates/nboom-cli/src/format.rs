@@ -51,13 +51,14 @@ pub(crate) fn code_head() -> String {
     code_columns(&Label { path, formulation, facts, instructions, ..Label::RECURSION })
 }
 
-/// What a routine is for where that is not the satellite itself, after a line of columns.
-pub(crate) fn embedded(label: &Label) -> String {
+/// The topology that a routine is for, after a line of columns.
+pub(crate) fn routine_topology(label: &Label) -> String {
     match (label.topology, label.virtual_links) {
-        (Some(topology), links) if links > 0 => {
+        (Some(topology), 0) => format!("  for {topology}"),
+        (Some(topology), links) => {
             format!("  in {topology}, {}", count(links, "virtual link", "virtual links"))
         }
-        _ => String::new(),
+        (None, _) => String::new(),
     }
 }
 

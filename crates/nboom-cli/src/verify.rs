@@ -3,7 +3,7 @@ use std::fmt::Write;
 use nboom_io::read_scene;
 use nboom_verify::{Comparison, Hinges, Quantity, Row, Subject, compare};
 
-use crate::format::{code_columns, code_head, count, embedded, not_covered, short};
+use crate::format::{code_columns, code_head, count, not_covered, routine_topology, short};
 use crate::run::default_directory;
 use crate::{CliError, Routines, VerifyArgs, check, print, say};
 
@@ -70,8 +70,8 @@ fn row_head() -> String {
 fn row(row: &Row) -> String {
     let Row { label, from_recursion, from_double_double, state, states, .. } = row;
     let from_recursion = from_recursion.map_or("-".to_owned(), |off| format!("{off:.1e}"));
-    let (columns, embedded) = (code_columns(label), embedded(label));
+    let (columns, routine) = (code_columns(label), routine_topology(label));
     format!(
-        "{columns} {from_recursion:>14} {from_double_double:>18.1e} {state:>6} {states:>7}{embedded}"
+        "{columns} {from_recursion:>14} {from_double_double:>18.1e} {state:>6} {states:>7}{routine}"
     )
 }

@@ -80,7 +80,7 @@ fn verify_compares_all_code_that_covers_the_scene() {
         assert!(table.lines().any(|line| line.starts_with(&row)), "no {form} in {table}");
     }
     assert!(table.contains("\ngenerated  articulated"), "{table}");
-    for words in ["\naccelerations\n", "\nmass matrix\n", "\nforcing\n", " from double-double "] {
+    for words in ["\naccelerations, ", "\nmass matrix, ", "\nforcing, ", " from double-double "] {
         assert!(table.contains(words), "no {words:?} in {table}");
     }
     assert!(!table.contains("not covered"), "{table}");
@@ -187,13 +187,13 @@ fn verify_gives_the_same_for_the_same_seed() {
 #[test]
 fn verify_fails_above_the_tolerance() {
     let directory = tempfile::tempdir().expect("a directory");
-    let output = nboom_in(directory.path(), BOOM, &["verify", "boom.nml", "--tol", "1e-30"]);
+    let output = nboom_in(directory.path(), BOOM, &["verify", "boom.nml", "--tol", "1e-20"]);
     assert_eq!(code(&output), 1);
     assert!(stdout(&output).contains("largest deviation"), "the table is printed all the same");
     let file = json(&directory.path().join("out/boom/verify.json"));
-    assert_eq!((&file["passed"], &file["tolerance"]), (&false.into(), &1e-30.into()));
+    assert_eq!((&file["passed"], &file["tolerance"]), (&false.into(), &1e-20.into()));
     let message = stderr(&output);
-    for words in ["error: ", " of gener", "deviates by", "in state", "above the tolerance 1e-30"] {
+    for words in ["error: ", " of gener", "deviates by", "in state", "above the tolerance 1e-20"] {
         assert!(message.contains(words), "no {words:?} in {message}");
     }
 }

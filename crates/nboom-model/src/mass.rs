@@ -29,7 +29,7 @@ pub enum MassDefect {
     InertiaNotFinite,
     /// Mass times the distance of the mass centre, or times its square, is beyond all numbers.
     #[error(
-        "mass {mass} with mass centre {distance} away found, finite moments about the origin expected"
+        "mass {mass:e} with mass centre {distance:e} away found, finite moments about the origin expected"
     )]
     Overflow {
         /// The mass.
