@@ -40,7 +40,7 @@ pub use file::{Standing, file, hash, key, standing};
 pub use granted::granted;
 pub use request::{Level, Output, Request};
 pub use routine::trace;
-pub use scene::Numbers;
+pub use scene::{Numbers, held};
 pub use table::table;
 
 /// Operations beyond which an evaluation is emitted as loops: more straight-line code than this

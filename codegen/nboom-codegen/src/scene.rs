@@ -122,8 +122,8 @@ fn name(word: &str, topology: &Topology) -> String {
     format!("{word}{}", topology.to_string().replace('_', ""))
 }
 
-/// The scene with the hinges that are not `free` held at different angles around `angle`.
-fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
+/// The scene with the hinges that are not `free` held, at different angles around `angle`.
+pub fn held(scene: &Scene, free: &[bool], angle: f64) -> WeldedTree<f64> {
     let state = |&free: &bool| if free { HingeState::Free } else { HingeState::Locked };
     let mode = Mode {
         hinges: free.iter().map(state).collect(),
@@ -131,7 +131,11 @@ fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, Codege
         thrust: scene.thrust.is_some(),
     };
     let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
-    let tree = WeldedTree::new(scene, &mode, &beta);
+    WeldedTree::new(scene, &mode, &beta)
+}
+
+fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
+    let tree = held(scene, free, angle);
     recognise(&tree).map_err(|link| {
         let hinge = scene.label(tree.links[link].hinge).to_string();
         CodegenError::NotCovered { scene: scene.name.clone(), hinge }

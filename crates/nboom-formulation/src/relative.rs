@@ -5,7 +5,6 @@
 use nboom_model::{Shape, Topology};
 use nboom_scalar::Real;
 
-use crate::dense;
 use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::report;
 use crate::section5::{self, Equations, Place};
@@ -43,8 +42,7 @@ pub fn solve<R: Real>(
     coordinates: &Coordinates<R>,
     place: &Place<R>,
 ) -> Solution<R> {
-    let Equations { matrix, forcing } = equations(topology, parameters, coordinates, place);
-    let unknowns = dense::solve(&matrix, &forcing, &dense::hinges_first(forcing.len()));
+    let unknowns = equations(topology, parameters, coordinates, place).solve();
     let main = report::main_rates(&unknowns, coordinates.omega, place);
     Solution { main, tau_dot: unknowns[6..].to_vec() }
 }

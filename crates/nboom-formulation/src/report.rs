@@ -8,7 +8,6 @@
 use nboom_model::Topology;
 use nboom_scalar::{Real, Twist, Vec3};
 
-use crate::dense;
 use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::pose;
 use crate::section5;
@@ -32,8 +31,7 @@ pub fn solve<R: Real>(
     coordinates: &Coordinates<R>,
     place: &Place<R>,
 ) -> Solution<R> {
-    let Equations { matrix, forcing } = equations(topology, parameters, coordinates, place);
-    let unknowns = dense::solve(&matrix, &forcing, &dense::hinges_first(forcing.len()));
+    let unknowns = equations(topology, parameters, coordinates, place).solve();
     let mut tau_dot = Vec::new();
     let mut first = 6;
     for &shape in topology.shapes() {

@@ -8,6 +8,7 @@
 use nboom_model::{Shape, Topology};
 use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
+use crate::dense;
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters};
 use crate::pose::{self, Posed, each};
 
@@ -40,6 +41,13 @@ pub struct Equations<R> {
     pub matrix: Vec<R>,
     /// 6 + n entries.
     pub forcing: Vec<R>,
+}
+
+impl<R: Real> Equations<R> {
+    /// The unknowns.
+    pub(crate) fn solve(&self) -> Vec<R> {
+        dense::solve(&self.matrix, &self.forcing, &dense::hinges_first(self.forcing.len()))
+    }
 }
 
 /// A and u of eq. (5.1) over (v̇, ω̇, σ̇); u is what eqs. (4.24), (4.36) and (4.38) to (4.43) have

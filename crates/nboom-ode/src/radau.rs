@@ -280,21 +280,15 @@ impl Stepper for Radau {
         let mut rejected = false;
         loop {
             self.prepare(system);
+            let Some((step, reaches)) = self.window.attempt(limit) else {
+                return Err(self.too_short(self.window.next_step));
+            };
             let start = self.window.time;
-            let remaining = limit - start;
-            let wanted = self.window.next_step;
-            let reaches = wanted * 1.01 >= remaining;
-            let step = if reaches { remaining } else { wanted };
-            if !reaches && start + 0.1 * step == start {
-                return Err(self.too_short(step));
-            }
             match self.attempt(system, step, rejected) {
                 Verdict::Accepted(factor) => {
                     let next = step * if rejected { factor.min(1.0) } else { factor };
-                    // A step cut short by the limit must not slow the next one down.
-                    self.window.next_step = if reaches { wanted.max(next) } else { next };
-                    self.window.end_time = if reaches { limit } else { start + step };
-                    self.window.counts.accepted += 1;
+                    let end = if reaches { limit } else { start + step };
+                    self.window.accept(end, reaches, next);
                     return Ok(());
                 }
                 Verdict::Rejected(factor) => {

@@ -219,26 +219,19 @@ impl Stepper for RungeKutta {
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         let mut last_rejected = false;
         loop {
+            let Some((step, reaches)) = self.window.attempt(limit) else {
+                return Err(self.too_short(self.window.next_step));
+            };
             let start = self.window.time;
-            let remaining = limit - start;
-            let wanted = self.window.next_step;
-            let reaches = wanted * 1.01 >= remaining;
-            let step = if reaches { remaining } else { wanted };
-            if !reaches && start + 0.1 * step == start {
-                return Err(self.too_short(step));
-            }
             self.take(system, step);
             let error = self.error_norm(step);
             if error <= 1.0 {
                 self.step = step;
-                self.window.end_time = if reaches { limit } else { start + step };
                 let factor = self.factor(error);
                 let factor = if last_rejected { factor.min(1.0) } else { factor };
                 self.previous_error = error.max(SMALL_ERROR);
-                // A step cut short by the limit must not slow the next one down.
-                let next = step * factor;
-                self.window.next_step = if reaches { wanted.max(next) } else { next };
-                self.window.counts.accepted += 1;
+                let end = if reaches { limit } else { start + step };
+                self.window.accept(end, reaches, step * factor);
                 return Ok(());
             }
             last_rejected = true;

@@ -82,6 +82,24 @@ impl Window {
         }
     }
 
+    /// The step to try on the way to `limit`, and whether it reaches it, which it does when it
+    /// comes close; `None` where it would not change the time.
+    pub(crate) fn attempt(&self, limit: f64) -> Option<(f64, bool)> {
+        let remaining = limit - self.time;
+        let reaches = self.next_step * 1.01 >= remaining;
+        let step = if reaches { remaining } else { self.next_step };
+        (reaches || self.time + 0.1 * step != self.time).then_some((step, reaches))
+    }
+
+    /// Takes note of a step to `end` that is as good as the tolerance asks for, after which
+    /// `next` may be tried.
+    pub(crate) fn accept(&mut self, end: f64, reaches: bool, next: f64) {
+        self.end_time = end;
+        // A step cut short by the limit must not slow the next one down.
+        self.next_step = if reaches { self.next_step.max(next) } else { next };
+        self.counts.accepted += 1;
+    }
+
     pub(crate) fn advance(&mut self) {
         self.time = self.end_time;
         std::mem::swap(&mut self.state, &mut self.end_state);

@@ -1,6 +1,7 @@
 //! A scene while hinges are held, as a scene of its own.
 
-use nboom_model::{Body, Hinge, HingeState, Link, MassProperties, Mode, Mount, Scene, WeldedTree};
+use nboom_codegen::held;
+use nboom_model::{Body, Hinge, Link, MassProperties, Mount, Scene};
 use nboom_scalar::RigidInertia;
 
 use crate::PackageError;
@@ -10,14 +11,7 @@ use crate::PackageError;
 /// # Errors
 /// [`PackageError::Welded`] where numbers of a welded body overflow.
 pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Scene, PackageError> {
-    let state = |&free: &bool| if free { HingeState::Free } else { HingeState::Locked };
-    let mode = Mode {
-        hinges: free.iter().map(state).collect(),
-        kick_off: vec![false; free.len()],
-        thrust: scene.thrust.is_some(),
-    };
-    let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
-    let tree = WeldedTree::new(scene, &mode, &beta);
+    let tree = held(scene, free, angle);
     let mut description = (**scene).clone();
     description.main_body = mass_properties(tree.main);
     let body = |link: &Link<f64>| Body {
