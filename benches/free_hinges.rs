@@ -13,7 +13,7 @@ use std::path::Path;
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::{Layout, recognise};
 use nboom::model::{HingeState, Mode, Scene};
-use nboom::sim::{Fit, Options};
+use nboom::sim::{Fit, Options, Repertoire};
 use timing::{STATES, numbers, state, time};
 
 #[path = "timing/mod.rs"]
@@ -65,6 +65,7 @@ fn table(name: &str, scene: &Scene, order: Order) {
     let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
     let order_of_holding = order.hinges(scene);
     let options = Options { kernels: nboom_routines::all(), ..Options::default() };
+    let repertoire = Repertoire::new(&options);
     for held in 0..=hinges {
         if held > 0 {
             mode.hinges[order_of_holding[held - 1]] = HingeState::Locked;
@@ -74,7 +75,7 @@ fn table(name: &str, scene: &Scene, order: Order) {
         let recursion = recursion(&mut dynamics, free);
         let (topology, routine) = recognise(dynamics.tree()).map_or_else(
             |_| ("no_chains".to_owned(), None),
-            |found| (found.topology.to_string(), Fit::best(&found, false, &options)),
+            |found| (found.topology.to_string(), repertoire.best(&found, false)),
         );
         let routine = routine.map_or_else(|| "- - - -".to_owned(), |fit| timed(&fit));
         println!("{name} {order:?} {free} {topology} {recursion:.1} {routine}");

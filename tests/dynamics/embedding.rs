@@ -8,7 +8,7 @@ use nboom::formulation::{
 };
 use nboom::model::{HingeState, Mode, Scene, Shape, Topology, WeldedTree};
 use nboom::scalar::Kernel;
-use nboom::sim::{Fit, Options};
+use nboom::sim::{Fit, Options, Repertoire};
 
 use crate::random_scene::{Dice, Moment};
 use crate::satellites::{Satellite, flat, random};
@@ -115,7 +115,7 @@ fn stock_routines_give_the_accelerations_of_satellites_embedded_in_them() {
         for seed in 0..RANDOM_SATELLITES {
             let satellite = Satellite::of_moment(&random(seed));
             let recognised = satellite.recognised();
-            let Some(fit) = Fit::best(&recognised, true, &options) else { continue };
+            let Some(fit) = Repertoire::new(&options).best(&recognised, true) else { continue };
             if fit.embedding.virtual_links() > 0 {
                 check_routine(&satellite, &recognised, &fit, &format!("seed {seed}"));
                 *checked.entry(kernel.topology).or_insert(0) += 1;
@@ -165,7 +165,7 @@ fn routines_for_principal_axes_take_satellites_with_fewer_links() {
         for seed in 0..200 {
             let satellite = Satellite::of_moment(&with_principal_axes(&scene, seed));
             let recognised = satellite.recognised();
-            let Some(fit) = Fit::best(&recognised, false, &options) else { continue };
+            let Some(fit) = Repertoire::new(&options).best(&recognised, false) else { continue };
             check_routine(&satellite, &recognised, &fit, &format!("{name}, seed {seed}"));
             checked += usize::from(fit.embedding.virtual_links() > 0);
         }
@@ -193,13 +193,13 @@ fn a_routine_for_one_satellite_alone_takes_nothing_that_is_embedded() {
     let all_free = of(at_start.clone());
     let kernel = baked("4xS5", &all_free.parameters.write());
     let options = choosing_from([kernel].into_iter());
-    assert!(Fit::best(&all_free, false, &options).is_some());
+    assert!(Repertoire::new(&options).best(&all_free, false).is_some());
     for i in 0..scene.bodies.len() {
         let mut mode = at_start.clone();
         mode.hinges[i] = HingeState::Locked;
         let one_held = of(mode);
         assert!(Embedding::new(&one_held.topology, &all_free.topology).is_some());
-        assert!(Fit::best(&one_held, false, &options).is_none(), "hinge {i} held");
+        assert!(Repertoire::new(&options).best(&one_held, false).is_none(), "hinge {i} held");
     }
 }
 
@@ -230,7 +230,8 @@ fn the_choice_is_what_is_probably_fastest() {
         let links = (0..topology.hinges()).collect();
         let recognised = Recognised { topology, parameters, links };
         for options in [&stock, &reversed] {
-            let found = Fit::best(&recognised, true, options).map(|fit| fit.kernel.topology);
+            let found =
+                Repertoire::new(options).best(&recognised, true).map(|fit| fit.kernel.topology);
             assert_eq!(found, chosen, "{inner}");
         }
     }
@@ -243,7 +244,7 @@ fn only_articulated_is_embedded() {
     let parameters = Parameters::read(&topology, numbers);
     let recognised = Recognised { topology, parameters, links: vec![0, 1, 2] };
     for &kernel in nboom_routines::all().iter().filter(|kernel| kernel.topology == "S2_P") {
-        let found = Fit::best(&recognised, true, &choosing_from([kernel].into_iter()));
+        let found = Repertoire::new(&choosing_from([kernel].into_iter())).best(&recognised, true);
         let may = kernel.formulation == "articulated" && kernel.pinned.is_empty();
         assert_eq!(found.is_some(), may, "{}", kernel.formulation);
     }

@@ -86,9 +86,56 @@ impl Bernstein {
         if to - from < RESOLUTION {
             return (c[self.degree] < 0.0).then_some(from);
         }
+        if self.changes_sign_once() {
+            return Some(from + (to - from) * self.only_root());
+        }
         let middle = 0.5 * (from + to);
         let (left, right) = self.halves();
         left.first_negative(from, middle).or_else(|| right.first_negative(middle, to))
+    }
+
+    /// Whether the coefficients, the first of which is not negative, change sign once, and the
+    /// polynomial therefore does (Descartes).
+    fn changes_sign_once(&self) -> bool {
+        let c = self.coefficients();
+        let first = c.iter().position(|&c| c < 0.0).unwrap_or(c.len());
+        c[..first].iter().any(|&c| c > 0.0) && c[first..].iter().all(|&c| c <= 0.0)
+    }
+
+    /// Where a polynomial that is positive on the left and negative on the right of one root has
+    /// that root: Newton's method, with halves where it does not get on.
+    fn only_root(&self) -> f64 {
+        let (mut left, mut right) = (0.0, 1.0);
+        let (mut x, mut last_step) = (0.5, 0.5);
+        while right - left > RESOLUTION {
+            let (value, slope) = self.value_and_slope(x);
+            *(if value < 0.0 { &mut right } else { &mut left }) = x;
+            let newton = x - value / slope;
+            let gets_on = (newton - x).abs() < 0.5 * last_step;
+            let inside = left <= newton && newton <= right;
+            let next = if gets_on && inside { newton } else { 0.5 * (left + right) };
+            last_step = (next - x).abs();
+            x = next;
+            if last_step < RESOLUTION {
+                break;
+            }
+        }
+        x
+    }
+
+    /// Value and derivative at `x` (de Casteljau).
+    fn value_and_slope(&self, x: f64) -> (f64, f64) {
+        let mut row = self.coefficients;
+        let mut slope = 0.0;
+        for last in (0..self.degree).rev() {
+            if last == 0 {
+                slope = self.degree as f64 * (row[1] - row[0]);
+            }
+            for j in 0..=last {
+                row[j] += x * (row[j + 1] - row[j]);
+            }
+        }
+        (row[0], slope)
     }
 
     /// The polynomial on the left and right half of its interval (de Casteljau).

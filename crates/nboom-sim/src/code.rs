@@ -5,6 +5,7 @@ use nboom_model::Scene;
 
 use crate::closed_form::{ClosedForm, NotCovered};
 use crate::error::SimError;
+use crate::fit::Repertoire;
 use crate::generated::{Generated, NoRoutine};
 use crate::options::{Form, Options, Path};
 use crate::record::Selection;
@@ -21,24 +22,25 @@ pub(crate) enum Code {
 type Chosen = (Code, String);
 
 impl Code {
-    /// What `options` demand for the mode of `dynamics`, which begins at `since`.
+    /// What `options`, whose generated routines are in `repertoire`, demand for the mode of `dynamics`, which begins at `since`.
     ///
     /// # Errors
     /// When it cannot be had.
     pub fn choose(
         scene: &Scene,
         dynamics: &Recursive<f64>,
+        repertoire: &Repertoire,
         options: &Options,
         since: f64,
     ) -> Result<(Self, Selection), SimError> {
         let as_demanded = "as demanded".to_owned();
         let chosen = match (options.path, options.formulation) {
-            (Path::Generated, _) => generated(scene, dynamics, options)
+            (Path::Generated, _) => generated(scene, dynamics, repertoire, options)
                 .map_err(|source| SimError::NoRoutine { time: since, source }),
             (Path::Generic, form) => library(scene, dynamics, form, as_demanded)
                 .map_err(|source| SimError::NotCovered { time: since, source }),
             (Path::Auto, Some(Form::Recursive)) => Ok((Self::Recursion, as_demanded)),
-            (Path::Auto, _) => Ok(whatever_fits(scene, dynamics, options)),
+            (Path::Auto, _) => Ok(whatever_fits(scene, dynamics, repertoire, options)),
         };
         let (code, reason) = chosen?;
         let (path, formulation) = code.path_and_formulation();
@@ -71,9 +73,10 @@ impl Code {
 fn generated(
     scene: &Scene,
     dynamics: &Recursive<f64>,
+    repertoire: &Repertoire,
     options: &Options,
 ) -> Result<Chosen, NoRoutine> {
-    let routine = Generated::fit(scene, dynamics, options)?;
+    let routine = Generated::fit(scene, dynamics, repertoire, options)?;
     let reason = routine.routine().reason();
     Ok((Code::Generated(routine), reason))
 }
@@ -94,8 +97,13 @@ fn library(
 }
 
 /// A generated routine, else library code of the same formulation, else the recursion.
-fn whatever_fits(scene: &Scene, dynamics: &Recursive<f64>, options: &Options) -> Chosen {
-    generated(scene, dynamics, options)
+fn whatever_fits(
+    scene: &Scene,
+    dynamics: &Recursive<f64>,
+    repertoire: &Repertoire,
+    options: &Options,
+) -> Chosen {
+    generated(scene, dynamics, repertoire, options)
         .or_else(|none| library(scene, dynamics, options.formulation, none.to_string()))
         .unwrap_or_else(|not_covered| (Code::Recursion, not_covered.to_string()))
 }

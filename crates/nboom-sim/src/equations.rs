@@ -6,6 +6,7 @@ use nboom_scalar::{Quaternion, Real, Vec3};
 
 use crate::code::Code;
 use crate::error::SimError;
+use crate::fit::Repertoire;
 use crate::jacobian::Jacobian;
 use crate::layout::Layout;
 use crate::options::Options;
@@ -20,6 +21,7 @@ pub(crate) struct Equations {
     pub dynamics: Recursive<f64>,
     /// What computes the accelerations of the mode.
     code: Code,
+    repertoire: Repertoire,
     pub layout: Layout,
     /// The state in which the mode began; held hinges keep its angles.
     origin: State,
@@ -34,7 +36,7 @@ pub(crate) struct Equations {
 }
 
 impl Equations {
-    pub fn new(scene: &Scene, state: &State) -> Self {
+    pub fn new(scene: &Scene, state: &State, options: &Options) -> Self {
         let laws: Vec<HingeLaw<f64>> = scene
             .bodies
             .iter()
@@ -46,6 +48,7 @@ impl Equations {
             mode: Mode::at_start(scene),
             dynamics: Recursive::new(scene),
             code: Code::Recursion,
+            repertoire: Repertoire::new(options),
             layout,
             origin: state.clone(),
             thrust: None,
@@ -129,7 +132,8 @@ impl Equations {
     /// # Errors
     /// When the code that is demanded does not fit.
     pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, SimError> {
-        let (code, selection) = Code::choose(scene, &self.dynamics, options, self.origin.time)?;
+        let Self { dynamics, repertoire, origin, .. } = self;
+        let (code, selection) = Code::choose(scene, dynamics, repertoire, options, origin.time)?;
         self.code = code;
         Ok(selection)
     }

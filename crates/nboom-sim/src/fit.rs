@@ -42,44 +42,65 @@ fn duration_of_recursion(topology: &Topology) -> usize {
     60 + 110 * topology.hinges()
 }
 
-impl Fit {
-    /// The routine that a run takes for a mode in which something acts on the main body from
-    /// outside or nothing does (`external`): of those that `options` allow and that compute what
-    /// is wanted, the one that is probably fastest; then the one with fewest virtual links, then
-    /// one of `articulated`, then the most specialised. `None` if there is none.
-    pub fn best(recognised: &Recognised, external: bool, options: &Options) -> Option<Self> {
+/// The routines that a run may take: the one that is probably fastest first, of equally fast ones
+/// that with fewest links, then one of `articulated`, then the most specialised.
+#[derive(Clone, Debug)]
+pub struct Repertoire {
+    entries: Vec<Entry>,
+}
+
+#[derive(Clone, Debug)]
+struct Entry {
+    kernel: Kernel,
+    topology: Topology,
+    duration: usize,
+}
+
+impl Repertoire {
+    /// The routines that `options` allow.
+    pub fn new(options: &Options) -> Self {
         let allowed = |kernel: &&Kernel| {
             options.formulation.is_none_or(|form| kernel.formulation == form.name())
-                && (kernel.external || !external)
         };
-        let kernels = options.kernels.iter().filter(allowed);
-        kernels.filter_map(|kernel| Self::of(kernel, recognised)).max_by_key(Self::preference)
+        let entry = |kernel: &Kernel| {
+            let topology = kernel.topology.parse::<Topology>().ok()?;
+            let duration = duration(&topology, kernel.instructions);
+            Some(Entry { kernel: *kernel, topology, duration })
+        };
+        let mut entries: Vec<Entry> =
+            options.kernels.iter().filter(allowed).filter_map(entry).collect();
+        entries.sort_by_key(|entry| {
+            let articulated = entry.kernel.formulation == Formulation::Articulated.name();
+            let pinned = Reverse(entry.kernel.pinned.len());
+            (entry.duration, entry.topology.hinges(), !articulated, pinned)
+        });
+        Self { entries }
     }
 
-    fn of(kernel: &Kernel, recognised: &Recognised) -> Option<Self> {
-        let (inner, outer) = (&recognised.topology, kernel.topology.parse::<Topology>().ok()?);
-        let may_embed = kernel.formulation == Formulation::Articulated.name()
-            && duration(&outer, kernel.instructions) < duration_of_recursion(inner);
-        if *inner != outer && !may_embed {
-            return None;
-        }
-        let embedding = Embedding::new(inner, &outer)?;
-        let parameters = embedding.parameters(&recognised.parameters, kernel.pinned);
-        let fit = Self { kernel: *kernel, embedding, parameters };
-        kernel.accepts(&fit.parameters).then_some(fit)
+    /// The first routine that computes what is wanted in a mode in which something acts on the
+    /// main body from outside or nothing does (`external`). `None` if there is none.
+    pub fn best(&self, recognised: &Recognised, external: bool) -> Option<Fit> {
+        let most = duration_of_recursion(&recognised.topology);
+        let may_hold = |entry: &&Entry| {
+            let may_embed = entry.kernel.formulation == Formulation::Articulated.name()
+                && entry.duration < most;
+            (entry.kernel.external || !external)
+                && (may_embed || recognised.topology == entry.topology)
+        };
+        self.entries.iter().filter(may_hold).find_map(|entry| entry.fit(recognised))
     }
+}
 
-    fn preference(&self) -> (Reverse<usize>, Reverse<usize>, bool, usize) {
-        let Kernel { formulation, pinned, .. } = self.kernel;
-        let articulated = formulation == Formulation::Articulated.name();
-        (
-            Reverse(duration(self.embedding.outer(), self.kernel.instructions)),
-            Reverse(self.embedding.virtual_links()),
-            articulated,
-            pinned.len(),
-        )
+impl Entry {
+    fn fit(&self, recognised: &Recognised) -> Option<Fit> {
+        let embedding = Embedding::new(&recognised.topology, &self.topology)?;
+        let parameters = embedding.parameters(&recognised.parameters, self.kernel.pinned);
+        let fit = Fit { kernel: self.kernel, embedding, parameters };
+        self.kernel.accepts(&fit.parameters).then_some(fit)
     }
+}
 
+impl Fit {
     /// What the routine prepares of the satellite, [`Kernel::constants`] numbers.
     pub fn constants(&self) -> Vec<f64> {
         let mut constants = vec![0.0; self.kernel.constants];

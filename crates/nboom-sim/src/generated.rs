@@ -3,7 +3,7 @@ use nboom_formulation::{Layout, Recognised, recognise};
 use nboom_model::{HingeLabel, Scene};
 use nboom_scalar::{Kernel, Vec3};
 
-use crate::fit::Fit;
+use crate::fit::{Fit, Repertoire};
 use crate::options::{Form, Options};
 
 /// A generated routine fitted to a scene in one mode.
@@ -109,20 +109,22 @@ fn routine(form: &Option<Form>) -> String {
 }
 
 impl Generated {
-    /// The routine that [`Fit::best`] finds for what `dynamics` computes in its mode.
+    /// The best routine of `repertoire` for what `dynamics` computes in its mode.
     ///
     /// # Errors
     /// Why none does.
     pub fn fit(
         scene: &Scene,
         dynamics: &Recursive<f64>,
+        repertoire: &Repertoire,
         options: &Options,
     ) -> Result<Self, NoRoutine> {
         let (form, tree) = (options.formulation, dynamics.tree());
         let recognised = recognise(tree)
             .map_err(|link| NoRoutine::Tree { form, hinge: scene.label(tree.links[link].hinge) })?;
         let external = dynamics.external().is_some();
-        let fit = Fit::best(&recognised, external, options)
+        let fit = repertoire
+            .best(&recognised, external)
             .ok_or_else(|| NoRoutine::because(&recognised, external, options))?;
         let mut hinges = vec![Place { in_state: [0; 3], in_output: 0 }; recognised.links.len()];
         for (&link, (in_state, in_output)) in recognised.links.iter().zip(fit.hinges()) {

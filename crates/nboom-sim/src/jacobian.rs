@@ -71,6 +71,7 @@ impl Jacobian {
 mod tests {
     use super::*;
     use crate::equations::Equations;
+    use crate::options::Options;
     use crate::state::State;
     use nboom_model::HingeState;
     use nboom_ode::System;
@@ -91,7 +92,8 @@ mod tests {
             kick_off: scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect(),
             thrust: scene.thrust.is_some(),
         };
-        let (mut equations, mut y) = (Equations::new(&scene, &state), Vec::new());
+        let (mut equations, mut y) =
+            (Equations::new(&scene, &state, &Options::default()), Vec::new());
         equations.enter(&scene, &mode, &state, &mut y);
         y.iter_mut().skip(equations.layout.tau().end).for_each(|y| *y = 0.4);
         (equations, y)

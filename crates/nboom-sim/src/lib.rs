@@ -59,7 +59,7 @@ mod trust;
 
 pub use closed_form::NotCovered;
 pub use error::{Failure, SimError};
-pub use fit::Fit;
+pub use fit::{Fit, Repertoire};
 pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};

@@ -60,7 +60,7 @@ impl<'a> Run<'a> {
     fn new(scene: &'a Scene, options: Options, recorder: &'a mut dyn Recorder) -> Self {
         let mut state = State::initial(scene);
         let mut mode = Mode::at_start(scene);
-        let mut equations = Equations::new(scene, &state);
+        let mut equations = Equations::new(scene, &state, &options);
         let mut variables = Vec::new();
         equations.enter(scene, &mode, &state, &mut variables);
         put_mass_center(&mut equations, &mut state);

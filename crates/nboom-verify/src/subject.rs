@@ -4,7 +4,7 @@ use nboom_formulation::{
 };
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 use nboom_scalar::{Kernel, Real, Vec3, Wrench};
-use nboom_sim::{Fit, NoRoutine, Options};
+use nboom_sim::{Fit, NoRoutine, Options, Repertoire};
 use serde::Serialize;
 
 use crate::VerifyError;
@@ -229,7 +229,7 @@ impl Subject {
 
     /// The routine that a run takes in the subject's mode.
     fn taken(&self, kernels: &'static [Kernel]) -> Option<Fit> {
-        Fit::best(self.recognised()?, self.is_pushed(), &choosing_from(kernels))
+        Repertoire::new(&choosing_from(kernels)).best(self.recognised()?, self.is_pushed())
     }
 
     /// Whether something acts on the main body from outside.
