@@ -138,7 +138,7 @@ fn a_recorder_that_refuses_ends_the_run() {
 /// Runs a scene that may chatter; it must come to some end within a minute.
 fn ends(scene: Scene) -> Result<(), SimError> {
     let (sender, receiver) = mpsc::channel();
-    thread::spawn(move || sender.send(try_run(&scene, &tight(1)).1));
+    thread::spawn(move || sender.send(Box::new(try_run(&scene, &tight(1)).1)).is_ok());
     let result = receiver.recv_timeout(Duration::from_secs(60)).expect("the run hangs");
     result.map(|_| ()).map_err(|failure| failure.error)
 }

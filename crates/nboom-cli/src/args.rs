@@ -100,9 +100,9 @@ pub struct RunArgs {
     #[arg(long, value_name = "NAME", value_parser = choice::formulation)]
     pub formulation: Option<Form>,
 
-    /// Method of integration: dop853, dopri5 for loose tolerances, radau5 for stiff hinges, or rkam,
-    /// the original's.
-    #[arg(long, value_name = "NAME", default_value = "dop853",
+    /// Method of integration: auto takes dopri5 for loose tolerances, dop853 for tight ones, and
+    /// radau5 while the motion is stiff; rkam is the original's.
+    #[arg(long, value_name = "NAME", default_value = "auto",
           value_parser = choice::integrator)]
     pub integrator: Method,
 

@@ -32,7 +32,8 @@ impl Account<'_> {
     }
 
     fn scene_line(&self) -> String {
-        let RunDescription { scene, integrator, .. } = self.run;
+        let RunDescription { scene, .. } = self.run;
+        let integrator = self.methods();
         let (path, formulation) = path_and_formulation(&self.outcome.summary);
         let bodies = count(1 + self.scene.bodies.len(), "body", "bodies");
         let freedom = count(self.run.degrees_of_freedom, "degree", "degrees");
@@ -40,6 +41,18 @@ impl Account<'_> {
             "{scene}: {bodies}, {freedom} of freedom; {path} path, {formulation} formulation, \
              integrator {integrator}"
         )
+    }
+
+    /// The methods that took the steps, in the order in which they first did.
+    fn methods(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for integration in &self.outcome.summary.integrations {
+            let name = integration.choice.method.name();
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names.join(" and ")
     }
 
     fn event_lines(&self) -> Vec<String> {
@@ -148,7 +161,7 @@ mod tests {
     use nboom_model::{Appendage, Hinge, MassProperties, Mount, SceneDescription, Segment};
     use nboom_results::UnitSystem;
     use nboom_scalar::{Sym3, Vec3};
-    use nboom_sim::{Conservation, Options, Summary};
+    use nboom_sim::{Choice, Conservation, Integration, Method, Options, Summary};
 
     fn scene() -> Scene {
         let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
@@ -185,9 +198,14 @@ mod tests {
             steps_accepted: 10,
             steps_rejected: 2,
             evaluations: 144,
+            jacobians: 0,
+            factorizations: 0,
             events: counted,
             conservation,
-            integrator: "dop853",
+            integrator: "auto",
+            integrations: [Method::Dop853, Method::Radau5, Method::Dop853]
+                .map(|method| Integration { since: 0.0, choice: Choice { method, reason: "" } })
+                .to_vec(),
             selections: Vec::new(),
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
@@ -198,7 +216,7 @@ mod tests {
     #[test]
     fn an_account_names_bodies_events_residuals_effort_and_files() {
         let expected = "\
-boom: 2 bodies, 7 degrees of freedom; generic path, recursive formulation, integrator dop853
+boom: 2 bodies, 7 degrees of freedom; generic path, recursive formulation, integrator dop853 and radau5
 
 time [s]  event    hinge  impulse [ft lbf s]  kinetic energy [ft lbf]  |H| [ft lbf s]  |P| [lbf s]
 0.25      lock up  1,1    -0.125              2 -> 1.5                 3 -> 3          0 -> 0

@@ -27,6 +27,7 @@
 //! # Ok::<(), nboom_ode::StepError>(())
 //! ```
 
+mod automatic;
 mod bernstein;
 mod error;
 mod linear;
@@ -38,11 +39,12 @@ mod stepper;
 mod system;
 mod tableau;
 
+pub use automatic::Automatic;
 pub use bernstein::{Bernstein, Interpolation};
 pub use error::StepError;
 pub use method::Method;
 pub use radau::Radau;
 pub use rkam::{Rkam, RkamSettings};
 pub use runge_kutta::RungeKutta;
-pub use stepper::{Stepper, Window};
+pub use stepper::{Choice, Stepper, Window};
 pub use system::{Counts, System, Tolerance};

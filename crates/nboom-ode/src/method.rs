@@ -1,10 +1,12 @@
 use std::fmt;
 
-use crate::{Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
+use crate::{Automatic, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
+    /// An explicit method for the tolerance, or the implicit one while the motion is stiff.
+    Auto,
     /// The predictor and corrector of the 1970 program, of order 4.
     Rkam,
     /// Dormand and Prince's explicit Runge-Kutta method of order 5.
@@ -16,12 +18,13 @@ pub enum Method {
 }
 
 impl Method {
-    /// All: explicit ones from low to high order, then the implicit one.
-    pub const ALL: [Self; 4] = [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5];
+    /// All: the one that chooses, explicit ones from low to high order, the implicit one.
+    pub const ALL: [Self; 5] = [Self::Auto, Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5];
 
     /// The name in commands and files.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Auto => "auto",
             Self::Rkam => "rkam",
             Self::Dopri5 => "dopri5",
             Self::Dop853 => "dop853",
@@ -37,6 +40,7 @@ impl Method {
     /// What it is for, in one line.
     pub fn about(self) -> &'static str {
         match self {
+            Self::Auto => "dopri5, dop853 or radau5, by tolerance and stiffness",
             Self::Rkam => "Adams-Moulton 4 as in 1970, to see what the original saw",
             Self::Dopri5 => "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
             Self::Dop853 => "explicit Runge-Kutta 8(5,3), for smaller ones",
@@ -44,11 +48,11 @@ impl Method {
         }
     }
 
-    /// Order of the error at the end of a fixed time.
+    /// Order of the error at the end of a fixed time; of `auto`, the lowest it may have.
     pub fn order(self) -> u32 {
         match self {
             Self::Rkam => 4,
-            Self::Dopri5 => 5,
+            Self::Auto | Self::Dopri5 => 5,
             Self::Dop853 => 8,
             Self::Radau5 => 5,
         }
@@ -57,7 +61,7 @@ impl Method {
     /// Order of dense output.
     pub fn dense_order(self) -> u32 {
         match self {
-            Self::Rkam | Self::Dopri5 => 4,
+            Self::Auto | Self::Rkam | Self::Dopri5 => 4,
             Self::Dop853 => 7,
             Self::Radau5 => 3,
         }
@@ -66,6 +70,7 @@ impl Method {
     /// A stepper without a problem.
     pub fn stepper(self, tolerance: Tolerance) -> Box<dyn Stepper> {
         match self {
+            Self::Auto => Box::new(Automatic::new(tolerance)),
             Self::Rkam => Box::new(Rkam::new(RkamSettings::meeting(tolerance))),
             Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
             Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),

@@ -5,7 +5,7 @@ use collocation::Collocation;
 use iteration_matrix::{IterationMatrix, Point};
 use newton::{MOST, Outcome, Stages};
 
-use crate::{Bernstein, StepError, Stepper, System, Tolerance, Window};
+use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod coefficients;
 mod collocation;
@@ -100,6 +100,15 @@ impl Radau {
             dense: Vec::new(),
             last: LastStep::default(),
         }
+    }
+
+    /// The last step times the magnitude of the fastest motion's eigenvalue.
+    pub(crate) fn stiffness(&mut self) -> f64 {
+        self.step * self.matrix.spectral_radius()
+    }
+
+    pub(crate) fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn size(&self) -> usize {
@@ -367,6 +376,10 @@ impl Stepper for Radau {
     fn error_of(&self, i: usize) -> f64 {
         let scale = self.scales.get(i).copied().unwrap_or(f64::INFINITY);
         self.error[i].abs() / (scale * self.tried)
+    }
+
+    fn choice(&self) -> Choice {
+        Choice::demanded(Method::Radau5)
     }
 
     fn last_evaluated(&self) -> &[f64] {

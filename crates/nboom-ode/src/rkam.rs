@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::{Bernstein, StepError, Stepper, System, Tolerance, Window};
+use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod history;
 
@@ -325,6 +325,10 @@ impl Stepper for Rkam {
 
     fn error_of(&self, i: usize) -> f64 {
         self.difference[i].abs() / (self.bound_of(self.settings.upper, i) * self.step.abs())
+    }
+
+    fn choice(&self) -> Choice {
+        Choice::demanded(Method::Rkam)
     }
 
     fn last_evaluated(&self) -> &[f64] {

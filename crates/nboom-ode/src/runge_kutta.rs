@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use crate::tableau::{DOP853, DOPRI5, Row, Tableau};
-use crate::{Bernstein, StepError, Stepper, System, Tolerance, Window};
+use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
 /// An explicit Runge-Kutta method with step control and dense output.
 #[derive(Clone, Debug)]
@@ -62,6 +62,29 @@ impl RungeKutta {
         let size = self.size();
         self.window.end_state.copy_from_slice(&self.stage_state[..size]);
         self.evaluate(system, last, step);
+    }
+
+    /// The last step times about the magnitude of the fastest motion's eigenvalue, from the two
+    /// derivatives at the step's end, of which one is at the last stage's argument.
+    pub(crate) fn stiffness(&mut self) -> f64 {
+        let last = self.tableau.stages;
+        self.combine(last - 1, self.step);
+        let (mut of_slopes, mut of_states) = (0.0, 0.0);
+        for i in 0..self.controlled {
+            let slope = |stage: usize| self.stages[stage * self.stride + i];
+            of_slopes += (slope(last) - slope(last - 1)).powi(2);
+            of_states += (self.window.end_state[i] - self.stage_state[i]).powi(2);
+        }
+        if of_states > 0.0 { self.step * (of_slopes / of_states).sqrt() } else { 0.0 }
+    }
+
+    /// What [`stiffness`](Self::stiffness) may be without steps being bounded by it.
+    pub(crate) fn stability_limit(&self) -> f64 {
+        self.tableau.stability_limit
+    }
+
+    pub(crate) fn window_mut(&mut self) -> &mut Window {
+        &mut self.window
     }
 
     fn size(&self) -> usize {
@@ -306,6 +329,10 @@ impl Stepper for RungeKutta {
 
     fn error_of(&self, i: usize) -> f64 {
         self.estimate(self.tableau.error, i).abs() / self.scale_of(i)
+    }
+
+    fn choice(&self) -> Choice {
+        Choice::demanded(self.tableau.method)
     }
 
     fn last_evaluated(&self) -> &[f64] {

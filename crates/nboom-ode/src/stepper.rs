@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::{Bernstein, Counts, StepError, System};
+use crate::{Bernstein, Counts, Method, StepError, System};
 
 /// A method that takes one step at a time.
 ///
@@ -49,6 +49,24 @@ pub trait Stepper {
 
     /// The variables at which the derivative was evaluated last.
     fn last_evaluated(&self) -> &[f64];
+
+    /// The method that takes the next step.
+    fn choice(&self) -> Choice;
+}
+
+/// A method, and why it was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// The method.
+    pub method: Method,
+    /// Why this one.
+    pub reason: &'static str,
+}
+
+impl Choice {
+    pub(crate) fn demanded(method: Method) -> Self {
+        Self { method, reason: "as demanded" }
+    }
 }
 
 /// The step just taken, from its start to its end.

@@ -1,5 +1,7 @@
 //! Coefficients of explicit Runge-Kutta methods.
 
+use crate::Method;
+
 mod dop853;
 mod dopri5;
 
@@ -13,6 +15,8 @@ pub(crate) type Row = &'static [(usize, f64)];
 /// y₀ + x (c₀ + x̄ (c₁ + x (c₂ + x̄ (…)))), x the fraction of the step and x̄ = 1 − x.
 #[derive(Debug)]
 pub(crate) struct Tableau {
+    /// The method.
+    pub method: Method,
     /// Stages of a step; this is also the number of the derivative at the new point.
     pub stages: usize,
     /// Times of the stages, in steps, those for dense output at the end.
@@ -27,6 +31,9 @@ pub(crate) struct Tableau {
     pub dense: &'static [Row],
     /// Step control.
     pub control: Control,
+    /// Step times eigenvalue at which the method's stability begins to bound steps; its last
+    /// stage stands at the step's end.
+    pub stability_limit: f64,
 }
 
 /// How the next step follows from the error of the last ones (Gustafsson's PI controller).

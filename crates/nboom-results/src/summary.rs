@@ -3,7 +3,7 @@ use std::io::Write;
 use std::path::Path;
 
 use nboom_model::{Facts, Scene};
-use nboom_sim::{Conservation, Selection, Summary};
+use nboom_sim::{Conservation, Integration, Selection, Summary};
 use serde::Serialize;
 
 use crate::{ResultsError, UnitSystem};
@@ -68,6 +68,7 @@ pub struct SummaryFile<'a> {
     formulation: &'a str,
     selections: Vec<SelectionKeys<'a>>,
     integrator: &'a str,
+    integrations: Vec<IntegrationKeys>,
     rtol: f64,
     atol: f64,
     samples: usize,
@@ -79,6 +80,8 @@ pub struct SummaryFile<'a> {
     steps_accepted: usize,
     steps_rejected: usize,
     evaluations: usize,
+    jacobians: usize,
+    factorizations: usize,
     events: usize,
     wall_seconds: f64,
     conservation: ConservationKeys,
@@ -98,6 +101,19 @@ impl<'a> From<&'a Selection> for SelectionKeys<'a> {
     fn from(selection: &'a Selection) -> Self {
         let Selection { since, path, formulation, reason } = selection;
         Self { since: *since, path, formulation, reason }
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct IntegrationKeys {
+    since: f64,
+    integrator: &'static str,
+    reason: &'static str,
+}
+
+impl From<&Integration> for IntegrationKeys {
+    fn from(&Integration { since, choice }: &Integration) -> Self {
+        Self { since, integrator: choice.method.name(), reason: choice.reason }
     }
 }
 
@@ -125,6 +141,7 @@ impl<'a> SummaryFile<'a> {
             formulation: "recursive",
             selections: Vec::new(),
             integrator: run.integrator,
+            integrations: Vec::new(),
             rtol: run.rtol,
             atol: run.atol,
             samples: run.samples,
@@ -135,6 +152,8 @@ impl<'a> SummaryFile<'a> {
             steps_accepted: 0,
             steps_rejected: 0,
             evaluations: 0,
+            jacobians: 0,
+            factorizations: 0,
             events: 0,
             wall_seconds: 0.0,
             conservation: Conservation::default().into(),
@@ -156,12 +175,15 @@ impl<'a> SummaryFile<'a> {
             formulation,
             selections: summary.selections.iter().map(SelectionKeys::from).collect(),
             integrator: summary.integrator,
+            integrations: summary.integrations.iter().map(IntegrationKeys::from).collect(),
             complete: error.is_none(),
             error,
             end_time: Some(summary.end_time),
             steps_accepted: summary.steps_accepted,
             steps_rejected: summary.steps_rejected,
             evaluations: summary.evaluations,
+            jacobians: summary.jacobians,
+            factorizations: summary.factorizations,
             events: summary.events,
             wall_seconds,
             conservation: summary.conservation.into(),

@@ -12,7 +12,8 @@ use nboom_results::{
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
-    Conservation, Detail, Event, EventKind, Options, Recorder, Selection, Snapshot, Summary, Totals,
+    Choice, Conservation, Detail, Event, EventKind, Integration, Method, Options, Recorder,
+    Selection, Snapshot, Summary, Totals,
 };
 
 fn scene() -> Scene {
@@ -78,6 +79,10 @@ fn selection(since: f64, path: &'static str, formulation: &'static str, reason: 
     Selection { since, path, formulation, reason: reason.to_owned() }
 }
 
+fn integration(since: f64, method: Method) -> Integration {
+    Integration { since, choice: Choice { method, reason: "it suits" } }
+}
+
 fn outcome(error: Option<&str>) -> Outcome {
     let conservation =
         Conservation { linear_momentum: 1e-15, angular_momentum: 2e-15, energy: 3e-13 };
@@ -86,9 +91,12 @@ fn outcome(error: Option<&str>) -> Outcome {
         steps_accepted: 7,
         steps_rejected: 1,
         evaluations: 96,
+        jacobians: 2,
+        factorizations: 3,
         events: 2,
         conservation,
-        integrator: "dop853",
+        integrator: "auto",
+        integrations: vec![integration(0.0, Method::Dop853), integration(5.0, Method::Radau5)],
         selections: vec![
             selection(0.0, "generic", "recursive", "no routine"),
             selection(5.0, "generated", "articulated", "routine"),
@@ -133,7 +141,11 @@ fn a_finished_run_has_all_rows_and_every_key() {
             {"since": 0.0, "path": "generic", "formulation": "recursive", "reason": "no routine"},
             {"since": 5.0, "path": "generated", "formulation": "articulated", "reason": "routine"},
         ],
-        "integrator": "dop853",
+        "integrator": "auto",
+        "integrations": [
+            {"since": 0.0, "integrator": "dop853", "reason": "it suits"},
+            {"since": 5.0, "integrator": "radau5", "reason": "it suits"},
+        ],
         "rtol": Options::default().rtol,
         "atol": Options::default().atol,
         "samples": 200,
@@ -143,6 +155,8 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "steps_accepted": 7,
         "steps_rejected": 1,
         "evaluations": 96,
+        "jacobians": 2,
+        "factorizations": 3,
         "events": 2,
         "wall_seconds": 0.25,
         "conservation": {"linear_momentum": 1e-15, "angular_momentum": 2e-15, "energy": 3e-13},

@@ -61,10 +61,11 @@ pub use closed_form::NotCovered;
 pub use error::{Failure, SimError};
 pub use fit::{Fit, Repertoire};
 pub use generated::{NoRoutine, Unmet};
-pub use nboom_ode::{Method, RkamSettings, Tolerance};
+pub use nboom_ode::{Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
-    Conservation, Detail, Event, EventKind, Recorder, Selection, Snapshot, Summary, Totals,
+    Conservation, Detail, Event, EventKind, Integration, Recorder, Selection, Snapshot, Summary,
+    Totals,
 };
 pub use run::simulate;
 pub use trust::{Digits, EventTrust, Trust, Witness, differences, trust};

@@ -79,7 +79,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             samples: 200,
-            integrator: Method::Dop853,
+            integrator: Method::Auto,
             rkam: None,
             rtol: 1e-9,
             atol: 1e-12,

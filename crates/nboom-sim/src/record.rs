@@ -1,6 +1,7 @@
 use std::io;
 
 use nboom_model::HingeState;
+use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3};
 
 /// What a run tells while it goes on: a snapshot at every output time, and every event.
@@ -177,10 +178,25 @@ pub struct Summary {
     pub events: usize,
     /// Largest residuals of the conservation laws at output times and events.
     pub conservation: Conservation,
+    /// Evaluations of the Jacobian, by implicit integrators.
+    pub jacobians: usize,
+    /// Factorisations of iteration matrices, by implicit integrators.
+    pub factorizations: usize,
     /// Name of the integrator.
     pub integrator: &'static str,
+    /// Which method took the steps.
+    pub integrations: Vec<Integration>,
     /// Which code computed accelerations, mode by mode.
     pub selections: Vec<Selection>,
+}
+
+/// Which method took the steps from a time on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Integration {
+    /// Time from which on.
+    pub since: f64,
+    /// The method, and why this one.
+    pub choice: Choice,
 }
 
 /// Which code computed accelerations from a time on.

@@ -8,7 +8,7 @@ use crate::instant::{self, Arrivals, ONE_INSTANT};
 use crate::layout::Layout;
 use crate::ledger::{Ledger, totals};
 use crate::options::Options;
-use crate::record::{Event, EventKind, Recorder, Selection, Snapshot, Summary};
+use crate::record::{Event, EventKind, Integration, Recorder, Selection, Snapshot, Summary};
 use crate::snapshot;
 use crate::state::{MassCenter, State};
 
@@ -54,6 +54,7 @@ struct Run<'a> {
     /// Time and number of steps when progress was last looked at.
     pace: (f64, usize),
     selections: Vec<Selection>,
+    integrations: Vec<Integration>,
 }
 
 impl<'a> Run<'a> {
@@ -94,6 +95,7 @@ impl<'a> Run<'a> {
             burst: (initial.time, 0),
             pace: (initial.time, 0),
             selections: Vec::new(),
+            integrations: Vec::new(),
         }
     }
 
@@ -174,7 +176,17 @@ impl<'a> Run<'a> {
     fn step(&mut self, limit: f64) -> Result<(), SimError> {
         self.check_progress()?;
         let taken = self.stepper.step(&mut self.equations, limit);
-        taken.map_err(|error| SimError::from_step(error, self.hinge_to_blame(error)))
+        taken.map_err(|error| SimError::from_step(error, self.hinge_to_blame(error)))?;
+        self.note_method();
+        Ok(())
+    }
+
+    /// Notes which method took the step, when that is a change.
+    fn note_method(&mut self) {
+        let (since, choice) = (self.stepper.window().time, self.stepper.choice());
+        if self.integrations.last().is_none_or(|last| last.choice.method != choice.method) {
+            self.integrations.push(Integration { since, choice });
+        }
     }
 
     /// Takes the step again so that it ends where the guard is zero: Newton's method on the
@@ -306,7 +318,10 @@ impl<'a> Run<'a> {
             evaluations: counts.evaluations,
             events: self.events,
             conservation: self.ledger.residuals(),
+            jacobians: counts.jacobians,
+            factorizations: counts.factorizations,
             integrator: self.options.integrator.name(),
+            integrations: self.integrations.clone(),
             selections: self.selections.clone(),
         }
     }

@@ -122,7 +122,7 @@ pub fn trust(scene: &Scene, options: &Options, witness: &Witness) -> Result<Trus
     // A method that no tolerance makes accurate is compared with one.
     let integrator = match options.integrator {
         Method::Radau5 => Method::Radau5,
-        _ => Method::Dop853,
+        _ => Method::Auto,
     };
     let max_steps = Options::default().max_steps.max(options.max_steps);
     let tighter = Options { integrator, rtol, atol, max_steps, samples: 1, ..*options };

@@ -14,7 +14,12 @@ pub(super) struct IterationMatrix {
     factored: Option<f64>,
     shifted: Vec<f64>,
     shifted_slope: Vec<f64>,
+    /// About the eigenvector of J's largest eigenvalue, and J times it.
+    dominant: [Vec<f64>; 2],
 }
+
+/// Multiplications by J that improve an eigenvector from one step to the next.
+const ITERATIONS: usize = 4;
 
 /// A point of a solution.
 #[derive(Clone, Copy)]
@@ -38,6 +43,32 @@ impl IterationMatrix {
             buffer.clear();
             buffer.resize(len, 0.0);
         }
+        for vector in &mut self.dominant {
+            vector.clear();
+            // Unequal numbers, so that no eigenvector is left out by symmetry.
+            vector.extend((0..size).map(|i| 1.0 + i as f64 / size as f64));
+        }
+    }
+
+    /// About the magnitude of J's largest eigenvalue, by the power method.
+    pub fn spectral_radius(&mut self) -> f64 {
+        let Self { size, jacobian, dominant: [vector, image], .. } = self;
+        let mut growth = 0.0;
+        for _ in 0..ITERATIONS {
+            for (out, row) in image.iter_mut().zip(jacobian.chunks_exact(*size)) {
+                *out = row.iter().zip(&*vector).map(|(a, x)| a * x).sum();
+            }
+            let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let (before, after) = (norm(vector), norm(image));
+            growth = after / before;
+            if !(growth > 0.0 && growth.is_finite()) {
+                return 0.0;
+            }
+            for (x, y) in vector.iter_mut().zip(&*image) {
+                *x = y / after;
+            }
+        }
+        growth
     }
 
     /// Evaluates J.

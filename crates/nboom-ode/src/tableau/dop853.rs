@@ -3,10 +3,13 @@
 //!
 //! Rows list (stage, coefficient) where the coefficient is not zero.
 
+use crate::Method;
+
 use super::{Control, Row, Tableau};
 
 /// The method of Dormand and Prince of order 8 with estimates of order 5 and 3.
 pub(crate) const DOP853: Tableau = Tableau {
+    method: Method::Dop853,
     stages: 12,
     c: &C,
     a: &A,
@@ -14,6 +17,7 @@ pub(crate) const DOP853: Tableau = Tableau {
     lower_error: E3,
     dense: &D,
     control: Control { exponent: 1.0 / 8.0, compensation: 0.2, shrink: 1.0 / 3.0, grow: 6.0 },
+    stability_limit: 6.1,
 };
 
 /// Stages of a step and its dense output; stage 12 is the derivative at the new point.

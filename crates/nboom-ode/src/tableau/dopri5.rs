@@ -2,10 +2,13 @@
 //! J. Comput. Appl. Math. 6 (1980); dense output by Shampine, as in Hairer, Nørsett, Wanner,
 //! Solving Ordinary Differential Equations I, 2nd ed., Section II.6.
 
+use crate::Method;
+
 use super::{Control, Row, Tableau};
 
 /// The method of Dormand and Prince of order 5 with an estimate of order 4.
 pub(crate) const DOPRI5: Tableau = Tableau {
+    method: Method::Dopri5,
     stages: 6,
     c: &C,
     a: &A,
@@ -27,6 +30,7 @@ pub(crate) const DOPRI5: Tableau = Tableau {
         (6, 69_997_945.0 / 29_380_423.0),
     ]],
     control: Control { exponent: 1.0 / 5.0, compensation: 0.75, shrink: 0.2, grow: 10.0 },
+    stability_limit: 3.25,
 };
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
