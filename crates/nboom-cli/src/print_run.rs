@@ -188,6 +188,7 @@ mod tests {
             events: counted,
             conservation,
             integrator: "dop853",
+            attitude_drift: 0.0,
             selections: Vec::new(),
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };

@@ -29,6 +29,7 @@
 
 mod bernstein;
 mod error;
+mod gauss;
 mod linear;
 mod method;
 mod radau;
@@ -40,6 +41,7 @@ mod tableau;
 
 pub use bernstein::{Bernstein, Interpolation};
 pub use error::StepError;
+pub use gauss::Gauss;
 pub use method::Method;
 pub use radau::Radau;
 pub use rkam::{Rkam, RkamSettings};

@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::{Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
+use crate::{Gauss, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -13,11 +13,13 @@ pub enum Method {
     Dop853,
     /// Radau's implicit Runge-Kutta method of order 5.
     Radau5,
+    /// Gauss's implicit Runge-Kutta method of order 16 with constant steps.
+    Gauss,
 }
 
 impl Method {
-    /// All: explicit ones from low to high order, then the implicit one.
-    pub const ALL: [Self; 4] = [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5];
+    /// All: explicit ones from low to high order, then the implicit ones.
+    pub const ALL: [Self; 5] = [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5, Self::Gauss];
 
     /// The name in commands and files.
     pub fn name(self) -> &'static str {
@@ -26,6 +28,7 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Dop853 => "dop853",
             Self::Radau5 => "radau5",
+            Self::Gauss => "gauss",
         }
     }
 
@@ -41,6 +44,7 @@ impl Method {
             Self::Dopri5 => "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
             Self::Dop853 => "explicit Runge-Kutta 8(5,3), for smaller ones",
             Self::Radau5 => "implicit Runge-Kutta 5(3), for stiff hinges and latches",
+            Self::Gauss => "implicit Runge-Kutta 16, symmetric, for long free spin",
         }
     }
 
@@ -51,6 +55,7 @@ impl Method {
             Self::Dopri5 => 5,
             Self::Dop853 => 8,
             Self::Radau5 => 5,
+            Self::Gauss => 16,
         }
     }
 
@@ -60,7 +65,14 @@ impl Method {
             Self::Rkam | Self::Dopri5 => 4,
             Self::Dop853 => 7,
             Self::Radau5 => 3,
+            Self::Gauss => 8,
         }
+    }
+
+    /// Whether invariants stay where they are for as long as a run goes on: quadratic ones to
+    /// rounding, energies without a trend.
+    pub fn keeps_invariants(self) -> bool {
+        self == Self::Gauss
     }
 
     /// A stepper without a problem.
@@ -70,6 +82,7 @@ impl Method {
             Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
             Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),
             Self::Radau5 => Box::new(Radau::new(tolerance)),
+            Self::Gauss => Box::new(Gauss::new(tolerance)),
         }
     }
 }

@@ -89,6 +89,7 @@ fn outcome(error: Option<&str>) -> Outcome {
         events: 2,
         conservation,
         integrator: "dop853",
+        attitude_drift: 3e-12,
         selections: vec![
             selection(0.0, "generic", "recursive", "no routine"),
             selection(5.0, "generated", "articulated", "routine"),

@@ -62,8 +62,9 @@ impl Jacobian {
 
     fn differentiate(&mut self, free_fall: Vec3<f64>) {
         let Self { layout, dynamics, accelerations, rates, variables, derivatives } = self;
-        dynamics.accelerations(&motion(layout, variables), accelerations);
-        rates.write(dynamics, accelerations, free_fall, variables, derivatives);
+        let motion = motion(layout, dynamics, variables);
+        dynamics.accelerations(&motion, accelerations);
+        rates.write(dynamics, (&motion, accelerations), free_fall, variables, derivatives);
     }
 }
 
@@ -91,7 +92,7 @@ mod tests {
             kick_off: scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect(),
             thrust: scene.thrust.is_some(),
         };
-        let (mut equations, mut y) = (Equations::new(&scene, &state), Vec::new());
+        let (mut equations, mut y) = (Equations::new(&scene, &state, false), Vec::new());
         equations.enter(&scene, &mode, &state, &mut y);
         y.iter_mut().skip(equations.layout.tau().end).for_each(|y| *y = 0.4);
         (equations, y)

@@ -177,6 +177,9 @@ pub struct Summary {
     pub events: usize,
     /// Largest residuals of the conservation laws at output times and events.
     pub conservation: Conservation,
+    /// How far from 1 the norm of the attitude has been, or would have been if it were never put
+    /// back; see `docs/integrators.md`.
+    pub attitude_drift: f64,
     /// Name of the integrator.
     pub integrator: &'static str,
     /// Which code computed accelerations, mode by mode.

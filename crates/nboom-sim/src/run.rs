@@ -54,13 +54,39 @@ struct Run<'a> {
     /// Time and number of steps when progress was last looked at.
     pace: (f64, usize),
     selections: Vec<Selection>,
+    attitude_norm: AttitudeNorm,
+}
+
+/// The norm of the attitude as if it were never put back to 1.
+struct AttitudeNorm {
+    /// The norm that the attitude has.
+    present: f64,
+    /// How far from 1 it would be.
+    drift: f64,
+    largest_drift: f64,
+}
+
+impl AttitudeNorm {
+    fn new() -> Self {
+        Self { present: 1.0, drift: 0.0, largest_drift: 0.0 }
+    }
+
+    fn follow(&mut self, norm: f64) {
+        self.drift += norm - self.present;
+        self.largest_drift = self.largest_drift.max(self.drift.abs());
+        self.present = norm;
+    }
+
+    fn put_back(&mut self) {
+        self.present = 1.0;
+    }
 }
 
 impl<'a> Run<'a> {
     fn new(scene: &'a Scene, options: Options, recorder: &'a mut dyn Recorder) -> Self {
         let mut state = State::initial(scene);
         let mut mode = Mode::at_start(scene);
-        let mut equations = Equations::new(scene, &state);
+        let mut equations = Equations::new(scene, &state, options.integrator.keeps_invariants());
         let mut variables = Vec::new();
         equations.enter(scene, &mode, &state, &mut variables);
         put_mass_center(&mut equations, &mut state);
@@ -94,6 +120,7 @@ impl<'a> Run<'a> {
             burst: (initial.time, 0),
             pace: (initial.time, 0),
             selections: Vec::new(),
+            attitude_norm: AttitudeNorm::new(),
         }
     }
 
@@ -129,6 +156,7 @@ impl<'a> Run<'a> {
         self.select()?;
         let controlled = self.equations.layout.controlled();
         let time = self.state.time;
+        self.attitude_norm.put_back();
         self.stepper.start(&mut self.equations, time, &self.variables, controlled);
         self.guards.set(
             self.scene,
@@ -200,11 +228,17 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes the end of the step the present state, with the attitude put back to norm 1.
+    /// Makes the end of the step the present state, with the attitude put back to norm 1 where
+    /// the method does not keep it there.
     fn accept(&mut self) {
         self.stepper.advance();
-        let norm = self.stepper.window().state[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>();
-        self.stepper.scale(Layout::ATTITUDE, 1.0 / norm.sqrt());
+        let attitude = &self.stepper.window().state[Layout::ATTITUDE];
+        let norm = attitude.iter().map(|q| q * q).sum::<f64>().sqrt();
+        self.attitude_norm.follow(norm);
+        if !self.options.integrator.keeps_invariants() {
+            self.stepper.scale(Layout::ATTITUDE, 1.0 / norm);
+            self.attitude_norm.put_back();
+        }
         let window = self.stepper.window();
         self.equations.read(window.time, &window.state, &mut self.state);
     }
@@ -308,6 +342,7 @@ impl<'a> Run<'a> {
             conservation: self.ledger.residuals(),
             integrator: self.options.integrator.name(),
             selections: self.selections.clone(),
+            attitude_drift: self.attitude_norm.largest_drift,
         }
     }
 }
