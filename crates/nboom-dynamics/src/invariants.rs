@@ -69,12 +69,7 @@ impl<R: Real> Recursive<R> {
 
     /// ω, main-body axes, with which all bodies together have the angular momentum
     /// `momentum_body` about the system mass centre (main-body axes), eq. (8.12) solved for it.
-    pub fn angular_rate(
-        &mut self,
-        momentum_body: Vec3<R>,
-        beta: &[R],
-        tau: &[R],
-    ) -> Vec3<R> {
+    pub fn angular_rate(&mut self, momentum_body: Vec3<R>, beta: &[R], tau: &[R]) -> Vec3<R> {
         let hinges_alone = Motion { omega_body: Vec3::zero(), beta, tau };
         let of_hinges = self.invariants(&hinges_alone, Vec3::zero());
         let mut about_center = Sym3::zero();

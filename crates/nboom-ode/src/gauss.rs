@@ -63,7 +63,7 @@ const MOST: usize = 40;
 const TRIALS: usize = 24;
 /// Error at which the first step of a start is aimed, in units of the tolerance; as the error
 /// varies along the motion, it is well below one.
-const AIM: f64 = 0.1;
+const AIM: f64 = 0.01;
 /// Limits of the change of step size.
 const SHRINK: f64 = 0.1;
 const GROW: f64 = 8.0;

@@ -135,6 +135,43 @@ fn a_limit_is_reached_exactly_and_does_not_shorten_later_steps() {
     }
 }
 
+/// An attitude that is turned at a given rate, linear in its four variables.
+struct Turned;
+
+impl System for Turned {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        let [a, b, c] = [0.7, 0.4 * t.cos(), 0.4 * t.sin()];
+        dy[0] = 0.5 * (-a * y[1] - b * y[2] - c * y[3]);
+        dy[1] = 0.5 * (a * y[0] + c * y[2] - b * y[3]);
+        dy[2] = 0.5 * (b * y[0] - c * y[1] + a * y[3]);
+        dy[3] = 0.5 * (c * y[0] + b * y[1] - a * y[2]);
+    }
+}
+
+#[test]
+fn scaling_what_is_linear_commutes_with_steps() {
+    for method in Method::ALL {
+        let end = |factor: f64| {
+            let mut stepper = with_tolerance(method, 1e-6);
+            stepper.start(&mut Turned, 0.0, &[0.5, -0.5, 0.7, 0.1], 4);
+            for step in 0..12 {
+                if step == 5 {
+                    stepper.scale(0..4, factor);
+                }
+                stepper.step(&mut Turned, 0.2 * f64::from(step + 1)).expect("a smooth problem");
+                stepper.advance();
+            }
+            stepper.window().state.clone()
+        };
+        // Too little to change a decision on step sizes, and far more than rounding or the
+        // error of an iteration that has to converge to 1e-3 of the tolerance.
+        let factor = 1.0 + 1e-6;
+        for (scaled, plain) in end(factor).iter().zip(end(1.0)) {
+            assert!((scaled - factor * plain).abs() < 1e-11, "{method}: {scaled} {plain}");
+        }
+    }
+}
+
 /// ẏ = y², which runs to infinity at t = 1.
 struct Exploding;
 
