@@ -75,7 +75,7 @@ impl<R: Real> Recursive<R> {
         let mut about_center = Sym3::zero();
         self.for_each_link(&hinges_alone, |position, inertia, _| {
             let arm = position - of_hinges.mass_center;
-            about_center = about_center + inertia.seen_from(arm).about_origin;
+            about_center += inertia.seen_from(arm).about_origin;
         });
         about_center.solve(momentum_body - of_hinges.angular_momentum)
     }

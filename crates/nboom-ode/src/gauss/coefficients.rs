@@ -108,7 +108,7 @@ const NEWTON_STEPS: usize = 6;
 /// Bernstein coefficients of ∫P_k(2x − 1) from 0, of degree s.
 fn integral_of_legendre(k: usize) -> [f64; STAGES + 1] {
     let mut slope = [0.0; STAGES];
-    let mut coefficient = if k % 2 == 0 { 1.0 } else { -1.0 };
+    let mut coefficient = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     // (−1)^(k−i) C(k, i) of degree k.
     for i in 0..=k {
         slope[i] = coefficient;
