@@ -173,6 +173,21 @@ fn energy_momenta_and_mass_center() {
 }
 
 #[test]
+fn the_rate_that_the_angular_momentum_of_the_references_gives() {
+    for (id, case) in cases().iter().enumerate() {
+        let mut dynamics = case.dynamics();
+        let (beta, tau) = (case.of_free(&dynamics, &case.beta), case.of_free(&dynamics, &case.tau));
+        let [x, y, z] = numbers(&case.expected["Hc_inertial"])[..] else { panic!("a vector") };
+        let to_inertial = case.attitude.normalized().to_matrix();
+        let momentum_body = to_inertial.transpose_mul(Vec3::new(x, y, z));
+        let found = dynamics.angular_rate(momentum_body, &beta, &tau);
+        // What hinges add may cancel most of it.
+        let allowed = 1e-12 * (case.omega.norm() + tau.iter().map(|tau| tau.abs()).sum::<f64>());
+        assert!((found - case.omega).norm() < allowed, "case {id}: {found:?} {:?}", case.omega);
+    }
+}
+
+#[test]
 fn lock_up_of_the_first_free_hinge() {
     for (id, case) in cases().iter().enumerate() {
         let expected = &case.expected["lock_first_free_hinge"];

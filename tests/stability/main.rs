@@ -9,6 +9,7 @@ mod stress;
 
 mod dashpots;
 mod instants;
+mod long_spin;
 mod masses;
 mod postures;
 mod scales;

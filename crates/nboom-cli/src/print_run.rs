@@ -206,6 +206,7 @@ mod tests {
             integrations: [Method::Dop853, Method::Radau5, Method::Dop853]
                 .map(|method| Integration { since: 0.0, choice: Choice { method, reason: "" } })
                 .to_vec(),
+            attitude_drift: 0.0,
             selections: Vec::new(),
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };

@@ -1,5 +1,5 @@
 use nboom_model::Member;
-use nboom_scalar::{Real, RigidInertia, Twist, Vec3};
+use nboom_scalar::{Real, RigidInertia, Sym3, Twist, Vec3};
 
 use crate::pose;
 use crate::{Motion, Recursive};
@@ -65,6 +65,19 @@ impl<R: Real> Recursive<R> {
             found.add_body(position - mass_center, inertia, relative, center_velocity);
         });
         found
+    }
+
+    /// ω, main-body axes, with which all bodies together have the angular momentum
+    /// `momentum_body` about the system mass centre (main-body axes), eq. (8.12) solved for it.
+    pub fn angular_rate(&mut self, momentum_body: Vec3<R>, beta: &[R], tau: &[R]) -> Vec3<R> {
+        let hinges_alone = Motion { omega_body: Vec3::zero(), beta, tau };
+        let of_hinges = self.invariants(&hinges_alone, Vec3::zero());
+        let mut about_center = Sym3::zero();
+        self.for_each_link(&hinges_alone, |position, inertia, _| {
+            let arm = position - of_hinges.mass_center;
+            about_center += inertia.seen_from(arm).about_origin;
+        });
+        about_center.solve(momentum_body - of_hinges.angular_momentum)
     }
 
     /// Length and rate of the kick-off spring of hinge `hinge`; `None` without a spring.

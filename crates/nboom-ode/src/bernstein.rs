@@ -39,6 +39,17 @@ impl Bernstein {
         Self { degree, coefficients }
     }
 
+    /// Its value at `x` (de Casteljau).
+    pub fn at(&self, x: f64) -> f64 {
+        let mut row = self.coefficients;
+        for level in 0..self.degree {
+            for j in 0..self.degree - level {
+                row[j] += x * (row[j + 1] - row[j]);
+            }
+        }
+        row[0]
+    }
+
     /// Its coefficients; the first and last are its values at 0 and 1.
     pub fn coefficients(&self) -> &[f64] {
         &self.coefficients[..=self.degree]

@@ -30,6 +30,7 @@
 mod automatic;
 mod bernstein;
 mod error;
+mod gauss;
 mod linear;
 mod method;
 mod radau;
@@ -42,6 +43,7 @@ mod tableau;
 pub use automatic::Automatic;
 pub use bernstein::{Bernstein, Interpolation};
 pub use error::StepError;
+pub use gauss::Gauss;
 pub use method::Method;
 pub use radau::Radau;
 pub use rkam::{Rkam, RkamSettings};

@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::{Automatic, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
+use crate::{Automatic, Gauss, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -15,11 +15,14 @@ pub enum Method {
     Dop853,
     /// Radau's implicit Runge-Kutta method of order 5.
     Radau5,
+    /// Gauss's implicit Runge-Kutta method of order 16 with constant steps.
+    Gauss,
 }
 
 impl Method {
-    /// All: the one that chooses, explicit ones from low to high order, the implicit one.
-    pub const ALL: [Self; 5] = [Self::Auto, Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5];
+    /// All: the one that chooses, explicit ones from low to high order, the implicit ones.
+    pub const ALL: [Self; 6] =
+        [Self::Auto, Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5, Self::Gauss];
 
     /// The name in commands and files.
     pub fn name(self) -> &'static str {
@@ -29,6 +32,7 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Dop853 => "dop853",
             Self::Radau5 => "radau5",
+            Self::Gauss => "gauss",
         }
     }
 
@@ -45,6 +49,7 @@ impl Method {
             Self::Dopri5 => "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
             Self::Dop853 => "explicit Runge-Kutta 8(5,3), for smaller ones",
             Self::Radau5 => "implicit Runge-Kutta 5(3), for stiff hinges and latches",
+            Self::Gauss => "implicit Runge-Kutta 16, symmetric, for long free spin",
         }
     }
 
@@ -55,6 +60,7 @@ impl Method {
             Self::Auto | Self::Dopri5 => 5,
             Self::Dop853 => 8,
             Self::Radau5 => 5,
+            Self::Gauss => 16,
         }
     }
 
@@ -64,7 +70,14 @@ impl Method {
             Self::Auto | Self::Rkam | Self::Dopri5 => 4,
             Self::Dop853 => 7,
             Self::Radau5 => 3,
+            Self::Gauss => 8,
         }
+    }
+
+    /// Whether invariants stay where they are for as long as a run goes on: quadratic ones to
+    /// rounding, energies without a trend.
+    pub fn keeps_invariants(self) -> bool {
+        self == Self::Gauss
     }
 
     /// A stepper without a problem.
@@ -75,6 +88,7 @@ impl Method {
             Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
             Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),
             Self::Radau5 => Box::new(Radau::new(tolerance)),
+            Self::Gauss => Box::new(Gauss::new(tolerance)),
         }
     }
 }

@@ -85,6 +85,7 @@ pub struct SummaryFile<'a> {
     events: usize,
     wall_seconds: f64,
     conservation: ConservationKeys,
+    attitude_drift: f64,
     skipped: &'a [String],
     warnings: &'a [String],
 }
@@ -157,6 +158,7 @@ impl<'a> SummaryFile<'a> {
             events: 0,
             wall_seconds: 0.0,
             conservation: Conservation::default().into(),
+            attitude_drift: 0.0,
             skipped: &run.skipped,
             warnings: &run.warnings,
         }
@@ -187,6 +189,7 @@ impl<'a> SummaryFile<'a> {
             events: summary.events,
             wall_seconds,
             conservation: summary.conservation.into(),
+            attitude_drift: summary.attitude_drift,
             ..Self::unfinished(run)
         }
     }

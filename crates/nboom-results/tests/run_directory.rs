@@ -97,6 +97,7 @@ fn outcome(error: Option<&str>) -> Outcome {
         conservation,
         integrator: "auto",
         integrations: vec![integration(0.0, Method::Dop853), integration(5.0, Method::Radau5)],
+        attitude_drift: 3e-12,
         selections: vec![
             selection(0.0, "generic", "recursive", "no routine"),
             selection(5.0, "generated", "articulated", "routine"),
@@ -160,6 +161,7 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "events": 2,
         "wall_seconds": 0.25,
         "conservation": {"linear_momentum": 1e-15, "angular_momentum": 2e-15, "energy": 3e-13},
+        "attitude_drift": 3e-12,
         "skipped": nboom_model::Facts::of(&scene()).skipped(),
         "warnings": [],
     });

@@ -83,6 +83,21 @@ impl<R: Real> Sym3<R> {
         )
     }
 
+    /// `self⁻¹ right` of a positive definite matrix, by L D Lᵀ.
+    #[inline]
+    pub fn solve(self, right: Vec3<R>) -> Vec3<R> {
+        let inverse_x = R::one() / self.xx;
+        let (yx, zx) = (self.xy * inverse_x, self.xz * inverse_x);
+        let inverse_y = R::one() / (self.yy - yx * self.xy);
+        let below = self.yz - zx * self.xy;
+        let zy = below * inverse_y;
+        let pivot_z = self.zz - zx * self.xz - zy * below;
+        let y = right.y - yx * right.x;
+        let z = (right.z - zx * right.x - zy * y) / pivot_z;
+        let y = y * inverse_y - zy * z;
+        Vec3::new(right.x * inverse_x - yx * y - zx * z, y, z)
+    }
+
     /// `rot self rotᵀ`: the same tensor along other axes.
     #[inline]
     pub fn rotated(self, rot: &Mat3<R>) -> Self {

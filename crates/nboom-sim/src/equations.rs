@@ -9,6 +9,7 @@ use crate::error::SimError;
 use crate::fit::Repertoire;
 use crate::jacobian::Jacobian;
 use crate::layout::Layout;
+use crate::ledger::totals;
 use crate::options::Options;
 use crate::rates::Rates;
 use crate::record::Selection;
@@ -33,6 +34,8 @@ pub(crate) struct Equations {
     rates: Rates<f64>,
     /// Made when an integrator asks for it in the mode.
     jacobian: Option<Jacobian>,
+    /// Whether the angular momentum stands for the rate where nothing changes it.
+    momentum_for_rate: bool,
 }
 
 impl Equations {
@@ -42,7 +45,7 @@ impl Equations {
             .iter()
             .map(|body| HingeLaw::new(&body.hinge.spring, &body.hinge.dashpot))
             .collect();
-        let layout = Layout { free: 0, thrust: false, dashpots: false };
+        let layout = Layout { momentum: None, free: 0, thrust: false, dashpots: false };
         Self {
             scene: scene.clone(),
             mode: Mode::at_start(scene),
@@ -58,6 +61,7 @@ impl Equations {
             accelerations: Accelerations::for_hinges(0),
             rates: Rates::new(scene, layout, &[], None),
             jacobian: None,
+            momentum_for_rate: options.integrator.keeps_invariants(),
         }
     }
 
@@ -67,8 +71,12 @@ impl Equations {
         self.dynamics.set_mode(mode, &state.beta);
         self.origin.clone_from(state);
         self.thrust = scene.thrust.filter(|_| mode.thrust);
+        // Springs, dashpots and uniform gravity exert no moment about the mass centre.
+        let momentum = (self.momentum_for_rate && self.thrust.is_none())
+            .then(|| totals(state, &self.invariants(state)).angular_momentum_inertial);
         let free = self.dynamics.free_hinges();
         self.layout = Layout {
+            momentum,
             free: free.len(),
             thrust: self.thrust.is_some(),
             dashpots: free.iter().any(|&i| self.laws[i].depends_on_rate()),
@@ -80,18 +88,20 @@ impl Equations {
         let q = state.attitude;
         y.push(q.scalar);
         y.extend(q.vector.to_array());
-        y.extend(state.omega_body.to_array());
+        if self.layout.momentum.is_none() {
+            y.extend(state.omega_body.to_array());
+        }
         y.extend(free.iter().map(|&i| state.beta[i]));
         y.extend(free.iter().map(|&i| state.tau[i]));
         y.resize(self.layout.len(), 0.0);
     }
 
     /// The state that the variables `y` at time `t` stand for.
-    pub fn read(&self, t: f64, y: &[f64], state: &mut State) {
+    pub fn read(&mut self, t: f64, y: &[f64], state: &mut State) {
         let layout = &self.layout;
         state.time = t;
         state.attitude = attitude(y).normalized();
-        state.omega_body = omega(y);
+        state.omega_body = motion(layout, &mut self.dynamics, y).omega_body;
         state.beta.clone_from(&self.origin.beta);
         state.tau.fill(0.0);
         for (j, &i) in self.dynamics.free_hinges().iter().enumerate() {
@@ -193,9 +203,12 @@ impl Equations {
 
 impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        self.compute(&motion(&self.layout, y));
+        let motion = motion(&self.layout, &mut self.dynamics, y);
+        if self.layout.needs_accelerations() {
+            self.compute(&motion);
+        }
         let free_fall = self.free_fall(t).velocity;
-        self.rates.write(&mut self.dynamics, &self.accelerations, free_fall, y, dy);
+        self.rates.write(&mut self.dynamics, (&motion, &self.accelerations), free_fall, y, dy);
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
@@ -207,16 +220,25 @@ impl System for Equations {
     }
 }
 
-/// The rates and free hinges among the variables.
-pub(crate) fn motion<'a, R: Real>(layout: &Layout, y: &'a [R]) -> Motion<'a, R> {
-    Motion { omega_body: omega(y), beta: &y[layout.beta()], tau: &y[layout.tau()] }
+/// The motion that the variables stand for; `dynamics` is in their mode.
+pub(crate) fn motion<'a, R: Real>(
+    layout: &Layout,
+    dynamics: &mut Recursive<R>,
+    y: &'a [R],
+) -> Motion<'a, R> {
+    let (beta, tau) = (&y[layout.beta()], &y[layout.tau()]);
+    let omega_body = match layout.momentum {
+        None => Vec3::new(y[4], y[5], y[6]),
+        Some(momentum) => {
+            let to_inertial = attitude(y).normalized().to_matrix();
+            let momentum_body = to_inertial.transpose_mul(Vec3::constant(momentum));
+            dynamics.angular_rate(momentum_body, beta, tau)
+        }
+    };
+    Motion { omega_body, beta, tau }
 }
 
 /// The attitude among the variables, whose norm is near 1.
 pub(crate) fn attitude<R: Real>(y: &[R]) -> Quaternion<R> {
     Quaternion { scalar: y[0], vector: Vec3::new(y[1], y[2], y[3]) }
-}
-
-fn omega<R: Real>(y: &[R]) -> Vec3<R> {
-    Vec3::new(y[4], y[5], y[6])
 }

@@ -1,7 +1,7 @@
 use nboom_model::{HingeState, Mode, Release, Scene};
 use nboom_ode::{Bernstein, Interpolation, Stepper};
 
-use crate::equations::{Equations, motion};
+use crate::equations::Equations;
 use crate::state::State;
 
 /// A quantity whose change of sign is an event.
@@ -183,7 +183,7 @@ impl Guards {
             displaced += excursion * reach;
         }
         let mut length_squared = [0.0];
-        let start = motion(&layout, &stepper.window().state).beta;
+        let start = &stepper.window().state[layout.beta()];
         equations.dynamics.spring_lengths_squared(start, &[hinge], &mut length_squared);
         let clearance = (length_squared[0].sqrt() - limit).abs();
         if matches!(side, Side::Known(_)) && clearance > displaced {
@@ -196,7 +196,7 @@ impl Guards {
             let values = std::array::from_fn(|i| {
                 let fraction = (piece as f64 + Interpolation::point(i)) / pieces as f64;
                 stepper.interpolate(fraction, &mut variables);
-                let beta = motion(&layout, &variables).beta;
+                let beta = &variables[layout.beta()];
                 equations.dynamics.spring_lengths_squared(beta, &[hinge], &mut length_squared);
                 length_squared[0] - limit * limit
             });

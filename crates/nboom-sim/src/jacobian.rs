@@ -62,8 +62,9 @@ impl Jacobian {
 
     fn differentiate(&mut self, free_fall: Vec3<f64>) {
         let Self { layout, dynamics, accelerations, rates, variables, derivatives } = self;
-        dynamics.accelerations(&motion(layout, variables), accelerations);
-        rates.write(dynamics, accelerations, free_fall, variables, derivatives);
+        let motion = motion(layout, dynamics, variables);
+        dynamics.accelerations(&motion, accelerations);
+        rates.write(dynamics, (&motion, accelerations), free_fall, variables, derivatives);
     }
 }
 

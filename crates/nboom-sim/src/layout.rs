@@ -1,11 +1,15 @@
 use std::ops::Range;
 
-/// Which variables are integrated in a mode, and where they stand: attitude (4), rate (3),
-/// angles and rates of the free hinges, and only where needed the thrust's displacement and
-/// velocity of the mass centre (6), the work of dashpots (1), and the work and angular impulse
-/// of the thrust (4).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use nboom_scalar::Vec3;
+
+/// Which variables are integrated in a mode, and where they stand: attitude (4), rate (3)
+/// unless it follows from the angular momentum, angles and rates of the free hinges, and only
+/// where needed the thrust's displacement and velocity of the mass centre (6), the work of
+/// dashpots (1), and the work and angular impulse of the thrust (4).
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
+    /// H̄_c, inertial axes, of a mode in which it stands for the rate.
+    pub momentum: Option<Vec3<f64>>,
     pub free: usize,
     pub thrust: bool,
     pub dashpots: bool,
@@ -13,14 +17,25 @@ pub(crate) struct Layout {
 
 impl Layout {
     pub const ATTITUDE: Range<usize> = 0..4;
-    pub const OMEGA: Range<usize> = 4..7;
+
+    pub fn omega(&self) -> Range<usize> {
+        let start = Self::ATTITUDE.end;
+        start..start + if self.momentum.is_none() { 3 } else { 0 }
+    }
 
     pub fn beta(&self) -> Range<usize> {
-        7..7 + self.free
+        let start = self.omega().end;
+        start..start + self.free
     }
 
     pub fn tau(&self) -> Range<usize> {
-        7 + self.free..7 + 2 * self.free
+        let start = self.beta().end;
+        start..start + self.free
+    }
+
+    /// Whether the rate of some variable is an acceleration.
+    pub fn needs_accelerations(&self) -> bool {
+        self.momentum.is_none() || self.free > 0
     }
 
     /// Displacement of the mass centre by the thrust, then its velocity.

@@ -38,6 +38,7 @@
 //! # Ok::<(), nboom_sim::Failure>(())
 //! ```
 
+mod attitude_norm;
 mod closed_form;
 mod code;
 mod equations;

@@ -1,9 +1,9 @@
-use nboom_dynamics::{Accelerations, Recursive};
+use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::HingeLaw;
 use nboom_model::{Scene, Thrust};
 use nboom_scalar::{Real, Vec3};
 
-use crate::equations::{attitude, motion};
+use crate::equations::attitude;
 use crate::layout::Layout;
 
 /// The rates of change of all variables of a mode, over any scalar, once accelerations are known.
@@ -26,22 +26,23 @@ impl<R: Real> Rates<R> {
         Self { layout, laws: free.iter().map(law).collect(), thrust, total_mass }
     }
 
-    /// Writes ẏ at `y` to `dy`; `dynamics` is in the same mode, and the mass centre would fall
-    /// with the velocity `free_fall` (inertial axes) without thrust.
+    /// Writes ẏ at `y`, which stands for `motion`, to `dy`; `dynamics` is in the same mode, and the
+    /// mass centre would fall with the velocity `free_fall` (inertial axes) without thrust.
     pub fn write(
         &self,
         dynamics: &mut Recursive<R>,
-        accelerations: &Accelerations<R>,
+        (motion, accelerations): (&Motion<'_, R>, &Accelerations<R>),
         free_fall: Vec3<f64>,
         y: &[R],
         dy: &mut [R],
     ) {
         let layout = &self.layout;
-        let motion = motion(layout, y);
         let rate = attitude(y).rate(motion.omega_body);
         dy[0] = rate.scalar;
         dy[1..4].copy_from_slice(&rate.vector.to_array());
-        dy[Layout::OMEGA].copy_from_slice(&accelerations.omega_dot_body.to_array());
+        if let [x, y, z] = &mut dy[layout.omega()] {
+            [*x, *y, *z] = accelerations.omega_dot_body.to_array();
+        }
         dy[layout.beta()].copy_from_slice(motion.tau);
         dy[layout.tau()].copy_from_slice(&accelerations.tau_dot);
         if let [work] = &mut dy[layout.dashpot_work()] {
@@ -50,7 +51,7 @@ impl<R: Real> Rates<R> {
             *work = power.fold(R::zero(), |sum, of_hinge| sum + of_hinge);
         }
         if let Some(thrust) = &self.thrust {
-            self.write_thrust(dynamics, thrust, free_fall, y, dy);
+            self.write_thrust(dynamics, thrust, motion, free_fall, y, dy);
         }
     }
 
@@ -58,6 +59,7 @@ impl<R: Real> Rates<R> {
         &self,
         dynamics: &mut Recursive<R>,
         thrust: &Thrust,
+        motion: &Motion<'_, R>,
         free_fall: Vec3<f64>,
         y: &[R],
         dy: &mut [R],
@@ -69,8 +71,7 @@ impl<R: Real> Rates<R> {
         let (displacement, work) = (layout.thrust_motion().start, layout.thrust_work().start);
         let added = &y[displacement + 3..][..3];
         let velocity = Vec3::constant(free_fall) + Vec3::new(added[0], added[1], added[2]);
-        let motion = motion(layout, y);
-        let found = dynamics.invariants(&motion, to_inertial.transpose_mul(velocity));
+        let found = dynamics.invariants(motion, to_inertial.transpose_mul(velocity));
         let at_point = found.origin_velocity + motion.omega_body.cross(point);
         let moment = to_inertial * (point - found.mass_center).cross(force_body);
         let acceleration = force * (R::one() / self.total_mass);

@@ -182,6 +182,9 @@ pub struct Summary {
     pub jacobians: usize,
     /// Factorisations of iteration matrices, by implicit integrators.
     pub factorizations: usize,
+    /// How far from 1 the norm of the attitude has been, or would have been if it were never put
+    /// back; see `docs/integrators.md`.
+    pub attitude_drift: f64,
     /// Name of the integrator.
     pub integrator: &'static str,
     /// Which method took the steps.

@@ -1,6 +1,7 @@
 use nboom_model::{Mode, Scene, SceneDescription};
 use nboom_ode::Stepper;
 
+use crate::attitude_norm::AttitudeNorm;
 use crate::equations::Equations;
 use crate::error::{Failure, SimError};
 use crate::guard::{GuardKind, Guards, read};
@@ -55,6 +56,7 @@ struct Run<'a> {
     pace: (f64, usize),
     selections: Vec<Selection>,
     integrations: Vec<Integration>,
+    attitude_norm: AttitudeNorm,
 }
 
 impl<'a> Run<'a> {
@@ -96,6 +98,7 @@ impl<'a> Run<'a> {
             pace: (initial.time, 0),
             selections: Vec::new(),
             integrations: Vec::new(),
+            attitude_norm: AttitudeNorm::new(),
         }
     }
 
@@ -131,6 +134,7 @@ impl<'a> Run<'a> {
         self.select()?;
         let controlled = self.equations.layout.controlled();
         let time = self.state.time;
+        self.attitude_norm.put_back();
         self.stepper.start(&mut self.equations, time, &self.variables, controlled);
         self.guards.set(
             self.scene,
@@ -212,11 +216,17 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes the end of the step the present state, with the attitude put back to norm 1.
+    /// Makes the end of the step the present state, with the attitude put back to norm 1 where
+    /// the method does not keep it there.
     fn accept(&mut self) {
         self.stepper.advance();
-        let norm = self.stepper.window().state[Layout::ATTITUDE].iter().map(|q| q * q).sum::<f64>();
-        self.stepper.scale(Layout::ATTITUDE, 1.0 / norm.sqrt());
+        let attitude = &self.stepper.window().state[Layout::ATTITUDE];
+        let norm = attitude.iter().map(|q| q * q).sum::<f64>().sqrt();
+        self.attitude_norm.follow(norm);
+        if !self.options.integrator.keeps_invariants() {
+            self.stepper.scale(Layout::ATTITUDE, 1.0 / norm);
+            self.attitude_norm.put_back();
+        }
         let window = self.stepper.window();
         self.equations.read(window.time, &window.state, &mut self.state);
     }
@@ -323,6 +333,7 @@ impl<'a> Run<'a> {
             integrator: self.options.integrator.name(),
             integrations: self.integrations.clone(),
             selections: self.selections.clone(),
+            attitude_drift: self.attitude_norm.largest_drift,
         }
     }
 }

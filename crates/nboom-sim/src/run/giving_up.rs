@@ -57,8 +57,9 @@ impl Run<'_> {
         let layout = self.equations.layout;
         let free = self.equations.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];
-        let motion = motion(&layout, self.stepper.last_evaluated());
-        self.equations.dynamics.hinge_forces(&motion, &mut torques);
+        let dynamics = &mut self.equations.dynamics;
+        let motion = motion(&layout, dynamics, self.stepper.last_evaluated());
+        dynamics.hinge_forces(&motion, &mut torques);
         let bounded = |torque: f64| torque.abs() < BOUND;
         let without_bound = torques.iter().position(|&torque| !bounded(torque));
         let error_of = |position: usize| self.stepper.error_of(layout.tau().start + position);
