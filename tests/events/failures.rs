@@ -193,6 +193,34 @@ fn throws_that_die_away_fast_do_not_hang() {
     assert_eq!(hinge, Some(FIRST));
 }
 
+/// Events that are never many within a ten-thousandth of the span, or only after some hundred
+/// thousand of them: throws that do not shorten, and throws whose number grows as exp(0.8 t).
+#[test]
+fn the_events_of_a_run_are_bounded_in_number() {
+    for (start, damping, end_time) in [(1.0 - 1e-8, 0.0, 100.0), (0.5, 1.0, 50.0)] {
+        let options = Options { max_events: 2000, ..tight(1) };
+        let (found, error) = failure(&thrown(start, damping, end_time), &options);
+        let SimError::Chatter { time, hinge, events, within } = error else { panic!("{error}") };
+        assert_eq!((events, found.events.len(), hinge), (2000, 2000, Some(FIRST)));
+        // Counted from the initial time, which is zero; the last event is where it ends.
+        assert_eq!((time, within), (found.events[1999].0.time, time));
+        // Nowhere were there a thousand within a ten-thousandth of the span.
+        assert!(time > 20.0 * 1e-4 * end_time, "{time}");
+    }
+}
+
+/// A boom that creeps to the limit against a dashpot which leaves it no throw worth the name.
+#[test]
+fn a_boom_that_creeps_to_a_limit_length_does_not_hang() {
+    for damping in [20.0, 100.0] {
+        let result = ends(thrown(0.9, damping, 500.0));
+        let Err(SimError::Chatter { time, hinge, .. }) = result else { panic!("{result:?}") };
+        // The way of 0.1 takes 0.1 · damping at a torque of about 1; then it is given up soon.
+        assert!(time < 0.2 * damping + 1.0, "{time}");
+        assert_eq!(hinge, Some(FIRST));
+    }
+}
+
 #[test]
 fn a_slender_rod_that_turns_about_itself_is_named_however_it_stands() {
     for turn in 0..12 {

@@ -26,9 +26,12 @@ pub enum ChoiceError {
     /// The number is infinite or not a number.
     #[error("a finite number expected")]
     NotFinite,
-    /// A tolerance is zero or negative.
+    /// A tolerance or a length of time is zero or negative.
     #[error("a number above zero expected")]
     NotPositive,
+    /// A relative tolerance allows any error.
+    #[error("a number below 1 expected")]
+    NoDigits,
     /// A relative tolerance is below rounding.
     #[error("a number not below {SMALLEST_RTOL:e} expected")]
     BelowRounding,
@@ -74,7 +77,11 @@ pub(crate) fn positive(text: &str) -> Result<f64, ChoiceError> {
 
 pub(crate) fn rtol(text: &str) -> Result<f64, ChoiceError> {
     let value = positive(text)?;
-    if value >= SMALLEST_RTOL { Ok(value) } else { Err(ChoiceError::BelowRounding) }
+    match value {
+        _ if value < SMALLEST_RTOL => Err(ChoiceError::BelowRounding),
+        _ if value < 1.0 => Ok(value),
+        _ => Err(ChoiceError::NoDigits),
+    }
 }
 
 #[cfg(test)]
@@ -85,6 +92,13 @@ mod tests {
     fn tolerances_have_limits() {
         assert_eq!(rtol("1e-14"), Ok(1e-14));
         assert_eq!(rtol("1e-15"), Err(ChoiceError::BelowRounding));
+        for text in ["1e-18", "1e-300"] {
+            assert_eq!(rtol(text), Err(ChoiceError::BelowRounding));
+        }
+        for text in ["1", "10"] {
+            assert_eq!(rtol(text), Err(ChoiceError::NoDigits));
+        }
+        assert_eq!(rtol("0.99"), Ok(0.99));
         assert_eq!(positive("1e-30"), Ok(1e-30));
         for (text, error) in [
             ("0", ChoiceError::NotPositive),

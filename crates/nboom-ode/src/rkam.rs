@@ -253,6 +253,11 @@ impl Stepper for Rkam {
         self.window.next_step = step.clamp(shortest, longest);
     }
 
+    fn limit_steps(&mut self, longest: f64) {
+        let RkamSettings { shortest, longest: of_settings, .. } = self.settings;
+        self.settings.longest = of_settings.min(longest).max(shortest);
+    }
+
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         loop {
             let wanted = self.window.next_step;

@@ -65,8 +65,13 @@ pub struct Options {
     pub rtol: f64,
     /// Absolute error allowed in a step, in the units of each variable.
     pub atol: f64,
+    /// What no step is longer than, but by up to a hundredth of it to reach the next scheduled
+    /// time.
+    pub max_step: f64,
     /// Steps after which the run is given up.
     pub max_steps: usize,
+    /// Events after which the run is given up.
+    pub max_events: usize,
     /// Whether generated or library code computes accelerations.
     pub path: Path,
     /// The equations that accelerations come from; `None` leaves that to the path.
@@ -83,7 +88,9 @@ impl Default for Options {
             rkam: None,
             rtol: 1e-9,
             atol: 1e-12,
+            max_step: f64::INFINITY,
             max_steps: 10_000_000,
+            max_events: 20_000,
             path: Path::Auto,
             formulation: None,
             kernels: &[],
@@ -98,9 +105,11 @@ impl Options {
     }
 
     pub(crate) fn stepper(&self) -> Box<dyn Stepper> {
-        match (self.integrator, self.rkam) {
+        let mut stepper = match (self.integrator, self.rkam) {
             (Method::Rkam, Some(settings)) => Box::new(Rkam::new(settings)),
             _ => self.integrator.stepper(self.tolerance()),
-        }
+        };
+        stepper.limit_steps(self.max_step);
+        stepper
     }
 }

@@ -83,20 +83,22 @@ impl Run<'_> {
         }
     }
 
+    /// Gives up a run whose events follow one another without the time getting on, or are too
+    /// many in all.
     pub(super) fn check_chatter(&mut self, events: &[Event]) -> Result<(), SimError> {
-        let span = self.scene.end_time - self.scene.initial.time;
+        let (start, time) = (self.scene.initial.time, self.state.time);
         let (since, count) = self.burst;
-        if self.state.time - since > CHATTER_SPAN * span {
-            self.burst = (self.state.time, events.len());
-            return Ok(());
-        }
-        let events_now = count + events.len().max(1);
-        self.burst = (since, events_now);
-        if events_now < CHATTER_EVENTS + self.scene.bodies.len() {
-            return Ok(());
-        }
+        let goes_on = time - since > CHATTER_SPAN * (self.scene.end_time - start);
+        self.burst =
+            if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
+        let (since, events_since) = self.burst;
+        let too_many = if events_since >= CHATTER_EVENTS + self.scene.bodies.len() {
+            Some((since, events_since))
+        } else {
+            (self.events >= self.options.max_events).then_some((start, self.events))
+        };
+        let Some((since, count)) = too_many else { return Ok(()) };
         let hinge = events.last().and_then(|event| event.hinge).map(|i| self.scene.label(i));
-        let within = self.state.time - since;
-        Err(SimError::Chatter { time: self.state.time, hinge, events: events_now, within })
+        Err(SimError::Chatter { time, hinge, events: count, within: time - since })
     }
 }
