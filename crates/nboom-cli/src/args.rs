@@ -106,7 +106,7 @@ pub struct RunArgs {
           value_parser = choice::integrator)]
     pub integrator: Method,
 
-    /// Relative error allowed in a step, at least 1e-14.
+    /// Relative error allowed in a step, from 1e-14 to below 1.
     #[arg(long, value_name = "R", default_value = "1e-9", value_parser = choice::rtol,
           allow_negative_numbers = true)]
     pub rtol: f64,

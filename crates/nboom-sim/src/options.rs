@@ -4,6 +4,8 @@ use nboom_formulation::Formulation;
 use nboom_ode::{Method, Rkam, RkamSettings, Stepper, Tolerance};
 use nboom_scalar::Kernel;
 
+use crate::OptionError;
+
 /// Whether generated or library code computes accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Path {
@@ -98,7 +100,29 @@ impl Default for Options {
     }
 }
 
+/// Below this a relative error is smaller than the rounding of a step.
+const SMALLEST_RTOL: f64 = 1e-14;
+
 impl Options {
+    /// Refuses numbers with which no run can be made.
+    ///
+    /// # Errors
+    /// The first of them.
+    pub fn check(&self) -> Result<(), OptionError> {
+        let Self { rtol, atol, max_step, samples, .. } = *self;
+        let has_digits = (SMALLEST_RTOL..1.0).contains(&rtol);
+        let checks = [
+            (has_digits, "relative error", rtol, "a number from 1e-14 to below 1"),
+            (atol > 0.0 && atol.is_finite(), "absolute error", atol, "a finite number above zero"),
+            (max_step > 0.0, "longest step", max_step, "a number above zero"),
+            (samples > 0, "output intervals", samples as f64, "at least 1"),
+        ];
+        let wrong = checks.into_iter().find(|(is_right, ..)| !is_right);
+        wrong.map_or(Ok(()), |(_, option, value, expected)| {
+            Err(OptionError { option, value, expected })
+        })
+    }
+
     /// Errors allowed in a step.
     pub fn tolerance(&self) -> Tolerance {
         Tolerance { relative: self.rtol, absolute: self.atol }

@@ -98,6 +98,7 @@ impl<'a> Run<'a> {
     }
 
     fn complete(&mut self) -> Result<(), SimError> {
+        self.options.check()?;
         let mut arrivals = Arrivals::at_start(self.scene);
         loop {
             self.pass_instant(&arrivals)?;
