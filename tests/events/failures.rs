@@ -6,8 +6,8 @@ use std::thread;
 use std::time::Duration;
 
 use nboom::model::{
-    Appendage, Dashpot, Hinge, HingeLabel, HingeStart, KickOffSpring, MassProperties, Mount, Scene,
-    Segment, Spring,
+    Appendage, Dashpot, Hinge, HingeLabel, HingeStart, HingeState, KickOffSpring, MassProperties,
+    Mount, Release, Scene, Segment, Spring,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::{Event, Options, Recorder, SimError, Snapshot, simulate};
@@ -71,6 +71,55 @@ fn a_kick_off_spring_beyond_all_numbers_fails_with_time_and_hinge() {
             assert!((0.0..1e-10).contains(&time), "{time}");
         }
         other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_kick_off_spring_without_length_is_named() {
+    // Both ends at one point, at the start, and when its hinge is released; the turn brings
+    // rounding in.
+    let point = Vec3::new(0.1, 0.7, 0.2);
+    let kick_off = |angle: f64| KickOffSpring {
+        main_body_point: Mat3::about_axis(Vec3::unit_x(), angle) * point,
+        body_point: point,
+        coefficients: [2.0, 0.0, 0.0, 0.0],
+        limit_length: 1.0,
+    };
+    for angle in [0.0, 0.3, -2.0] {
+        let starts_free = Hinge { kick_off: Some(kick_off(angle)), ..free(angle, 1.0) };
+        let start = HingeStart { angle, rate: 0.0, state: HingeState::Unreleased };
+        let waits = Hinge { start, release: Release::Time(0.25), ..starts_free };
+        for (hinge, when) in [(starts_free, 0.0), (waits, 0.25)] {
+            let (_, error) = failure(&scene(&[free(0.0, 1.0), hinge], 1.0), &tight(1));
+            let SimError::SpringWithoutLength { time, hinge } = error else { panic!("{error}") };
+            assert_eq!((time, hinge), (when, SECOND));
+            assert!(error.to_string().contains("hinge 2,1: its kick-off spring"), "{error}");
+        }
+    }
+}
+
+#[test]
+fn options_that_no_run_can_have_are_refused() {
+    let defaults = Options::default();
+    let with_rtol = |rtol| Options { rtol, ..defaults };
+    let with_atol = |atol| Options { atol, ..defaults };
+    let with_max_step = |max_step| Options { max_step, ..defaults };
+    let rtols = [1e-18, 1e-300, 0.0, -1e-9, f64::NAN, f64::INFINITY, 1.0, 10.0].map(with_rtol);
+    let atols = [0.0, -1e-9, f64::NAN, f64::INFINITY].map(with_atol);
+    let steps = [0.0, -0.1, f64::NAN].map(with_max_step);
+    let samples = [Options { samples: 0, ..defaults }];
+    for (name, options) in [
+        ("relative error", &rtols[..]),
+        ("absolute error", &atols),
+        ("longest step", &steps),
+        ("output intervals", &samples),
+    ] {
+        for options in options {
+            let (_, error) = failure(&scene(&[free(0.0, 1.0)], 1.0), options);
+            let SimError::Option(refused) = error else { panic!("{error}") };
+            assert_eq!(refused.option, name);
+            assert!(refused.to_string().contains("expected"), "{refused}");
+        }
     }
 }
 

@@ -117,7 +117,8 @@ impl Tally {
         let scene = checked(&description);
         let mut sampled = Sampled::new(&scene);
         sampled.run(scene.end_time / (finer * steps as f64).max(FEWEST));
-        let names = |events: &[Happening]| -> Vec<_> { events.iter().map(|e| (e.0, e.1)).collect() };
+        let names =
+            |events: &[Happening]| -> Vec<_> { events.iter().map(|e| (e.0, e.1)).collect() };
         if names(&found) != names(&sampled.events) {
             println!("scene {seed}: {found:?}\n{:?}", sampled.events);
             self.mismatches.push(seed);

@@ -75,7 +75,8 @@ impl<'a> Sampled<'a> {
                 crossed.iter().map(|&i| self.close_in(self.guards[i], &start, step)).collect();
             let first = times.iter().fold(f64::INFINITY, |a, &b| a.min(b));
             if first < step {
-                let together = crossed.iter().zip(&times).filter(|(_, t)| **t - first < ONE_INSTANT);
+                let together =
+                    crossed.iter().zip(&times).filter(|(_, t)| **t - first < ONE_INSTANT);
                 let guards: Vec<Guard> = together.map(|(&i, _)| self.guards[i].0).collect();
                 self.go_to(&start, first);
                 self.pass(&guards);
@@ -227,10 +228,11 @@ impl<'a> Sampled<'a> {
     }
 
     fn next_scheduled(&self) -> f64 {
-        let releases = (0..self.beta.len()).filter_map(|i| match self.scene.bodies[i].hinge.release {
-            Release::Time(at) if self.mode.hinges[i] == HingeState::Unreleased => Some(at),
-            _ => None,
-        });
+        let releases =
+            (0..self.beta.len()).filter_map(|i| match self.scene.bodies[i].hinge.release {
+                Release::Time(at) if self.mode.hinges[i] == HingeState::Unreleased => Some(at),
+                _ => None,
+            });
         let thrust = self.scene.thrust.iter().flat_map(|thrust| [thrust.on, thrust.off]);
         let later = |at: &f64| *at > self.time + ONE_INSTANT;
         releases.chain(thrust).filter(later).fold(self.scene.end_time, f64::min)

@@ -38,6 +38,15 @@ pub enum SimError {
         /// The hinge; `None` is the main body.
         hinge: Option<HingeLabel>,
     },
+    /// The ends of a kick-off spring that pushes are at one point.
+    #[error("at time {}, hinge {hinge}: its kick-off spring has no length, so that its force has \
+             no direction", moment(.time))]
+    SpringWithoutLength {
+        /// Time reached.
+        time: f64,
+        /// The hinge of the spring.
+        hinge: HingeLabel,
+    },
     /// A generated routine was demanded and none fits.
     #[error("at time {time}: {source}; routines can be generated, or the generic path used")]
     NoRoutine {

@@ -127,6 +127,7 @@ impl<'a> Run<'a> {
         )?;
         self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
         self.check_regular()?;
+        self.check_springs()?;
         self.select()?;
         let controlled = self.equations.layout.controlled();
         let time = self.state.time;

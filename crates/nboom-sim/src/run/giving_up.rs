@@ -14,6 +14,9 @@ const BOUND: f64 = 1e154;
 /// Share of the largest error from which on a hinge's own error counts.
 const COUNTS: f64 = 0.01;
 
+/// Share of its attachments' distances below which a spring's length is rounding.
+const NO_LENGTH: f64 = 1e-14;
+
 /// Steps that must take a run by [`PACE_SPAN`] of the whole span, or it is given up.
 const PACE_STEPS: usize = 20_000;
 const PACE_SPAN: f64 = 1e-7;
@@ -81,6 +84,23 @@ impl Run<'_> {
                 hinge: hinge.map(|i| self.scene.label(i)),
             }),
         }
+    }
+
+    /// Refuses a mode in which a spring that pushes and moves has no length.
+    pub(super) fn check_springs(&mut self) -> Result<(), SimError> {
+        for (i, body) in self.scene.bodies.iter().enumerate() {
+            let Some(spring) = body.hinge.kick_off.filter(|_| self.mode.kick_off[i]) else {
+                continue;
+            };
+            let moves = !self.equations.dynamics.spring_reach(i).is_empty();
+            let size = spring.main_body_point.norm() + spring.body_point.norm();
+            let (length, _) = self.equations.spring_length(&self.state, i);
+            if moves && length <= NO_LENGTH * size {
+                let (time, hinge) = (self.state.time, self.scene.label(i));
+                return Err(SimError::SpringWithoutLength { time, hinge });
+            }
+        }
+        Ok(())
     }
 
     /// Gives up a run whose events follow one another without the time getting on, or are too
