@@ -57,14 +57,15 @@ pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
         }
         let Some((trigger, angle)) = waits_for(scene, i) else { continue };
         let circle = circle_from(scene, i);
+        let (hinge, of_trigger) = (scene.label(i), &scene.bodies[trigger].hinge);
         if circle.first() == Some(&i) && circle.iter().min() == Some(&i) {
             let labels = circle.iter().map(|&j| scene.label(j)).collect();
             warnings.push(ModelWarning::ReleaseCircle(labels));
-        } else if never_turns(scene, trigger) {
-            let (hinge, trigger) = (scene.label(i), scene.label(trigger));
+        } else if never_turns(of_trigger) {
+            let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerNeverTurns { hinge, trigger });
-        } else if locks_before(&scene.bodies[trigger].hinge, angle) {
-            let (hinge, trigger) = (scene.label(i), scene.label(trigger));
+        } else if locks_before(of_trigger, angle) {
+            let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
         }
     }
@@ -99,8 +100,7 @@ fn waits_for(scene: &Scene, i: usize) -> Option<(usize, f64)> {
     }
 }
 
-fn never_turns(scene: &Scene, i: usize) -> bool {
-    let hinge = &scene.bodies[i].hinge;
+fn never_turns(hinge: &Hinge) -> bool {
     match hinge.start.state {
         HingeState::Free => false,
         HingeState::Locked => true,

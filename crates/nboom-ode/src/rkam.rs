@@ -254,8 +254,9 @@ impl Stepper for Rkam {
     }
 
     fn limit_steps(&mut self, longest: f64) {
-        let RkamSettings { shortest, longest: of_settings, .. } = self.settings;
-        self.settings.longest = of_settings.min(longest).max(shortest);
+        for bound in [&mut self.settings.shortest, &mut self.settings.longest] {
+            *bound = bound.min(longest);
+        }
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
