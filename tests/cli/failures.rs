@@ -73,6 +73,29 @@ fn forces_beyond_all_numbers() {
     fails_at(&place, "overflow", 0.5, &["hinge 1,1", "not finite"]);
 }
 
+#[test]
+fn a_boom_that_chatters_without_end() {
+    let place = Place::new("chatter");
+    // Out to one radian by the kick-off spring, back by the hinge's, and braked on both ways.
+    let cards = " RIK1=0.5,1.0,0.0,SIK1=0.0,1.0,0.0,AES=16.0,3*0.0,XIKF=0.958851,\n \
+                 EKNIK(1,2)=-8.0,QNIK(1,2)=-8.0,";
+    place.write("deck.nml", boom(cards, 50.0));
+    let finished = place.nboom(&["run", "deck.nml", "--quiet", "--max-events", "500"]);
+    let words = ["hinge 1,1", "500 events within", "may chatter", "marked incomplete"];
+    finished.refused("chatter", 3, &words);
+    assert_eq!(place.read("out/deck/events.csv").lines().count(), 501);
+    assert_eq!(summary(&place)["complete"], false);
+}
+
+#[test]
+fn a_kick_off_spring_without_length() {
+    let place = Place::new("no-length");
+    // Both ends at the hinge.
+    place.write("deck.nml", boom(" RIK1=0.5,0.0,0.0,AES=16.0,3*0.0,XIKF=1.0,", 1.0));
+    let words = ["at time 0", "hinge 1,1", "kick-off spring has no length"];
+    place.nboom(&["run", "deck.nml", "--quiet"]).refused("no length", 3, &words);
+}
+
 /// A limit on the size of files stops writing as a full disk does; rows written before stay.
 #[test]
 fn a_disk_that_is_full() {

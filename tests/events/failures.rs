@@ -6,8 +6,8 @@ use std::thread;
 use std::time::Duration;
 
 use nboom::model::{
-    Appendage, Dashpot, Hinge, HingeLabel, HingeStart, KickOffSpring, MassProperties, Mount, Scene,
-    Segment, Spring,
+    Appendage, Dashpot, Hinge, HingeLabel, HingeStart, HingeState, KickOffSpring, MassProperties,
+    Mount, Release, Scene, Segment, Spring,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::{Event, Options, Recorder, SimError, Snapshot, simulate};
@@ -71,6 +71,55 @@ fn a_kick_off_spring_beyond_all_numbers_fails_with_time_and_hinge() {
             assert!((0.0..1e-10).contains(&time), "{time}");
         }
         other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_kick_off_spring_without_length_is_named() {
+    // Both ends at one point, at the start, and when its hinge is released; the turn brings
+    // rounding in.
+    let point = Vec3::new(0.1, 0.7, 0.2);
+    let kick_off = |angle: f64| KickOffSpring {
+        main_body_point: Mat3::about_axis(Vec3::unit_x(), angle) * point,
+        body_point: point,
+        coefficients: [2.0, 0.0, 0.0, 0.0],
+        limit_length: 1.0,
+    };
+    for angle in [0.0, 0.3, -2.0] {
+        let starts_free = Hinge { kick_off: Some(kick_off(angle)), ..free(angle, 1.0) };
+        let start = HingeStart { angle, rate: 0.0, state: HingeState::Unreleased };
+        let waits = Hinge { start, release: Release::Time(0.25), ..starts_free };
+        for (hinge, when) in [(starts_free, 0.0), (waits, 0.25)] {
+            let (_, error) = failure(&scene(&[free(0.0, 1.0), hinge], 1.0), &tight(1));
+            let SimError::SpringWithoutLength { time, hinge } = error else { panic!("{error}") };
+            assert_eq!((time, hinge), (when, SECOND));
+            assert!(error.to_string().contains("hinge 2,1: its kick-off spring"), "{error}");
+        }
+    }
+}
+
+#[test]
+fn options_that_no_run_can_have_are_refused() {
+    let defaults = Options::default();
+    let with_rtol = |rtol| Options { rtol, ..defaults };
+    let with_atol = |atol| Options { atol, ..defaults };
+    let with_max_step = |max_step| Options { max_step, ..defaults };
+    let rtols = [1e-18, 1e-300, 0.0, -1e-9, f64::NAN, f64::INFINITY, 1.0, 10.0].map(with_rtol);
+    let atols = [0.0, -1e-9, f64::NAN, f64::INFINITY].map(with_atol);
+    let steps = [0.0, -0.1, f64::NAN].map(with_max_step);
+    let samples = [Options { samples: 0, ..defaults }];
+    for (name, options) in [
+        ("relative error", &rtols[..]),
+        ("absolute error", &atols),
+        ("longest step", &steps),
+        ("output intervals", &samples),
+    ] {
+        for options in options {
+            let (_, error) = failure(&scene(&[free(0.0, 1.0)], 1.0), options);
+            let SimError::Option(refused) = error else { panic!("{error}") };
+            assert_eq!(refused.option, name);
+            assert!(refused.to_string().contains("expected"), "{refused}");
+        }
     }
 }
 
@@ -191,6 +240,34 @@ fn throws_that_die_away_fast_do_not_hang() {
     let Err(SimError::Chatter { time, hinge, .. }) = result else { panic!("{result:?}") };
     assert!(time < 50.0);
     assert_eq!(hinge, Some(FIRST));
+}
+
+/// Events that are never many within a ten-thousandth of the span, or only after some hundred
+/// thousand of them: throws that do not shorten, and throws whose number grows as exp(0.8 t).
+#[test]
+fn the_events_of_a_run_are_bounded_in_number() {
+    for (start, damping, end_time) in [(1.0 - 1e-8, 0.0, 100.0), (0.5, 1.0, 50.0)] {
+        let options = Options { max_events: 2000, ..tight(1) };
+        let (found, error) = failure(&thrown(start, damping, end_time), &options);
+        let SimError::Chatter { time, hinge, events, within } = error else { panic!("{error}") };
+        assert_eq!((events, found.events.len(), hinge), (2000, 2000, Some(FIRST)));
+        // Counted from the initial time, which is zero; the last event is where it ends.
+        assert_eq!((time, within), (found.events[1999].0.time, time));
+        // Nowhere were there a thousand within a ten-thousandth of the span.
+        assert!(time > 20.0 * 1e-4 * end_time, "{time}");
+    }
+}
+
+/// A boom that creeps to the limit against a dashpot which leaves it no throw worth the name.
+#[test]
+fn a_boom_that_creeps_to_a_limit_length_does_not_hang() {
+    for damping in [20.0, 100.0] {
+        let result = ends(thrown(0.9, damping, 500.0));
+        let Err(SimError::Chatter { time, hinge, .. }) = result else { panic!("{result:?}") };
+        // The way of 0.1 takes 0.1 · damping at a torque of about 1; then it is given up soon.
+        assert!(time < 0.2 * damping + 1.0, "{time}");
+        assert_eq!(hinge, Some(FIRST));
+    }
 }
 
 #[test]

@@ -3,8 +3,8 @@
 
 use nboom::dynamics::Recursive;
 use nboom::model::{
-    Appendage, Hinge, HingeStart, HingeState, MassProperties, Mode, Mount, Release, Scene,
-    SceneDescription, Segment,
+    Appendage, Hinge, HingeLabel, HingeStart, HingeState, MassProperties, Mode, ModelWarning,
+    Mount, Release, Scene, SceneDescription, Segment,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::EventKind::{LockUp, Release as Released};
@@ -94,6 +94,31 @@ fn a_hinge_locked_from_the_start_has_no_event() {
     let (found, _) = run(&scene(&[locking_at(locked, 0.3), free(0.0, 1.0)], 1.0), &tight(2));
     assert_eq!(found.happenings(), []);
     assert_eq!((found.last().beta[0], found.last().hinges[0]), (0.3, HingeState::Locked));
+}
+
+#[test]
+fn a_hinge_locked_elsewhere_stays_there_with_a_warning() {
+    let start = HingeStart { angle: 0.3, rate: 0.0, state: HingeState::Locked };
+    let locked = |angle| locking_at(Hinge { start, ..Hinge::free() }, angle);
+    let elsewhere = scene(&[locked(0.4), free(0.0, 1.0)], 1.0);
+    let first = HingeLabel { appendage: 0, segment: 0 };
+    assert_eq!(elsewhere.warnings(), [ModelWarning::LockedElsewhere(first)]);
+    let (found, _) = run(&elsewhere, &tight(1));
+    assert_eq!((found.happenings().len(), found.last().beta[0]), (0, 0.3));
+    assert_eq!(scene(&[locked(0.3), Hinge { start, ..Hinge::free() }], 1.0).warnings(), []);
+}
+
+#[test]
+fn a_hinge_that_starts_beyond_its_lock_angle_locks_when_it_comes_back() {
+    for side in [1.0, -1.0] {
+        // On the other side of the angle, and on its way further: β = 0.2 + sin(3t)/3 until it
+        // comes down to 0.
+        let beyond = oscillating(free(side * 0.2, side), 3.0, side * 0.2);
+        let (found, _) = run(&scene(&[locking_at(beyond, 0.0)], 2.5), &tight(1));
+        let [(LockUp, Some(0), time)] = found.happenings()[..] else { panic!("one lock-up") };
+        let expected = (std::f64::consts::PI + 0.6_f64.asin()) / 3.0;
+        assert!((time - expected).abs() < 1e-11, "{time}");
+    }
 }
 
 #[test]

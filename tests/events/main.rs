@@ -6,7 +6,11 @@ mod support;
 #[path = "../support/collect.rs"]
 mod collect;
 
+#[path = "../support/random_scene.rs"]
+mod random_scene;
+
 mod rotors;
+mod sampled;
 
 mod crossings;
 mod failures;
@@ -15,5 +19,6 @@ mod limits;
 mod lock_ups;
 mod output;
 mod random_rotors;
+mod random_trees;
 mod releases;
 mod thrust;

@@ -1,6 +1,6 @@
 //! When an unreleased hinge becomes free, against closed forms.
 
-use nboom::model::{Hinge, HingeStart, HingeState, Release};
+use nboom::model::{Hinge, HingeLabel, HingeStart, HingeState, ModelWarning, Release};
 use nboom::sim::EventKind::{LockUp, Release as Released};
 
 use crate::collect::{run, tight};
@@ -108,6 +108,24 @@ fn a_chain_of_triggers_at_one_angle_is_one_release_after_the_other() {
     let frequency = 2.0 * (0.8 / (5.0 / 6.0_f64)).sqrt();
     let expected = 0.5 + 0.8_f64.acos() / frequency;
     assert!((second - expected).abs() < 1e-11, "{second}, {expected}");
+}
+
+#[test]
+fn never_at_an_angle_that_the_trigger_locks_before() {
+    let at = |angle| [locking_at(free(0.0, 1.0), 0.5), waiting(Release::Angle { hinge: 0, angle })];
+    let (hinge, trigger) =
+        (HingeLabel { appendage: 1, segment: 0 }, HingeLabel { appendage: 0, segment: 0 });
+    let warned = [ModelWarning::TriggerLocksBefore { hinge, trigger }];
+    for (angle, warnings, releases) in
+        [(0.6, &warned[..], 0), (0.5, &[], 1), (0.4, &[], 1), (-0.1, &[], 0)]
+    {
+        let scene = scene(&at(angle), 1.0);
+        assert_eq!(scene.warnings(), warnings, "{angle}");
+        let found = run(&scene, &tight(1)).0.happenings();
+        assert_eq!(found.iter().filter(|h| h.0 == Released).count(), releases, "{angle}");
+    }
+    let from_above = [locking_at(free(0.9, -1.0), 0.5), at(0.4)[1]];
+    assert_eq!(scene(&from_above, 1.0).warnings(), warned);
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod code;
 mod compare;
 mod decks;
 mod embedding;
+mod event_times;
 mod lock_ups;
 mod stiff;
 mod tolerance;

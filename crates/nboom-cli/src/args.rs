@@ -106,7 +106,7 @@ pub struct RunArgs {
           value_parser = choice::integrator)]
     pub integrator: Method,
 
-    /// Relative error allowed in a step, at least 1e-14.
+    /// Relative error allowed in a step, from 1e-14 to below 1.
     #[arg(long, value_name = "R", default_value = "1e-9", value_parser = choice::rtol,
           allow_negative_numbers = true)]
     pub rtol: f64,
@@ -115,6 +115,15 @@ pub struct RunArgs {
     #[arg(long, value_name = "A", default_value = "1e-12", value_parser = choice::positive,
           allow_negative_numbers = true)]
     pub atol: f64,
+
+    /// Longest step; without it steps are as long as the errors allow.
+    #[arg(long, value_name = "H", value_parser = choice::positive, allow_negative_numbers = true)]
+    pub max_step: Option<f64>,
+
+    /// Events after which the run is given up, as a spring at its limit length may chatter.
+    #[arg(long, value_name = "N", default_value = "20000", value_parser = events_parser(),
+          allow_negative_numbers = true)]
+    pub max_events: usize,
 
     /// Which code computes the accelerations; auto takes generated code where there is some, and
     /// recursive where the formulation does not cover the scene.
@@ -300,6 +309,10 @@ fn samples_parser() -> impl TypedValueParser<Value = usize> {
     value_parser!(u32).range(1..=10_000_000).map(|n| n as usize)
 }
 
+fn events_parser() -> impl TypedValueParser<Value = usize> {
+    value_parser!(u32).range(1..).map(|n| n as usize)
+}
+
 fn states_parser() -> impl TypedValueParser<Value = usize> {
     value_parser!(u32).range(1..=1_000_000).map(|n| n as usize)
 }
@@ -323,6 +336,7 @@ mod tests {
         let defaults = Options::default();
         assert_eq!(args.samples, defaults.samples);
         assert_eq!((args.rtol, args.atol), (defaults.rtol, defaults.atol));
+        assert_eq!((args.max_step, args.max_events), (None, defaults.max_events));
         assert_eq!(args.units, UnitSystem::None);
     }
 

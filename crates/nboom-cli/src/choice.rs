@@ -5,10 +5,7 @@ use nboom_formulation::Formulation;
 #[cfg(feature = "generator")]
 use nboom_package::Level;
 use nboom_results::UnitSystem;
-use nboom_sim::{Form, Method};
-
-/// Below this a relative error is smaller than the rounding of a step.
-const SMALLEST_RTOL: f64 = 1e-14;
+use nboom_sim::{Form, Method, OptionError, Options};
 
 /// Why the value of an option is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -26,12 +23,12 @@ pub enum ChoiceError {
     /// The number is infinite or not a number.
     #[error("a finite number expected")]
     NotFinite,
-    /// A tolerance is zero or negative.
+    /// A tolerance or a length of time is zero or negative.
     #[error("a number above zero expected")]
     NotPositive,
-    /// A relative tolerance is below rounding.
-    #[error("a number not below {SMALLEST_RTOL:e} expected")]
-    BelowRounding,
+    /// No run can have this.
+    #[error(transparent)]
+    Option(#[from] OptionError),
 }
 
 pub(crate) fn formulation(name: &str) -> Result<Form, ChoiceError> {
@@ -73,8 +70,9 @@ pub(crate) fn positive(text: &str) -> Result<f64, ChoiceError> {
 }
 
 pub(crate) fn rtol(text: &str) -> Result<f64, ChoiceError> {
-    let value = positive(text)?;
-    if value >= SMALLEST_RTOL { Ok(value) } else { Err(ChoiceError::BelowRounding) }
+    let rtol = finite(text)?;
+    Options { rtol, ..Options::default() }.check()?;
+    Ok(rtol)
 }
 
 #[cfg(test)]
@@ -83,14 +81,21 @@ mod tests {
 
     #[test]
     fn tolerances_have_limits() {
-        assert_eq!(rtol("1e-14"), Ok(1e-14));
-        assert_eq!(rtol("1e-15"), Err(ChoiceError::BelowRounding));
+        for text in ["1e-14", "0.99"] {
+            assert_eq!(rtol(text).ok(), text.parse().ok());
+        }
+        for text in ["9e-15", "1e-18", "1e-300", "0", "-1e-9", "1", "10"] {
+            let refused = rtol(text).expect_err("too small or too large").to_string();
+            assert!(refused.ends_with("a number from 1e-14 to below 1 expected"), "{refused}");
+        }
         assert_eq!(positive("1e-30"), Ok(1e-30));
+        for text in ["0", "-1e-9"] {
+            assert_eq!(positive(text), Err(ChoiceError::NotPositive));
+        }
         for (text, error) in [
-            ("0", ChoiceError::NotPositive),
-            ("-1e-9", ChoiceError::NotPositive),
             ("nan", ChoiceError::NotFinite),
             ("inf", ChoiceError::NotFinite),
+            ("-inf", ChoiceError::NotFinite),
             ("tight", ChoiceError::NotANumber),
         ] {
             assert_eq!(rtol(text), Err(error.clone()));

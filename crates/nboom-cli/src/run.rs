@@ -38,7 +38,7 @@ fn options(
     routines: &Routines,
     legacy: &LegacySettings,
 ) -> Result<Options, CliError> {
-    let RunArgs { samples, integrator, rtol, atol, formulation, .. } = *args;
+    let RunArgs { samples, integrator, rtol, atol, max_events, formulation, .. } = *args;
     let path = match args.path {
         PathChoice::Generated if formulation == Some(Form::Recursive) => {
             return Err(CliError::GeneratedRecursion);
@@ -53,6 +53,8 @@ fn options(
         integrator,
         rtol,
         atol,
+        max_step: args.max_step.unwrap_or(f64::INFINITY),
+        max_events,
         path,
         formulation,
         kernels,

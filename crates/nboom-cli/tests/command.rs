@@ -264,14 +264,21 @@ fn every_error_of_a_deck_has_a_line() {
 #[test]
 fn a_wrong_command_line_is_refused() {
     let place = Place::new();
-    let cases: [(&[&str], &[&str]); 14] = [
+    let cases: [(&[&str], &[&str]); 21] = [
         (&[], &["Usage"]),
         (&["fly", "boom.nml"], &["fly"]),
         (&["run"], &["SCENE"]),
         (&["run", "boom.nml", "--fast"], &["--fast"]),
-        (&["run", "boom.nml", "--rtol", "0"], &["--rtol", "above zero"]),
-        (&["run", "boom.nml", "--rtol", "1e-17"], &["--rtol", "1e-14"]),
-        (&["run", "boom.nml", "--rtol", "-1"], &["--rtol", "above zero"]),
+        (&["run", "boom.nml", "--rtol", "0"], &["--rtol", "from 1e-14 to below 1"]),
+        (&["run", "boom.nml", "--rtol", "1e-18"], &["--rtol", "from 1e-14 to below 1"]),
+        (&["run", "boom.nml", "--rtol", "1e-300"], &["--rtol", "from 1e-14 to below 1"]),
+        (&["run", "boom.nml", "--rtol", "-1"], &["--rtol", "from 1e-14 to below 1"]),
+        (&["run", "boom.nml", "--rtol", "10"], &["--rtol", "from 1e-14 to below 1"]),
+        (&["run", "boom.nml", "--rtol", "inf"], &["--rtol", "finite"]),
+        (&["run", "boom.nml", "--atol", "0"], &["--atol", "above zero"]),
+        (&["run", "boom.nml", "--max-step", "0"], &["--max-step", "above zero"]),
+        (&["run", "boom.nml", "--max-step", "nan"], &["--max-step", "finite"]),
+        (&["run", "boom.nml", "--max-events", "0"], &["--max-events"]),
         (&["run", "boom.nml", "--atol", "nan"], &["--atol", "finite"]),
         (&["run", "boom.nml", "--samples", "0"], &["--samples"]),
         (&["run", "boom.nml", "--formulation", "kane"], &["kane", "symmetric", "recursive"]),

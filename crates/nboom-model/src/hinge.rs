@@ -57,6 +57,9 @@ pub struct KickOffSpring {
     pub limit_length: f64,
 }
 
+/// Angles closer than this \[rad\] are the same when a lock angle serves as a release angle.
+pub const SAME_ANGLE: f64 = 1e-12;
+
 /// When a hinge that starts unreleased becomes free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Release {

@@ -39,7 +39,9 @@ pub use appendage::{Appendage, Segment};
 pub use environment::{Gravity, InitialMotion, Thrust};
 pub use error::{BodyName, ModelError};
 pub use facts::Facts;
-pub use hinge::{Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, Spring};
+pub use hinge::{
+    Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, SAME_ANGLE, Spring,
+};
 pub use label::HingeLabel;
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use mode::Mode;

@@ -1,6 +1,7 @@
 use std::fmt;
 
-use crate::{HingeLabel, HingeState, Release, Scene};
+use crate::hinge::SAME_ANGLE;
+use crate::{Hinge, HingeLabel, HingeStart, HingeState, Release, Scene};
 
 /// Something a scene may do but its author probably does not want.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,15 @@ pub enum ModelWarning {
         /// The hinge it waits for.
         trigger: HingeLabel,
     },
+    /// This hinge waits for an angle beyond that at which the other one locks.
+    TriggerLocksBefore {
+        /// The waiting hinge.
+        hinge: HingeLabel,
+        /// The hinge it waits for.
+        trigger: HingeLabel,
+    },
+    /// This hinge starts locked, but away from the angle at which it locks.
+    LockedElsewhere(HingeLabel),
 }
 
 impl fmt::Display for ModelWarning {
@@ -28,6 +38,13 @@ impl fmt::Display for ModelWarning {
             Self::TriggerNeverTurns { hinge, trigger } => {
                 write!(f, "hinge {hinge} waits for hinge {trigger}, which never turns")
             }
+            Self::TriggerLocksBefore { hinge, trigger } => write!(
+                f,
+                "hinge {hinge} waits for an angle of hinge {trigger}, which locks before it comes there"
+            ),
+            Self::LockedElsewhere(hinge) => {
+                write!(f, "hinge {hinge} starts locked, but not at its lock angle, and stays there")
+            }
         }
     }
 }
@@ -35,35 +52,55 @@ impl fmt::Display for ModelWarning {
 pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
     let mut warnings = Vec::new();
     for i in 0..scene.bodies.len() {
-        let Some(trigger) = waits_for(scene, i) else { continue };
+        if starts_locked_elsewhere(&scene.bodies[i].hinge) {
+            warnings.push(ModelWarning::LockedElsewhere(scene.label(i)));
+        }
+        let Some((trigger, angle)) = waits_for(scene, i) else { continue };
         let circle = circle_from(scene, i);
+        let (hinge, of_trigger) = (scene.label(i), &scene.bodies[trigger].hinge);
         if circle.first() == Some(&i) && circle.iter().min() == Some(&i) {
             let labels = circle.iter().map(|&j| scene.label(j)).collect();
             warnings.push(ModelWarning::ReleaseCircle(labels));
-        } else if never_turns(scene, trigger) {
-            let (hinge, trigger) = (scene.label(i), scene.label(trigger));
+        } else if never_turns(of_trigger) {
+            let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerNeverTurns { hinge, trigger });
+        } else if locks_before(of_trigger, angle) {
+            let trigger = scene.label(trigger);
+            warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
         }
     }
     warnings
 }
 
-/// The hinge that an unreleased hinge `i` waits for, unless that one starts at the angle.
-fn waits_for(scene: &Scene, i: usize) -> Option<usize> {
+fn starts_locked_elsewhere(hinge: &Hinge) -> bool {
+    let HingeStart { angle, state, .. } = hinge.start;
+    let elsewhere = |lock: f64| (lock - angle).abs() > SAME_ANGLE;
+    state == HingeState::Locked && hinge.lock_angle.is_some_and(elsewhere)
+}
+
+/// Whether its lock angle is between where `hinge` starts and `angle`.
+fn locks_before(hinge: &Hinge, angle: f64) -> bool {
+    let between = |lock: f64| {
+        (angle - lock).abs() > SAME_ANGLE && (angle - lock) * (lock - hinge.start.angle) > 0.0
+    };
+    hinge.lock_angle.is_some_and(between)
+}
+
+/// The hinge that an unreleased hinge `i` waits for, and the angle, unless that one starts at it.
+fn waits_for(scene: &Scene, i: usize) -> Option<(usize, f64)> {
     let hinge = &scene.bodies[i].hinge;
     match hinge.release {
         Release::Angle { hinge: trigger, angle }
             if hinge.start.state == HingeState::Unreleased
                 && scene.bodies[trigger].hinge.start.angle != angle =>
         {
-            Some(trigger)
+            Some((trigger, angle))
         }
         _ => None,
     }
 }
 
-fn never_turns(scene: &Scene, i: usize) -> bool {
-    let hinge = &scene.bodies[i].hinge;
+fn never_turns(hinge: &Hinge) -> bool {
     match hinge.start.state {
         HingeState::Free => false,
         HingeState::Locked => true,
@@ -75,7 +112,7 @@ fn never_turns(scene: &Scene, i: usize) -> bool {
 /// the chain ends.
 fn circle_from(scene: &Scene, start: usize) -> Vec<usize> {
     let mut seen = vec![start];
-    while let Some(next) = waits_for(scene, seen[seen.len() - 1]) {
+    while let Some((next, _)) = waits_for(scene, seen[seen.len() - 1]) {
         if let Some(position) = seen.iter().position(|&j| j == next) {
             return seen.split_off(position);
         }

@@ -282,7 +282,11 @@ impl Stepper for Radau {
         self.step = 0.0;
         (self.slope_is_known, self.jacobian) = (false, Age::Outdated);
         self.prepare(system);
-        self.window.next_step = self.first_step();
+        self.window.next_step = self.first_step().min(self.window.longest);
+    }
+
+    fn limit_steps(&mut self, longest: f64) {
+        self.window.longest = longest;
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {

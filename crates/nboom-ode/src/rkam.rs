@@ -253,6 +253,12 @@ impl Stepper for Rkam {
         self.window.next_step = step.clamp(shortest, longest);
     }
 
+    fn limit_steps(&mut self, longest: f64) {
+        for bound in [&mut self.settings.shortest, &mut self.settings.longest] {
+            *bound = bound.min(longest);
+        }
+    }
+
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
         loop {
             let wanted = self.window.next_step;

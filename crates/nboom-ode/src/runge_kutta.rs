@@ -236,7 +236,11 @@ impl Stepper for RungeKutta {
         }
         system.derivative(t, y, &mut self.stages[..y.len()]);
         self.window.counts.evaluations += 1;
-        self.window.next_step = self.first_step(system);
+        self.window.next_step = self.first_step(system).min(self.window.longest);
+    }
+
+    fn limit_steps(&mut self, longest: f64) {
+        self.window.longest = longest;
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {

@@ -12,6 +12,10 @@ pub trait Stepper {
     /// `controlled` variables decide on the step size.
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize);
 
+    /// Takes no step longer than `longest` from now on, but by up to a hundredth of it to reach
+    /// a limit; without this call steps have any length.
+    fn limit_steps(&mut self, longest: f64);
+
     /// Takes a step that meets the tolerance and does not pass `limit`, which is reached
     /// exactly when the step comes close.
     ///
@@ -70,7 +74,7 @@ impl Choice {
 }
 
 /// The step just taken, from its start to its end.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Window {
     /// Time of the step's start.
     pub time: f64,
@@ -82,8 +86,24 @@ pub struct Window {
     pub end_state: Vec<f64>,
     /// The step that is tried next.
     pub next_step: f64,
+    /// What no step is longer than.
+    pub longest: f64,
     /// What integration has cost so far.
     pub counts: Counts,
+}
+
+impl Default for Window {
+    fn default() -> Self {
+        Self {
+            time: 0.0,
+            state: Vec::new(),
+            end_time: 0.0,
+            end_state: Vec::new(),
+            next_step: 0.0,
+            longest: f64::INFINITY,
+            counts: Counts::default(),
+        }
+    }
 }
 
 impl Window {
@@ -114,7 +134,8 @@ impl Window {
     pub(crate) fn accept(&mut self, end: f64, reaches: bool, next: f64) {
         self.end_time = end;
         // A step cut short by the limit must not slow the next one down.
-        self.next_step = if reaches { self.next_step.max(next) } else { next };
+        let next = if reaches { self.next_step.max(next) } else { next };
+        self.next_step = next.min(self.longest);
         self.counts.accepted += 1;
     }
 

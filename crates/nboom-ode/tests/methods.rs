@@ -122,6 +122,25 @@ fn smaller_tolerance_gives_smaller_error() {
 }
 
 #[test]
+fn no_step_is_longer_than_allowed() {
+    for method in Method::ALL {
+        let mut stepper = with_tolerance(method, 1e-3);
+        let longest = 0.013;
+        stepper.limit_steps(longest);
+        stepper.start(&mut Closed, 0.0, &exact(0.0), 3);
+        while stepper.window().time < 1.0 {
+            stepper.step(&mut Closed, 1.0).expect("a smooth problem");
+            let length = stepper.window().length();
+            // A hundredth more reaches the end.
+            assert!(length <= 1.01 * longest && stepper.window().next_step <= longest, "{method}");
+            stepper.advance();
+        }
+        // At this tolerance steps would be about as long as the whole.
+        assert!(stepper.window().counts.accepted < 100, "{method}");
+    }
+}
+
+#[test]
 fn a_limit_is_reached_exactly_and_does_not_shorten_later_steps() {
     for method in Method::ALL {
         let mut stepper = started(method, 1e-9);

@@ -9,6 +9,9 @@ use crate::{NoRoutine, NotCovered, Summary};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimError {
+    /// An option has a value with which nothing can be run.
+    #[error(transparent)]
+    Option(#[from] OptionError),
     /// No step meets the tolerance.
     #[error("at time {}, {}: the step size fell to {step:e}; the motion may be too stiff or the tolerance too small", moment(.time), place(.hinge))]
     StepUnderflow {
@@ -34,6 +37,15 @@ pub enum SimError {
         time: f64,
         /// The hinge; `None` is the main body.
         hinge: Option<HingeLabel>,
+    },
+    /// The ends of a kick-off spring that pushes are at one point.
+    #[error("at time {}, hinge {hinge}: its kick-off spring has no length, so that its force has \
+             no direction", moment(.time))]
+    SpringWithoutLength {
+        /// Time reached.
+        time: f64,
+        /// The hinge of the spring.
+        hinge: HingeLabel,
     },
     /// A generated routine was demanded and none fits.
     #[error("at time {time}: {source}; routines can be generated, or the generic path used")]
@@ -112,6 +124,18 @@ fn moment(time: &f64) -> String {
 
 fn place(hinge: &Option<HingeLabel>) -> String {
     hinge.map_or_else(|| "main body".to_owned(), |label| format!("hinge {label}"))
+}
+
+/// An option with a value that it cannot have.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{option} {value:e} found, {expected} expected")]
+pub struct OptionError {
+    /// Which option.
+    pub option: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it can be.
+    pub expected: &'static str,
 }
 
 /// A run that ended early.

@@ -1,4 +1,4 @@
-use nboom_model::{HingeState, Mode, Release, Scene};
+use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
 
 use crate::equations::Equations;
 use crate::error::SimError;
@@ -9,9 +9,6 @@ use crate::state::State;
 
 /// Crossings within this many time units of each other are one instant.
 pub(crate) const ONE_INSTANT: f64 = 1e-11;
-
-/// Angles closer than this \[rad\] are the same when a lock angle serves as a release angle.
-const SAME_ANGLE: f64 = 1e-12;
 
 /// What has changed sign in an instant.
 #[derive(Clone, Debug, Default)]

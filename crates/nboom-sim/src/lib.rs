@@ -59,7 +59,7 @@ mod state;
 mod trust;
 
 pub use closed_form::NotCovered;
-pub use error::{Failure, SimError};
+pub use error::{Failure, OptionError, SimError};
 pub use fit::{Fit, Repertoire};
 pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Choice, Method, RkamSettings, Tolerance};

@@ -4,6 +4,8 @@ use nboom_formulation::Formulation;
 use nboom_ode::{Method, Rkam, RkamSettings, Stepper, Tolerance};
 use nboom_scalar::Kernel;
 
+use crate::OptionError;
+
 /// Whether generated or library code computes accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Path {
@@ -65,8 +67,13 @@ pub struct Options {
     pub rtol: f64,
     /// Absolute error allowed in a step, in the units of each variable.
     pub atol: f64,
+    /// What no step is longer than, but by up to a hundredth of it to reach the next scheduled
+    /// time.
+    pub max_step: f64,
     /// Steps after which the run is given up.
     pub max_steps: usize,
+    /// Events after which the run is given up.
+    pub max_events: usize,
     /// Whether generated or library code computes accelerations.
     pub path: Path,
     /// The equations that accelerations come from; `None` leaves that to the path.
@@ -83,7 +90,9 @@ impl Default for Options {
             rkam: None,
             rtol: 1e-9,
             atol: 1e-12,
+            max_step: f64::INFINITY,
             max_steps: 10_000_000,
+            max_events: 20_000,
             path: Path::Auto,
             formulation: None,
             kernels: &[],
@@ -91,16 +100,40 @@ impl Default for Options {
     }
 }
 
+/// Below this a relative error is smaller than the rounding of a step.
+const SMALLEST_RTOL: f64 = 1e-14;
+
 impl Options {
+    /// Refuses numbers with which no run can be made.
+    ///
+    /// # Errors
+    /// The first of them.
+    pub fn check(&self) -> Result<(), OptionError> {
+        let Self { rtol, atol, max_step, samples, .. } = *self;
+        let has_digits = (SMALLEST_RTOL..1.0).contains(&rtol);
+        let checks = [
+            (has_digits, "relative error", rtol, "a number from 1e-14 to below 1"),
+            (atol > 0.0 && atol.is_finite(), "absolute error", atol, "a finite number above zero"),
+            (max_step > 0.0, "longest step", max_step, "a number above zero"),
+            (samples > 0, "output intervals", samples as f64, "at least 1"),
+        ];
+        let wrong = checks.into_iter().find(|(is_right, ..)| !is_right);
+        wrong.map_or(Ok(()), |(_, option, value, expected)| {
+            Err(OptionError { option, value, expected })
+        })
+    }
+
     /// Errors allowed in a step.
     pub fn tolerance(&self) -> Tolerance {
         Tolerance { relative: self.rtol, absolute: self.atol }
     }
 
     pub(crate) fn stepper(&self) -> Box<dyn Stepper> {
-        match (self.integrator, self.rkam) {
+        let mut stepper = match (self.integrator, self.rkam) {
             (Method::Rkam, Some(settings)) => Box::new(Rkam::new(settings)),
             _ => self.integrator.stepper(self.tolerance()),
-        }
+        };
+        stepper.limit_steps(self.max_step);
+        stepper
     }
 }

@@ -103,6 +103,7 @@ impl<'a> Run<'a> {
     }
 
     fn complete(&mut self) -> Result<(), SimError> {
+        self.options.check()?;
         let mut arrivals = Arrivals::at_start(self.scene);
         loop {
             self.pass_instant(&arrivals)?;
@@ -131,6 +132,7 @@ impl<'a> Run<'a> {
         )?;
         self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
         self.check_regular()?;
+        self.check_springs()?;
         self.select()?;
         let controlled = self.equations.layout.controlled();
         let time = self.state.time;

@@ -14,6 +14,9 @@ const BOUND: f64 = 1e154;
 /// Share of the largest error from which on a hinge's own error counts.
 const COUNTS: f64 = 0.01;
 
+/// Share of its attachments' distances below which a spring's length is rounding.
+const NO_LENGTH: f64 = 1e-14;
+
 /// Steps that must take a run by [`PACE_SPAN`] of the whole span, or it is given up.
 const PACE_STEPS: usize = 20_000;
 const PACE_SPAN: f64 = 1e-7;
@@ -84,20 +87,39 @@ impl Run<'_> {
         }
     }
 
+    /// Refuses a mode in which a spring that pushes and moves has no length.
+    pub(super) fn check_springs(&mut self) -> Result<(), SimError> {
+        for (i, body) in self.scene.bodies.iter().enumerate() {
+            let Some(spring) = body.hinge.kick_off.filter(|_| self.mode.kick_off[i]) else {
+                continue;
+            };
+            let moves = !self.equations.dynamics.spring_reach(i).is_empty();
+            let size = spring.main_body_point.norm() + spring.body_point.norm();
+            let (length, _) = self.equations.spring_length(&self.state, i);
+            if moves && length <= NO_LENGTH * size {
+                let (time, hinge) = (self.state.time, self.scene.label(i));
+                return Err(SimError::SpringWithoutLength { time, hinge });
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives up a run whose events follow one another without the time getting on, or are too
+    /// many in all.
     pub(super) fn check_chatter(&mut self, events: &[Event]) -> Result<(), SimError> {
-        let span = self.scene.end_time - self.scene.initial.time;
+        let (start, time) = (self.scene.initial.time, self.state.time);
         let (since, count) = self.burst;
-        if self.state.time - since > CHATTER_SPAN * span {
-            self.burst = (self.state.time, events.len());
-            return Ok(());
-        }
-        let events_now = count + events.len().max(1);
-        self.burst = (since, events_now);
-        if events_now < CHATTER_EVENTS + self.scene.bodies.len() {
-            return Ok(());
-        }
+        let goes_on = time - since > CHATTER_SPAN * (self.scene.end_time - start);
+        self.burst =
+            if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
+        let (since, events_since) = self.burst;
+        let too_many = if events_since >= CHATTER_EVENTS + self.scene.bodies.len() {
+            Some((since, events_since))
+        } else {
+            (self.events >= self.options.max_events).then_some((start, self.events))
+        };
+        let Some((since, count)) = too_many else { return Ok(()) };
         let hinge = events.last().and_then(|event| event.hinge).map(|i| self.scene.label(i));
-        let within = self.state.time - since;
-        Err(SimError::Chatter { time: self.state.time, hinge, events: events_now, within })
+        Err(SimError::Chatter { time, hinge, events: count, within: time - since })
     }
 }
