@@ -37,6 +37,7 @@ mod runge_kutta;
 mod stepper;
 mod system;
 mod tableau;
+mod taylor;
 
 pub use bernstein::{Bernstein, Interpolation};
 pub use error::StepError;
@@ -46,3 +47,4 @@ pub use rkam::{Rkam, RkamSettings};
 pub use runge_kutta::RungeKutta;
 pub use stepper::{Stepper, Window};
 pub use system::{Counts, System, Tolerance};
+pub use taylor::Taylor;

@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::{Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
+use crate::{Radau, Rkam, RkamSettings, RungeKutta, Stepper, Taylor, Tolerance};
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -11,13 +11,16 @@ pub enum Method {
     Dopri5,
     /// Dormand and Prince's explicit Runge-Kutta method of order 8.
     Dop853,
+    /// The Taylor series method, of an order that follows from the tolerance.
+    Taylor,
     /// Radau's implicit Runge-Kutta method of order 5.
     Radau5,
 }
 
 impl Method {
     /// All: explicit ones from low to high order, then the implicit one.
-    pub const ALL: [Self; 4] = [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5];
+    pub const ALL: [Self; 5] =
+        [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Taylor, Self::Radau5];
 
     /// The name in commands and files.
     pub fn name(self) -> &'static str {
@@ -25,6 +28,7 @@ impl Method {
             Self::Rkam => "rkam",
             Self::Dopri5 => "dopri5",
             Self::Dop853 => "dop853",
+            Self::Taylor => "taylor",
             Self::Radau5 => "radau5",
         }
     }
@@ -40,13 +44,15 @@ impl Method {
             Self::Rkam => "Adams-Moulton 4 as in 1970, to see what the original saw",
             Self::Dopri5 => "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
             Self::Dop853 => "explicit Runge-Kutta 8(5,3), for smaller ones",
+            Self::Taylor => "Taylor series of an order that fits the tolerance, down to rounding",
             Self::Radau5 => "implicit Runge-Kutta 5(3), for stiff hinges and latches",
         }
     }
 
-    /// Order of the error at the end of a fixed time.
-    pub fn order(self) -> u32 {
+    /// Order of the error at the end of a fixed time, under this tolerance.
+    pub fn order(self, tolerance: Tolerance) -> u32 {
         match self {
+            Self::Taylor => Taylor::order(tolerance) as u32,
             Self::Rkam => 4,
             Self::Dopri5 => 5,
             Self::Dop853 => 8,
@@ -54,9 +60,10 @@ impl Method {
         }
     }
 
-    /// Order of dense output.
-    pub fn dense_order(self) -> u32 {
+    /// Order of dense output, under this tolerance.
+    pub fn dense_order(self, tolerance: Tolerance) -> u32 {
         match self {
+            Self::Taylor => Taylor::order(tolerance) as u32,
             Self::Rkam | Self::Dopri5 => 4,
             Self::Dop853 => 7,
             Self::Radau5 => 3,
@@ -69,6 +76,7 @@ impl Method {
             Self::Rkam => Box::new(Rkam::new(RkamSettings::meeting(tolerance))),
             Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
             Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),
+            Self::Taylor => Box::new(Taylor::new(tolerance)),
             Self::Radau5 => Box::new(Radau::new(tolerance)),
         }
     }
