@@ -1,6 +1,7 @@
 //! Every reference run, from JSON and from its deck, within the limits that are promised.
 
 use nboom::model::Scene;
+use nboom::sim::{Method, Options};
 
 use crate::catalog::Reference;
 use crate::collect::{Collected, run, tight};
@@ -40,6 +41,16 @@ fn runs_from_json_agree_with_the_references() {
 #[test]
 fn runs_from_decks_agree_with_the_references() {
     check("deck", Reference::deck);
+}
+
+#[test]
+fn runs_by_power_series_agree_with_the_references() {
+    for reference in Reference::all() {
+        let options = Options { integrator: Method::Taylor, ..tight(reference.intervals()) };
+        let (found, summary) = run(&reference.scene(), &options);
+        agrees("by power series", &found, &reference);
+        assert_eq!(summary.steps_rejected, 0, "{}", reference.name);
+    }
 }
 
 #[test]

@@ -100,8 +100,8 @@ pub struct RunArgs {
     #[arg(long, value_name = "NAME", value_parser = choice::formulation)]
     pub formulation: Option<Form>,
 
-    /// Method of integration: dop853, dopri5 for loose tolerances, radau5 for stiff hinges, or rkam,
-    /// the original's.
+    /// Method of integration: dop853, dopri5 for loose tolerances, taylor for errors down to
+    /// rounding, radau5 for stiff hinges, or rkam, the original's.
     #[arg(long, value_name = "NAME", default_value = "dop853",
           value_parser = choice::integrator)]
     pub integrator: Method,

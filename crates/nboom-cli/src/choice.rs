@@ -106,7 +106,7 @@ mod tests {
             "unknown name, report, relative, symmetric, articulated, momentum, recursive expected"
         );
         let refused = integrator("euler").expect_err("unknown").to_string();
-        assert_eq!(refused, "unknown name, rkam, dopri5, dop853, radau5 expected");
+        assert_eq!(refused, "unknown name, rkam, dopri5, dop853, taylor, radau5 expected");
         let refused = units("cubits").expect_err("unknown").to_string();
         assert_eq!(refused, "unknown name, none, SI, ft-lbf-s, in-lbf-s expected");
     }

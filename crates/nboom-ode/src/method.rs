@@ -19,8 +19,7 @@ pub enum Method {
 
 impl Method {
     /// All: explicit ones from low to high order, then the implicit one.
-    pub const ALL: [Self; 5] =
-        [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Taylor, Self::Radau5];
+    pub const ALL: [Self; 5] = [Self::Rkam, Self::Dopri5, Self::Dop853, Self::Taylor, Self::Radau5];
 
     /// The name in commands and files.
     pub fn name(self) -> &'static str {

@@ -91,7 +91,10 @@ fn dense_output_has_the_order_of_the_table() {
         // Short enough for the order to show, long enough not to be lost in rounding.
         let step = if method.order(both(1e-3)) > 5 { 0.8 } else { 0.1 };
         let local = (largest_inside(step) / largest_inside(0.5 * step)).log2();
-        assert!(local > f64::from(method.dense_order(both(1e-3))) + 0.5, "{method}: local order {local}");
+        assert!(
+            local > f64::from(method.dense_order(both(1e-3))) + 0.5,
+            "{method}: local order {local}"
+        );
     }
 }
 
@@ -213,4 +216,24 @@ fn names_are_found_again() {
         assert_eq!(Method::named(method.name()), Some(method));
     }
     assert_eq!(Method::named("euler"), None);
+}
+
+/// A derivative and nothing else.
+struct Plain;
+
+impl System for Plain {
+    fn derivative(&mut self, _t: f64, _y: &[f64], dy: &mut [f64]) {
+        dy.fill(1.0);
+    }
+}
+
+#[test]
+fn a_system_without_power_series_is_refused_by_the_method_that_needs_them() {
+    for method in Method::ALL {
+        let mut stepper = with_tolerance(method, 1e-9);
+        stepper.start(&mut Plain, 0.5, &[1.0], 1);
+        let taken = stepper.step(&mut Plain, 1.0);
+        let refused = matches!(taken, Err(StepError::NoSeries { time: 0.5 }));
+        assert_eq!(refused, method == Method::Taylor, "{method}: {taken:?}");
+    }
 }

@@ -30,10 +30,17 @@ pub(crate) enum Kind {
 /// Where a result goes and operands are.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Instruction {
-    pub to: usize,
-    pub a: usize,
-    pub b: usize,
-    pub history: usize,
+    pub to: u32,
+    pub a: u32,
+    pub b: u32,
+    pub history: u32,
+}
+
+impl Instruction {
+    fn new(to: usize, a: usize, b: usize, history: usize) -> Self {
+        let short = |i| u32::try_from(i).expect("graphs have fewer than 2³² coefficients");
+        Self { to: short(to), a: short(a), b: short(b), history: short(history) }
+    }
 }
 
 /// Makes instructions of nodes; a node's value has the node's number.
@@ -99,19 +106,19 @@ impl<R: Real> Compiler<R> {
             Node::Div(a, b) if fixed(b) => self.scale(to, a, R::one() / self.fixed[b.index()]),
             Node::Mul(a, b) => {
                 let ((a, kept_a), (b, kept_b)) = (self.history(a), self.history(b));
-                let at = Instruction { to, a, b, history: 0 };
+                let at = Instruction::new(to, a, b, 0);
                 self.push_value(Kind::Mul, at, vec![kept_a, kept_b]);
             }
             Node::Div(a, b) => {
                 let ((b, kept_b), history) = (self.history(b), self.new_histories(1));
                 let after = self.after(a).into_iter().chain([kept_b]).collect();
-                let at = Instruction { to, a: a.index(), b, history };
+                let at = Instruction::new(to, a.index(), b, history);
                 let task = self.push_value(Kind::Div, at, after);
                 self.kept[to] = Some((history, task));
             }
             Node::Sqrt(a) => {
                 let history = self.new_histories(1);
-                let at = Instruction { to, a: a.index(), b: 0, history };
+                let at = Instruction::new(to, a.index(), 0, history);
                 let task = self.push_value(Kind::Sqrt, at, self.after(a).into_iter().collect());
                 self.kept[to] = Some((history, task));
             }
@@ -122,13 +129,13 @@ impl<R: Real> Compiler<R> {
 
     fn linear(&mut self, kind: Kind, to: usize, a: Id, b: Option<Id>) {
         let after = [Some(a), b].into_iter().flatten().filter_map(|id| self.after(id)).collect();
-        let at = Instruction { to, a: a.index(), b: b.map_or(0, Id::index), history: 0 };
+        let at = Instruction::new(to, a.index(), b.map_or(0, Id::index), 0);
         self.push_value(kind, at, after);
     }
 
     fn scale(&mut self, to: usize, a: Id, factor: R) {
         self.factors.push(factor);
-        let at = Instruction { to, a: a.index(), b: self.factors.len() - 1, history: 0 };
+        let at = Instruction::new(to, a.index(), self.factors.len() - 1, 0);
         self.push_value(Kind::Scale, at, self.after(a).into_iter().collect());
     }
 
@@ -139,19 +146,15 @@ impl<R: Real> Compiler<R> {
             let history = self.new_histories(3);
             let (to, b) = (self.values, self.values + 1);
             self.values += 2;
-            let at = Instruction { to, a: angle.index(), b, history };
+            let at = Instruction::new(to, angle.index(), b, history);
             let after = self.after(angle).into_iter().collect();
             self.push(Kind::SinCos, at, after)
         });
         self.angles[angle.index()] = Some(task);
         let Instruction { to, b, history, .. } = &mut self.tasks[task].instruction;
-        let history = if sine {
-            *to = node;
-            *history + self.stride
-        } else {
-            *b = node;
-            *history + 2 * self.stride
-        };
+        let (value, apart) = if sine { (to, 1) } else { (b, 2) };
+        *value = node as u32;
+        let history = *history as usize + apart * self.stride;
         self.value_tasks[node] = Some(task);
         self.kept[node] = Some((history, task));
     }
@@ -162,7 +165,7 @@ impl<R: Real> Compiler<R> {
             return kept;
         }
         let history = self.new_histories(1);
-        let at = Instruction { to: 0, a: node.index(), b: 0, history };
+        let at = Instruction::new(0, node.index(), 0, history);
         let task = self.push(Kind::Keep, at, self.after(node).into_iter().collect());
         self.kept[node.index()] = Some((history, task));
         (history, task)
@@ -181,7 +184,7 @@ impl<R: Real> Compiler<R> {
 
     fn push_value(&mut self, kind: Kind, at: Instruction, after: Vec<usize>) -> usize {
         let task = self.push(kind, at, after);
-        self.value_tasks[at.to] = Some(task);
+        self.value_tasks[at.to as usize] = Some(task);
         task
     }
 

@@ -9,6 +9,7 @@
 //! This crate knows no bodies.
 
 mod compiler;
+mod histories;
 mod program;
 mod schedule;
 

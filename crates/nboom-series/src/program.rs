@@ -1,13 +1,9 @@
-use std::ops::Range;
-
 use nboom_expr::Graph;
-use nboom_scalar::Real;
+use nboom_scalar::{Real, Work, vectorised};
 
 use crate::compiler::{Compiler, Instruction, Kind};
+use crate::histories::{ANY, Histories, LANES};
 use crate::schedule::{Run, schedule};
-
-/// Products that are summed side by side, so that the compiler makes vector code of them.
-const LANES: usize = 4;
 
 /// A graph as a list of instructions that is gone through once for each power of time.
 ///
@@ -63,18 +59,7 @@ impl<R: Real> Program<R> {
         for &(to, value) in &self.constants {
             self.values[to] = if power == 0 { value } else { R::zero() };
         }
-        for run in 0..self.runs.len() {
-            let Run { kind, places } = self.runs[run].clone();
-            match kind {
-                Kind::Add => self.each(places, |values, _, at| values[at.a] + values[at.b]),
-                Kind::Sub => self.each(places, |values, _, at| values[at.a] - values[at.b]),
-                Kind::Neg => self.each(places, |values, _, at| -values[at.a]),
-                Kind::Scale => {
-                    self.each(places, |values, factors, at| values[at.a] * factors[at.b]);
-                }
-                _ => places.for_each(|i| self.carry_out(kind, self.instructions[i], power)),
-            }
-        }
+        vectorised(Pass { program: self, power });
     }
 
     /// The coefficients of the outputs for the power last computed.
@@ -83,95 +68,61 @@ impl<R: Real> Program<R> {
     }
 
     #[inline(always)]
-    fn each(
-        &mut self,
-        places: Range<usize>,
-        value: impl Fn(&[R], &[R], &Instruction) -> R,
-    ) {
-        for at in &self.instructions[places] {
-            self.values[at.to] = value(&self.values, &self.factors, at);
-        }
-    }
-
-    #[inline(always)]
-    fn carry_out(&mut self, kind: Kind, at: Instruction, power: usize) {
-        match kind {
-            Kind::Keep => self.keep(at.history, power, self.values[at.a]),
-            Kind::Mul => self.values[at.to] = self.product(at.a, at.b, power),
-            Kind::Div => self.divide(at, power),
-            Kind::Sqrt => self.root(at, power),
-            _ => self.sine_and_cosine(at, power),
-        }
-    }
-
-    /// The value `a` by the history `b`; the quotient q, q b = a, has a history.
-    fn divide(&mut self, at: Instruction, power: usize) {
-        let (a, first) = (self.values[at.a], self.ascending[at.b]);
-        self.keep(at.history, power, R::zero());
-        let quotient = (a - self.product(at.history, at.b, power)) / first;
-        self.keep(at.history, power, quotient);
-        self.values[at.to] = quotient;
-    }
-
-    /// Of the value `a`; the root r, r r = a, has a history.
-    fn root(&mut self, at: Instruction, power: usize) {
-        let a = self.values[at.a];
-        let root = if power == 0 {
-            a.sqrt()
-        } else {
-            let first = self.ascending[at.history];
-            self.keep(at.history, power, R::zero());
-            (a - self.product(at.history, at.history, power)) / (first + first)
-        };
-        self.keep(at.history, power, root);
-        self.values[at.to] = root;
-    }
-
-    /// Of the value `a`: ṡ = ȧ c and ċ = −ȧ s. The history's neighbours after it are those of s
-    /// and c; it is that of ȧ itself. Values `to` and `b` are s and c.
-    fn sine_and_cosine(&mut self, at: Instruction, power: usize) {
-        let (rate, sine, cosine) =
-            (at.history, at.history + self.stride, at.history + 2 * self.stride);
-        let a = self.values[at.a];
-        let (s, c) = match power.checked_sub(1) {
-            None => a.sin_cos(),
-            Some(before) => {
-                let power = R::constant(power as f64);
-                self.keep(rate, before, a * power);
-                let by = R::one() / power;
-                let (s, c) =
-                    (self.product(rate, cosine, before), self.product(rate, sine, before));
-                (s * by, -(c * by))
+    fn go_through<const CHUNKS: usize>(&mut self, power: usize) {
+        let Self { order, runs, values: x, factors, ascending, descending, .. } = self;
+        let mut histories = Histories { power, order: *order, ascending, descending };
+        for Run { kind, places } in runs.iter() {
+            // A loop for each kind, and no closures: only what is inlined gets the processor's
+            // vector instructions.
+            macro_rules! each {
+                ($to:ident, $a:ident, $b:ident, $history:ident => $act:expr) => {
+                    for at in &self.instructions[places.clone()] {
+                        let [$to, $a, $b, $history] =
+                            [at.to, at.a, at.b, at.history].map(|i| i as usize);
+                        $act
+                    }
+                };
             }
-        };
-        self.keep(sine, power, s);
-        self.keep(cosine, power, c);
-        (self.values[at.to], self.values[at.b]) = (s, c);
-    }
-
-    #[inline(always)]
-    fn keep(&mut self, history: usize, power: usize, value: R) {
-        if power.is_multiple_of(LANES) {
-            // Sums of whole lanes look ahead.
-            self.ascending[history + power..][..LANES].fill(R::zero());
-        }
-        self.ascending[history + power] = value;
-        self.descending[history + self.order - power] = value;
-    }
-
-    /// Σ a_j b_(power − j). Behind the end of a descending history there are zeros, so that sums
-    /// may be a whole number of lanes long.
-    #[inline(always)]
-    fn product(&self, a: usize, b: usize, power: usize) -> R {
-        let length = (power + 1).next_multiple_of(LANES);
-        let a = &self.ascending[a..][..length];
-        let b = &self.descending[b + self.order - power..][..length];
-        let mut sums = [R::zero(); LANES];
-        for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-            for lane in 0..LANES {
-                sums[lane] += a[lane] * b[lane];
+            match kind {
+                Kind::Add => each!(to, a, b, _h => x[to] = x[a] + x[b]),
+                Kind::Sub => each!(to, a, b, _h => x[to] = x[a] - x[b]),
+                Kind::Neg => each!(to, a, _b, _h => x[to] = -x[a]),
+                Kind::Scale => each!(to, a, b, _h => x[to] = x[a] * factors[b]),
+                Kind::Keep => each!(_to, a, _b, h => histories.keep(h, x[a])),
+                Kind::Mul => {
+                    each!(to, a, b, _h => x[to] = histories.product::<CHUNKS>(a, b, power))
+                }
+                Kind::Div => {
+                    each!(to, a, b, h => x[to] = histories.quotient::<CHUNKS>(x[a], b, h))
+                }
+                Kind::Sqrt => each!(to, a, _b, h => x[to] = histories.root::<CHUNKS>(x[a], h)),
+                Kind::SinCos => each!(to, a, b, h => {
+                    (x[to], x[b]) = histories.sine_and_cosine(x[a], h, self.stride);
+                }),
             }
         }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+}
+
+/// Goes through a program for one power.
+struct Pass<'a, R> {
+    program: &'a mut Program<R>,
+    power: usize,
+}
+
+impl<R: Real> Work for Pass<'_, R> {
+    /// Most sums are short, so that it pays when the compiler knows how short.
+    #[inline(always)]
+    fn carry_out(self) {
+        let Self { program, power } = self;
+        match (power + 1).div_ceil(LANES) {
+            1 => program.go_through::<1>(power),
+            2 => program.go_through::<2>(power),
+            3 => program.go_through::<3>(power),
+            4 => program.go_through::<4>(power),
+            5 => program.go_through::<5>(power),
+            6 => program.go_through::<6>(power),
+            _ => program.go_through::<ANY>(power),
+        }
     }
 }

@@ -63,7 +63,7 @@ impl Jacobian {
     fn differentiate(&mut self, free_fall: Vec3<f64>) {
         let Self { layout, dynamics, accelerations, rates, variables, derivatives } = self;
         dynamics.accelerations(&motion(layout, variables), accelerations);
-        rates.write(dynamics, accelerations, free_fall, variables, derivatives);
+        rates.write(dynamics, accelerations, Vec3::constant(free_fall), variables, derivatives);
     }
 }
 
