@@ -12,7 +12,9 @@ use std::cell::Cell;
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::model::{HingeState, Mode, Scene};
 use nboom::ode::{Method, System, Tolerance};
-use nboom::scalar::Vec3;
+use nboom::scalar::{Real, Vec3};
+use nboom_expr::{Expr, Graph};
+use nboom_series::Series;
 
 struct Counting;
 
@@ -116,20 +118,60 @@ fn evaluations_allocate_nothing() {
 }
 
 /// The rotational motion of a scene: ω, then β, then τ.
-struct Rotation {
-    dynamics: Recursive<f64>,
-    found: Accelerations<f64>,
+struct Rotation<R> {
+    dynamics: Recursive<R>,
+    found: Accelerations<R>,
     free: usize,
 }
 
-impl System for Rotation {
-    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+impl<R: Real> Rotation<R> {
+    fn new(scene: &Scene, mode: &Mode) -> Self {
+        let angle = |body: &nboom::model::Body| R::constant(body.hinge.start.angle);
+        let beta: Vec<R> = scene.bodies.iter().map(angle).collect();
+        let mut dynamics = Recursive::new(scene);
+        dynamics.set_mode(mode, &beta);
+        let free = dynamics.free_hinges().len();
+        Self { dynamics, found: Accelerations::for_hinges(free), free }
+    }
+
+    fn write(&mut self, y: &[R], dy: &mut [R]) {
         let (beta, tau) = y[3..].split_at(self.free);
         let motion = Motion { omega_body: Vec3::new(y[0], y[1], y[2]), beta, tau };
         self.dynamics.accelerations(&motion, &mut self.found);
         dy[..3].copy_from_slice(&self.found.omega_dot_body.to_array());
         dy[3..3 + self.free].copy_from_slice(tau);
         dy[3 + self.free..].copy_from_slice(&self.found.tau_dot);
+    }
+}
+
+/// The same with its power series up to some order.
+struct WithSeries {
+    rotation: Rotation<f64>,
+    series: Series<f64>,
+}
+
+impl WithSeries {
+    fn new(scene: &Scene, mode: &Mode, order: usize) -> Self {
+        let rotation = Rotation::new(scene, mode);
+        let size = 3 + 2 * rotation.free;
+        let graph = Graph::trace(size + 1, |inputs| {
+            let mut rates = vec![Expr::zero(); size];
+            Rotation::new(scene, mode).write(&inputs[..size], &mut rates);
+            rates
+        });
+        Self { rotation, series: Series::new(&graph, order) }
+    }
+}
+
+impl System for WithSeries {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        self.rotation.write(y, dy);
+    }
+
+    fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
+        assert_eq!(order, self.series.order());
+        self.series.write(t, y, out);
+        true
     }
 }
 
@@ -140,13 +182,11 @@ fn steps_allocate_nothing() {
 
 fn steps_of_a_method_allocate_nothing(method: Method) {
     let (scene, mode) = scene_and_mode();
-    let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
-    let mut dynamics = Recursive::new(&scene);
-    dynamics.set_mode(&mode, &beta);
-    let free = dynamics.free_hinges().len();
-    let mut system = Rotation { dynamics, found: Accelerations::for_hinges(free), free };
-    let mut stepper = method.stepper(Tolerance { relative: 1e-9, absolute: 1e-12 });
-    let y = vec![0.1; 3 + 2 * free];
+    let tolerance = Tolerance { relative: 1e-9, absolute: 1e-12 };
+    let order = Method::Taylor.order(tolerance) as usize;
+    let mut system = WithSeries::new(&scene, &mode, order);
+    let mut stepper = method.stepper(tolerance);
+    let y = vec![0.1; 3 + 2 * system.rotation.free];
     stepper.start(&mut system, 0.0, &y, y.len());
     let mut within = y.clone();
     let mut steps = 0;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Folders whose sources decide what is generated.
 const SOURCES: [&str; 4] = [
     "src",
-    "../nboom-expr/src",
+    "../../crates/nboom-expr/src",
     "../../crates/nboom-formulation/src",
     "../../crates/nboom-scalar/src",
 ];

@@ -54,6 +54,16 @@ fn gauss_agrees_with_the_references() {
 }
 
 #[test]
+fn runs_by_power_series_agree_with_the_references() {
+    for reference in Reference::all() {
+        let options = Options { integrator: Method::Taylor, ..tight(reference.intervals()) };
+        let (found, summary) = run(&reference.scene(), &options);
+        agrees("by power series", &found, &reference);
+        assert_eq!(summary.steps_rejected, 0, "{}", reference.name);
+    }
+}
+
+#[test]
 fn events_are_told_in_time_order_and_leave_the_expected_state() {
     for reference in Reference::all() {
         let (found, summary) = run(&reference.scene(), &tight(1));

@@ -111,7 +111,10 @@ mod tests {
             "unknown name, report, relative, symmetric, articulated, momentum, recursive expected"
         );
         let refused = integrator("euler").expect_err("unknown").to_string();
-        assert_eq!(refused, "unknown name, rkam, dopri5, dop853, radau5, gauss expected");
+        assert_eq!(
+            refused,
+            "unknown name, auto, rkam, dopri5, dop853, taylor, radau5, gauss expected"
+        );
         let refused = units("cubits").expect_err("unknown").to_string();
         assert_eq!(refused, "unknown name, none, SI, ft-lbf-s, in-lbf-s expected");
     }

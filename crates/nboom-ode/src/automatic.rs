@@ -1,6 +1,8 @@
 use std::ops::Range;
 
-use crate::{Bernstein, Choice, Radau, RungeKutta, StepError, Stepper, System, Tolerance, Window};
+use crate::{
+    Bernstein, Choice, Method, Radau, RungeKutta, StepError, Stepper, System, Tolerance, Window,
+};
 
 /// Takes the explicit method that suits the tolerance, and Radau's implicit one while stability
 /// and not accuracy bounds the explicit one's steps.
@@ -28,10 +30,10 @@ const COST: f64 = 3.0;
 impl Automatic {
     /// The methods with this tolerance; the explicit one begins.
     pub fn new(tolerance: Tolerance) -> Self {
-        let loose = tolerance.relative >= LOOSE;
-        let explicit = if loose { RungeKutta::dopri5 } else { RungeKutta::dop853 };
-        let explicit = explicit(tolerance);
-        let reason = if loose { "the tolerance is loose" } else { "the tolerance is tight" };
+        let (explicit, reason) = match Self::explicit(tolerance) {
+            Method::Dopri5 => (RungeKutta::dopri5(tolerance), "the tolerance is loose"),
+            _ => (RungeKutta::dop853(tolerance), "the tolerance is tight"),
+        };
         Self {
             choice: Choice { reason, ..explicit.choice() },
             explicit,
@@ -41,6 +43,11 @@ impl Automatic {
             against: 0,
             patience: STIFF,
         }
+    }
+
+    /// The explicit method for a tolerance.
+    pub(crate) fn explicit(tolerance: Tolerance) -> Method {
+        if tolerance.relative >= LOOSE { Method::Dopri5 } else { Method::Dop853 }
     }
 
     fn active(&self) -> &dyn Stepper {
@@ -85,6 +92,11 @@ impl Stepper for Automatic {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         (self.controlled, self.against) = (controlled, 0);
         self.active_mut().start(system, t, y, controlled);
+    }
+
+    fn limit_steps(&mut self, longest: f64) {
+        self.explicit.limit_steps(longest);
+        self.implicit.limit_steps(longest);
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {

@@ -41,13 +41,26 @@ impl Bernstein {
 
     /// Its value at `x` (de Casteljau).
     pub fn at(&self, x: f64) -> f64 {
-        let mut row = self.coefficients;
-        for level in 0..self.degree {
-            for j in 0..self.degree - level {
-                row[j] += x * (row[j + 1] - row[j]);
+        self.value_and_slope(x).0
+    }
+
+    /// Σ c_k xᵏ, whose degree is one less than the number of coefficients.
+    ///
+    /// # Panics
+    /// Without coefficients, or with more than 25.
+    pub fn of_powers(coefficients: &[f64]) -> Self {
+        let mut found = Self::new(coefficients);
+        let degree = found.degree;
+        for (k, c) in found.coefficients[..=degree].iter_mut().enumerate() {
+            *c /= binomial(degree, k);
+        }
+        // Σ_k C(j, k) d_k for each j, as the j-th numbers of a table of sums.
+        for level in 1..=degree {
+            for j in (level..=degree).rev() {
+                found.coefficients[j] += found.coefficients[j - 1];
             }
         }
-        row[0]
+        found
     }
 
     /// Its coefficients; the first and last are its values at 0 and 1.

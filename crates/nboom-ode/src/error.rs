@@ -19,4 +19,10 @@ pub enum StepError {
         /// The first variable concerned.
         variable: usize,
     },
+    /// The method needs power series, and the system has none.
+    #[error("the system gives no power series at time {time}")]
+    NoSeries {
+        /// Time of the step's start.
+        time: f64,
+    },
 }

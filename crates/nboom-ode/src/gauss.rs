@@ -271,7 +271,11 @@ impl Stepper for Gauss {
         }
         self.curve = Curve::default();
         self.plan = Plan::default();
-        self.window.next_step = self.first_step(system);
+        self.window.next_step = self.first_step(system).min(self.window.longest);
+    }
+
+    fn limit_steps(&mut self, longest: f64) {
+        self.window.longest = longest;
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {

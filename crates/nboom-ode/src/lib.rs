@@ -39,6 +39,7 @@ mod runge_kutta;
 mod stepper;
 mod system;
 mod tableau;
+mod taylor;
 
 pub use automatic::Automatic;
 pub use bernstein::{Bernstein, Interpolation};
@@ -50,3 +51,4 @@ pub use rkam::{Rkam, RkamSettings};
 pub use runge_kutta::RungeKutta;
 pub use stepper::{Choice, Stepper, Window};
 pub use system::{Counts, System, Tolerance};
+pub use taylor::Taylor;

@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::{Automatic, Gauss, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Tolerance};
+use crate::{Automatic, Gauss, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Taylor, Tolerance};
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -13,6 +13,8 @@ pub enum Method {
     Dopri5,
     /// Dormand and Prince's explicit Runge-Kutta method of order 8.
     Dop853,
+    /// The Taylor series method, of an order that follows from the tolerance.
+    Taylor,
     /// Radau's implicit Runge-Kutta method of order 5.
     Radau5,
     /// Gauss's implicit Runge-Kutta method of order 16 with constant steps.
@@ -21,8 +23,15 @@ pub enum Method {
 
 impl Method {
     /// All: the one that chooses, explicit ones from low to high order, the implicit ones.
-    pub const ALL: [Self; 6] =
-        [Self::Auto, Self::Rkam, Self::Dopri5, Self::Dop853, Self::Radau5, Self::Gauss];
+    pub const ALL: [Self; 7] = [
+        Self::Auto,
+        Self::Rkam,
+        Self::Dopri5,
+        Self::Dop853,
+        Self::Taylor,
+        Self::Radau5,
+        Self::Gauss,
+    ];
 
     /// The name in commands and files.
     pub fn name(self) -> &'static str {
@@ -31,6 +40,7 @@ impl Method {
             Self::Rkam => "rkam",
             Self::Dopri5 => "dopri5",
             Self::Dop853 => "dop853",
+            Self::Taylor => "taylor",
             Self::Radau5 => "radau5",
             Self::Gauss => "gauss",
         }
@@ -48,26 +58,32 @@ impl Method {
             Self::Rkam => "Adams-Moulton 4 as in 1970, to see what the original saw",
             Self::Dopri5 => "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
             Self::Dop853 => "explicit Runge-Kutta 8(5,3), for smaller ones",
+            Self::Taylor => "Taylor series of an order that fits the tolerance, down to rounding",
             Self::Radau5 => "implicit Runge-Kutta 5(3), for stiff hinges and latches",
             Self::Gauss => "implicit Runge-Kutta 16, symmetric, for long free spin",
         }
     }
 
-    /// Order of the error at the end of a fixed time; of `auto`, the lowest it may have.
-    pub fn order(self) -> u32 {
+    /// Order of the error at the end of a fixed time, under this tolerance and while the motion is
+    /// not stiff.
+    pub fn order(self, tolerance: Tolerance) -> u32 {
         match self {
+            Self::Taylor => Taylor::order(tolerance) as u32,
             Self::Rkam => 4,
-            Self::Auto | Self::Dopri5 => 5,
+            Self::Auto => Automatic::explicit(tolerance).order(tolerance),
+            Self::Dopri5 => 5,
             Self::Dop853 => 8,
             Self::Radau5 => 5,
             Self::Gauss => 16,
         }
     }
 
-    /// Order of dense output.
-    pub fn dense_order(self) -> u32 {
+    /// Order of dense output, under this tolerance.
+    pub fn dense_order(self, tolerance: Tolerance) -> u32 {
         match self {
-            Self::Auto | Self::Rkam | Self::Dopri5 => 4,
+            Self::Taylor => Taylor::order(tolerance) as u32,
+            Self::Auto => Automatic::explicit(tolerance).dense_order(tolerance),
+            Self::Rkam | Self::Dopri5 => 4,
             Self::Dop853 => 7,
             Self::Radau5 => 3,
             Self::Gauss => 8,
@@ -87,6 +103,7 @@ impl Method {
             Self::Rkam => Box::new(Rkam::new(RkamSettings::meeting(tolerance))),
             Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
             Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),
+            Self::Taylor => Box::new(Taylor::new(tolerance)),
             Self::Radau5 => Box::new(Radau::new(tolerance)),
             Self::Gauss => Box::new(Gauss::new(tolerance)),
         }

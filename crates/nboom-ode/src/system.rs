@@ -8,6 +8,13 @@ pub trait System {
     fn jacobian(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> bool {
         false
     }
+
+    /// Writes the power series of the solution through (t, y) to `out` and returns `true`:
+    /// y⁽ᵏ⁾/k! of all variables for k = 0, then for k = 1, and so on up to `order`. A system that
+    /// returns `false` has none, and [`Taylor`](crate::Taylor) refuses it. Nobody else asks.
+    fn series(&mut self, _t: f64, _y: &[f64], _order: usize, _out: &mut [f64]) -> bool {
+        false
+    }
 }
 
 /// Error allowed in a step: `absolute + relative · |y|` for each variable.
@@ -26,7 +33,7 @@ pub struct Counts {
     pub accepted: usize,
     /// Steps rejected.
     pub rejected: usize,
-    /// Evaluations of the derivative, those for differences included.
+    /// Evaluations of the derivative, those for differences included, or of power series.
     pub evaluations: usize,
     /// Evaluations of the Jacobian.
     pub jacobians: usize,

@@ -1,14 +1,35 @@
 //! Every method against closed forms: order, dense output, cut steps, refusals.
 
+use nboom_expr::Graph;
 use nboom_ode::{Method, StepError, Stepper, System, Tolerance};
+use nboom_scalar::Real;
+use nboom_series::Series;
+
+/// The series of an equation over any scalar.
+macro_rules! series_of {
+    ($rates:expr) => {
+        fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
+            let size = y.len();
+            let graph = Graph::trace(size + 1, |x| Vec::from($rates(x[size], &x[..size])));
+            Series::new(&graph, order).write(t, y, out);
+            true
+        }
+    };
+}
 
 /// ÿ = −y and ż = z cos t, whose solutions are cos t and exp(sin t).
 struct Closed;
 
+fn rates<R: Real>(t: R, y: &[R]) -> [R; 3] {
+    [y[1], -y[0], y[2] * t.sin_cos().1]
+}
+
 impl System for Closed {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        (dy[0], dy[1], dy[2]) = (y[1], -y[0], y[2] * t.cos());
+        dy.copy_from_slice(&rates(t, y));
     }
+
+    series_of!(rates);
 }
 
 fn exact(t: f64) -> [f64; 3] {
@@ -19,8 +40,12 @@ fn error(found: &[f64], t: f64) -> f64 {
     found.iter().zip(exact(t)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
+fn both(tolerance: f64) -> Tolerance {
+    Tolerance { relative: tolerance, absolute: tolerance }
+}
+
 fn with_tolerance(method: Method, tolerance: f64) -> Box<dyn Stepper> {
-    method.stepper(Tolerance { relative: tolerance, absolute: tolerance })
+    method.stepper(both(tolerance))
 }
 
 fn started(method: Method, tolerance: f64) -> Box<dyn Stepper> {
@@ -42,11 +67,12 @@ fn with_equal_steps(method: Method, step: f64, count: usize) -> f64 {
 #[test]
 fn the_order_is_what_the_table_says() {
     for method in Method::ALL {
+        let order_of_method = method.order(both(1e-3));
         // Long enough for errors to be above rounding.
-        let step = if method.order() > 8 { 4.0 } else { 1.0 / 3.0 };
+        let step = if order_of_method > 8 { 4.0 } else { 1.0 / 3.0 };
         let coarse = with_equal_steps(method, step, 12);
         let fine = with_equal_steps(method, 0.5 * step, 24);
-        let (order, expected) = ((coarse / fine).log2(), f64::from(method.order()));
+        let (order, expected) = ((coarse / fine).log2(), f64::from(order_of_method));
         let near = (expected - 0.5..expected + 1.5).contains(&order);
         assert!(near, "{method}: order {order}, {coarse:e} {fine:e}");
     }
@@ -67,9 +93,12 @@ fn dense_output_has_the_order_of_the_table() {
             (1..10).map(|i| at(f64::from(i) / 10.0, &mut y)).fold(0.0, f64::max)
         };
         // Short enough for the order to show, long enough not to be lost in rounding.
-        let step = if method.order() > 5 { 0.8 } else { 0.1 };
+        let step = if method.order(both(1e-3)) > 5 { 0.8 } else { 0.1 };
         let local = (largest_inside(step) / largest_inside(0.5 * step)).log2();
-        assert!(local > f64::from(method.dense_order()) + 0.5, "{method}: local order {local}");
+        assert!(
+            local > f64::from(method.dense_order(both(1e-3))) + 0.5,
+            "{method}: local order {local}"
+        );
     }
 }
 
@@ -198,6 +227,8 @@ impl System for Exploding {
     fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
         dy[0] = y[0] * y[0];
     }
+
+    series_of!(|_, y: &[_]| [y[0] * y[0]]);
 }
 
 #[test]
@@ -225,6 +256,11 @@ impl System for Broken {
     fn derivative(&mut self, _t: f64, _y: &[f64], dy: &mut [f64]) {
         dy.fill(f64::NAN);
     }
+
+    fn series(&mut self, _t: f64, _y: &[f64], _order: usize, out: &mut [f64]) -> bool {
+        out.fill(f64::NAN);
+        true
+    }
 }
 
 #[test]
@@ -244,4 +280,24 @@ fn names_are_found_again() {
         assert_eq!(Method::named(method.name()), Some(method));
     }
     assert_eq!(Method::named("euler"), None);
+}
+
+/// A derivative and nothing else.
+struct Plain;
+
+impl System for Plain {
+    fn derivative(&mut self, _t: f64, _y: &[f64], dy: &mut [f64]) {
+        dy.fill(1.0);
+    }
+}
+
+#[test]
+fn a_system_without_power_series_is_refused_by_the_method_that_needs_them() {
+    for method in Method::ALL {
+        let mut stepper = with_tolerance(method, 1e-9);
+        stepper.start(&mut Plain, 0.5, &[1.0], 1);
+        let taken = stepper.step(&mut Plain, 1.0);
+        let refused = matches!(taken, Err(StepError::NoSeries { time: 0.5 }));
+        assert_eq!(refused, method == Method::Taylor, "{method}: {taken:?}");
+    }
 }

@@ -154,6 +154,27 @@ fn on_avx2<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number])
     unsafe { inlined::<C>(k, x, out) }
 }
 
+/// Work that is to be done in code for the vector instructions that the processor has.
+pub trait Work {
+    /// Does it; to be inlined, with all that it calls.
+    fn carry_out(self);
+}
+
+/// Does `work` in code compiled for the vector instructions of this processor, of up to 256
+/// bits, which pay for short loops too. Results are the same with and without.
+pub fn vectorised<W: Work>(work: W) {
+    #[cfg(target_arch = "x86_64")]
+    if InstructionSet::of_this_processor() >= InstructionSet::Avx2 {
+        #[target_feature(enable = "avx2,fma")]
+        fn inlined<W: Work>(work: W) {
+            work.carry_out();
+        }
+        // SAFETY: the processor has the features.
+        return unsafe { inlined(work) };
+    }
+    work.carry_out();
+}
+
 /// Eight `f64` one after the other and nothing else, any of which may be any number.
 ///
 /// # Safety

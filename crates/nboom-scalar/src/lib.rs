@@ -39,7 +39,7 @@ pub use instructions::InstructionSet;
 pub use isa::Isa;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use isa::{Avx2, Avx512};
-pub use kernel::Kernel;
+pub use kernel::{Kernel, Work, vectorised};
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
 pub use pair::Pair;

@@ -1,20 +1,20 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{
-    Coordinates, Formulation, HingeCoordinates, Recognised, recognise, symmetric,
+    Coordinates, Formulation, HingeCoordinates, Parameters, recognise, symmetric,
 };
-use nboom_model::{HingeLabel, Scene};
-use nboom_scalar::{Vec3, Wrench};
+use nboom_model::{HingeLabel, Scene, Topology, WeldedTree};
+use nboom_scalar::{Real, Vec3, Wrench};
 
-/// A closed form fitted to a scene in one mode.
+/// A closed form fitted to a scene in one mode, over any scalar.
 #[derive(Clone, Debug)]
-pub(crate) struct ClosedForm {
+pub(crate) struct ClosedForm<R> {
     formulation: Formulation,
     /// `None` for a tree that is not made of chains and paddles, which `symmetric` alone covers.
-    recognised: Option<Recognised>,
-    coordinates: Coordinates<f64>,
+    recognised: Option<(Topology, Parameters<R>)>,
+    coordinates: Coordinates<R>,
     /// For each hinge of the coordinates, its link.
     links: Vec<usize>,
-    torques: Vec<f64>,
+    torques: Vec<R>,
 }
 
 /// A formulation is written for chains and paddles, and the mode is not made of them.
@@ -30,17 +30,17 @@ pub struct NotCovered {
     pub hinge: HingeLabel,
 }
 
-impl ClosedForm {
-    /// The closed form of what `dynamics` computes in its mode.
+impl<R: Real> ClosedForm<R> {
+    /// The closed form for the mode of `tree`, with what acts on the main body from outside.
     ///
     /// # Errors
     /// When the formulation does not cover it.
     pub fn fit(
         scene: &Scene,
-        dynamics: &Recursive<f64>,
+        tree: &WeldedTree<f64>,
+        external: Option<Wrench<R>>,
         formulation: Formulation,
     ) -> Result<Self, NotCovered> {
-        let tree = dynamics.tree();
         formulation.covers(tree).map_err(|link| NotCovered {
             formulation,
             hinge: scene.label(tree.links[link].hinge),
@@ -48,13 +48,18 @@ impl ClosedForm {
         let recognised = recognise(tree).ok();
         let in_tree_order = || (0..tree.links.len()).collect();
         let links = recognised.as_ref().map_or_else(in_tree_order, |found| found.links.clone());
-        let hinges = vec![HingeCoordinates { beta: 0.0, tau: 0.0, torque: 0.0 }; links.len()];
+        let recognised = recognised.map(|found| {
+            let parameters = found.parameters.write().into_iter().map(R::constant);
+            let parameters = Parameters::read(&found.topology, parameters);
+            (found.topology, parameters)
+        });
+        let at_rest = HingeCoordinates { beta: R::zero(), tau: R::zero(), torque: R::zero() };
         let coordinates = Coordinates {
             omega: Vec3::zero(),
-            external: dynamics.external().unwrap_or(Wrench::zero()),
-            hinges,
+            external: external.unwrap_or(Wrench::zero()),
+            hinges: vec![at_rest; links.len()],
         };
-        let torques = vec![0.0; links.len()];
+        let torques = vec![R::zero(); links.len()];
         Ok(Self { formulation, recognised, coordinates, links, torques })
     }
 
@@ -66,9 +71,9 @@ impl ClosedForm {
     /// Accelerations of the mode it was fitted to: ω̇, a_O without gravity, τ̇.
     pub fn accelerations(
         &mut self,
-        dynamics: &mut Recursive<f64>,
-        motion: &Motion<'_, f64>,
-        out: &mut Accelerations<f64>,
+        dynamics: &mut Recursive<R>,
+        motion: &Motion<'_, R>,
+        out: &mut Accelerations<R>,
     ) {
         dynamics.hinge_forces(motion, &mut self.torques);
         let x = &mut self.coordinates;
@@ -78,9 +83,7 @@ impl ClosedForm {
             *hinge = HingeCoordinates { beta, tau, torque };
         }
         let found = match &self.recognised {
-            Some(Recognised { topology, parameters, .. }) => {
-                self.formulation.solve(topology, parameters, x)
-            }
+            Some((topology, parameters)) => self.formulation.solve(topology, parameters, x),
             None => symmetric::solve_tree(dynamics.tree(), x),
         };
         out.omega_dot_body = found.main.angular;

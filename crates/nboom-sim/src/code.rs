@@ -14,7 +14,7 @@ use crate::record::Selection;
 #[derive(Clone, Debug)]
 pub(crate) enum Code {
     Recursion,
-    ClosedForm(ClosedForm),
+    ClosedForm(ClosedForm<f64>),
     Generated(Generated),
 }
 
@@ -90,7 +90,7 @@ fn library(
     match form {
         None | Some(Form::Recursive) => Ok((Code::Recursion, reason)),
         Some(Form::Closed(formulation)) => {
-            let form = ClosedForm::fit(scene, dynamics, formulation)?;
+            let form = ClosedForm::fit(scene, dynamics.tree(), dynamics.external(), formulation)?;
             Ok((Code::ClosedForm(form), reason))
         }
     }

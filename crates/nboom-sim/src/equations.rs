@@ -3,6 +3,7 @@ use nboom_elements::HingeLaw;
 use nboom_model::{Mode, Scene, Thrust};
 use nboom_ode::System;
 use nboom_scalar::{Quaternion, Real, Vec3};
+use nboom_series::Series;
 
 use crate::code::Code;
 use crate::error::SimError;
@@ -13,6 +14,7 @@ use crate::ledger::totals;
 use crate::options::Options;
 use crate::rates::Rates;
 use crate::record::Selection;
+use crate::series;
 use crate::state::{MassCenter, State};
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
@@ -34,6 +36,8 @@ pub(crate) struct Equations {
     rates: Rates<f64>,
     /// Made when an integrator asks for it in the mode.
     jacobian: Option<Jacobian>,
+    /// The same.
+    series: Option<Series<f64>>,
     /// Whether the angular momentum stands for the rate where nothing changes it.
     momentum_for_rate: bool,
 }
@@ -61,6 +65,7 @@ impl Equations {
             accelerations: Accelerations::for_hinges(0),
             rates: Rates::new(scene, layout, &[], None),
             jacobian: None,
+            series: None,
             momentum_for_rate: options.integrator.keeps_invariants(),
         }
     }
@@ -83,7 +88,7 @@ impl Equations {
         };
         self.accelerations = Accelerations::for_hinges(free.len());
         self.rates = Rates::new(scene, self.layout, free, self.thrust);
-        self.jacobian = None;
+        (self.jacobian, self.series) = (None, None);
         y.clear();
         let q = state.attitude;
         y.push(q.scalar);
@@ -216,6 +221,15 @@ impl System for Equations {
         let Self { scene, mode, origin, layout, thrust, .. } = self;
         let of_mode = || Jacobian::new(scene, mode, &origin.beta, *layout, *thrust);
         self.jacobian.get_or_insert_with(of_mode).write(free_fall, y, out);
+        true
+    }
+
+    fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
+        self.series.take_if(|series| series.order() != order);
+        let Self { scene, mode, origin, layout, thrust, gravity, .. } = self;
+        let of_mode =
+            || Series::new(&series::graph(scene, mode, origin, *layout, *thrust, *gravity), order);
+        self.series.get_or_insert_with(of_mode).write(t, y, out);
         true
     }
 }

@@ -112,6 +112,7 @@ impl SimError {
         match error {
             StepError::Underflow { time, step, .. } => Self::StepUnderflow { time, step, hinge },
             StepError::NotFinite { time, .. } => Self::NotFinite { time, hinge },
+            StepError::NoSeries { .. } => unreachable!("equations of motion have series"),
         }
     }
 }

@@ -64,6 +64,7 @@ impl Jacobian {
         let Self { layout, dynamics, accelerations, rates, variables, derivatives } = self;
         let motion = motion(layout, dynamics, variables);
         dynamics.accelerations(&motion, accelerations);
+        let free_fall = Vec3::constant(free_fall);
         rates.write(dynamics, (&motion, accelerations), free_fall, variables, derivatives);
     }
 }

@@ -54,6 +54,7 @@ mod options;
 mod rates;
 mod record;
 mod run;
+mod series;
 mod snapshot;
 mod state;
 mod trust;

@@ -32,7 +32,7 @@ impl<R: Real> Rates<R> {
         &self,
         dynamics: &mut Recursive<R>,
         (motion, accelerations): (&Motion<'_, R>, &Accelerations<R>),
-        free_fall: Vec3<f64>,
+        free_fall: Vec3<R>,
         y: &[R],
         dy: &mut [R],
     ) {
@@ -60,7 +60,7 @@ impl<R: Real> Rates<R> {
         dynamics: &mut Recursive<R>,
         thrust: &Thrust,
         motion: &Motion<'_, R>,
-        free_fall: Vec3<f64>,
+        free_fall: Vec3<R>,
         y: &[R],
         dy: &mut [R],
     ) {
@@ -70,7 +70,7 @@ impl<R: Real> Rates<R> {
         let force = to_inertial * force_body;
         let (displacement, work) = (layout.thrust_motion().start, layout.thrust_work().start);
         let added = &y[displacement + 3..][..3];
-        let velocity = Vec3::constant(free_fall) + Vec3::new(added[0], added[1], added[2]);
+        let velocity = free_fall + Vec3::new(added[0], added[1], added[2]);
         let found = dynamics.invariants(motion, to_inertial.transpose_mul(velocity));
         let at_point = found.origin_velocity + motion.omega_body.cross(point);
         let moment = to_inertial * (point - found.mass_center).cross(force_body);

@@ -69,7 +69,7 @@ impl Run<'_> {
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
         let of_all = match error {
             StepError::Underflow { variable, .. } => self.stepper.error_of(variable),
-            StepError::NotFinite { .. } => f64::INFINITY,
+            StepError::NotFinite { .. } | StepError::NoSeries { .. } => f64::INFINITY,
         };
         let counts = largest.filter(|&position| error_of(position) >= COUNTS * of_all);
         without_bound.or(counts).map(|position| self.scene.label(free[position]))
