@@ -12,6 +12,14 @@ pub enum SectionError {
         /// How many there are.
         found: usize,
     },
+    /// There are more vertices than a section is checked for.
+    #[error("{found} vertices found, at most {most} expected")]
+    TooManyVertices {
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// Walls and their thicknesses differ in number.
     #[error("{found} wall thicknesses found, {expected} expected, as many as vertices")]
     ThicknessCount {
@@ -49,7 +57,7 @@ pub enum SectionError {
         /// The vertex that it ends at.
         next: usize,
     },
-    /// The outline meets itself.
+    /// The outline meets itself; the first wall that this one meets is told.
     #[error("walls {} and {} cross or touch, one cell expected", wall + 1, other + 1)]
     Crossing {
         /// The wall with the lower number.

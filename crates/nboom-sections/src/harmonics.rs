@@ -28,13 +28,8 @@ impl Harmonics {
             (c * cos + s * sin, s * cos - c * sin)
         };
         let ((c1, s1), (c2, s2)) = (turned(c1, s1, middle), turned(c2, s2, 2.0 * middle));
-        let derivative: Polynomial = [
-            s1 + 2.0 * s2,
-            -2.0 * c1 - 8.0 * c2,
-            -12.0 * s2,
-            8.0 * c2 - 2.0 * c1,
-            2.0 * s2 - s1,
-        ];
+        let derivative: Polynomial =
+            [s1 + 2.0 * s2, -2.0 * c1 - 8.0 * c2, -12.0 * s2, 8.0 * c2 - 2.0 * c1, 2.0 * s2 - s1];
         let end = FRAC_PI_8.tan();
         let changes = SignChanges::of(&derivative, -end, end);
         changes.into_points().map(move |u| middle + 2.0 * u.atan())
@@ -59,10 +54,7 @@ impl Mul<f64> for Harmonics {
 
 /// The angle from 0 to 2π at which `value` is largest, a function whose stationary points within
 /// each quadrant, counted from 0, are those of `harmonics`.
-pub(crate) fn largest(
-    value: impl Fn(f64) -> f64,
-    harmonics: impl Fn(usize) -> Harmonics,
-) -> f64 {
+pub(crate) fn largest(value: impl Fn(f64) -> f64, harmonics: impl Fn(usize) -> Harmonics) -> f64 {
     let candidates = (0..4).flat_map(|quadrant| {
         let start = quadrant as f64 * FRAC_PI_2;
         std::iter::once(start).chain(harmonics(quadrant).stationary(quadrant))

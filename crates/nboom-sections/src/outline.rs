@@ -5,11 +5,18 @@ use crate::{Point, SectionError, Wall};
 /// Distances below this part of the outline's length are none.
 const COINCIDENCE: f64 = 1e-12;
 
+/// Every wall is compared with every other one.
+const MOST_VERTICES: usize = 1000;
+
 /// The walls between given vertices.
 pub(crate) fn walls(vertices: &[Point], thickness: &[f64]) -> Result<Vec<Wall>, Vec<SectionError>> {
     let mut errors = Vec::new();
     if vertices.len() < 3 {
         errors.push(SectionError::TooFewVertices { found: vertices.len() });
+    }
+    if vertices.len() > MOST_VERTICES {
+        let (found, most) = (vertices.len(), MOST_VERTICES);
+        return Err(vec![SectionError::TooManyVertices { found, most }]);
     }
     if thickness.len() != vertices.len() {
         let (found, expected) = (thickness.len(), vertices.len());
@@ -77,28 +84,11 @@ fn is_flat(walls: &[Wall], none: f64) -> bool {
 }
 
 fn crossings(walls: &[Wall], none: f64) -> Vec<SectionError> {
-    let reach = |i: &usize| {
-        let (a, b) = (walls[*i].start().xi, walls[*i].at(1.0).xi);
-        (a.min(b), a.max(b))
+    let first_met = |wall: usize| {
+        let other = (wall + 1..walls.len()).find(|&other| meet(walls, wall, other, none))?;
+        Some(SectionError::Crossing { wall, other })
     };
-    let mut order: Vec<usize> = (0..walls.len()).collect();
-    order.sort_by(|i, j| reach(i).0.total_cmp(&reach(j).0));
-    let mut errors = Vec::new();
-    for (position, i) in order.iter().enumerate() {
-        let (_, last) = reach(i);
-        let near = order[position + 1..].iter().take_while(|j| reach(j).0 <= last + none);
-        for j in near {
-            let (wall, other) = (*i.min(j), *i.max(j));
-            if meet(walls, wall, other, none) {
-                errors.push(SectionError::Crossing { wall, other });
-            }
-        }
-    }
-    errors.sort_by_key(|error| match error {
-        SectionError::Crossing { wall, other } => (*wall, *other),
-        _ => (0, 0),
-    });
-    errors
+    (0..walls.len()).filter_map(first_met).collect()
 }
 
 /// Whether two walls have a point in common that is not the vertex which they share.
@@ -113,12 +103,7 @@ fn meet(walls: &[Wall], wall: usize, other: usize, none: f64) -> bool {
         let turn = of.along().cross(point - of.start());
         if turn.abs() <= none * of.length() { 0 } else { turn.signum() as i32 }
     };
-    let sides = [
-        side(a, b.start()),
-        side(a, b.at(1.0)),
-        side(b, a.start()),
-        side(b, a.at(1.0)),
-    ];
+    let sides = [side(a, b.start()), side(a, b.at(1.0)), side(b, a.start()), side(b, a.at(1.0))];
     if sides == [0; 4] {
         let along = |point: Point| a.along().dot(point - a.start()) / a.length();
         let (from, to) = (along(b.start()), along(b.at(1.0)));

@@ -1,7 +1,7 @@
 use nboom_scalar::{Vec3, Wrench};
 
 use crate::{
-    Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, WallStress, Wall,
+    Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Wall, WallStress,
     outline, shear_flow,
 };
 
@@ -77,7 +77,7 @@ impl Polygon {
     pub fn stresses(&self, load: &Wrench<f64>) -> PolygonStresses<'_> {
         let Wrench { force, moment } = self.about_centroid(load);
         let Properties { area, inertia, .. } = self.properties;
-        // What the inboard part exerts on the outboard one comes back to it with the other sign.
+        // The face that points outboard is that of the inboard part: it bears the reaction.
         PolygonStresses {
             polygon: self,
             mean: -force.y / area,
@@ -142,7 +142,6 @@ impl PolygonStresses<'_> {
     /// When there is no such wall.
     pub fn wall(&self, wall: usize) -> WallStress {
         let wall = &self.polygon.walls[wall];
-        let arm = wall.start() - self.polygon.properties.centroid;
         let flows = &wall.flows;
         let shear = std::array::from_fn(|power| {
             let torsion = if power == 0 { self.torsion * flows.torsion } else { 0.0 };
@@ -150,10 +149,15 @@ impl PolygonStresses<'_> {
             (forces + torsion) / wall.thickness()
         });
         WallStress {
-            normal: [self.mean + self.gradient.dot(arm), self.gradient.dot(wall.along())],
+            normal: [self.normal_at(wall.start()), self.gradient.dot(wall.along())],
             shear,
-            unit: wall.along() * (1.0 / wall.length()),
+            direction: wall.along() * (1.0 / wall.length()),
         }
+    }
+
+    /// Normal stress anywhere in the walls, also beside their middle line.
+    pub fn normal_at(&self, place: Point) -> f64 {
+        self.mean + self.gradient.dot(place - self.polygon.properties.centroid)
     }
 
     /// Shear flow by torsion alone, positive along the numbering; eq. (11.11).

@@ -123,7 +123,8 @@ mod tests {
             &[],
         ] {
             for factor in [1.0, -3.0, 1e-200, 1e200] {
-                let inside: Vec<f64> = roots.iter().copied().filter(|r| *r > 0.0 && *r < 1.0).collect();
+                let inside: Vec<f64> =
+                    roots.iter().copied().filter(|r| *r > 0.0 && *r < 1.0).collect();
                 let found = found(&with_roots(factor, roots));
                 // A root on an end may be told as one.
                 let found: Vec<f64> = found.into_iter().filter(|r| *r > 1e-9).collect();

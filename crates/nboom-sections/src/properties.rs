@@ -74,9 +74,7 @@ impl SecondMoments {
                     + way.zeta * way.zeta / 12.0
                     + across * unit.xi * unit.xi),
             zeta_zeta: area
-                * (middle.xi * middle.xi
-                    + way.xi * way.xi / 12.0
-                    + across * unit.zeta * unit.zeta),
+                * (middle.xi * middle.xi + way.xi * way.xi / 12.0 + across * unit.zeta * unit.zeta),
             xi_zeta: area
                 * (middle.xi * middle.zeta + way.xi * way.zeta / 12.0
                     - across * unit.xi * unit.zeta),

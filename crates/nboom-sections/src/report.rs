@@ -1,10 +1,10 @@
 //! What only the report computes: intermediate quantities of its bending formula, static moments,
-//! and its shear stress in tubes. Signs are those of the report, compression positive.
+//! and its shear stress in tubes.
 
 use nboom_scalar::Wrench;
 
 use crate::harmonics::{Harmonics, largest};
-use crate::{Point, Polygon, SecondMoments, Tube, outline};
+use crate::{Point, Polygon, SecondMoments, Stress, Tube, outline};
 
 /// k₁ = I_ξζ / I_ζζ, k₂ = I_ξζ / I_ξξ and k₃ = 1 − k₁k₂ of eq. (11.8), corrected: note 22.
 pub fn bending_constants(inertia: &SecondMoments) -> [f64; 3] {
@@ -37,15 +37,14 @@ pub fn static_moments(polygon: &Polygon, place: Point) -> [f64; 2] {
     [beyond(|p| p.xi), beyond(|p| p.zeta)]
 }
 
-/// σ₂₂, σ₂₁ and σ₂₃ at θ of a tube by eqs. (11.1) to (11.4), with the shear stress of the forces in
+/// The stress at θ of a tube by eqs. (11.1) to (11.4), with the shear stress of the forces in
 /// absolute values as printed; it is right at the four axis points only, note 21.
-pub fn tube_stress(tube: &Tube, load: &Wrench<f64>, theta: f64) -> [f64; 3] {
-    let stresses = tube.stresses(load);
-    let [normal, _, _] = stresses.at(theta).stress.in_report_signs();
+pub fn tube_stress(tube: &Tube, load: &Wrench<f64>, theta: f64) -> Stress {
+    let [normal, _, _] = tube.stresses(load).at(theta).stress.in_report_signs();
     let (sin, cos) = theta.sin_cos();
-    let [xi, zeta] = shear_of_forces(tube, load);
-    let torsion = torsion(tube, load);
-    [normal, xi * sin.abs() + torsion * sin, zeta * cos.abs() - torsion * cos]
+    let ([xi, zeta], torsion) = (shear_of_forces(tube, load), torsion(tube, load));
+    let along_xi = xi * sin.abs() + torsion * sin;
+    Stress::of_report_signs([normal, along_xi, zeta * cos.abs() - torsion * cos])
 }
 
 /// The θ, from 0 to 2π, at which the von Mises stress of [`tube_stress`] is largest.
@@ -63,12 +62,7 @@ pub fn severest_of_tube(tube: &Tube, load: &Wrench<f64>) -> f64 {
             + Harmonics::of_square(along_xi) * 3.0
             + Harmonics::of_square(along_zeta) * 3.0
     };
-    largest(|theta| von_mises(tube_stress(tube, load, theta)), squares)
-}
-
-/// Equivalent stress √(σ₂₂² + 3 (σ₂₁² + σ₂₃²)).
-pub fn von_mises([normal, along_xi, along_zeta]: [f64; 3]) -> f64 {
-    normal.hypot(3.0_f64.sqrt() * along_xi.hypot(along_zeta))
+    largest(|theta| tube_stress(tube, load, theta).von_mises(), squares)
 }
 
 /// 2P₁/A and 2P₃/A.

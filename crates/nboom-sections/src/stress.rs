@@ -32,11 +32,16 @@ impl Stress {
         [mean + radius, mean - radius]
     }
 
-    /// The report's components (σ₂₂, σ₂₁, σ₂₃): the traction on the outboard part, along η, ξ and ζ,
-    /// for which compression is positive. This is the only place where signs are changed between
-    /// the two conventions.
+    /// The report's components (σ₂₂, σ₂₁, σ₂₃): the traction on the outboard part along η, ξ and ζ,
+    /// for which compression is positive. Here and in [`Stress::of_report_signs`] are the only
+    /// changes of sign between the two conventions.
     pub fn in_report_signs(self) -> [f64; 3] {
         [-self.normal, -self.shear_xi, -self.shear_zeta]
+    }
+
+    /// The stress that has these components in the report.
+    pub fn of_report_signs([normal, shear_xi, shear_zeta]: [f64; 3]) -> Self {
+        Self { normal: -normal, shear_xi: -shear_xi, shear_zeta: -shear_zeta }
     }
 }
 

@@ -94,7 +94,7 @@ impl Tube {
         let Wrench { force, moment } = *load;
         let Properties { area, inertia, .. } = self.properties();
         let (bending, shear) = (self.radius / inertia.xi_xi, 2.0 / area);
-        // What the inboard part exerts on the outboard one comes back to it with the other sign.
+        // The face that points outboard is that of the inboard part: it bears the reaction.
         TubeStresses {
             radius: self.radius,
             normal: [-force.y / area, -moment.z * bending, moment.x * bending],
@@ -129,7 +129,8 @@ impl TubeStresses {
 
     /// The θ at which the von Mises stress is largest, from 0 to 2π.
     pub fn severest(&self) -> f64 {
-        let unit = self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
+        let unit =
+            self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
         let square = |form: [f64; 3]| Harmonics::of_square(form.map(|c| c / unit));
         let squares = square(self.normal) + square(self.shear) * 3.0;
         largest(|theta| self.at(theta).stress.von_mises(), |_| squares)

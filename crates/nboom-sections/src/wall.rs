@@ -58,7 +58,7 @@ pub struct WallStress {
     /// Coefficients of the shear stress in x, positive along the wall.
     pub shear: [f64; 3],
     /// Unit vector along the wall.
-    pub(crate) unit: Point,
+    pub direction: Point,
 }
 
 impl WallStress {
@@ -70,7 +70,7 @@ impl WallStress {
 
     /// The stress at `x`.
     pub fn at(&self, x: f64) -> Stress {
-        let shear = self.unit * self.shear_at(x);
+        let shear = self.direction * self.shear_at(x);
         let normal = self.normal[0] + x * self.normal[1];
         Stress { normal, shear_xi: shear.xi, shear_zeta: shear.zeta }
     }
@@ -82,23 +82,19 @@ impl WallStress {
     pub fn severest(&self) -> f64 {
         let inside = SignChanges::of(&self.derivative(), 0.0, 1.0);
         let severity = |x: f64| self.at(x).von_mises();
-        inside.into_points().chain([1.0]).fold(0.0, |best, x| {
-            if severity(x) > severity(best) { x } else { best }
-        })
+        inside
+            .into_points()
+            .chain([1.0])
+            .fold(0.0, |best, x| if severity(x) > severity(best) { x } else { best })
     }
 
     /// Half the derivative of σ² + 3 τ² by x, in units of the largest coefficient, so that it
     /// neither overflows nor vanishes.
     fn derivative(&self) -> Polynomial {
-        let unit = self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
+        let unit =
+            self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
         let scale = if unit > 0.0 { 1.0 / unit } else { 0.0 };
         let ([s, ds], [a, b, c]) = (self.normal.map(|n| n * scale), self.shear.map(|n| n * scale));
-        [
-            s * ds + 3.0 * a * b,
-            ds * ds + 3.0 * (b * b + 2.0 * a * c),
-            9.0 * b * c,
-            6.0 * c * c,
-            0.0,
-        ]
+        [s * ds + 3.0 * a * b, ds * ds + 3.0 * (b * b + 2.0 * a * c), 9.0 * b * c, 6.0 * c * c, 0.0]
     }
 }
