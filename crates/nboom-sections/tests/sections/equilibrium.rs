@@ -17,7 +17,7 @@ const GAUSS_3: [(f64, f64); 3] = [
 ];
 
 /// The same for degree three, across the thickness.
-const GAUSS_2: [f64; 2] = [0.211_324_865_405_187_12, 0.788_675_134_594_812_9];
+const GAUSS_2: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// The load on the outboard part that shear stress stands for, on the middle line, and that of
 /// normal stress, over the thickness.
