@@ -1,8 +1,8 @@
 //! Fast, exact simulation of spacecraft that unfold.
 //!
 //! This crate gathers the parts that a program needs to simulate a deployment: the scene
-//! ([`model`]), its file formats ([`io`]), equations of motion ([`dynamics`]) and the runner
-//! ([`sim`]). `docs/architecture.md` shows how they fit together.
+//! ([`model`]), its file formats ([`io`]), equations of motion ([`dynamics`]), cross sections and
+//! their stresses ([`sections`]), and the runner ([`sim`]). `docs/architecture.md` shows how they fit together.
 //!
 //! With the feature `macros`, `routine!` and `scene!` generate code for a topology or a scene of
 //! the program's own.
@@ -21,4 +21,5 @@ pub use nboom_macros::{routine, scene};
 pub use nboom_model as model;
 pub use nboom_ode as ode;
 pub use nboom_scalar as scalar;
+pub use nboom_sections as sections;
 pub use nboom_sim as sim;

@@ -57,6 +57,14 @@ pub enum Command {
     /// shortest and the median sample. Of code that takes eight states at once, an eighth of that. The recursion's time includes the hinges' springs and
     /// dashpots; the others are given their torques.
     Bench(BenchArgs),
+    /// Compute properties and stresses of cross sections.
+    ///
+    /// FILE is JSON with a list `cases`. A section has an id, and kind "circular" with R and t, or
+    /// "polygon" with vertices and thickness, lists of pairs [xi, zeta] and of numbers, wall l being
+    /// from vertex l to the next. With P, Q or both, force and moment on the outboard part about the
+    /// point on the eta axis, there are stresses too. The answer is the same list with an object
+    /// `expect` in each section. Compression is positive there, as in the report.
+    Section(SectionArgs),
     /// Write a crate with routines specialised for the scene.
     ///
     /// The crate needs nothing but Rust: what its code uses is a module of it. CERTIFICATE.json says
@@ -68,8 +76,8 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Build a stand-alone simulator around the scene's routines.
     ///
-    /// The program takes SCENE and the options of nboom run; run, check, verify and bench as first
-    /// word do what they do here. It has routines with the scene's numbers, with numbers at run time,
+    /// The program takes SCENE and the options of nboom run; run, check, verify, bench and
+    /// section as first word do what they do here. It has routines with the scene's numbers, with numbers at run time,
     /// and for states with held hinges: all of them with up to 10 hinges; with more, those in which
     /// all appendages are held in step; at most 32. By articulated it also has a routine that takes
     /// nothing for granted, in which other states and changed scenes are embedded. All else runs by
@@ -293,6 +301,18 @@ pub struct BenchArgs {
     #[arg(long, value_name = "S", default_value = "0.3", value_parser = choice::positive,
           allow_negative_numbers = true)]
     pub seconds: f64,
+}
+
+/// Options of `nboom section`.
+#[derive(Args, Debug)]
+pub struct SectionArgs {
+    /// Sections, a file in JSON.
+    #[arg(value_name = "FILE")]
+    pub sections: PathBuf,
+
+    /// File for the answer, in JSON, its folder made if need be; without it standard output.
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
 }
 
 /// Which code computes the accelerations.

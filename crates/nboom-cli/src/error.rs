@@ -9,6 +9,8 @@ use nboom_results::{ResultsError, with_causes};
 use nboom_sim::SimError;
 use nboom_verify::VerifyError;
 
+use crate::SectionFileError;
+
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -55,6 +57,18 @@ pub enum CliError {
     #[cfg(feature = "generator")]
     #[error(transparent)]
     Package(#[from] PackageError),
+    /// Sections cannot be computed.
+    #[error(transparent)]
+    Sections(#[from] SectionFileError),
+    /// What was computed cannot be written.
+    #[error("{}: cannot be written", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        #[source]
+        source: io::Error,
+    },
     /// Standard output takes no more.
     #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),
@@ -72,14 +86,14 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Deviation { .. } => 1,
-            Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
+            Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion | Self::Sections(_) => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
                 ..
             } => 2,
             Self::Verify(VerifyError::NotFinite { .. }) => 2,
             Self::Simulation { .. } | Self::Verify(_) => 3,
-            Self::Results(_) | Self::Stdout(_) => 3,
+            Self::Results(_) | Self::Write { .. } | Self::Stdout(_) => 3,
             #[cfg(feature = "generator")]
             Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
             #[cfg(feature = "generator")]
@@ -99,6 +113,9 @@ impl CliError {
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::Input(error @ InputError::Deck(_)) => {
+                error.to_string().lines().map(str::to_owned).collect()
+            }
+            Self::Sections(error @ SectionFileError::Sections(_)) => {
                 error.to_string().lines().map(str::to_owned).collect()
             }
             Self::Simulation { directory, .. } => {

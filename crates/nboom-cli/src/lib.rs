@@ -30,6 +30,9 @@ mod print_scene;
 mod progress;
 mod reference;
 mod run;
+mod section;
+mod section_answer;
+mod section_file;
 mod simulator;
 mod verify;
 mod watch;
@@ -40,12 +43,13 @@ use std::process::ExitCode;
 
 use nboom_scalar::{Batch, Kernel};
 
-pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
+pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, SectionArgs, VerifyArgs};
 #[cfg(feature = "generator")]
 pub use args::{CompileArgs, GenerateArgs};
 pub use choice::ChoiceError;
 pub use error::CliError;
 pub use reference::reference;
+pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 
 /// Generated routines that commands choose from.
@@ -75,6 +79,7 @@ pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
         Command::Check(args) => check::check(args, routines),
         Command::Verify(args) => verify::verify(args, routines),
         Command::Bench(args) => bench::bench(args, routines),
+        Command::Section(args) => section::section(args),
         #[cfg(feature = "generator")]
         Command::Generate(args) => generate::generate(args),
         #[cfg(feature = "generator")]

@@ -32,8 +32,8 @@ pub enum InputError {
         /// The file.
         path: PathBuf,
     },
-    /// The file is too long to be a deck.
-    #[error("{}: found more than {limit} bytes, expected a deck of at most that many", path.display())]
+    /// The file is too long.
+    #[error("{}: found more than {limit} bytes, expected at most that many", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,

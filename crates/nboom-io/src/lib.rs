@@ -51,6 +51,7 @@ pub use deck::{
 pub use diagnostic::Diagnostic;
 pub use error::InputError;
 pub use legacy::LegacySettings;
+pub use source::read_text;
 
 /// What a file contains.
 #[derive(Clone, Debug)]
@@ -74,7 +75,7 @@ pub struct SceneFile {
 /// When the file cannot be read, is not a deck by its name, is too long or is not text; and all
 /// errors of the deck itself, as [`parse_deck`] returns them.
 pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
-    let text = source::read_text(path)?;
+    let text = source::read_deck(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     parse_deck(&path.display().to_string(), &text, &name)
 }

@@ -4,25 +4,40 @@ use std::path::Path;
 
 use crate::InputError;
 
-/// The longest file that is read \[bytes\].
-pub(crate) const LARGEST_FILE: u64 = 16 << 20;
+/// The longest deck that is read \[bytes\].
+const LARGEST_DECK: u64 = 16 << 20;
 
-/// The text of a deck's file; bytes that are not UTF-8 become U+FFFD, which only comments may
-/// contain.
-pub(crate) fn read_text(path: &Path) -> Result<String, InputError> {
-    let io = |source| InputError::Io { path: path.to_owned(), source };
-    let metadata = fs::metadata(path).map_err(io)?;
-    // Also keeps a pipe that nobody writes to from being waited for.
-    if !metadata.is_file() {
-        return Err(InputError::NotAFile { path: path.to_owned() });
-    }
+/// The text of a deck's file.
+pub(crate) fn read_deck(path: &Path) -> Result<String, InputError> {
+    check_file(path)?;
     check_ending(path)?;
-    check_length(path, metadata.len())?;
+    read_text(path, LARGEST_DECK)
+}
+
+/// The text of a file of at most `limit` bytes; bytes that are not UTF-8 become U+FFFD.
+///
+/// # Errors
+/// When the file cannot be read, is a directory or a device, is too long or is not text.
+pub fn read_text(path: &Path, limit: u64) -> Result<String, InputError> {
+    let length = check_file(path)?;
+    check_length(path, length, limit)?;
     let mut bytes = Vec::new();
     // The file may have grown since it was measured.
-    File::open(path).map_err(io)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(io)?;
-    check_length(path, bytes.len() as u64)?;
+    let file = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
+    file.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
+    check_length(path, bytes.len() as u64, limit)?;
     decode(path, bytes)
+}
+
+/// The length of a file that is one, not a pipe that nobody writes to.
+fn check_file(path: &Path) -> Result<u64, InputError> {
+    let io = |source| InputError::Io { path: path.to_owned(), source };
+    let metadata = fs::metadata(path).map_err(io)?;
+    if metadata.is_file() {
+        Ok(metadata.len())
+    } else {
+        Err(InputError::NotAFile { path: path.to_owned() })
+    }
 }
 
 fn check_ending(path: &Path) -> Result<(), InputError> {
@@ -30,9 +45,9 @@ fn check_ending(path: &Path) -> Result<(), InputError> {
     if is_deck { Ok(()) } else { Err(InputError::NotAScene { path: path.to_owned() }) }
 }
 
-fn check_length(path: &Path, length: u64) -> Result<(), InputError> {
-    if length > LARGEST_FILE {
-        return Err(InputError::TooLarge { path: path.to_owned(), limit: LARGEST_FILE });
+fn check_length(path: &Path, length: u64, limit: u64) -> Result<(), InputError> {
+    if length > limit {
+        return Err(InputError::TooLarge { path: path.to_owned(), limit });
     }
     Ok(())
 }

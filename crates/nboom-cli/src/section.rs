@@ -1,0 +1,40 @@
+use std::fs;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::section_file::{Case, read};
+use crate::{CliError, SectionArgs, say, section_answer};
+
+/// Computes the sections of a file and returns the answer, or where it is, for standard output.
+pub(crate) fn section(args: &SectionArgs) -> Result<String, CliError> {
+    let cases = read(&args.sections)?;
+    warnings(&args.sections, &cases);
+    let count = cases.len();
+    let answers: Vec<Value> = cases.into_iter().map(answer).collect();
+    let document = json!({ "convention": section_answer::CONVENTION, "cases": answers });
+    let text = format!("{document:#}\n");
+    let Some(path) = &args.output else { return Ok(text) };
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folder.and_then(|()| fs::write(path, text));
+    written.map_err(|source| CliError::Write { path: path.clone(), source })?;
+    let sections = crate::format::count(count, "section", "sections");
+    Ok(format!("{sections}, results in {}\n", path.display()))
+}
+
+fn warnings(path: &Path, cases: &[Case]) {
+    for case in cases {
+        for warning in case.section.warnings() {
+            let (path, id) = (path.display(), case.given["id"].as_str().unwrap_or_default());
+            say("warning", &format!("{path}: section {id}: {warning}"));
+        }
+    }
+}
+
+/// The section as it was given, and what is computed of it.
+fn answer(case: Case) -> Value {
+    let found = section_answer::of(&case.section, case.load.as_ref());
+    let mut given = case.given;
+    given.insert("expect".to_owned(), found);
+    Value::Object(given)
+}

@@ -1,0 +1,278 @@
+//! The file that `nboom section` reads.
+
+use std::path::{Path, PathBuf};
+
+use nboom_io::{InputError, read_text};
+use nboom_scalar::{Vec3, Wrench};
+use nboom_sections::{Point, Polygon, Section, SectionError, Tube};
+use serde_json::{Map, Value};
+
+/// The longest file that is read \[bytes\].
+const LARGEST_FILE: u64 = 4 << 20;
+
+/// How much of a wrong value a message shows \[characters\].
+const MOST_SHOWN: usize = 40;
+
+/// How many defects a message shows.
+const MOST_DEFECTS: usize = 50;
+
+/// What a section may have: its description, a load, and what is only handed on.
+const KEYS: [&str; 11] =
+    ["id", "kind", "R", "t", "vertices", "thickness", "P", "Q", "name", "tags", "expect"];
+
+/// Why sections cannot be computed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SectionFileError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The file is not JSON.
+    #[error("{}: not JSON", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        #[source]
+        source: serde_json::Error,
+    },
+    /// The file has no list of sections.
+    #[error("{}: no list `cases` of sections found", path.display())]
+    NoCases {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Everything that is wrong with the sections, in their order.
+    #[error("{}", listing(.0))]
+    Sections(Vec<SectionDefect>),
+}
+
+/// What is wrong with which section of a file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}: section {section}: {defect}", path.display())]
+pub struct SectionDefect {
+    /// The file.
+    pub path: PathBuf,
+    /// The section's `id`, or its number from 1 where it has none.
+    pub section: String,
+    /// What is wrong.
+    pub defect: Defect,
+}
+
+/// What is wrong with a section of a file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Defect {
+    /// A value is absent or of another kind.
+    #[error("{place}: found {found}, expected {expected}")]
+    Value {
+        /// The key, and the place in a list, from 1.
+        place: String,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
+    /// The key says nothing here.
+    #[error("{key}: found a key without meaning, expected one of {}", KEYS.join(", "))]
+    Key {
+        /// The key.
+        key: String,
+    },
+    /// It is no section of the kinds that there are.
+    #[error(
+        "kind: found {found}, expected \"circular\" or \"polygon\"; solid and open sections and \
+         those with several cells are not covered"
+    )]
+    Kind {
+        /// What it is said to be.
+        found: String,
+    },
+    /// It is no thin-walled section with one cell.
+    #[error(transparent)]
+    Section(SectionError),
+    /// Stresses under the load are infinite.
+    #[error("P and Q: found a load whose stresses exceed the range of numbers")]
+    Load,
+}
+
+/// The first defects, one to a line, and how many more there are.
+fn listing(defects: &[SectionDefect]) -> String {
+    let mut lines: Vec<String> =
+        defects.iter().take(MOST_DEFECTS).map(ToString::to_string).collect();
+    if defects.len() > MOST_DEFECTS {
+        lines.push(format!("and {} more", defects.len() - MOST_DEFECTS));
+    }
+    lines.join("\n")
+}
+
+/// A section of a file.
+pub(crate) struct Case {
+    /// What stands in the file.
+    pub(crate) given: Map<String, Value>,
+    pub(crate) section: Section,
+    pub(crate) load: Option<Wrench<f64>>,
+}
+
+/// All sections of a file.
+pub(crate) fn read(path: &Path) -> Result<Vec<Case>, SectionFileError> {
+    let text = read_text(path, LARGEST_FILE)?;
+    let json = |source| SectionFileError::Json { path: path.to_owned(), source };
+    let mut file: Value = serde_json::from_str(&text).map_err(json)?;
+    let Some(Value::Array(list)) = file.get_mut("cases").map(Value::take) else {
+        return Err(SectionFileError::NoCases { path: path.to_owned() });
+    };
+    let (mut cases, mut defects) = (Vec::new(), Vec::new());
+    for (i, value) in list.into_iter().enumerate() {
+        let id = value["id"].as_str().map_or_else(|| format!("number {}", i + 1), str::to_owned);
+        match case(value) {
+            Ok(case) => cases.push(case),
+            Err(found) => defects.extend(found.into_iter().map(|defect| SectionDefect {
+                path: path.to_owned(),
+                section: id.clone(),
+                defect,
+            })),
+        }
+    }
+    if defects.is_empty() { Ok(cases) } else { Err(SectionFileError::Sections(defects)) }
+}
+
+fn case(value: Value) -> Result<Case, Vec<Defect>> {
+    let Value::Object(given) = value else {
+        return Err(vec![Defect::value("section", &value, "an object")]);
+    };
+    let mut fields = Fields { given: &given, defects: Vec::new() };
+    fields.check_keys();
+    let section = fields.section();
+    let load = fields.load();
+    let (Some(section), []) = (section, &fields.defects[..]) else {
+        return Err(fields.defects);
+    };
+    if load.is_some_and(|load| !section.severest(&load).stress.von_mises().is_finite()) {
+        return Err(vec![Defect::Load]);
+    }
+    Ok(Case { given, section, load })
+}
+
+/// The keys of one section, and what is wrong with those that were looked at.
+struct Fields<'a> {
+    given: &'a Map<String, Value>,
+    defects: Vec<Defect>,
+}
+
+impl<'a> Fields<'a> {
+    fn check_keys(&mut self) {
+        let unknown = self.given.keys().filter(|key| !KEYS.contains(&key.as_str())).cloned();
+        self.defects.extend(unknown.map(|key| Defect::Key { key }));
+        if !self.value("id").is_string() {
+            self.expected("id", self.value("id"), "a text");
+        }
+    }
+
+    /// Nothing if a defect was found.
+    fn section(&mut self) -> Option<Section> {
+        match self.value("kind").as_str() {
+            Some("circular") => {
+                let (radius, thickness) = (self.number("R"), self.number("t"));
+                let tube = Tube::new(radius?, thickness?).map(Section::Tube);
+                tube.map_err(|error| self.defects.push(Defect::Section(error))).ok()
+            }
+            Some("polygon") => {
+                let (vertices, thickness) = (self.vertices(), self.numbers("thickness"));
+                let polygon = Polygon::new(&vertices?, &thickness?).map(Section::Polygon);
+                let wrapped = |errors: Vec<_>| errors.into_iter().map(Defect::Section);
+                polygon.map_err(|errors| self.defects.extend(wrapped(errors))).ok()
+            }
+            _ => {
+                self.defects.push(Defect::Kind { found: shown(self.value("kind")) });
+                None
+            }
+        }
+    }
+
+    /// Nothing if there is no load; what is absent of a load is zero.
+    fn load(&mut self) -> Option<Wrench<f64>> {
+        let [force, moment] = ["P", "Q"].map(|key| {
+            let components = self.given.contains_key(key).then(|| self.numbers(key))??;
+            match components[..] {
+                [xi, eta, zeta] => Some(Vec3::new(xi, eta, zeta)),
+                _ => {
+                    self.expected(key, self.value(key), "three components");
+                    None
+                }
+            }
+        });
+        let is_loaded = force.is_some() || moment.is_some();
+        let or_none = |vector: Option<Vec3<f64>>| vector.unwrap_or(Vec3::zero());
+        is_loaded.then(|| Wrench { force: or_none(force), moment: or_none(moment) })
+    }
+
+    fn vertices(&mut self) -> Option<Vec<Point>> {
+        let list = self.list("vertices")?;
+        let vertex = |(i, value): (usize, &Value)| {
+            let pair = value.as_array().and_then(|pair| match &pair[..] {
+                [xi, zeta] => Some(Point { xi: xi.as_f64()?, zeta: zeta.as_f64()? }),
+                _ => None,
+            });
+            if pair.is_none() {
+                self.expected(&format!("vertex {}", i + 1), value, "two numbers [xi, zeta]");
+            }
+            pair
+        };
+        let found: Vec<Option<Point>> = list.iter().enumerate().map(vertex).collect();
+        found.into_iter().collect()
+    }
+
+    fn numbers(&mut self, key: &str) -> Option<Vec<f64>> {
+        let list = self.list(key)?;
+        let number = |(i, value): (usize, &Value)| {
+            if value.as_f64().is_none() {
+                self.expected(&format!("{key} {}", i + 1), value, "a number");
+            }
+            value.as_f64()
+        };
+        let found: Vec<Option<f64>> = list.iter().enumerate().map(number).collect();
+        found.into_iter().collect()
+    }
+
+    fn list(&mut self, key: &str) -> Option<&'a [Value]> {
+        let value = self.value(key);
+        if !value.is_array() {
+            self.expected(key, value, "a list");
+        }
+        value.as_array().map(Vec::as_slice)
+    }
+
+    fn number(&mut self, key: &str) -> Option<f64> {
+        let value = self.value(key);
+        if value.as_f64().is_none() {
+            self.expected(key, value, "a number");
+        }
+        value.as_f64()
+    }
+
+    fn value(&self, key: &str) -> &'a Value {
+        self.given.get(key).unwrap_or(&Value::Null)
+    }
+
+    fn expected(&mut self, place: &str, found: &Value, expected: &'static str) {
+        self.defects.push(Defect::value(place, found, expected));
+    }
+}
+
+impl Defect {
+    fn value(place: &str, found: &Value, expected: &'static str) -> Self {
+        Self::Value { place: place.to_owned(), found: shown(found), expected }
+    }
+}
+
+/// A value in a message: in one line, and not longer than one.
+fn shown(value: &Value) -> String {
+    if value.is_null() {
+        return "nothing".to_owned();
+    }
+    let text = value.to_string();
+    let cut = text.chars().count() > MOST_SHOWN;
+    let start: String = text.chars().take(MOST_SHOWN).collect();
+    if cut { start + "..." } else { start }
+}

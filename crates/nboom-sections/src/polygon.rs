@@ -1,0 +1,185 @@
+use nboom_scalar::{Vec3, Wrench};
+
+use crate::{
+    Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Wall, WallStress,
+    outline, shear_flow,
+};
+
+/// A closed thin-walled section with one cell and plane walls.
+///
+/// Three vertices or more, convex or not, numbered in either direction; the η axis may be anywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygon {
+    walls: Vec<Wall>,
+    properties: Properties,
+    signed_area: f64,
+}
+
+impl Polygon {
+    /// The section with these vertices on the middle line of its walls, from the η axis; wall i, of
+    /// thickness i, joins vertex i to the next one, the last to the first.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the numbers, else with the walls, else with the outline.
+    pub fn new(vertices: &[Point], thickness: &[f64]) -> Result<Self, Vec<SectionError>> {
+        let mut walls = outline::walls(vertices, thickness)?;
+        let signed_area = outline::signed_area(&walls);
+        let centroid = centroid(&walls);
+        let centreline_inertia = SecondMoments::of_walls(&walls, centroid, 0.0);
+        let shear_centre =
+            centroid + shear_flow::solve(&mut walls, centroid, centreline_inertia, signed_area);
+        let flexibility: f64 = walls.iter().map(|wall| wall.length() / wall.thickness()).sum();
+        let properties = Properties {
+            area: walls.iter().map(Wall::area).sum(),
+            centroid,
+            inertia: SecondMoments::of_walls(&walls, centroid, 1.0),
+            centreline_inertia,
+            enclosed_area: signed_area.abs(),
+            torsion_constant: 4.0 * signed_area * signed_area / flexibility,
+            shear_centre,
+        };
+        if !properties.are_regular() {
+            return Err(vec![SectionError::Range]);
+        }
+        Ok(Self { walls, properties, signed_area })
+    }
+
+    /// Its walls, in their order.
+    pub fn walls(&self) -> &[Wall] {
+        &self.walls
+    }
+
+    /// What it is, apart from any load.
+    pub fn properties(&self) -> &Properties {
+        &self.properties
+    }
+
+    /// The enclosed area, negative where vertices are numbered from ζ towards ξ.
+    pub fn signed_area(&self) -> f64 {
+        self.signed_area
+    }
+
+    /// Walls for which thin-wall theory may not hold.
+    pub fn warnings(&self) -> Vec<SectionWarning> {
+        let ratio = |wall: &Wall| wall.thickness() / wall.length();
+        let numbered = self.walls.iter().enumerate();
+        numbered.filter_map(|(i, wall)| SectionWarning::of_wall(i, ratio(wall))).collect()
+    }
+
+    /// A load about the centroid instead of the point on the η axis, eq. (11.7), corrected: note 22.
+    pub fn about_centroid(&self, load: &Wrench<f64>) -> Wrench<f64> {
+        let Point { xi, zeta } = self.properties.centroid;
+        load.seen_from(Vec3::new(-xi, 0.0, -zeta))
+    }
+
+    /// The stresses under a load: force and moment, about the point on the η axis, that act on the
+    /// part outboard of the section.
+    pub fn stresses(&self, load: &Wrench<f64>) -> PolygonStresses<'_> {
+        let Wrench { force, moment } = self.about_centroid(load);
+        let Properties { area, inertia, .. } = self.properties;
+        // The face that points outboard is that of the inboard part: it bears the reaction.
+        PolygonStresses {
+            polygon: self,
+            mean: -force.y / area,
+            gradient: inertia.solve(-moment.z, moment.x),
+            shear: Point { xi: -force.x, zeta: -force.z },
+            torsion: -moment.y,
+        }
+    }
+
+    /// The axis points at 0, 90, 180 and 270 degrees from ξ towards ζ, as a wall and a place on it:
+    /// where rays from the centroid leave the section. A section that is not convex may lack some.
+    pub fn axis_points(&self) -> [Option<(usize, f64)>; 4] {
+        let axes = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+        axes.map(|(xi, zeta)| self.axis_point(Point { xi, zeta }))
+    }
+
+    /// Where the ray from the centroid along an axis leaves the section: the outermost crossing, as
+    /// a wall and a place on it. A vertex belongs to the wall that starts there.
+    fn axis_point(&self, ray: Point) -> Option<(usize, f64)> {
+        let none = outline::coincidence(&self.walls);
+        let across = |point: Point| {
+            let offset = ray.cross(point - self.properties.centroid);
+            if offset.abs() <= none { 0.0 } else { offset }
+        };
+        let crossing = |(i, wall): (usize, &Wall)| {
+            let (start, end) = (across(wall.start()), across(wall.at(1.0)));
+            let crosses = start == 0.0 || start * end < 0.0;
+            let x = if start == 0.0 { 0.0 } else { start / (start - end) };
+            let distance = ray.dot(wall.at(x) - self.properties.centroid);
+            (crosses && distance > 0.0).then_some((i, x, distance))
+        };
+        let crossings = self.walls.iter().enumerate().filter_map(crossing);
+        crossings.max_by(|a, b| a.2.total_cmp(&b.2)).map(|(i, x, _)| (i, x))
+    }
+}
+
+/// Relative to the first vertex, so that a far η axis costs no digits.
+fn centroid(walls: &[Wall]) -> Point {
+    let from = walls[0].start();
+    let moment = |wall: &Wall| (wall.at(0.5) - from) * wall.area();
+    let area: f64 = walls.iter().map(Wall::area).sum();
+    from + walls.iter().map(moment).fold(Point::ORIGIN, |sum, one| sum + one) * (1.0 / area)
+}
+
+/// Stresses in a polygon under one load.
+#[derive(Clone, Copy, Debug)]
+pub struct PolygonStresses<'a> {
+    polygon: &'a Polygon,
+    /// Normal stress at the centroid, and its gradient.
+    mean: f64,
+    gradient: Point,
+    /// Shear force and moment about η through the centroid, on the inboard part.
+    shear: Point,
+    torsion: f64,
+}
+
+impl PolygonStresses<'_> {
+    /// The stress along a wall, from 0; eqs. (11.8) to (11.10), corrected: note 22, and the exact
+    /// flow of the closed cell instead of eqs. (11.12) to (11.15), note 23.
+    ///
+    /// # Panics
+    /// When there is no such wall.
+    pub fn wall(&self, wall: usize) -> WallStress {
+        let wall = &self.polygon.walls[wall];
+        let flows = &wall.flows;
+        let shear = std::array::from_fn(|power| {
+            let torsion = if power == 0 { self.torsion * flows.torsion } else { 0.0 };
+            let forces = self.shear.xi * flows.xi[power] + self.shear.zeta * flows.zeta[power];
+            (forces + torsion) / wall.thickness()
+        });
+        WallStress {
+            normal: [self.normal_at(wall.start()), self.gradient.dot(wall.along())],
+            shear,
+            direction: wall.along() * (1.0 / wall.length()),
+        }
+    }
+
+    /// Normal stress anywhere in the walls, also beside their middle line.
+    pub fn normal_at(&self, place: Point) -> f64 {
+        self.mean + self.gradient.dot(place - self.polygon.properties.centroid)
+    }
+
+    /// Shear flow by torsion alone, positive along the numbering; eq. (11.11).
+    pub fn torsion_flow(&self) -> f64 {
+        self.torsion * self.polygon.walls[0].flows.torsion
+    }
+
+    /// The wall, from 0, and the place on it where the von Mises stress is largest.
+    pub fn severest(&self) -> (usize, f64) {
+        let of_wall = |i: usize| {
+            let stress = self.wall(i);
+            let x = stress.severest();
+            (i, x, stress.at(x).von_mises())
+        };
+        let walls = (1..self.polygon.walls.len()).map(of_wall);
+        let (wall, x, _) = walls.fold(of_wall(0), |a, b| if b.2 > a.2 { b } else { a });
+        (wall, x)
+    }
+
+    /// The stress at a place of a wall.
+    pub fn at(&self, wall: usize, x: f64) -> PointStress {
+        let place = self.polygon.walls[wall].at(x);
+        PointStress { place, wall: Some(wall), stress: self.wall(wall).at(x) }
+    }
+}

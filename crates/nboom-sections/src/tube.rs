@@ -1,0 +1,138 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nboom_scalar::Wrench;
+
+use crate::harmonics::{Harmonics, largest};
+use crate::{Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Stress};
+
+/// A circular tube around the η axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tube {
+    radius: f64,
+    thickness: f64,
+}
+
+/// The same tube without taking its wall for thin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Annulus {
+    /// Area.
+    pub area: f64,
+    /// Second moment of area about any axis through the centre.
+    pub inertia: f64,
+    /// Torsion constant, the polar second moment.
+    pub torsion_constant: f64,
+}
+
+impl Tube {
+    /// θ of the report's axis points.
+    pub const AXIS_ANGLES: [f64; 4] = [0.0, FRAC_PI_2, PI, 1.5 * PI];
+
+    /// The tube with this radius of the middle of its wall, and this thickness.
+    ///
+    /// # Errors
+    /// A radius that is not positive; a thickness that is not, or is above the radius.
+    pub fn new(radius: f64, thickness: f64) -> Result<Self, SectionError> {
+        let is_positive = radius > 0.0 && radius.is_finite();
+        if !is_positive {
+            return Err(SectionError::Radius { radius });
+        }
+        let is_a_wall = thickness > 0.0 && thickness <= radius;
+        if !is_a_wall {
+            return Err(SectionError::TubeThickness { thickness, radius });
+        }
+        let tube = Self { radius, thickness };
+        if tube.properties().are_regular() { Ok(tube) } else { Err(SectionError::Range) }
+    }
+
+    /// Radius of the middle line.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Thickness of the wall.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// What it is, apart from any load, with all area on the middle line; eq. (12.1).
+    pub fn properties(&self) -> Properties {
+        let (r, t) = (self.radius, self.thickness);
+        let moment = PI * r * r * r * t;
+        let inertia = SecondMoments { xi_xi: moment, zeta_zeta: moment, xi_zeta: 0.0 };
+        Properties {
+            area: 2.0 * PI * r * t,
+            centroid: Point::ORIGIN,
+            inertia,
+            centreline_inertia: inertia,
+            enclosed_area: PI * r * r,
+            torsion_constant: 2.0 * moment,
+            shear_centre: Point::ORIGIN,
+        }
+    }
+
+    /// S = 2πR²t: the moment about η for a unit of shear stress.
+    pub fn torsion_modulus(&self) -> f64 {
+        2.0 * PI * self.radius * self.radius * self.thickness
+    }
+
+    /// The same tube without taking its wall for thin.
+    pub fn annulus(&self) -> Annulus {
+        let (r, t) = (self.radius, self.thickness);
+        let area = 2.0 * PI * r * t;
+        let inertia = 0.5 * area * (r * r + 0.25 * t * t);
+        Annulus { area, inertia, torsion_constant: 2.0 * inertia }
+    }
+
+    /// Whether thin-wall theory may not hold.
+    pub fn warnings(&self) -> Vec<SectionWarning> {
+        SectionWarning::of_tube(self.thickness / self.radius).into_iter().collect()
+    }
+
+    /// The stresses under a load: force and moment, about the point on the η axis, that act on the
+    /// part outboard of the section.
+    pub fn stresses(&self, load: &Wrench<f64>) -> TubeStresses {
+        let Wrench { force, moment } = *load;
+        let Properties { area, inertia, .. } = self.properties();
+        let (bending, shear) = (self.radius / inertia.xi_xi, 2.0 / area);
+        // The face that points outboard is that of the inboard part: it bears the reaction.
+        TubeStresses {
+            radius: self.radius,
+            normal: [-force.y / area, -moment.z * bending, moment.x * bending],
+            shear: [moment.y / self.torsion_modulus(), -force.z * shear, force.x * shear],
+        }
+    }
+}
+
+/// Stresses in a tube under one load; θ is the angle from ξ towards ζ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TubeStresses {
+    /// Radius of the middle line.
+    radius: f64,
+    /// Normal stress: coefficients of 1, cos θ and sin θ; eq. (11.3), corrected: note 21.
+    pub normal: [f64; 3],
+    /// Shear stress along increasing θ: the same coefficients. It is tangential all around, unlike
+    /// that of eqs. (11.1), (11.2) and (11.4), note 21.
+    pub shear: [f64; 3],
+}
+
+impl TubeStresses {
+    /// The stress at θ.
+    pub fn at(&self, theta: f64) -> PointStress {
+        let (sin, cos) = theta.sin_cos();
+        let value = |[a, b, c]: [f64; 3]| a + b * cos + c * sin;
+        let shear = value(self.shear);
+        let stress =
+            Stress { normal: value(self.normal), shear_xi: -shear * sin, shear_zeta: shear * cos };
+        let place = Point { xi: self.radius * cos, zeta: self.radius * sin };
+        PointStress { place, wall: None, stress }
+    }
+
+    /// The θ at which the von Mises stress is largest, from 0 to 2π.
+    pub fn severest(&self) -> f64 {
+        let unit =
+            self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
+        let square = |form: [f64; 3]| Harmonics::of_square(form.map(|c| c / unit));
+        let squares = square(self.normal) + square(self.shear) * 3.0;
+        largest(|theta| self.at(theta).stress.von_mises(), |_| squares)
+    }
+}

@@ -1,0 +1,100 @@
+use crate::polynomial::{Polynomial, SignChanges};
+use crate::shear_flow::UnitFlows;
+use crate::{Point, Stress};
+
+/// A plane wall of a polygon, from one vertex to the next; places on it are fractions x of its
+/// length from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wall {
+    start: Point,
+    along: Point,
+    length: f64,
+    thickness: f64,
+    /// Shear flow under unit loads.
+    pub(crate) flows: UnitFlows,
+}
+
+impl Wall {
+    pub(crate) fn new(start: Point, end: Point, thickness: f64) -> Self {
+        let along = end - start;
+        Self { start, along, length: along.norm(), thickness, flows: UnitFlows::NONE }
+    }
+
+    /// The vertex at which it starts.
+    pub fn start(&self) -> Point {
+        self.start
+    }
+
+    /// The way from its start to its end.
+    pub fn along(&self) -> Point {
+        self.along
+    }
+
+    /// Its length.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Its thickness.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// The place `x` of it.
+    pub fn at(&self, x: f64) -> Point {
+        self.start + self.along * x
+    }
+
+    pub(crate) fn area(&self) -> f64 {
+        self.length * self.thickness
+    }
+}
+
+/// Stress along a wall: normal stress is linear, shear stress quadratic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallStress {
+    /// Coefficients of the normal stress in x, the constant first; tension is positive.
+    pub normal: [f64; 2],
+    /// Coefficients of the shear stress in x, positive along the wall.
+    pub shear: [f64; 3],
+    /// Unit vector along the wall.
+    pub direction: Point,
+}
+
+impl WallStress {
+    /// Shear stress at `x`, positive along the wall.
+    pub fn shear_at(&self, x: f64) -> f64 {
+        let [a, b, c] = self.shear;
+        a + x * (b + x * c)
+    }
+
+    /// The stress at `x`.
+    pub fn at(&self, x: f64) -> Stress {
+        let shear = self.direction * self.shear_at(x);
+        let normal = self.normal[0] + x * self.normal[1];
+        Stress { normal, shear_xi: shear.xi, shear_zeta: shear.zeta }
+    }
+
+    /// Where the von Mises stress is largest.
+    ///
+    /// Its square is a polynomial of degree four in x, whose maximum is at an end or where the
+    /// derivative changes sign.
+    pub fn severest(&self) -> f64 {
+        let inside = SignChanges::of(&self.derivative(), 0.0, 1.0);
+        let severity = |x: f64| self.at(x).von_mises();
+        inside
+            .into_points()
+            .chain([1.0])
+            .fold(0.0, |best, x| if severity(x) > severity(best) { x } else { best })
+    }
+
+    /// Half the derivative of σ² + 3 τ² by x, in units of the largest coefficient, so that it
+    /// neither overflows nor vanishes.
+    fn derivative(&self) -> Polynomial {
+        let unit =
+            self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
+        let scale = if unit > 0.0 { 1.0 / unit } else { 0.0 };
+        let ([s, ds], [a, b, c]) = (self.normal.map(|n| n * scale), self.shear.map(|n| n * scale));
+        [s * ds + 3.0 * a * b, ds * ds + 3.0 * (b * b + 2.0 * a * c), 9.0 * b * c, 6.0 * c * c, 0.0]
+    }
+}
