@@ -4,8 +4,7 @@
 //! misprint of 0.3999998); expected values are the deck's, and agree with the echo within its
 //! digits.
 
-use nboom_io::{SectionShape, Vertex};
-use nboom_model::{HingeState, Release};
+use nboom_model::{HingeState, Release, SectionShape, Vertex};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::{REPORT_DECK, lines, read};
@@ -139,20 +138,20 @@ fn the_motion_and_the_settings() {
 
 #[test]
 fn the_stations_of_section_17() {
-    let stress = read(REPORT_DECK).stress.expect("the deck asks for stresses");
-    let counts: Vec<_> = stress.segments.iter().map(|s| s.stations.len()).collect();
+    let stress = read(REPORT_DECK).structure.expect("the deck asks for stresses");
+    let counts: Vec<_> = stress.segments().iter().map(|s| s.stations.len()).collect();
     assert_eq!(counts, [1, 3, 2, 1]);
-    for segment in &stress.segments {
+    for segment in stress.segments() {
         assert_eq!(segment.pulse_constant, 0.1);
         assert_eq!(segment.poissons_ratio, 0.3);
         assert_eq!(segment.youngs_modulus, 30.0e6);
     }
     let distances = |i: usize| -> Vec<f64> {
-        stress.segments[i].stations.iter().map(|s| s.distance_from_hinge).collect()
+        stress.segments()[i].stations.iter().map(|s| s.distance_from_hinge).collect()
     };
     assert_eq!(distances(1), [20.0, 10.0, 0.0]);
     assert_eq!(distances(2), [20.0, 0.0]);
-    let slices: Vec<_> = stress.segments[1]
+    let slices: Vec<_> = stress.segments()[1]
         .stations
         .iter()
         .map(|s| (s.slice.mass, s.slice.center_of_mass.y, s.slice.inertia))
@@ -163,8 +162,8 @@ fn the_stations_of_section_17() {
 
 #[test]
 fn the_sections_of_section_17() {
-    let stress = read(REPORT_DECK).stress.expect("the deck asks for stresses");
-    let section = |i: usize, j: usize| stress.segments[i].stations[j].section.clone();
+    let stress = read(REPORT_DECK).structure.expect("the deck asks for stresses");
+    let section = |i: usize, j: usize| stress.segments()[i].stations[j].section.clone();
     let polygon = |xi: &[f64], zeta: &[f64], walls: &[f64]| {
         let corners = xi.iter().zip(zeta).zip(walls);
         let vertex = |((&xi, &zeta), &thickness)| Vertex { xi, zeta, thickness };

@@ -15,20 +15,20 @@ fn without_groups() -> String {
 
 #[test]
 fn groups_and_flag_together_ask_for_stresses() {
-    assert!(read(REPORT_DECK).stress.is_some());
-    assert!(read(&changed("INSTR=3", "INSTR=1")).stress.is_some());
+    assert!(read(REPORT_DECK).structure.is_some());
+    assert!(read(&changed("INSTR=3", "INSTR=1")).structure.is_some());
 
     let flag_alone = read(&without_groups());
-    assert!(flag_alone.stress.is_none());
+    assert!(flag_alone.structure.is_none());
     assert_eq!(flag_alone.warnings[0].symbol, "INSTR");
 
     let groups_alone = read(&changed("INSTR=3", "INSTR=0"));
-    assert!(groups_alone.stress.is_none());
+    assert!(groups_alone.structure.is_none());
     assert_eq!(groups_alone.warnings[0].symbol, "INSTR");
     assert_eq!(groups_alone.warnings.len(), 3);
 
     let neither = read(&without_groups().replace("INSTR=3", "INSTR=0"));
-    assert!(neither.stress.is_none() && neither.warnings.is_empty());
+    assert!(neither.structure.is_none() && neither.warnings.is_empty());
 }
 
 #[test]
