@@ -81,13 +81,13 @@ impl Loads {
         LoadSet::new(self.segments.iter().map(|segment| segment.stations.len()))
     }
 
-    /// Loads by the motion and the kick-off springs: eqs. (10.4) to (10.6), corrected: note 22.
+    /// Loads by the motion and the kick-off springs: eqs. (10.4) to (10.6), corrected: note 24.
     pub fn continuous(&mut self, motion: &SceneMotion<'_>, out: &mut LoadSet) {
         load(&self.segments, &mut self.places, motion, out);
     }
 
     /// Impulses by a jump of the velocities in the posture `beta`, for hinges that lock, that
-    /// are free and that have been held alike: eqs. (10.7) to (10.12), corrected: note 23.
+    /// are free and that have been held alike: eqs. (10.7) to (10.12), corrected: note 25.
     pub fn impulses(&mut self, beta: &[f64], jump: &VelocityChange<'_>, out: &mut LoadSet) {
         load(&self.segments, &mut self.places, &self.still.suddenly(beta, jump), out);
     }
@@ -138,7 +138,7 @@ fn load(segments: &[Segment], places: &mut [Place], motion: &SceneMotion<'_>, ou
 }
 
 /// Walks outward: where every segment is and how it moves, eqs. (14.1) to (14.10), corrected:
-/// note 24.
+/// note 27.
 fn place(segments: &[Segment], places: &mut [Place], motion: &SceneMotion<'_>) {
     let main = Place {
         rot_inboard_from_body: Mat3::identity(),
@@ -202,7 +202,7 @@ impl Place {
 }
 
 /// Walks inward: the load of every hinge and station, and hands those of hinges on,
-/// eq. (14.13), corrected: note 25.
+/// eq. (14.13), corrected: note 28.
 fn gather(segments: &[Segment], places: &[Place], kick_off: &[bool], out: &mut LoadSet) {
     for (i, (segment, place)) in segments.iter().zip(places).enumerate() {
         out.hinges[i] = place.inertia_wrench(&segment.inertia);
@@ -219,7 +219,7 @@ fn gather(segments: &[Segment], places: &[Place], kick_off: &[bool], out: &mut L
             *load = load.seen_from(-cut.point);
         }
         if let Some(inboard) = segment.inboard {
-            let carried = out.hinges[i].rotated(&place.rot_inboard_from_body);
+            let carried = out.hinges[i];
             carry(inboard, segment.carried_from, carried.seen_from(segment.point), out);
             let Size { moment, force } = out.sizes[i];
             out.sizes[inboard].add(Size { moment: moment + segment.point.norm() * force, force });

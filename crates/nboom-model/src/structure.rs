@@ -119,7 +119,7 @@ impl Structure {
 
 impl SegmentStructure {
     /// Mass properties of everything of this segment that is outboard of each station, from the
-    /// slices: eqs. (13.1) to (13.3), corrected: note 21.
+    /// slices: eqs. (13.1) to (13.3), corrected: note 26.
     pub fn outboard_of_stations(&self) -> Vec<MassProperties> {
         let slices = self.stations.iter().map(|station| station.slice);
         let accumulate = |outboard: &mut Option<MassProperties>, slice: MassProperties| {
