@@ -10,7 +10,8 @@ use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
-use nboom::model::{HingeState, Mode, Scene};
+use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
+use nboom::model::{HingeState, Mode, Scene, SectionShape, SegmentStructure, Station, Structure};
 use nboom::ode::{Method, System, Tolerance};
 use nboom::scalar::{Real, Vec3};
 use nboom_expr::{Expr, Graph};
@@ -115,6 +116,45 @@ fn evaluations_allocate_nothing() {
     assert_eq!(allocations(guarded), 0);
     assert!(found.tau_dot.iter().chain(&matrix).chain(&forcing).all(|x| x.is_finite()));
     assert!(lengths[0] > 0.0);
+}
+
+#[test]
+fn loads_allocate_nothing() {
+    let (scene, mode) = scene_and_mode();
+    let segment = |body: &nboom::model::Body| SegmentStructure {
+        pulse_constant: 0.1,
+        poissons_ratio: 0.3,
+        youngs_modulus: 7e10,
+        stations: vec![Station {
+            distance_from_hinge: 0.0,
+            slice: body.mass_properties,
+            section: SectionShape::Tube { radius: 0.1, thickness: 0.01 },
+        }],
+    };
+    let segments = scene.bodies.iter().map(segment).collect();
+    let structure = Structure::new(&scene, segments).expect("each slice is its segment");
+    let mut loads = Loads::new(&scene, Some(&structure));
+    let mut found = loads.load_set();
+    let values = vec![0.3; scene.bodies.len()];
+    let (origin_body, omega_body) = (Vec3::unit_x(), Vec3::unit_y());
+    let change = VelocityChange { origin_body, omega_body, tau: &values };
+    let motion = SceneMotion {
+        omega_body,
+        beta: &values,
+        tau: &values,
+        acceleration: change,
+        kick_off: &mode.kick_off,
+    };
+    let share = LockUpShare { pulse_constant: 0.1, jump: change };
+    assert_eq!(allocations(|| loads.continuous(&motion, &mut found)), 0);
+    assert_eq!(allocations(|| loads.add_lock_up(&values, &[share], 1.5, &mut found)), 0);
+    assert_eq!(
+        allocations(|| {
+            std::hint::black_box(loads.largest_torque_residual(&found, &mode.hinges, &values));
+        }),
+        0
+    );
+    assert!(found.hinge(0).force.norm() > 0.0);
 }
 
 /// The rotational motion of a scene: ω, then β, then τ.

@@ -16,6 +16,7 @@ pub use nboom_dynamics as dynamics;
 pub use nboom_elements as elements;
 pub use nboom_formulation as formulation;
 pub use nboom_io as io;
+pub use nboom_loads as loads;
 #[cfg(feature = "macros")]
 pub use nboom_macros::{routine, scene};
 pub use nboom_model as model;

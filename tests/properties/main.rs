@@ -1,6 +1,6 @@
 //! What holds for every tree, state and mode, over random ones: the equations of motion against
 //! an independent derivation in maximal coordinates, energy and momentum balances, lock-up
-//! impulses, and conservation over whole runs.
+//! impulses, loads of hinges and sections, and conservation over whole runs.
 //!
 //! The random numbers are the same in every run; a failure names the number of bodies and the
 //! seed of the smallest scene found.
@@ -14,6 +14,8 @@ mod newton_euler;
 mod random_scene;
 
 mod evaluations;
+mod loads;
+mod lock_up_loads;
 mod lock_ups;
 mod runs;
 

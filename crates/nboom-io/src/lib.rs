@@ -4,7 +4,7 @@
 //! Everything is checked before a scene is made, and everything that is wrong is said at once,
 //! each with file, line, column and the deck's own symbol. Degrees end here: a scene has
 //! radians. This crate does not simulate, does not write results, and computes no stresses; the
-//! stress groups are read into a [`StressInput`].
+//! stress groups are read into a [`Structure`].
 //!
 //! ```
 //! let deck = "
@@ -42,11 +42,10 @@ mod source;
 
 use std::path::Path;
 
-use nboom_model::Scene;
+use nboom_model::{Scene, Structure};
 
 pub use deck::{
-    Absent, Extent, Group, LARGEST_COUNT, NumberKind, Numbering, SYMBOLS, SectionShape,
-    StressInput, StressSegment, StressStation, Symbol, Vertex, parse_deck,
+    Absent, Extent, Group, LARGEST_COUNT, NumberKind, Numbering, SYMBOLS, Symbol, parse_deck,
 };
 pub use diagnostic::Diagnostic;
 pub use error::InputError;
@@ -64,7 +63,7 @@ pub struct SceneFile {
     pub legacy: LegacySettings,
     /// What the stress groups say, when the deck asks for stresses (`INSTR` above zero) and has
     /// the groups.
-    pub stress: Option<StressInput>,
+    pub structure: Option<Structure>,
 }
 
 /// Reads a scene from a deck `NAME.nml`; the scene is named NAME.

@@ -4,6 +4,8 @@
 //! [`Scene`], so whatever holds a scene need not check it again. The report's regular and
 //! paddle appendages ([`Appendage`]) are two ways to write bodies of such a tree.
 //!
+//! A [`Structure`] says where along the bodies loads are wanted, and of what sections they are.
+//!
 //! Angles are radians; every other unit is the scene's own consistent set. This crate reads
 //! no files and solves no equations.
 //!
@@ -31,6 +33,8 @@ mod label;
 mod mass;
 mod mode;
 mod scene;
+mod structure;
+mod structure_error;
 mod topology;
 mod warning;
 mod welded;
@@ -46,6 +50,8 @@ pub use label::HingeLabel;
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use mode::Mode;
 pub use scene::{Body, Scene, SceneDescription};
+pub use structure::{SLICE_TOLERANCE, SectionShape, SegmentStructure, Station, Structure, Vertex};
+pub use structure_error::{StructureDefect, StructureError, StructurePlace};
 pub use topology::{Shape, Topology, TopologyError};
 pub use warning::ModelWarning;
 pub use welded::{Link, Member, WeldedTree};

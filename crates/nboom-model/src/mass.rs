@@ -55,6 +55,23 @@ impl MassProperties {
         Self { mass, center_of_mass, inertia }
     }
 
+    /// This body and `other`, which has the same origin and axes, as one.
+    ///
+    /// The mass centre of two bodies without mass is that of `other`.
+    pub fn joined_with(&self, other: &Self) -> Self {
+        let mass = self.mass + other.mass;
+        let share = if mass > 0.0 { other.mass / mass } else { 1.0 };
+        let between = other.center_of_mass - self.center_of_mass;
+        let d = between.norm_squared();
+        // Both offsets from the common centre are parts of `between`: m₁r² + m₂s² = m₁m₂d²/m.
+        let offsets = (Sym3::diagonal(d, d, d) + Sym3::outer(between) * -1.0) * (share * self.mass);
+        Self {
+            mass,
+            center_of_mass: self.center_of_mass + between * share,
+            inertia: self.inertia + other.inertia + offsets,
+        }
+    }
+
     /// Principal moments of inertia about the mass centre, ascending.
     pub fn principal_moments(&self) -> [f64; 3] {
         let i = &self.inertia;
@@ -73,6 +90,11 @@ impl MassProperties {
         if !(self.mass > 0.0 && self.mass.is_finite()) {
             return Some(MassDefect::Mass(self.mass));
         }
+        self.defect_apart_from_mass()
+    }
+
+    /// The same for a mass that is known to be finite and not negative.
+    pub(crate) fn defect_apart_from_mass(&self) -> Option<MassDefect> {
         if !self.center_of_mass.is_finite() {
             return Some(MassDefect::CenterOfMass(self.center_of_mass));
         }
@@ -140,6 +162,17 @@ mod tests {
             let refused = matches!(body.defect(), Some(MassDefect::Overflow { .. }));
             assert_eq!(refused, !is_body, "{mass:e} at {distance:e}");
         }
+    }
+
+    #[test]
+    fn two_points_make_a_rod_without_mass() {
+        let point = |mass, y| MassProperties::new(mass, Vec3::unit_y() * y, Sym3::zero());
+        let rod = point(1.0, 2.0).joined_with(&point(3.0, 6.0));
+        assert_eq!((rod.mass, rod.center_of_mass), (4.0, Vec3::unit_y() * 5.0));
+        assert_eq!(rod.inertia, Sym3::diagonal(9.0 + 3.0, 0.0, 9.0 + 3.0));
+
+        let nothing = point(0.0, 2.0).joined_with(&point(0.0, 6.0));
+        assert_eq!((nothing.mass, nothing.center_of_mass), (0.0, Vec3::unit_y() * 6.0));
     }
 
     #[test]

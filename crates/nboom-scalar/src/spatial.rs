@@ -27,6 +27,12 @@ impl<R: Real> Wrench<R> {
         Self { moment: self.moment + offset.cross(self.force), force: self.force }
     }
 
+    /// The same wrench along other axes.
+    #[inline]
+    pub fn rotated(self, rot: &Mat3<R>) -> Self {
+        Self { moment: *rot * self.moment, force: *rot * self.force }
+    }
+
     /// Adds a wrench about the same point.
     #[inline]
     pub fn add(&mut self, other: Self) {

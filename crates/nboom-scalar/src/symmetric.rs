@@ -117,7 +117,16 @@ impl<R: Real> Sym3<R> {
 impl Sym3<f64> {
     /// Whether all entries are finite.
     pub fn is_finite(&self) -> bool {
-        [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz].iter().all(|e| e.is_finite())
+        self.entries().iter().all(|e| e.is_finite())
+    }
+
+    /// Magnitude of the largest entry.
+    pub fn largest_entry(&self) -> f64 {
+        self.entries().iter().fold(0.0, |largest, e| largest.max(e.abs()))
+    }
+
+    fn entries(&self) -> [f64; 6] {
+        [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz]
     }
 }
 

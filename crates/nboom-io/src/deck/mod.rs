@@ -17,14 +17,13 @@ mod stress;
 mod symbols;
 mod values;
 
-use nboom_model::Scene;
+use nboom_model::{Scene, Structure};
 
 use crate::diagnostic::Report;
 use crate::{InputError, SceneFile};
 use builder::Builder;
 use values::{Sizes, Values};
 
-pub use stress::{SectionShape, StressInput, StressSegment, StressStation, Vertex};
 pub use symbols::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
 pub use values::LARGEST_COUNT;
 
@@ -42,23 +41,26 @@ pub fn parse_deck(file: &str, text: &str, name: &str) -> Result<SceneFile, Input
     let parts = values.sizes.and_then(|sizes| assemble(name, &values, sizes, &mut report));
     report.sort();
     match parts {
-        Some((scene, legacy, stress)) if report.errors.is_empty() => {
-            Ok(SceneFile { scene, warnings: report.warnings, legacy, stress })
+        Some((scene, legacy, structure)) if report.errors.is_empty() => {
+            Ok(SceneFile { scene, warnings: report.warnings, legacy, structure })
         }
         _ => Err(InputError::Deck(report.errors)),
     }
 }
 
-type Parts = (Scene, crate::LegacySettings, Option<StressInput>);
+type Parts = (Scene, crate::LegacySettings, Option<Structure>);
 
 /// The parts of a scene; what is wrong is reported, and stand-ins let the rest be checked.
 fn assemble(name: &str, values: &Values, sizes: Sizes, report: &mut Report<'_>) -> Option<Parts> {
     let mut builder = Builder { values, sizes, report };
     let description = builder.description(name);
     let legacy = builder.settings();
-    let stress = builder.stress(&legacy);
+    let segments = builder.stress(&legacy);
     match Scene::new(description) {
-        Ok(scene) => Some((scene, legacy, stress)),
+        Ok(scene) => {
+            let structure = segments.and_then(|segments| builder.structure(&scene, segments));
+            Some((scene, legacy, structure))
+        }
         Err(errors) => {
             model_error::report(&errors, &mut builder);
             None

@@ -5,10 +5,13 @@ use super::values::plain;
 
 /// Says of each error of the scene which assignment of the deck is responsible.
 pub(crate) fn report(errors: &[ModelError], builder: &mut Builder<'_, '_, '_>) {
-    let starts = builder.first_segments();
     for error in errors {
-        let (name, index) = responsible(error, &starts, builder);
-        let (found, expected) = phrases(error);
+        let (name, index) = responsible(error, builder);
+        let message = match error {
+            ModelError::Mass { defect, .. } => defect.to_string(),
+            other => other.to_string(),
+        };
+        let (found, expected) = phrases(&message);
         builder.error(plain(name), index, found, &expected);
     }
 }
@@ -26,6 +29,19 @@ impl Builder<'_, '_, '_> {
             .collect()
     }
 
+    /// Number of a segment, from 0, by appendage and segment.
+    pub fn number_of_segment(&self, label: HingeLabel) -> usize {
+        let starts = self.first_segments();
+        starts.get(label.appendage).copied().unwrap_or_default() + label.segment
+    }
+
+    /// Appendage and segment of segment number `i`, from 0.
+    pub fn label_of_segment(&self, i: usize) -> HingeLabel {
+        let starts = self.first_segments();
+        let appendage = starts.iter().rposition(|&start| start <= i).unwrap_or_default();
+        HingeLabel { appendage, segment: i - starts.get(appendage).copied().unwrap_or_default() }
+    }
+
     fn initial_angle_name(&self) -> &'static str {
         if self.values.real("IAB", 0) == 0.0 { "BETAIK" } else { "ALIK" }
     }
@@ -40,14 +56,8 @@ impl Builder<'_, '_, '_> {
 }
 
 /// The symbol and the element in storage order.
-fn responsible(
-    error: &ModelError,
-    starts: &[usize],
-    builder: &Builder<'_, '_, '_>,
-) -> (&'static str, usize) {
-    let number = |label: HingeLabel| {
-        starts.get(label.appendage).copied().unwrap_or_default() + label.segment
-    };
+fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static str, usize) {
+    let number = |label: HingeLabel| builder.number_of_segment(label);
     match error {
         ModelError::Mass { body: BodyName::MainBody, .. } => {
             if builder.values.get("EMM", 0).is_none_or(|mass| mass > 0.0) {
@@ -96,14 +106,8 @@ fn not_finite(quantity: &str, i: usize, builder: &Builder<'_, '_, '_>) -> (&'sta
 }
 
 /// What was found and what expected; the model's messages have both in this order.
-fn phrases(error: &ModelError) -> (String, String) {
-    let message = match error {
-        ModelError::Mass { defect, .. } => defect.to_string(),
-        other => other.to_string(),
-    };
+pub(crate) fn phrases(message: &str) -> (String, String) {
     let parts = message.strip_suffix(" expected").and_then(|text| text.split_once(" found, "));
-    match parts {
-        Some((found, expected)) => (found.to_owned(), expected.to_owned()),
-        None => (message, "finite numbers".to_owned()),
-    }
+    let (found, expected) = parts.unwrap_or((message, "finite numbers"));
+    (found.to_owned(), expected.to_owned())
 }

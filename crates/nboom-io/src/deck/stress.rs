@@ -1,8 +1,12 @@
-use nboom_model::MassProperties;
+use nboom_model::{
+    MassProperties, Scene, SectionShape, SegmentStructure, Station, Structure, StructureDefect,
+    StructureError, StructurePlace, Vertex,
+};
 use nboom_scalar::Vec3;
 
 use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
+use super::model_error;
 use super::shown;
 use super::symbols::Group;
 use super::values::{Key, plain};
@@ -11,73 +15,22 @@ use crate::LegacySettings;
 /// Vertices of a section, at most.
 const MOST_VERTICES: usize = 6;
 
-/// The stress groups of a deck, Table 16.1: sections and slices of every segment.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StressInput {
-    /// One for each segment, in the order of the scene's bodies.
-    pub segments: Vec<StressSegment>,
-}
+/// What is expected of most numbers of the stress groups.
+const POSITIVE: &str = "a positive value";
 
-/// Material, lock-up pulse and stations of one segment.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StressSegment {
-    /// `CMN`: impulse over peak of a lock-up pulse \[T\], positive.
-    pub pulse_constant: f64,
-    /// `XNU`: Poisson's ratio.
-    pub poissons_ratio: f64,
-    /// `E`: Young's modulus \[F/L²\], positive.
-    pub youngs_modulus: f64,
-    /// One to five, outboard before inboard.
-    pub stations: Vec<StressStation>,
-}
-
-/// A section of a segment, and the slice from it to the next station outboard.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StressStation {
-    /// `S`: from the inboard hinge along η \[L\].
-    pub distance_from_hinge: f64,
-    /// `DELM`, `DELC`, `DLI`: the slice, whose mass may be zero; its mass centre from the
-    /// inboard hinge, inertia about that centre, segment axes.
-    pub slice: MassProperties,
-    /// The walls.
-    pub section: SectionShape,
-}
-
-/// The thin walls of a section, in the ξζ plane of the segment.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SectionShape {
-    /// A circular tube.
-    Tube {
-        /// `R` \[L\], positive.
-        radius: f64,
-        /// `T` \[L\], positive.
-        thickness: f64,
-    },
-    /// A closed polygon of three to six walls.
-    Polygon(Vec<Vertex>),
-}
-
-/// A corner of a polygonal section and the wall from it to the next one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
-    /// `XI` \[L\].
-    pub xi: f64,
-    /// `ZETA` \[L\].
-    pub zeta: f64,
-    /// `T` \[L\], positive.
-    pub thickness: f64,
-}
+/// The structure of a deck's segments, in the order of the scene's bodies.
+type Segments = Vec<SegmentStructure>;
 
 impl Builder<'_, '_, '_> {
-    /// The stress groups, if stresses are asked for and the groups are there.
-    pub fn stress(&mut self, settings: &LegacySettings) -> Option<StressInput> {
+    /// The stress groups, Table 16.1, if stresses are asked for and the groups are there; what is
+    /// wrong with them is reported.
+    pub fn stress(&mut self, settings: &LegacySettings) -> Option<Segments> {
         let position = |group| self.values.groups.get(&group).copied();
         let present = (position(Group::Dynsta), position(Group::Dynstb));
         let wanted = settings.stress_interval > 0;
         match present {
             (Some(_), Some(_)) if wanted => {
-                let segments = (0..self.sizes.segments).map(|i| self.stress_segment(i)).collect();
-                return Some(StressInput { segments });
+                return Some((0..self.sizes.segments).map(|i| self.stress_segment(i)).collect());
             }
             (None, None) if wanted => {
                 let interval = settings.stress_interval.to_string();
@@ -99,39 +52,49 @@ impl Builder<'_, '_, '_> {
         None
     }
 
-    fn stress_segment(&mut self, i: usize) -> StressSegment {
+    /// The structure of `scene`, whose motion goes by the segments; slices that differ from them
+    /// are worth a warning.
+    pub fn structure(&mut self, scene: &Scene, segments: Segments) -> Option<Structure> {
+        let checked = Structure::with_differing_slices(scene, segments);
+        // Errors have been reported segment by segment.
+        let (structure, differences) = checked.ok()?;
+        differences.iter().for_each(|difference| self.report_structure(difference, Self::warn));
+        Some(structure)
+    }
+
+    fn stress_segment(&mut self, i: usize) -> SegmentStructure {
         let count = self.count_in("NSTA", i, 1..=MOST_STATIONS);
-        let stations: Vec<_> = (0..count).map(|j| self.station(i, j)).collect();
-        self.check_station_order(i, &stations);
-        StressSegment {
-            pulse_constant: self.positive_element(plain("CMN"), i),
+        let segment = SegmentStructure {
+            pulse_constant: self.required_element(plain("CMN"), i),
             poissons_ratio: self.values.real("XNU", i),
-            youngs_modulus: self.positive_element(plain("E"), i),
-            stations,
+            youngs_modulus: self.required_element(plain("E"), i),
+            stations: (0..count).map(|j| self.station(i, j)).collect(),
+        };
+        for error in segment.errors(self.label_of_segment(i)) {
+            self.report_structure(&error, Self::error);
         }
+        segment
     }
 
-    fn check_station_order(&mut self, i: usize, stations: &[StressStation]) {
-        for (j, pair) in stations.windows(2).enumerate() {
-            let (outboard, inboard) = (pair[0].distance_from_hinge, pair[1].distance_from_hinge);
-            if inboard > outboard {
-                let found = format!("{} after {}", shown(inboard), shown(outboard));
-                let expected = "distances from the inboard hinge, outboard station first";
-                self.error(plain("S"), MOST_STATIONS * i + j + 1, found, expected);
-            }
-        }
+    /// Says of an error in the structure which assignment of the deck is responsible.
+    fn report_structure(
+        &mut self,
+        error: &StructureError,
+        report: fn(&mut Self, Key, usize, String, &str),
+    ) {
+        let StructureError::Segment { place, defect } = error else { return };
+        let (key, index) = responsible(self.number_of_segment(place.segment), place, defect);
+        let (found, expected) = model_error::phrases(&defect.to_string());
+        report(self, key, index, found, &expected);
     }
 
-    fn station(&mut self, i: usize, j: usize) -> StressStation {
+    fn station(&mut self, i: usize, j: usize) -> Station {
         let flat = MOST_STATIONS * i + j;
         let mass = self.values.real("DELM", flat);
-        if mass < 0.0 {
-            self.error(plain("DELM"), flat, shown(mass), "none below zero");
-        }
         let center = self.values.reals(("DELC", i + 1, 0), 3 * j..3 * j + 3);
         let center_of_mass = Vec3::new(center[0], center[1], center[2]);
         let inertia = self.slice_inertia(("DLI", i + 1, j + 1));
-        StressStation {
+        Station {
             distance_from_hinge: self.values.real("S", flat),
             slice: MassProperties::new(mass, center_of_mass, inertia),
             section: self.section(i, j),
@@ -189,12 +152,16 @@ impl Builder<'_, '_, '_> {
     }
 
     fn positive_element(&mut self, key: Key, index: usize) -> f64 {
-        let expected = "a positive value";
-        let value = self.element(key, index, expected);
-        if let Some(wrong) = value.filter(|value| *value <= 0.0) {
-            self.error(key, index, shown(wrong), expected);
+        let value = self.required_element(key, index);
+        if value <= 0.0 {
+            self.error(key, index, shown(value), POSITIVE);
         }
-        value.unwrap_or(1.0)
+        value
+    }
+
+    /// An element that must be given and positive, or 1.
+    fn required_element(&mut self, key: Key, index: usize) -> f64 {
+        self.element(key, index, POSITIVE).unwrap_or(1.0)
     }
 
     /// An element that must be given.
@@ -204,5 +171,20 @@ impl Builder<'_, '_, '_> {
             self.error(key, index, "nothing".to_owned(), expected);
         }
         value
+    }
+}
+
+/// The symbol and the element in storage order, for segment `i`.
+fn responsible(i: usize, place: &StructurePlace, defect: &StructureDefect) -> (Key, usize) {
+    let j = place.station.unwrap_or_default();
+    let flat = MOST_STATIONS * i + j;
+    match defect {
+        StructureDefect::PulseConstant(_) => (plain("CMN"), i),
+        StructureDefect::YoungsModulus(_) => (plain("E"), i),
+        StructureDefect::Order { .. } | StructureDefect::NotAtHinge(_) => (plain("S"), flat),
+        StructureDefect::SliceMass(_) | StructureDefect::Mass { .. } => (plain("DELM"), flat),
+        StructureDefect::CenterOfMass { .. } => (("DELC", i + 1, 0), 3 * j),
+        // The inertia of a slice, or of all; what is not finite is an overflow in one.
+        _ => (("DLI", i + 1, j + 1), 0),
     }
 }

@@ -4,8 +4,7 @@
 //! misprint of 0.3999998); expected values are the deck's, and agree with the echo within its
 //! digits.
 
-use nboom_io::{SectionShape, Vertex};
-use nboom_model::{HingeState, Release};
+use nboom_model::{HingeState, Release, SectionShape, Vertex};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::{REPORT_DECK, lines, read};
@@ -15,10 +14,13 @@ fn degrees(value: f64) -> f64 {
 }
 
 #[test]
-fn the_deck_reads_with_two_warnings() {
+fn values_given_twice_and_slices_that_are_not_the_segment_are_worth_a_warning() {
     let file = read(REPORT_DECK);
+    let is_about_slices = |line: &String| line.contains("found slices");
+    let (slices, twice): (Vec<_>, Vec<_>) =
+        lines(&file.warnings).into_iter().partition(is_about_slices);
     assert_eq!(
-        lines(&file.warnings),
+        twice,
         [
             "a.nml:53:12: DELM(1,2): found 0.001 after 0 in line 51, expected one value; the \
              later one holds",
@@ -26,6 +28,32 @@ fn the_deck_reads_with_two_warnings() {
              later one holds",
         ]
     );
+    // The deck puts 0.001 at the tips of two segments for the sake of a division, gives the
+    // paddle 0.2 of its 0.5, and adds inertias of segment 1,2 as if its halves were 6.4 apart.
+    let symbols: Vec<_> = slices.iter().filter_map(|line| line.split(": ").nth(1)).collect();
+    let expected = [
+        "DELC2(1,1)",
+        "DELC3(1,1)",
+        "DELM(1,4)",
+        "DELM(1,2)",
+        "DELM(1,3)",
+        "DLI21(1,1)",
+        "DLI31(1,1)",
+    ];
+    assert_eq!(symbols, expected);
+    assert!(slices[2].ends_with("found slices of mass 0.2 in all, expected 0.5 of the segment"));
+    let moments = file.structure.expect("the deck asks for stresses").segments()[1]
+        .mass_properties()
+        .expect("the segment has stations")
+        .inertia;
+    // Two masses of 0.2 at 5 from the middle and a thousandth at 10.
+    let centre = (0.2 * 15.0 + 0.2 * 5.0 + 0.001 * 20.0) / 0.401;
+    let square = |y: f64| (y - centre).powi(2);
+    let apart = 0.2 * (square(15.0) + square(5.0)) + 0.001 * square(20.0);
+    for (found, own) in [(moments.xx, 20.0), (moments.yy, 40.0), (moments.zz, 60.0)] {
+        let expected = own + if own == 40.0 { 0.0 } else { apart };
+        assert!((found - expected).abs() < 1e-13 * expected, "{found}, {expected}");
+    }
 }
 
 #[test]
@@ -139,20 +167,20 @@ fn the_motion_and_the_settings() {
 
 #[test]
 fn the_stations_of_section_17() {
-    let stress = read(REPORT_DECK).stress.expect("the deck asks for stresses");
-    let counts: Vec<_> = stress.segments.iter().map(|s| s.stations.len()).collect();
+    let stress = read(REPORT_DECK).structure.expect("the deck asks for stresses");
+    let counts: Vec<_> = stress.segments().iter().map(|s| s.stations.len()).collect();
     assert_eq!(counts, [1, 3, 2, 1]);
-    for segment in &stress.segments {
+    for segment in stress.segments() {
         assert_eq!(segment.pulse_constant, 0.1);
         assert_eq!(segment.poissons_ratio, 0.3);
         assert_eq!(segment.youngs_modulus, 30.0e6);
     }
     let distances = |i: usize| -> Vec<f64> {
-        stress.segments[i].stations.iter().map(|s| s.distance_from_hinge).collect()
+        stress.segments()[i].stations.iter().map(|s| s.distance_from_hinge).collect()
     };
     assert_eq!(distances(1), [20.0, 10.0, 0.0]);
     assert_eq!(distances(2), [20.0, 0.0]);
-    let slices: Vec<_> = stress.segments[1]
+    let slices: Vec<_> = stress.segments()[1]
         .stations
         .iter()
         .map(|s| (s.slice.mass, s.slice.center_of_mass.y, s.slice.inertia))
@@ -163,8 +191,8 @@ fn the_stations_of_section_17() {
 
 #[test]
 fn the_sections_of_section_17() {
-    let stress = read(REPORT_DECK).stress.expect("the deck asks for stresses");
-    let section = |i: usize, j: usize| stress.segments[i].stations[j].section.clone();
+    let stress = read(REPORT_DECK).structure.expect("the deck asks for stresses");
+    let section = |i: usize, j: usize| stress.segments()[i].stations[j].section.clone();
     let polygon = |xi: &[f64], zeta: &[f64], walls: &[f64]| {
         let corners = xi.iter().zip(zeta).zip(walls);
         let vertex = |((&xi, &zeta), &thickness)| Vertex { xi, zeta, thickness };

@@ -171,7 +171,7 @@ fn compare(name: &str, deck: &str, json: &str) {
     let expected: Value = serde_json::from_str(json).expect("the file is JSON");
     assert_eq!(file.scene.name, name);
     assert_eq!(file.warnings, []);
-    assert_eq!(file.stress, None);
+    assert_eq!(file.structure, None);
     compare_masses(&file.scene.main_body, &expected["main_body"]);
     compare_environment(&file, &expected);
     compare_motion(&file, &expected);

@@ -15,20 +15,20 @@ fn without_groups() -> String {
 
 #[test]
 fn groups_and_flag_together_ask_for_stresses() {
-    assert!(read(REPORT_DECK).stress.is_some());
-    assert!(read(&changed("INSTR=3", "INSTR=1")).stress.is_some());
+    assert!(read(REPORT_DECK).structure.is_some());
+    assert!(read(&changed("INSTR=3", "INSTR=1")).structure.is_some());
 
     let flag_alone = read(&without_groups());
-    assert!(flag_alone.stress.is_none());
+    assert!(flag_alone.structure.is_none());
     assert_eq!(flag_alone.warnings[0].symbol, "INSTR");
 
     let groups_alone = read(&changed("INSTR=3", "INSTR=0"));
-    assert!(groups_alone.stress.is_none());
+    assert!(groups_alone.structure.is_none());
     assert_eq!(groups_alone.warnings[0].symbol, "INSTR");
     assert_eq!(groups_alone.warnings.len(), 3);
 
     let neither = read(&without_groups().replace("INSTR=3", "INSTR=0"));
-    assert!(neither.stress.is_none() && neither.warnings.is_empty());
+    assert!(neither.structure.is_none() && neither.warnings.is_empty());
 }
 
 #[test]
@@ -52,14 +52,35 @@ fn what_is_checked() {
         ("R(1,1)=2.0,", "", "R(1,1)", "nothing", "a positive value"),
         ("T1=.05", "T1=-.05", "T1(1,1)", "-0.05", "a positive value"),
         ("E=4*30.0E6", "E=3*30.0E6", "E(4)", "nothing", "a positive value"),
-        ("CMN=4*.1", "CMN=4*.1,CMN(2)=0.0", "CMN(2)", "0", "a positive value"),
-        ("DELM(2,2)=.2", "DELM(2,2)=-.2", "DELM(2,2)", "-0.2", "none below zero"),
+        ("CMN=4*.1", "CMN=4*.1,CMN(2)=0.0", "CMN(2)", "pulse constant 0", "a positive finite time"),
+        (
+            "DELM(2,2)=.2",
+            "DELM(2,2)=-.2",
+            "DELM(2,2)",
+            "slice of mass -0.2",
+            "a finite mass not below zero",
+        ),
+        (
+            "DLI32=10.0,3*0.0,5.0",
+            "DLI32=10.0,3*0.0,25.0",
+            "DLI32(1,1)",
+            "slice with principal moments of inertia 10, 10, 25",
+            "the largest at most the sum of the two others",
+        ),
+        ("S(3,2)=0.0", "S(3,2)=1.0", "S(3,2)", "last station 1 from the hinge", "0"),
+        (
+            "E=4*30.0E6",
+            "E=3*30.0E6,-1.0",
+            "E(4)",
+            "Young's modulus -1",
+            "a positive finite modulus",
+        ),
         (
             "S(2,2)=10.0",
             "S(2,2)=25.0",
             "S(2,2)",
-            "25 after 20",
-            "distances from the inboard hinge, outboard station first",
+            "distance 25 after 20",
+            "at most that of the station before",
         ),
         ("DELC4=", "DELC5=", "DELC", "segment 5", "a segment from 1 to 4"),
         ("DLI41=", "DLI46=", "DLI", "station 6", "a station from 1 to 5"),

@@ -1,0 +1,212 @@
+use std::fmt;
+
+use nboom_scalar::{Sym3, Vec3};
+
+use crate::{HingeLabel, MassDefect, SectionShape, SegmentStructure, Station};
+
+/// Why a description of sections and slices is not that of a scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StructureError {
+    /// Not one entry for each hinged body.
+    #[error("structure of {found} segments found, one for each of the {expected} expected")]
+    Count {
+        /// Entries.
+        found: usize,
+        /// Hinged bodies of the scene.
+        expected: usize,
+    },
+    /// Something is wrong with a segment.
+    #[error("{place}: {defect}")]
+    Segment {
+        /// Where.
+        place: StructurePlace,
+        /// What.
+        defect: StructureDefect,
+    },
+}
+
+/// A place in the structure; stations and vertices are stored from 0 and shown from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StructurePlace {
+    /// The segment.
+    pub segment: HingeLabel,
+    /// Its station, outboard ones first.
+    pub station: Option<usize>,
+    /// The vertex of that station's section.
+    pub vertex: Option<usize>,
+}
+
+impl fmt::Display for StructurePlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "segment {}", self.segment)?;
+        let parts = [("station", self.station), ("vertex", self.vertex)];
+        for (name, number) in parts {
+            if let Some(number) = number {
+                write!(f, ", {name} {}", number + 1)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What is wrong at a place of the structure.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StructureDefect {
+    /// A pulse constant is zero, negative or not finite.
+    #[error("pulse constant {0} found, a positive finite time expected")]
+    PulseConstant(f64),
+    /// Young's modulus is zero, negative or not finite.
+    #[error("Young's modulus {0} found, a positive finite modulus expected")]
+    YoungsModulus(f64),
+    /// A number is infinite or not a number.
+    #[error("{quantity} {value} found, a finite number expected")]
+    NotFinite {
+        /// Which number.
+        quantity: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// A station lies outboard of the one before it.
+    #[error(
+        "distance {distance} after {outboard} found, at most that of the station before expected"
+    )]
+    Order {
+        /// Of the station.
+        distance: f64,
+        /// Of the station before.
+        outboard: f64,
+    },
+    /// The last station is not at the hinge.
+    #[error("last station {0} from the hinge found, 0 expected")]
+    NotAtHinge(f64),
+    /// The mass of a slice is negative or not finite.
+    #[error("slice of mass {0} found, a finite mass not below zero expected")]
+    SliceMass(f64),
+    /// No rigid body has the mass centre and inertia of a slice.
+    #[error("slice with {0}")]
+    Slice(MassDefect),
+    /// The slices do not add up to the mass of the segment.
+    #[error("slices of mass {found} in all found, {expected} of the segment expected")]
+    Mass {
+        /// Of all slices.
+        found: f64,
+        /// Of the segment.
+        expected: f64,
+    },
+    /// The mass centre of all slices is not that of the segment.
+    #[error(
+        "slices with mass centre {} found, {} of the segment expected",
+        shown(*.found), shown(*.expected)
+    )]
+    CenterOfMass {
+        /// Of all slices.
+        found: Vec3<f64>,
+        /// Of the segment.
+        expected: Vec3<f64>,
+    },
+    /// The inertia of all slices about their mass centre is not that of the segment.
+    #[error(
+        "slices with moments {} and products {} of inertia found, {} and {} of the segment expected",
+        moments(.found), products(.found), moments(.expected), products(.expected)
+    )]
+    Inertia {
+        /// Of all slices.
+        found: Sym3<f64>,
+        /// Of the segment.
+        expected: Sym3<f64>,
+    },
+}
+
+fn shown(v: Vec3<f64>) -> String {
+    format!("({}, {}, {})", v.x, v.y, v.z)
+}
+
+fn moments(inertia: &Sym3<f64>) -> String {
+    shown(Vec3::new(inertia.xx, inertia.yy, inertia.zz))
+}
+
+fn products(inertia: &Sym3<f64>) -> String {
+    shown(Vec3::new(inertia.xy, inertia.xz, inertia.yz))
+}
+
+pub(crate) fn find(segment: &SegmentStructure, label: HingeLabel) -> Vec<StructureError> {
+    let place = StructurePlace { segment: label, station: None, vertex: None };
+    let mut found = Found { place, errors: Vec::new() };
+    let SegmentStructure { pulse_constant, poissons_ratio, youngs_modulus, stations } = segment;
+    let is_positive = |value: f64| value > 0.0 && value.is_finite();
+    if !is_positive(*pulse_constant) {
+        found.push(StructureDefect::PulseConstant(*pulse_constant));
+    }
+    if !is_positive(*youngs_modulus) {
+        found.push(StructureDefect::YoungsModulus(*youngs_modulus));
+    }
+    found.check_finite("Poisson's ratio", *poissons_ratio);
+    for (j, station) in stations.iter().enumerate() {
+        found.place = StructurePlace { station: Some(j), ..place };
+        found.check_slice(station);
+        found.check_section(&station.section);
+        found.check_distance(stations, j);
+    }
+    found.errors
+}
+
+/// The errors found so far, and where the search is.
+struct Found {
+    place: StructurePlace,
+    errors: Vec<StructureError>,
+}
+
+impl Found {
+    fn push(&mut self, defect: StructureDefect) {
+        self.errors.push(StructureError::Segment { place: self.place, defect });
+    }
+
+    fn check_finite(&mut self, quantity: &'static str, value: f64) {
+        if !value.is_finite() {
+            self.push(StructureDefect::NotFinite { quantity, value });
+        }
+    }
+
+    fn check_distance(&mut self, stations: &[Station], j: usize) {
+        let distance = stations[j].distance_from_hinge;
+        self.check_finite("distance", distance);
+        if let Some(before) = j.checked_sub(1) {
+            let outboard = stations[before].distance_from_hinge;
+            if distance > outboard {
+                self.push(StructureDefect::Order { distance, outboard });
+            }
+        }
+        if j + 1 == stations.len() && distance.is_finite() && distance != 0.0 {
+            self.push(StructureDefect::NotAtHinge(distance));
+        }
+    }
+
+    fn check_slice(&mut self, station: &Station) {
+        let slice = &station.slice;
+        if !(slice.mass >= 0.0 && slice.mass.is_finite()) {
+            self.push(StructureDefect::SliceMass(slice.mass));
+        } else if let Some(defect) = slice.defect_apart_from_mass() {
+            self.push(StructureDefect::Slice(defect));
+        }
+    }
+
+    fn check_section(&mut self, section: &SectionShape) {
+        match section {
+            SectionShape::Tube { radius, thickness } => {
+                self.check_finite("radius", *radius);
+                self.check_finite("thickness", *thickness);
+            }
+            SectionShape::Polygon(vertices) => {
+                for (l, vertex) in vertices.iter().enumerate() {
+                    self.place.vertex = Some(l);
+                    self.check_finite("ξ", vertex.xi);
+                    self.check_finite("ζ", vertex.zeta);
+                    self.check_finite("thickness", vertex.thickness);
+                }
+                self.place.vertex = None;
+            }
+        }
+    }
+}
