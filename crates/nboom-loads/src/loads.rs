@@ -219,7 +219,7 @@ fn gather(segments: &[Segment], places: &[Place], kick_off: &[bool], out: &mut L
             *load = load.seen_from(-cut.point);
         }
         if let Some(inboard) = segment.inboard {
-            let carried = out.hinges[i];
+            let carried = out.hinges[i].rotated(&place.rot_inboard_from_body);
             carry(inboard, segment.carried_from, carried.seen_from(segment.point), out);
             let Size { moment, force } = out.sizes[i];
             out.sizes[inboard].add(Size { moment: moment + segment.point.norm() * force, force });
