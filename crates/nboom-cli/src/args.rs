@@ -9,7 +9,7 @@ use nboom_package::Level;
 use nboom_results::UnitSystem;
 use nboom_sim::{Form, Method};
 
-use crate::choice;
+use crate::{StressArgs, choice};
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 done; 1 a comparison failed (verify, \
@@ -155,6 +155,10 @@ pub struct RunArgs {
     /// impulses and the final state can be trusted; also writes certificate.json.
     #[arg(long)]
     pub certify: bool,
+
+    /// Stresses, where the scene asks for them.
+    #[command(flatten)]
+    pub stresses: StressArgs,
 
     /// Do not write report.html; this build writes none.
     #[arg(long)]

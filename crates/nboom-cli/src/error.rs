@@ -7,6 +7,7 @@ use nboom_model::ModelError;
 use nboom_package::PackageError;
 use nboom_results::{ResultsError, with_causes};
 use nboom_sim::SimError;
+use nboom_strength::StrengthError;
 use nboom_verify::VerifyError;
 
 use crate::SectionFileError;
@@ -60,6 +61,9 @@ pub enum CliError {
     /// Sections cannot be computed.
     #[error(transparent)]
     Sections(#[from] SectionFileError),
+    /// Stresses cannot be computed.
+    #[error(transparent)]
+    Stresses(#[from] StrengthError),
     /// What was computed cannot be written.
     #[error("{}: cannot be written", path.display())]
     Write {
@@ -86,7 +90,8 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Deviation { .. } => 1,
-            Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion | Self::Sections(_) => 2,
+            Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
+            Self::Sections(_) | Self::Stresses(_) => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
                 ..

@@ -34,6 +34,7 @@ mod section;
 mod section_answer;
 mod section_file;
 mod simulator;
+mod stresses;
 mod verify;
 mod watch;
 mod work_precision;
@@ -51,6 +52,7 @@ pub use error::CliError;
 pub use reference::reference;
 pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
+pub use stresses::StressArgs;
 
 /// Generated routines that commands choose from.
 #[derive(Clone, Copy, Debug)]

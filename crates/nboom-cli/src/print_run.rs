@@ -3,6 +3,7 @@ use std::path::Path;
 use nboom_model::Scene;
 use nboom_results::{EVENTS_FILE, Outcome, RunDescription, event_order, path_and_formulation};
 use nboom_sim::{Digits, Event, EventKind, Totals, Trust};
+use nboom_strength::{Cause, Worst};
 
 use crate::format::{count, short};
 
@@ -16,6 +17,8 @@ pub(crate) struct Account<'a> {
     pub(crate) outcome: &'a Outcome,
     /// The first events, the end left out.
     pub(crate) events: Vec<Event>,
+    /// The largest von Mises stress, if stresses were computed.
+    pub(crate) worst: Option<Worst>,
     /// What a reference run has shown, if there was one.
     pub(crate) trust: Option<Trust>,
 }
@@ -26,6 +29,7 @@ impl Account<'_> {
         lines.extend(self.event_lines());
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
+        lines.extend(self.worst.as_ref().map(worst_line));
         lines.extend(self.trust.as_ref().map(trust_line));
         lines.push(format!("files         {}", directory.display()));
         lines.join("\n") + "\n"
@@ -122,6 +126,24 @@ impl Account<'_> {
     }
 }
 
+/// The largest von Mises stress of the run.
+fn worst_line(worst: &Worst) -> String {
+    let why = match worst.cause {
+        Cause::Motion => "motion",
+        Cause::LockUp { .. } => "lock up",
+    };
+    let margin =
+        worst.margin.map_or(String::new(), |margin| format!(", margin {}", short(margin, 3)));
+    format!(
+        "worst stress  von Mises {} in segment {}, station {}, at {} by {why}, mostly {}{margin}",
+        short(worst.severest.stress.von_mises(), 5),
+        worst.segment,
+        worst.station + 1,
+        short(worst.time, 10),
+        worst.driver,
+    )
+}
+
 /// The fewest digits of event times, of impulses, and of each quantity at the end.
 fn trust_line(trust: &Trust) -> String {
     let mut known: Vec<String> = Vec::new();
@@ -210,7 +232,7 @@ mod tests {
             selections: Vec::new(),
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
-        Account { scene: &scene, run: &run, outcome: &outcome, events, trust: None }
+        Account { scene: &scene, run: &run, outcome: &outcome, events, worst: None, trust: None }
             .text(Path::new("out/boom"))
     }
 

@@ -7,6 +7,7 @@ use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes, write_tr
 use nboom_sim::{
     Form, Method, Options, Path, RkamSettings, Tolerance, Trust, Witness, simulate, trust,
 };
+use nboom_strength::StressAnalysis;
 
 use crate::progress::Progress;
 use crate::watch::Watch;
@@ -15,14 +16,17 @@ use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say};
 /// Simulates a scene, writes its files and returns the account of it for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
-    let warnings = check::warnings(&file);
+    let stresses = args.stresses.analysis(&file)?;
+    let of_sections = stresses.iter().flat_map(StressAnalysis::warnings);
+    let warnings: Vec<String> = check::warnings(&file).into_iter().chain(of_sections).collect();
     let scene = with_end_time(file.scene, args.end_time)?;
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));
     }
     let options = options(args, routines, &file.legacy)?;
     let run = RunDescription { warnings, ..RunDescription::new(&scene, &options, args.units) };
-    let account = simulate_into_files(&scene, &options, run, args)?;
+    let stresses = stresses.map(|analysis| (analysis, file.legacy.stress_interval));
+    let account = simulate_into_files(&scene, &options, run, stresses, args)?;
     Ok(if args.quiet { String::new() } else { account })
 }
 
@@ -84,12 +88,17 @@ fn simulate_into_files(
     scene: &Scene,
     options: &Options,
     run: RunDescription,
+    stresses: Option<(StressAnalysis, usize)>,
     args: &RunArgs,
 ) -> Result<String, CliError> {
     let directory = args.output.clone().unwrap_or_else(|| default_directory(&scene.name));
     let started = Instant::now();
+    let mut files = RunDirectory::create(&directory, scene, run.clone(), args.listing)?;
+    if let Some((analysis, every)) = stresses {
+        files = files.with_stresses(scene, analysis, every)?;
+    }
     let mut watch = Watch {
-        files: RunDirectory::create(&directory, scene, run.clone(), args.listing)?,
+        files,
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
         events_to_keep: print_run::EVENTS_SHOWN,
@@ -103,6 +112,7 @@ fn simulate_into_files(
     };
     let error = failed.as_ref().map(|error| with_causes(error));
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
+    let worst = watch.files.worst_stress();
     let finished = watch.files.finish(&outcome);
     // What stopped the run says more than what then could not be written.
     if let Some(error) = failed {
@@ -113,8 +123,8 @@ fn simulate_into_files(
         Some(witness) => Some(certify(scene, options, witness, &directory)?),
         None => None,
     };
-    let account =
-        print_run::Account { scene, run: &run, outcome: &outcome, events: watch.events, trust };
+    let (outcome, events) = (&outcome, watch.events);
+    let account = print_run::Account { scene, run: &run, outcome, events, worst, trust };
     Ok(account.text(&directory))
 }
 

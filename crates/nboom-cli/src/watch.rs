@@ -1,7 +1,7 @@
 use std::io;
 
 use nboom_results::RunDirectory;
-use nboom_sim::{Event, EventKind, Recorder, Snapshot, Witness};
+use nboom_sim::{Event, EventKind, LockUpMotion, Recorder, Snapshot, Witness};
 
 use crate::progress::Progress;
 
@@ -27,6 +27,14 @@ impl Recorder for Watch {
             witness.sample(snapshot)?;
         }
         self.files.sample(snapshot)
+    }
+
+    fn needs_lock_ups(&self) -> bool {
+        self.files.needs_lock_ups()
+    }
+
+    fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
+        self.files.lock_up(lock_up)
     }
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {

@@ -16,8 +16,21 @@ pub struct LockUp {
     pub delta_velocity_body: Vec3<f64>,
     /// Change of τ of the free hinges, the locking ones included \[rad/T\].
     pub delta_tau: Vec<f64>,
+    /// What of this each impulsive torque contributes.
+    pub jumps: Vec<VelocityJump>,
     /// Change of kinetic energy ½ Λ·τ, never positive (Carnot).
     pub delta_energy: f64,
+}
+
+/// The change of all velocities by one impulsive torque at a hinge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VelocityJump {
+    /// Of ω, main-body axes \[rad/T\].
+    pub omega_body: Vec3<f64>,
+    /// Of V, inertial velocity of O, main-body axes \[L/T\].
+    pub velocity_body: Vec3<f64>,
+    /// Of τ of the free hinges \[rad/T\].
+    pub tau: Vec<f64>,
 }
 
 /// Why no impulse locks these hinges.
@@ -40,7 +53,7 @@ impl Recursive<f64> {
         locking: &[usize],
     ) -> Result<LockUp, LockUpError> {
         self.factor(beta);
-        let responses: Vec<Response> = locking.iter().map(|&j| self.response_to(j)).collect();
+        let responses: Vec<VelocityJump> = locking.iter().map(|&j| self.response_to(j)).collect();
         let compliance = DMatrix::from_fn(locking.len(), locking.len(), |row, column| {
             responses[column].tau[locking[row]]
         });
@@ -51,30 +64,31 @@ impl Recursive<f64> {
             delta_omega_body: Vec3::zero(),
             delta_velocity_body: Vec3::zero(),
             delta_tau: vec![0.0; tau.len()],
+            jumps: Vec::new(),
             delta_energy: -0.5 * impulses.dot(&rates),
         };
         for (response, &impulse) in responses.iter().zip(&impulses) {
-            lock_up.delta_omega_body += response.omega * impulse;
-            lock_up.delta_velocity_body += response.velocity * impulse;
-            for (total, change) in lock_up.delta_tau.iter_mut().zip(&response.tau) {
-                *total += change * impulse;
+            let jump = VelocityJump {
+                omega_body: response.omega_body * impulse,
+                velocity_body: response.velocity_body * impulse,
+                tau: response.tau.iter().map(|change| change * impulse).collect(),
+            };
+            lock_up.delta_omega_body += jump.omega_body;
+            lock_up.delta_velocity_body += jump.velocity_body;
+            for (total, change) in lock_up.delta_tau.iter_mut().zip(&jump.tau) {
+                *total += change;
             }
+            lock_up.jumps.push(jump);
         }
         Ok(lock_up)
     }
 
     /// The velocity jump for a unit impulsive torque at link `j`: one column of B₀⁻¹.
-    fn response_to(&mut self, j: usize) -> Response {
+    fn response_to(&mut self, j: usize) -> VelocityJump {
         self.wrenches.fill(Wrench::zero());
         let mut tau = vec![0.0; self.wrenches.len()];
         tau[j] = 1.0;
         let of_main = self.solve(Wrench::zero(), &mut tau);
-        Response { omega: of_main.angular, velocity: of_main.linear, tau }
+        VelocityJump { omega_body: of_main.angular, velocity_body: of_main.linear, tau }
     }
-}
-
-struct Response {
-    omega: Vec3<f64>,
-    velocity: Vec3<f64>,
-    tau: Vec<f64>,
 }

@@ -38,6 +38,6 @@ mod pose;
 mod pushing;
 mod recursive;
 
-pub use impulse::{LockUp, LockUpError};
+pub use impulse::{LockUp, LockUpError, VelocityJump};
 pub use invariants::{Invariants, SpringLength};
 pub use recursive::{Accelerations, Motion, Recursive};

@@ -3,12 +3,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
-use nboom_sim::{Event, Recorder, Snapshot, Summary};
+use nboom_sim::{Event, LockUpMotion, Recorder, Snapshot, Summary};
+use nboom_strength::{StressAnalysis, Worst};
 
 use crate::rows::{self, Output};
+use crate::stress::StressWriter;
 use crate::{
-    EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, ResultsError, RunDescription,
-    STATES_FILE, SUMMARY_FILE, StatesWriter, SummaryFile, TRUST_FILE, with_causes,
+    ENVELOPE_FILE, EVENTS_FILE, EventsWriter, HINGE_LOADS_FILE, LISTING_FILE, ListingWriter,
+    ResultsError, RunDescription, STATES_FILE, STRESS_FILE, SUMMARY_FILE, StatesWriter,
+    SummaryFile, TRUST_FILE, with_causes,
 };
 
 /// The directory of one run: creates it, writes its tables while the run goes on, and its
@@ -23,6 +26,7 @@ pub struct RunDirectory {
     states: StatesWriter<Output>,
     events: EventsWriter<Output>,
     listing: Option<ListingWriter<Output>>,
+    stresses: Option<StressWriter>,
     /// Events whose instant may not be over, and the motion after them.
     instant: Option<(Vec<Event>, Snapshot)>,
 }
@@ -53,14 +57,37 @@ impl RunDirectory {
         fs::create_dir_all(path)
             .map_err(|source| ResultsError::Directory { path: path.to_owned(), source })?;
         remove_stale(&path.join(SUMMARY_FILE))?;
-        remove_stale(&path.join(LISTING_FILE))?;
-        remove_stale(&path.join(TRUST_FILE))?;
+        let optional = [LISTING_FILE, TRUST_FILE, STRESS_FILE, HINGE_LOADS_FILE, ENVELOPE_FILE];
+        optional.into_iter().try_for_each(|file| remove_stale(&path.join(file)))?;
         SummaryFile::unfinished(&run).replace(&path.join(SUMMARY_FILE))?;
         let labels: Vec<_> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
         let events = open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone()))?;
         let listing = listing.then(|| open_listing(path, &run, labels)).transpose()?;
-        Ok(Self { path: path.to_owned(), run, states, events, listing, instant: None })
+        let path = path.to_owned();
+        Ok(Self { path, run, states, events, listing, stresses: None, instant: None })
+    }
+
+    /// Also writes stresses, at every `every`-th output time and at lock-ups.
+    ///
+    /// # Errors
+    /// When a file cannot be made.
+    pub fn with_stresses(
+        mut self,
+        scene: &Scene,
+        analysis: StressAnalysis,
+        every: usize,
+    ) -> Result<Self, ResultsError> {
+        let hinges = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
+        self.stresses = Some(StressWriter::create(&self.path, hinges, analysis, every)?);
+        Ok(self)
+    }
+
+    /// The largest von Mises stress so far, and where.
+    pub fn worst_stress(&self) -> Option<Worst> {
+        let worst = self.stresses.as_ref()?.analysis.envelope().iter().copied();
+        let von_mises = |worst: &Worst| worst.severest.stress.von_mises();
+        worst.max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
     }
 
     /// Writes what is left and the summary.
@@ -74,7 +101,8 @@ impl RunDirectory {
         let instant = self.close_instant();
         let states = self.states.flush().map_err(self.writing(STATES_FILE));
         let listing = self.flush_listing();
-        let tables = instant.and(states).and(listing);
+        let stresses = self.stresses.as_mut().map_or(Ok(()), |out| out.finish(&self.path));
+        let tables = instant.and(states).and(listing).and(stresses);
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
         let summary = SummaryFile::ended(&self.run, &outcome.summary, outcome.wall_seconds, error);
@@ -102,6 +130,9 @@ impl RunDirectory {
     fn write_sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         self.close_instant()?;
         self.states.write(snapshot).map_err(self.writing(STATES_FILE))?;
+        if let Some(stresses) = &mut self.stresses {
+            stresses.sample(snapshot).map_err(self.writing(STRESS_FILE))?;
+        }
         let Some(listing) = &mut self.listing else { return Ok(()) };
         // A printout that fills the disk must not take the room of rows that wait in memory.
         let flushed = self.states.flush();
@@ -130,7 +161,17 @@ impl RunDirectory {
 
 impl Recorder for RunDirectory {
     fn needs_detail(&self) -> bool {
-        self.listing.is_some()
+        self.listing.is_some() || self.stresses.as_ref().is_some_and(StressWriter::is_due)
+    }
+
+    fn needs_lock_ups(&self) -> bool {
+        self.stresses.is_some()
+    }
+
+    fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
+        let Some(stresses) = &mut self.stresses else { return Ok(()) };
+        let written = stresses.lock_up(lock_up).map_err(self.writing(STRESS_FILE));
+        written.map_err(ResultsError::into_io)
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {

@@ -1,4 +1,5 @@
-//! Files of a run: `states.csv`, `events.csv`, `summary.json` and `listing.txt`.
+//! Files of a run: `states.csv`, `events.csv`, `summary.json`, `listing.txt`, and with stresses
+//! `stress.csv`, `hinge_loads.csv` and `stress_envelope.csv`.
 //!
 //! [`RunDirectory`] is a [`nboom_sim::Recorder`]: it writes each row as soon as it is known, so
 //! that a run that fails leaves everything computed before, with a summary that says
@@ -25,6 +26,7 @@ mod listing;
 mod number;
 mod rows;
 mod states;
+mod stress;
 mod summary;
 mod trust;
 mod units;
@@ -48,5 +50,11 @@ pub const STATES_FILE: &str = "states.csv";
 pub const EVENTS_FILE: &str = "events.csv";
 /// Name of the summary within a run's directory.
 pub const SUMMARY_FILE: &str = "summary.json";
+/// Name of the table of stresses within a run's directory.
+pub const STRESS_FILE: &str = "stress.csv";
+/// Name of the table of hinge loads within a run's directory.
+pub const HINGE_LOADS_FILE: &str = "hinge_loads.csv";
+/// Name of the table of each station's worst stress within a run's directory.
+pub const ENVELOPE_FILE: &str = "stress_envelope.csv";
 /// Name of the printout within a run's directory.
 pub const LISTING_FILE: &str = "listing.txt";

@@ -1,6 +1,6 @@
 use nboom_scalar::Wrench;
 
-use crate::{PointStress, Polygon, Properties, SectionWarning, Tube};
+use crate::{PointStress, Polygon, Properties, SectionWarning, Stress, Tube};
 
 /// A thin-walled section with one cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +40,21 @@ impl Section {
                 let stresses = polygon.stresses(load);
                 let (wall, x) = stresses.severest();
                 stresses.at(wall, x)
+            }
+        }
+    }
+
+    /// The stress that a load makes at a point of the section which another load was found at.
+    pub fn at(&self, point: &PointStress, load: &Wrench<f64>) -> Stress {
+        match self {
+            Self::Tube(tube) => {
+                let theta = point.place.zeta.atan2(point.place.xi);
+                tube.stresses(load).at(theta).stress
+            }
+            Self::Polygon(polygon) => {
+                let number = point.wall.unwrap_or(0);
+                let x = polygon.walls()[number].nearest(point.place);
+                polygon.stresses(load).at(number, x).stress
             }
         }
     }

@@ -45,6 +45,12 @@ impl Wall {
         self.start + self.along * x
     }
 
+    /// The place of it that is nearest to a point.
+    pub fn nearest(&self, point: Point) -> f64 {
+        let x = (point - self.start).dot(self.along) / self.along.dot(self.along);
+        x.clamp(0.0, 1.0)
+    }
+
     pub(crate) fn area(&self) -> f64 {
         self.length * self.thickness
     }

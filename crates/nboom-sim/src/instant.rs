@@ -1,10 +1,11 @@
+use nboom_dynamics::VelocityJump;
 use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
 
 use crate::equations::Equations;
 use crate::error::SimError;
 use crate::guard::{GuardKind, Guards, read};
 use crate::ledger::totals;
-use crate::record::{Event, EventKind, Totals};
+use crate::record::{Event, EventKind, Jump, Totals};
 use crate::state::State;
 
 /// Crossings within this many time units of each other are one instant.
@@ -42,6 +43,11 @@ impl Arrivals {
         arrivals
     }
 
+    /// Whether hinges lock.
+    pub fn has_locks(&self) -> bool {
+        !self.locks.is_empty()
+    }
+
     /// What the initial time itself brings: releases by an angle that holds already.
     pub fn at_start(scene: &Scene) -> Self {
         let holds = |i: &usize| match scene.bodies[*i].hinge.release {
@@ -60,6 +66,8 @@ impl Arrivals {
 pub(crate) struct Outcome {
     pub events: Vec<Event>,
     pub toggled: Vec<usize>,
+    /// What each hinge that locks changes.
+    pub jumps: Vec<Jump>,
 }
 
 /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then springs
@@ -75,13 +83,13 @@ pub(crate) fn pass(
 ) -> Result<Outcome, SimError> {
     let before = totals(state, &equations.invariants(state));
     let mut events = Vec::new();
-    let impulses = lock(scene, equations, &arrivals.locks, state, mode)?;
+    let locked = lock(scene, equations, &arrivals.locks, state, mode)?;
     let after = totals(state, &equations.invariants(state));
     let time = state.time;
     let event =
         |kind, hinge, impulse, before: Totals| Event { time, kind, hinge, impulse, before, after };
-    for (&hinge, impulse) in arrivals.locks.iter().zip(impulses) {
-        events.push(event(EventKind::LockUp, Some(hinge), Some(impulse), before));
+    for (jump, impulse) in &locked {
+        events.push(event(EventKind::LockUp, Some(jump.hinge), Some(*impulse), before));
     }
     for i in released(scene, mode, arrivals, time) {
         mode.hinges[i] = HingeState::Free;
@@ -101,17 +109,19 @@ pub(crate) fn pass(
         let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
         events.push(event(kind, None, None, after));
     }
-    Ok(Outcome { events, toggled: arrivals.springs.clone() })
+    let jumps = locked.into_iter().map(|(jump, _)| jump).collect();
+    Ok(Outcome { events, toggled: arrivals.springs.clone(), jumps })
 }
 
-/// Locks hinges with the exact change of all velocities; returns the impulses.
+/// Locks hinges with the exact change of all velocities; returns what each hinge contributes, and
+/// its impulse.
 fn lock(
     scene: &Scene,
     equations: &mut Equations,
     locks: &[usize],
     state: &mut State,
     mode: &mut Mode,
-) -> Result<Vec<f64>, SimError> {
+) -> Result<Vec<(Jump, f64)>, SimError> {
     let Some(&first) = locks.first() else { return Ok(Vec::new()) };
     let free = equations.dynamics.free_hinges().to_vec();
     for &i in locks {
@@ -135,7 +145,16 @@ fn lock(
         state.tau[i] = 0.0;
         mode.hinges[i] = HingeState::Locked;
     }
-    Ok(lock_up.impulses)
+    let jump = |(&hinge, jump): (&usize, &VelocityJump)| {
+        let mut tau = vec![0.0; state.tau.len()];
+        for (&i, &change) in free.iter().zip(&jump.tau) {
+            tau[i] = change;
+        }
+        let VelocityJump { omega_body, velocity_body, .. } = *jump;
+        Jump { hinge, velocity_body, omega_body, tau }
+    };
+    let jumps = locks.iter().zip(&lock_up.jumps).map(jump);
+    Ok(jumps.zip(lock_up.impulses).collect())
 }
 
 /// The unreleased hinges whose release is due.

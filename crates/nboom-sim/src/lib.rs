@@ -66,8 +66,8 @@ pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
-    Conservation, Detail, Event, EventKind, Integration, Recorder, Selection, Snapshot, Summary,
-    Totals,
+    Conservation, Detail, Event, EventKind, Integration, Jump, LockUpMotion, Recorder, Selection,
+    Snapshot, Summary, Totals,
 };
 pub use run::simulate;
 pub use trust::{Digits, EventTrust, Trust, Witness, differences, trust};

@@ -23,6 +23,41 @@ pub trait Recorder {
     /// # Errors
     /// When it cannot be kept.
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()>;
+
+    /// Whether [`lock_up`](Self::lock_up) is wanted, with [`Snapshot::detail`].
+    fn needs_lock_ups(&self) -> bool {
+        false
+    }
+
+    /// An instant in which hinges lock, as its loads see it; before its events.
+    ///
+    /// # Errors
+    /// When it cannot be kept.
+    fn lock_up(&mut self, _lock_up: &LockUpMotion) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Hinges that lock in one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LockUpMotion {
+    /// The motion just before, with detail.
+    pub before: Snapshot,
+    /// What each of the hinges that lock changes; the motion after it has the sum of all.
+    pub jumps: Vec<Jump>,
+}
+
+/// Change of all velocities by the impulsive torque at one hinge that locks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jump {
+    /// The hinge.
+    pub hinge: usize,
+    /// Of V, the inertial velocity of O, main-body axes.
+    pub velocity_body: Vec3<f64>,
+    /// Of ω, main-body axes \[rad/T\].
+    pub omega_body: Vec3<f64>,
+    /// Of τ, one entry for each hinge of the scene \[rad/T\].
+    pub tau: Vec<f64>,
 }
 
 /// The motion at one time. Vectors over hinges have one entry for each hinge of the scene.
@@ -69,12 +104,16 @@ pub struct Snapshot {
 pub struct Detail {
     /// Angular acceleration of the main body, main-body axes \[rad/T²\].
     pub omega_dot_body: Vec3<f64>,
+    /// Inertial acceleration of O without that of gravity, main-body axes.
+    pub origin_acceleration_body: Vec3<f64>,
     /// Acceleration of each hinge angle β; zero while held.
     pub beta_ddot: Vec<f64>,
     /// Acceleration of each sum α.
     pub alpha_ddot: Vec<f64>,
     /// Spring and dashpot torque by the law of eq. (6.1), whether or not the hinge is held.
     pub hinge_torque: Vec<f64>,
+    /// Whether each hinge's kick-off spring pushes.
+    pub kick_off_pushes: Vec<bool>,
     /// Force of each kick-off spring; zero where there is none.
     pub kick_off_force: Vec<f64>,
     /// Length of each kick-off spring; zero where there is none.

@@ -9,7 +9,9 @@ use crate::instant::{self, Arrivals, ONE_INSTANT};
 use crate::layout::Layout;
 use crate::ledger::{Ledger, totals};
 use crate::options::Options;
-use crate::record::{Event, EventKind, Integration, Recorder, Selection, Snapshot, Summary};
+use crate::record::{
+    Event, EventKind, Integration, LockUpMotion, Recorder, Selection, Snapshot, Summary,
+};
 use crate::snapshot;
 use crate::state::{MassCenter, State};
 
@@ -122,6 +124,7 @@ impl<'a> Run<'a> {
         for i in 0..self.lock_sides.len() {
             self.lock_sides[i] = self.guards.lock_side(i).unwrap_or(self.lock_sides[i]);
         }
+        let before = self.before_lock_ups(arrivals);
         let outcome = instant::pass(
             self.scene,
             &mut self.equations,
@@ -130,6 +133,9 @@ impl<'a> Run<'a> {
             &mut self.mode,
             &mut self.lock_sides,
         )?;
+        if let Some(before) = before {
+            self.tell_lock_up(LockUpMotion { before, jumps: outcome.jumps })?;
+        }
         self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
         self.check_regular()?;
         self.check_springs()?;
@@ -281,6 +287,19 @@ impl<'a> Run<'a> {
         let (steps, next_step) =
             (self.stepper.window().counts.accepted, self.stepper.window().next_step);
         Snapshot { steps, next_step, ..seen }
+    }
+
+    /// The motion before an instant in which hinges lock, if the recorder wants it.
+    fn before_lock_ups(&mut self, arrivals: &Arrivals) -> Option<Snapshot> {
+        (arrivals.has_locks() && self.recorder.needs_lock_ups()).then(|| {
+            let Self { scene, mode, equations, state, .. } = self;
+            snapshot::take(scene, mode, equations, state, true)
+        })
+    }
+
+    fn tell_lock_up(&mut self, lock_up: LockUpMotion) -> Result<(), SimError> {
+        let kept = self.recorder.lock_up(&lock_up);
+        kept.map_err(|source| SimError::Record { time: self.state.time, source })
     }
 
     fn report(&mut self, events: &[Event]) -> Result<(), SimError> {

@@ -51,6 +51,7 @@ fn detail(
     let free = equations.dynamics.free_hinges().to_vec();
     let accelerations = equations.accelerations(state);
     let omega_dot_body = accelerations.omega_dot_body;
+    let origin_acceleration_body = accelerations.origin_body;
     let mut beta_ddot = vec![0.0; state.beta.len()];
     for (&i, &tau_dot) in free.iter().zip(&accelerations.tau_dot) {
         beta_ddot[i] = tau_dot;
@@ -71,9 +72,11 @@ fn detail(
     }
     Detail {
         omega_dot_body,
+        origin_acceleration_body,
         beta_ddot,
         alpha_ddot,
         hinge_torque,
+        kick_off_pushes: mode.kick_off.clone(),
         kick_off_force,
         kick_off_length,
         mass_center_body,

@@ -1,0 +1,45 @@
+//! What the command line says about stresses.
+
+use clap::Args;
+use nboom_io::SceneFile;
+use nboom_strength::{Settings, StrengthError, StressAnalysis};
+
+use crate::choice;
+
+/// Options of `nboom run` that concern stresses.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct StressArgs {
+    /// Compute no stresses, whatever the scene asks for.
+    #[arg(long)]
+    pub no_stresses: bool,
+
+    /// Stress at which the material yields, for the margins in stress_envelope.csv.
+    #[arg(long, value_name = "S", value_parser = choice::positive, allow_negative_numbers = true)]
+    pub yield_stress: Option<f64>,
+
+    /// Factor on stresses in margins.
+    #[arg(long, value_name = "F", default_value = "1", value_parser = choice::positive,
+          allow_negative_numbers = true)]
+    pub safety_factor: f64,
+
+    /// Peak of a segment's response over the peak of a lock-up pulse: 1 for slow pulses, at most 2.
+    #[arg(long, value_name = "D", default_value = "1", value_parser = choice::positive,
+          allow_negative_numbers = true)]
+    pub amplification: f64,
+}
+
+impl StressArgs {
+    /// The analysis that a scene asks for, if it does.
+    ///
+    /// # Errors
+    /// When a section is not one.
+    pub(crate) fn analysis(
+        &self,
+        file: &SceneFile,
+    ) -> Result<Option<StressAnalysis>, StrengthError> {
+        let Self { no_stresses, yield_stress, safety_factor, amplification } = *self;
+        let structure = file.structure.as_ref().filter(|_| !no_stresses);
+        let settings = Settings { amplification, yield_stress, safety_factor };
+        structure.map(|structure| StressAnalysis::new(&file.scene, structure, settings)).transpose()
+    }
+}

@@ -1,0 +1,174 @@
+use std::io::{self, Write};
+use std::path::Path;
+
+use nboom_model::HingeLabel;
+use nboom_scalar::Wrench;
+use nboom_sections::{PointStress, Stress};
+use nboom_sim::{LockUpMotion, Snapshot};
+use nboom_strength::{Cause, StationStress, StrengthError, StressAnalysis, Worst};
+
+use crate::number::{field, vector_fields};
+use crate::rows::{self, Output};
+use crate::{ENVELOPE_FILE, HINGE_LOADS_FILE, ResultsError, STRESS_FILE};
+
+const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
+     sigma_23,principal_1,principal_2,von_mises,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
+const HINGE_LOADS_HEADER: &str = "t,event,appendage,segment,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
+const ENVELOPE_HEADER: &str = "appendage,segment,station,t,event,event_appendage,event_segment,xi,\
+     zeta,sigma_22,sigma_21,sigma_23,von_mises,driver,margin";
+
+/// Names of the four axis points in `stress.csv`.
+const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
+
+/// Writes `stress.csv` and `hinge_loads.csv` while a run goes on, and the envelope at its end.
+///
+/// Tension is positive; forces and moments act on what is outboard of a station or hinge, in segment
+/// axes, moments about the point of the station on the η axis or about the hinge point. A row with
+/// the event `lock_up` has peaks: what the motion just before makes, and the pulses.
+#[derive(Debug)]
+pub(crate) struct StressWriter {
+    pub analysis: StressAnalysis,
+    /// Output times from one computation to the next.
+    every: usize,
+    samples: usize,
+    hinges: Vec<HingeLabel>,
+    stresses: Output,
+    hinge_loads: Output,
+}
+
+impl StressWriter {
+    pub fn create(
+        directory: &Path,
+        hinges: Vec<HingeLabel>,
+        analysis: StressAnalysis,
+        every: usize,
+    ) -> Result<Self, ResultsError> {
+        let started = |file: &str, header: &str| {
+            let path = directory.join(file);
+            let table = rows::create(&path).and_then(|mut out| {
+                writeln!(out, "{header}")?;
+                Ok(out)
+            });
+            table.map_err(ResultsError::writing(&path))
+        };
+        Ok(Self {
+            stresses: started(STRESS_FILE, STRESS_HEADER)?,
+            hinge_loads: started(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
+            analysis,
+            every: every.max(1),
+            samples: 0,
+            hinges,
+        })
+    }
+
+    /// Whether the coming output time is one of those that stresses are computed at.
+    pub fn is_due(&self) -> bool {
+        self.samples.is_multiple_of(self.every)
+    }
+
+    pub fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+        let due = self.is_due();
+        self.samples += 1;
+        let Some(detail) = snapshot.detail.as_ref().filter(|_| due) else { return Ok(()) };
+        let found = self.analysis.motion(snapshot, detail).map_err(contradiction)?;
+        let time = snapshot.time;
+        write_stations(&mut self.stresses, &self.hinges, (time, ""), found)?;
+        self.write_hinges(time, "")
+    }
+
+    pub fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
+        let Some(detail) = &lock_up.before.detail else { return Ok(()) };
+        let found = self.analysis.lock_up(lock_up, detail).map_err(contradiction)?;
+        let time = lock_up.before.time;
+        write_stations(&mut self.stresses, &self.hinges, (time, "lock_up"), found)?;
+        self.write_hinges(time, "lock_up")
+    }
+
+    fn write_hinges(&mut self, time: f64, event: &str) -> io::Result<()> {
+        let out = &mut self.hinge_loads;
+        for (hinge, load) in self.hinges.iter().zip(self.analysis.hinge_loads()) {
+            write!(out, "{time:?},{event},{},{}", hinge.appendage + 1, hinge.segment + 1)?;
+            load_fields(out, &load)?;
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    /// Writes what waits in memory, and the worst of each station.
+    pub fn finish(&mut self, directory: &Path) -> Result<(), ResultsError> {
+        let stresses = self.stresses.flush();
+        stresses.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
+        let hinge_loads = self.hinge_loads.flush();
+        hinge_loads.map_err(ResultsError::writing(&directory.join(HINGE_LOADS_FILE)))?;
+        let path = directory.join(ENVELOPE_FILE);
+        let written = rows::create(&path).and_then(|mut out| {
+            writeln!(out, "{ENVELOPE_HEADER}")?;
+            let worst = self.analysis.envelope().iter();
+            worst.into_iter().try_for_each(|worst| self.write_worst(&mut out, worst))?;
+            out.flush()
+        });
+        written.map_err(ResultsError::writing(&path))
+    }
+
+    fn write_worst(&self, out: &mut Output, worst: &Worst) -> io::Result<()> {
+        let HingeLabel { appendage, segment } = worst.segment;
+        write!(out, "{},{},{},{:?}", appendage + 1, segment + 1, worst.station + 1, worst.time)?;
+        match worst.cause {
+            Cause::Motion => write!(out, ",,,")?,
+            Cause::LockUp { hinge } => {
+                let HingeLabel { appendage, segment } = self.hinges[hinge];
+                write!(out, ",lock_up,{},{}", appendage + 1, segment + 1)?;
+            }
+        }
+        place_fields(out, &worst.severest)?;
+        field(out, worst.severest.stress.von_mises())?;
+        write!(out, ",{}", worst.driver)?;
+        match worst.margin {
+            Some(margin) => field(out, margin)?,
+            None => write!(out, ",")?,
+        }
+        writeln!(out)
+    }
+}
+
+fn write_stations(
+    out: &mut impl Write,
+    hinges: &[HingeLabel],
+    (time, event): (f64, &str),
+    stations: &[StationStress],
+) -> io::Result<()> {
+    for station in stations {
+        let axis_points = AXIS_POINTS.into_iter().zip(station.axis_points);
+        let points = axis_points.filter_map(|(name, point)| Some((name, point?)));
+        for (name, point) in points.chain([("max", station.severest)]) {
+            let HingeLabel { appendage, segment } = hinges[station.segment];
+            let (appendage, segment) = (appendage + 1, segment + 1);
+            let number = station.station + 1;
+            write!(out, "{time:?},{event},{appendage},{segment},{number},{name}")?;
+            place_fields(out, &point)?;
+            let [largest, smallest] = point.stress.principal();
+            field(out, largest)?;
+            field(out, smallest)?;
+            field(out, point.stress.von_mises())?;
+            load_fields(out, &station.load)?;
+            writeln!(out)?;
+        }
+    }
+    Ok(())
+}
+
+/// Place and stress components.
+fn place_fields(out: &mut impl Write, point: &PointStress) -> io::Result<()> {
+    let Stress { normal, shear_xi, shear_zeta } = point.stress;
+    let numbers = [point.place.xi, point.place.zeta, normal, shear_xi, shear_zeta];
+    numbers.into_iter().try_for_each(|number| field(out, number))
+}
+
+fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {
+    vector_fields(out, load.force)?;
+    vector_fields(out, load.moment)
+}
+
+fn contradiction(error: StrengthError) -> io::Error {
+    io::Error::other(error)
+}

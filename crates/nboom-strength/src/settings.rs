@@ -1,0 +1,43 @@
+use crate::StrengthError;
+
+/// How stresses are judged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Peak of the structure's response over the peak of a lock-up pulse. 1 is a pulse that is slow
+    /// against the first bending mode; a half-sine makes it at most 1.77, a rectangle at most 2.
+    pub amplification: f64,
+    /// Stress at which the material yields \[F/L²\]; without it there are no margins.
+    pub yield_stress: Option<f64>,
+    /// Factor on stresses when they are compared with the yield stress.
+    pub safety_factor: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { amplification: 1.0, yield_stress: None, safety_factor: 1.0 }
+    }
+}
+
+impl Settings {
+    /// # Errors
+    /// When a number is not positive or not finite.
+    pub(crate) fn check(&self) -> Result<(), StrengthError> {
+        let given = [
+            ("dynamic amplification", Some(self.amplification)),
+            ("yield stress", self.yield_stress),
+            ("safety factor", Some(self.safety_factor)),
+        ];
+        let wrong = |&(_, value): &(_, Option<f64>)| {
+            value.is_some_and(|value| !(value > 0.0 && value.is_finite()))
+        };
+        match given.into_iter().find(wrong) {
+            Some((name, Some(found))) => Err(StrengthError::Setting { name, found }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Share of its strength that a part has left, yield / (factor · stress) − 1.
+    pub(crate) fn margin(&self, von_mises: f64) -> Option<f64> {
+        self.yield_stress.map(|limit| limit / (self.safety_factor * von_mises) - 1.0)
+    }
+}
