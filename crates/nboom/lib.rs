@@ -1,8 +1,9 @@
 //! Fast, exact simulation of spacecraft that unfold.
 //!
 //! This crate gathers the parts that a program needs to simulate a deployment: the scene
-//! ([`model`]), its file formats ([`io`]), equations of motion ([`dynamics`]), cross sections and
-//! their stresses ([`sections`]), and the runner ([`sim`]). `docs/architecture.md` shows how they fit together.
+//! ([`model`]), its file formats ([`io`]), equations of motion ([`dynamics`]), the runner ([`sim`]),
+//! section loads ([`loads`]), cross sections ([`sections`]), and the stresses of a run
+//! ([`strength`]). `docs/architecture.md` shows how they fit together.
 //!
 //! With the feature `macros`, `routine!` and `scene!` generate code for a topology or a scene of
 //! the program's own.
@@ -24,3 +25,4 @@ pub use nboom_ode as ode;
 pub use nboom_scalar as scalar;
 pub use nboom_sections as sections;
 pub use nboom_sim as sim;
+pub use nboom_strength as strength;
