@@ -1,0 +1,8 @@
+//! Stresses of whole runs.
+
+#[path = "../support/collect.rs"]
+mod collect;
+
+mod closed_forms;
+mod envelope;
+mod follow;
