@@ -160,22 +160,24 @@ impl<'a> Replay<'a> {
             let reach = course.expansion.expand(since_start, &course.now);
             self.check_step(reach)?;
             let remaining = exact(limit) - self.state.time;
-            let guess = exact(expected) - self.state.time;
-            if guess.to_f64() <= reach
-                && let Some((since, kind)) = self.first(&awaited, guess, reach, &mut course)?
-                && since.to_f64() <= reach
-                && since <= remaining
-            {
-                return Ok(match since.to_f64() > -ONE_INSTANT {
-                    true => self.arrive(since, Some(kind), &mut course),
-                    false => Ending::Astray,
-                });
-            }
-            if remaining.to_f64() <= reach {
-                return Ok(self.arrive(remaining, None, &mut course));
-            }
-            if let Ending::Astray = self.arrive(exact(reach), None, &mut course) {
+            let guess = expected - self.state.time.to_f64();
+            let is_near = guess <= reach;
+            let first =
+                if is_near { self.first(&awaited, guess, reach, &mut course)? } else { None };
+            let within = |(since, _): &(DoubleDouble, GuardKind)| {
+                since.to_f64() <= reach && *since <= remaining
+            };
+            let (since, ending) = match first.filter(within) {
+                Some((since, kind)) => (since, Some(Ending::Guard(kind))),
+                None if remaining.to_f64() <= reach => (remaining, Some(Ending::Schedule)),
+                None => (exact(reach), None),
+            };
+            let is_past = since.to_f64() <= -ONE_INSTANT;
+            if is_past || !self.go_on(since, first.map(|(_, kind)| kind), &mut course) {
                 return Ok(Ending::Astray);
+            }
+            if let Some(ending) = ending {
+                return Ok(ending);
             }
             self.guards.settle(self.scene, &mut self.dynamics, &self.state);
         }
@@ -196,7 +198,7 @@ impl<'a> Replay<'a> {
     fn first(
         &mut self,
         awaited: &[GuardKind],
-        guess: DoubleDouble,
+        guess: f64,
         reach: f64,
         course: &mut Course,
     ) -> Result<Option<(DoubleDouble, GuardKind)>, SimError> {
@@ -214,11 +216,11 @@ impl<'a> Replay<'a> {
     fn locate(
         &mut self,
         kind: GuardKind,
-        guess: DoubleDouble,
+        guess: f64,
         reach: f64,
         course: &mut Course,
     ) -> Result<DoubleDouble, SimError> {
-        let (mut since, mut last) = (guess, f64::INFINITY);
+        let (mut since, mut last) = (exact(guess), f64::INFINITY);
         for _ in 0..CORRECTIONS {
             self.look(since, course);
             let Reading { value, rate } = read(kind, self.scene, &mut self.dynamics, &self.scratch);
@@ -245,20 +247,18 @@ impl<'a> Replay<'a> {
         course.variables.read(&mut self.dynamics, time, &course.then, &mut self.scratch);
     }
 
-    /// Goes on to `since` after the present state, where the guard `located` is zero.
-    fn arrive(
+    /// Goes on to `since` after the present state; false when a guard other than `awaited` has
+    /// changed sign on the way.
+    fn go_on(
         &mut self,
         since: DoubleDouble,
-        located: Option<GuardKind>,
+        awaited: Option<GuardKind>,
         course: &mut Course,
-    ) -> Ending {
+    ) -> bool {
         self.look(since, course);
         std::mem::swap(&mut self.state, &mut self.scratch);
         std::mem::swap(&mut course.now, &mut course.then);
-        if self.guards.missed(self.scene, &mut self.dynamics, &self.state, located) {
-            return Ending::Astray;
-        }
-        located.map_or(Ending::Schedule, Ending::Guard)
+        !self.guards.missed(self.scene, &mut self.dynamics, &self.state, awaited)
     }
 
     /// Refuses a step that leads nowhere.
