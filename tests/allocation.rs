@@ -199,7 +199,7 @@ impl WithSeries {
             Rotation::new(scene, mode).write(&inputs[..size], &mut rates);
             rates
         });
-        Self { rotation, series: Series::new(&graph, order) }
+        Self { rotation, series: Series::new(&graph, &[], order) }
     }
 }
 

@@ -23,6 +23,9 @@ pub const NAMES: [&str; 11] = [
     "s13_initial_states",
 ];
 
+/// In this one every body's mass centre is at rest until the booms swing out.
+pub const AT_REST: &str = "s10_symmetric_lock";
+
 /// A reference run.
 pub struct Reference {
     pub name: &'static str,

@@ -3,7 +3,7 @@
 use nboom::model::Scene;
 use nboom::sim::{Method, Options};
 
-use crate::catalog::Reference;
+use crate::catalog::{AT_REST, Reference};
 use crate::collect::{Collected, run, tight};
 use crate::compare::compare;
 
@@ -95,9 +95,6 @@ fn conservation_residuals_are_at_rounding_and_truncation() {
         .filter(|scene| scene.name != AT_REST)
         .for_each(|scene| check_residuals(&scene));
 }
-
-/// Every body's mass centre is at rest until the booms swing out.
-const AT_REST: &str = "s10_symmetric_lock";
 
 #[test]
 fn conservation_residuals_of_bodies_at_rest_are_rounding() {

@@ -7,7 +7,7 @@ use nboom_formulation::Formulation;
 #[cfg(feature = "generator")]
 use nboom_package::Level;
 use nboom_results::UnitSystem;
-use nboom_sim::{Form, Method};
+use nboom_sim::{Form, Method, Reference};
 
 use crate::{StressArgs, choice};
 
@@ -151,10 +151,12 @@ pub struct RunArgs {
     #[arg(long)]
     pub listing: bool,
 
-    /// Run again with tolerances a thousand times tighter and say how many digits of event times,
-    /// impulses and the final state can be trusted; also writes certificate.json.
-    #[arg(long)]
-    pub certify: bool,
+    /// Run again with tolerances a thousand times tighter, or in double-double, and say how many
+    /// digits of event times, impulses and the final state can be trusted; also writes
+    /// certificate.json. Without a name it is tighter-tolerance; the other is double-double.
+    #[arg(long, value_name = "REFERENCE", num_args = 0..=1, require_equals = true,
+          default_missing_value = Reference::default().name(), value_parser = choice::reference)]
+    pub certify: Option<Reference>,
 
     /// Stresses, where the scene asks for them.
     #[command(flatten)]

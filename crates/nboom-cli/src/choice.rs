@@ -5,7 +5,7 @@ use nboom_formulation::Formulation;
 #[cfg(feature = "generator")]
 use nboom_package::Level;
 use nboom_results::UnitSystem;
-use nboom_sim::{Form, Method, OptionError, Options};
+use nboom_sim::{Form, Method, OptionError, Options, Reference};
 
 /// Why the value of an option is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -52,6 +52,11 @@ pub(crate) fn level(name: &str) -> Result<Level, ChoiceError> {
 pub(crate) fn integrator(name: &str) -> Result<Method, ChoiceError> {
     let names = || Method::ALL.map(Method::name).into();
     Method::named(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
+}
+
+pub(crate) fn reference(name: &str) -> Result<Reference, ChoiceError> {
+    let available = Reference::ALL.map(Reference::name).into();
+    Reference::named(name).ok_or(ChoiceError::Unknown { available })
 }
 
 pub(crate) fn units(name: &str) -> Result<UnitSystem, ChoiceError> {

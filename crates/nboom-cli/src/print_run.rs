@@ -2,7 +2,7 @@ use std::path::Path;
 
 use nboom_model::Scene;
 use nboom_results::{EVENTS_FILE, Outcome, RunDescription, event_order, path_and_formulation};
-use nboom_sim::{Digits, Event, EventKind, Totals, Trust};
+use nboom_sim::{Digits, Event, EventKind, Reference, Totals, Trust};
 use nboom_strength::{Cause, Worst};
 
 use crate::format::{count, short};
@@ -155,7 +155,15 @@ fn trust_line(trust: &Trust) -> String {
     say("impulses", impulses.map(Digits::count).min());
     trust.end.iter().for_each(|digits| say(digits.quantity, Some(digits.count())));
     let other = if trust.same_events { "" } else { "; the reference has other events" };
-    format!("certified     digits against rtol {:.0e}: {}{other}", trust.rtol, known.join(", "))
+    let known = known.join(", ");
+    match trust.reference {
+        Reference::TighterTolerance => {
+            format!("certified     digits against rtol {:.0e}: {known}{other}", trust.rtol)
+        }
+        Reference::DoubleDouble => {
+            format!("certified     digits against double-double: {known}{other}")
+        }
+    }
 }
 
 fn change(event: &Event, of: impl Fn(&Totals) -> f64) -> String {

@@ -5,7 +5,8 @@ use nboom_io::{LegacySettings, read_scene};
 use nboom_model::Scene;
 use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes, write_trust};
 use nboom_sim::{
-    Form, Method, Options, Path, RkamSettings, Tolerance, Trust, Witness, simulate, trust,
+    Form, Method, Options, Path, Reference, RkamSettings, Tolerance, Trust, Witness, simulate,
+    trust,
 };
 use nboom_strength::StressAnalysis;
 
@@ -102,7 +103,7 @@ fn simulate_into_files(
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
         events_to_keep: print_run::EVENTS_SHOWN,
-        witness: args.certify.then(Witness::new),
+        witness: args.certify.map(|_| Witness::new()),
     };
     let result = simulate(scene, options, &mut watch);
     watch.progress.finish();
@@ -119,8 +120,10 @@ fn simulate_into_files(
         return Err(CliError::Simulation { error, directory });
     }
     finished?;
-    let trust = match &watch.witness {
-        Some(witness) => Some(certify(scene, options, witness, &directory)?),
+    let trust = match watch.witness.as_ref().zip(args.certify) {
+        Some((witness, reference)) => {
+            Some(certify(scene, options, witness, reference, &directory)?)
+        }
         None => None,
     };
     let (outcome, events) = (&outcome, watch.events);
@@ -133,11 +136,11 @@ fn certify(
     scene: &Scene,
     options: &Options,
     witness: &Witness,
+    reference: Reference,
     directory: &std::path::Path,
 ) -> Result<Trust, CliError> {
-    let found = trust(scene, options, witness).map_err(|failure| CliError::Simulation {
-        error: failure.error,
-        directory: directory.to_owned(),
+    let found = trust(scene, options, witness, reference).map_err(|failure| {
+        CliError::Simulation { error: failure.error, directory: directory.to_owned() }
     })?;
     write_trust(directory, scene, &found)?;
     Ok(found)

@@ -1,5 +1,4 @@
-use nalgebra::{DMatrix, DVector};
-use nboom_scalar::{Vec3, Wrench};
+use nboom_scalar::{Number, Vec3, Wrench};
 
 use crate::Recursive;
 
@@ -7,30 +6,30 @@ use crate::Recursive;
 ///
 /// Positions, linear and angular momentum are unchanged; hinges that are held stay rigid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LockUp {
+pub struct LockUp<R> {
     /// Λ: impulsive torque at each locking hinge on the outboard side, positive along the axis.
-    pub impulses: Vec<f64>,
+    pub impulses: Vec<R>,
     /// Change of ω, main-body axes \[rad/T\].
-    pub delta_omega_body: Vec3<f64>,
+    pub delta_omega_body: Vec3<R>,
     /// Change of V, inertial velocity of O, main-body axes \[L/T\].
-    pub delta_velocity_body: Vec3<f64>,
+    pub delta_velocity_body: Vec3<R>,
     /// Change of τ of the free hinges, the locking ones included \[rad/T\].
-    pub delta_tau: Vec<f64>,
+    pub delta_tau: Vec<R>,
     /// What of this each impulsive torque contributes.
-    pub jumps: Vec<VelocityJump>,
+    pub jumps: Vec<VelocityJump<R>>,
     /// Change of kinetic energy ½ Λ·τ, never positive (Carnot).
-    pub delta_energy: f64,
+    pub delta_energy: R,
 }
 
 /// The change of all velocities by one impulsive torque at a hinge.
 #[derive(Clone, Debug, PartialEq)]
-pub struct VelocityJump {
+pub struct VelocityJump<R> {
     /// Of ω, main-body axes \[rad/T\].
-    pub omega_body: Vec3<f64>,
+    pub omega_body: Vec3<R>,
     /// Of V, inertial velocity of O, main-body axes \[L/T\].
-    pub velocity_body: Vec3<f64>,
+    pub velocity_body: Vec3<R>,
     /// Of τ of the free hinges \[rad/T\].
-    pub tau: Vec<f64>,
+    pub tau: Vec<R>,
 }
 
 /// Why no impulse locks these hinges.
@@ -38,7 +37,7 @@ pub struct VelocityJump {
 #[error("the mass matrix of the locking hinges is singular")]
 pub struct LockUpError;
 
-impl Recursive<f64> {
+impl<R: Number> Recursive<R> {
     /// Locks the free hinges at positions `locking` (in [`Recursive::free_hinges`]) at once.
     ///
     /// Λ = −(Eᵀ B₀⁻¹ E)⁻¹ Eᵀ τ and Δ(V, ω, τ) = B₀⁻¹ E Λ, eqs. (7.4) to (7.6) for any number of
@@ -48,47 +47,101 @@ impl Recursive<f64> {
     /// When Eᵀ B₀⁻¹ E is not positive definite.
     pub fn lock_up(
         &mut self,
-        beta: &[f64],
-        tau: &[f64],
+        beta: &[R],
+        tau: &[R],
         locking: &[usize],
-    ) -> Result<LockUp, LockUpError> {
+    ) -> Result<LockUp<R>, LockUpError> {
         self.factor(beta);
-        let responses: Vec<VelocityJump> = locking.iter().map(|&j| self.response_to(j)).collect();
-        let compliance = DMatrix::from_fn(locking.len(), locking.len(), |row, column| {
-            responses[column].tau[locking[row]]
-        });
-        let rates = DVector::from_iterator(locking.len(), locking.iter().map(|&j| -tau[j]));
-        let impulses = compliance.cholesky().ok_or(LockUpError)?.solve(&rates);
+        let responses: Vec<VelocityJump<R>> =
+            locking.iter().map(|&j| self.response_to(j)).collect();
+        let row = |&i: &usize| responses.iter().map(|response| response.tau[i]).collect();
+        let mut compliance: Vec<Vec<R>> = locking.iter().map(row).collect();
+        let mut impulses: Vec<R> = locking.iter().map(|&j| -tau[j]).collect();
+        solve(&mut compliance, &mut impulses)?;
         let mut lock_up = LockUp {
-            impulses: impulses.iter().copied().collect(),
+            impulses: Vec::new(),
             delta_omega_body: Vec3::zero(),
             delta_velocity_body: Vec3::zero(),
-            delta_tau: vec![0.0; tau.len()],
+            delta_tau: vec![R::zero(); tau.len()],
             jumps: Vec::new(),
-            delta_energy: -0.5 * impulses.dot(&rates),
+            delta_energy: R::zero(),
         };
-        for (response, &impulse) in responses.iter().zip(&impulses) {
+        for ((response, &impulse), &j) in responses.iter().zip(&impulses).zip(locking) {
             let jump = VelocityJump {
                 omega_body: response.omega_body * impulse,
                 velocity_body: response.velocity_body * impulse,
-                tau: response.tau.iter().map(|change| change * impulse).collect(),
+                tau: response.tau.iter().map(|&change| change * impulse).collect(),
             };
             lock_up.delta_omega_body += jump.omega_body;
             lock_up.delta_velocity_body += jump.velocity_body;
-            for (total, change) in lock_up.delta_tau.iter_mut().zip(&jump.tau) {
+            lock_up.delta_energy += R::constant(0.5) * (impulse * tau[j]);
+            for (total, &change) in lock_up.delta_tau.iter_mut().zip(&jump.tau) {
                 *total += change;
             }
             lock_up.jumps.push(jump);
         }
-        Ok(lock_up)
+        Ok(LockUp { impulses, ..lock_up })
     }
 
     /// The velocity jump for a unit impulsive torque at link `j`: one column of B₀⁻¹.
-    fn response_to(&mut self, j: usize) -> VelocityJump {
+    fn response_to(&mut self, j: usize) -> VelocityJump<R> {
         self.wrenches.fill(Wrench::zero());
-        let mut tau = vec![0.0; self.wrenches.len()];
-        tau[j] = 1.0;
+        let mut tau = vec![R::zero(); self.wrenches.len()];
+        tau[j] = R::one();
         let of_main = self.solve(Wrench::zero(), &mut tau);
         VelocityJump { omega_body: of_main.angular, velocity_body: of_main.linear, tau }
+    }
+}
+
+/// Turns `x` from the right side into the solution of symmetric equations, by L D Lᵀ.
+///
+/// # Errors
+/// When `matrix` is not positive definite.
+fn solve<R: Number>(matrix: &mut [Vec<R>], x: &mut [R]) -> Result<(), LockUpError> {
+    for j in 0..x.len() {
+        let pivot = matrix[j][j];
+        if !(pivot.to_f64() > 0.0 && pivot.to_f64().is_finite()) {
+            return Err(LockUpError);
+        }
+        for i in j + 1..x.len() {
+            let ratio = matrix[i][j] / pivot;
+            for k in j + 1..=i {
+                let eliminated = ratio * matrix[k][j];
+                matrix[i][k] -= eliminated;
+            }
+            let eliminated = ratio * x[j];
+            x[i] -= eliminated;
+        }
+    }
+    for j in (0..x.len()).rev() {
+        for i in j + 1..x.len() {
+            let known = matrix[i][j] * x[i];
+            x[j] -= known;
+        }
+        x[j] = x[j] / matrix[j][j];
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equations_of_three_hinges() {
+        let mut matrix = vec![vec![4.0, 2.0, -2.0], vec![2.0, 5.0, 3.0], vec![-2.0, 3.0, 11.0]];
+        let mut x = [2.0, 21.0, 37.0];
+        solve(&mut matrix, &mut x).expect("positive definite");
+        assert_eq!(x, [1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn what_is_not_positive_definite_is_refused() {
+        for matrix in [[[0.0, 0.0], [0.0, 1.0]], [[1.0, 2.0], [2.0, 4.0]], [[1.0, 2.0], [2.0, 3.0]]]
+        {
+            let mut rows = matrix.map(Vec::from);
+            assert_eq!(solve(&mut rows, &mut [1.0, 1.0]), Err(LockUpError), "{matrix:?}");
+        }
+        assert_eq!(solve(&mut [vec![f64::NAN]], &mut [1.0]), Err(LockUpError));
     }
 }

@@ -17,15 +17,17 @@ pub struct HingeLaw<R> {
 impl<R: Real> HingeLaw<R> {
     /// The law of this spring and this dashpot.
     pub fn new(spring: &Spring, dashpot: &Dashpot) -> Self {
-        let (q3, q4, gamma) =
-            (dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle);
-        let (k1, k2, theta) = (spring.quadratic, spring.linear, spring.preload_angle);
+        let [q3, q4, gamma] =
+            [dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle].map(R::constant);
+        let [k1, k2, theta] =
+            [spring.quadratic, spring.linear, spring.preload_angle].map(R::constant);
+        let two = R::constant(2.0);
         Self {
             q1: R::constant(dashpot.rate_quadratic),
             q2: R::constant(dashpot.rate_linear),
-            a2: R::constant(q3 + k1),
-            a1: R::constant(q4 + k2 + 2.0 * (q3 * gamma + k1 * theta)),
-            a0: R::constant((q3 * gamma + q4) * gamma + (k1 * theta + k2) * theta),
+            a2: q3 + k1,
+            a1: q4 + k2 + two * (q3 * gamma + k1 * theta),
+            a0: (q3 * gamma + q4) * gamma + (k1 * theta + k2) * theta,
         }
     }
 

@@ -18,9 +18,12 @@ thread_local! {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expr(Id);
 
-/// Runs `computation` with an empty graph; returns the graph and the results.
-pub(crate) fn record(computation: impl FnOnce() -> Vec<Expr>) -> (Builder, Vec<Expr>) {
-    let outer = BUILDER.replace(Some(Builder::default()));
+/// Runs `computation` with `empty` as the graph; returns the graph and the results.
+pub(crate) fn record(
+    empty: Builder,
+    computation: impl FnOnce() -> Vec<Expr>,
+) -> (Builder, Vec<Expr>) {
+    let outer = BUILDER.replace(Some(empty));
     let results = computation();
     let builder = BUILDER.replace(outer).expect("only record takes the graph away");
     (builder, results)

@@ -2,6 +2,19 @@
 
 use crate::graph::{Builder, Id, Node};
 
+/// The constant that an operation on `operands` is, if they are constants and it need not be exact.
+fn rounded<const N: usize>(
+    builder: &mut Builder,
+    operands: [Option<f64>; N],
+    operation: impl FnOnce([f64; N]) -> f64,
+) -> Option<Id> {
+    if builder.exact || operands.contains(&None) {
+        return None;
+    }
+    let value = operation(operands.map(|operand| operand.unwrap_or(f64::NAN)));
+    Some(constant(builder, value))
+}
+
 pub(crate) fn constant(builder: &mut Builder, value: f64) -> Id {
     // One zero, so that x · 0 and 0 are the same node.
     let value = if value == 0.0 { 0.0 } else { value };
@@ -23,8 +36,11 @@ fn negated(builder: &Builder, id: Id) -> Option<Id> {
 }
 
 pub(crate) fn add(builder: &mut Builder, a: Id, b: Id) -> Id {
-    match (value(builder, a), value(builder, b)) {
-        (Some(x), Some(y)) => return constant(builder, x + y),
+    let (of_a, of_b) = (value(builder, a), value(builder, b));
+    if let Some(folded) = rounded(builder, [of_a, of_b], |[x, y]| x + y) {
+        return folded;
+    }
+    match (of_a, of_b) {
         (Some(0.0), _) => return b,
         (_, Some(0.0)) => return a,
         _ => {}
@@ -41,8 +57,11 @@ pub(crate) fn add(builder: &mut Builder, a: Id, b: Id) -> Id {
 }
 
 pub(crate) fn sub(builder: &mut Builder, a: Id, b: Id) -> Id {
-    match (value(builder, a), value(builder, b)) {
-        (Some(x), Some(y)) => return constant(builder, x - y),
+    let (of_a, of_b) = (value(builder, a), value(builder, b));
+    if let Some(folded) = rounded(builder, [of_a, of_b], |[x, y]| x - y) {
+        return folded;
+    }
+    match (of_a, of_b) {
         (Some(0.0), _) => return neg(builder, b),
         (_, Some(0.0)) => return a,
         _ if a == b => return constant(builder, 0.0),
@@ -60,8 +79,11 @@ pub(crate) fn sub(builder: &mut Builder, a: Id, b: Id) -> Id {
 }
 
 pub(crate) fn mul(builder: &mut Builder, a: Id, b: Id) -> Id {
-    match (value(builder, a), value(builder, b)) {
-        (Some(x), Some(y)) => return constant(builder, x * y),
+    let (of_a, of_b) = (value(builder, a), value(builder, b));
+    if let Some(folded) = rounded(builder, [of_a, of_b], |[x, y]| x * y) {
+        return folded;
+    }
+    match (of_a, of_b) {
         (Some(0.0), _) | (_, Some(0.0)) => return constant(builder, 0.0),
         (Some(1.0), _) => return b,
         (_, Some(1.0)) => return a,
@@ -84,8 +106,11 @@ pub(crate) fn mul(builder: &mut Builder, a: Id, b: Id) -> Id {
 }
 
 pub(crate) fn div(builder: &mut Builder, a: Id, b: Id) -> Id {
-    match (value(builder, a), value(builder, b)) {
-        (Some(x), Some(y)) => return constant(builder, x / y),
+    let (of_a, of_b) = (value(builder, a), value(builder, b));
+    if let Some(folded) = rounded(builder, [of_a, of_b], |[x, y]| x / y) {
+        return folded;
+    }
+    match (of_a, of_b) {
         (Some(0.0), _) => return constant(builder, 0.0),
         (_, Some(1.0)) => return a,
         (_, Some(-1.0)) => return neg(builder, a),
@@ -115,15 +140,14 @@ pub(crate) fn neg(builder: &mut Builder, a: Id) -> Id {
 }
 
 pub(crate) fn sqrt(builder: &mut Builder, a: Id) -> Id {
-    match value(builder, a) {
-        Some(x) => constant(builder, x.sqrt()),
-        None => builder.intern(Node::Sqrt(a)),
-    }
+    let of_a = value(builder, a);
+    rounded(builder, [of_a], |[x]| x.sqrt()).unwrap_or_else(|| builder.intern(Node::Sqrt(a)))
 }
 
 pub(crate) fn sin_cos(builder: &mut Builder, a: Id) -> (Id, Id) {
     match value(builder, a) {
-        Some(x) => (constant(builder, x.sin()), constant(builder, x.cos())),
-        None => (builder.intern(Node::Sin(a)), builder.intern(Node::Cos(a))),
+        Some(0.0) => (a, constant(builder, 1.0)),
+        Some(x) if !builder.exact => (constant(builder, x.sin()), constant(builder, x.cos())),
+        _ => (builder.intern(Node::Sin(a)), builder.intern(Node::Cos(a))),
     }
 }

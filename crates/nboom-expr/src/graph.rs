@@ -66,6 +66,8 @@ pub struct Graph {
 /// Nodes under construction, each stored once.
 #[derive(Default)]
 pub(crate) struct Builder {
+    /// Whether operations on constants stay operations instead of being rounded to `f64`.
+    pub exact: bool,
     nodes: Vec<Node>,
     numbers: HashMap<Node, Id>,
 }
@@ -101,7 +103,25 @@ impl Graph {
         pinned: &[Option<f64>],
         computation: impl FnOnce(&[Expr]) -> Vec<Expr>,
     ) -> Self {
-        let (builder, outputs) = expr::record(|| {
+        Self::record(Builder::default(), pinned, computation)
+    }
+
+    /// Like [`trace`](Self::trace), with no operation carried out, so that none is rounded:
+    /// constants are those that `computation` states.
+    pub fn trace_exactly(inputs: usize, computation: impl FnOnce(&[Expr]) -> Vec<Expr>) -> Self {
+        Self::record(
+            Builder { exact: true, ..Builder::default() },
+            &vec![None; inputs],
+            computation,
+        )
+    }
+
+    fn record(
+        builder: Builder,
+        pinned: &[Option<f64>],
+        computation: impl FnOnce(&[Expr]) -> Vec<Expr>,
+    ) -> Self {
+        let (builder, outputs) = expr::record(builder, || {
             let inputs: Vec<Expr> = pinned
                 .iter()
                 .enumerate()

@@ -11,7 +11,7 @@ macro_rules! series_of {
         fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
             let size = y.len();
             let graph = Graph::trace(size + 1, |x| Vec::from($rates(x[size], &x[..size])));
-            Series::new(&graph, order).write(t, y, out);
+            Series::new(&graph, &[], order).write(t, y, out);
             true
         }
     };

@@ -13,6 +13,7 @@ pub const TRUST_FILE: &str = "certificate.json";
 #[derive(Serialize)]
 struct TrustKeys<'a> {
     scene: &'a str,
+    reference: &'static str,
     reference_rtol: f64,
     reference_atol: f64,
     same_events: bool,
@@ -63,6 +64,7 @@ pub fn write_trust(directory: &Path, scene: &Scene, trust: &Trust) -> Result<(),
     });
     let keys = TrustKeys {
         scene: &scene.name,
+        reference: trust.reference.name(),
         reference_rtol: trust.rtol,
         reference_atol: trust.atol,
         same_events: trust.same_events,

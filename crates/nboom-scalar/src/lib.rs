@@ -44,7 +44,7 @@ pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
 pub use pair::Pair;
 pub use quaternion::Quaternion;
-pub use real::Real;
+pub use real::{Number, Real};
 pub use routine::{CONTRACT, Routine};
 pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;

@@ -56,6 +56,18 @@ pub trait Real:
     }
 }
 
+/// A scalar that holds one number, so that code may look at it and branch.
+pub trait Number: Real {
+    /// The nearest `f64`.
+    fn to_f64(self) -> f64;
+}
+
+impl Number for f64 {
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
 impl Real for f64 {
     fn constant(value: f64) -> Self {
         value

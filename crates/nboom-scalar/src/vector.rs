@@ -1,6 +1,6 @@
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-use crate::{Mat3, Real};
+use crate::{Mat3, Number, Real};
 
 /// A vector of three components; which axes they refer to is said where it is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,6 +90,13 @@ impl<R: Real> Vec3<R> {
 impl<R> From<[R; 3]> for Vec3<R> {
     fn from([x, y, z]: [R; 3]) -> Self {
         Self::new(x, y, z)
+    }
+}
+
+impl<R: Number> Vec3<R> {
+    /// The nearest `f64` of each component.
+    pub fn to_f64(self) -> Vec3<f64> {
+        Vec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
     }
 }
 

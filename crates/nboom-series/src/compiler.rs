@@ -56,6 +56,8 @@ pub(crate) struct Compiler<R> {
     /// Inputs, with their places among values.
     pub inputs: Vec<(usize, usize)>,
     pub histories: usize,
+    /// The numbers among the inputs that do not change, behind those that do.
+    fixed_inputs: Vec<R>,
     fixed: Vec<R>,
     /// The task that computes each node's value.
     value_tasks: Vec<Option<usize>>,
@@ -66,9 +68,12 @@ pub(crate) struct Compiler<R> {
 }
 
 impl<R: Real> Compiler<R> {
-    /// Of `graph`, with histories `stride` apart.
-    pub fn new(graph: &Graph, stride: usize) -> Self {
-        let varies = graph.depends_on(|_| true);
+    /// Of `graph`, whose last inputs are `fixed`, with histories `stride` apart.
+    pub fn new(graph: &Graph, fixed: &[R], stride: usize) -> Self {
+        let varying = graph.inputs() - fixed.len();
+        let varies = graph.depends_on(|input| input < varying);
+        let mut fixed_inputs = vec![R::zero(); varying];
+        fixed_inputs.extend(fixed);
         let values = varies.len();
         Self {
             varies,
@@ -79,6 +84,7 @@ impl<R: Real> Compiler<R> {
             factors: Vec::new(),
             inputs: Vec::new(),
             histories: 0,
+            fixed_inputs,
             fixed: vec![R::zero(); values],
             value_tasks: vec![None; values],
             kept: vec![None; values],
@@ -90,7 +96,7 @@ impl<R: Real> Compiler<R> {
     pub fn compile(&mut self, id: Id, node: Node) {
         let to = id.index();
         if !self.varies[to] {
-            self.fixed[to] = node.value(&[], |id| self.fixed[id.index()]);
+            self.fixed[to] = node.value(&self.fixed_inputs, |id| self.fixed[id.index()]);
             self.constants.push((to, self.fixed[to]));
             return;
         }

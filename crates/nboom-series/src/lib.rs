@@ -26,7 +26,7 @@ use crate::program::Program;
 /// // ẏ = y t, whose solution from 1 at t = 0 is exp(t²/2).
 /// let graph = Graph::trace(2, |inputs| vec![inputs[0] * inputs[1]]);
 /// let mut coefficients = [0.0; 5];
-/// Series::new(&graph, 4).write(0.0, &[1.0], &mut coefficients);
+/// Series::new(&graph, &[], 4).write(0.0, &[1.0], &mut coefficients);
 /// assert_eq!(coefficients, [1.0, 0.0, 0.5, 0.0, 0.125]);
 /// ```
 #[derive(Clone, Debug)]
@@ -36,13 +36,15 @@ pub struct Series<R> {
 }
 
 impl<R: Real> Series<R> {
-    /// Up to the power `order`. The graph's inputs are y, then t; its outputs are ẏ.
+    /// Up to the power `order`. The graph's inputs are y, then t, then numbers that do not change
+    /// and are `fixed`; its outputs are ẏ.
     ///
     /// # Panics
-    /// When the graph does not have one input more than outputs.
-    pub fn new(graph: &Graph, order: usize) -> Self {
-        assert_eq!(graph.inputs(), graph.outputs().len() + 1, "y and t in, as many rates out");
-        Self { order, program: Program::new(graph, order) }
+    /// When the graph does not have as many inputs.
+    pub fn new(graph: &Graph, fixed: &[R], order: usize) -> Self {
+        let expected = graph.outputs().len() + 1 + fixed.len();
+        assert_eq!(graph.inputs(), expected, "y, t and what is fixed in, the rates of y out");
+        Self { order, program: Program::new(graph, fixed, order) }
     }
 
     /// The highest power.

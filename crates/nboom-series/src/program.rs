@@ -29,9 +29,9 @@ pub(crate) struct Program<R> {
 }
 
 impl<R: Real> Program<R> {
-    pub fn new(graph: &Graph, order: usize) -> Self {
+    pub fn new(graph: &Graph, fixed: &[R], order: usize) -> Self {
         let stride = (order + LANES).next_multiple_of(LANES);
-        let mut compiler = Compiler::new(graph, stride);
+        let mut compiler = Compiler::new(graph, fixed, stride);
         graph.nodes().for_each(|(id, node)| compiler.compile(id, node));
         let Compiler { tasks, values, constants, factors, inputs, histories, .. } = compiler;
         let (instructions, runs) = schedule(&tasks);

@@ -11,7 +11,7 @@ const ORDER: usize = 30;
 fn first<R: Real>(rates: fn(Expr, &[Expr]) -> Vec<Expr>, t: f64, y: &[f64]) -> Vec<R> {
     let graph = Graph::trace(y.len() + 1, |x| rates(x[y.len()], &x[..y.len()]));
     let y: Vec<R> = y.iter().map(|&y| R::constant(y)).collect();
-    let mut series = Series::new(&graph, ORDER);
+    let mut series = Series::new(&graph, &[], ORDER);
     let mut found = vec![R::zero(); (ORDER + 1) * y.len()];
     // What is left of an earlier start must not matter.
     let elsewhere: Vec<R> = y.iter().map(|&y| y + R::constant(0.125)).collect();
@@ -101,13 +101,28 @@ fn sines_and_cosines() {
     check(|t, _| vec![t.sin_cos().0], t, &[0.5], &cycle([s, c, -s, -c]));
 }
 
+/// ẏ = sin(a) y/3 from 1 with a fixed and a third made of whole numbers: neither may be rounded
+/// to `f64` on the way.
+#[test]
+fn what_is_fixed_and_what_constants_make_have_all_digits() {
+    let graph = Graph::trace_exactly(3, |x| {
+        let third = Expr::one() / Expr::constant(3.0);
+        vec![x[0] * (third * x[2].sin_cos().0)]
+    });
+    let angle = exact(0.5) / exact(7.0);
+    let mut out = vec![exact(0.0); ORDER + 1];
+    Series::new(&graph, &[angle], ORDER).write(exact(0.0), &[exact(1.0)], &mut out);
+    let rate = angle.sin_cos().0 / exact(3.0);
+    assert_near(&out, &by_ratios(exact(1.0), |k| rate / exact(k)), 1e-31);
+}
+
 /// ÿ = −sin y, whose energy ½ẏ² − cos y is constant along the series.
 #[test]
 fn a_pendulum_keeps_its_energy() {
     let graph = Graph::trace(3, |x| vec![x[1], -x[0].sin_cos().0]);
     let mut out = vec![DoubleDouble::zero(); (ORDER + 1) * 2];
     let start = [exact(1.0), exact(0.5)];
-    Series::new(&graph, ORDER).write(exact(0.0), &start, &mut out);
+    Series::new(&graph, &[], ORDER).write(exact(0.0), &start, &mut out);
     let at = |t: f64, i: usize| {
         let terms = out.iter().skip(i).step_by(2).rev();
         terms.fold(exact(0.0), |sum, &c| sum * exact(t) + c)

@@ -1,8 +1,8 @@
-use nboom_dynamics::{Accelerations, Invariants, Motion, Recursive};
+use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::HingeLaw;
 use nboom_model::{Mode, Scene, Thrust};
 use nboom_ode::System;
-use nboom_scalar::{Quaternion, Real, Vec3};
+use nboom_scalar::Vec3;
 use nboom_series::Series;
 
 use crate::code::Code;
@@ -15,7 +15,8 @@ use crate::options::Options;
 use crate::rates::Rates;
 use crate::record::Selection;
 use crate::series;
-use crate::state::{MassCenter, State};
+use crate::state::State;
+use crate::variables::{Variables, gravity, motion};
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
@@ -25,9 +26,7 @@ pub(crate) struct Equations {
     /// What computes the accelerations of the mode.
     code: Code,
     repertoire: Repertoire,
-    pub layout: Layout,
-    /// The state in which the mode began; held hinges keep its angles.
-    origin: State,
+    pub variables: Variables<f64>,
     thrust: Option<Thrust>,
     gravity: Vec3<f64>,
     total_mass: f64,
@@ -56,10 +55,9 @@ impl Equations {
             dynamics: Recursive::new(scene),
             code: Code::Recursion,
             repertoire: Repertoire::new(options),
-            layout,
-            origin: state.clone(),
+            variables: Variables::new(scene, layout, state),
             thrust: None,
-            gravity: scene.gravity.map_or(Vec3::zero(), |g| g.up * -g.acceleration),
+            gravity: gravity(scene),
             total_mass: scene.total_mass(),
             laws,
             accelerations: Accelerations::for_hinges(0),
@@ -74,72 +72,28 @@ impl Equations {
     pub fn enter(&mut self, scene: &Scene, mode: &Mode, state: &State, y: &mut Vec<f64>) {
         self.mode.clone_from(mode);
         self.dynamics.set_mode(mode, &state.beta);
-        self.origin.clone_from(state);
         self.thrust = scene.thrust.filter(|_| mode.thrust);
         // Springs, dashpots and uniform gravity exert no moment about the mass centre.
-        let momentum = (self.momentum_for_rate && self.thrust.is_none())
-            .then(|| totals(state, &self.invariants(state)).angular_momentum_inertial);
+        let momentum = (self.momentum_for_rate && self.thrust.is_none()).then(|| {
+            totals(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
+        });
         let free = self.dynamics.free_hinges();
-        self.layout = Layout {
+        let layout = Layout {
             momentum,
             free: free.len(),
             thrust: self.thrust.is_some(),
             dashpots: free.iter().any(|&i| self.laws[i].depends_on_rate()),
         };
         self.accelerations = Accelerations::for_hinges(free.len());
-        self.rates = Rates::new(scene, self.layout, free, self.thrust);
+        self.rates = Rates::new(scene, layout, free, self.thrust);
         (self.jacobian, self.series) = (None, None);
-        y.clear();
-        let q = state.attitude;
-        y.push(q.scalar);
-        y.extend(q.vector.to_array());
-        if self.layout.momentum.is_none() {
-            y.extend(state.omega_body.to_array());
-        }
-        y.extend(free.iter().map(|&i| state.beta[i]));
-        y.extend(free.iter().map(|&i| state.tau[i]));
-        y.resize(self.layout.len(), 0.0);
+        self.variables = Variables::new(scene, layout, state);
+        self.variables.write(free, y);
     }
 
     /// The state that the variables `y` at time `t` stand for.
     pub fn read(&mut self, t: f64, y: &[f64], state: &mut State) {
-        let layout = &self.layout;
-        state.time = t;
-        state.attitude = attitude(y).normalized();
-        state.omega_body = motion(layout, &mut self.dynamics, y).omega_body;
-        state.beta.clone_from(&self.origin.beta);
-        state.tau.fill(0.0);
-        for (j, &i) in self.dynamics.free_hinges().iter().enumerate() {
-            state.beta[i] = y[layout.beta()][j];
-            state.tau[i] = y[layout.tau()][j];
-        }
-        state.center = self.center(t, y);
-        state.work = self.origin.work;
-        if let [work] = y[layout.dashpot_work()] {
-            state.work.dashpots += work;
-        }
-        if let [work, mx, my, mz] = y[layout.thrust_work()] {
-            state.work.thrust += work;
-            state.work.thrust_angular_impulse += Vec3::new(mx, my, mz);
-        }
-        if let [_, _, _, vx, vy, vz] = y[layout.thrust_motion()] {
-            state.work.thrust_impulse += Vec3::new(vx, vy, vz) * self.total_mass;
-        }
-    }
-
-    /// The system mass centre: free fall since the mode began, and what the thrust added.
-    fn center(&self, t: f64, y: &[f64]) -> MassCenter {
-        let mut center = self.free_fall(t);
-        if let [x, y, z, vx, vy, vz] = y[self.layout.thrust_motion()] {
-            center.position += Vec3::new(x, y, z);
-            center.velocity += Vec3::new(vx, vy, vz);
-        }
-        center
-    }
-
-    /// The system mass centre as if there were no thrust.
-    fn free_fall(&self, t: f64) -> MassCenter {
-        self.origin.center.after(t - self.origin.time, self.gravity)
+        self.variables.read(&mut self.dynamics, t, y, state);
     }
 
     /// Chooses the code that computes accelerations in the mode that was entered.
@@ -147,8 +101,9 @@ impl Equations {
     /// # Errors
     /// When the code that is demanded does not fit.
     pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, SimError> {
-        let Self { dynamics, repertoire, origin, .. } = self;
-        let (code, selection) = Code::choose(scene, dynamics, repertoire, options, origin.time)?;
+        let Self { dynamics, repertoire, variables, .. } = self;
+        let since = variables.origin.time;
+        let (code, selection) = Code::choose(scene, dynamics, repertoire, options, since)?;
         self.code = code;
         Ok(selection)
     }
@@ -157,34 +112,12 @@ impl Equations {
         self.code.accelerations(&mut self.dynamics, motion, &mut self.accelerations);
     }
 
-    /// The free hinges' share of a vector over all hinges.
-    pub fn of_free(&self, all: &[f64]) -> Vec<f64> {
-        self.dynamics.free_hinges().iter().map(|&i| all[i]).collect()
-    }
-
-    /// Energy and momenta in main-body axes.
-    pub fn invariants(&mut self, state: &State) -> Invariants<f64> {
-        let (beta, tau) = (self.of_free(&state.beta), self.of_free(&state.tau));
-        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
-        let to_body = state.attitude.to_matrix().transpose();
-        self.dynamics.invariants(&motion, to_body * state.center.velocity)
-    }
-
     /// Accelerations without gravity in the mode that was entered.
     pub fn accelerations(&mut self, state: &State) -> &Accelerations<f64> {
-        let (beta, tau) = (self.of_free(&state.beta), self.of_free(&state.tau));
+        let [beta, tau] = state.of_free(&self.dynamics);
         let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
         self.compute(&motion);
         &self.accelerations
-    }
-
-    /// Length of the kick-off spring of hinge `i` and its rate; zero without one.
-    pub fn spring_length(&mut self, state: &State, i: usize) -> (f64, f64) {
-        let (beta, tau) = (self.of_free(&state.beta), self.of_free(&state.tau));
-        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
-        let Some(found) = self.dynamics.spring_length(&motion, i) else { return (0.0, 0.0) };
-        let length = found.squared.sqrt();
-        (length, found.squared_rate / (length + length))
     }
 
     /// The acceleration of the mass centre, inertial axes.
@@ -208,17 +141,17 @@ impl Equations {
 
 impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        let motion = motion(&self.layout, &mut self.dynamics, y);
-        if self.layout.needs_accelerations() {
+        let motion = motion(&self.variables.layout, &mut self.dynamics, y);
+        if self.variables.layout.needs_accelerations() {
             self.compute(&motion);
         }
-        let free_fall = self.free_fall(t).velocity;
+        let free_fall = self.variables.free_fall(t).velocity;
         self.rates.write(&mut self.dynamics, (&motion, &self.accelerations), free_fall, y, dy);
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
-        let free_fall = self.free_fall(t).velocity;
-        let Self { scene, mode, origin, layout, thrust, .. } = self;
+        let free_fall = self.variables.free_fall(t).velocity;
+        let Self { scene, mode, variables: Variables { layout, origin, .. }, thrust, .. } = self;
         let of_mode = || Jacobian::new(scene, mode, &origin.beta, *layout, *thrust);
         self.jacobian.get_or_insert_with(of_mode).write(free_fall, y, out);
         true
@@ -226,33 +159,9 @@ impl System for Equations {
 
     fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
         self.series.take_if(|series| series.order() != order);
-        let Self { scene, mode, origin, layout, thrust, gravity, .. } = self;
-        let of_mode =
-            || Series::new(&series::graph(scene, mode, origin, *layout, *thrust, *gravity), order);
+        let Self { scene, mode, variables, thrust, .. } = self;
+        let of_mode = || Series::new(&series::graph(scene, mode, variables, *thrust), &[], order);
         self.series.get_or_insert_with(of_mode).write(t, y, out);
         true
     }
-}
-
-/// The motion that the variables stand for; `dynamics` is in their mode.
-pub(crate) fn motion<'a, R: Real>(
-    layout: &Layout,
-    dynamics: &mut Recursive<R>,
-    y: &'a [R],
-) -> Motion<'a, R> {
-    let (beta, tau) = (&y[layout.beta()], &y[layout.tau()]);
-    let omega_body = match layout.momentum {
-        None => Vec3::new(y[4], y[5], y[6]),
-        Some(momentum) => {
-            let to_inertial = attitude(y).normalized().to_matrix();
-            let momentum_body = to_inertial.transpose_mul(Vec3::constant(momentum));
-            dynamics.angular_rate(momentum_body, beta, tau)
-        }
-    };
-    Motion { omega_body, beta, tau }
-}
-
-/// The attitude among the variables, whose norm is near 1.
-pub(crate) fn attitude<R: Real>(y: &[R]) -> Quaternion<R> {
-    Quaternion { scalar: y[0], vector: Vec3::new(y[1], y[2], y[3]) }
 }

@@ -71,6 +71,15 @@ pub enum SimError {
         /// The first hinge that locks.
         hinge: Option<HingeLabel>,
     },
+    /// Newton's method does not find the time of an event in double-double.
+    #[error("at time {}, hinge {hinge}: the time of its event cannot be found to all digits of double-double; \
+             it changes with the square root of every error", moment(.time))]
+    NotLocated {
+        /// About where it is.
+        time: f64,
+        /// The hinge of the event.
+        hinge: HingeLabel,
+    },
     /// The allowed number of steps is used up, or would be at the present pace.
     #[error("at time {}, {}: the last {steps} steps took only {within:e} time units; the motion \
              may be running away or too stiff", moment(.time), place(.hinge))]

@@ -1,7 +1,10 @@
+use nboom_dynamics::Recursive;
 use nboom_model::{HingeState, Mode, Release, Scene};
 use nboom_ode::{Bernstein, Interpolation, Stepper};
+use nboom_scalar::Number;
 
 use crate::equations::Equations;
+use crate::instant::ONE_INSTANT;
 use crate::state::State;
 
 /// A quantity whose change of sign is an event.
@@ -21,6 +24,15 @@ pub(crate) enum GuardKind {
     KickOff { hinge: usize },
 }
 
+impl GuardKind {
+    /// The hinge to which something happens when it changes sign.
+    pub fn hinge(self) -> usize {
+        match self {
+            Self::Lock { hinge } | Self::Trigger { hinge, .. } | Self::KickOff { hinge } => hinge,
+        }
+    }
+}
+
 /// On which side of zero a guard is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Side {
@@ -33,11 +45,10 @@ enum Side {
 
 impl Guard {
     /// Whether it leaves its side within `duration` before or after the reading.
-    pub fn is_passing(&self, reading: Reading, duration: f64) -> bool {
+    pub fn is_passing<R: Number>(&self, reading: Reading<R>, duration: f64) -> bool {
+        let (value, rate) = (reading.value.to_f64(), reading.rate.to_f64());
         match self.side {
-            Side::Known(sign) => {
-                reading.rate * sign < 0.0 && reading.value.abs() <= duration * reading.rate.abs()
-            }
+            Side::Known(sign) => rate * sign < 0.0 && value.abs() <= duration * rate.abs(),
             Side::Leaving { .. } => false,
         }
     }
@@ -45,9 +56,9 @@ impl Guard {
 
 /// What a guard is at one state.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reading {
-    pub value: f64,
-    pub rate: f64,
+pub(crate) struct Reading<R> {
+    pub value: R,
+    pub rate: R,
 }
 
 /// The largest hinge motion over which a spring's length is represented by one polynomial.
@@ -77,12 +88,12 @@ impl Guards {
     /// Sets the guards of `mode` at `state`. `lock_sides` has the sign of β − β_lock when each
     /// hinge became free, zero for one that was on its lock angle and has not left it;
     /// `toggled` names the hinges whose kick-off spring is at its limit length just now.
-    pub fn set(
+    pub fn set<R: Number>(
         &mut self,
         scene: &Scene,
         mode: &Mode,
-        equations: &mut Equations,
-        state: &State,
+        dynamics: &mut Recursive<R>,
+        state: &State<R>,
         lock_sides: &[f64],
         toggled: &[usize],
     ) {
@@ -90,7 +101,7 @@ impl Guards {
         for (i, body) in scene.bodies.iter().enumerate() {
             if mode.is_free(i) && body.hinge.lock_angle.is_some() {
                 let side = match lock_sides[i] {
-                    0.0 => Side::Leaving { sign: None, at_rest: state.tau[i] == 0.0 },
+                    0.0 => Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() },
                     sign => Side::Known(sign),
                 };
                 self.list.push(Guard { kind: GuardKind::Lock { hinge: i }, side });
@@ -99,16 +110,16 @@ impl Guards {
                 && mode.hinges[i] == HingeState::Unreleased
                 && mode.is_free(trigger)
             {
-                let side = Side::Known((state.beta[trigger] - angle).signum());
+                let side = Side::Known((state.beta[trigger].to_f64() - angle).signum());
                 self.list.push(Guard { kind: GuardKind::Trigger { hinge: i, trigger }, side });
             }
-            if body.hinge.kick_off.is_some() && !equations.dynamics.spring_reach(i).is_empty() {
+            if body.hinge.kick_off.is_some() && !dynamics.spring_reach(i).is_empty() {
                 let sign = if mode.kick_off[i] { -1.0 } else { 1.0 };
                 let kind = GuardKind::KickOff { hinge: i };
-                let Reading { value, rate } = read(kind, scene, equations, state);
-                let at_limit =
-                    toggled.contains(&i) || value.abs() <= AT_LIMIT * limit_length(scene, i);
-                let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == 0.0 };
+                let Reading { value, rate } = read(kind, scene, dynamics, state);
+                let at_limit = toggled.contains(&i)
+                    || value.to_f64().abs() <= AT_LIMIT * limit_length(scene, i);
+                let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == R::zero() };
                 let side = if at_limit { leaving } else { Side::Known(sign) };
                 self.list.push(Guard { kind, side });
             }
@@ -139,10 +150,15 @@ impl Guards {
     }
 
     /// Notes on which side of zero each guard that had been leaving it is at `state`.
-    pub fn settle(&mut self, scene: &Scene, equations: &mut Equations, state: &State) {
+    pub fn settle<R: Number>(
+        &mut self,
+        scene: &Scene,
+        dynamics: &mut Recursive<R>,
+        state: &State<R>,
+    ) {
         for guard in &mut self.list {
             if let Side::Leaving { .. } = guard.side {
-                let value = read(guard.kind, scene, equations, state).value;
+                let value = read(guard.kind, scene, dynamics, state).value.to_f64();
                 let limit = match guard.kind {
                     GuardKind::KickOff { hinge } => limit_length(scene, hinge),
                     _ => 0.0,
@@ -152,6 +168,29 @@ impl Guards {
                 }
             }
         }
+    }
+
+    /// Whether a guard other than `located` has left its side before `state`, and not in the same
+    /// instant.
+    pub fn missed<R: Number>(
+        &self,
+        scene: &Scene,
+        dynamics: &mut Recursive<R>,
+        state: &State<R>,
+        located: Option<GuardKind>,
+    ) -> bool {
+        let mut others = self.list.iter().filter(|guard| Some(guard.kind) != located);
+        others.any(|guard| {
+            let reading = read(guard.kind, scene, dynamics, state);
+            let value = reading.value.to_f64();
+            let has_left = match guard.side {
+                Side::Known(sign) => value * sign < 0.0,
+                Side::Leaving { sign, .. } => sign.is_some_and(|s| {
+                    value * s < -BEYOND_ROUNDING * limit_length(scene, guard.kind.hinge())
+                }),
+            };
+            has_left && !guard.is_passing(reading, ONE_INSTANT)
+        })
     }
 
     /// The side that a lock guard of `hinge` is known to be on.
@@ -174,7 +213,7 @@ impl Guards {
         side: Side,
     ) -> Option<f64> {
         let limit = limit_length(scene, hinge);
-        let layout = equations.layout;
+        let layout = equations.variables.layout;
         let mut turned = 0.0;
         let mut displaced = 0.0;
         for (j, reach) in equations.dynamics.spring_reach(hinge) {
@@ -231,20 +270,20 @@ impl Side {
 }
 
 /// Value and rate of a guard at `state`.
-pub(crate) fn read(
+pub(crate) fn read<R: Number>(
     kind: GuardKind,
     scene: &Scene,
-    equations: &mut Equations,
-    state: &State,
-) -> Reading {
+    dynamics: &mut Recursive<R>,
+    state: &State<R>,
+) -> Reading<R> {
     match kind {
         GuardKind::KickOff { hinge } => {
-            let (length, rate) = equations.spring_length(state, hinge);
-            Reading { value: length - limit_length(scene, hinge), rate }
+            let [length, rate] = state.spring_length(dynamics, hinge);
+            Reading { value: length - R::constant(limit_length(scene, hinge)), rate }
         }
         _ => {
             let (hinge, angle) = watched(kind, scene);
-            Reading { value: state.beta[hinge] - angle, rate: state.tau[hinge] }
+            Reading { value: state.beta[hinge] - R::constant(angle), rate: state.tau[hinge] }
         }
     }
 }
@@ -276,5 +315,5 @@ fn angle_polynomial(
     let (hinge, angle) = watched(kind, scene);
     let position = equations.dynamics.free_hinges().binary_search(&hinge);
     let position = position.expect("guards watch only free hinges");
-    stepper.polynomial(equations.layout.beta().start + position).minus(angle)
+    stepper.polynomial(equations.variables.layout.beta().start + position).minus(angle)
 }

@@ -1,7 +1,7 @@
-use nboom_dynamics::VelocityJump;
+use nboom_dynamics::{Recursive, VelocityJump};
 use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
+use nboom_scalar::Number;
 
-use crate::equations::Equations;
 use crate::error::SimError;
 use crate::guard::{GuardKind, Guards, read};
 use crate::ledger::totals;
@@ -22,17 +22,17 @@ pub(crate) struct Arrivals {
 impl Arrivals {
     /// The guards at zero: the one that ended the step, and those that reach zero within the
     /// same instant.
-    pub fn find(
+    pub fn find<R: Number>(
         scene: &Scene,
         guards: &Guards,
-        equations: &mut Equations,
-        state: &State,
+        dynamics: &mut Recursive<R>,
+        state: &State<R>,
         located: Option<GuardKind>,
     ) -> Self {
         let mut arrivals = Self::default();
         for guard in &guards.list {
             let arrived = located == Some(guard.kind)
-                || guard.is_passing(read(guard.kind, scene, equations, state), ONE_INSTANT);
+                || guard.is_passing(read(guard.kind, scene, dynamics, state), ONE_INSTANT);
             match guard.kind {
                 _ if !arrived => {}
                 GuardKind::Lock { hinge } => arrivals.locks.push(hinge),
@@ -71,21 +71,21 @@ pub(crate) struct Outcome {
 }
 
 /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then springs
-/// and thrust. `lock_sides` is kept for the hinges that become free. `equations` are in the
-/// mode before and are left there.
-pub(crate) fn pass(
+/// and thrust. `lock_sides` is kept for the hinges that become free. `dynamics` is in the
+/// mode before and is left there.
+pub(crate) fn pass<R: Number>(
     scene: &Scene,
-    equations: &mut Equations,
+    dynamics: &mut Recursive<R>,
     arrivals: &Arrivals,
-    state: &mut State,
+    state: &mut State<R>,
     mode: &mut Mode,
     lock_sides: &mut [f64],
 ) -> Result<Outcome, SimError> {
-    let before = totals(state, &equations.invariants(state));
+    let before = totals(state, &state.invariants(dynamics));
     let mut events = Vec::new();
-    let locked = lock(scene, equations, &arrivals.locks, state, mode)?;
-    let after = totals(state, &equations.invariants(state));
-    let time = state.time;
+    let locked = lock(scene, dynamics, &arrivals.locks, state, mode)?;
+    let after = totals(state, &state.invariants(dynamics));
+    let time = state.time.to_f64();
     let event =
         |kind, hinge, impulse, before: Totals| Event { time, kind, hinge, impulse, before, after };
     for (jump, impulse) in &locked {
@@ -94,7 +94,8 @@ pub(crate) fn pass(
     for i in released(scene, mode, arrivals, time) {
         mode.hinges[i] = HingeState::Free;
         let lock_angle = scene.bodies[i].hinge.lock_angle;
-        let from_lock = lock_angle.map_or(0.0, |angle| state.beta[i] - angle);
+        let from_lock =
+            lock_angle.map_or(0.0, |angle| (state.beta[i] - R::constant(angle)).to_f64());
         lock_sides[i] = if from_lock == 0.0 { 0.0 } else { from_lock.signum() };
         events.push(event(EventKind::Release, Some(i), None, after));
     }
@@ -115,46 +116,46 @@ pub(crate) fn pass(
 
 /// Locks hinges with the exact change of all velocities; returns what each hinge contributes, and
 /// its impulse.
-fn lock(
+fn lock<R: Number>(
     scene: &Scene,
-    equations: &mut Equations,
+    dynamics: &mut Recursive<R>,
     locks: &[usize],
-    state: &mut State,
+    state: &mut State<R>,
     mode: &mut Mode,
 ) -> Result<Vec<(Jump, f64)>, SimError> {
     let Some(&first) = locks.first() else { return Ok(Vec::new()) };
-    let free = equations.dynamics.free_hinges().to_vec();
+    let free = dynamics.free_hinges().to_vec();
     for &i in locks {
         if let Some(angle) = scene.bodies[i].hinge.lock_angle {
-            state.beta[i] = angle;
+            state.beta[i] = R::constant(angle);
         }
     }
-    let (beta, tau) = (equations.of_free(&state.beta), equations.of_free(&state.tau));
+    let [beta, tau] = state.of_free(dynamics);
     let position = |i: &usize| free.iter().position(|j| j == i);
     let positions: Vec<usize> = locks.iter().filter_map(position).collect();
-    let lock_up = equations
-        .dynamics
-        .lock_up(&beta, &tau, &positions)
-        .map_err(|_| SimError::LockUp { time: state.time, hinge: Some(scene.label(first)) })?;
+    let (time, hinge) = (state.time.to_f64(), Some(scene.label(first)));
+    let lock_up =
+        dynamics.lock_up(&beta, &tau, &positions).map_err(|_| SimError::LockUp { time, hinge })?;
     state.omega_body += lock_up.delta_omega_body;
-    for (&i, change) in free.iter().zip(&lock_up.delta_tau) {
+    for (&i, &change) in free.iter().zip(&lock_up.delta_tau) {
         state.tau[i] += change;
     }
     state.work.lock_ups -= lock_up.delta_energy;
     for &i in locks {
-        state.tau[i] = 0.0;
+        state.tau[i] = R::zero();
         mode.hinges[i] = HingeState::Locked;
     }
-    let jump = |(&hinge, jump): (&usize, &VelocityJump)| {
+    let jump = |(&hinge, jump): (&usize, &VelocityJump<R>)| {
         let mut tau = vec![0.0; state.tau.len()];
-        for (&i, &change) in free.iter().zip(&jump.tau) {
-            tau[i] = change;
+        for (&i, change) in free.iter().zip(&jump.tau) {
+            tau[i] = change.to_f64();
         }
-        let VelocityJump { omega_body, velocity_body, .. } = *jump;
+        let (velocity_body, omega_body) = (jump.velocity_body.to_f64(), jump.omega_body.to_f64());
         Jump { hinge, velocity_body, omega_body, tau }
     };
     let jumps = locks.iter().zip(&lock_up.jumps).map(jump);
-    Ok(jumps.zip(lock_up.impulses).collect())
+    let impulses = lock_up.impulses.iter().map(|impulse| impulse.to_f64());
+    Ok(jumps.zip(impulses).collect())
 }
 
 /// The unreleased hinges whose release is due.

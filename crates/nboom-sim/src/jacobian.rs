@@ -2,9 +2,9 @@ use nboom_dynamics::{Accelerations, Recursive};
 use nboom_model::{Mode, Scene, Thrust};
 use nboom_scalar::{Dual, Real, Vec3};
 
-use crate::equations::motion;
 use crate::layout::Layout;
 use crate::rates::Rates;
+use crate::variables::motion;
 
 /// Derivatives of the equations of one mode with respect to its variables: the recursion over
 /// dual numbers, one variable at a time.
@@ -97,7 +97,7 @@ mod tests {
         let (mut equations, mut y) =
             (Equations::new(&scene, &state, &Options::default()), Vec::new());
         equations.enter(&scene, &mode, &state, &mut y);
-        y.iter_mut().skip(equations.layout.tau().end).for_each(|y| *y = 0.4);
+        y.iter_mut().skip(equations.variables.layout.tau().end).for_each(|y| *y = 0.4);
         (equations, y)
     }
 

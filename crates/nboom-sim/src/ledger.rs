@@ -1,7 +1,7 @@
 use nboom_dynamics::Invariants;
 use nboom_elements::KickOffLaw;
 use nboom_model::Scene;
-use nboom_scalar::Vec3;
+use nboom_scalar::{Number, Vec3};
 
 use crate::equations::Equations;
 use crate::record::{Conservation, Totals};
@@ -18,7 +18,7 @@ pub(crate) struct Ledger {
 
 impl Ledger {
     pub fn new(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
-        let start = totals(state, &equations.invariants(state));
+        let start = totals(state, &state.invariants(&mut equations.dynamics));
         let (potential, _) = potential(scene, equations, state);
         Self {
             start_time: state.time,
@@ -42,7 +42,7 @@ impl Ledger {
 
     /// Compares `state` with what impulses and work account for.
     pub fn check(&mut self, scene: &Scene, equations: &mut Equations, state: &State) {
-        let invariants = equations.invariants(state);
+        let invariants = state.invariants(&mut equations.dynamics);
         let now = totals(state, &invariants);
         let work = &state.work;
         let weight = equations.gravity() * scene.total_mass();
@@ -71,12 +71,12 @@ impl Ledger {
 }
 
 /// Energy and momenta in inertial axes.
-pub(crate) fn totals(state: &State, invariants: &Invariants<f64>) -> Totals {
+pub(crate) fn totals<R: Number>(state: &State<R>, found: &Invariants<R>) -> Totals {
     let to_inertial = state.attitude.to_matrix();
     Totals {
-        kinetic_energy: invariants.kinetic_energy,
-        linear_momentum_inertial: to_inertial * invariants.linear_momentum,
-        angular_momentum_inertial: to_inertial * invariants.angular_momentum,
+        kinetic_energy: found.kinetic_energy.to_f64(),
+        linear_momentum_inertial: (to_inertial * found.linear_momentum).to_f64(),
+        angular_momentum_inertial: (to_inertial * found.angular_momentum).to_f64(),
     }
 }
 
@@ -95,7 +95,7 @@ fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> (f64, f
     }
     for (i, body) in scene.bodies.iter().enumerate() {
         let Some(spring) = body.hinge.kick_off else { continue };
-        let length = equations.spring_length(state, i).0.min(spring.limit_length);
+        let length = state.spring_length(&mut equations.dynamics, i)[0].min(spring.limit_length);
         add(KickOffLaw::new(spring.coefficients).potential(length));
     }
     (sum, scale)

@@ -43,6 +43,7 @@ mod closed_form;
 mod code;
 mod equations;
 mod error;
+mod expansion;
 mod fit;
 mod generated;
 mod guard;
@@ -53,11 +54,14 @@ mod ledger;
 mod options;
 mod rates;
 mod record;
+mod replay;
 mod run;
 mod series;
 mod snapshot;
+mod start;
 mod state;
 mod trust;
+mod variables;
 
 pub use closed_form::NotCovered;
 pub use error::{Failure, OptionError, SimError};
@@ -70,4 +74,4 @@ pub use record::{
     Snapshot, Summary, Totals,
 };
 pub use run::simulate;
-pub use trust::{Digits, EventTrust, Trust, Witness, differences, trust};
+pub use trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};

@@ -3,8 +3,8 @@ use nboom_elements::HingeLaw;
 use nboom_model::{Scene, Thrust};
 use nboom_scalar::{Real, Vec3};
 
-use crate::equations::attitude;
 use crate::layout::Layout;
+use crate::variables::attitude;
 
 /// The rates of change of all variables of a mode, over any scalar, once accelerations are known.
 pub(crate) struct Rates<R> {

@@ -1,4 +1,4 @@
-use nboom_model::{Mode, Scene, SceneDescription};
+use nboom_model::{Mode, Scene};
 use nboom_ode::Stepper;
 
 use crate::attitude_norm::AttitudeNorm;
@@ -13,7 +13,8 @@ use crate::record::{
     Event, EventKind, Integration, LockUpMotion, Recorder, Selection, Snapshot, Summary,
 };
 use crate::snapshot;
-use crate::state::{MassCenter, State};
+use crate::start::Start;
+use crate::state::State;
 
 mod giving_up;
 
@@ -63,29 +64,15 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(scene: &'a Scene, options: Options, recorder: &'a mut dyn Recorder) -> Self {
-        let mut state = State::initial(scene);
-        let mut mode = Mode::at_start(scene);
+        let Start { state, mode, lock_sides } = Start::of(scene);
         let mut equations = Equations::new(scene, &state, &options);
         let mut variables = Vec::new();
         equations.enter(scene, &mode, &state, &mut variables);
-        put_mass_center(&mut equations, &mut state);
-        for (i, body) in scene.bodies.iter().enumerate() {
-            let length = equations.spring_length(&state, i).0;
-            mode.kick_off[i] = body.hinge.kick_off.is_some_and(|k| length <= k.limit_length);
-        }
-        let SceneDescription { initial, thrust, .. } = &**scene;
-        mode.thrust = thrust.is_some_and(|f| f.on <= initial.time && initial.time < f.off);
-        equations.enter(scene, &mode, &state, &mut variables);
-        let lock_sides = scene.bodies.iter().map(|body| {
-            let angle = body.hinge.lock_angle.unwrap_or(f64::NEG_INFINITY);
-            let from_lock = body.hinge.start.angle - angle;
-            if from_lock == 0.0 { 0.0 } else { from_lock.signum() }
-        });
         Self {
             scene,
             options,
             recorder,
-            lock_sides: lock_sides.collect(),
+            lock_sides,
             ledger: Ledger::new(scene, &mut equations, &state),
             scratch: state.clone(),
             mode,
@@ -96,8 +83,8 @@ impl<'a> Run<'a> {
             variables,
             next_sample: 0,
             events: 0,
-            burst: (initial.time, 0),
-            pace: (initial.time, 0),
+            burst: (scene.initial.time, 0),
+            pace: (scene.initial.time, 0),
             selections: Vec::new(),
             integrations: Vec::new(),
             attitude_norm: AttitudeNorm::new(),
@@ -114,8 +101,13 @@ impl<'a> Run<'a> {
                 return self.finish();
             }
             let located = self.integrate_to_next_instant()?;
-            arrivals =
-                Arrivals::find(self.scene, &self.guards, &mut self.equations, &self.state, located);
+            arrivals = Arrivals::find(
+                self.scene,
+                &self.guards,
+                &mut self.equations.dynamics,
+                &self.state,
+                located,
+            );
         }
     }
 
@@ -127,7 +119,7 @@ impl<'a> Run<'a> {
         let before = self.before_lock_ups(arrivals);
         let outcome = instant::pass(
             self.scene,
-            &mut self.equations,
+            &mut self.equations.dynamics,
             arrivals,
             &mut self.state,
             &mut self.mode,
@@ -140,14 +132,14 @@ impl<'a> Run<'a> {
         self.check_regular()?;
         self.check_springs()?;
         self.select()?;
-        let controlled = self.equations.layout.controlled();
+        let controlled = self.equations.variables.layout.controlled();
         let time = self.state.time;
         self.attitude_norm.put_back();
         self.stepper.start(&mut self.equations, time, &self.variables, controlled);
         self.guards.set(
             self.scene,
             &self.mode,
-            &mut self.equations,
+            &mut self.equations.dynamics,
             &self.state,
             &self.lock_sides,
             &outcome.toggled,
@@ -178,7 +170,7 @@ impl<'a> Run<'a> {
             let full = self.stepper.window().length();
             self.sample_within(full, self.stepper.window().end_time)?;
             self.accept();
-            self.guards.settle(self.scene, &mut self.equations, &self.state);
+            self.guards.settle(self.scene, &mut self.equations.dynamics, &self.state);
             if self.state.time >= limit {
                 return Ok(None);
             }
@@ -211,7 +203,7 @@ impl<'a> Run<'a> {
             let window = self.stepper.window();
             let time = window.end_time;
             self.equations.read(time, &window.end_state, &mut self.scratch);
-            let reading = read(kind, self.scene, &mut self.equations, &self.scratch);
+            let reading = read(kind, self.scene, &mut self.equations.dynamics, &self.scratch);
             let correction = -reading.value / reading.rate;
             let better = correction.abs() < 0.5 * last_correction;
             let matters = self.stepper.window().time + (step + correction) != time;
@@ -254,7 +246,7 @@ impl<'a> Run<'a> {
     fn sample_within(&mut self, full: f64, until: f64) -> Result<(), SimError> {
         while self.sample_time() < until - ONE_INSTANT {
             let time = self.sample_time();
-            self.variables.resize(self.equations.layout.len(), 0.0);
+            self.variables.resize(self.equations.variables.layout.len(), 0.0);
             let fraction = (time - self.stepper.window().time) / full;
             self.stepper.interpolate(fraction, &mut self.variables);
             self.equations.read(time, &self.variables, &mut self.scratch);
@@ -282,18 +274,21 @@ impl<'a> Run<'a> {
     }
 
     fn snapshot(&mut self, state: &State) -> Snapshot {
-        let detail = self.recorder.needs_detail();
-        let seen = snapshot::take(self.scene, &self.mode, &mut self.equations, state, detail);
+        let Self { scene, mode, equations, .. } = self;
+        let seen = snapshot::take(scene, mode, &mut equations.dynamics, state);
+        let needs_detail = self.recorder.needs_detail();
+        let detail = needs_detail.then(|| snapshot::detail(scene, mode, equations, state));
         let (steps, next_step) =
             (self.stepper.window().counts.accepted, self.stepper.window().next_step);
-        Snapshot { steps, next_step, ..seen }
+        Snapshot { detail, steps, next_step, ..seen }
     }
 
     /// The motion before an instant in which hinges lock, if the recorder wants it.
     fn before_lock_ups(&mut self, arrivals: &Arrivals) -> Option<Snapshot> {
         (arrivals.has_locks() && self.recorder.needs_lock_ups()).then(|| {
             let Self { scene, mode, equations, state, .. } = self;
-            snapshot::take(scene, mode, equations, state, true)
+            let detail = Some(snapshot::detail(scene, mode, equations, state));
+            Snapshot { detail, ..snapshot::take(scene, mode, &mut equations.dynamics, state) }
         })
     }
 
@@ -318,7 +313,7 @@ impl<'a> Run<'a> {
     }
 
     fn finish(&mut self) -> Result<(), SimError> {
-        let now = totals(&self.state, &self.equations.invariants(&self.state));
+        let now = totals(&self.state, &self.state.invariants(&mut self.equations.dynamics));
         let end = Event {
             time: self.state.time,
             kind: EventKind::End,
@@ -357,16 +352,4 @@ impl<'a> Run<'a> {
             attitude_drift: self.attitude_norm.largest_drift,
         }
     }
-}
-
-/// Moves the mass centre of `state`, which stands at O, to where it belongs.
-fn put_mass_center(equations: &mut Equations, state: &mut State) {
-    let MassCenter { position, velocity } = state.center;
-    let at_rest = MassCenter { position, velocity: nboom_scalar::Vec3::zero() };
-    let found = equations.invariants(&State { center: at_rest, ..state.clone() });
-    let to_inertial = state.attitude.to_matrix();
-    state.center = MassCenter {
-        position: position + to_inertial * found.mass_center,
-        velocity: velocity - to_inertial * found.origin_velocity,
-    };
 }

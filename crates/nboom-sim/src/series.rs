@@ -1,14 +1,13 @@
-use nboom_dynamics::{Accelerations, Recursive};
+use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_expr::{Expr, Graph};
 use nboom_formulation::Formulation;
 use nboom_model::{Mode, Scene, Thrust, WeldedTree};
 use nboom_scalar::{Real, Vec3};
 
 use crate::closed_form::ClosedForm;
-use crate::equations::motion;
 use crate::layout::Layout;
 use crate::rates::Rates;
-use crate::state::State;
+use crate::variables::{Variables, gravity, motion};
 
 /// What the equations of a mode compute: its variables and the time in, their rates out. They do
 /// not branch, so that one recording holds for the whole mode.
@@ -18,28 +17,65 @@ use crate::state::State;
 pub(crate) fn graph(
     scene: &Scene,
     mode: &Mode,
-    origin: &State,
-    layout: Layout,
+    variables: &Variables<f64>,
     thrust: Option<Thrust>,
-    gravity: Vec3<f64>,
 ) -> Graph {
+    let Variables { layout, origin, .. } = variables;
     Graph::trace(layout.len() + 1, |inputs| {
         let (y, t) = (&inputs[..layout.len()], inputs[layout.len()]);
         let mut dynamics = Recursive::new(scene);
         let beta: Vec<Expr> = origin.beta.iter().map(|&angle| Expr::constant(angle)).collect();
         dynamics.set_mode(mode, &beta);
-        let mut accelerations = Accelerations::for_hinges(layout.free);
-        let motion = motion(&layout, &mut dynamics, y);
         let tree = WeldedTree::new(scene, mode, &origin.beta);
-        match ClosedForm::fit(scene, &tree, dynamics.external(), Formulation::Articulated) {
-            Ok(mut form) => form.accelerations(&mut dynamics, &motion, &mut accelerations),
-            Err(_) => dynamics.accelerations(&motion, &mut accelerations),
-        }
+        let form = ClosedForm::fit(scene, &tree, dynamics.external(), Formulation::Articulated);
+        let center_velocity = Vec3::constant(origin.center.velocity);
         let since = t - Expr::constant(origin.time);
-        let free_fall = Vec3::constant(origin.center.velocity) + Vec3::constant(gravity) * since;
-        let mut rates = vec![Expr::zero(); layout.len()];
-        let of_mode = Rates::new(scene, layout, dynamics.free_hinges(), thrust);
-        of_mode.write(&mut dynamics, (&motion, &accelerations), free_fall, y, &mut rates);
-        rates
+        let free_fall = center_velocity + gravity(scene) * since;
+        rates(scene, (*layout, thrust), &mut dynamics, y, free_fall, |dynamics, motion, out| {
+            match form {
+                Ok(mut form) => form.accelerations(dynamics, motion, out),
+                Err(_) => dynamics.accelerations(motion, out),
+            }
+        })
     })
+}
+
+/// The same by the recursion and without rounding, as it holds for any state that the mode begins
+/// in. Further inputs: the time counts from there, and the angle of every hinge and the velocity
+/// of the mass centre there follow it.
+pub(crate) fn exact_graph(
+    scene: &Scene,
+    mode: &Mode,
+    layout: Layout,
+    thrust: Option<Thrust>,
+) -> Graph {
+    let hinges = scene.bodies.len();
+    Graph::trace_exactly(layout.len() + 1 + hinges + 3, |inputs| {
+        let (y, rest) = inputs.split_at(layout.len());
+        let (since, beta, v) = (rest[0], &rest[1..=hinges], &rest[hinges + 1..]);
+        let mut dynamics = Recursive::new(scene);
+        dynamics.set_mode(mode, beta);
+        let free_fall = Vec3::new(v[0], v[1], v[2]) + gravity(scene) * since;
+        rates(scene, (layout, thrust), &mut dynamics, y, free_fall, |dynamics, motion, out| {
+            dynamics.accelerations(motion, out);
+        })
+    })
+}
+
+/// The rates of the variables `y`, where `accelerate` computes the accelerations.
+fn rates(
+    scene: &Scene,
+    (layout, thrust): (Layout, Option<Thrust>),
+    dynamics: &mut Recursive<Expr>,
+    y: &[Expr],
+    free_fall: Vec3<Expr>,
+    accelerate: impl FnOnce(&mut Recursive<Expr>, &Motion<'_, Expr>, &mut Accelerations<Expr>),
+) -> Vec<Expr> {
+    let mut accelerations = Accelerations::for_hinges(layout.free);
+    let motion = motion(&layout, dynamics, y);
+    accelerate(dynamics, &motion, &mut accelerations);
+    let mut rates = vec![Expr::zero(); layout.len()];
+    let of_mode = Rates::new(scene, layout, dynamics.free_hinges(), thrust);
+    of_mode.write(dynamics, (&motion, &accelerations), free_fall, y, &mut rates);
+    rates
 }

@@ -1,53 +1,59 @@
+use nboom_dynamics::Recursive;
 use nboom_elements::KickOffLaw;
 use nboom_model::{Mode, Scene};
-use nboom_scalar::Vec3;
+use nboom_scalar::{Number, Quaternion};
 
 use crate::equations::Equations;
+use crate::ledger::totals;
 use crate::record::{Detail, Snapshot};
 use crate::state::State;
 
-/// What a recorder sees of `state` in the mode that `equations` are in.
-pub(crate) fn take(
+/// What a recorder that needs no detail sees of `state`; `dynamics` is in `mode`.
+pub(crate) fn take<R: Number>(
     scene: &Scene,
     mode: &Mode,
-    equations: &mut Equations,
-    state: &State,
-    with_detail: bool,
+    dynamics: &mut Recursive<R>,
+    state: &State<R>,
 ) -> Snapshot {
-    let found = equations.invariants(state);
+    let found = state.invariants(dynamics);
     let to_inertial = state.attitude.to_matrix();
-    let (mut alpha, mut sigma) = (state.beta.clone(), state.tau.clone());
+    let numbers = |all: &[R]| -> Vec<f64> { all.iter().map(|x| x.to_f64()).collect() };
+    let (beta, tau) = (numbers(&state.beta), numbers(&state.tau));
+    let (mut alpha, mut sigma) = (beta.clone(), tau.clone());
     scene.accumulate_along_appendages(&mut alpha);
     scene.accumulate_along_appendages(&mut sigma);
-    let h = found.angular_momentum;
+    let Quaternion { scalar, vector } = state.attitude;
+    let now = totals(state, &found);
+    let h = found.angular_momentum.to_f64();
     Snapshot {
-        time: state.time,
-        position_inertial: state.center.position - to_inertial * found.mass_center,
-        velocity_inertial: to_inertial * found.origin_velocity,
-        attitude: state.attitude,
-        omega_body: state.omega_body,
-        beta: state.beta.clone(),
-        tau: state.tau.clone(),
+        time: state.time.to_f64(),
+        position_inertial: (state.center.position - to_inertial * found.mass_center).to_f64(),
+        velocity_inertial: (to_inertial * found.origin_velocity).to_f64(),
+        attitude: Quaternion { scalar: scalar.to_f64(), vector: vector.to_f64() },
+        omega_body: state.omega_body.to_f64(),
+        beta,
+        tau,
         alpha,
         sigma,
         hinges: mode.hinges.clone(),
-        kinetic_energy: found.kinetic_energy,
-        linear_momentum_inertial: to_inertial * found.linear_momentum,
-        angular_momentum_inertial: to_inertial * h,
+        kinetic_energy: now.kinetic_energy,
+        linear_momentum_inertial: now.linear_momentum_inertial,
+        angular_momentum_inertial: now.angular_momentum_inertial,
         nutation: h.y.hypot(h.z).atan2(h.x),
-        detail: with_detail.then(|| detail(scene, mode, equations, state, found.mass_center)),
+        detail: None,
         steps: 0,
         next_step: 0.0,
     }
 }
 
-fn detail(
+/// Accelerations and forces of `state` in the mode that `equations` are in.
+pub(crate) fn detail(
     scene: &Scene,
     mode: &Mode,
     equations: &mut Equations,
     state: &State,
-    mass_center_body: Vec3<f64>,
 ) -> Detail {
+    let mass_center_body = state.invariants(&mut equations.dynamics).mass_center;
     let free = equations.dynamics.free_hinges().to_vec();
     let accelerations = equations.accelerations(state);
     let omega_dot_body = accelerations.omega_dot_body;
@@ -64,7 +70,7 @@ fn detail(
     let hinge_torque = hinge_torque.collect();
     let (mut kick_off_force, mut kick_off_length) = (beta_ddot.clone(), beta_ddot.clone());
     for (i, body) in scene.bodies.iter().enumerate() {
-        let (length, _) = equations.spring_length(state, i);
+        let [length, _] = state.spring_length(&mut equations.dynamics, i);
         let acting = body.hinge.kick_off.filter(|_| mode.kick_off[i]);
         kick_off_length[i] = length;
         kick_off_force[i] =

@@ -1,78 +1,106 @@
+use nboom_dynamics::{Invariants, Motion, Recursive};
 use nboom_model::Scene;
-use nboom_scalar::{Quaternion, Vec3};
+use nboom_scalar::{Number, Quaternion, Vec3};
 
 /// The motion at one time, with everything that is not integrated filled in.
 #[derive(Clone, Debug)]
-pub(crate) struct State {
-    pub time: f64,
-    pub attitude: Quaternion<f64>,
-    pub omega_body: Vec3<f64>,
+pub(crate) struct State<R = f64> {
+    pub time: R,
+    pub attitude: Quaternion<R>,
+    pub omega_body: Vec3<R>,
     /// β of every hinge.
-    pub beta: Vec<f64>,
+    pub beta: Vec<R>,
     /// τ of every hinge; zero where held.
-    pub tau: Vec<f64>,
+    pub tau: Vec<R>,
     /// The system mass centre, inertial axes.
-    pub center: MassCenter,
-    pub work: Work,
+    pub center: MassCenter<R>,
+    pub work: Work<R>,
 }
 
 /// Position and velocity of the system mass centre, inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct MassCenter {
-    pub position: Vec3<f64>,
-    pub velocity: Vec3<f64>,
+pub(crate) struct MassCenter<R = f64> {
+    pub position: Vec3<R>,
+    pub velocity: Vec3<R>,
 }
 
 /// What forces without a potential have done since the initial time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Work {
+pub(crate) struct Work<R = f64> {
     /// Work of the rate-dependent hinge torques.
-    pub dashpots: f64,
+    pub dashpots: R,
     /// Work of the thrust.
-    pub thrust: f64,
+    pub thrust: R,
     /// Impulse of the thrust, inertial axes.
-    pub thrust_impulse: Vec3<f64>,
+    pub thrust_impulse: Vec3<R>,
     /// Angular impulse of the thrust about the mass centre, inertial axes.
-    pub thrust_angular_impulse: Vec3<f64>,
+    pub thrust_angular_impulse: Vec3<R>,
     /// Kinetic energy taken away by lock-ups.
-    pub lock_ups: f64,
+    pub lock_ups: R,
 }
 
-impl Work {
+impl<R: Number> Work<R> {
     pub fn none() -> Self {
         Self {
-            dashpots: 0.0,
-            thrust: 0.0,
+            dashpots: R::zero(),
+            thrust: R::zero(),
             thrust_impulse: Vec3::zero(),
             thrust_angular_impulse: Vec3::zero(),
-            lock_ups: 0.0,
+            lock_ups: R::zero(),
         }
     }
 }
 
-impl State {
+impl<R: Number> State<R> {
     /// The initial state of `scene`, but for the mass centre, which is put at O.
     pub fn initial(scene: &Scene) -> Self {
         let initial = &scene.initial;
+        let Quaternion { scalar, vector } = initial.attitude;
+        let attitude =
+            Quaternion { scalar: R::constant(scalar), vector: Vec3::constant(vector) }.normalized();
+        let starts = || scene.bodies.iter().map(|body| body.hinge.start);
         Self {
-            time: initial.time,
-            attitude: from_non_negative_scalar(initial.attitude.normalized()),
-            omega_body: initial.omega_body,
-            beta: scene.bodies.iter().map(|body| body.hinge.start.angle).collect(),
-            tau: scene.bodies.iter().map(|body| body.hinge.start.rate).collect(),
+            time: R::constant(initial.time),
+            attitude: from_non_negative_scalar(attitude),
+            omega_body: Vec3::constant(initial.omega_body),
+            beta: starts().map(|start| R::constant(start.angle)).collect(),
+            tau: starts().map(|start| R::constant(start.rate)).collect(),
             center: MassCenter {
-                position: initial.position_inertial,
-                velocity: initial.velocity_inertial,
+                position: Vec3::constant(initial.position_inertial),
+                velocity: Vec3::constant(initial.velocity_inertial),
             },
             work: Work::none(),
         }
     }
+
+    /// Energy and momenta in main-body axes; `dynamics` is in the mode of the state.
+    pub fn invariants(&self, dynamics: &mut Recursive<R>) -> Invariants<R> {
+        let [beta, tau] = self.of_free(dynamics);
+        let motion = Motion { omega_body: self.omega_body, beta: &beta, tau: &tau };
+        let to_inertial = self.attitude.to_matrix();
+        dynamics.invariants(&motion, to_inertial.transpose() * self.center.velocity)
+    }
+
+    /// Length of the kick-off spring of hinge `i` and its rate; zero without one.
+    pub fn spring_length(&self, dynamics: &mut Recursive<R>, i: usize) -> [R; 2] {
+        let [beta, tau] = self.of_free(dynamics);
+        let motion = Motion { omega_body: self.omega_body, beta: &beta, tau: &tau };
+        let Some(found) = dynamics.spring_length(&motion, i) else { return [R::zero(); 2] };
+        let length = found.squared.sqrt();
+        [length, found.squared_rate / (length + length)]
+    }
+
+    /// β and τ of the free hinges.
+    pub fn of_free(&self, dynamics: &Recursive<R>) -> [Vec<R>; 2] {
+        let free = |all: &[R]| dynamics.free_hinges().iter().map(|&i| all[i]).collect();
+        [free(&self.beta), free(&self.tau)]
+    }
 }
 
-impl MassCenter {
+impl<R: Number> MassCenter<R> {
     /// Where free fall with `acceleration` takes it in `duration`.
-    pub fn after(self, duration: f64, acceleration: Vec3<f64>) -> Self {
-        let halfway = self.velocity + acceleration * (0.5 * duration);
+    pub fn after(self, duration: R, acceleration: Vec3<R>) -> Self {
+        let halfway = self.velocity + acceleration * (R::constant(0.5) * duration);
         Self {
             position: self.position + halfway * duration,
             velocity: self.velocity + acceleration * duration,
@@ -80,7 +108,7 @@ impl MassCenter {
     }
 }
 
-fn from_non_negative_scalar(q: Quaternion<f64>) -> Quaternion<f64> {
-    let sign = if q.scalar < 0.0 { -1.0 } else { 1.0 };
+fn from_non_negative_scalar<R: Number>(q: Quaternion<R>) -> Quaternion<R> {
+    let sign = R::constant(if q.scalar.to_f64() < 0.0 { -1.0 } else { 1.0 });
     Quaternion { scalar: q.scalar * sign, vector: q.vector * sign }
 }

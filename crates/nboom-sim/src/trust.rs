@@ -1,12 +1,14 @@
-//! How many digits of a run can be trusted, from a second run with a tighter tolerance.
+//! How many digits of a run can be trusted, from a second run that is more accurate.
 
 use nboom_model::Scene;
 use nboom_ode::Method;
 use nboom_scalar::Vec3;
 
 use crate::error::Failure;
+use crate::expansion::Accuracy;
 use crate::options::Options;
-use crate::record::{Event, EventKind, Recorder, Snapshot};
+use crate::record::{Event, EventKind, Recorder, Snapshot, Summary};
+use crate::replay::Replay;
 use crate::run::simulate;
 
 /// The reference's tolerances are this many times tighter, as far as rounding allows.
@@ -21,7 +23,7 @@ const MOST_EVENTS: usize = 100_000;
 /// What of a run is compared: its events and how it ends.
 #[derive(Clone, Debug, Default)]
 pub struct Witness {
-    events: Vec<Event>,
+    pub(crate) events: Vec<Event>,
     last: Option<Snapshot>,
 }
 
@@ -57,9 +59,39 @@ impl Recorder for Witness {
     }
 }
 
+/// What a run is compared with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reference {
+    /// A run with tolerances a thousand times tighter.
+    #[default]
+    TighterTolerance,
+    /// A run in double-double, which has all digits that an `f64` can have.
+    DoubleDouble,
+}
+
+impl Reference {
+    /// All.
+    pub const ALL: [Self; 2] = [Self::TighterTolerance, Self::DoubleDouble];
+
+    /// The name in commands and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TighterTolerance => "tighter-tolerance",
+            Self::DoubleDouble => "double-double",
+        }
+    }
+
+    /// The reference with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|reference| reference.name() == name)
+    }
+}
+
 /// Differences between a run and its reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trust {
+    /// What the reference is.
+    pub reference: Reference,
     /// Relative tolerance of the reference.
     pub rtol: f64,
     /// Absolute tolerance of the reference.
@@ -68,7 +100,8 @@ pub struct Trust {
     pub same_events: bool,
     /// The events up to the first that differs.
     pub events: Vec<EventTrust>,
-    /// The final state, quantity by quantity.
+    /// The final state, quantity by quantity; empty when the reference is in double-double and
+    /// events are others, as it ends at the first of them.
     pub end: Vec<Digits>,
 }
 
@@ -116,9 +149,41 @@ impl Digits {
 ///
 /// # Panics
 /// When `witness` saw no run.
-pub fn trust(scene: &Scene, options: &Options, witness: &Witness) -> Result<Trust, Failure> {
-    let rtol = (options.rtol * TIGHTER).max(TIGHTEST);
-    let atol = options.atol * TIGHTER;
+pub fn trust(
+    scene: &Scene,
+    options: &Options,
+    witness: &Witness,
+    reference: Reference,
+) -> Result<Trust, Failure> {
+    let (rtol, atol, truth) = match reference {
+        Reference::TighterTolerance => {
+            let rtol = (options.rtol * TIGHTER).max(TIGHTEST);
+            let atol = options.atol * TIGHTER;
+            (rtol, atol, run_again(scene, options, rtol, atol)?.0)
+        }
+        Reference::DoubleDouble => {
+            let Accuracy { relative, absolute, .. } = Accuracy::REFERENCE;
+            (relative, absolute, in_double_double(scene, options, Accuracy::REFERENCE)?)
+        }
+    };
+    let same = |(a, b): &(&Event, &Event)| (a.kind, a.hinge) == (b.kind, b.hinge);
+    let pairs = witness.events.iter().zip(&truth.events).take_while(same);
+    let start = scene.initial.time;
+    let events: Vec<EventTrust> = pairs.map(|(run, truth)| compare(start, run, truth)).collect();
+    let counts = [witness.events.len(), truth.events.len()];
+    let last = witness.last.as_ref().expect("a run ends with an event");
+    let end = truth.last.as_ref().map(|truth| differences(last, truth));
+    let same_events = counts == [events.len(); 2] && end.is_some();
+    Ok(Trust { reference, rtol, atol, same_events, events, end: end.unwrap_or_default() })
+}
+
+/// What a run with these tolerances is like.
+fn run_again(
+    scene: &Scene,
+    options: &Options,
+    rtol: f64,
+    atol: f64,
+) -> Result<(Witness, Summary), Failure> {
     // A method that no tolerance makes accurate is compared with one.
     let integrator = match options.integrator {
         Method::Radau5 => Method::Radau5,
@@ -126,21 +191,26 @@ pub fn trust(scene: &Scene, options: &Options, witness: &Witness) -> Result<Trus
     };
     let max_steps = Options::default().max_steps.max(options.max_steps);
     let tighter = Options { integrator, rtol, atol, max_steps, samples: 1, ..*options };
-    let mut reference = Witness::new();
-    simulate(scene, &tighter, &mut reference)?;
-    let same = |(a, b): &(&Event, &Event)| (a.kind, a.hinge) == (b.kind, b.hinge);
-    let pairs = witness.events.iter().zip(&reference.events).take_while(same);
-    let start = scene.initial.time;
-    let events: Vec<EventTrust> = pairs.map(|(run, truth)| compare(start, run, truth)).collect();
-    let counts = [witness.events.len(), reference.events.len()];
-    let last = |witness: &Witness| witness.last.clone().expect("a run ends with an event");
-    Ok(Trust {
-        rtol,
-        atol,
-        same_events: counts == [events.len(); 2],
-        events,
-        end: differences(&last(witness), &last(&reference)),
-    })
+    let mut witness = Witness::new();
+    let summary = simulate(scene, &tighter, &mut witness)?;
+    Ok((witness, summary))
+}
+
+/// The same in double-double, along the events of a run that is as accurate as `f64` allows.
+fn in_double_double(
+    scene: &Scene,
+    options: &Options,
+    accuracy: Accuracy,
+) -> Result<Witness, Failure> {
+    let (guide, summary) = run_again(scene, options, TIGHTEST, options.atol * TIGHTER)?;
+    let mut replay = Replay::new(scene, &guide.events, accuracy, options.max_steps);
+    match replay.complete() {
+        Ok(as_guided) => {
+            let last = as_guided.then(|| replay.snapshot());
+            Ok(Witness { events: replay.events, last })
+        }
+        Err(error) => Err(Failure { error, summary: Box::new(summary) }),
+    }
 }
 
 fn compare(start: f64, run: &Event, truth: &Event) -> EventTrust {

@@ -4,9 +4,9 @@ use nboom_model::HingeLabel;
 use nboom_ode::StepError;
 
 use super::Run;
-use crate::equations::motion;
 use crate::error::SimError;
 use crate::record::Event;
+use crate::variables::motion;
 
 /// A torque whose square is no number any more.
 const BOUND: f64 = 1e154;
@@ -47,7 +47,7 @@ impl Run<'_> {
 
     /// The hinge with the largest error in the last step.
     pub(super) fn worst_hinge(&self) -> Option<HingeLabel> {
-        let start = self.equations.layout.tau().start;
+        let start = self.equations.variables.layout.tau().start;
         let error_of = |position: usize| self.stepper.error_of(start + position);
         let free = self.equations.dynamics.free_hinges();
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
@@ -57,7 +57,7 @@ impl Run<'_> {
     /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
     /// the one with the largest error, unless that is far below the main body's.
     pub(super) fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
-        let layout = self.equations.layout;
+        let layout = self.equations.variables.layout;
         let free = self.equations.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];
         let dynamics = &mut self.equations.dynamics;
@@ -77,7 +77,7 @@ impl Run<'_> {
 
     /// Refuses a mode in which a link has no inertia about its hinge.
     pub(super) fn check_regular(&mut self) -> Result<(), SimError> {
-        let beta = self.equations.of_free(&self.state.beta);
+        let [beta, _] = self.state.of_free(&self.equations.dynamics);
         match self.equations.dynamics.singular_hinge(&beta) {
             None => Ok(()),
             Some(hinge) => Err(SimError::SingularMassMatrix {
@@ -95,7 +95,7 @@ impl Run<'_> {
             };
             let moves = !self.equations.dynamics.spring_reach(i).is_empty();
             let size = spring.main_body_point.norm() + spring.body_point.norm();
-            let (length, _) = self.equations.spring_length(&self.state, i);
+            let [length, _] = self.state.spring_length(&mut self.equations.dynamics, i);
             if moves && length <= NO_LENGTH * size {
                 let (time, hinge) = (self.state.time, self.scene.label(i));
                 return Err(SimError::SpringWithoutLength { time, hinge });

@@ -1,0 +1,83 @@
+use nboom_expr::Graph;
+use nboom_scalar::{DoubleDouble, Real};
+use nboom_series::Series;
+
+/// How accurately the motion is expanded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Accuracy {
+    /// The highest power of time.
+    pub order: usize,
+    /// Relative error allowed in a step.
+    pub relative: f64,
+    /// Absolute error allowed in a step, in the units of each variable.
+    pub absolute: f64,
+}
+
+impl Accuracy {
+    /// Of a reference: thousands of steps, and what they magnify, leave the digits of an `f64`
+    /// alone. The order is that of fewest operations (see [`nboom_ode::Taylor`]).
+    pub const REFERENCE: Self = Self { order: 33, relative: 1e-28, absolute: 1e-31 };
+}
+
+/// The power series of a motion about one state.
+#[derive(Clone, Debug)]
+pub(crate) struct Expansion {
+    accuracy: Accuracy,
+    series: Series<DoubleDouble>,
+    size: usize,
+    controlled: usize,
+    /// Those of all variables for each power in turn.
+    coefficients: Vec<DoubleDouble>,
+}
+
+impl Expansion {
+    /// Of what `graph` computes with the `fixed` inputs; the first `controlled` variables decide
+    /// on the step.
+    pub fn new(
+        graph: &Graph,
+        fixed: &[DoubleDouble],
+        controlled: usize,
+        accuracy: Accuracy,
+    ) -> Self {
+        let size = graph.outputs().len();
+        let coefficients = vec![DoubleDouble::zero(); (accuracy.order + 1) * size];
+        let series = Series::new(graph, fixed, accuracy.order);
+        Self { accuracy, series, size, controlled, coefficients }
+    }
+
+    /// Expands about the variables `y` at time `t`. Returns the step at whose end neither of the
+    /// last two terms exceeds the error allowed, and somewhat less; it is no number when a
+    /// coefficient is none.
+    pub fn expand(&mut self, t: DoubleDouble, y: &[DoubleDouble]) -> f64 {
+        self.series.write(t, y, &mut self.coefficients);
+        let order = self.accuracy.order;
+        let safety = (-0.7 / (order - 1) as f64).exp();
+        let [last, before] = [order, order - 1].map(|power| self.reach(power));
+        if last.is_nan() || before.is_nan() { f64::NAN } else { safety * last.min(before) }
+    }
+
+    /// Where the largest term of a power is as large as the error allowed.
+    fn reach(&self, power: usize) -> f64 {
+        let Accuracy { relative, absolute, .. } = self.accuracy;
+        let of_power = |power: usize| &self.coefficients[power * self.size..][..self.controlled];
+        let terms = of_power(power).iter().zip(of_power(0));
+        let ratios = terms
+            .map(|(c, y)| c.to_f64().abs() / (absolute + relative * y.to_f64().abs()))
+            .collect::<Vec<f64>>();
+        if ratios.iter().any(|ratio| !ratio.is_finite()) {
+            return f64::NAN;
+        }
+        ratios.into_iter().fold(0.0, f64::max).recip().powf(1.0 / power as f64)
+    }
+
+    /// Writes the variables `since` after the time expanded about.
+    pub fn evaluate(&self, since: DoubleDouble, out: &mut [DoubleDouble]) {
+        let mut powers = self.coefficients.rchunks(self.size);
+        out.copy_from_slice(powers.next().expect("there is a power 0"));
+        for of_power in powers {
+            for (out, &c) in out.iter_mut().zip(of_power) {
+                *out = *out * since + c;
+            }
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! A run in double-double that follows the events of a run on `f64`.
+
+use nboom_dynamics::Recursive;
+use nboom_model::{Mode, Scene};
+use nboom_scalar::{DoubleDouble, Real};
+
+use crate::error::SimError;
+use crate::expansion::{Accuracy, Expansion};
+use crate::guard::{GuardKind, Guards, Reading, read};
+use crate::instant::{self, Arrivals, ONE_INSTANT};
+use crate::layout::Layout;
+use crate::record::{Event, EventKind, Snapshot};
+use crate::series::exact_graph;
+use crate::snapshot;
+use crate::start::Start;
+use crate::state::State;
+use crate::variables::Variables;
+
+/// Corrections after which an event's time is as good as it gets.
+const CORRECTIONS: usize = 20;
+
+/// Share of a step by which the last correction may change an event's time.
+const LOCATED: f64 = 1e-20;
+
+/// A run of a scene in double-double.
+///
+/// What may happen next is known from the guide, the events of an `f64` run, so that no guard is
+/// searched for its first root: that of the next event is followed to its root by Newton's
+/// method, and all others must not have changed sign at the end of any step. Equations, guards
+/// and what an instant does are those of every run.
+pub(crate) struct Replay<'a> {
+    scene: &'a Scene,
+    guide: &'a [Event],
+    accuracy: Accuracy,
+    most_steps: usize,
+    steps: usize,
+    dynamics: Recursive<DoubleDouble>,
+    pub mode: Mode,
+    pub state: State<DoubleDouble>,
+    scratch: State<DoubleDouble>,
+    lock_sides: Vec<f64>,
+    guards: Guards,
+    /// What has happened so far.
+    pub events: Vec<Event>,
+}
+
+/// How a mode goes on.
+struct Course {
+    variables: Variables<DoubleDouble>,
+    expansion: Expansion,
+    /// The variables at the present state.
+    now: Vec<DoubleDouble>,
+    /// The same at another time.
+    then: Vec<DoubleDouble>,
+}
+
+/// What ends a mode.
+enum Ending {
+    Guard(GuardKind),
+    Schedule,
+    /// Something that the guide has no event for.
+    Astray,
+}
+
+impl<'a> Replay<'a> {
+    /// At the beginning of `scene`; `guide` has its events without the end.
+    pub fn new(
+        scene: &'a Scene,
+        guide: &'a [Event],
+        accuracy: Accuracy,
+        most_steps: usize,
+    ) -> Self {
+        let Start { state, mode, lock_sides } = Start::of(scene);
+        Self {
+            scene,
+            guide,
+            accuracy,
+            most_steps,
+            steps: 0,
+            dynamics: Recursive::new(scene),
+            mode,
+            scratch: state.clone(),
+            state,
+            lock_sides,
+            guards: Guards::new(),
+            events: Vec::new(),
+        }
+    }
+
+    /// Runs to the end; false when the guide has other events, and then only up to the first.
+    ///
+    /// # Errors
+    /// When the motion cannot be followed or an event not be located.
+    pub fn complete(&mut self) -> Result<bool, SimError> {
+        let mut arrivals = Arrivals::at_start(self.scene);
+        loop {
+            let toggled = self.pass_instant(&arrivals)?;
+            let kinds = |events: &[Event]| -> Vec<_> {
+                events.iter().map(|event| (event.kind, event.hinge)).collect()
+            };
+            if !kinds(self.guide).starts_with(&kinds(&self.events)) {
+                return Ok(false);
+            }
+            if self.state.time.to_f64() >= self.scene.end_time {
+                return Ok(self.events.len() == self.guide.len());
+            }
+            let course = self.enter(&toggled);
+            let located = match self.follow(course)? {
+                Ending::Guard(kind) => Some(kind),
+                Ending::Schedule => None,
+                Ending::Astray => return Ok(false),
+            };
+            let Self { scene, guards, dynamics, state, .. } = self;
+            arrivals = Arrivals::find(scene, guards, dynamics, state, located);
+        }
+    }
+
+    /// What a recorder sees of the present state.
+    pub fn snapshot(&mut self) -> Snapshot {
+        snapshot::take(self.scene, &self.mode, &mut self.dynamics, &self.state)
+    }
+
+    /// Changes the mode as the instant demands; returns the hinges whose springs have toggled.
+    fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<Vec<usize>, SimError> {
+        for (i, side) in self.lock_sides.iter_mut().enumerate() {
+            *side = self.guards.lock_side(i).unwrap_or(*side);
+        }
+        let Self { scene, dynamics, state, mode, lock_sides, .. } = self;
+        let outcome = instant::pass(scene, dynamics, arrivals, state, mode, lock_sides)?;
+        dynamics.set_mode(mode, &state.beta);
+        self.events.extend(outcome.events);
+        Ok(outcome.toggled)
+    }
+
+    /// Takes up the mode at the present state.
+    fn enter(&mut self, toggled: &[usize]) -> Course {
+        let Self { scene, mode, dynamics, state, lock_sides, .. } = self;
+        self.guards.set(scene, mode, dynamics, state, lock_sides, toggled);
+        let thrust = scene.thrust.filter(|_| mode.thrust);
+        let free = dynamics.free_hinges().len();
+        let (momentum, dashpots) = (None, false);
+        let layout = Layout { momentum, free, thrust: thrust.is_some(), dashpots };
+        let graph = exact_graph(scene, mode, layout, thrust);
+        let mut fixed = state.beta.clone();
+        fixed.extend(state.center.velocity.to_array());
+        let expansion = Expansion::new(&graph, &fixed, layout.controlled(), self.accuracy);
+        let variables = Variables::new(scene, layout, state);
+        let mut now = Vec::new();
+        variables.write(dynamics.free_hinges(), &mut now);
+        Course { variables, expansion, then: now.clone(), now }
+    }
+
+    /// Goes on until the guide's next event, something scheduled, or the end.
+    fn follow(&mut self, mut course: Course) -> Result<Ending, SimError> {
+        let scheduled = instant::next_scheduled(self.scene, &self.mode, self.state.time.to_f64());
+        let limit = scheduled.min(self.scene.end_time);
+        let (expected, awaited) = self.awaited();
+        loop {
+            let since_start = self.state.time - course.variables.origin.time;
+            let reach = course.expansion.expand(since_start, &course.now);
+            self.check_step(reach)?;
+            let remaining = exact(limit) - self.state.time;
+            let guess = expected - self.state.time.to_f64();
+            let is_near = guess <= reach;
+            let first =
+                if is_near { self.first(&awaited, guess, reach, &mut course)? } else { None };
+            let within = |(since, _): &(DoubleDouble, GuardKind)| {
+                since.to_f64() <= reach && *since <= remaining
+            };
+            let (since, ending) = match first.filter(within) {
+                Some((since, kind)) => (since, Some(Ending::Guard(kind))),
+                None if remaining.to_f64() <= reach => (remaining, Some(Ending::Schedule)),
+                None => (exact(reach), None),
+            };
+            let is_past = since.to_f64() <= -ONE_INSTANT;
+            if is_past || !self.go_on(since, first.map(|(_, kind)| kind), &mut course) {
+                return Ok(Ending::Astray);
+            }
+            if let Some(ending) = ending {
+                return Ok(ending);
+            }
+            self.guards.settle(self.scene, &mut self.dynamics, &self.state);
+        }
+    }
+
+    /// The guards of the guide's next instant, and when that is.
+    fn awaited(&self) -> (f64, Vec<GuardKind>) {
+        let next = &self.guide[self.events.len()..];
+        let expected = next.first().map_or(f64::INFINITY, |event| event.time);
+        let tells = |event: &&Event| event.time <= expected + ONE_INSTANT;
+        let events: Vec<&Event> = next.iter().take_while(tells).collect();
+        let kinds = self.guards.list.iter().map(|guard| guard.kind);
+        let is_told = |kind: &GuardKind| events.iter().any(|event| belongs(event, *kind));
+        (expected, kinds.filter(is_told).collect())
+    }
+
+    /// The first of the `awaited` guards to reach zero, and how long after the present time.
+    fn first(
+        &mut self,
+        awaited: &[GuardKind],
+        guess: f64,
+        reach: f64,
+        course: &mut Course,
+    ) -> Result<Option<(DoubleDouble, GuardKind)>, SimError> {
+        let mut first: Option<(DoubleDouble, GuardKind)> = None;
+        for &kind in awaited {
+            let since = self.locate(kind, guess, reach, course)?;
+            if first.is_none_or(|(earliest, _)| since < earliest) {
+                first = Some((since, kind));
+            }
+        }
+        Ok(first)
+    }
+
+    /// When a guard is zero, as time since the present, by Newton's method.
+    fn locate(
+        &mut self,
+        kind: GuardKind,
+        guess: f64,
+        reach: f64,
+        course: &mut Course,
+    ) -> Result<DoubleDouble, SimError> {
+        let (mut since, mut last) = (exact(guess), f64::INFINITY);
+        for _ in 0..CORRECTIONS {
+            self.look(since, course);
+            let Reading { value, rate } = read(kind, self.scene, &mut self.dynamics, &self.scratch);
+            let correction = value / rate;
+            let size = correction.to_f64().abs();
+            let better = size < 0.5 * last;
+            if !better {
+                break;
+            }
+            since -= correction;
+            last = size;
+        }
+        if last <= LOCATED * reach.min(self.scene.end_time - self.scene.initial.time) {
+            return Ok(since);
+        }
+        let hinge = self.scene.label(kind.hinge());
+        Err(SimError::NotLocated { time: self.scratch.time.to_f64(), hinge })
+    }
+
+    /// Sets `scratch` to the state `since` after the present one.
+    fn look(&mut self, since: DoubleDouble, course: &mut Course) {
+        course.expansion.evaluate(since, &mut course.then);
+        let time = self.state.time + since;
+        course.variables.read(&mut self.dynamics, time, &course.then, &mut self.scratch);
+    }
+
+    /// Goes on to `since` after the present state; false when a guard other than `awaited` has
+    /// changed sign on the way.
+    fn go_on(
+        &mut self,
+        since: DoubleDouble,
+        awaited: Option<GuardKind>,
+        course: &mut Course,
+    ) -> bool {
+        self.look(since, course);
+        std::mem::swap(&mut self.state, &mut self.scratch);
+        std::mem::swap(&mut course.now, &mut course.then);
+        !self.guards.missed(self.scene, &mut self.dynamics, &self.state, awaited)
+    }
+
+    /// Refuses a step that leads nowhere.
+    fn check_step(&mut self, reach: f64) -> Result<(), SimError> {
+        let time = self.state.time.to_f64();
+        if reach.is_nan() {
+            return Err(SimError::NotFinite { time, hinge: None });
+        }
+        if self.state.time + exact(reach) == self.state.time {
+            return Err(SimError::StepUnderflow { time, step: reach, hinge: None });
+        }
+        self.steps += 1;
+        if self.steps > self.most_steps {
+            let (steps, within) = (self.most_steps, time - self.scene.initial.time);
+            return Err(SimError::TooManySteps { time, hinge: None, steps, within });
+        }
+        Ok(())
+    }
+}
+
+fn exact(value: f64) -> DoubleDouble {
+    DoubleDouble::constant(value)
+}
+
+/// Whether an event is a change of sign of this guard.
+fn belongs(event: &Event, kind: GuardKind) -> bool {
+    let of_kind = match kind {
+        GuardKind::Lock { .. } => event.kind == EventKind::LockUp,
+        GuardKind::Trigger { .. } => event.kind == EventKind::Release,
+        GuardKind::KickOff { .. } => {
+            matches!(event.kind, EventKind::KickOffEngage | EventKind::KickOffDisengage)
+        }
+    };
+    of_kind && event.hinge == Some(kind.hinge())
+}
+
+#[cfg(test)]
+mod tests;
