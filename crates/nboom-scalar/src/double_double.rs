@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_2_PI;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use crate::{Number, Real};
+use crate::Real;
 
 /// A number of about 32 digits: the sum of two `f64`, of which the low part is at most half a
 /// unit in the last place of the high one.
@@ -141,12 +141,6 @@ impl Real for DoubleDouble {
             2 => (-sine, -cosine),
             _ => (-cosine, sine),
         }
-    }
-}
-
-impl Number for DoubleDouble {
-    fn to_f64(self) -> f64 {
-        self.high
     }
 }
 

@@ -1,6 +1,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+use crate::DoubleDouble;
+
 /// A scalar that equations of motion can be evaluated on.
 ///
 /// Implementations may record, carry derivatives or hold several states at once, so the trait
@@ -65,6 +67,12 @@ pub trait Number: Real {
 impl Number for f64 {
     fn to_f64(self) -> f64 {
         self
+    }
+}
+
+impl Number for DoubleDouble {
+    fn to_f64(self) -> f64 {
+        self.high()
     }
 }
 
