@@ -51,9 +51,11 @@ fn snapshot(time: f64) -> Snapshot {
         nutation: 0.0,
         detail: Some(Detail {
             omega_dot_body: Vec3::zero(),
+            origin_acceleration_body: Vec3::zero(),
             beta_ddot: vec![0.0],
             alpha_ddot: vec![0.0],
             hinge_torque: vec![0.0],
+            kick_off_pushes: vec![false],
             kick_off_force: vec![0.0],
             kick_off_length: vec![0.0],
             mass_center_body: Vec3::zero(),
