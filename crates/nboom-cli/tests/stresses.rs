@@ -1,0 +1,112 @@
+//! `nboom run` on a deck that asks for stresses.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+/// Columns that scripts rely on.
+const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
+     sigma_23,principal_1,principal_2,von_mises,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
+const FILES: [&str; 3] = ["stress.csv", "hinge_loads.csv", "stress_envelope.csv"];
+
+/// The sample deck, which has four segments with seven stations in all and INSTR = 3.
+fn deck() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/n-boom-1970.nml");
+    fs::read_to_string(path).expect("in the clone")
+}
+
+fn run(deck: &str, args: &[&str]) -> (Output, TempDir) {
+    let place = tempfile::tempdir().expect("a directory");
+    fs::write(place.path().join("deck.nml"), deck).expect("writable");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+    command.current_dir(place.path()).args(["run", "deck.nml", "-o", "out"]).args(args);
+    (command.output().expect("the binary starts"), place)
+}
+
+fn rows(place: &TempDir, file: &str) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(place.path().join("out").join(file)).expect("written");
+    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn number(cell: &str) -> f64 {
+    cell.parse().expect("a number")
+}
+
+#[test]
+fn stresses_come_at_every_third_output_and_at_every_lock_up() {
+    let (output, place) = run(&deck(), &["--samples", "30"]);
+    assert_eq!(output.status.code(), Some(0));
+    let stresses = rows(&place, "stress.csv");
+    assert_eq!(stresses[0].join(","), STRESS_HEADER);
+    let of_motion = |row: &&Vec<String>| row[1].is_empty() && row[5] == "max";
+    let mut times: Vec<f64> =
+        stresses[1..].iter().filter(of_motion).map(|r| number(&r[0])).collect();
+    times.dedup();
+    let output_times: Vec<f64> =
+        rows(&place, "states.csv")[1..].iter().map(|row| number(&row[0])).step_by(3).collect();
+    assert_eq!(times, output_times);
+    let peaks = stresses[1..].iter().filter(|row| row[1] == "lock_up" && row[5] == "max").count();
+    assert_eq!(peaks, 4 * 7, "four lock-ups, seven stations");
+    let hinge_rows = rows(&place, "hinge_loads.csv").len() - 1;
+    assert_eq!(hinge_rows, 4 * (times.len() + 4));
+}
+
+#[test]
+fn the_envelope_has_the_largest_of_each_station_and_the_account_the_largest_of_all() {
+    let (output, place) = run(&deck(), &["--yield-stress", "4e5", "--safety-factor", "1.5"]);
+    let stresses = rows(&place, "stress.csv");
+    let envelope = rows(&place, "stress_envelope.csv");
+    assert_eq!(envelope.len(), 1 + 7);
+    for worst in &envelope[1..] {
+        let station = |row: &&Vec<String>| row[2..5] == worst[0..3];
+        let of_station = stresses[1..].iter().filter(station);
+        let largest = of_station.map(|row| number(&row[13])).fold(0.0, f64::max);
+        assert_eq!(number(&worst[12]), largest);
+        let margin = 4e5 / (1.5 * largest) - 1.0;
+        // Written to the last digit; two roundings to get there.
+        assert!((number(&worst[14]) - margin).abs() < 1e-14 * (1.0 + margin.abs()));
+    }
+    let told = String::from_utf8(output.stdout).expect("text");
+    let line = told.lines().find(|line| line.starts_with("worst stress")).expect("told");
+    assert!(line.contains("segment 2,1, station 2") && line.contains("margin"), "{line}");
+}
+
+#[test]
+fn what_is_not_asked_for_is_not_written() {
+    for (deck, args) in
+        [(deck(), &["--no-stresses"][..]), (deck().replace("INSTR=3", "INSTR=0"), &[])]
+    {
+        let (output, place) = run(&deck, args);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(FILES.iter().all(|file| !place.path().join("out").join(file).exists()));
+        assert!(!String::from_utf8_lossy(&output.stdout).contains("worst stress"));
+    }
+}
+
+#[test]
+fn files_of_an_earlier_run_do_not_stay() {
+    let (_, place) = run(&deck(), &[]);
+    let mut again = Command::new(env!("CARGO_BIN_EXE_nboom"));
+    again.current_dir(place.path()).args(["run", "deck.nml", "-o", "out", "--no-stresses"]);
+    assert_eq!(again.output().expect("the binary starts").status.code(), Some(0));
+    assert!(FILES.iter().all(|file| !place.path().join("out").join(file).exists()));
+}
+
+#[test]
+fn sections_and_factors_that_are_none_are_refused() {
+    let thick = deck().replacen("R(1,1)=2.0", "R(1,1)=0.01", 1);
+    let (output, _) = run(&thick, &[]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("segment 1,1, station 1"), "{told}");
+    for option in ["--yield-stress", "--safety-factor", "--amplification"] {
+        for value in ["0", "-1", "NaN", "inf", "strong"] {
+            let (output, _) = run(&deck(), &[option, value]);
+            let told = String::from_utf8(output.stderr).expect("text");
+            assert_eq!(output.status.code(), Some(2), "{option} {value}: {told}");
+            assert!(told.contains(option), "{told}");
+        }
+    }
+}
