@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use nboom::model::{Dashpot, Gravity, HingeState, Scene, SceneDescription, Spring, Thrust};
-use nboom::scalar::{Sym3, Vec3};
+use nboom::scalar::{Quaternion, Vec3};
 use nboom::sim::{Event, Options, Recorder, Snapshot, Summary, simulate};
 use nboom_codegen::{Level, Numbers, Request, generate};
 
@@ -140,26 +140,24 @@ fn cases() -> Vec<Case> {
     all
 }
 
-/// The report's case with a thrust from 0.05 on, gravity, and bodies without symmetry.
-fn full() -> SceneDescription {
+fn deck() -> SceneDescription {
     let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/n-boom-1970.nml");
     let scene = nboom::io::read_scene(&deck).expect("the deck is in the clone").scene;
-    let mut description = SceneDescription::clone(&scene);
+    SceneDescription::clone(&scene)
+}
+
+/// The report's case with a thrust, gravity, and bodies without symmetry.
+fn full() -> SceneDescription {
+    let mut scene = deck();
     let (force, point) = (Vec3::new(30.0, 5.0, -2.0), Vec3::new(-10.0, 1.0, 0.5));
-    description.thrust = Some(Thrust { force, point, on: 0.05, off: 0.8 });
-    description.gravity = Some(Gravity { acceleration: 386.0, up: Vec3::unit_z() });
-    description.main_body.center_of_mass = Vec3::new(0.5, -0.2, 0.3);
-    for body in &mut description.bodies {
-        let mass = &mut body.mass_properties;
+    scene.thrust = Some(Thrust { force, point, on: 0.05, off: 0.8 });
+    scene.gravity = Some(Gravity { acceleration: 386.0, up: Vec3::unit_z() });
+    let turn = Quaternion { scalar: 0.8, vector: Vec3::new(0.36, 0.48, 0.0) }.to_matrix();
+    for mass in masses(&mut scene) {
+        mass.inertia = mass.inertia.rotated(&turn);
         mass.center_of_mass = mass.center_of_mass + Vec3::new(0.2, 0.0, -0.1);
     }
-    for mass in masses(&mut description) {
-        let Sym3 { xx, yy, zz, .. } = mass.inertia;
-        let least = xx.min(yy).min(zz);
-        mass.inertia =
-            Sym3 { xy: 0.1 * least, xz: -0.05 * least, yz: 0.08 * least, ..mass.inertia };
-    }
-    description
+    scene
 }
 
 fn masses(scene: &mut SceneDescription) -> impl Iterator<Item = &mut nboom::model::MassProperties> {
@@ -167,18 +165,16 @@ fn masses(scene: &mut SceneDescription) -> impl Iterator<Item = &mut nboom::mode
     std::iter::once(main_body).chain(bodies.iter_mut().map(|body| &mut body.mass_properties))
 }
 
+/// Inertias along the axes of the bodies.
 fn along_axes(scene: &mut SceneDescription) {
-    for mass in masses(scene) {
-        let Sym3 { xx, yy, zz, .. } = mass.inertia;
-        mass.inertia = Sym3::diagonal(xx, yy, zz);
+    for (mass, of_deck) in masses(scene).zip(masses(&mut deck())) {
+        mass.inertia = of_deck.inertia;
     }
 }
 
 /// The main body's mass centre at O, those of segments on their η axes.
 fn centred(scene: &mut SceneDescription) {
-    scene.main_body.center_of_mass = Vec3::zero();
-    for body in &mut scene.bodies {
-        body.mass_properties.center_of_mass.x = 0.0;
-        body.mass_properties.center_of_mass.z = 0.0;
+    for (mass, of_deck) in masses(scene).zip(masses(&mut deck())) {
+        mass.center_of_mass = of_deck.center_of_mass;
     }
 }

@@ -22,14 +22,14 @@ const TIGHTEST: (f64, f64) = (1e-14, 1e-16);
 const MOST_STEPS: usize = 100_000;
 
 /// A curve ends with a run that takes longer \[s\]: those at smaller tolerances would, too.
-const LONGEST: f64 = 0.5;
+const LONGEST: f64 = 0.25;
 
 /// No curve begins where this share of the span takes as much of so many times [`LONGEST`].
 const TRIAL: f64 = 0.05;
-const MARGIN: f64 = 4.0;
+const MARGIN: f64 = 8.0;
 
 /// All runs take turns so often, for so many seconds each, and the shortest time counts.
-const TURNS: usize = 3;
+const TURNS: usize = 5;
 const SECONDS: f64 = 0.01;
 
 /// Runs that take longer \[s\] are made once.
