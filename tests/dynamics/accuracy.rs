@@ -83,7 +83,7 @@ fn errors_are_those_of_the_table() {
 }
 
 const DISTANCES: [f64; 6] = [0.0, 1.0, 1e2, 1e4, 1e6, 1e8];
-const FAR_SATELLITES: u64 = 200;
+const FAR_SATELLITES: u64 = 60;
 
 /// Worst error of `articulated`, and of `report` with |ρ̄| and |v̄| up to each distance, of satellites
 /// whose rates are so many times as fast.
@@ -124,7 +124,7 @@ fn the_report_loses_as_many_digits_as_the_origin_is_far() {
         // Satellites measure about one, and what cancels is as long as ρ̄ beside them.
         for (error, distance) in far.iter().zip(&DISTANCES[2..]) {
             let lost = error / (distance * f64::EPSILON);
-            assert!((1.0..1e3).contains(&lost), "{distance:e}: {error:e}");
+            assert!((1.0..1e2).contains(&lost), "{distance:e}: {error:e}");
         }
     }
 }
