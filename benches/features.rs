@@ -155,7 +155,7 @@ fn full() -> SceneDescription {
     let turn = Quaternion { scalar: 0.8, vector: Vec3::new(0.36, 0.48, 0.0) }.to_matrix();
     for mass in masses(&mut scene) {
         mass.inertia = mass.inertia.rotated(&turn);
-        mass.center_of_mass = mass.center_of_mass + Vec3::new(0.2, 0.0, -0.1);
+        mass.center_of_mass += Vec3::new(0.2, 0.0, -0.1);
     }
     scene
 }

@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 
 use nboom_verify::WorkPrecision;
 
+/// For each code and integrator.
+const SECONDS: f64 = 0.6;
+
 /// Names and decks.
 const SCENES: [(&str, &str); 7] = [
     ("report", "examples/n-boom-1970.nml"),
@@ -34,7 +37,7 @@ fn main() {
         }
         let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join(deck);
         let scene = nboom::io::read_scene(&deck).expect("the deck is in the clone").scene;
-        let found = WorkPrecision::measure(&scene, nboom_routines::all());
+        let found = WorkPrecision::measure(&scene, nboom_routines::all(), SECONDS);
         let found = found.expect("the reference comes to its end");
         for (ending, text) in [("csv", found.csv()), ("svg", found.picture())] {
             let file = directory.join(format!("{name}.{ending}"));

@@ -289,7 +289,7 @@ pub struct BenchArgs {
     #[arg(short, long, value_name = "DIR", requires = "work_precision")]
     pub output: Option<PathBuf>,
 
-    /// Seconds for each code.
+    /// Seconds for each code, with --work-precision for each code and integrator.
     #[arg(long, value_name = "S", default_value = "0.3", value_parser = choice::positive,
           allow_negative_numbers = true)]
     pub seconds: f64,

@@ -14,10 +14,13 @@ use crate::{CliError, Routines};
 pub(crate) fn work_precision(
     scene: &Scene,
     routines: &Routines,
+    seconds: f64,
     directory: &Path,
 ) -> Result<String, CliError> {
-    let found = WorkPrecision::measure(scene, routines.accelerations).map_err(|failure| {
-        CliError::Simulation { error: failure.error, directory: directory.to_owned() }
+    let measured = WorkPrecision::measure(scene, routines.accelerations, seconds);
+    let found = measured.map_err(|failure| CliError::Simulation {
+        error: failure.error,
+        directory: directory.to_owned(),
     })?;
     write(directory, "work-precision.csv", &found.csv())?;
     write(directory, "work-precision.svg", &found.picture())?;

@@ -28,9 +28,8 @@ const LONGEST: f64 = 0.25;
 const TRIAL: f64 = 0.05;
 const MARGIN: f64 = 8.0;
 
-/// All runs take turns so often, for so many seconds each, and the shortest time counts.
+/// All runs take turns so often, and the shortest time counts.
 const TURNS: usize = 5;
-const SECONDS: f64 = 0.01;
 
 /// Runs that take longer \[s\] are made once.
 const TIMED_ONCE: f64 = 0.1;
@@ -67,15 +66,21 @@ pub struct TimedRun {
 }
 
 impl WorkPrecision {
-    /// Runs `scene` in all ways that cover it. A curve ends early where runs become long.
+    /// Runs `scene` in all ways that cover it, again and again for about so many `seconds` for each
+    /// code and integrator. A curve ends early where runs become long.
     ///
     /// # Errors
     /// When a reference does not come to its end.
-    pub fn measure(scene: &Scene, kernels: &'static [Kernel]) -> Result<Self, Failure> {
+    pub fn measure(
+        scene: &Scene,
+        kernels: &'static [Kernel],
+        seconds: f64,
+    ) -> Result<Self, Failure> {
         let truth = reference(scene, Method::Taylor)?;
         let second = reference(scene, Method::Dop853)?;
         let mut measured: Vec<(TimedRun, Options)> = Vec::new();
         let beginning = beginning(scene);
+        let seconds = seconds / (TOLERANCES.count() * TURNS) as f64;
         for (code, integrator) in combinations(kernels) {
             if crawls(&beginning, &code.options(integrator, *TOLERANCES.start(), kernels)) {
                 continue;
@@ -83,7 +88,7 @@ impl WorkPrecision {
             for exponent in TOLERANCES {
                 let options = code.options(integrator, exponent, kernels);
                 // What does not come to the end will not at smaller tolerances either.
-                let Some(run) = timed(scene, code, &options, &truth) else { break };
+                let Some(run) = timed(scene, code, &options, &truth, seconds) else { break };
                 measured.push((run, options));
                 if run.microseconds > LONGEST * 1e6 {
                     break;
@@ -93,7 +98,7 @@ impl WorkPrecision {
         for _ in 1..TURNS {
             let quick = measured.iter_mut().filter(|(run, _)| run.microseconds < 1e6 * TIMED_ONCE);
             for (run, options) in quick {
-                run.microseconds = run.microseconds.min(shortest(scene, options));
+                run.microseconds = run.microseconds.min(shortest(scene, options, seconds));
             }
         }
         Ok(Self {
@@ -250,7 +255,13 @@ fn crawls(beginning: &Scene, options: &Options) -> bool {
 }
 
 /// `None` where the run does not come to its end.
-fn timed(scene: &Scene, code: Source, options: &Options, truth: &Snapshot) -> Option<TimedRun> {
+fn timed(
+    scene: &Scene,
+    code: Source,
+    options: &Options,
+    truth: &Snapshot,
+    seconds: f64,
+) -> Option<TimedRun> {
     let mut witness = Witness::new();
     let started = Instant::now();
     let summary = simulate(scene, options, &mut witness).ok()?;
@@ -262,16 +273,16 @@ fn timed(scene: &Scene, code: Source, options: &Options, truth: &Snapshot) -> Op
         integrator: options.integrator,
         rtol: options.rtol,
         error: largest_difference(witness.end()?, truth),
-        microseconds: if first < SECONDS { shortest(scene, options) } else { first * 1e6 },
+        microseconds: if first < seconds { shortest(scene, options, seconds) } else { first * 1e6 },
         evaluations: summary.evaluations,
     })
 }
 
-/// The shortest time of several runs \[µs\].
-fn shortest(scene: &Scene, options: &Options) -> f64 {
+/// The shortest time \[µs\] of as many runs as fit into `seconds`.
+fn shortest(scene: &Scene, options: &Options, seconds: f64) -> f64 {
     let mut least = f64::INFINITY;
     let all = Instant::now();
-    while all.elapsed().as_secs_f64() < SECONDS {
+    while all.elapsed().as_secs_f64() < seconds {
         let mut witness = Witness::new();
         let started = Instant::now();
         if simulate(scene, options, &mut witness).is_ok() {
