@@ -1,9 +1,11 @@
 //! How far closed forms on `f64` are from the recursive path in double-double, which shares only
 //! spatial algebra with them.
 
-use nboom::formulation::{Formulation, Recognised};
+use nboom::formulation::report::Place;
+use nboom::formulation::{Formulation, Recognised, report};
 use nboom::scalar::DoubleDouble;
 
+use crate::random_scene::Dice;
 use crate::satellites::{Satellite, exact, flat, random};
 
 const SATELLITES: u64 = 1000;
@@ -76,6 +78,53 @@ fn errors_are_those_of_the_table() {
                 (0.5..2.0).contains(&ratio),
                 "{name}: {found:e} found, {expected:e} documented"
             );
+        }
+    }
+}
+
+const DISTANCES: [f64; 6] = [0.0, 1.0, 1e2, 1e4, 1e6, 1e8];
+const FAR_SATELLITES: u64 = 60;
+
+/// Worst error of `articulated`, and of `report` with |ρ̄| and |v̄| up to each distance, of satellites
+/// whose rates are so many times as fast.
+fn errors_away_from_the_origin(faster: f64) -> Vec<f64> {
+    let mut worst = vec![0.0_f64; 1 + DISTANCES.len()];
+    for seed in 0..FAR_SATELLITES {
+        let mut moment = random(seed);
+        moment.omega = moment.omega * faster;
+        moment.tau.iter_mut().for_each(|tau| *tau *= faster);
+        let satellite = Satellite::of_moment(&moment);
+        let recognised = satellite.recognised();
+        let Recognised { topology, parameters, links } = &recognised;
+        let coordinates = satellite.coordinates_of(&recognised);
+        let exact = exact(&moment, links);
+        let articulated = Formulation::Articulated.solve(topology, parameters, &coordinates);
+        let dice = &mut Dice::new(seed);
+        let (rho, v) = (dice.vector(1.0), dice.vector(1.0));
+        let of_report = DISTANCES.map(|distance| {
+            let place = Place { rho: rho * distance, v: v * distance };
+            report::solve(topology, parameters, &coordinates, &place)
+        });
+        for (worst, found) in worst.iter_mut().zip([articulated].iter().chain(&of_report)) {
+            *worst = worst.max(error(&flat(found), &exact));
+        }
+    }
+    worst
+}
+
+#[test]
+fn the_report_loses_as_many_digits_as_the_origin_is_far() {
+    for faster in [1.0, 1e3] {
+        let errors = errors_away_from_the_origin(faster);
+        let shown: Vec<String> = errors.iter().map(|error| format!("{error:.1e}")).collect();
+        println!("rates times {faster}: {}", shown.join(" | "));
+        let (near, far) = (errors[1], &errors[3..]);
+        // The forms that do not know where O is are where `report` is near it, at any rate.
+        assert!(errors[0] < near && near < 1e-13, "{shown:?}");
+        // Satellites measure about one, and what cancels is as long as ρ̄ beside them.
+        for (error, distance) in far.iter().zip(&DISTANCES[2..]) {
+            let lost = error / (distance * f64::EPSILON);
+            assert!((1.0..1e2).contains(&lost), "{distance:e}: {error:e}");
         }
     }
 }

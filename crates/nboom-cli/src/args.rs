@@ -295,7 +295,7 @@ pub struct BenchArgs {
     pub harness: bool,
 
     /// Instead, time whole runs against their error: every code that covers the scene with every
-    /// integrator at relative tolerances from 1e-3 to 1e-13. Writes work-precision.csv and .svg.
+    /// integrator at relative tolerances from 1e-3 to 1e-14. Writes work-precision.csv and .svg.
     #[arg(long, conflicts_with_all = ["json", "harness"])]
     pub work_precision: bool,
 
@@ -303,7 +303,7 @@ pub struct BenchArgs {
     #[arg(short, long, value_name = "DIR", requires = "work_precision")]
     pub output: Option<PathBuf>,
 
-    /// Seconds for each code.
+    /// Seconds for each code, with --work-precision for each code and integrator.
     #[arg(long, value_name = "S", default_value = "0.3", value_parser = choice::positive,
           allow_negative_numbers = true)]
     pub seconds: f64,

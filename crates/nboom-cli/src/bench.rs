@@ -48,7 +48,8 @@ pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, Cli
     check::warnings(&file).iter().for_each(|warning| say("warning", warning));
     if args.work_precision {
         let directory = default_directory(&file.scene.name);
-        return work_precision(&file.scene, routines, args.output.as_ref().unwrap_or(&directory));
+        let directory = args.output.as_ref().unwrap_or(&directory);
+        return work_precision(&file.scene, routines, args.seconds, directory);
     }
     let subject = Subject::new(file.scene, STATES, SEED)?;
     let rows = rows(&subject, routines, args.seconds)?;

@@ -24,7 +24,6 @@ mod error;
 mod format;
 #[cfg(feature = "generator")]
 mod generate;
-mod picture;
 mod print_run;
 mod print_scene;
 mod progress;

@@ -1,4 +1,4 @@
-//! Compares and certifies code that computes accelerations.
+//! Compares and certifies code that computes accelerations, and times whole runs with it.
 //!
 //! A [`Subject`] is a scene with all hinges free or some held, and random states of it. [`compare`]
 //! takes all code that covers it, the recursion, the closed forms and generated routines, through
@@ -7,6 +7,9 @@
 //! truth. The latter tells the error of the recursion itself too.
 //!
 //! Deviations are relative. See [`Quantity`] for what they are relative to.
+//!
+//! [`WorkPrecision`] runs a scene with all code, all integrators and tolerances, and sets run time
+//! against error.
 //!
 //! ```
 //! use nboom_model::{Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment};
@@ -39,9 +42,11 @@ mod condition;
 mod equations;
 mod error;
 mod label;
+mod picture;
 mod random;
 mod reference;
 mod subject;
+mod work_precision;
 
 pub use certificate::{Certificate, certify, truth};
 pub use code::Code;
@@ -49,3 +54,4 @@ pub use comparison::{Comparison, Row, compare};
 pub use error::VerifyError;
 pub use label::{Hinges, Label, Quantity};
 pub use subject::{NotCovered, State, Subject};
+pub use work_precision::{TimedRun, WorkPrecision};
