@@ -10,9 +10,17 @@ use crate::newton_euler::vector;
 use crate::random_scene::Moment;
 use crate::{Prepared, relative};
 
-/// Locks about half of the free hinges: the jump, the same for each locking hinge alone, and
-/// the impulses of the latches; all for every hinge of the scene.
-fn lock(case: &Sliced) -> Option<(Jump, Vec<(usize, Jump)>, Vec<f64>)> {
+/// What a lock-up changes; all for every hinge of the scene.
+struct Locked {
+    jump: Jump,
+    /// The same for each locking hinge alone.
+    shares: Vec<(usize, Jump)>,
+    /// Impulses of the latches.
+    latches: Vec<f64>,
+}
+
+/// Locks about half of the free hinges.
+fn lock(case: &Sliced) -> Option<Locked> {
     let mut prepared = Prepared::new(&case.moment);
     let count = case.tau_dot.len();
     let free = prepared.dynamics.free_hinges().to_vec();
@@ -31,7 +39,7 @@ fn lock(case: &Sliced) -> Option<(Jump, Vec<(usize, Jump)>, Vec<f64>)> {
     let shares = locking.iter().zip(&lock_up.impulses).map(alone).collect();
     let LockUp { delta_velocity_body: v, delta_omega_body: w, delta_tau, .. } = lock_up;
     let all = [&v.to_array()[..], &w.to_array(), &delta_tau].concat();
-    Some((Jump::new(&all, &free, count), shares, latches))
+    Some(Locked { jump: Jump::new(&all, &free, count), shares, latches })
 }
 
 struct Jump {
@@ -57,7 +65,7 @@ impl Jump {
 fn impulses_balance_and_are_the_latches_impulses_about_the_axes() {
     let mut seen = 0;
     for case in Sliced::all() {
-        let Some((jump, _, latches)) = lock(&case) else { continue };
+        let Some(Locked { jump, latches, .. }) = lock(&case) else { continue };
         let Moment { scene, mode, beta, .. } = &case.moment;
         let mut finder = Loads::new(scene, Some(&case.structure));
         let mut found = finder.load_set();
@@ -84,7 +92,7 @@ fn impulses_balance_and_are_the_latches_impulses_about_the_axes() {
 fn shares_of_a_joint_lock_up_have_their_own_pulses() {
     let mut joint = 0;
     for case in Sliced::all() {
-        let Some((jump, shares, latches)) = lock(&case) else { continue };
+        let Some(Locked { jump, shares, latches }) = lock(&case) else { continue };
         let Moment { scene, mode, beta, .. } = &case.moment;
         let count = scene.bodies.len();
         let mut finder = Loads::new(scene, Some(&case.structure));

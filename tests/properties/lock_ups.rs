@@ -22,7 +22,7 @@ fn sums(moment: &Moment) -> Sums {
 }
 
 /// The moment after locking these hinges of the scene, and what the lock-up says.
-fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, LockUp) {
+fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, LockUp<f64>) {
     let mut prepared = Prepared::new(moment);
     let free = prepared.dynamics.free_hinges().to_vec();
     let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");

@@ -5,7 +5,7 @@ use nboom::model::{
     Segment,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::{Options, Path, Summary, Witness, simulate, trust};
+use nboom::sim::{Options, Path, Reference, Summary, Witness, simulate, trust};
 
 use crate::collect::{Collected, run};
 
@@ -83,7 +83,8 @@ pub fn conserving(scene: &Scene, options: &Options, condition: f64) -> (Collecte
 pub fn error(scene: &Scene, options: &Options) -> (f64, bool) {
     let mut witness = Witness::new();
     simulate(scene, options, &mut witness).expect("it runs to its end");
-    let found = trust(scene, options, &witness).expect("the tighter run, too");
+    let reference = Reference::TighterTolerance;
+    let found = trust(scene, options, &witness, reference).expect("the tighter run, too");
     let of_interest = found.end.iter().filter(|d| !["rho", "v"].contains(&d.quantity));
     let worst = of_interest.map(|d| d.difference).fold(0.0, f64::max);
     println!("error {worst:.1e}, same events: {}", found.same_events);
