@@ -24,6 +24,9 @@ const LOOSE: f64 = 1e-5;
 /// Steps bounded by stability after which a problem counts as stiff, and steps in between that
 /// show the contrary (Hairer and Wanner, Section IV.2).
 const STIFF: usize = 15;
+/// Share of the stability limit beyond which a step counts as bounded by it: under tight tolerances
+/// steps swing about the limit and are often a little below.
+const NEAR: f64 = 0.8;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
 
@@ -64,7 +67,7 @@ impl Automatic {
         if self.is_stiff {
             self.implicit.stiffness() < COST * limit
         } else {
-            self.explicit.stiffness() > limit
+            self.explicit.stiffness() > NEAR * limit
         }
     }
 
