@@ -9,5 +9,6 @@ mod collect;
 
 mod blocks;
 mod events;
+mod loads;
 mod quantity;
 mod sample_run;
