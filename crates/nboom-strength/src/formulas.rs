@@ -1,5 +1,5 @@
 use nboom_scalar::Wrench;
-use nboom_sections::report::{Original, SectionSlips};
+use nboom_sections::report::Original;
 use nboom_sections::{PointStress, Section, Stress};
 
 use crate::Slips;
@@ -14,10 +14,10 @@ pub(crate) enum Formulas {
 impl Formulas {
     pub fn new(section: Section, slips: Slips) -> Self {
         let slips = slips.of_sections();
-        if slips == SectionSlips::default() {
-            Self::Right(section)
-        } else {
+        if slips.concern(&section) {
             Self::Of1970(Original::new(section, slips))
+        } else {
+            Self::Right(section)
         }
     }
 

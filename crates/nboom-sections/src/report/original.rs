@@ -29,6 +29,17 @@ pub struct SectionSlips {
     pub vertex_before: bool,
 }
 
+impl SectionSlips {
+    /// Whether any of them concerns sections of this kind.
+    pub fn concern(self, section: &Section) -> bool {
+        let Self { tube_inertia, tube_shear, .. } = self;
+        let of_tubes = Self { tube_inertia, tube_shear, ..Self::default() };
+        let of_polygons = Self { tube_inertia: false, tube_shear: false, ..self };
+        let of_kind = if matches!(section, Section::Tube(_)) { of_tubes } else { of_polygons };
+        of_kind != Self::default()
+    }
+}
+
 /// A section as the program of 1970 computed it, as far as its slips are asked for.
 ///
 /// Points and loads are those of [`Section`]. The maximum of a polygon is searched at the starts of
