@@ -147,13 +147,16 @@ impl Block {
         self.at_start(original, listed.wall.expect("it is a polygon"))
     }
 
+    /// The stress at a place, of a polygon at a wall too.
+    fn at_place(&self, original: &Original, place: Point, wall: Option<usize>) -> Stress {
+        let stress = Stress { normal: 0.0, shear_xi: 0.0, shear_zeta: 0.0 };
+        original.at(&PointStress { place, wall, stress }, &self.load())
+    }
+
     /// The stress at the start of a wall.
     fn at_start(&self, original: &Original, wall: usize) -> Stress {
         let Section::Polygon(polygon) = (self.section)() else { panic!("tubes have no walls") };
-        let place = polygon.walls()[wall].start();
-        let unstressed = Stress { normal: 0.0, shear_xi: 0.0, shear_zeta: 0.0 };
-        let point = PointStress { place, wall: Some(wall), stress: unstressed };
-        original.at(&point, &self.load())
+        self.at_place(original, polygon.walls()[wall].start(), Some(wall))
     }
 
     /// The stress with the largest σ₂₂ of all vertices.
@@ -239,9 +242,7 @@ impl Entry {
             None if block.is_tube() => {
                 let theta = self.beside("THETA", all);
                 let place = Point { xi: 2.0 * theta.cos(), zeta: 2.0 * theta.sin() };
-                let unstressed = Stress { normal: 0.0, shear_xi: 0.0, shear_zeta: 0.0 };
-                let point = PointStress { place, wall: None, stress: unstressed };
-                original.at(&point, &block.load())
+                block.at_place(original, place, None)
             }
             None => block.largest_at_vertices(original),
         }
@@ -320,9 +321,7 @@ impl Entry {
     fn middle_of_wall(&self, original: &Original) -> f64 {
         let Section::Polygon(polygon) = (self.block.section)() else { panic!("a polygon") };
         let place = polygon.walls()[2].at(0.5);
-        let unstressed = Stress { normal: 0.0, shear_xi: 0.0, shear_zeta: 0.0 };
-        let point = PointStress { place, wall: Some(2), stress: unstressed };
-        original.at(&point, &self.block.load()).in_report_signs()[1]
+        self.block.at_place(original, place, Some(2)).in_report_signs()[1]
     }
 }
 
