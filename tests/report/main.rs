@@ -9,5 +9,7 @@ mod collect;
 
 mod blocks;
 mod events;
+mod kick_off;
+mod loads;
 mod quantity;
 mod sample_run;

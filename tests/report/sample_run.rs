@@ -15,11 +15,16 @@ pub fn scene() -> Scene {
 }
 
 /// The true motion at `time`, seen with the hinges in the states `hinges`.
+pub fn motion_at(time: f64, hinges: &[HingeState]) -> Snapshot {
+    run(&scene_at(time, hinges), &tight(1)).0.samples[0].clone()
+}
+
+/// A scene that starts with the true motion at `time` and the hinges in the states `hinges`.
 ///
 /// The 1970 run released its hinges 4e-5 to 1.5e-4 s early (see `events.rs`). Its blocks are
 /// therefore compared with the true motion at the printed time, in which those hinges have
 /// become free that the block shows as free.
-pub fn motion_at(time: f64, hinges: &[HingeState]) -> Snapshot {
+pub fn scene_at(time: f64, hinges: &[HingeState]) -> Scene {
     let scene = scene();
     let until = scene.ending_at(time).expect("no block is before the start");
     let at = run(&until, &tight(1)).0.last().clone();
@@ -38,6 +43,5 @@ pub fn motion_at(time: f64, hinges: &[HingeState]) -> Snapshot {
     };
     let end_time = time + 1e-6;
     let seen = SceneDescription { bodies, initial, end_time, ..(*scene).clone() };
-    let seen = Scene::new(seen).expect("the bodies are those of the deck");
-    run(&seen, &tight(1)).0.samples[0].clone()
+    Scene::new(seen).expect("the bodies are those of the deck")
 }

@@ -9,7 +9,7 @@ use nboom_package::Level;
 use nboom_results::UnitSystem;
 use nboom_sim::{Form, Method, Reference};
 
-use crate::{StressArgs, choice};
+use crate::{SlipArgs, StressArgs, choice};
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 done; 1 a comparison failed (verify, \
@@ -157,6 +157,10 @@ pub struct RunArgs {
     #[arg(long, value_name = "REFERENCE", num_args = 0..=1, require_equals = true,
           default_missing_value = Reference::default().name(), value_parser = choice::reference)]
     pub certify: Option<Reference>,
+
+    /// Slips of the original program.
+    #[command(flatten)]
+    pub slips: SlipArgs,
 
     /// Stresses, where the scene asks for them.
     #[command(flatten)]

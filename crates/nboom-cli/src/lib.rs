@@ -33,6 +33,7 @@ mod section;
 mod section_answer;
 mod section_file;
 mod simulator;
+mod slips;
 mod stresses;
 mod verify;
 mod watch;
@@ -51,6 +52,7 @@ pub use error::CliError;
 pub use reference::reference;
 pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
+pub use slips::SlipArgs;
 pub use stresses::StressArgs;
 
 /// Generated routines that commands choose from.

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, read_scene};
+use nboom_io::{LegacySettings, SceneFile, read_scene};
 use nboom_model::Scene;
 use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes, write_trust};
 use nboom_sim::{
@@ -16,10 +16,13 @@ use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say};
 
 /// Simulates a scene, writes its files and returns the account of it for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
+    let slips = args.slips.as_1970.unwrap_or_default();
     let file = read_scene(&args.scene)?;
-    let stresses = args.stresses.analysis(&file)?;
+    let file = SceneFile { scene: slips.scene(file.scene), ..file };
+    let stresses = args.stresses.analysis(&file, slips)?;
     let of_sections = stresses.iter().flat_map(StressAnalysis::warnings);
-    let warnings: Vec<String> = check::warnings(&file).into_iter().chain(of_sections).collect();
+    let warnings = check::warnings(&file).into_iter().chain(of_sections);
+    let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
     let scene = with_end_time(file.scene, args.end_time)?;
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));

@@ -46,7 +46,7 @@ fn of_tube(tube: &Tube) -> Value {
 
 fn tube_stresses(tube: &Tube, load: &Wrench<f64>) -> Value {
     let stresses = tube.stresses(load);
-    let of_report = |theta: f64| report::tube_stress(tube, load, theta);
+    let of_report = |theta: f64| report::tube_stress(&stresses, theta);
     let axis_point = |(number, theta): (usize, f64)| {
         json!({
             "angle": 90 * number,
@@ -62,7 +62,7 @@ fn tube_stresses(tube: &Tube, load: &Wrench<f64>) -> Value {
             "principal": principal(stress),
         })
     };
-    let (tangential, absolute) = (stresses.severest(), report::severest_of_tube(tube, load));
+    let (tangential, absolute) = (stresses.severest(), report::severest_of_tube(&stresses));
     json!({
         "axis_points": Tube::AXIS_ANGLES.into_iter().enumerate().map(axis_point).collect::<Vec<_>>(),
         "max_von_mises_tangential_shear": largest(tangential, at(&stresses, tangential)),

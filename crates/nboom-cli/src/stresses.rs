@@ -2,7 +2,7 @@
 
 use clap::Args;
 use nboom_io::SceneFile;
-use nboom_strength::{Settings, StrengthError, StressAnalysis};
+use nboom_strength::{Settings, Slips, StrengthError, StressAnalysis};
 
 use crate::choice;
 
@@ -36,10 +36,11 @@ impl StressArgs {
     pub(crate) fn analysis(
         &self,
         file: &SceneFile,
+        slips: Slips,
     ) -> Result<Option<StressAnalysis>, StrengthError> {
         let Self { no_stresses, yield_stress, safety_factor, amplification } = *self;
         let structure = file.structure.as_ref().filter(|_| !no_stresses);
-        let settings = Settings { amplification, yield_stress, safety_factor };
+        let settings = Settings { amplification, yield_stress, safety_factor, slips };
         structure.map(|structure| StressAnalysis::new(&file.scene, structure, settings)).transpose()
     }
 }

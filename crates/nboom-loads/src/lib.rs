@@ -34,6 +34,7 @@
 //! assert_eq!(found.hinge(0).force.to_array(), [0.0, -3.0 * 4.0 * 2.0, 0.0]);
 //! ```
 
+mod handed_on;
 mod load_set;
 mod loads;
 mod motion;

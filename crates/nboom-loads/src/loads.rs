@@ -11,7 +11,7 @@ use crate::segment::Segment;
 /// hinge of the scene.
 #[derive(Clone, Debug)]
 pub struct Loads {
-    segments: Vec<Segment>,
+    pub(crate) segments: Vec<Segment>,
     places: Vec<Place>,
     /// Of one lock-up.
     impulses: LoadSet,

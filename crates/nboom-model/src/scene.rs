@@ -96,6 +96,13 @@ impl Scene {
         Self::new(SceneDescription { end_time, ..self.description.clone() })
     }
 
+    /// The scene without the kick-off springs of these hinges.
+    #[must_use]
+    pub fn without_kick_off(mut self, hinges: &[usize]) -> Self {
+        hinges.iter().for_each(|&i| self.description.bodies[i].hinge.kick_off = None);
+        self
+    }
+
     /// What is allowed but probably not meant.
     pub fn warnings(&self) -> Vec<ModelWarning> {
         warning::find(self)

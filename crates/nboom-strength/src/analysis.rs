@@ -1,11 +1,12 @@
 use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{HingeLabel, Scene, SectionShape, Structure};
 use nboom_scalar::Wrench;
-use nboom_sections::{Point, PointStress, Polygon, Section, SectionError, Tube};
+use nboom_sections::{Point, PointStress, Polygon, Section, SectionError, SectionWarning, Tube};
 use nboom_sim::{Detail, LockUpMotion, Snapshot};
 
 use crate::envelope::driver;
-use crate::{Cause, Settings, StrengthError, Worst};
+use crate::formulas::Formulas;
+use crate::{Cause, Settings, Slip, StrengthError, Worst};
 
 /// Follows the stresses of a run.
 #[derive(Clone, Debug)]
@@ -27,7 +28,8 @@ pub struct StressAnalysis {
 struct StationSection {
     segment: usize,
     station: usize,
-    section: Section,
+    warnings: Vec<SectionWarning>,
+    section: Formulas,
 }
 
 /// Load and stresses of one station at one time.
@@ -69,7 +71,9 @@ impl StressAnalysis {
                 let at_station =
                     |source| StrengthError::Section { segment: labels[segment], station, source };
                 let section = section(&of_station.section).map_err(at_station)?;
-                sections.push(StationSection { segment, station, section });
+                let warnings = section.warnings();
+                let section = Formulas::new(section, settings.slips);
+                sections.push(StationSection { segment, station, warnings, section });
             }
         }
         let loads = Loads::new(scene, Some(structure));
@@ -91,11 +95,12 @@ impl StressAnalysis {
 
     /// Where thin-wall theory may not hold, a line for each station.
     pub fn warnings(&self) -> Vec<String> {
-        let of_station = |at: &StationSection| {
+        let stations = self.sections.iter();
+        let lines = stations.flat_map(|at| {
             let place = format!("segment {}, station {}", self.labels[at.segment], at.station + 1);
-            at.section.warnings().into_iter().map(move |warning| format!("{place}: {warning}"))
-        };
-        self.sections.iter().flat_map(of_station).collect()
+            at.warnings.iter().map(move |warning| format!("{place}: {warning}"))
+        });
+        lines.collect()
     }
 
     /// Loads and stresses of the motion at an output time.
@@ -108,6 +113,7 @@ impl StressAnalysis {
         detail: &Detail,
     ) -> Result<&[StationStress], StrengthError> {
         self.load(snapshot, detail)?;
+        self.hand_on(&snapshot.beta);
         Ok(self.judge(snapshot.time, Cause::Motion))
     }
 
@@ -135,6 +141,7 @@ impl StressAnalysis {
             let amplification = self.settings.amplification;
             self.loads.add_lock_up(&before.beta, &[share], amplification, &mut self.found);
         }
+        self.hand_on(&before.beta);
         let hinge = lock_up.jumps.first().map_or(0, |jump| jump.hinge);
         Ok(self.judge(before.time, Cause::LockUp { hinge }))
     }
@@ -178,6 +185,13 @@ impl StressAnalysis {
         }
         let hinge = self.labels[hinge];
         Err(StrengthError::Unbalanced { time: snapshot.time, hinge, residual, most: BALANCE })
+    }
+
+    /// Replaces the loads found by those of 1970, if they are asked for.
+    fn hand_on(&mut self, beta: &[f64]) {
+        if self.settings.slips.contains(Slip::LoadTransfer) {
+            self.loads.hand_on_as_in_1970(beta, &mut self.found);
+        }
     }
 
     /// Stresses under the loads found, for the envelope too.

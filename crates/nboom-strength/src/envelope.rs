@@ -2,7 +2,9 @@ use std::fmt;
 
 use nboom_model::HingeLabel;
 use nboom_scalar::{Vec3, Wrench};
-use nboom_sections::{PointStress, Section};
+use nboom_sections::PointStress;
+
+use crate::formulas::Formulas;
 
 /// What made a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,7 +102,7 @@ pub struct Worst {
 }
 
 /// The component that alone makes the largest von Mises stress at a point of a section.
-pub(crate) fn driver(section: &Section, load: &Wrench<f64>, at: &PointStress) -> Component {
+pub(crate) fn driver(section: &Formulas, load: &Wrench<f64>, at: &PointStress) -> Component {
     let alone = |component: &Component| section.at(at, &component.of(load)).von_mises();
     let larger = |a: &Component, b: &Component| alone(a).total_cmp(&alone(b));
     Component::ALL.into_iter().max_by(larger).unwrap_or(Component::ForceXi)

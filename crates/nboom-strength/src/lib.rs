@@ -8,9 +8,12 @@
 mod analysis;
 mod envelope;
 mod error;
+mod formulas;
 mod settings;
+mod slip;
 
 pub use analysis::{StationStress, StressAnalysis};
 pub use envelope::{Cause, Component, Worst};
 pub use error::StrengthError;
 pub use settings::Settings;
+pub use slip::{Slip, Slips};

@@ -1,4 +1,4 @@
-use crate::StrengthError;
+use crate::{Slips, StrengthError};
 
 /// How stresses are judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,11 +10,13 @@ pub struct Settings {
     pub yield_stress: Option<f64>,
     /// Factor on stresses when they are compared with the yield stress.
     pub safety_factor: f64,
+    /// Slips of the program of 1970 in loads and stresses.
+    pub slips: Slips,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { amplification: 1.0, yield_stress: None, safety_factor: 1.0 }
+        Self { amplification: 1.0, yield_stress: None, safety_factor: 1.0, slips: Slips::default() }
     }
 }
 

@@ -5,5 +5,6 @@ mod data;
 mod equilibrium;
 mod invariance;
 mod maximum;
+mod printed;
 mod random;
 mod refusals;

@@ -1,10 +1,12 @@
 //! What only the report computes: intermediate quantities of its bending formula, static moments,
-//! and its shear stress in tubes.
+//! its shear stress in tubes, and all that its program of 1970 made of them.
 
-use nboom_scalar::Wrench;
+mod original;
 
 use crate::harmonics::{Harmonics, largest};
-use crate::{Point, Polygon, SecondMoments, Stress, Tube, outline};
+use crate::{Point, Polygon, SecondMoments, Stress, TubeStresses, outline};
+
+pub use original::{Original, SectionSlips};
 
 /// k₁ = I_ξζ / I_ζζ, k₂ = I_ξζ / I_ξξ and k₃ = 1 − k₁k₂ of eq. (11.8), corrected: note 22.
 pub fn bending_constants(inertia: &SecondMoments) -> [f64; 3] {
@@ -39,18 +41,18 @@ pub fn static_moments(polygon: &Polygon, place: Point) -> [f64; 2] {
 
 /// The stress at θ of a tube by eqs. (11.1) to (11.4), with the shear stress of the forces in
 /// absolute values as printed; it is right at the four axis points only, note 21.
-pub fn tube_stress(tube: &Tube, load: &Wrench<f64>, theta: f64) -> Stress {
-    let [normal, _, _] = tube.stresses(load).at(theta).stress.in_report_signs();
+pub fn tube_stress(stresses: &TubeStresses, theta: f64) -> Stress {
+    let [normal, _, _] = stresses.at(theta).stress.in_report_signs();
     let (sin, cos) = theta.sin_cos();
-    let ([xi, zeta], torsion) = (shear_of_forces(tube, load), torsion(tube, load));
+    let [torsion, zeta, xi] = in_report_signs(stresses);
     let along_xi = xi * sin.abs() + torsion * sin;
     Stress::of_report_signs([normal, along_xi, zeta * cos.abs() - torsion * cos])
 }
 
 /// The θ, from 0 to 2π, at which the von Mises stress of [`tube_stress`] is largest.
-pub fn severest_of_tube(tube: &Tube, load: &Wrench<f64>) -> f64 {
-    let normal = tube.stresses(load).normal;
-    let ([xi, zeta], torsion) = (shear_of_forces(tube, load), torsion(tube, load));
+pub fn severest_of_tube(stresses: &TubeStresses) -> f64 {
+    let normal = stresses.normal;
+    let [torsion, zeta, xi] = in_report_signs(stresses);
     let of_shear = [xi.abs() + torsion.abs(), zeta.abs() + torsion.abs()];
     let unit = normal.iter().chain(&of_shear).fold(0.0, |most: f64, c| most.max(c.abs()));
     let squares = |quadrant: usize| {
@@ -62,16 +64,11 @@ pub fn severest_of_tube(tube: &Tube, load: &Wrench<f64>) -> f64 {
             + Harmonics::of_square(along_xi) * 3.0
             + Harmonics::of_square(along_zeta) * 3.0
     };
-    largest(|theta| tube_stress(tube, load, theta).von_mises(), squares)
+    largest(|theta| tube_stress(stresses, theta).von_mises(), squares)
 }
 
-/// 2P₁/A and 2P₃/A.
-fn shear_of_forces(tube: &Tube, load: &Wrench<f64>) -> [f64; 2] {
-    let area = tube.properties().area;
-    [2.0 * load.force.x / area, 2.0 * load.force.z / area]
-}
-
-/// Q₂/S.
-fn torsion(tube: &Tube, load: &Wrench<f64>) -> f64 {
-    load.moment.y / tube.torsion_modulus()
+/// Q₂/S, 2P₃/A and 2P₁/A.
+fn in_report_signs(stresses: &TubeStresses) -> [f64; 3] {
+    let [torsion, zeta, xi] = stresses.shear;
+    [torsion, -zeta, xi]
 }

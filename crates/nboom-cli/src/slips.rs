@@ -1,0 +1,74 @@
+//! What the command line says about slips of the original program.
+
+use clap::Args;
+use nboom_strength::{Slip, Slips};
+
+use crate::choice::ChoiceError;
+
+/// Options of `nboom run` that concern slips of the original program.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct SlipArgs {
+    /// Repeat slips of the original program, so that what it printed can be followed: all, or names
+    /// with commas between them, from paddle-kick-off, load-transfer, tube-inertia, tube-shear,
+    /// product-of-inertia, bending-signs, torsion-arm, closing-wall, level-shear and vertex-before.
+    /// docs/the-1970-program.md says what each is. The results are wrong on purpose.
+    #[arg(long = "as-1970", value_name = "SLIPS", num_args = 0..=1, require_equals = true,
+          default_missing_value = ALL, value_parser = slips)]
+    pub as_1970: Option<Slips>,
+}
+
+impl SlipArgs {
+    /// What the results repeat, for all who read them.
+    pub(crate) fn warning(self) -> Option<String> {
+        let names: Vec<&str> = self.as_1970?.iter().map(Slip::name).collect();
+        Some(format!("wrong on purpose, as in 1970: {}", names.join(", ")))
+    }
+}
+
+/// What stands for all slips.
+const ALL: &str = "all";
+
+fn slips(names: &str) -> Result<Slips, ChoiceError> {
+    if names == ALL {
+        return Ok(Slips::all());
+    }
+    let available = || Slip::ALL.map(Slip::name).into_iter().chain([ALL]).collect();
+    let named =
+        |name| Slip::named(name).ok_or_else(|| ChoiceError::Unknown { available: available() });
+    names.split(',').map(named).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Cli, Command};
+    use clap::{CommandFactory, Parser};
+
+    fn parsed(extra: &[&str]) -> Result<Option<Slips>, i32> {
+        let words = ["nboom", "run", "scene.nml"].iter().chain(extra);
+        match Cli::try_parse_from(words).map_err(|error| error.exit_code())?.command {
+            Command::Run(args) => Ok(args.slips.as_1970),
+            _ => unreachable!("the words say run"),
+        }
+    }
+
+    #[test]
+    fn slips_are_none_or_all_or_named() {
+        assert_eq!(parsed(&[]), Ok(None));
+        assert_eq!(parsed(&["--as-1970"]), Ok(Some(Slips::all())));
+        let two = [Slip::TubeInertia, Slip::LoadTransfer].into_iter().collect();
+        assert_eq!(parsed(&["--as-1970=load-transfer,tube-inertia"]), Ok(Some(two)));
+        for wrong in ["--as-1970=", "--as-1970=tube", "--as-1970=tube-inertia,"] {
+            assert_eq!(parsed(&[wrong]), Err(2));
+        }
+    }
+
+    #[test]
+    fn help_names_every_slip() {
+        let command = Cli::command();
+        let run = command.find_subcommand("run").expect("a command");
+        let option = run.get_arguments().find(|arg| arg.get_id() == "as_1970").expect("an option");
+        let help = option.get_help().expect("documented").to_string();
+        assert!(Slip::ALL.iter().all(|slip| help.contains(slip.name())), "{help}");
+    }
+}

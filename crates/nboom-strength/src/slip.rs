@@ -1,0 +1,120 @@
+use nboom_model::Scene;
+use nboom_sections::report::SectionSlips;
+
+/// A slip of the program of 1970 that can be asked for; `docs/the-1970-program.md` has the evidence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slip {
+    /// Kick-off springs did not act on paddles.
+    PaddleKickOff,
+    /// Loads were handed inboard turned by the angle of the wrong hinge.
+    LoadTransfer,
+    /// Tubes bent with half of their second moment of area.
+    TubeInertia,
+    /// Shear stress of forces in tubes was in absolute values.
+    TubeShear,
+    /// I_ξξ/I_ζζ took the place of the square of the product of inertia.
+    ProductOfInertia,
+    /// Bending of polygons had the wrong sign.
+    BendingSigns,
+    /// Tension stood for the shear force in the torsion moment about the centroid.
+    TorsionArm,
+    /// The last wall of a polygon ended at the η axis.
+    ClosingWall,
+    /// Shear stress of forces in polygons came from static moments.
+    LevelShear,
+    /// Axis points of polygons got the stresses of a vertex nearby.
+    VertexBefore,
+}
+
+impl Slip {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::PaddleKickOff,
+        Self::LoadTransfer,
+        Self::TubeInertia,
+        Self::TubeShear,
+        Self::ProductOfInertia,
+        Self::BendingSigns,
+        Self::TorsionArm,
+        Self::ClosingWall,
+        Self::LevelShear,
+        Self::VertexBefore,
+    ];
+
+    /// The name on the command line and in the document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PaddleKickOff => "paddle-kick-off",
+            Self::LoadTransfer => "load-transfer",
+            Self::TubeInertia => "tube-inertia",
+            Self::TubeShear => "tube-shear",
+            Self::ProductOfInertia => "product-of-inertia",
+            Self::BendingSigns => "bending-signs",
+            Self::TorsionArm => "torsion-arm",
+            Self::ClosingWall => "closing-wall",
+            Self::LevelShear => "level-shear",
+            Self::VertexBefore => "vertex-before",
+        }
+    }
+
+    /// The one with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|slip| slip.name() == name)
+    }
+}
+
+/// Slips that are asked for; by default none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slips(u16);
+
+impl Slips {
+    /// All of them.
+    pub fn all() -> Self {
+        Slip::ALL.into_iter().collect()
+    }
+
+    /// Whether this one is asked for.
+    pub fn contains(self, slip: Slip) -> bool {
+        self.0 & (1 << slip as u16) != 0
+    }
+
+    /// Those asked for.
+    pub fn iter(self) -> impl Iterator<Item = Slip> {
+        Slip::ALL.into_iter().filter(move |&slip| self.contains(slip))
+    }
+
+    /// What of them concerns sections.
+    pub(crate) fn of_sections(self) -> SectionSlips {
+        SectionSlips {
+            tube_inertia: self.contains(Slip::TubeInertia),
+            tube_shear: self.contains(Slip::TubeShear),
+            product_of_inertia: self.contains(Slip::ProductOfInertia),
+            bending_signs: self.contains(Slip::BendingSigns),
+            torsion_arm: self.contains(Slip::TorsionArm),
+            closing_wall: self.contains(Slip::ClosingWall),
+            level_shear: self.contains(Slip::LevelShear),
+            vertex_before: self.contains(Slip::VertexBefore),
+        }
+    }
+
+    /// The scene that the original moved instead of `scene`: with [`Slip::PaddleKickOff`] without the
+    /// kick-off springs of appendages that have a paddle.
+    pub fn scene(self, scene: Scene) -> Scene {
+        if !self.contains(Slip::PaddleKickOff) {
+            return scene;
+        }
+        let hinges = 0..scene.bodies.len();
+        let is_paddle =
+            |i: &usize| scene.bodies[*i].inboard.is_some() && !scene.adds_to_inboard_angle(*i);
+        let appendage = |i: usize| scene.label(i).appendage;
+        let with_paddle: Vec<usize> = hinges.clone().filter(is_paddle).map(appendage).collect();
+        let pushed: Vec<usize> = hinges.filter(|&i| with_paddle.contains(&appendage(i))).collect();
+        scene.without_kick_off(&pushed)
+    }
+}
+
+impl FromIterator<Slip> for Slips {
+    fn from_iter<I: IntoIterator<Item = Slip>>(slips: I) -> Self {
+        Self(slips.into_iter().fold(0, |set, slip| set | 1 << slip as u16))
+    }
+}
