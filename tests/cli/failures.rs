@@ -100,9 +100,10 @@ fn a_kick_off_spring_without_length() {
 #[test]
 fn a_disk_that_is_full() {
     for (told, file, blocks, more) in [
-        ("states", "states.csv", 64, &[][..]),
-        // The printout is several times as long as the table, so it is the first to stop.
-        ("listing", "listing.txt", 3000, &["--listing"]),
+        ("states", "states.csv", 64, &["--no-stresses"][..]),
+        // These are several times as long as the table, so they are the first to stop.
+        ("listing", "listing.txt", 3000, &["--no-stresses", "--listing"]),
+        ("stresses", "stress.csv", 3000, &[]),
     ] {
         let place = Place::new(&format!("full-{told}"));
         place.write("deck.nml", REPORT_DECK);

@@ -186,14 +186,25 @@ fn a_limit_is_reached_exactly_and_does_not_shorten_later_steps() {
 /// An attitude that is turned at a given rate, linear in its four variables.
 struct Turned;
 
+impl Turned {
+    fn rates<R: Real>(t: R, y: &[R]) -> [R; 4] {
+        let (sin, cos) = t.sin_cos();
+        let [a, b, c] = [R::constant(0.35), R::constant(0.2) * cos, R::constant(0.2) * sin];
+        [
+            -a * y[1] - b * y[2] - c * y[3],
+            a * y[0] + c * y[2] - b * y[3],
+            b * y[0] - c * y[1] + a * y[3],
+            c * y[0] + b * y[1] - a * y[2],
+        ]
+    }
+}
+
 impl System for Turned {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        let [a, b, c] = [0.7, 0.4 * t.cos(), 0.4 * t.sin()];
-        dy[0] = 0.5 * (-a * y[1] - b * y[2] - c * y[3]);
-        dy[1] = 0.5 * (a * y[0] + c * y[2] - b * y[3]);
-        dy[2] = 0.5 * (b * y[0] - c * y[1] + a * y[3]);
-        dy[3] = 0.5 * (c * y[0] + b * y[1] - a * y[2]);
+        dy.copy_from_slice(&Self::rates(t, y));
     }
+
+    series_of!(Self::rates);
 }
 
 #[test]

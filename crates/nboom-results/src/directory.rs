@@ -131,6 +131,8 @@ impl RunDirectory {
         self.close_instant()?;
         self.states.write(snapshot).map_err(self.writing(STATES_FILE))?;
         if let Some(stresses) = &mut self.stresses {
+            // Long tables that fill the disk must not take the room of rows that wait in memory.
+            self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
             stresses.sample(snapshot).map_err(self.writing(STRESS_FILE))?;
         }
         let Some(listing) = &mut self.listing else { return Ok(()) };
