@@ -24,9 +24,12 @@ const LOOSE: f64 = 1e-5;
 /// Steps bounded by stability after which a problem counts as stiff, and steps in between that
 /// show the contrary (Hairer and Wanner, Section IV.2).
 const STIFF: usize = 15;
-/// Share of the stability limit beyond which a step counts as bounded by it: under tight tolerances
-/// steps swing about the limit and are often a little below.
-const NEAR: f64 = 0.8;
+/// Share of the stability limit beyond which a step counts as bounded by it: the tighter the
+/// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
+/// below a third of it.
+const NEAR: f64 = 0.7;
+/// The first step of a method may be this many times the last one of the other.
+const GROWTH: f64 = 10.0;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
 
@@ -61,6 +64,10 @@ impl Automatic {
         if self.is_stiff { &mut self.implicit } else { &mut self.explicit }
     }
 
+    fn active_window_mut(&mut self) -> &mut Window {
+        if self.is_stiff { self.implicit.window_mut() } else { self.explicit.window_mut() }
+    }
+
     /// Whether the step just taken speaks for the other method.
     fn is_against(&mut self) -> bool {
         let limit = self.explicit.stability_limit();
@@ -73,21 +80,23 @@ impl Automatic {
 
     /// Goes on with the other method from where this one is.
     fn change(&mut self, system: &mut dyn System) {
-        let Window { time, state, counts, .. } = self.window().clone();
+        let Window { time, state, counts, next_step: usual, .. } = self.window().clone();
         self.is_stiff = !self.is_stiff;
         self.against = 0;
         self.choice = if self.is_stiff {
-            self.implicit.window_mut().counts = counts;
+            self.active_window_mut().counts = counts;
             let reason = "stability, not accuracy, bounded explicit steps";
             Choice { reason, ..self.implicit.choice() }
         } else {
-            self.explicit.window_mut().counts = counts;
+            self.active_window_mut().counts = counts;
             self.patience *= 2;
             let reason = "accuracy, not stability, bounds steps again";
             Choice { reason, ..self.explicit.choice() }
         };
         let controlled = self.controlled;
         self.active_mut().start(system, time, &state, controlled);
+        let window = self.active_window_mut();
+        window.next_step = window.next_step.min(GROWTH * usual);
     }
 }
 

@@ -51,13 +51,14 @@ fn a_smooth_motion_is_left_to_the_explicit_method_for_the_tolerance() {
 
 #[test]
 fn a_stiff_motion_is_left_to_the_implicit_method() {
-    for relative in [1e-4, 1e-8, 1e-10, 1e-11] {
+    for relative in [1e-4, 1e-8, 1e-10, 1e-12] {
         let (error, evaluations, methods) =
             run(&mut Automatic::new(tolerance(relative)), (-1.0, 11.0), 10.0);
         assert_eq!(methods.last(), Some(&Method::Radau5), "{relative}");
-        // Errors are drawn in within 1e-5 time units: what remains is one step's, of a motion whose
-        // stages balance 1e5 times their error.
-        assert!(error < 1e-4, "{relative}: {error}");
+        // Errors are drawn in within 1e-5 time units: what remains is one step's, which the
+        // implicit method compares with a wider tolerance; where it filters its estimate, that is
+        // too small by up to a decade.
+        assert!(error < relative.powf(2.0 / 3.0), "{relative}: {error}");
         // An explicit method needs 10 · 1e5 / 6.1 steps.
         assert!(evaluations < 10_000, "{relative}: {evaluations}");
     }
