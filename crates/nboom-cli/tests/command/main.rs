@@ -11,23 +11,7 @@ use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// A main body with one boom that is released, swings and latches.
-const BOOM: &str = "
- &DIM
- NA=1,IXYZ=0,IAB=0,NP=0,NOPLT=1,IXK=1,
- &END
- &NXPUT
- INSTR=0,
- BETAIK=80.0,BSIK=0.0,EKNIK(1,2)=-30.0,
- OMEG=1.0,2.0,-1.0,
- NK=1,DBK=0.0,0.5,0.1,FTSIK=0.0,90.0,0.0,
- ELIK=2.0,EMIK=3.0,HIIK=1.1,3*0.0,0.05,3*0.0,1.1,CNIK(1,2)=1.0,
- EMM=100.0,HM=40.0,3*0.0,30.0,3*0.0,35.0,
- IREL=0,RELTB=0.25,
- &END
- &ROCK
- TF=4.0,SEGSTT=0.0,
- &END
-";
+const BOOM: &str = include_str!("../decks/boom.nml");
 
 /// A directory of its own with `boom.nml` in it.
 struct Place {
