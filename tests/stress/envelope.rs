@@ -35,6 +35,20 @@ fn loads_balance_the_torques_of_free_hinges() {
 }
 
 #[test]
+fn accelerations_that_contradict_the_torques_are_refused() {
+    let scene = swinging();
+    let follow = Follow::run(&scene, Settings::default());
+    let snapshot = &follow.samples[0];
+    let mut detail = snapshot.detail.clone().expect("detail was asked for");
+    let mut fresh = analysis(&scene, Settings::default()).expect("tubes are sections");
+    assert!(fresh.motion(snapshot, &detail).is_ok());
+    // A hinge that is accelerated by no torque.
+    detail.beta_ddot[0] += 1e-3;
+    let refused = fresh.motion(snapshot, &detail).map(<[_]>::len);
+    assert!(matches!(refused, Err(StrengthError::Unbalanced { .. })), "{refused:?}");
+}
+
+#[test]
 fn stresses_change_nothing_in_the_run() {
     let scene = swinging();
     let options = Options { samples: 10, rtol: 1e-12, atol: 1e-14, ..Options::default() };
