@@ -71,12 +71,19 @@ impl Taylor {
         Ok(())
     }
 
-    /// The step at whose end neither of the last two terms exceeds the tolerance, and somewhat
-    /// less.
+    /// The step at whose end neither of the last two terms of a series of order `order` exceeds the
+    /// error allowed, and somewhat less (Jorba and Zou 2005). `largest` has the largest coefficients
+    /// of the last power and of the one before, in units of the error allowed.
+    pub fn step_within(order: usize, largest: [f64; 2]) -> f64 {
+        let [last, before] = largest;
+        let reach = |size: f64, power: usize| size.recip().powf(1.0 / power as f64);
+        let safety = (-0.7 / (order - 1) as f64).exp();
+        safety * reach(last, order).min(reach(before, order - 1))
+    }
+
     fn reach(&self) -> f64 {
-        let of_power = |power: usize| self.largest(power).recip().powf(1.0 / power as f64);
-        let safety = (-0.7 / (self.order - 1) as f64).exp();
-        safety * of_power(self.order).min(of_power(self.order - 1))
+        let largest = [self.order, self.order - 1].map(|power| self.largest(power));
+        Self::step_within(self.order, largest)
     }
 
     /// The largest coefficient of a power, in units of the tolerance.

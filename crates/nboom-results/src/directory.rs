@@ -101,7 +101,7 @@ impl RunDirectory {
         let instant = self.close_instant();
         let states = self.states.flush().map_err(self.writing(STATES_FILE));
         let listing = self.flush_listing();
-        let stresses = self.stresses.as_mut().map_or(Ok(()), |out| out.finish(&self.path));
+        let stresses = self.stresses.as_mut().map_or(Ok(()), StressWriter::finish);
         let tables = instant.and(states).and(listing).and(stresses);
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
@@ -133,7 +133,7 @@ impl RunDirectory {
         if let Some(stresses) = &mut self.stresses {
             // Long tables that fill the disk must not take the room of rows that wait in memory.
             self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
-            stresses.sample(snapshot).map_err(self.writing(STRESS_FILE))?;
+            stresses.sample(snapshot)?;
         }
         let Some(listing) = &mut self.listing else { return Ok(()) };
         // A printout that fills the disk must not take the room of rows that wait in memory.
@@ -172,8 +172,7 @@ impl Recorder for RunDirectory {
 
     fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
-        let written = stresses.lock_up(lock_up).map_err(self.writing(STRESS_FILE));
-        written.map_err(ResultsError::into_io)
+        stresses.lock_up(lock_up).map_err(ResultsError::into_io)
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {

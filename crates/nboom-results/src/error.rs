@@ -2,6 +2,8 @@ use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use nboom_strength::StrengthError;
+
 /// Why the files of a run could not be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -22,6 +24,9 @@ pub enum ResultsError {
         /// What the system says.
         source: io::Error,
     },
+    /// Stresses cannot be computed.
+    #[error(transparent)]
+    Stresses(#[from] StrengthError),
 }
 
 impl ResultsError {
@@ -32,8 +37,11 @@ impl ResultsError {
 
     /// The same error for callers who know only of [`io::Error`]; its kind is kept.
     pub(crate) fn into_io(self) -> io::Error {
-        let (Self::Directory { source, .. } | Self::Write { source, .. }) = &self;
-        io::Error::new(source.kind(), self)
+        let kind = match &self {
+            Self::Directory { source, .. } | Self::Write { source, .. } => source.kind(),
+            Self::Stresses(_) => io::ErrorKind::Other,
+        };
+        io::Error::new(kind, self)
     }
 }
 

@@ -1,11 +1,11 @@
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use nboom_model::HingeLabel;
 use nboom_scalar::Wrench;
 use nboom_sections::{PointStress, Stress};
 use nboom_sim::{LockUpMotion, Snapshot};
-use nboom_strength::{Cause, StationStress, StrengthError, StressAnalysis, Worst};
+use nboom_strength::{Cause, StationStress, StressAnalysis, Worst};
 
 use crate::number::{field, vector_fields};
 use crate::rows::{self, Output};
@@ -27,6 +27,7 @@ const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
 /// the event `lock_up` has peaks: what the motion just before makes, and the pulses.
 #[derive(Debug)]
 pub(crate) struct StressWriter {
+    directory: PathBuf,
     pub analysis: StressAnalysis,
     /// Output times from one computation to the next.
     every: usize,
@@ -52,6 +53,7 @@ impl StressWriter {
             table.map_err(ResultsError::writing(&path))
         };
         Ok(Self {
+            directory: directory.to_owned(),
             stresses: started(STRESS_FILE, STRESS_HEADER)?,
             hinge_loads: started(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
             analysis,
@@ -66,22 +68,27 @@ impl StressWriter {
         self.samples.is_multiple_of(self.every)
     }
 
-    pub fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+    pub fn sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         let due = self.is_due();
         self.samples += 1;
         let Some(detail) = snapshot.detail.as_ref().filter(|_| due) else { return Ok(()) };
-        let found = self.analysis.motion(snapshot, detail).map_err(contradiction)?;
-        let time = snapshot.time;
-        write_stations(&mut self.stresses, &self.hinges, (time, ""), found)?;
-        self.write_hinges(time, "")
+        self.analysis.motion(snapshot, detail)?;
+        self.write(snapshot.time, "")
     }
 
-    pub fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
+    pub fn lock_up(&mut self, lock_up: &LockUpMotion) -> Result<(), ResultsError> {
         let Some(detail) = &lock_up.before.detail else { return Ok(()) };
-        let found = self.analysis.lock_up(lock_up, detail).map_err(contradiction)?;
-        let time = lock_up.before.time;
-        write_stations(&mut self.stresses, &self.hinges, (time, "lock_up"), found)?;
-        self.write_hinges(time, "lock_up")
+        self.analysis.lock_up(lock_up, detail)?;
+        self.write(lock_up.before.time, "lock_up")
+    }
+
+    /// Writes what the analysis has found last.
+    fn write(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
+        let Self { stresses, hinges, analysis, .. } = self;
+        let written = write_stations(stresses, hinges, (time, event), analysis.stresses());
+        written.map_err(ResultsError::writing(&self.directory.join(STRESS_FILE)))?;
+        let written = self.write_hinges(time, event);
+        written.map_err(ResultsError::writing(&self.directory.join(HINGE_LOADS_FILE)))
     }
 
     fn write_hinges(&mut self, time: f64, event: &str) -> io::Result<()> {
@@ -95,7 +102,8 @@ impl StressWriter {
     }
 
     /// Writes what waits in memory, and the worst of each station.
-    pub fn finish(&mut self, directory: &Path) -> Result<(), ResultsError> {
+    pub fn finish(&mut self) -> Result<(), ResultsError> {
+        let directory = &self.directory;
         let stresses = self.stresses.flush();
         stresses.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
         let hinge_loads = self.hinge_loads.flush();
@@ -167,8 +175,4 @@ fn place_fields(out: &mut impl Write, point: &PointStress) -> io::Result<()> {
 fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {
     vector_fields(out, load.force)?;
     vector_fields(out, load.moment)
-}
-
-fn contradiction(error: StrengthError) -> io::Error {
-    io::Error::other(error)
 }

@@ -1,4 +1,5 @@
 use nboom_expr::Graph;
+use nboom_ode::Taylor;
 use nboom_scalar::{DoubleDouble, Real};
 use nboom_series::Series;
 
@@ -15,7 +16,7 @@ pub(crate) struct Accuracy {
 
 impl Accuracy {
     /// Of a reference: thousands of steps, and what they magnify, leave the digits of an `f64`
-    /// alone. The order is that of fewest operations (see [`nboom_ode::Taylor`]).
+    /// alone. The order is that of fewest operations (see [`Taylor`]).
     pub const REFERENCE: Self = Self { order: 33, relative: 1e-28, absolute: 1e-31 };
 }
 
@@ -51,23 +52,23 @@ impl Expansion {
     pub fn expand(&mut self, t: DoubleDouble, y: &[DoubleDouble]) -> f64 {
         self.series.write(t, y, &mut self.coefficients);
         let order = self.accuracy.order;
-        let safety = (-0.7 / (order - 1) as f64).exp();
-        let [last, before] = [order, order - 1].map(|power| self.reach(power));
-        if last.is_nan() || before.is_nan() { f64::NAN } else { safety * last.min(before) }
+        let largest = [order, order - 1].map(|power| self.largest(power));
+        if largest.iter().all(|size| size.is_finite()) {
+            Taylor::step_within(order, largest)
+        } else {
+            f64::NAN
+        }
     }
 
-    /// Where the largest term of a power is as large as the error allowed.
-    fn reach(&self, power: usize) -> f64 {
+    /// The largest coefficient of a power, in units of the error allowed; infinite when one is not
+    /// finite.
+    fn largest(&self, power: usize) -> f64 {
         let Accuracy { relative, absolute, .. } = self.accuracy;
         let of_power = |power: usize| &self.coefficients[power * self.size..][..self.controlled];
         let terms = of_power(power).iter().zip(of_power(0));
-        let ratios = terms
-            .map(|(c, y)| c.to_f64().abs() / (absolute + relative * y.to_f64().abs()))
-            .collect::<Vec<f64>>();
-        if ratios.iter().any(|ratio| !ratio.is_finite()) {
-            return f64::NAN;
-        }
-        ratios.into_iter().fold(0.0, f64::max).recip().powf(1.0 / power as f64)
+        let sizes = terms.map(|(c, y)| c.to_f64().abs() / (absolute + relative * y.to_f64().abs()));
+        let finite = |size: f64| if size.is_finite() { size } else { f64::INFINITY };
+        sizes.map(finite).fold(0.0, f64::max)
     }
 
     /// Writes the variables `since` after the time expanded about.

@@ -146,6 +146,11 @@ impl StressAnalysis {
         Ok(self.judge(before.time, Cause::LockUp { hinge }))
     }
 
+    /// Load and stresses of every station in the last motion or lock-up.
+    pub fn stresses(&self) -> &[StationStress] {
+        &self.stresses
+    }
+
     /// Force and moment that each hinge exerts on its outboard body, about the hinge point,
     /// segment axes; of the last motion or lock-up.
     pub fn hinge_loads(&self) -> impl Iterator<Item = Wrench<f64>> {
