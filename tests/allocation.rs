@@ -143,7 +143,7 @@ fn loads_allocate_nothing() {
         beta: &values,
         tau: &values,
         acceleration: change,
-        kick_off: &mode.kick_off,
+        force_densities: &values,
     };
     let share = LockUpShare { pulse_constant: 0.1, jump: change };
     assert_eq!(allocations(|| loads.continuous(&motion, &mut found)), 0);

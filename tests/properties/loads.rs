@@ -2,6 +2,7 @@
 //! torques about free hinges, and the same satellite cut in two at a station.
 
 use nalgebra::Vector3;
+use nboom::elements::KickOffLaw;
 use nboom::loads::{LoadSet, Loads, SceneMotion, VelocityChange};
 use nboom::model::{
     Body, Hinge, Mount, Scene, SceneDescription, SectionShape, SegmentStructure, Station, Structure,
@@ -22,6 +23,8 @@ pub struct Sliced {
     origin: Vec3<f64>,
     omega_dot: Vec3<f64>,
     pub tau_dot: Vec<f64>,
+    /// Force of every kick-off spring that pushes, over its length.
+    force_densities: Vec<f64>,
 }
 
 fn stations(dice: &mut Dice) -> Vec<Station> {
@@ -58,7 +61,8 @@ impl Sliced {
         let found = prepared.accelerations(&moment);
         let part = |at: usize| Vec3::new(found[at], found[at + 1], found[at + 2]);
         let tau_dot = of_all(prepared.dynamics.free_hinges(), &found.as_slice()[6..], bodies);
-        Self { structure, origin: part(0), omega_dot: part(3), tau_dot, moment }
+        let force_densities = force_densities(&moment);
+        Self { structure, origin: part(0), omega_dot: part(3), tau_dot, force_densities, moment }
     }
 
     /// Random trees of one to eight hinged bodies.
@@ -67,10 +71,11 @@ impl Sliced {
     }
 
     fn motion(&self) -> SceneMotion<'_> {
-        let Moment { omega, beta, tau, mode, .. } = &self.moment;
+        let Moment { omega, beta, tau, .. } = &self.moment;
         let (origin_body, omega_body) = (self.origin, self.omega_dot);
         let acceleration = VelocityChange { origin_body, omega_body, tau: &self.tau_dot };
-        SceneMotion { omega_body: *omega, beta, tau, acceleration, kick_off: &mode.kick_off }
+        let force_densities = &self.force_densities;
+        SceneMotion { omega_body: *omega, beta, tau, acceleration, force_densities }
     }
 
     fn continuous(&self) -> (Loads, LoadSet) {
@@ -81,9 +86,25 @@ impl Sliced {
     }
 
     pub fn placed(&self) -> Vec<Placed> {
-        let Moment { scene, beta, tau, omega, velocity_body, .. } = &self.moment;
-        place(scene, beta, tau, vector(*omega), vector(*velocity_body))
+        placed(&self.moment)
     }
+}
+
+fn placed(moment: &Moment) -> Vec<Placed> {
+    let Moment { scene, beta, tau, omega, velocity_body, .. } = moment;
+    place(scene, beta, tau, vector(*omega), vector(*velocity_body))
+}
+
+fn force_densities(moment: &Moment) -> Vec<f64> {
+    let density = |(i, placed): (usize, Placed)| {
+        let spring = moment.scene.bodies[i].hinge.kick_off.filter(|_| moment.mode.kick_off[i]);
+        spring.map_or(0.0, |spring| {
+            let end = placed.origin + placed.rot * vector(spring.body_point);
+            let length = (end - vector(spring.main_body_point)).norm();
+            KickOffLaw::new(spring.coefficients).force(length) / length
+        })
+    };
+    placed(moment).into_iter().skip(1).enumerate().map(density).collect()
 }
 
 /// Values of the free hinges among those of all, zero for held ones.
@@ -283,11 +304,18 @@ fn load_of_cut(case: &Sliced, i: usize, segment: &SegmentStructure, j: usize) ->
     let motion = case.motion();
     let (beta, tau) = (with_zero(motion.beta), with_zero(motion.tau));
     let tau_dot = with_zero(motion.acceleration.tau);
-    let mut kick_off = motion.kick_off.to_vec();
-    kick_off.insert(i + 1, hinge.kick_off.is_some() && kick_off[i]);
+    let mut force_densities = with_zero(motion.force_densities);
+    if hinge.kick_off.is_some() {
+        force_densities.swap(i, i + 1);
+    }
     let acceleration = VelocityChange { tau: &tau_dot, ..motion.acceleration };
-    let motion =
-        SceneMotion { beta: &beta, tau: &tau, kick_off: &kick_off, acceleration, ..motion };
+    let motion = SceneMotion {
+        beta: &beta,
+        tau: &tau,
+        force_densities: &force_densities,
+        acceleration,
+        ..motion
+    };
     let scene = Scene::new(scene).expect("parts of bodies are bodies");
     let mut loads = Loads::new(&scene, None);
     let mut found = loads.load_set();

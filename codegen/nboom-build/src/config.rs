@@ -1,9 +1,9 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-use nboom_codegen::{Level, Numbers, Request, Standing, file, standing};
+use nboom_codegen::{Level, Module, Numbers, Request, Standing, StressRequest};
 use nboom_formulation::Formulation;
-use nboom_io::read_scene;
+use nboom_io::{SceneFile, read_scene};
 
 use crate::BuildError;
 
@@ -15,6 +15,7 @@ use crate::BuildError;
 pub struct Config {
     sources: Vec<Source>,
     lock_states: bool,
+    stresses: bool,
     external_wrench: bool,
     principal_axes: bool,
     equations: bool,
@@ -37,6 +38,7 @@ impl Default for Config {
         Self {
             sources: Vec::new(),
             lock_states: false,
+            stresses: false,
             external_wrench: false,
             principal_axes: false,
             equations: false,
@@ -87,6 +89,13 @@ impl Config {
     /// code.
     pub fn with_lock_states(self) -> Self {
         Self { lock_states: true, ..self }
+    }
+
+    /// Adds a routine for the loads and stresses of each scene that describes its stations, with all
+    /// its numbers built in. Its type is named after the topology: `StressesS2P`. A
+    /// `nboom_strength::StressAnalysis` takes it from `kernels()`.
+    pub fn with_stresses(self) -> Self {
+        Self { stresses: true, ..self }
     }
 
     /// Routines of topologies take an external wrench on the main body. Those of scenes do where
@@ -168,11 +177,11 @@ impl Config {
         path: &Path,
         may: impl Fn(Option<Standing>) -> bool,
     ) -> Result<(), BuildError> {
-        let requests = self.requests()?;
+        let module = self.module()?;
         let io = |source| BuildError::Io { path: path.to_owned(), source };
         let found = match fs::read(path) {
             // What is not text was not generated.
-            Ok(bytes) => Some(standing(&String::from_utf8_lossy(&bytes), &requests)),
+            Ok(bytes) => Some(module.standing(&String::from_utf8_lossy(&bytes))),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(error) => return Err(io(error)),
         };
@@ -182,27 +191,33 @@ impl Config {
         if !may(found) {
             return Err(BuildError::NotCurrent { path: path.to_owned(), standing: found });
         }
-        fs::write(path, file(&requests)?).map_err(io)
+        fs::write(path, module.text()?).map_err(io)
     }
 
     /// One request for each routine; a routine that several scenes have in common comes once.
-    fn requests(&self) -> Result<Vec<Request>, BuildError> {
+    fn module(&self) -> Result<Module, BuildError> {
         println!("cargo::rerun-if-changed=build.rs");
-        let mut requests: Vec<Request> = Vec::new();
+        let mut module = Module::default();
         for source in &self.sources {
-            for request in self.requests_of(source)? {
-                let request = self.as_configured(request);
-                match requests.iter().find(|other| other.name == request.name) {
+            let Module { routines, stresses } = self.module_of(source)?;
+            for request in routines.into_iter().map(|request| self.as_configured(request)) {
+                match module.routines.iter().find(|other| other.name == request.name) {
                     Some(other) if *other == request => {}
                     Some(_) => return Err(BuildError::Twice { name: request.name }),
-                    None => requests.push(request),
+                    None => module.routines.push(request),
                 }
             }
+            for request in stresses {
+                if module.stresses.iter().any(|other| other.name == request.name) {
+                    return Err(BuildError::Twice { name: request.name });
+                }
+                module.stresses.push(request);
+            }
         }
-        Ok(requests)
+        Ok(module.at(&self.scalar_path))
     }
 
-    fn requests_of(&self, source: &Source) -> Result<Vec<Request>, BuildError> {
+    fn module_of(&self, source: &Source) -> Result<Module, BuildError> {
         match source {
             Source::Topology { name, topology } => {
                 let topology = topology
@@ -213,22 +228,23 @@ impl Config {
                 if self.principal_axes {
                     request = request.with_principal_axes();
                 }
-                Ok(vec![request])
+                Ok(vec![request].into())
             }
             Source::Scene { path, numbers } => {
                 println!("cargo::rerun-if-changed={}", path.display());
-                let scene = read_scene(path)?.scene;
-                let mut requests = vec![Request::of_scene(&scene, *numbers, self.level)?];
+                let SceneFile { scene, structure, .. } = read_scene(path)?;
+                let mut routines = vec![Request::of_scene(&scene, *numbers, self.level)?];
                 if self.lock_states {
-                    requests.extend(Request::lock_states(&scene, self.level)?);
+                    routines.extend(Request::lock_states(&scene, self.level)?);
                 }
-                Ok(requests)
+                let structure = structure.filter(|_| self.stresses);
+                let stresses = structure.map(|s| StressRequest::of_scene(&scene, &s, self.level));
+                Ok(Module { routines, stresses: stresses.transpose()?.into_iter().collect() })
             }
         }
     }
 
     fn as_configured(&self, request: Request) -> Request {
-        let request = Request { scalar_path: self.scalar_path.clone(), ..request };
         let request = request.by(self.formulation);
         if self.equations { request.for_equations() } else { request }
     }

@@ -1,4 +1,5 @@
 use nboom_formulation::Formulation;
+use nboom_sections::SectionError;
 
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -64,6 +65,34 @@ pub enum CodegenError {
         operations: usize,
         /// The most that is emitted.
         limit: usize,
+    },
+    /// A number of a scene is infinite or not a number.
+    #[error("routine `{name}`: {value} found among the scene's numbers, finite ones expected")]
+    Number {
+        /// The routine.
+        name: String,
+        /// Its value.
+        value: f64,
+    },
+    /// Loads and stresses of a scene would be too long a line for a compiler.
+    #[error("routine `{name}`: {operations} operations found, at most {limit} expected")]
+    Length {
+        /// The routine.
+        name: String,
+        /// Additions, multiplications, divisions and square roots of an evaluation.
+        operations: usize,
+        /// The most that is emitted.
+        limit: usize,
+    },
+    /// The section of a station is not one.
+    #[error("segment {segment}, station {station}: {source}")]
+    Section {
+        /// The segment.
+        segment: String,
+        /// The station, from 1.
+        station: usize,
+        /// What is wrong with it.
+        source: SectionError,
     },
     /// The formulation has no matrix and no right side.
     #[error(

@@ -4,9 +4,39 @@ use quote::{format_ident, quote};
 
 use crate::Request;
 
-/// The implementation of `Routine` for the request's type.
+/// What a routine says of itself.
+pub(crate) struct Signature {
+    /// Name of the type.
+    pub name: String,
+    pub result: &'static str,
+    pub topology: String,
+    pub formulation: &'static str,
+    pub external: bool,
+    /// Parameters taken for granted; `None` stays a runtime value.
+    pub pinned: Vec<Option<f64>>,
+    pub coordinates: usize,
+    pub outputs: usize,
+}
+
+impl Signature {
+    pub fn of(request: &Request) -> Self {
+        let Request { name, topology, formulation, output, pinned, external, .. } = request;
+        Self {
+            name: name.clone(),
+            result: output.name(),
+            topology: topology.to_string(),
+            formulation: formulation.name(),
+            external: *external,
+            pinned: pinned.clone(),
+            coordinates: Layout::coordinates(topology),
+            outputs: output.size(topology),
+        }
+    }
+}
+
+/// The implementation of `Routine` for the type that the signature names.
 pub(crate) struct Item<'a> {
-    pub request: &'a Request,
+    pub signature: &'a Signature,
     /// How many constants are prepared.
     pub constants: usize,
     /// Body of `prepare`: from `p` to `k`.
@@ -21,28 +51,23 @@ pub(crate) struct Item<'a> {
 
 impl Item<'_> {
     pub fn tokens(&self) -> TokenStream {
-        let Self { request, prepare, evaluate, evaluate_packed, functions, .. } = self;
-        let name = format_ident!("{}", request.name);
-        let topology = request.topology.to_string();
-        let formulation = request.formulation.name();
-        let external = request.external;
-        let pinned = request.pinned.iter().enumerate().filter_map(|(i, value)| {
+        let Self { signature, prepare, evaluate, evaluate_packed, functions, .. } = self;
+        let Signature { name, result, topology, formulation, external, pinned, .. } = signature;
+        let name = format_ident!("{name}");
+        let granted = pinned.iter().enumerate().filter_map(|(i, value)| {
             let (i, value) = (Literal::usize_unsuffixed(i), (*value)?);
             Some(quote!((#i, #value)))
         });
-        let [parameters, constants, coordinates, outputs] = [
-            Layout::parameters(&request.topology),
-            self.constants,
-            Layout::coordinates(&request.topology),
-            request.output.size(&request.topology),
-        ]
-        .map(Literal::usize_unsuffixed);
+        let [parameters, constants, coordinates, outputs] =
+            [pinned.len(), self.constants, signature.coordinates, signature.outputs]
+                .map(Literal::usize_unsuffixed);
         quote! {
             pub struct #name;
             impl Routine for #name {
+                const RESULT: &'static str = #result;
                 const TOPOLOGY: &'static str = #topology;
                 const FORMULATION: &'static str = #formulation;
-                const PINNED: &'static [(usize, f64)] = &[#(#pinned),*];
+                const PINNED: &'static [(usize, f64)] = &[#(#granted),*];
                 const EXTERNAL: bool = #external;
                 const PARAMETERS: usize = #parameters;
                 const CONSTANTS: usize = #constants;

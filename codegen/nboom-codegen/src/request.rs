@@ -1,7 +1,6 @@
 use nboom_formulation::{Formulation, Layout};
 use nboom_model::Topology;
 
-use crate::CodegenError;
 use crate::granted::links;
 
 /// How freely generated code may rearrange arithmetic.
@@ -134,11 +133,5 @@ impl Request {
             }
         }
         self
-    }
-
-    pub(crate) fn scalar(&self) -> Result<syn::Path, CodegenError> {
-        let Self { name, scalar_path, .. } = self;
-        syn::parse_str(scalar_path)
-            .map_err(|_| CodegenError::Path { name: name.clone(), path: scalar_path.clone() })
     }
 }

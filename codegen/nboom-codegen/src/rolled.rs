@@ -10,7 +10,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::driver::{Call, Driver};
-use crate::item::Item;
+use crate::item::{Item, Signature};
 use crate::stage::{Masks, Traced};
 use crate::sweeps::{Whose, chain_sweeps, gather_constants, names, paddle_sweeps};
 use crate::{Generated, Request};
@@ -242,8 +242,9 @@ impl Rolled {
         let main_body = self.main_body(request, &base);
         let driver = Driver { calls: self.calls, main_body };
         let prepare = &self.prepare;
+        let signature = Signature::of(request);
         let item = Item {
-            request,
+            signature: &signature,
             constants: self.constants,
             prepare: quote!(#(#prepare)*),
             evaluate: driver.on_any_scalar(),

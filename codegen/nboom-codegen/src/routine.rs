@@ -5,7 +5,7 @@ use nboom_formulation::{Coordinates, Equations, Layout, Parameters};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::item::Item;
+use crate::item::{Item, Signature};
 use crate::stage::{constants, given};
 use crate::straight::Statements;
 use crate::{Generated, Level, Output, Request};
@@ -42,21 +42,23 @@ pub fn trace(request: &Request) -> Graph {
 
 /// Code for the request.
 pub(crate) fn generate(request: &Request) -> Generated {
-    let parameters = Layout::parameters(&request.topology);
+    straight(trace(request), request.level, &Signature::of(request))
+}
+
+/// Code for a graph: parameters are its first inputs, coordinates the others.
+pub(crate) fn straight(graph: Graph, level: Level, signature: &Signature) -> Generated {
+    let parameters = signature.pinned.len();
     let of_state = |input| input >= parameters;
-    let graph = match request.level {
-        Level::Exact => trace(request),
-        Level::Fast => {
-            let graph = trace(request);
-            graph.regrouped(&graph.depends_on(of_state))
-        }
+    let graph = match level {
+        Level::Exact => graph,
+        Level::Fast => graph.regrouped(&graph.depends_on(of_state)),
     };
     let varies = graph.depends_on(of_state);
     let constants = constants(&graph, &varies);
-    let prepare = prepare(&graph, &varies, &constants, request.level);
-    let evaluate = evaluate(&graph, &varies, &constants, parameters, request.level);
+    let prepare = prepare(&graph, &varies, &constants, level);
+    let evaluate = evaluate(&graph, &varies, &constants, parameters, level);
     let tokens = Item {
-        request,
+        signature,
         constants: constants.len(),
         prepare,
         evaluate: quote!(Self::evaluate_on::<R, R>(k, x, out);),

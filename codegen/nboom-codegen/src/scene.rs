@@ -118,7 +118,7 @@ impl Request {
 }
 
 /// `word` and the topology without what cannot stand in a name.
-fn name(word: &str, topology: &Topology) -> String {
+pub(crate) fn name(word: &str, topology: &Topology) -> String {
     format!("{word}{}", topology.to_string().replace('_', ""))
 }
 
@@ -134,7 +134,8 @@ pub fn held(scene: &Scene, free: &[bool], angle: f64) -> WeldedTree<f64> {
     WeldedTree::new(scene, &mode, &beta)
 }
 
-fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
+/// The chains and paddles of a scene in which the hinges that are not `free` are held.
+pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
     let tree = held(scene, free, angle);
     recognise(&tree).map_err(|link| {
         let hinge = scene.label(tree.links[link].hinge).to_string();

@@ -3,9 +3,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use nboom_codegen::{CodegenError, Level, Request, generate, table};
+use nboom_codegen::{Level, Module};
 use nboom_formulation::Formulation;
-use nboom_model::Scene;
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{LitStr, Result};
@@ -21,12 +20,15 @@ pub(crate) fn expand(input: TokenStream, folder: &Path) -> Result<TokenStream> {
     let literal: LitStr = syn::parse2(input)?;
     let refused = |message: String| syn::Error::new(literal.span(), message);
     let path = folder.join(literal.value());
-    let scene = nboom_io::read_scene(&path).map_err(|error| refused(with_causes(&error)))?.scene;
+    let read = nboom_io::read_scene(&path).map_err(|error| refused(with_causes(&error)))?;
     // Comments of a deck may have bytes that are not UTF-8.
     let bytes =
         std::fs::read(&path).map_err(|error| refused(format!("{}: {error}", path.display())))?;
     let text = String::from_utf8_lossy(&bytes);
-    let routines = routines(&scene).map_err(|error| refused(error.to_string()))?;
+    let (scene, structure) = (&read.scene, read.structure.as_ref());
+    let module = Module::of_simulator(scene, structure, Formulation::Articulated, Level::Fast);
+    let routines = module.and_then(|module| module.at(SCALAR).tokens());
+    let routines = routines.map_err(|error| refused(error.to_string()))?;
     let Some(absolute) = path.to_str() else {
         return Err(refused(format!("{}: the path is not UTF-8", path.display())));
     };
@@ -36,20 +38,6 @@ pub(crate) fn expand(input: TokenStream, folder: &Path) -> Result<TokenStream> {
         mod routines { #routines }
         ::nboom::CompiledScene::new(#literal, #name, #text, routines::kernels)
     }})
-}
-
-/// Routines for the scene, the most specialised first, and their table.
-fn routines(scene: &Scene) -> std::result::Result<TokenStream, CodegenError> {
-    let mut requests = Request::of_simulator(scene, Formulation::Articulated, Level::Fast)?;
-    for request in &mut requests {
-        request.scalar_path = SCALAR.to_owned();
-    }
-    let mut all = TokenStream::new();
-    for request in &requests {
-        all.extend(generate(request)?.tokens);
-    }
-    all.extend(table(&requests)?);
-    Ok(all)
 }
 
 fn with_causes(error: &dyn Error) -> String {

@@ -9,7 +9,8 @@ pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
     check::warnings(&file).iter().for_each(|warning| say("warning", warning));
     let CompileArgs { formulation, level, offline, .. } = *args;
     let how = Build { formulation, level, work: args.work.clone(), offline };
-    let Built { up_to_date, topology, routines, folder } = build(&file.scene, &how, &args.output)?;
+    let Built { up_to_date, topology, routines, folder } =
+        build(&file.scene, file.structure.as_ref(), &how, &args.output)?;
     let (scene, program) = (&file.scene.name, args.output.display());
     if up_to_date {
         return Ok(format!("{scene}: {program} is up to date\n"));

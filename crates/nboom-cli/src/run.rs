@@ -19,7 +19,8 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let slips = args.slips.as_1970.unwrap_or_default();
     let file = read_scene(&args.scene)?;
     let file = SceneFile { scene: slips.scene(file.scene), ..file };
-    let stresses = args.stresses.analysis(&file, slips)?;
+    let kernels = if args.path == PathChoice::Generic { &[] } else { routines.accelerations };
+    let stresses = args.stresses.analysis(&file, slips, kernels)?;
     let of_sections = stresses.iter().flat_map(StressAnalysis::warnings);
     let warnings = check::warnings(&file).into_iter().chain(of_sections);
     let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();

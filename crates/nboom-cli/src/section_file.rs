@@ -148,7 +148,7 @@ fn case(value: Value) -> Result<Case, Vec<Defect>> {
     let (Some(section), []) = (section, &fields.defects[..]) else {
         return Err(fields.defects);
     };
-    if load.is_some_and(|load| !section.severest(&load).stress.von_mises().is_finite()) {
+    if load.is_some_and(|load| !section.stresses(&load).severest().stress.von_mises().is_finite()) {
         return Err(vec![Defect::Load]);
     }
     Ok(Case { given, section, load })

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use nboom_io::SceneFile;
+use nboom_scalar::Kernel;
 use nboom_strength::{Settings, Slips, StrengthError, StressAnalysis};
 
 use crate::choice;
@@ -29,7 +30,7 @@ pub struct StressArgs {
 }
 
 impl StressArgs {
-    /// The analysis that a scene asks for, if it does.
+    /// The analysis that a scene asks for, if it does; `kernels` may have code for its loads.
     ///
     /// # Errors
     /// When a section is not one.
@@ -37,10 +38,13 @@ impl StressArgs {
         &self,
         file: &SceneFile,
         slips: Slips,
+        kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
         let Self { no_stresses, yield_stress, safety_factor, amplification } = *self;
         let structure = file.structure.as_ref().filter(|_| !no_stresses);
         let settings = Settings { amplification, yield_stress, safety_factor, slips };
-        structure.map(|structure| StressAnalysis::new(&file.scene, structure, settings)).transpose()
+        let analysis =
+            structure.map(|structure| StressAnalysis::new(&file.scene, structure, settings));
+        Ok(analysis.transpose()?.map(|analysis| analysis.with_kernels(kernels)))
     }
 }

@@ -12,21 +12,22 @@ impl Loads {
     /// without stations hands on the load of its hinge.
     pub fn hand_on_as_in_1970(&self, beta: &[f64], loads: &mut LoadSet) {
         let right = loads.hinges.clone();
-        for (i, segment) in self.segments.iter().enumerate().rev() {
+        for (i, segment) in self.equations().segments.iter().enumerate().rev() {
             let Some(inboard) = segment.inboard else { continue };
             let turn = |axis, angle| segment.rot_inboard_at_zero * Mat3::about_axis(axis, angle);
             let own = turn(segment.axis, beta[i]);
-            let of_1970 = turn(self.segments[inboard].axis, beta[inboard]);
+            let of_1970 = turn(self.equations().segments[inboard].axis, beta[inboard]);
             let handed_on = loads.stations(i).last().copied().unwrap_or(loads.hinges[i]);
             let mut change = handed_on.rotated(&of_1970);
             change.subtract(right[i].rotated(&own));
             let change = change.seen_from(segment.point);
             loads.hinges[inboard].add(change);
-            let cuts = &self.segments[inboard].stations;
+            let cuts = &self.equations().segments[inboard].stations;
             let carriers = loads.stations_mut(inboard).iter_mut().zip(cuts);
             for (load, cut) in carriers.skip(segment.carried_from) {
                 load.add(change.seen_from(-cut.point));
             }
         }
+        self.equations().describe_stresses(loads);
     }
 }

@@ -27,19 +27,24 @@
 //!     beta: &[0.0],
 //!     tau: &[0.0],
 //!     acceleration: steady,
-//!     kick_off: &[false],
+//!     force_densities: &[0.0],
 //! };
 //! loads.continuous(&spin, &mut found);
 //! // The hinge pulls the boom, whose mass centre turns at a radius of 2, inward: m ω² r.
 //! assert_eq!(found.hinge(0).force.to_array(), [0.0, -3.0 * 4.0 * 2.0, 0.0]);
 //! ```
 
+mod equations;
+mod generated;
 mod handed_on;
 mod load_set;
 mod loads;
 mod motion;
 mod segment;
 
+pub use equations::LoadEquations;
+pub use generated::RESULT;
 pub use load_set::LoadSet;
 pub use loads::Loads;
 pub use motion::{LockUpShare, SceneMotion, VelocityChange};
+pub use segment::Influence;

@@ -1,30 +1,77 @@
-use nboom_scalar::Vec3;
+use nboom_scalar::{Real, Vec3};
 
 /// Change of the velocities of a scene: per unit of time, accelerations; at a lock-up, jumps.
 #[derive(Clone, Copy, Debug)]
-pub struct VelocityChange<'a> {
+pub struct VelocityChange<'a, R = f64> {
     /// Of V, the inertial velocity of O, main-body axes; an acceleration without that of
     /// gravity \[L/T², L/T\].
-    pub origin_body: Vec3<f64>,
+    pub origin_body: Vec3<R>,
     /// Of ω, main-body axes \[rad/T², rad/T\].
-    pub omega_body: Vec3<f64>,
+    pub omega_body: Vec3<R>,
     /// Of τ, one entry for each hinge of the scene, zero for held ones \[rad/T², rad/T\].
-    pub tau: &'a [f64],
+    pub tau: &'a [R],
 }
 
 /// The motion of a scene at one time; slices have one entry for each hinge of the scene.
 #[derive(Clone, Copy, Debug)]
-pub struct SceneMotion<'a> {
+pub struct SceneMotion<'a, R = f64> {
     /// ω, main-body axes \[rad/T\].
-    pub omega_body: Vec3<f64>,
+    pub omega_body: Vec3<R>,
     /// β \[rad\].
-    pub beta: &'a [f64],
+    pub beta: &'a [R],
     /// τ, zero for held hinges \[rad/T\].
-    pub tau: &'a [f64],
+    pub tau: &'a [R],
     /// Accelerations.
-    pub acceleration: VelocityChange<'a>,
-    /// Whether the kick-off spring of each hinge pushes.
-    pub kick_off: &'a [bool],
+    pub acceleration: VelocityChange<'a, R>,
+    /// Force of the kick-off spring of each hinge over its length, its force density; zero where
+    /// none pushes \[F/L\].
+    pub force_densities: &'a [R],
+}
+
+impl<'a, R: Real> SceneMotion<'a, R> {
+    /// How many numbers a motion of so many hinges is.
+    pub fn count(hinges: usize) -> usize {
+        9 + 4 * hinges
+    }
+
+    /// The motion in a row of numbers: ω, the acceleration of O, ω̇, then β, τ, τ̇ and the force
+    /// densities of all hinges.
+    ///
+    /// # Panics
+    /// When there are not [`count`](Self::count) of them.
+    pub fn of_numbers(numbers: &'a [R], hinges: usize) -> Self {
+        assert_eq!(numbers.len(), Self::count(hinges), "one number for each quantity");
+        let vector = |at: usize| Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2]);
+        let of_hinges = |row: usize| &numbers[9 + row * hinges..9 + (row + 1) * hinges];
+        Self {
+            omega_body: vector(0),
+            beta: of_hinges(0),
+            tau: of_hinges(1),
+            acceleration: VelocityChange {
+                origin_body: vector(3),
+                omega_body: vector(6),
+                tau: of_hinges(2),
+            },
+            force_densities: of_hinges(3),
+        }
+    }
+
+    /// Writes the row that [`of_numbers`](Self::of_numbers) reads.
+    ///
+    /// # Panics
+    /// When a slice has another length than it should.
+    pub fn write(&self, numbers: &mut [R]) {
+        let VelocityChange { origin_body, omega_body, tau } = self.acceleration;
+        let vectors = [self.omega_body, origin_body, omega_body];
+        let (of_vectors, of_hinges) = numbers.split_at_mut(9);
+        for (place, vector) in of_vectors.chunks_exact_mut(3).zip(vectors) {
+            place.copy_from_slice(&vector.to_array());
+        }
+        let hinges = self.beta.len();
+        for (row, values) in [self.beta, self.tau, tau, self.force_densities].iter().enumerate() {
+            of_hinges[row * hinges..(row + 1) * hinges].copy_from_slice(values);
+        }
+    }
 }
 
 /// What one of the hinges that lock in an instant contributes to it.

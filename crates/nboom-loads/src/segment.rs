@@ -1,4 +1,3 @@
-use nboom_elements::KickOffLaw;
 use nboom_model::{MassProperties, Scene, SegmentStructure, Station, Structure};
 use nboom_scalar::{Mat3, RigidInertia, Vec3};
 
@@ -7,42 +6,92 @@ const SAME_PLACE: f64 = 1e-9;
 
 /// What does not change of one hinged body; segment axes unless said otherwise.
 #[derive(Clone, Debug)]
-pub(crate) struct Segment {
+pub(crate) struct Segment<R> {
     pub inboard: Option<usize>,
     /// The hinge from the inboard body's origin, inboard body's axes.
-    pub point: Vec3<f64>,
+    pub point: Vec3<R>,
     /// Turns segment components at hinge angle zero into inboard components.
-    pub rot_inboard_at_zero: Mat3<f64>,
-    pub axis: Vec3<f64>,
+    pub rot_inboard_at_zero: Mat3<R>,
+    pub axis: Vec3<R>,
     /// Of the whole segment, about the hinge.
-    pub inertia: RigidInertia<f64>,
+    pub inertia: RigidInertia<R>,
     /// The outermost station of the inboard body that carries this one.
     pub carried_from: usize,
-    pub stations: Vec<Cut>,
-    pub kick_off: Option<KickOff>,
+    pub stations: Vec<Cut<R>>,
+    pub kick_off: Option<KickOff<R>>,
 }
 
 /// A station and what of its segment is outboard of it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cut {
+pub(crate) struct Cut<R> {
     /// On the η axis.
-    pub point: Vec3<f64>,
+    pub point: Vec3<R>,
     /// About the hinge.
-    pub outboard: RigidInertia<f64>,
+    pub outboard: RigidInertia<R>,
+    pub influence: Option<Influence<R>>,
 }
+
+/// Six numbers that describe the stresses in a section, by P_ξ, P_η, P_ζ, Q_ξ, Q_η and Q_ζ; a row
+/// for each number.
+pub type Influence<R = f64> = [[R; 6]; 6];
 
 /// A kick-off spring, between a segment and the main body.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct KickOff {
-    pub body_point: Vec3<f64>,
+pub(crate) struct KickOff<R> {
+    pub body_point: Vec3<R>,
     /// From O, main-body axes.
-    pub main_body_point: Vec3<f64>,
-    pub law: KickOffLaw<f64>,
+    pub main_body_point: Vec3<R>,
     /// The outermost station that carries its force.
     pub carried_from: usize,
 }
 
-impl Segment {
+impl<R: Copy> Segment<R> {
+    /// The segment with what `f` makes of each of its numbers, always in the same order.
+    pub fn map<S>(&self, mut f: impl FnMut(R) -> S) -> Segment<S> {
+        Segment {
+            inboard: self.inboard,
+            point: self.point.map(&mut f),
+            rot_inboard_at_zero: self.rot_inboard_at_zero.map(&mut f),
+            axis: self.axis.map(&mut f),
+            inertia: self.inertia.map(&mut f),
+            carried_from: self.carried_from,
+            stations: self.stations.iter().map(|cut| cut.map(&mut f)).collect(),
+            kick_off: self.kick_off.map(|spring| spring.map(&mut f)),
+        }
+    }
+
+    /// How it is attached, as numbers that no other arrangement has.
+    pub fn arrangement(&self) -> [f64; 5] {
+        let counted = |place: Option<usize>| place.map_or(0, |place| place + 1);
+        let spring = self.kick_off.as_ref().map(|spring| spring.carried_from);
+        let sections = self.stations.iter().filter(|cut| cut.influence.is_some()).count();
+        let stations = self.stations.len();
+        [counted(self.inboard), self.carried_from, stations, sections, counted(spring)]
+            .map(|count| count as f64)
+    }
+}
+
+impl<R: Copy> Cut<R> {
+    fn map<S>(&self, mut f: impl FnMut(R) -> S) -> Cut<S> {
+        Cut {
+            point: self.point.map(&mut f),
+            outboard: self.outboard.map(&mut f),
+            influence: self.influence.map(|rows| rows.map(|row| row.map(&mut f))),
+        }
+    }
+}
+
+impl<R: Copy> KickOff<R> {
+    fn map<S>(&self, mut f: impl FnMut(R) -> S) -> KickOff<S> {
+        KickOff {
+            body_point: self.body_point.map(&mut f),
+            main_body_point: self.main_body_point.map(f),
+            carried_from: self.carried_from,
+        }
+    }
+}
+
+impl Segment<f64> {
     pub fn all(scene: &Scene, structure: Option<&Structure>) -> Vec<Self> {
         (0..scene.bodies.len()).map(|i| Self::new(scene, structure, i)).collect()
     }
@@ -55,7 +104,6 @@ impl Segment {
         let kick_off = body.hinge.kick_off.map(|spring| KickOff {
             body_point: spring.body_point,
             main_body_point: spring.main_body_point,
-            law: KickOffLaw::new(spring.coefficients),
             carried_from: carried_from(stations_of(i), spring.body_point),
         });
         Self {
@@ -75,11 +123,12 @@ fn about_hinge(body: &MassProperties) -> RigidInertia<f64> {
     RigidInertia::new(body.mass, body.center_of_mass, body.inertia)
 }
 
-fn cuts(segment: &SegmentStructure) -> Vec<Cut> {
+fn cuts(segment: &SegmentStructure) -> Vec<Cut<f64>> {
     let outboard = segment.outboard_of_stations();
     let cut = |(station, outboard): (&Station, &MassProperties)| Cut {
         point: station.point(),
         outboard: about_hinge(outboard),
+        influence: None,
     };
     segment.stations.iter().zip(&outboard).map(cut).collect()
 }

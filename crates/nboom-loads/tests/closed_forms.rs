@@ -66,8 +66,9 @@ fn rigid(
     let mut loads = Loads::new(scene, Some(&structure(scene, &STATIONS)));
     let mut found = loads.load_set();
     let acceleration = VelocityChange { origin_body: origin, omega_body: omega_dot, tau: &[0.0] };
-    let kick_off = &[kick_off];
-    let motion = SceneMotion { omega_body, beta: &[0.0], tau: &[0.0], acceleration, kick_off };
+    let force_densities = &[if kick_off { (1.0 + 2.0 * 1.5) / 1.5 } else { 0.0 }];
+    let motion =
+        SceneMotion { omega_body, beta: &[0.0], tau: &[0.0], acceleration, force_densities };
     loads.continuous(&motion, &mut found);
     found
 }
@@ -134,7 +135,7 @@ fn a_swinging_boom_has_the_hinge_rates_and_its_own_axes() {
     let zero = Vec3::zero();
     let acceleration = VelocityChange { origin_body: zero, omega_body: zero, tau: &[2.5] };
     let (omega_body, beta, tau) = (zero, &[0.4], &[0.6]);
-    let motion = SceneMotion { omega_body, beta, tau, acceleration, kick_off: &[false] };
+    let motion = SceneMotion { omega_body, beta, tau, acceleration, force_densities: &[0.0] };
     loads.continuous(&motion, &mut found);
     for (load, s) in found.stations(0).iter().zip(STATIONS) {
         let (force, moment) = bending(0.0, 2.5, s);
@@ -198,8 +199,8 @@ fn a_station_does_not_depend_on_others() {
         let mut found = loads.load_set();
         let [omega_body, origin_body] = accelerations;
         let acceleration = VelocityChange { origin_body, omega_body, tau: &[0.0] };
-        let (beta, tau, kick_off) = (&[0.0], &[0.0], &[false]);
-        let motion = SceneMotion { omega_body: omega, beta, tau, acceleration, kick_off };
+        let (beta, tau, force_densities) = (&[0.0], &[0.0], &[0.0]);
+        let motion = SceneMotion { omega_body: omega, beta, tau, acceleration, force_densities };
         loads.continuous(&motion, &mut found);
         for (alone, beside) in [(0, j), (1, STATIONS.len() - 1)] {
             let (alone, beside) = (found.stations(0)[alone], many.stations(0)[beside]);
@@ -249,8 +250,8 @@ fn a_second_boom_is_carried_by_the_stations_inboard_of_it() {
     let zero = Vec3::zero();
     let acceleration =
         VelocityChange { origin_body: Vec3::unit_x(), omega_body: zero, tau: &[0.0; 2] };
-    let (beta, tau, kick_off) = (&[0.0; 2], &[0.0; 2], &[false; 2]);
-    let motion = SceneMotion { omega_body: zero, beta, tau, acceleration, kick_off };
+    let (beta, tau, force_densities) = (&[0.0; 2], &[0.0; 2], &[0.0; 2]);
+    let motion = SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities };
     loads.continuous(&motion, &mut found);
     assert_near(found.hinge(1).force, [MASS, 0.0, 0.0]);
     assert_near(found.hinge(1).moment, [0.0, 0.0, -MASS]);

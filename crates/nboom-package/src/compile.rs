@@ -4,9 +4,9 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use nboom_codegen::{Level, Request, Standing, file, hash, key, standing};
+use nboom_codegen::{Level, Module, Standing, hash};
 use nboom_formulation::Formulation;
-use nboom_model::Scene;
+use nboom_model::{Scene, Structure};
 
 use crate::files::{put, read};
 use crate::{PackageError, manifest, program, sources};
@@ -50,19 +50,24 @@ pub struct Built {
 }
 
 /// Builds a program that takes scenes and the options of `nboom run`, with the routines of
-/// [`Request::of_simulator`] for one scene.
+/// [`Module::of_simulator`] for one scene.
 ///
 /// What it is made of stays in a folder, so that the next build is quicker.
 ///
 /// # Errors
 /// [`PackageError`] when there is no code for the scene, when a file cannot be written or would
 /// overwrite what is no simulator, and when cargo is not there or fails.
-pub fn compile(scene: &Scene, build: &Build, program: &Path) -> Result<Built, PackageError> {
+pub fn compile(
+    scene: &Scene,
+    structure: Option<&Structure>,
+    build: &Build,
+    program: &Path,
+) -> Result<Built, PackageError> {
     program::require_free(program)?;
-    let requests = Request::of_simulator(scene, build.formulation, build.level)?;
+    let module = Module::of_simulator(scene, structure, build.formulation, build.level)?;
     let work = work(build)?;
     let version = sources::VERSION;
-    let number = hash(format!("{version} {:016x}", key(&requests)).as_bytes());
+    let number = hash(format!("{version} {:016x}", module.key()).as_bytes());
     let name = format!("nboom-simulator-{number:016x}");
     let crates = format!("sources-{version}");
     for (path, text) in sources::of_command() {
@@ -76,14 +81,15 @@ pub fn compile(scene: &Scene, build: &Build, program: &Path) -> Result<Built, Pa
     }
     let routines = folder.join("src/routines.rs");
     let there = read(&routines)?.and_then(|bytes| String::from_utf8(bytes).ok());
-    if !there.is_some_and(|text| standing(&text, &requests) == Standing::Current) {
-        put(&routines, &file(&requests)?)?;
+    if !there.is_some_and(|text| module.standing(&text) == Standing::Current) {
+        put(&routines, &module.text()?)?;
     }
     put(&folder.join("src/main.rs"), &MAIN.replace("/*MADE*/", &program::made(number)))?;
     let made = cargo(&folder, &work.join("target"), build.offline)?;
     let up_to_date = program::copy(&made, program)?;
-    let topology = requests[0].topology.to_string();
-    Ok(Built { up_to_date, topology, routines: requests.len(), folder })
+    let topology = module.routines[0].topology.to_string();
+    let routines = module.routines.len() + module.stresses.len();
+    Ok(Built { up_to_date, topology, routines, folder })
 }
 
 /// The folder to build in.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use nboom_codegen::{Generated, Request, file, generate as emit, hash, key};
+use nboom_codegen::{Generated, Module, Request, generate as emit, hash};
 use nboom_expr::Operations;
 use nboom_formulation::Recognised;
 use nboom_model::Scene;
@@ -43,7 +43,7 @@ pub fn generate(
     directory: &Path,
 ) -> Result<Written, PackageError> {
     let requests = Requests::new(scene, choices)?;
-    let key = key_of(scene, &requests.all());
+    let key = key_of(scene, &requests);
     match Listing::require_current(directory, key) {
         Ok(()) => return Ok(Written::UpToDate),
         Err(PackageError::Outdated { .. }) => {}
@@ -61,13 +61,13 @@ pub fn generate(
 /// [`PackageError::Outdated`] with the first file that is not as it would be written.
 pub fn is_current(scene: &Scene, choices: &Choices, directory: &Path) -> Result<(), PackageError> {
     let requests = Requests::new(scene, choices)?;
-    Listing::require_current(directory, key_of(scene, &requests.all()))
+    Listing::require_current(directory, key_of(scene, &requests))
 }
 
 /// A number for everything that a crate is made from.
-fn key_of(scene: &Scene, requests: &[Request]) -> u64 {
+fn key_of(scene: &Scene, requests: &Requests) -> u64 {
     let version = sources::VERSION;
-    hash(format!("{version} {:016x} {scene:?}", key(requests)).as_bytes())
+    hash(format!("{version} {:016x} {scene:?}", Module::from(requests.all()).key()).as_bytes())
 }
 
 /// The files of a crate, and its routines.
@@ -79,7 +79,7 @@ struct Crate {
 impl Crate {
     fn new(scene: &Scene, requests: &Requests, key: u64) -> Result<Self, PackageError> {
         // The text first: it is what limits of size refuse.
-        let code = file(&requests.all())?;
+        let code = Module::from(requests.all()).text()?;
         let routines = routines(scene, requests)?;
         let name = manifest::name(&scene.name);
         let mut files = Files::from([

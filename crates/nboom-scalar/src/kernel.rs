@@ -10,9 +10,11 @@ type Prepare = fn(&[f64], &mut [f64]);
 /// A routine on `f64`, in the form that is fastest on this processor.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
+    /// What an evaluation writes: `accelerations`, `equations` or `stresses`.
+    pub result: &'static str,
     /// Topology, for example `S2_P`.
     pub topology: &'static str,
-    /// Formulation, for example `articulated`.
+    /// Formulation, for example `articulated`; none of stresses.
     pub formulation: &'static str,
     /// What the routine takes for granted: parameter numbers and their values.
     pub pinned: &'static [(usize, f64)],
@@ -24,7 +26,7 @@ pub struct Kernel {
     pub constants: usize,
     /// How many numbers describe a state.
     pub coordinates: usize,
-    /// How many numbers accelerations are.
+    /// How many numbers an evaluation writes.
     pub outputs: usize,
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
@@ -42,6 +44,7 @@ impl Kernel {
     /// The routine `T` in code for an instruction set, if this processor has it.
     pub fn with<T: Routine>(instructions: InstructionSet) -> Option<Self> {
         Some(Self {
+            result: T::RESULT,
             topology: T::TOPOLOGY,
             formulation: T::FORMULATION,
             pinned: T::PINNED,
@@ -70,7 +73,7 @@ impl Kernel {
         (self.prepare)(parameters, constants);
     }
 
-    /// Computes accelerations.
+    /// Computes what the routine is for.
     ///
     /// # Panics
     /// When a slice does not have the length given above.

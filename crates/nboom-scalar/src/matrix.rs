@@ -12,6 +12,14 @@ pub struct Mat3<R> {
     pub rows: [Vec3<R>; 3],
 }
 
+impl<R> Mat3<R> {
+    /// The matrix of what `f` makes of each entry, row by row.
+    #[inline]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> Mat3<S> {
+        Mat3 { rows: self.rows.map(|row| row.map(&mut f)) }
+    }
+}
+
 impl<R: Real> Mat3<R> {
     /// The matrix with these rows.
     #[inline]
@@ -42,7 +50,7 @@ impl<R: Real> Mat3<R> {
     /// The same matrix with every entry made a scalar of this kind.
     #[inline]
     pub fn constant(m: Mat3<f64>) -> Self {
-        Self { rows: m.rows.map(Vec3::constant) }
+        m.map(R::constant)
     }
 
     /// J(a), the matrix for which `skew(a) * b` is `a × b` (nomenclature of the report).

@@ -2,17 +2,20 @@ use crate::{Isa, Real};
 
 /// Version of what generated code and its callers agree on; code for another one does not
 /// compile.
-pub const CONTRACT: u32 = 1;
+pub const CONTRACT: u32 = 2;
 
-/// What generated code implements: accelerations of one topology by one formulation, or the
-/// equations that the formulation solves for them.
+/// What generated code implements: accelerations of one topology by one formulation, the
+/// equations that the formulation solves for them, or the loads and stresses of one scene.
 ///
 /// Parameters are prepared once; an evaluation then allocates nothing and does not branch.
-/// The order of all numbers is that of `nboom_formulation::Layout`.
+/// The order of all numbers is that of `nboom_formulation::Layout`; of stresses that of
+/// `nboom_loads`.
 pub trait Routine {
+    /// What an evaluation writes: `accelerations`, `equations` or `stresses`.
+    const RESULT: &'static str;
     /// Topology, for example `S2_P`.
     const TOPOLOGY: &'static str;
-    /// Formulation, for example `articulated`.
+    /// Formulation, for example `articulated`; none of stresses.
     const FORMULATION: &'static str;
     /// What the routine takes for granted: parameter numbers and their values.
     const PINNED: &'static [(usize, f64)];

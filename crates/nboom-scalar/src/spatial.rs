@@ -82,6 +82,18 @@ pub struct RigidInertia<R> {
     pub about_origin: Sym3<R>,
 }
 
+impl<R> RigidInertia<R> {
+    /// The body with what `f` makes of each of its ten numbers.
+    #[inline]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> RigidInertia<S> {
+        RigidInertia {
+            mass: f(self.mass),
+            first_moment: self.first_moment.map(&mut f),
+            about_origin: self.about_origin.map(f),
+        }
+    }
+}
+
 impl<R: Real> RigidInertia<R> {
     /// A body without mass.
     pub fn zero() -> Self {

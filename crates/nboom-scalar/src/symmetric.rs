@@ -14,6 +14,21 @@ pub struct Sym3<R> {
     pub yz: R,
 }
 
+impl<R> Sym3<R> {
+    /// The matrix of what `f` makes of each entry.
+    #[inline]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> Sym3<S> {
+        Sym3 {
+            xx: f(self.xx),
+            yy: f(self.yy),
+            zz: f(self.zz),
+            xy: f(self.xy),
+            xz: f(self.xz),
+            yz: f(self.yz),
+        }
+    }
+}
+
 impl<R: Real> Sym3<R> {
     /// The zero matrix.
     pub fn zero() -> Self {
@@ -29,14 +44,7 @@ impl<R: Real> Sym3<R> {
     /// The same matrix with every entry made a scalar of this kind.
     #[inline]
     pub fn constant(m: Sym3<f64>) -> Self {
-        Self {
-            xx: R::constant(m.xx),
-            yy: R::constant(m.yy),
-            zz: R::constant(m.zz),
-            xy: R::constant(m.xy),
-            xz: R::constant(m.xz),
-            yz: R::constant(m.yz),
-        }
+        m.map(R::constant)
     }
 
     /// The dyad `v vᵀ`.

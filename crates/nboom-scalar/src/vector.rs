@@ -18,6 +18,12 @@ impl<R> Vec3<R> {
     pub const fn new(x: R, y: R, z: R) -> Self {
         Self { x, y, z }
     }
+
+    /// The vector of what `f` makes of each component.
+    #[inline]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> Vec3<S> {
+        Vec3 { x: f(self.x), y: f(self.y), z: f(self.z) }
+    }
 }
 
 impl<R: Real> Vec3<R> {
@@ -45,7 +51,7 @@ impl<R: Real> Vec3<R> {
     /// The same vector with every component made a scalar of this kind.
     #[inline]
     pub fn constant(v: Vec3<f64>) -> Self {
-        Self::new(R::constant(v.x), R::constant(v.y), R::constant(v.z))
+        v.map(R::constant)
     }
 
     /// Inner product.

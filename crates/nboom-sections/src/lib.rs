@@ -22,7 +22,7 @@
 //!
 //! let torsion = Wrench { force: Vec3::zero(), moment: Vec3::new(0.0, 50.0, 0.0) };
 //! // Bredt: the shear stress is M / (2 A t).
-//! let shear = section.severest(&torsion).stress.shear();
+//! let shear = section.stresses(&torsion).severest().stress.shear();
 //! assert!((shear - 50.0 / (2.0 * 4.0 * 0.02)).abs() < 1e-10);
 //! # Ok::<(), nboom_sections::SectionError>(())
 //! ```
@@ -45,7 +45,7 @@ pub use error::{SectionError, SectionWarning};
 pub use point::Point;
 pub use polygon::{Polygon, PolygonStresses};
 pub use properties::{Properties, SecondMoments};
-pub use section::Section;
+pub use section::{Section, SectionStresses};
 pub use stress::{PointStress, Stress};
 pub use tube::{Annulus, Tube, TubeStresses};
 pub use wall::{Wall, WallStress};

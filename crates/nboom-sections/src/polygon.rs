@@ -1,8 +1,8 @@
 use nboom_scalar::{Vec3, Wrench};
 
 use crate::{
-    Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Wall, WallStress,
-    outline, shear_flow,
+    Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Stress, Wall,
+    WallStress, outline, shear_flow,
 };
 
 /// A closed thin-walled section with one cell and plane walls.
@@ -87,6 +87,18 @@ impl Polygon {
         }
     }
 
+    /// The stresses that these numbers describe, see [`PolygonStresses::numbers`].
+    pub fn described_by(&self, numbers: [f64; 6]) -> PolygonStresses<'_> {
+        let [mean, by_xi, by_zeta, shear_xi, shear_zeta, torsion] = numbers;
+        PolygonStresses {
+            polygon: self,
+            mean,
+            gradient: Point { xi: by_xi, zeta: by_zeta },
+            shear: Point { xi: shear_xi, zeta: shear_zeta },
+            torsion,
+        }
+    }
+
     /// The axis points at 0, 90, 180 and 270 degrees from ξ towards ζ, as a wall and a place on it:
     /// where rays from the centroid leave the section. A section that is not convex may lack some.
     pub fn axis_points(&self) -> [Option<(usize, f64)>; 4] {
@@ -135,6 +147,13 @@ pub struct PolygonStresses<'a> {
 }
 
 impl PolygonStresses<'_> {
+    /// What they follow from, linear in the load: the normal stress at the centroid, its gradient,
+    /// shear force and torsion moment on the inboard part.
+    pub fn numbers(&self) -> [f64; 6] {
+        let Self { mean, gradient, shear, torsion, .. } = *self;
+        [mean, gradient.xi, gradient.zeta, shear.xi, shear.zeta, torsion]
+    }
+
     /// The stress along a wall, from 0; eqs. (11.8) to (11.10), corrected: note 22, and the exact
     /// flow of the closed cell instead of eqs. (11.12) to (11.15), note 23.
     ///
@@ -175,6 +194,17 @@ impl PolygonStresses<'_> {
         let walls = (1..self.polygon.walls.len()).map(of_wall);
         let (wall, x, _) = walls.fold(of_wall(0), |a, b| if b.2 > a.2 { b } else { a });
         (wall, x)
+    }
+
+    /// The stress on the point's wall where it is nearest to the point.
+    pub fn near(&self, point: &PointStress) -> Stress {
+        let number = point.wall.unwrap_or(0);
+        self.wall(number).at(self.polygon.walls[number].nearest(point.place))
+    }
+
+    /// The stresses at the polygon's axis points.
+    pub fn axis_points(&self) -> [Option<PointStress>; 4] {
+        self.polygon.axis_points().map(|place| place.map(|(wall, x)| self.at(wall, x)))
     }
 
     /// The stress at a place of a wall.

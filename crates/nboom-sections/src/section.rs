@@ -1,6 +1,10 @@
-use nboom_scalar::Wrench;
+use nboom_model::SectionShape;
+use nboom_scalar::{Vec3, Wrench};
 
-use crate::{PointStress, Polygon, Properties, SectionWarning, Stress, Tube};
+use crate::{
+    Point, PointStress, Polygon, PolygonStresses, Properties, SectionError, SectionWarning, Stress,
+    Tube, TubeStresses,
+};
 
 /// A thin-walled section with one cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +16,25 @@ pub enum Section {
 }
 
 impl Section {
+    /// The section that a station has.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it.
+    pub fn of_shape(shape: &SectionShape) -> Result<Self, SectionError> {
+        match shape {
+            SectionShape::Tube { radius, thickness } => {
+                Tube::new(*radius, *thickness).map(Self::Tube)
+            }
+            SectionShape::Polygon(vertices) => {
+                let places: Vec<Point> =
+                    vertices.iter().map(|v| Point { xi: v.xi, zeta: v.zeta }).collect();
+                let thicknesses: Vec<f64> = vertices.iter().map(|v| v.thickness).collect();
+                let polygon = Polygon::new(&places, &thicknesses);
+                polygon.map(Self::Polygon).map_err(|mut errors| errors.swap_remove(0))
+            }
+        }
+    }
+
     /// What it is, apart from any load.
     pub fn properties(&self) -> Properties {
         match self {
@@ -28,49 +51,81 @@ impl Section {
         }
     }
 
-    /// The point at which the von Mises stress is largest under a load: force and moment, about the
-    /// point on the η axis, that act on the part outboard of the section.
-    pub fn severest(&self, load: &Wrench<f64>) -> PointStress {
+    /// The stresses under a load: force and moment, about the point on the η axis, that act on the
+    /// part outboard of the section.
+    pub fn stresses(&self, load: &Wrench<f64>) -> SectionStresses<'_> {
         match self {
-            Self::Tube(tube) => {
-                let stresses = tube.stresses(load);
-                stresses.at(stresses.severest())
-            }
-            Self::Polygon(polygon) => {
-                let stresses = polygon.stresses(load);
+            Self::Tube(tube) => SectionStresses::Tube(tube.stresses(load)),
+            Self::Polygon(polygon) => SectionStresses::Polygon(polygon.stresses(load)),
+        }
+    }
+
+    /// The stresses that these numbers describe, see [`SectionStresses::numbers`].
+    pub fn described_by(&self, numbers: [f64; 6]) -> SectionStresses<'_> {
+        match self {
+            Self::Tube(tube) => SectionStresses::Tube(tube.described_by(numbers)),
+            Self::Polygon(polygon) => SectionStresses::Polygon(polygon.described_by(numbers)),
+        }
+    }
+
+    /// What P_ξ, P_η, P_ζ, Q_ξ, Q_η and Q_ζ of a load, each of one unit, contribute to the numbers
+    /// that describe stresses; a row for each number.
+    pub fn influence(&self) -> [[f64; 6]; 6] {
+        let unit = |i: usize, at: usize| if i == at { 1.0 } else { 0.0 };
+        let vector = |i: usize, at: usize| Vec3::new(unit(i, at), unit(i, at + 1), unit(i, at + 2));
+        let columns: [[f64; 6]; 6] = std::array::from_fn(|i| {
+            let load = Wrench { force: vector(i, 0), moment: vector(i, 3) };
+            self.stresses(&load).numbers()
+        });
+        std::array::from_fn(|number| columns.map(|column| column[number]))
+    }
+}
+
+/// The stresses in a section under one load.
+#[derive(Clone, Copy, Debug)]
+pub enum SectionStresses<'a> {
+    /// In a tube.
+    Tube(TubeStresses),
+    /// In a polygon.
+    Polygon(PolygonStresses<'a>),
+}
+
+impl SectionStresses<'_> {
+    /// Six numbers that describe them together with the section, linear in the load: of a tube the
+    /// coefficients of normal and shear stress, of a polygon the normal stress at the centroid, its
+    /// gradient, shear force and torsion moment.
+    pub fn numbers(&self) -> [f64; 6] {
+        match self {
+            Self::Tube(stresses) => stresses.numbers(),
+            Self::Polygon(stresses) => stresses.numbers(),
+        }
+    }
+
+    /// The point at which the von Mises stress is largest.
+    pub fn severest(&self) -> PointStress {
+        match self {
+            Self::Tube(stresses) => stresses.at(stresses.severest()),
+            Self::Polygon(stresses) => {
                 let (wall, x) = stresses.severest();
                 stresses.at(wall, x)
             }
         }
     }
 
-    /// The stress that a load makes at a point of the section which another load was found at.
-    pub fn at(&self, point: &PointStress, load: &Wrench<f64>) -> Stress {
+    /// The stress at a point of the section which other stresses were found at.
+    pub fn at(&self, point: &PointStress) -> Stress {
         match self {
-            Self::Tube(tube) => {
-                let theta = point.place.zeta.atan2(point.place.xi);
-                tube.stresses(load).at(theta).stress
-            }
-            Self::Polygon(polygon) => {
-                let number = point.wall.unwrap_or(0);
-                let x = polygon.walls()[number].nearest(point.place);
-                polygon.stresses(load).at(number, x).stress
-            }
+            Self::Tube(stresses) => stresses.at(point.place.zeta.atan2(point.place.xi)).stress,
+            Self::Polygon(stresses) => stresses.near(point),
         }
     }
 
     /// Stresses at the four axis points of the report, 0, 90, 180 and 270 degrees from ξ towards ζ:
     /// where rays from the centroid leave the section. A polygon that is not convex may lack some.
-    pub fn axis_points(&self, load: &Wrench<f64>) -> [Option<PointStress>; 4] {
+    pub fn axis_points(&self) -> [Option<PointStress>; 4] {
         match self {
-            Self::Tube(tube) => {
-                let stresses = tube.stresses(load);
-                Tube::AXIS_ANGLES.map(|theta| Some(stresses.at(theta)))
-            }
-            Self::Polygon(polygon) => {
-                let stresses = polygon.stresses(load);
-                polygon.axis_points().map(|place| place.map(|(wall, x)| stresses.at(wall, x)))
-            }
+            Self::Tube(stresses) => Tube::AXIS_ANGLES.map(|theta| Some(stresses.at(theta))),
+            Self::Polygon(stresses) => stresses.axis_points(),
         }
     }
 }

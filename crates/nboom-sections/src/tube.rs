@@ -88,6 +88,11 @@ impl Tube {
         SectionWarning::of_tube(self.thickness / self.radius).into_iter().collect()
     }
 
+    /// The stresses that these numbers describe, see [`TubeStresses::numbers`].
+    pub fn described_by(&self, [a, b, c, d, e, f]: [f64; 6]) -> TubeStresses {
+        TubeStresses { radius: self.radius, normal: [a, b, c], shear: [d, e, f] }
+    }
+
     /// The stresses under a load: force and moment, about the point on the η axis, that act on the
     /// part outboard of the section.
     pub fn stresses(&self, load: &Wrench<f64>) -> TubeStresses {
@@ -116,6 +121,12 @@ pub struct TubeStresses {
 }
 
 impl TubeStresses {
+    /// The coefficients of normal and shear stress, linear in the load.
+    pub fn numbers(&self) -> [f64; 6] {
+        let ([a, b, c], [d, e, f]) = (self.normal, self.shear);
+        [a, b, c, d, e, f]
+    }
+
     /// The stress at θ.
     pub fn at(&self, theta: f64) -> PointStress {
         let (sin, cos) = theta.sin_cos();

@@ -42,6 +42,9 @@ fn duration_of_recursion(topology: &Topology) -> usize {
     60 + 110 * topology.hinges()
 }
 
+/// What [`Kernel::result`] says of routines that a run may take.
+const ACCELERATIONS: &str = "accelerations";
+
 /// The routines that a run may take: the one that is probably fastest first, of equally fast ones
 /// that with fewest links, then one of `articulated`, then the most specialised.
 #[derive(Clone, Debug)]
@@ -60,7 +63,8 @@ impl Repertoire {
     /// The routines that `options` allow.
     pub fn new(options: &Options) -> Self {
         let allowed = |kernel: &&Kernel| {
-            options.formulation.is_none_or(|form| kernel.formulation == form.name())
+            kernel.result == ACCELERATIONS
+                && options.formulation.is_none_or(|form| kernel.formulation == form.name())
         };
         let entry = |kernel: &Kernel| {
             let topology = kernel.topology.parse::<Topology>().ok()?;

@@ -1,7 +1,7 @@
-use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
-use nboom_model::{HingeLabel, Scene, SectionShape, Structure};
-use nboom_scalar::Wrench;
-use nboom_sections::{Point, PointStress, Polygon, Section, SectionError, SectionWarning, Tube};
+use nboom_loads::{LoadEquations, LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
+use nboom_model::{HingeLabel, Scene, Structure};
+use nboom_scalar::{Kernel, Wrench};
+use nboom_sections::{PointStress, Section, SectionWarning};
 use nboom_sim::{Detail, LockUpMotion, Snapshot};
 
 use crate::envelope::driver;
@@ -16,6 +16,7 @@ pub struct StressAnalysis {
     pulse_constants: Vec<f64>,
     loads: Loads,
     found: LoadSet,
+    force_densities: Vec<f64>,
     sections: Vec<StationSection>,
     stresses: Vec<StationStress>,
     /// The worst of each station; none before the first evaluation.
@@ -65,18 +66,20 @@ impl StressAnalysis {
     ) -> Result<Self, StrengthError> {
         settings.check()?;
         let labels: Vec<HingeLabel> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
-        let mut sections = Vec::new();
+        let (mut sections, mut influences) = (Vec::new(), Vec::new());
         for (segment, description) in structure.segments().iter().enumerate() {
             for (station, of_station) in description.stations.iter().enumerate() {
                 let at_station =
                     |source| StrengthError::Section { segment: labels[segment], station, source };
-                let section = section(&of_station.section).map_err(at_station)?;
+                let section = Section::of_shape(&of_station.section).map_err(at_station)?;
                 let warnings = section.warnings();
+                influences.push(section.influence());
                 let section = Formulas::new(section, settings.slips);
                 sections.push(StationSection { segment, station, warnings, section });
             }
         }
-        let loads = Loads::new(scene, Some(structure));
+        let equations = LoadEquations::new(scene, Some(structure)).with_sections(influences);
+        let loads = Loads::by(equations);
         let found = loads.load_set();
         let pulse_constants = structure.segments().iter().map(|s| s.pulse_constant).collect();
         let (stresses, envelope) = (Vec::new(), Vec::new());
@@ -84,6 +87,7 @@ impl StressAnalysis {
             settings,
             labels,
             pulse_constants,
+            force_densities: vec![0.0; scene.bodies.len()],
             loads,
             found,
             sections,
@@ -91,6 +95,12 @@ impl StressAnalysis {
             envelope,
             largest_residual: 0.0,
         })
+    }
+
+    /// The same with the code among `kernels`, if there is any, that was generated for this scene
+    /// and structure.
+    pub fn with_kernels(self, kernels: &[Kernel]) -> Self {
+        Self { loads: self.loads.with_kernels(kernels), ..self }
     }
 
     /// Where thin-wall theory may not hold, a line for each station.
@@ -101,6 +111,11 @@ impl StressAnalysis {
             at.warnings.iter().map(move |warning| format!("{place}: {warning}"))
         });
         lines.collect()
+    }
+
+    /// Instruction set of the generated code that finds the loads, if any does.
+    pub fn generated_for(&self) -> Option<&'static str> {
+        self.loads.generated_for()
     }
 
     /// Loads and stresses of the motion at an output time.
@@ -169,6 +184,10 @@ impl StressAnalysis {
     }
 
     fn load(&mut self, snapshot: &Snapshot, detail: &Detail) -> Result<(), StrengthError> {
+        let springs = detail.kick_off_force.iter().zip(&detail.kick_off_length);
+        for (density, (&force, &length)) in self.force_densities.iter_mut().zip(springs) {
+            *density = if force == 0.0 { 0.0 } else { force / length };
+        }
         let motion = SceneMotion {
             omega_body: snapshot.omega_body,
             beta: &snapshot.beta,
@@ -178,7 +197,7 @@ impl StressAnalysis {
                 omega_body: detail.omega_dot_body,
                 tau: &detail.beta_ddot,
             },
-            kick_off: &detail.kick_off_pushes,
+            force_densities: &self.force_densities,
         };
         self.loads.continuous(&motion, &mut self.found);
         let torques = &detail.hinge_torque;
@@ -205,12 +224,13 @@ impl StressAnalysis {
         stresses.clear();
         stresses.extend(sections.iter().map(|at| {
             let load = found.stations(at.segment)[at.station];
+            let stresses = at.section.stresses(&load, found.stresses(at.segment)[at.station]);
             StationStress {
                 segment: at.segment,
                 station: at.station,
                 load,
-                axis_points: at.section.axis_points(&load),
-                severest: at.section.severest(&load),
+                axis_points: stresses.axis_points(),
+                severest: stresses.severest(),
             }
         }));
         let worst = |(at, stress): (&StationSection, &StationStress)| Worst {
@@ -234,20 +254,5 @@ impl StressAnalysis {
             }
         }
         stresses
-    }
-}
-
-fn section(shape: &SectionShape) -> Result<Section, SectionError> {
-    match shape {
-        SectionShape::Tube { radius, thickness } => {
-            Tube::new(*radius, *thickness).map(Section::Tube)
-        }
-        SectionShape::Polygon(vertices) => {
-            let places: Vec<Point> =
-                vertices.iter().map(|v| Point { xi: v.xi, zeta: v.zeta }).collect();
-            let thicknesses: Vec<f64> = vertices.iter().map(|v| v.thickness).collect();
-            let polygon = Polygon::new(&places, &thicknesses);
-            polygon.map(Section::Polygon).map_err(|mut errors| errors.swap_remove(0))
-        }
     }
 }

@@ -1,6 +1,6 @@
 use nboom_scalar::Wrench;
 use nboom_sections::report::Original;
-use nboom_sections::{PointStress, Section, Stress};
+use nboom_sections::{PointStress, Section, SectionStresses, Stress};
 
 use crate::Slips;
 
@@ -21,24 +21,41 @@ impl Formulas {
         }
     }
 
-    pub fn axis_points(&self, load: &Wrench<f64>) -> [Option<PointStress>; 4] {
+    /// The stresses that `numbers` describe, those under `load`.
+    pub fn stresses(&self, load: &Wrench<f64>, numbers: [f64; 6]) -> Stresses<'_> {
         match self {
-            Self::Right(section) => section.axis_points(load),
-            Self::Of1970(original) => original.axis_points(load),
+            Self::Right(section) => Stresses::Right(section.described_by(numbers)),
+            Self::Of1970(original) => Stresses::Of1970(original, *load),
         }
     }
 
-    pub fn severest(&self, load: &Wrench<f64>) -> PointStress {
+    /// The stress that a load makes at a point which other stresses were found at.
+    pub fn at(&self, point: &PointStress, load: &Wrench<f64>) -> Stress {
         match self {
-            Self::Right(section) => section.severest(load),
-            Self::Of1970(original) => original.severest(load),
+            Self::Right(section) => section.stresses(load).at(point),
+            Self::Of1970(original) => original.at(point, load),
+        }
+    }
+}
+
+/// Stresses in a section by its formulas.
+pub(crate) enum Stresses<'a> {
+    Right(SectionStresses<'a>),
+    Of1970(&'a Original, Wrench<f64>),
+}
+
+impl Stresses<'_> {
+    pub fn axis_points(&self) -> [Option<PointStress>; 4] {
+        match self {
+            Self::Right(stresses) => stresses.axis_points(),
+            Self::Of1970(original, load) => original.axis_points(load),
         }
     }
 
-    pub fn at(&self, severest: &PointStress, load: &Wrench<f64>) -> Stress {
+    pub fn severest(&self) -> PointStress {
         match self {
-            Self::Right(section) => section.at(severest, load),
-            Self::Of1970(original) => original.at(severest, load),
+            Self::Right(stresses) => stresses.severest(),
+            Self::Of1970(original, load) => original.severest(load),
         }
     }
 }

@@ -119,7 +119,7 @@ fn torsion() {
 fn signs_of_normal_stress() {
     let section = Section::Polygon(rectangle(2.0, 2.0, [0.02; 4]));
     let points = |force, moment| {
-        let all = section.axis_points(&Wrench { force, moment });
+        let all = section.stresses(&Wrench { force, moment }).axis_points();
         all.map(|point| point.expect("convex").stress.normal)
     };
     // A force that pushes the outboard part away presses.
@@ -141,7 +141,7 @@ fn many_walls_make_a_tube() {
     let errors = |count| {
         let polygon = regular(count, radius, t);
         let (found, right) = (*polygon.properties(), tube.properties());
-        let worst = |section: Section| section.severest(&load).stress.von_mises();
+        let worst = |section: Section| section.stresses(&load).severest().stress.von_mises();
         [
             found.area / right.area - 1.0,
             found.enclosed_area / right.enclosed_area - 1.0,

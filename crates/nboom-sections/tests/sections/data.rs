@@ -99,7 +99,7 @@ fn stresses_of_polygons() {
         let told = |what: &str| format!("{} {what}", case["id"]);
         let stresses = polygon.stresses(&load);
         let section = Section::Polygon(polygon.clone());
-        let worst = section.severest(&load).stress.von_mises();
+        let worst = section.stresses(&load).severest().stress.von_mises();
         near(&told("maximum"), worst, &expect["max_von_mises"]["vm"], worst, MAXIMUM);
         let moment = polygon.about_centroid(&load).moment;
         let scale = moment.norm().max(load.force.norm());
@@ -127,7 +127,7 @@ fn axis_points_of_polygons() {
     for case in cases("polygon").iter().filter(|case| case["expect"]["axis_points"].is_array()) {
         let (polygon, load) = (polygon(case), load(case));
         let size = polygon.properties().enclosed_area.sqrt();
-        let worst = Section::Polygon(polygon.clone()).severest(&load).stress.von_mises();
+        let worst = Section::Polygon(polygon.clone()).stresses(&load).severest().stress.von_mises();
         let stresses = polygon.stresses(&load);
         let places = polygon.axis_points().into_iter().flatten();
         for ((wall, x), expect) in places.zip(case["expect"]["axis_points"].as_array().unwrap()) {

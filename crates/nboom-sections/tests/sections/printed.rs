@@ -384,8 +384,10 @@ fn without_slips() {
     for block in &BLOCKS {
         let (section, load) = ((block.section)(), block.load());
         let original = Original::new(section.clone(), SectionSlips::default());
-        let largest = section.severest(&load).stress.von_mises();
-        for (right, found) in section.axis_points(&load).iter().zip(original.axis_points(&load)) {
+        let largest = section.stresses(&load).severest().stress.von_mises();
+        for (right, found) in
+            section.stresses(&load).axis_points().iter().zip(original.axis_points(&load))
+        {
             let (right, found) = (right.expect("convex"), found.expect("convex"));
             assert_eq!(right.place, found.place);
             let components = |point: PointStress| point.stress.in_report_signs();

@@ -1,0 +1,123 @@
+//! What one file of generated code has.
+
+use std::fmt::Write;
+
+use nboom_formulation::Formulation;
+use nboom_model::{Scene, Structure};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::{
+    CodegenError, Level, Output, Request, Standing, StressRequest, file, formatted, generate, hash,
+    scalar, source,
+};
+
+/// Routines that stand together.
+#[derive(Clone, Debug, Default)]
+pub struct Module {
+    /// Routines for accelerations and equations.
+    pub routines: Vec<Request>,
+    /// Routines for loads and stresses.
+    pub stresses: Vec<StressRequest>,
+}
+
+impl Module {
+    /// What a simulator for a scene has: [`Request::of_simulator`], and with a structure code for
+    /// its loads and stresses, unless that is too long for a compiler. A scene without structure has
+    /// nothing of them.
+    ///
+    /// # Errors
+    /// When the scene is not made of chains and paddles, or a section is not one.
+    pub fn of_simulator(
+        scene: &Scene,
+        structure: Option<&Structure>,
+        formulation: Formulation,
+        level: Level,
+    ) -> Result<Self, CodegenError> {
+        let routines = Request::of_simulator(scene, formulation, level)?;
+        let stresses = structure.map(|structure| StressRequest::of_scene(scene, structure, level));
+        let stresses: Vec<StressRequest> = stresses.transpose()?.into_iter().collect();
+        let is_short = |request: &StressRequest| request.check_length().is_ok();
+        Ok(Self { routines, stresses: stresses.into_iter().filter(is_short).collect() })
+    }
+
+    /// The same for a place where the crate `nboom_scalar` has another path.
+    pub fn at(mut self, scalar_path: &str) -> Self {
+        let of_routines = self.routines.iter_mut().map(|request| &mut request.scalar_path);
+        let of_stresses = self.stresses.iter_mut().map(|request| &mut request.scalar_path);
+        of_routines.chain(of_stresses).for_each(|path| scalar_path.clone_into(path));
+        self
+    }
+
+    /// All routines and the function `kernels` that lists those ready to run.
+    ///
+    /// # Errors
+    /// As [`generate`] and [`StressRequest::generate`].
+    pub fn tokens(&self) -> Result<TokenStream, CodegenError> {
+        let mut all = TokenStream::new();
+        for request in &self.routines {
+            all.extend(generate(request)?.tokens);
+        }
+        for request in &self.stresses {
+            all.extend(request.generate()?.tokens);
+        }
+        all.extend(self.table()?);
+        Ok(all)
+    }
+
+    /// The routines one after the other, under a line that tells what they were generated from,
+    /// and the function `kernels`.
+    ///
+    /// # Errors
+    /// As [`tokens`](Self::tokens).
+    pub fn text(&self) -> Result<String, CodegenError> {
+        let routines = self.routines.iter().map(source);
+        let stresses = self.stresses.iter().map(|one| Ok(formatted(one.generate()?.tokens)));
+        let mut parts: Vec<String> =
+            routines.chain(stresses).collect::<Result<_, CodegenError>>()?;
+        parts.extend(Some(formatted(self.table()?)).filter(|table| !table.is_empty()));
+        let text = parts.join("\n");
+        Ok(format!("{}\n{text}", file::head(self.key(), hash(text.as_bytes()))))
+    }
+
+    /// How a text stands to [`text`](Self::text); nothing is generated to find out.
+    pub fn standing(&self, text: &str) -> Standing {
+        file::standing(text, self.key())
+    }
+
+    /// A number for everything that the code depends on: the requests and the generator.
+    pub fn key(&self) -> u64 {
+        let mut text = env!("NBOOM_GENERATOR").to_owned();
+        // Debug writes every field, and numbers so that they read back the same.
+        write!(text, "{self:?}").expect("a string takes any text");
+        hash(text.as_bytes())
+    }
+
+    /// Code of a function `kernels` that lists the routines ready to run; equations are left out,
+    /// and there is no function where nothing is left.
+    fn table(&self) -> Result<TokenStream, CodegenError> {
+        let runs = |request: &&Request| request.output == Output::Accelerations;
+        let routines = self.routines.iter().filter(runs).map(|r| (&r.name, &r.scalar_path));
+        let stresses = self.stresses.iter().map(|r| (&r.name, &r.scalar_path));
+        let listed: Vec<(&String, &String)> = routines.chain(stresses).collect();
+        let Some((name, path)) = listed.first() else { return Ok(TokenStream::new()) };
+        let scalar = scalar(name, path)?;
+        let count = Literal::usize_unsuffixed(listed.len());
+        let names = listed.iter().map(|(name, _)| format_ident!("{name}"));
+        Ok(quote! {
+            /// The routines, ready to run on this processor.
+            #[allow(dead_code)]
+            pub fn kernels() -> &'static [#scalar::Kernel] {
+                static ALL: ::std::sync::OnceLock<[#scalar::Kernel; #count]> =
+                    ::std::sync::OnceLock::new();
+                ALL.get_or_init(|| [#(#scalar::Kernel::of::<#names>()),*])
+            }
+        })
+    }
+}
+
+impl From<Vec<Request>> for Module {
+    fn from(routines: Vec<Request>) -> Self {
+        Self { routines, stresses: Vec::new() }
+    }
+}

@@ -1,0 +1,237 @@
+//! Loads of a motion on any scalar.
+
+use nboom_model::{Scene, Structure};
+use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
+
+use crate::load_set::{LoadSet, Size};
+use crate::motion::SceneMotion;
+use crate::segment::{Influence, Segment};
+
+/// The equations of the loads of one scene, on any scalar.
+///
+/// Evaluations allocate nothing and panic when a slice of the motion has not one entry for each
+/// hinge of the scene.
+#[derive(Clone, Debug)]
+pub struct LoadEquations<R = f64> {
+    pub(crate) segments: Vec<Segment<R>>,
+    places: Vec<Place<R>>,
+}
+
+/// Where a segment is and how it moves; segment axes unless said otherwise.
+#[derive(Clone, Copy, Debug)]
+struct Place<R> {
+    rot_inboard_from_body: Mat3<R>,
+    rot_main_from_body: Mat3<R>,
+    /// The hinge from O, main-body axes.
+    origin: Vec3<R>,
+    omega: Vec3<R>,
+    /// Of the segment and its hinge point.
+    acceleration: Twist<R>,
+    bound: Bound<R>,
+}
+
+/// Sums of the magnitudes of what angular and linear acceleration are made of.
+#[derive(Clone, Copy, Debug)]
+struct Bound<R> {
+    angular: R,
+    linear: R,
+}
+
+impl LoadEquations {
+    /// Those of `scene`: of its hinges, and with a structure of its stations.
+    ///
+    /// Hinge loads follow from the bodies' own mass properties, station loads from the slices.
+    pub fn new(scene: &Scene, structure: Option<&Structure>) -> Self {
+        Self::of(Segment::all(scene, structure))
+    }
+
+    /// Those that describe stresses too, by the sections of all stations, segment by segment.
+    pub fn with_sections(mut self, influences: impl IntoIterator<Item = Influence>) -> Self {
+        let cuts = self.segments.iter_mut().flat_map(|segment| &mut segment.stations);
+        for (cut, influence) in cuts.zip(influences) {
+            cut.influence = Some(influence);
+        }
+        self
+    }
+
+    /// All that the loads depend on but the motion: how segments are attached, then their numbers.
+    pub fn numbers(&self) -> Vec<f64> {
+        let mut numbers: Vec<f64> = self.segments.iter().flat_map(Segment::arrangement).collect();
+        self.segments.iter().for_each(|segment| {
+            segment.map(|number| numbers.push(number));
+        });
+        numbers
+    }
+
+    /// The same arrangement with other [`numbers`](Self::numbers).
+    ///
+    /// # Panics
+    /// When there are fewer.
+    pub fn with_numbers<R: Real>(&self, numbers: &[R]) -> LoadEquations<R> {
+        let arrangement: usize = self.segments.iter().map(|s| s.arrangement().len()).sum();
+        let mut next = numbers[arrangement..].iter();
+        let mut take = |_| *next.next().expect("a number for each");
+        let segments = self.segments.iter().map(|segment| segment.map(&mut take));
+        LoadEquations::of(segments.collect())
+    }
+}
+
+impl<R: Real> LoadEquations<R> {
+    fn of(segments: Vec<Segment<R>>) -> Self {
+        let still = Place {
+            rot_inboard_from_body: Mat3::identity(),
+            rot_main_from_body: Mat3::identity(),
+            origin: Vec3::zero(),
+            omega: Vec3::zero(),
+            acceleration: Twist::zero(),
+            bound: Bound { angular: R::zero(), linear: R::zero() },
+        };
+        Self { places: vec![still; segments.len()], segments }
+    }
+
+    /// How many hinges there are.
+    pub fn hinges(&self) -> usize {
+        self.segments.len()
+    }
+
+    /// Zero loads of this scene, to be filled in.
+    pub fn load_set(&self) -> LoadSet<R> {
+        LoadSet::new(self.segments.iter().map(|segment| segment.stations.len()))
+    }
+
+    /// Sets `out` to the loads of a motion: eqs. (10.4) to (10.6), corrected: note 24.
+    pub fn evaluate(&mut self, motion: &SceneMotion<'_, R>, out: &mut LoadSet<R>) {
+        place(&self.segments, &mut self.places, motion);
+        gather(&self.segments, &self.places, motion.force_densities, out);
+        self.describe_stresses(out);
+    }
+
+    /// Brings the stresses of `out` up to its station loads.
+    pub(crate) fn describe_stresses(&self, out: &mut LoadSet<R>) {
+        let cuts = self.segments.iter().flat_map(|segment| &segment.stations);
+        for ((cut, load), stress) in cuts.zip(&out.stations).zip(&mut out.stresses) {
+            let Some(influence) = &cut.influence else { continue };
+            let (p, q) = (load.force, load.moment);
+            *stress = influence.map(|[px, py, pz, qx, qy, qz]| {
+                (px * p.x + py * p.y + pz * p.z) + (qx * q.x + qy * q.y + qz * q.z)
+            });
+        }
+    }
+}
+
+/// Walks outward: where every segment is and how it moves, eqs. (14.1) to (14.10), corrected:
+/// note 27.
+fn place<R: Real>(segments: &[Segment<R>], places: &mut [Place<R>], motion: &SceneMotion<'_, R>) {
+    let main = Place {
+        rot_inboard_from_body: Mat3::identity(),
+        rot_main_from_body: Mat3::identity(),
+        origin: Vec3::zero(),
+        omega: motion.omega_body,
+        acceleration: Twist {
+            angular: motion.acceleration.omega_body,
+            linear: motion.acceleration.origin_body,
+        },
+        bound: Bound {
+            angular: motion.acceleration.omega_body.norm(),
+            linear: motion.acceleration.origin_body.norm(),
+        },
+    };
+    for (i, segment) in segments.iter().enumerate() {
+        let inboard = segment.inboard.map_or(main, |inboard| places[inboard]);
+        let turn = Mat3::about_axis(segment.axis, motion.beta[i]);
+        let (rate, rate_dot) = (motion.tau[i], motion.acceleration.tau[i]);
+        places[i] = inboard.outward(segment, &turn, rate, rate_dot);
+    }
+}
+
+impl<R: Real> Place<R> {
+    /// The place of a segment that is hinged to this one and turned from it by `turn`.
+    fn outward(&self, segment: &Segment<R>, turn: &Mat3<R>, tau: R, tau_dot: R) -> Self {
+        let rot = segment.rot_inboard_at_zero * *turn;
+        let (r, omega) = (segment.point, rot.transpose_mul(self.omega));
+        let Twist { angular, linear } = self.acceleration.at(r);
+        let centripetal = self.omega.cross(self.omega.cross(r));
+        let turning = segment.axis * tau;
+        let (spin_up, whirl) = (segment.axis * tau_dot, self.omega.norm_squared());
+        Self {
+            rot_inboard_from_body: rot,
+            rot_main_from_body: self.rot_main_from_body * rot,
+            origin: self.origin + self.rot_main_from_body * r,
+            omega: omega + turning,
+            acceleration: Twist {
+                angular: rot.transpose_mul(angular) + spin_up + omega.cross(turning),
+                linear: rot.transpose_mul(linear + centripetal),
+            },
+            bound: Bound {
+                angular: self.bound.angular + spin_up.norm() + self.omega.norm() * turning.norm(),
+                linear: self.bound.linear + (self.bound.angular + whirl) * r.norm(),
+            },
+        }
+    }
+
+    fn inertia_wrench(&self, inertia: &RigidInertia<R>) -> Wrench<R> {
+        inertia.inertia_wrench(self.omega, self.acceleration)
+    }
+
+    fn inertia_size(&self, inertia: &RigidInertia<R>) -> Size<R> {
+        let turning = self.bound.angular + self.omega.norm_squared();
+        let (c, j) = (inertia.first_moment.norm(), inertia.about_origin);
+        Size {
+            moment: c * self.bound.linear + (j.xx + j.yy + j.zz) * turning,
+            force: inertia.mass * self.bound.linear + c * turning,
+        }
+    }
+}
+
+/// Walks inward: the load of every hinge and station, and hands those of hinges on,
+/// eq. (14.13), corrected: note 28.
+fn gather<R: Real>(
+    segments: &[Segment<R>],
+    places: &[Place<R>],
+    force_densities: &[R],
+    out: &mut LoadSet<R>,
+) {
+    for (i, (segment, place)) in segments.iter().zip(places).enumerate() {
+        out.hinges[i] = place.inertia_wrench(&segment.inertia);
+        out.sizes[i] = place.inertia_size(&segment.inertia);
+        for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
+            *load = place.inertia_wrench(&cut.outboard);
+        }
+    }
+    for (i, (segment, place)) in segments.iter().zip(places).enumerate().rev() {
+        push(segment, place, force_densities[i], i, out);
+        for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
+            *load = load.seen_from(-cut.point);
+        }
+        if let Some(inboard) = segment.inboard {
+            let carried = out.hinges[i].rotated(&place.rot_inboard_from_body);
+            carry(inboard, segment.carried_from, carried.seen_from(segment.point), out);
+            let Size { moment, force } = out.sizes[i];
+            out.sizes[inboard].add(Size { moment: moment + segment.point.norm() * force, force });
+        }
+    }
+}
+
+/// Takes the force of the kick-off spring of segment `i` off its loads.
+fn push<R: Real>(
+    segment: &Segment<R>,
+    place: &Place<R>,
+    force_density: R,
+    i: usize,
+    out: &mut LoadSet<R>,
+) {
+    let Some(spring) = segment.kick_off else { return };
+    let end = place.origin + place.rot_main_from_body * spring.body_point;
+    let along = end - spring.main_body_point;
+    let force = place.rot_main_from_body.transpose_mul(along * force_density);
+    carry(i, spring.carried_from, Wrench::of_force(spring.body_point, -force), out);
+    let size = force.norm();
+    out.sizes[i].add(Size { moment: spring.body_point.norm() * size, force: size });
+}
+
+/// Adds a wrench about the hinge point of segment `i` to its hinge and the stations that carry it.
+fn carry<R: Real>(i: usize, carried_from: usize, wrench: Wrench<R>, out: &mut LoadSet<R>) {
+    out.hinges[i].add(wrench);
+    let stations = out.stations_mut(i);
+    stations.iter_mut().skip(carried_from).for_each(|load| load.add(wrench));
+}
