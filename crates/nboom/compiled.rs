@@ -1,5 +1,5 @@
 use nboom_io::{InputError, parse_deck};
-use nboom_model::Scene;
+use nboom_model::{Scene, Structure};
 use nboom_scalar::Kernel;
 
 /// A scene that is part of the program, with routines generated for it; made by
@@ -42,8 +42,18 @@ impl CompiledScene {
         parse_deck(self.file, self.text, self.name).map(|file| file.scene)
     }
 
-    /// Routines for this scene, for [`Options::kernels`](crate::sim::Options::kernels): with its
-    /// numbers built in, with numbers at run time, and for states with held hinges.
+    /// The scene's stations and slices, if it has any.
+    ///
+    /// # Errors
+    /// As [`scene`](Self::scene).
+    pub fn structure(&self) -> Result<Option<Structure>, InputError> {
+        parse_deck(self.file, self.text, self.name).map(|file| file.structure)
+    }
+
+    /// Routines for this scene: with its numbers built in, with numbers at run time, and for states
+    /// with held hinges, for [`Options::kernels`](crate::sim::Options::kernels); of a scene with
+    /// stations also for its loads and stresses, for
+    /// [`StressAnalysis::with_kernels`](crate::strength::StressAnalysis::with_kernels).
     pub fn kernels(&self) -> &'static [Kernel] {
         (self.kernels)()
     }

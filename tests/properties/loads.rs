@@ -3,11 +3,13 @@
 
 use nalgebra::Vector3;
 use nboom::elements::KickOffLaw;
-use nboom::loads::{LoadSet, Loads, SceneMotion, VelocityChange};
+use nboom::loads::{LoadEquations, LoadSet, Loads, SceneMotion, VelocityChange};
 use nboom::model::{
     Body, Hinge, Mount, Scene, SceneDescription, SectionShape, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{RigidInertia, Twist, Vec3, Wrench};
+use nboom::sections::Section;
+use nboom_codegen::{Level, StressRequest};
 
 use crate::Prepared;
 use crate::newton_euler::{Placed, accelerations, loads, place, vector};
@@ -257,6 +259,25 @@ fn a_station_carries_what_a_held_hinge_in_its_place_would() {
         }
     }
     assert!(seen > 300, "{seen} stations");
+}
+
+#[test]
+fn recorded_loads_are_those_of_the_equations() {
+    for case in Sliced::all() {
+        let sections = case.structure.segments().iter().flat_map(|segment| &segment.stations);
+        let influences = sections
+            .map(|station| Section::of_shape(&station.section).expect("a tube").influence());
+        let equations = LoadEquations::new(&case.moment.scene, Some(&case.structure));
+        let mut equations = equations.with_sections(influences);
+        let mut expected = equations.load_set();
+        equations.evaluate(&case.motion(), &mut expected);
+        let (name, scalar_path) = ("Stresses".to_owned(), "::nboom_scalar".to_owned());
+        let numbers = equations.numbers().len();
+        let request = StressRequest { name, scalar_path, equations, level: Level::Exact };
+        let mut inputs = vec![f64::NAN; numbers + SceneMotion::<f64>::count(case.tau_dot.len())];
+        case.motion().write(&mut inputs[numbers..]);
+        assert_eq!(request.trace().evaluate(&inputs), expected.numbers());
+    }
 }
 
 /// The load of a held hinge that joins the two parts of segment `i` at station `j`.

@@ -72,7 +72,7 @@ impl Module {
     /// As [`tokens`](Self::tokens).
     pub fn text(&self) -> Result<String, CodegenError> {
         let routines = self.routines.iter().map(source);
-        let stresses = self.stresses.iter().map(|one| Ok(formatted(one.generate()?.tokens)));
+        let stresses = self.stresses.iter().map(StressRequest::source);
         let mut parts: Vec<String> =
             routines.chain(stresses).collect::<Result<_, CodegenError>>()?;
         parts.extend(Some(formatted(self.table()?)).filter(|table| !table.is_empty()));

@@ -8,7 +8,7 @@ use nboom_sections::Section;
 use crate::item::Signature;
 use crate::routine::straight;
 use crate::scene::{name, welded};
-use crate::{CodegenError, Generated, Level, OPERATION_LIMIT, check_name, in_module};
+use crate::{CodegenError, Generated, Level, OPERATION_LIMIT, check_name, formatted, in_module};
 
 /// Code for the loads of every hinge and station of a scene and for what describes the stresses
 /// there, from a motion and its accelerations; all numbers of the scene are built in.
@@ -81,7 +81,10 @@ impl StressRequest {
         let signature = Signature {
             name: name.clone(),
             result: RESULT,
-            topology: format!("{} hinges", equations.hinges()),
+            topology: match equations.hinges() {
+                1 => "1 hinge".to_owned(),
+                hinges => format!("{hinges} hinges"),
+            },
             formulation: "",
             external: true,
             pinned: self.pinned(),
@@ -98,6 +101,14 @@ impl StressRequest {
             format!(" Taken for granted: all {} numbers of the scene.", signature.pinned.len()),
         ];
         Ok(Generated { tokens: in_module(name, scalar_path, &heading, &generated)?, ..generated })
+    }
+
+    /// The code as formatted source with a header.
+    ///
+    /// # Errors
+    /// As [`generate`](Self::generate).
+    pub fn source(&self) -> Result<String, CodegenError> {
+        Ok(formatted(self.generate()?.tokens))
     }
 
     /// # Errors

@@ -3,15 +3,20 @@
 
 use std::path::{Path, PathBuf};
 
-use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, generate, source};
+use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, StressRequest, generate, source};
 use nboom_formulation::{Coordinates, Formulation, Layout, Parameters, articulated};
-use nboom_model::{Shape, Topology};
-use nboom_scalar::{Kernel, Mat3, Routine, Vec3};
+use nboom_loads::SceneMotion;
+use nboom_model::{
+    Appendage, Hinge, KickOffSpring, MassProperties, Mount, Scene, SceneDescription, SectionShape,
+    Segment, SegmentStructure, Shape, Station, Structure, Topology, Vertex,
+};
+use nboom_scalar::{Kernel, Mat3, Routine, Sym3, Vec3};
 
 #[allow(missing_docs)]
 mod golden {
     include!("golden/s1.rs");
     include!("golden/four_s3.rs");
+    include!("golden/stresses.rs");
 }
 
 /// One boom, as straight-line code.
@@ -24,6 +29,42 @@ fn four_s3() -> Request {
     Request::new("FourS3", Topology::new([Shape::Chain(3); 4]), Level::Fast)
         .with_external_wrench()
         .with_principal_axes()
+}
+
+/// A boom of a tube and a triangle on a hub, with a kick-off spring.
+fn stresses() -> StressRequest {
+    let body = |mass: f64| MassProperties::new(mass, Vec3::unit_y(), Sym3::diagonal(2.0, 0.5, 2.0));
+    let kick_off = KickOffSpring {
+        main_body_point: Vec3::new(0.0, 0.5, -1.0),
+        body_point: Vec3::unit_y() * 0.5,
+        coefficients: [1.0, 0.0, 0.0, 0.0],
+        limit_length: 5.0,
+    };
+    let slice =
+        |at: f64| MassProperties::new(1.0, Vec3::unit_y() * at, Sym3::diagonal(0.3, 0.1, 0.3));
+    let vertex = |xi, zeta| Vertex { xi, zeta, thickness: 0.01 };
+    let triangle = vec![vertex(0.4, -0.2), vertex(0.0, 0.5), vertex(-0.3, -0.3)];
+    let tube = SectionShape::Tube { radius: 0.2, thickness: 0.01 };
+    let station = |distance_from_hinge, section| Station {
+        distance_from_hinge,
+        slice: slice(distance_from_hinge + 0.5),
+        section,
+    };
+    let segment = SegmentStructure {
+        pulse_constant: 0.1,
+        poissons_ratio: 0.3,
+        youngs_modulus: 7e10,
+        stations: vec![station(1.0, tube), station(0.0, SectionShape::Polygon(triangle))],
+    };
+    let mut description = SceneDescription::at_rest("golden", body(10.0), 1.0);
+    let hinge = Hinge { kick_off: Some(kick_off), ..Hinge::free() };
+    let mass_properties = segment.mass_properties().expect("there are slices");
+    let segments = vec![Segment { length: 2.0, mass_properties, hinge }];
+    let mount = Mount::at(Vec3::new(0.1, 1.0, -0.2));
+    description.attach(&Appendage::Regular { mount, segments });
+    let scene = Scene::new(description).expect("the bodies are physical");
+    let structure = Structure::new(&scene, vec![segment]).expect("slices make the boom");
+    StressRequest::of_scene(&scene, &structure, Level::Exact).expect("sections are right")
 }
 
 fn text_of(request: &Request) -> String {
@@ -51,6 +92,7 @@ fn is_checked_in(name: &str, found: &str) {
 fn generated_text_is_what_is_checked_in() {
     is_checked_in("s1.rs", &text_of(&s1()));
     is_checked_in("four_s3.rs", &text_of(&four_s3()));
+    is_checked_in("stresses.rs", &stresses().source().expect("sections are right"));
 }
 
 #[test]
@@ -142,6 +184,26 @@ fn near(found: &[f64], expected: &[f64], case: usize) {
 fn what_is_checked_in_computes_the_closed_form() {
     is_the_closed_form::<golden::S1>(&s1());
     is_the_closed_form::<golden::FourS3>(&four_s3());
+}
+
+#[test]
+fn checked_in_stresses_are_those_of_the_equations() {
+    let mut equations = stresses().equations;
+    let numbers = equations.numbers();
+    let kernel = Kernel::of::<golden::StressesS1>();
+    assert!(kernel.accepts(&numbers));
+    let (mut expected, mut constants) = (equations.load_set(), vec![0.0; kernel.constants]);
+    kernel.prepare(&numbers, &mut constants);
+    let mut found = vec![0.0; kernel.outputs];
+    for case in 0..50 {
+        let state = state::<golden::StressesS1>(case);
+        equations.evaluate(&SceneMotion::of_numbers(&state, 1), &mut expected);
+        let expected = expected.numbers();
+        golden::StressesS1::evaluate(&constants, &state, &mut found);
+        assert_eq!(found, expected, "case {case}");
+        kernel.evaluate(&constants, &state, &mut found);
+        near(&found, &expected, case);
+    }
 }
 
 fn refusal(request: &Request) -> CodegenError {

@@ -2,9 +2,10 @@
 //! the recursion.
 
 use nboom::formulation::{Coordinates, Formulation, HingeCoordinates, Parameters, recognise};
-use nboom::model::{HingeState, Mode, Scene, Topology, WeldedTree};
+use nboom::model::{HingeState, Mode, Scene, SectionShape, Structure, Topology, WeldedTree};
 use nboom::scalar::{Kernel, Routine, Vec3, Wrench};
-use nboom::sim::{Event, EventKind, Options, Path, Recorder, Snapshot, simulate};
+use nboom::sim::{Event, EventKind, LockUpMotion, Options, Path, Recorder, Snapshot, simulate};
+use nboom::strength::{Settings, StressAnalysis, Worst};
 
 nboom::routine! { pub Satellite: S2_P }
 nboom::routine! {
@@ -16,6 +17,9 @@ nboom::routine! { OneToken: 4xS1_P }
 
 /// Satellite S2_P of the report, with a deployment to run.
 const SAMPLE: nboom::CompiledScene = nboom::scene!("../../examples/n-boom-1970.nml");
+
+/// One without stations.
+const PLAIN: nboom::CompiledScene = nboom::scene!("../../benches/scenes/T1.nml");
 
 fn sample() -> Scene {
     SAMPLE.scene().expect("it was read when this was compiled")
@@ -144,4 +148,74 @@ fn a_compiled_scene_is_the_scene_of_the_file() {
     assert_eq!(sample(), file.scene);
     assert_eq!(SAMPLE.name(), "n-boom-1970");
     assert_eq!(SAMPLE.text(), std::fs::read_to_string(path).expect("it was read above"));
+}
+
+/// Largest von Mises stress of every station, all that a run makes.
+struct Stressed(StressAnalysis);
+
+impl Recorder for Stressed {
+    fn needs_detail(&self) -> bool {
+        true
+    }
+    fn needs_lock_ups(&self) -> bool {
+        true
+    }
+    fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
+        let detail = snapshot.detail.as_ref().expect("it was asked for");
+        self.0.motion(snapshot, detail).map(drop).map_err(std::io::Error::other)
+    }
+    fn event(&mut self, _: &Event, _: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn lock_up(&mut self, lock_up: &LockUpMotion) -> std::io::Result<()> {
+        let detail = lock_up.before.detail.as_ref().expect("it was asked for");
+        self.0.lock_up(lock_up, detail).map(drop).map_err(std::io::Error::other)
+    }
+}
+
+#[test]
+fn a_compiled_scene_finds_its_stresses_in_its_own_code() {
+    let structure = SAMPLE.structure().expect("it was read").expect("the deck has stations");
+    let worst = |kernels| -> Vec<f64> {
+        let analysis = StressAnalysis::new(&sample(), &structure, Settings::default());
+        let analysis = analysis.expect("sections are right").with_kernels(kernels);
+        assert_eq!(analysis.generated_for().is_some(), !kernels.is_empty());
+        let mut stressed = Stressed(analysis);
+        let options = Options { samples: 50, ..Options::default() };
+        simulate(&sample(), &options, &mut stressed).expect("the sample deck runs");
+        let of_station = |worst: &Worst| worst.severest.stress.von_mises();
+        stressed.0.envelope().iter().map(of_station).collect()
+    };
+    let (generated, library) = (worst(SAMPLE.kernels()), worst(&[]));
+    assert_eq!(generated.len(), structure.segments().iter().map(|s| s.stations.len()).sum());
+    for (generated, library) in generated.iter().zip(library) {
+        // The same motion, and no more than rounding in some hundred operations.
+        assert!((generated - library).abs() < 1e-12 * library, "{generated} {library}");
+    }
+}
+
+#[test]
+fn code_for_stresses_is_for_the_numbers_it_was_made_from() {
+    let mut structure = SAMPLE.structure().expect("it was read").expect("the deck has stations");
+    let runs_generated = |structure: &Structure| {
+        let analysis = StressAnalysis::new(&sample(), structure, Settings::default());
+        let analysis = analysis.expect("sections are right").with_kernels(SAMPLE.kernels());
+        analysis.generated_for().is_some()
+    };
+    assert!(runs_generated(&structure));
+    let mut segments = structure.segments().to_vec();
+    let SectionShape::Polygon(vertices) = &mut segments[0].stations[0].section else {
+        panic!("the first section of the deck is a polygon");
+    };
+    vertices[0].thickness *= 1.0 + 1e-15;
+    structure = Structure::new(&sample(), segments).unwrap_or(structure);
+    assert!(!runs_generated(&structure));
+}
+
+#[test]
+fn a_scene_without_stations_has_no_code_for_stresses() {
+    assert!(PLAIN.structure().expect("it was read").is_none());
+    assert!(PLAIN.kernels().iter().all(|kernel| kernel.result == "accelerations"));
+    let of_sample = SAMPLE.kernels().iter().filter(|kernel| kernel.result == "stresses");
+    assert_eq!(of_sample.count(), 1);
 }

@@ -13,9 +13,10 @@
 )]
 pub mod routine_four_s3 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
-    const _: () = assert!(::nboom_scalar::CONTRACT == 1, "generate this routine again");
+    const _: () = assert!(::nboom_scalar::CONTRACT == 2, "generate this routine again");
     pub struct FourS3;
     impl Routine for FourS3 {
+        const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "4xS3";
         const FORMULATION: &'static str = "articulated";
         const PINNED: &'static [(usize, f64)] = &[

@@ -13,9 +13,10 @@
 )]
 pub mod routine_s1 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
-    const _: () = assert!(::nboom_scalar::CONTRACT == 1, "generate this routine again");
+    const _: () = assert!(::nboom_scalar::CONTRACT == 2, "generate this routine again");
     pub struct S1;
     impl Routine for S1 {
+        const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "S1";
         const FORMULATION: &'static str = "articulated";
         const PINNED: &'static [(usize, f64)] = &[];
