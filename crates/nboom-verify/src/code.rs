@@ -39,7 +39,7 @@ pub enum Code<'a> {
     /// A generated routine.
     Routine {
         /// The routine, and how the subject is embedded in its topology.
-        fit: Fit,
+        fit: Box<Fit>,
         /// Topology and parameters.
         recognised: &'a Recognised,
         /// What it has prepared.
@@ -65,7 +65,7 @@ impl<'a> Code<'a> {
         let constants = fit.constants();
         let states = states.iter().map(|state| embedded(state, &fit)).collect();
         let found = vec![0.0; fit.kernel.outputs];
-        Self::Routine { fit, recognised, constants, states, found }
+        Self::Routine { fit: Box::new(fit), recognised, constants, states, found }
     }
 
     /// ω̇, a_O, then τ̇ in the order of the scene's hinges, in state `i`.
@@ -89,7 +89,7 @@ impl<'a> Code<'a> {
                 let found = symmetric::solve_tree(tree, &states[i]);
                 flat(found.main, &found.tau_dot, 0..found.tau_dot.len())
             }
-            Self::Routine { fit, recognised, constants, states, found } => {
+            Self::Routine { fit: Box::new(fit), recognised, constants, states, found } => {
                 fit.kernel.evaluate(constants, &states[i], found);
                 let vector = |at: usize| Vec3::new(found[at], found[at + 1], found[at + 2]);
                 let main = Twist { angular: vector(0), linear: vector(3) };
