@@ -89,7 +89,7 @@ impl<'a> Code<'a> {
                 let found = symmetric::solve_tree(tree, &states[i]);
                 flat(found.main, &found.tau_dot, 0..found.tau_dot.len())
             }
-            Self::Routine { fit: Box::new(fit), recognised, constants, states, found } => {
+            Self::Routine { fit, recognised, constants, states, found } => {
                 fit.kernel.evaluate(constants, &states[i], found);
                 let vector = |at: usize| Vec3::new(found[at], found[at + 1], found[at + 2]);
                 let main = Twist { angular: vector(0), linear: vector(3) };
