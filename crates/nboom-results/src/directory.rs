@@ -131,9 +131,8 @@ impl RunDirectory {
         self.close_instant()?;
         self.states.write(snapshot).map_err(self.writing(STATES_FILE))?;
         if let Some(stresses) = &mut self.stresses {
-            // Long tables that fill the disk must not take the room of rows that wait in memory.
-            self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
             stresses.sample(snapshot)?;
+            self.write_stresses()?;
         }
         let Some(listing) = &mut self.listing else { return Ok(()) };
         // A printout that fills the disk must not take the room of rows that wait in memory.
@@ -141,6 +140,15 @@ impl RunDirectory {
         let listed = listing.write(snapshot);
         flushed.map_err(self.writing(STATES_FILE))?;
         listed.map_err(self.writing(LISTING_FILE))
+    }
+
+    fn write_stresses(&mut self) -> Result<(), ResultsError> {
+        let Some(stresses) = &mut self.stresses else { return Ok(()) };
+        if stresses.reaches_disk() {
+            // Long tables that fill the disk must not take the room of rows that wait in memory.
+            self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
+        }
+        stresses.write()
     }
 
     fn add_event(&mut self, event: &Event, after: &Snapshot) -> Result<(), ResultsError> {
@@ -172,7 +180,8 @@ impl Recorder for RunDirectory {
 
     fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
-        stresses.lock_up(lock_up).map_err(ResultsError::into_io)
+        stresses.lock_up(lock_up).map_err(ResultsError::into_io)?;
+        self.write_stresses().map_err(ResultsError::into_io)
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {

@@ -27,6 +27,7 @@ mod number;
 mod rows;
 mod states;
 mod stress;
+mod stress_rows;
 mod summary;
 mod trust;
 mod units;

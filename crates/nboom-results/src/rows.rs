@@ -5,9 +5,22 @@ use std::path::Path;
 /// A buffered file of lines.
 pub(crate) type Output = BufWriter<WholeLines>;
 
+/// What of a long table waits in memory \[bytes\].
+const LONG: usize = 1 << 16;
+
 /// Makes the file at `path`, empty.
 pub(crate) fn create(path: &Path) -> io::Result<Output> {
-    Ok(BufWriter::new(WholeLines { file: File::create(path)?, whole: 0, written: 0, torn: None }))
+    Ok(BufWriter::new(WholeLines::create(path)?))
+}
+
+/// Makes the file at `path`, empty, for a table that is longer than others.
+pub(crate) fn create_long(path: &Path) -> io::Result<Output> {
+    Ok(BufWriter::with_capacity(LONG, WholeLines::create(path)?))
+}
+
+/// Whether `lines` would send something to the disk.
+pub(crate) fn overflows(table: &Output, lines: &[u8]) -> bool {
+    table.buffer().len() + lines.len() > table.capacity()
 }
 
 /// A file that ends with a whole line even when the disk is full, because half a number reads
@@ -42,6 +55,10 @@ impl Write for WholeLines {
 }
 
 impl WholeLines {
+    fn create(path: &Path) -> io::Result<Self> {
+        Ok(Self { file: File::create(path)?, whole: 0, written: 0, torn: None })
+    }
+
     /// Cuts the file back after this error, and gives the error back.
     fn cut(&mut self, error: io::Error) -> io::Error {
         if error.kind() != io::ErrorKind::Interrupted {

@@ -2,13 +2,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use nboom_model::HingeLabel;
-use nboom_scalar::Wrench;
-use nboom_sections::{PointStress, Stress};
 use nboom_sim::{LockUpMotion, Snapshot};
-use nboom_strength::{Cause, StationStress, StressAnalysis, Worst};
+use nboom_strength::{Cause, StressAnalysis, Worst};
 
-use crate::number::{field, vector_fields};
+use crate::number::{field, number};
 use crate::rows::{self, Output};
+use crate::stress_rows::{StressRows, place_fields};
 use crate::{ENVELOPE_FILE, HINGE_LOADS_FILE, ResultsError, STRESS_FILE};
 
 const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
@@ -16,9 +15,6 @@ const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sig
 const HINGE_LOADS_HEADER: &str = "t,event,appendage,segment,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
 const ENVELOPE_HEADER: &str = "appendage,segment,station,t,event,event_appendage,event_segment,xi,\
      zeta,sigma_22,sigma_21,sigma_23,von_mises,driver,margin";
-
-/// Names of the four axis points in `stress.csv`.
-const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
 
 /// Writes `stress.csv` and `hinge_loads.csv` while a run goes on, and the envelope at its end.
 ///
@@ -35,6 +31,8 @@ pub(crate) struct StressWriter {
     hinges: Vec<HingeLabel>,
     stresses: Output,
     hinge_loads: Output,
+    /// Rows that are to be written next.
+    rows: StressRows,
 }
 
 impl StressWriter {
@@ -46,7 +44,7 @@ impl StressWriter {
     ) -> Result<Self, ResultsError> {
         let started = |file: &str, header: &str| {
             let path = directory.join(file);
-            let table = rows::create(&path).and_then(|mut out| {
+            let table = rows::create_long(&path).and_then(|mut out| {
                 writeln!(out, "{header}")?;
                 Ok(out)
             });
@@ -60,6 +58,7 @@ impl StressWriter {
             every: every.max(1),
             samples: 0,
             hinges,
+            rows: StressRows::default(),
         })
     }
 
@@ -68,36 +67,40 @@ impl StressWriter {
         self.samples.is_multiple_of(self.every)
     }
 
+    /// Computes the stresses of an output time, if they are due; [`Self::write`] writes them.
     pub fn sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         let due = self.is_due();
         self.samples += 1;
         let Some(detail) = snapshot.detail.as_ref().filter(|_| due) else { return Ok(()) };
         self.analysis.motion(snapshot, detail)?;
-        self.write(snapshot.time, "")
+        self.compose(snapshot.time, "")
     }
 
+    /// Computes the peaks of a lock-up; [`Self::write`] writes them.
     pub fn lock_up(&mut self, lock_up: &LockUpMotion) -> Result<(), ResultsError> {
         let Some(detail) = &lock_up.before.detail else { return Ok(()) };
         self.analysis.lock_up(lock_up, detail)?;
-        self.write(lock_up.before.time, "lock_up")
+        self.compose(lock_up.before.time, "lock_up")
     }
 
-    /// Writes what the analysis has found last.
-    fn write(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
-        let Self { stresses, hinges, analysis, .. } = self;
-        let written = write_stations(stresses, hinges, (time, event), analysis.stresses());
+    fn compose(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
+        let composed = self.rows.compose(&self.hinges, (time, event), &self.analysis);
+        composed.map_err(ResultsError::writing(&self.directory.join(STRESS_FILE)))
+    }
+
+    /// Whether [`Self::write`] would send something to the disk.
+    pub fn reaches_disk(&self) -> bool {
+        rows::overflows(&self.stresses, &self.rows.stresses)
+            || rows::overflows(&self.hinge_loads, &self.rows.hinge_loads)
+    }
+
+    /// Writes what has been computed since it was called last.
+    pub fn write(&mut self) -> Result<(), ResultsError> {
+        let written = self.stresses.write_all(&self.rows.stresses);
         written.map_err(ResultsError::writing(&self.directory.join(STRESS_FILE)))?;
-        let written = self.write_hinges(time, event);
-        written.map_err(ResultsError::writing(&self.directory.join(HINGE_LOADS_FILE)))
-    }
-
-    fn write_hinges(&mut self, time: f64, event: &str) -> io::Result<()> {
-        let out = &mut self.hinge_loads;
-        for (hinge, load) in self.hinges.iter().zip(self.analysis.hinge_loads()) {
-            write!(out, "{time:?},{event},{},{}", hinge.appendage + 1, hinge.segment + 1)?;
-            load_fields(out, &load)?;
-            writeln!(out)?;
-        }
+        let written = self.hinge_loads.write_all(&self.rows.hinge_loads);
+        written.map_err(ResultsError::writing(&self.directory.join(HINGE_LOADS_FILE)))?;
+        self.rows.clear();
         Ok(())
     }
 
@@ -120,7 +123,8 @@ impl StressWriter {
 
     fn write_worst(&self, out: &mut Output, worst: &Worst) -> io::Result<()> {
         let HingeLabel { appendage, segment } = worst.segment;
-        write!(out, "{},{},{},{:?}", appendage + 1, segment + 1, worst.station + 1, worst.time)?;
+        write!(out, "{},{},{},", appendage + 1, segment + 1, worst.station + 1)?;
+        number(out, worst.time)?;
         match worst.cause {
             Cause::Motion => write!(out, ",,,")?,
             Cause::LockUp { hinge } => {
@@ -137,42 +141,4 @@ impl StressWriter {
         }
         writeln!(out)
     }
-}
-
-fn write_stations(
-    out: &mut impl Write,
-    hinges: &[HingeLabel],
-    (time, event): (f64, &str),
-    stations: &[StationStress],
-) -> io::Result<()> {
-    for station in stations {
-        let axis_points = AXIS_POINTS.into_iter().zip(station.axis_points);
-        let points = axis_points.filter_map(|(name, point)| Some((name, point?)));
-        for (name, point) in points.chain([("max", station.severest)]) {
-            let HingeLabel { appendage, segment } = hinges[station.segment];
-            let (appendage, segment) = (appendage + 1, segment + 1);
-            let number = station.station + 1;
-            write!(out, "{time:?},{event},{appendage},{segment},{number},{name}")?;
-            place_fields(out, &point)?;
-            let [largest, smallest] = point.stress.principal();
-            field(out, largest)?;
-            field(out, smallest)?;
-            field(out, point.stress.von_mises())?;
-            load_fields(out, &station.load)?;
-            writeln!(out)?;
-        }
-    }
-    Ok(())
-}
-
-/// Place and stress components.
-fn place_fields(out: &mut impl Write, point: &PointStress) -> io::Result<()> {
-    let Stress { normal, shear_xi, shear_zeta } = point.stress;
-    let numbers = [point.place.xi, point.place.zeta, normal, shear_xi, shear_zeta];
-    numbers.into_iter().try_for_each(|number| field(out, number))
-}
-
-fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {
-    vector_fields(out, load.force)?;
-    vector_fields(out, load.moment)
 }
