@@ -7,7 +7,7 @@ use nboom::model::{
     SectionShape, Segment, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::{Event, EventKind, LockUpMotion, Options, Recorder, Snapshot, simulate};
+use nboom::sim::{Event, EventKind, InstantMotion, Options, Recorder, Snapshot, simulate};
 use nboom::strength::{Settings, StationStress, StrengthError, StressAnalysis};
 
 pub const MASS: f64 = 3.0;
@@ -97,7 +97,7 @@ impl Recorder for Follow {
         true
     }
 
-    fn needs_lock_ups(&self) -> bool {
+    fn needs_instants(&self) -> bool {
         true
     }
 
@@ -109,10 +109,11 @@ impl Recorder for Follow {
         Ok(())
     }
 
-    fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
-        let detail = lock_up.before.detail.as_ref().expect("it comes with detail");
-        let found = self.analysis.lock_up(lock_up, detail).map_err(io::Error::other)?;
-        self.at_lock_ups.push(found.to_vec());
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        let found = self.analysis.instant(instant).map_err(io::Error::other)?;
+        if !instant.jumps.is_empty() {
+            self.at_lock_ups.push(found.to_vec());
+        }
         Ok(())
     }
 

@@ -3,7 +3,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
-use nboom_sim::{Event, LockUpMotion, Recorder, Snapshot, Summary};
+use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, Summary};
 use nboom_strength::{StressAnalysis, Worst};
 
 use crate::rows::{self, Output};
@@ -68,7 +68,8 @@ impl RunDirectory {
         Ok(Self { path, run, states, events, listing, stresses: None, instant: None })
     }
 
-    /// Also writes stresses, at every `every`-th output time and at lock-ups.
+    /// Also writes stresses, at every `every`-th output time and at lock-ups, and the worst of them
+    /// and of both sides of all events.
     ///
     /// # Errors
     /// When a file cannot be made.
@@ -174,13 +175,13 @@ impl Recorder for RunDirectory {
         self.listing.is_some() || self.stresses.as_ref().is_some_and(StressWriter::is_due)
     }
 
-    fn needs_lock_ups(&self) -> bool {
+    fn needs_instants(&self) -> bool {
         self.stresses.is_some()
     }
 
-    fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
-        stresses.lock_up(lock_up).map_err(ResultsError::into_io)?;
+        stresses.instant(instant).map_err(ResultsError::into_io)?;
         self.write_stresses().map_err(ResultsError::into_io)
     }
 

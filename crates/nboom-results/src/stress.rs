@@ -2,7 +2,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use nboom_model::HingeLabel;
-use nboom_sim::{LockUpMotion, Snapshot};
+use nboom_sim::{InstantMotion, Snapshot};
 use nboom_strength::{Cause, StressAnalysis, Worst};
 
 use crate::number::{field, number};
@@ -76,11 +76,13 @@ impl StressWriter {
         self.compose(snapshot.time, "")
     }
 
-    /// Computes the peaks of a lock-up; [`Self::write`] writes them.
-    pub fn lock_up(&mut self, lock_up: &LockUpMotion) -> Result<(), ResultsError> {
-        let Some(detail) = &lock_up.before.detail else { return Ok(()) };
-        self.analysis.lock_up(lock_up, detail)?;
-        self.compose(lock_up.before.time, "lock_up")
+    /// Computes both sides of an instant, and the peaks if hinges lock; [`Self::write`] writes these.
+    pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), ResultsError> {
+        self.analysis.instant(instant)?;
+        if instant.jumps.is_empty() {
+            return Ok(());
+        }
+        self.compose(instant.after.time, "lock_up")
     }
 
     fn compose(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
