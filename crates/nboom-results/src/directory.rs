@@ -145,10 +145,11 @@ impl RunDirectory {
 
     fn write_stresses(&mut self) -> Result<(), ResultsError> {
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
-        if stresses.reaches_disk() {
-            // Long tables that fill the disk must not take the room of rows that wait in memory.
-            self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
+        if !stresses.is_full() {
+            return Ok(());
         }
+        // Long tables that fill the disk must not take the room of rows that wait in memory.
+        self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
         stresses.write()
     }
 

@@ -1,26 +1,47 @@
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use crate::ResultsError;
 
 /// A buffered file of lines.
 pub(crate) type Output = BufWriter<WholeLines>;
-
-/// What of a long table waits in memory \[bytes\].
-const LONG: usize = 1 << 16;
 
 /// Makes the file at `path`, empty.
 pub(crate) fn create(path: &Path) -> io::Result<Output> {
     Ok(BufWriter::new(WholeLines::create(path)?))
 }
 
-/// Makes the file at `path`, empty, for a table that is longer than others.
-pub(crate) fn create_long(path: &Path) -> io::Result<Output> {
-    Ok(BufWriter::with_capacity(LONG, WholeLines::create(path)?))
+/// What of a long table waits in memory \[bytes\].
+const LONG: usize = 1 << 16;
+
+/// A file of lines that wait in memory until they are written on purpose.
+#[derive(Debug)]
+pub(crate) struct LongTable {
+    path: PathBuf,
+    file: WholeLines,
+    /// Those that wait, whole ones.
+    pub(crate) lines: Vec<u8>,
 }
 
-/// Whether `lines` would send something to the disk.
-pub(crate) fn overflows(table: &Output, lines: &[u8]) -> bool {
-    table.buffer().len() + lines.len() > table.capacity()
+impl LongTable {
+    /// Makes the file at `path`, empty; the header waits.
+    pub(crate) fn create(path: PathBuf, header: &str) -> Result<Self, ResultsError> {
+        let file = WholeLines::create(&path).map_err(ResultsError::writing(&path))?;
+        Ok(Self { path, file, lines: format!("{header}\n").into_bytes() })
+    }
+
+    /// Whether it is time to write.
+    pub(crate) fn is_long(&self) -> bool {
+        self.lines.len() >= LONG
+    }
+
+    /// Hands the lines on to the system.
+    pub(crate) fn write(&mut self) -> Result<(), ResultsError> {
+        self.file.write_all(&self.lines).map_err(ResultsError::writing(&self.path))?;
+        self.lines.clear();
+        Ok(())
+    }
 }
 
 /// A file that ends with a whole line even when the disk is full, because half a number reads

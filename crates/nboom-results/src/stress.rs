@@ -6,8 +6,8 @@ use nboom_sim::{InstantMotion, Snapshot};
 use nboom_strength::{Cause, StressAnalysis, Worst};
 
 use crate::number::{field, number};
-use crate::rows::{self, Output};
-use crate::stress_rows::{StressRows, place_fields};
+use crate::row_text::{RowText, place_fields, stress_fields};
+use crate::rows::{self, LongTable, Output};
 use crate::{ENVELOPE_FILE, HINGE_LOADS_FILE, ResultsError, STRESS_FILE};
 
 const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
@@ -29,10 +29,9 @@ pub(crate) struct StressWriter {
     every: usize,
     samples: usize,
     hinges: Vec<HingeLabel>,
-    stresses: Output,
-    hinge_loads: Output,
-    /// Rows that are to be written next.
-    rows: StressRows,
+    stresses: LongTable,
+    hinge_loads: LongTable,
+    text: RowText,
 }
 
 impl StressWriter {
@@ -42,23 +41,15 @@ impl StressWriter {
         analysis: StressAnalysis,
         every: usize,
     ) -> Result<Self, ResultsError> {
-        let started = |file: &str, header: &str| {
-            let path = directory.join(file);
-            let table = rows::create_long(&path).and_then(|mut out| {
-                writeln!(out, "{header}")?;
-                Ok(out)
-            });
-            table.map_err(ResultsError::writing(&path))
-        };
         Ok(Self {
             directory: directory.to_owned(),
-            stresses: started(STRESS_FILE, STRESS_HEADER)?,
-            hinge_loads: started(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
+            stresses: LongTable::create(directory.join(STRESS_FILE), STRESS_HEADER)?,
+            hinge_loads: LongTable::create(directory.join(HINGE_LOADS_FILE), HINGE_LOADS_HEADER)?,
             analysis,
             every: every.max(1),
             samples: 0,
             hinges,
-            rows: StressRows::default(),
+            text: RowText::default(),
         })
     }
 
@@ -67,7 +58,7 @@ impl StressWriter {
         self.samples.is_multiple_of(self.every)
     }
 
-    /// Computes the stresses of an output time, if they are due; [`Self::write`] writes them.
+    /// Computes the stresses of an output time, if they are due; its rows wait for [`Self::write`].
     pub fn sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         let due = self.is_due();
         self.samples += 1;
@@ -76,7 +67,8 @@ impl StressWriter {
         self.compose(snapshot.time, "")
     }
 
-    /// Computes both sides of an instant, and the peaks if hinges lock; [`Self::write`] writes these.
+    /// Computes both sides of an instant, and the peaks if hinges lock, whose rows wait for
+    /// [`Self::write`].
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), ResultsError> {
         self.analysis.instant(instant)?;
         if instant.jumps.is_empty() {
@@ -85,35 +77,31 @@ impl StressWriter {
         self.compose(instant.after.time, "lock_up")
     }
 
+    /// Adds rows of what the analysis has found last to what waits in memory.
     fn compose(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
-        let composed = self.rows.compose(&self.hinges, (time, event), &self.analysis);
-        composed.map_err(ResultsError::writing(&self.directory.join(STRESS_FILE)))
+        let Self { directory, hinges, analysis, text, stresses, hinge_loads, .. } = self;
+        let composed = text.set_instant(time, event).and_then(|()| {
+            text.add_stresses(&mut stresses.lines, hinges, analysis.stresses())?;
+            text.add_hinge_loads(&mut hinge_loads.lines, hinges, analysis.hinge_loads())
+        });
+        composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))
     }
 
-    /// Whether [`Self::write`] would send something to the disk.
-    pub fn reaches_disk(&self) -> bool {
-        rows::overflows(&self.stresses, &self.rows.stresses)
-            || rows::overflows(&self.hinge_loads, &self.rows.hinge_loads)
+    /// Whether so much waits in memory that it is time to write.
+    pub fn is_full(&self) -> bool {
+        self.stresses.is_long() || self.hinge_loads.is_long()
     }
 
-    /// Writes what has been computed since it was called last.
+    /// Writes what waits in memory.
     pub fn write(&mut self) -> Result<(), ResultsError> {
-        let written = self.stresses.write_all(&self.rows.stresses);
-        written.map_err(ResultsError::writing(&self.directory.join(STRESS_FILE)))?;
-        let written = self.hinge_loads.write_all(&self.rows.hinge_loads);
-        written.map_err(ResultsError::writing(&self.directory.join(HINGE_LOADS_FILE)))?;
-        self.rows.clear();
-        Ok(())
+        self.stresses.write()?;
+        self.hinge_loads.write()
     }
 
     /// Writes what waits in memory, and the worst of each station.
     pub fn finish(&mut self) -> Result<(), ResultsError> {
-        let directory = &self.directory;
-        let stresses = self.stresses.flush();
-        stresses.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
-        let hinge_loads = self.hinge_loads.flush();
-        hinge_loads.map_err(ResultsError::writing(&directory.join(HINGE_LOADS_FILE)))?;
-        let path = directory.join(ENVELOPE_FILE);
+        self.write()?;
+        let path = self.directory.join(ENVELOPE_FILE);
         let written = rows::create(&path).and_then(|mut out| {
             writeln!(out, "{ENVELOPE_HEADER}")?;
             let worst = self.analysis.envelope().iter();
@@ -134,7 +122,8 @@ impl StressWriter {
                 write!(out, ",lock_up,{},{}", appendage + 1, segment + 1)?;
             }
         }
-        place_fields(out, &worst.severest)?;
+        place_fields(out, worst.severest.place)?;
+        stress_fields(out, worst.severest.stress)?;
         field(out, worst.severest.stress.von_mises())?;
         write!(out, ",{}", worst.driver)?;
         match worst.margin {
