@@ -4,22 +4,28 @@
 //! `cargo bench --bench features` prints a line for each: the shortest of many runs in microseconds,
 //! its ratio to that of the full scene, steps and evaluations, nanoseconds for each evaluation, and
 //! how many operations generated code takes for the accelerations of the scene when it takes the
-//! scene's zeros for granted. All runs take turns.
+//! scene's zeros for granted. All runs take turns. In the last row nothing is left out and stresses are
+//! computed at each output time and event, without files.
 
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use nboom::model::{Dashpot, Gravity, HingeState, Scene, SceneDescription, Spring, Thrust};
+use nboom::io::SceneFile;
+use nboom::model::{
+    Dashpot, Gravity, HingeState, Scene, SceneDescription, Spring, Structure, Thrust,
+};
 use nboom::scalar::{Quaternion, Vec3};
-use nboom::sim::{Event, Options, Recorder, Snapshot, Summary, simulate};
+use nboom::sim::{Event, InstantMotion, Options, Recorder, Snapshot, Summary, simulate};
+use nboom::strength::{Settings, StressAnalysis};
 use nboom_codegen::{Level, Numbers, Request, generate};
 
 const SECONDS: f64 = 30.0;
 
-/// Takes what it is told and forgets it.
+/// Takes what it is told and forgets it, but for stresses.
 struct Listener {
     detail: bool,
+    stresses: Option<StressAnalysis>,
 }
 
 impl Recorder for Listener {
@@ -28,12 +34,26 @@ impl Recorder for Listener {
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
+        if let (Some(stresses), Some(detail)) = (&mut self.stresses, &snapshot.detail) {
+            black_box(stresses.motion(snapshot, detail).map_err(std::io::Error::other)?);
+        }
         black_box(snapshot);
         Ok(())
     }
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
         black_box((event, after));
+        Ok(())
+    }
+
+    fn needs_instants(&self) -> bool {
+        self.stresses.is_some()
+    }
+
+    fn instant(&mut self, instant: &InstantMotion) -> std::io::Result<()> {
+        if let Some(stresses) = &mut self.stresses {
+            black_box(stresses.instant(instant).map_err(std::io::Error::other)?);
+        }
         Ok(())
     }
 }
@@ -45,6 +65,7 @@ struct Case {
     operations: usize,
     samples: usize,
     detail: bool,
+    stresses: Option<StressAnalysis>,
     seconds: f64,
     summary: Option<Summary>,
 }
@@ -57,14 +78,15 @@ impl Case {
         let request = Request::of_scene(&scene, Numbers::RunTime, Level::Fast);
         let request = request.expect("the satellite is made of chains and paddles");
         let operations = generate(&request).expect("it is small").evaluation.flops();
-        let seconds = f64::INFINITY;
-        Self { without, scene, operations, samples: 200, detail: true, seconds, summary: None }
+        let (stresses, seconds) = (None, f64::INFINITY);
+        let (samples, detail, summary) = (200, true, None);
+        Self { without, scene, operations, samples, detail, stresses, seconds, summary }
     }
 
     fn run(&mut self) {
         let options =
             Options { samples: self.samples, kernels: nboom_routines::all(), ..Options::default() };
-        let mut listener = Listener { detail: self.detail };
+        let mut listener = Listener { detail: self.detail, stresses: self.stresses.clone() };
         let started = Instant::now();
         let summary = simulate(black_box(&self.scene), &options, &mut listener);
         self.seconds = self.seconds.min(started.elapsed().as_secs_f64());
@@ -128,11 +150,13 @@ fn cases() -> Vec<Case> {
                 body.hinge.dashpot = Dashpot::default();
             }
         }),
+        Case::new("nothing_with_stresses", |_| ()),
     ];
     for case in &mut all {
         match case.without {
             "detail" => case.detail = false,
             "output_times" => case.samples = 1,
+            "nothing_with_stresses" => case.stresses = Some(stresses(&case.scene)),
             "all_but_hinges_that_lock" => (case.samples, case.detail) = (1, false),
             _ => {}
         }
@@ -140,10 +164,20 @@ fn cases() -> Vec<Case> {
     all
 }
 
-fn deck() -> SceneDescription {
+fn file() -> SceneFile {
     let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/n-boom-1970.nml");
-    let scene = nboom::io::read_scene(&deck).expect("the deck is in the clone").scene;
-    SceneDescription::clone(&scene)
+    nboom::io::read_scene(&deck).expect("the deck is in the clone")
+}
+
+fn deck() -> SceneDescription {
+    SceneDescription::clone(&file().scene)
+}
+
+/// The stations of the deck on the bodies of another scene.
+fn stresses(scene: &Scene) -> StressAnalysis {
+    let segments = file().structure.expect("the deck asks for stresses").segments().to_vec();
+    let (structure, _) = Structure::with_differing_slices(scene, segments).expect("as many bodies");
+    StressAnalysis::new(scene, &structure, Settings::default()).expect("sections of the deck")
 }
 
 /// The report's case with a thrust, gravity, and bodies without symmetry.

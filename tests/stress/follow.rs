@@ -7,7 +7,7 @@ use nboom::model::{
     SectionShape, Segment, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::{Event, EventKind, LockUpMotion, Options, Recorder, Snapshot, simulate};
+use nboom::sim::{Event, EventKind, InstantMotion, Options, Recorder, Snapshot, simulate};
 use nboom::strength::{Settings, StationStress, StrengthError, StressAnalysis};
 
 pub const MASS: f64 = 3.0;
@@ -29,7 +29,7 @@ fn rod(from: f64, to: f64) -> MassProperties {
 }
 
 /// A rod on a hub, hinged about x at O.
-fn boom(hinge: Hinge, omega: Vec3<f64>, end_time: f64) -> Scene {
+pub fn boom(hinge: Hinge, omega: Vec3<f64>, end_time: f64) -> Scene {
     let hub = MassProperties::new(HUB_MASS, Vec3::zero(), Sym3::diagonal(7.0, 9.0, 8.0));
     let mut description = SceneDescription::at_rest("a boom with stations", hub, end_time);
     description.initial.omega_body = omega;
@@ -75,18 +75,26 @@ pub struct Follow {
     pub at_samples: Vec<Vec<StationStress>>,
     pub at_lock_ups: Vec<Vec<StationStress>>,
     pub impulses: Vec<f64>,
+    /// Times of instants with events.
+    pub instants: Vec<f64>,
 }
 
 impl Follow {
     pub fn run(scene: &Scene, settings: Settings) -> Self {
+        Self::run_with(scene, settings, 10)
+    }
+
+    /// With this many output intervals.
+    pub fn run_with(scene: &Scene, settings: Settings, samples: usize) -> Self {
         let mut follow = Self {
             analysis: analysis(scene, settings).expect("tubes are sections"),
             samples: Vec::new(),
             at_samples: Vec::new(),
             at_lock_ups: Vec::new(),
             impulses: Vec::new(),
+            instants: Vec::new(),
         };
-        let options = Options { samples: 10, rtol: 1e-12, atol: 1e-14, ..Options::default() };
+        let options = Options { samples, rtol: 1e-12, atol: 1e-14, ..Options::default() };
         simulate(scene, &options, &mut follow).expect("a smooth motion");
         follow
     }
@@ -97,7 +105,7 @@ impl Recorder for Follow {
         true
     }
 
-    fn needs_lock_ups(&self) -> bool {
+    fn needs_instants(&self) -> bool {
         true
     }
 
@@ -109,10 +117,12 @@ impl Recorder for Follow {
         Ok(())
     }
 
-    fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
-        let detail = lock_up.before.detail.as_ref().expect("it comes with detail");
-        let found = self.analysis.lock_up(lock_up, detail).map_err(io::Error::other)?;
-        self.at_lock_ups.push(found.to_vec());
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        self.instants.push(instant.after.time);
+        let found = self.analysis.instant(instant).map_err(io::Error::other)?;
+        if !instant.jumps.is_empty() {
+            self.at_lock_ups.push(found.to_vec());
+        }
         Ok(())
     }
 

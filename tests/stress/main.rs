@@ -6,3 +6,4 @@ mod collect;
 mod closed_forms;
 mod envelope;
 mod follow;
+mod instants;

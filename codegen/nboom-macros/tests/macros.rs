@@ -4,7 +4,7 @@
 use nboom::formulation::{Coordinates, Formulation, HingeCoordinates, Parameters, recognise};
 use nboom::model::{HingeState, Mode, Scene, SectionShape, Structure, Topology, WeldedTree};
 use nboom::scalar::{Kernel, Routine, Vec3, Wrench};
-use nboom::sim::{Event, EventKind, LockUpMotion, Options, Path, Recorder, Snapshot, simulate};
+use nboom::sim::{Event, EventKind, InstantMotion, Options, Path, Recorder, Snapshot, simulate};
 use nboom::strength::{Settings, StressAnalysis, Worst};
 
 nboom::routine! { pub Satellite: S2_P }
@@ -157,7 +157,7 @@ impl Recorder for Stressed {
     fn needs_detail(&self) -> bool {
         true
     }
-    fn needs_lock_ups(&self) -> bool {
+    fn needs_instants(&self) -> bool {
         true
     }
     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
@@ -167,9 +167,8 @@ impl Recorder for Stressed {
     fn event(&mut self, _: &Event, _: &Snapshot) -> std::io::Result<()> {
         Ok(())
     }
-    fn lock_up(&mut self, lock_up: &LockUpMotion) -> std::io::Result<()> {
-        let detail = lock_up.before.detail.as_ref().expect("it was asked for");
-        self.0.lock_up(lock_up, detail).map(drop).map_err(std::io::Error::other)
+    fn instant(&mut self, instant: &InstantMotion) -> std::io::Result<()> {
+        self.0.instant(instant).map(drop).map_err(std::io::Error::other)
     }
 }
 

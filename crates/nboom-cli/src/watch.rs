@@ -1,7 +1,7 @@
 use std::io;
 
 use nboom_results::RunDirectory;
-use nboom_sim::{Event, EventKind, LockUpMotion, Recorder, Snapshot, Witness};
+use nboom_sim::{Event, EventKind, InstantMotion, Recorder, Snapshot, Witness};
 
 use crate::progress::Progress;
 
@@ -29,12 +29,12 @@ impl Recorder for Watch {
         self.files.sample(snapshot)
     }
 
-    fn needs_lock_ups(&self) -> bool {
-        self.files.needs_lock_ups()
+    fn needs_instants(&self) -> bool {
+        self.files.needs_instants()
     }
 
-    fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
-        self.files.lock_up(lock_up)
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        self.files.instant(instant)
     }
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {

@@ -54,20 +54,28 @@ fn stresses_come_at_every_third_output_and_at_every_lock_up() {
 }
 
 #[test]
-fn the_envelope_has_the_largest_of_each_station_and_the_account_the_largest_of_all() {
+fn the_envelope_has_the_worst_of_each_station_and_the_account_the_worst_of_all() {
     let (output, place) = run(&deck(), &["--yield-stress", "4e5", "--safety-factor", "1.5"]);
     let stresses = rows(&place, "stress.csv");
     let envelope = rows(&place, "stress_envelope.csv");
     assert_eq!(envelope.len(), 1 + 7);
+    let events: Vec<String> =
+        rows(&place, "events.csv").into_iter().map(|mut row| row.swap_remove(0)).collect();
+    let mut at_events = 0;
     for worst in &envelope[1..] {
         let station = |row: &&Vec<String>| row[2..5] == worst[0..3];
         let of_station = stresses[1..].iter().filter(station);
         let largest = of_station.map(|row| number(&row[13])).fold(0.0, f64::max);
-        assert_eq!(number(&worst[12]), largest);
-        let margin = 4e5 / (1.5 * largest) - 1.0;
+        let found = number(&worst[12]);
+        // What is worse than all rows is so on one side of an event.
+        let at_event = found > largest && worst[4].is_empty() && events.contains(&worst[3]);
+        assert!(found == largest || at_event, "{worst:?}: {largest}");
+        at_events += usize::from(at_event);
+        let margin = 4e5 / (1.5 * found) - 1.0;
         // Written to the last digit; two roundings to get there.
         assert!((number(&worst[14]) - margin).abs() < 1e-14 * (1.0 + margin.abs()));
     }
+    assert!(at_events > 0, "the end of segment 1,2 is loaded most just after the release of 1,1");
     let told = String::from_utf8(output.stdout).expect("text");
     let line = told.lines().find(|line| line.starts_with("worst stress")).expect("told");
     assert!(line.contains("segment 2,1, station 2") && line.contains("margin"), "{line}");

@@ -3,7 +3,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
-use nboom_sim::{Event, LockUpMotion, Recorder, Snapshot, Summary};
+use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, Summary};
 use nboom_strength::{StressAnalysis, Worst};
 
 use crate::rows::{self, Output};
@@ -68,7 +68,8 @@ impl RunDirectory {
         Ok(Self { path, run, states, events, listing, stresses: None, instant: None })
     }
 
-    /// Also writes stresses, at every `every`-th output time and at lock-ups.
+    /// Also writes stresses, at every `every`-th output time and at lock-ups, and the worst of them
+    /// and of both sides of all events.
     ///
     /// # Errors
     /// When a file cannot be made.
@@ -131,9 +132,8 @@ impl RunDirectory {
         self.close_instant()?;
         self.states.write(snapshot).map_err(self.writing(STATES_FILE))?;
         if let Some(stresses) = &mut self.stresses {
-            // Long tables that fill the disk must not take the room of rows that wait in memory.
-            self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
             stresses.sample(snapshot)?;
+            self.write_stresses()?;
         }
         let Some(listing) = &mut self.listing else { return Ok(()) };
         // A printout that fills the disk must not take the room of rows that wait in memory.
@@ -141,6 +141,16 @@ impl RunDirectory {
         let listed = listing.write(snapshot);
         flushed.map_err(self.writing(STATES_FILE))?;
         listed.map_err(self.writing(LISTING_FILE))
+    }
+
+    fn write_stresses(&mut self) -> Result<(), ResultsError> {
+        let Some(stresses) = &mut self.stresses else { return Ok(()) };
+        if !stresses.is_full() {
+            return Ok(());
+        }
+        // Long tables that fill the disk must not take the room of rows that wait in memory.
+        self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
+        stresses.write()
     }
 
     fn add_event(&mut self, event: &Event, after: &Snapshot) -> Result<(), ResultsError> {
@@ -166,13 +176,14 @@ impl Recorder for RunDirectory {
         self.listing.is_some() || self.stresses.as_ref().is_some_and(StressWriter::is_due)
     }
 
-    fn needs_lock_ups(&self) -> bool {
+    fn needs_instants(&self) -> bool {
         self.stresses.is_some()
     }
 
-    fn lock_up(&mut self, lock_up: &LockUpMotion) -> io::Result<()> {
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
-        stresses.lock_up(lock_up).map_err(ResultsError::into_io)
+        stresses.instant(instant).map_err(ResultsError::into_io)?;
+        self.write_stresses().map_err(ResultsError::into_io)
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use nboom_model::HingeLabel;
 use nboom_sim::{Event, EventKind};
 
-use crate::number::field;
+use crate::number::{field, number};
 
 const HEADER: &str = "t,kind,appendage,segment,impulse,energy_before,energy_after";
 
@@ -61,7 +61,8 @@ impl<W: Write> EventsWriter<W> {
 
     fn write(&mut self, event: &Event) -> io::Result<()> {
         let out = &mut self.out;
-        write!(out, "{:?},{}", event.time, event.kind.name())?;
+        number(out, event.time)?;
+        write!(out, ",{}", event.kind.name())?;
         match event.hinge.map(|i| self.hinges[i]) {
             Some(label) => write!(out, ",{},{}", label.appendage + 1, label.segment + 1)?,
             None => write!(out, ",,")?,

@@ -24,6 +24,7 @@ mod events;
 mod layout;
 mod listing;
 mod number;
+mod row_text;
 mod rows;
 mod states;
 mod stress;

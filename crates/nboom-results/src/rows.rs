@@ -1,13 +1,47 @@
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use crate::ResultsError;
 
 /// A buffered file of lines.
 pub(crate) type Output = BufWriter<WholeLines>;
 
 /// Makes the file at `path`, empty.
 pub(crate) fn create(path: &Path) -> io::Result<Output> {
-    Ok(BufWriter::new(WholeLines { file: File::create(path)?, whole: 0, written: 0, torn: None }))
+    Ok(BufWriter::new(WholeLines::create(path)?))
+}
+
+/// What of a long table waits in memory \[bytes\].
+const LONG: usize = 1 << 16;
+
+/// A file of lines that wait in memory until they are written on purpose.
+#[derive(Debug)]
+pub(crate) struct LongTable {
+    path: PathBuf,
+    file: WholeLines,
+    /// Those that wait, whole ones.
+    pub(crate) lines: Vec<u8>,
+}
+
+impl LongTable {
+    /// Makes the file at `path`, empty; the header waits.
+    pub(crate) fn create(path: PathBuf, header: &str) -> Result<Self, ResultsError> {
+        let file = WholeLines::create(&path).map_err(ResultsError::writing(&path))?;
+        Ok(Self { path, file, lines: format!("{header}\n").into_bytes() })
+    }
+
+    /// Whether it is time to write.
+    pub(crate) fn is_long(&self) -> bool {
+        self.lines.len() >= LONG
+    }
+
+    /// Hands the lines on to the system.
+    pub(crate) fn write(&mut self) -> Result<(), ResultsError> {
+        self.file.write_all(&self.lines).map_err(ResultsError::writing(&self.path))?;
+        self.lines.clear();
+        Ok(())
+    }
 }
 
 /// A file that ends with a whole line even when the disk is full, because half a number reads
@@ -42,6 +76,10 @@ impl Write for WholeLines {
 }
 
 impl WholeLines {
+    fn create(path: &Path) -> io::Result<Self> {
+        Ok(Self { file: File::create(path)?, whole: 0, written: 0, torn: None })
+    }
+
     /// Cuts the file back after this error, and gives the error back.
     fn cut(&mut self, error: io::Error) -> io::Error {
         if error.kind() != io::ErrorKind::Interrupted {

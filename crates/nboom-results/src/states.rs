@@ -3,7 +3,7 @@ use std::io::{self, Write};
 use nboom_model::HingeLabel;
 use nboom_sim::Snapshot;
 
-use crate::number::{field, vector_fields};
+use crate::number::{field, number, vector_fields};
 
 const BEFORE_HINGES: &str = "t,rho_x,rho_y,rho_z,v_x,v_y,v_z,chi,kappa_x,kappa_y,kappa_z,\
                              omega_x,omega_y,omega_z";
@@ -53,7 +53,7 @@ impl<W: Write> StatesWriter<W> {
 
     fn write_main_body(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         let out = &mut self.out;
-        write!(out, "{:?}", snapshot.time)?;
+        number(out, snapshot.time)?;
         vector_fields(out, snapshot.position_inertial)?;
         vector_fields(out, snapshot.velocity_inertial)?;
         field(out, snapshot.attitude.scalar)?;

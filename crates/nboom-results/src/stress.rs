@@ -2,13 +2,12 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use nboom_model::HingeLabel;
-use nboom_scalar::Wrench;
-use nboom_sections::{PointStress, Stress};
-use nboom_sim::{LockUpMotion, Snapshot};
-use nboom_strength::{Cause, StationStress, StressAnalysis, Worst};
+use nboom_sim::{InstantMotion, Snapshot};
+use nboom_strength::{Cause, StressAnalysis, Worst};
 
-use crate::number::{field, vector_fields};
-use crate::rows::{self, Output};
+use crate::number::{field, number};
+use crate::row_text::{RowText, place_fields, stress_fields};
+use crate::rows::{self, LongTable, Output};
 use crate::{ENVELOPE_FILE, HINGE_LOADS_FILE, ResultsError, STRESS_FILE};
 
 const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
@@ -16,9 +15,6 @@ const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sig
 const HINGE_LOADS_HEADER: &str = "t,event,appendage,segment,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
 const ENVELOPE_HEADER: &str = "appendage,segment,station,t,event,event_appendage,event_segment,xi,\
      zeta,sigma_22,sigma_21,sigma_23,von_mises,driver,margin";
-
-/// Names of the four axis points in `stress.csv`.
-const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
 
 /// Writes `stress.csv` and `hinge_loads.csv` while a run goes on, and the envelope at its end.
 ///
@@ -33,8 +29,9 @@ pub(crate) struct StressWriter {
     every: usize,
     samples: usize,
     hinges: Vec<HingeLabel>,
-    stresses: Output,
-    hinge_loads: Output,
+    stresses: LongTable,
+    hinge_loads: LongTable,
+    text: RowText,
 }
 
 impl StressWriter {
@@ -44,22 +41,15 @@ impl StressWriter {
         analysis: StressAnalysis,
         every: usize,
     ) -> Result<Self, ResultsError> {
-        let started = |file: &str, header: &str| {
-            let path = directory.join(file);
-            let table = rows::create(&path).and_then(|mut out| {
-                writeln!(out, "{header}")?;
-                Ok(out)
-            });
-            table.map_err(ResultsError::writing(&path))
-        };
         Ok(Self {
             directory: directory.to_owned(),
-            stresses: started(STRESS_FILE, STRESS_HEADER)?,
-            hinge_loads: started(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
+            stresses: LongTable::create(directory.join(STRESS_FILE), STRESS_HEADER)?,
+            hinge_loads: LongTable::create(directory.join(HINGE_LOADS_FILE), HINGE_LOADS_HEADER)?,
             analysis,
             every: every.max(1),
             samples: 0,
             hinges,
+            text: RowText::default(),
         })
     }
 
@@ -68,47 +58,50 @@ impl StressWriter {
         self.samples.is_multiple_of(self.every)
     }
 
+    /// Computes the stresses of an output time, if they are due; its rows wait for [`Self::write`].
     pub fn sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         let due = self.is_due();
         self.samples += 1;
         let Some(detail) = snapshot.detail.as_ref().filter(|_| due) else { return Ok(()) };
         self.analysis.motion(snapshot, detail)?;
-        self.write(snapshot.time, "")
+        self.compose(snapshot.time, "")
     }
 
-    pub fn lock_up(&mut self, lock_up: &LockUpMotion) -> Result<(), ResultsError> {
-        let Some(detail) = &lock_up.before.detail else { return Ok(()) };
-        self.analysis.lock_up(lock_up, detail)?;
-        self.write(lock_up.before.time, "lock_up")
-    }
-
-    /// Writes what the analysis has found last.
-    fn write(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
-        let Self { stresses, hinges, analysis, .. } = self;
-        let written = write_stations(stresses, hinges, (time, event), analysis.stresses());
-        written.map_err(ResultsError::writing(&self.directory.join(STRESS_FILE)))?;
-        let written = self.write_hinges(time, event);
-        written.map_err(ResultsError::writing(&self.directory.join(HINGE_LOADS_FILE)))
-    }
-
-    fn write_hinges(&mut self, time: f64, event: &str) -> io::Result<()> {
-        let out = &mut self.hinge_loads;
-        for (hinge, load) in self.hinges.iter().zip(self.analysis.hinge_loads()) {
-            write!(out, "{time:?},{event},{},{}", hinge.appendage + 1, hinge.segment + 1)?;
-            load_fields(out, &load)?;
-            writeln!(out)?;
+    /// Computes both sides of an instant, and the peaks if hinges lock, whose rows wait for
+    /// [`Self::write`].
+    pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), ResultsError> {
+        self.analysis.instant(instant)?;
+        if instant.jumps.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        self.compose(instant.after.time, "lock_up")
+    }
+
+    /// Adds rows of what the analysis has found last to what waits in memory.
+    fn compose(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
+        let Self { directory, hinges, analysis, text, stresses, hinge_loads, .. } = self;
+        let composed = text.set_instant(time, event).and_then(|()| {
+            text.add_stresses(&mut stresses.lines, hinges, analysis.stresses())?;
+            text.add_hinge_loads(&mut hinge_loads.lines, hinges, analysis.hinge_loads())
+        });
+        composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))
+    }
+
+    /// Whether so much waits in memory that it is time to write.
+    pub fn is_full(&self) -> bool {
+        self.stresses.is_long() || self.hinge_loads.is_long()
+    }
+
+    /// Writes what waits in memory.
+    pub fn write(&mut self) -> Result<(), ResultsError> {
+        self.stresses.write()?;
+        self.hinge_loads.write()
     }
 
     /// Writes what waits in memory, and the worst of each station.
     pub fn finish(&mut self) -> Result<(), ResultsError> {
-        let directory = &self.directory;
-        let stresses = self.stresses.flush();
-        stresses.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
-        let hinge_loads = self.hinge_loads.flush();
-        hinge_loads.map_err(ResultsError::writing(&directory.join(HINGE_LOADS_FILE)))?;
-        let path = directory.join(ENVELOPE_FILE);
+        self.write()?;
+        let path = self.directory.join(ENVELOPE_FILE);
         let written = rows::create(&path).and_then(|mut out| {
             writeln!(out, "{ENVELOPE_HEADER}")?;
             let worst = self.analysis.envelope().iter();
@@ -120,7 +113,8 @@ impl StressWriter {
 
     fn write_worst(&self, out: &mut Output, worst: &Worst) -> io::Result<()> {
         let HingeLabel { appendage, segment } = worst.segment;
-        write!(out, "{},{},{},{:?}", appendage + 1, segment + 1, worst.station + 1, worst.time)?;
+        write!(out, "{},{},{},", appendage + 1, segment + 1, worst.station + 1)?;
+        number(out, worst.time)?;
         match worst.cause {
             Cause::Motion => write!(out, ",,,")?,
             Cause::LockUp { hinge } => {
@@ -128,7 +122,8 @@ impl StressWriter {
                 write!(out, ",lock_up,{},{}", appendage + 1, segment + 1)?;
             }
         }
-        place_fields(out, &worst.severest)?;
+        place_fields(out, worst.severest.place)?;
+        stress_fields(out, worst.severest.stress)?;
         field(out, worst.severest.stress.von_mises())?;
         write!(out, ",{}", worst.driver)?;
         match worst.margin {
@@ -137,42 +132,4 @@ impl StressWriter {
         }
         writeln!(out)
     }
-}
-
-fn write_stations(
-    out: &mut impl Write,
-    hinges: &[HingeLabel],
-    (time, event): (f64, &str),
-    stations: &[StationStress],
-) -> io::Result<()> {
-    for station in stations {
-        let axis_points = AXIS_POINTS.into_iter().zip(station.axis_points);
-        let points = axis_points.filter_map(|(name, point)| Some((name, point?)));
-        for (name, point) in points.chain([("max", station.severest)]) {
-            let HingeLabel { appendage, segment } = hinges[station.segment];
-            let (appendage, segment) = (appendage + 1, segment + 1);
-            let number = station.station + 1;
-            write!(out, "{time:?},{event},{appendage},{segment},{number},{name}")?;
-            place_fields(out, &point)?;
-            let [largest, smallest] = point.stress.principal();
-            field(out, largest)?;
-            field(out, smallest)?;
-            field(out, point.stress.von_mises())?;
-            load_fields(out, &station.load)?;
-            writeln!(out)?;
-        }
-    }
-    Ok(())
-}
-
-/// Place and stress components.
-fn place_fields(out: &mut impl Write, point: &PointStress) -> io::Result<()> {
-    let Stress { normal, shear_xi, shear_zeta } = point.stress;
-    let numbers = [point.place.xi, point.place.zeta, normal, shear_xi, shear_zeta];
-    numbers.into_iter().try_for_each(|number| field(out, number))
-}
-
-fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {
-    vector_fields(out, load.force)?;
-    vector_fields(out, load.moment)
 }

@@ -5,7 +5,8 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 
 use nboom_model::{
-    Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, Segment,
+    Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, SectionShape,
+    Segment, SegmentStructure, Station, Structure,
 };
 use nboom_results::{
     Outcome, ResultsError, RunDescription, RunDirectory, UnitSystem, path_and_formulation,
@@ -15,6 +16,7 @@ use nboom_sim::{
     Choice, Conservation, Detail, Event, EventKind, Integration, Method, Options, Recorder,
     Selection, Snapshot, Summary, Totals,
 };
+use nboom_strength::{Settings, StressAnalysis};
 
 fn scene() -> Scene {
     let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
@@ -232,6 +234,49 @@ fn rows_do_not_wait_in_memory_for_a_printout_to_fill_the_disk() {
     let mut directory = create(place.path(), true).expect("writable");
     directory.sample(&snapshot(0.0)).expect("writable");
     assert_eq!(lines(place.path(), "states.csv").len(), 2);
+}
+
+/// Stresses of the boom, whose one station is at its hinge.
+fn analysis() -> StressAnalysis {
+    let scene = scene();
+    let station = Station {
+        distance_from_hinge: 0.0,
+        slice: scene.bodies[0].mass_properties,
+        section: SectionShape::Tube { radius: 0.1, thickness: 0.01 },
+    };
+    let segment = SegmentStructure {
+        pulse_constant: 0.1,
+        poissons_ratio: 0.3,
+        youngs_modulus: 7e10,
+        stations: vec![station],
+    };
+    let structure = Structure::new(&scene, vec![segment]).expect("the slice is the boom");
+    StressAnalysis::new(&scene, &structure, Settings::default()).expect("a tube is a section")
+}
+
+/// Long tables must not fill the disk before rows of states that wait in memory are on it.
+#[test]
+fn no_row_of_stresses_is_on_the_disk_before_the_states_of_its_time() {
+    let place = tempfile::tempdir().expect("a directory");
+    let directory = create(place.path(), false).expect("writable");
+    let mut directory = directory.with_stresses(&scene(), analysis(), 1).expect("writable");
+    let rows_on_disk = |file: &str| {
+        let text = fs::read_to_string(place.path().join(file)).expect("a table");
+        text.matches('\n').count().saturating_sub(1)
+    };
+    let (mut writes, mut seen) = (0, 0);
+    for i in 0..700 {
+        // At rest, so that loads agree with the hinge's torque, which is none.
+        let at_rest =
+            Snapshot { omega_body: Vec3::zero(), tau: vec![0.0], ..snapshot(f64::from(i)) };
+        directory.sample(&at_rest).expect("writable");
+        let stresses = rows_on_disk("stress.csv");
+        // Four axis points and the maximum at each time.
+        assert!(rows_on_disk("states.csv") >= stresses / 5, "after sample {i}");
+        writes += usize::from(stresses > seen);
+        seen = stresses;
+    }
+    assert!(writes > 1 && writes < 30, "{writes} for 700 times");
 }
 
 #[test]

@@ -36,6 +36,7 @@ mod polynomial;
 mod properties;
 pub mod report;
 mod section;
+mod severest;
 mod shear_flow;
 mod stress;
 mod tube;

@@ -1,5 +1,6 @@
 use nboom_scalar::{Vec3, Wrench};
 
+use crate::severest::severest;
 use crate::{
     Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Stress, Wall,
     WallStress, outline, shear_flow,
@@ -13,6 +14,7 @@ pub struct Polygon {
     walls: Vec<Wall>,
     properties: Properties,
     signed_area: f64,
+    axis_points: Box<[Option<(usize, f64)>; 4]>,
 }
 
 impl Polygon {
@@ -41,7 +43,9 @@ impl Polygon {
         if !properties.are_regular() {
             return Err(vec![SectionError::Range]);
         }
-        Ok(Self { walls, properties, signed_area })
+        let axes = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+        let axis_points = axes.map(|(xi, zeta)| axis_point(&walls, centroid, Point { xi, zeta }));
+        Ok(Self { walls, properties, signed_area, axis_points: Box::new(axis_points) })
     }
 
     /// Its walls, in their order.
@@ -102,28 +106,27 @@ impl Polygon {
     /// The axis points at 0, 90, 180 and 270 degrees from ξ towards ζ, as a wall and a place on it:
     /// where rays from the centroid leave the section. A section that is not convex may lack some.
     pub fn axis_points(&self) -> [Option<(usize, f64)>; 4] {
-        let axes = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-        axes.map(|(xi, zeta)| self.axis_point(Point { xi, zeta }))
+        *self.axis_points
     }
+}
 
-    /// Where the ray from the centroid along an axis leaves the section: the outermost crossing, as
-    /// a wall and a place on it. A vertex belongs to the wall that starts there.
-    fn axis_point(&self, ray: Point) -> Option<(usize, f64)> {
-        let none = outline::coincidence(&self.walls);
-        let across = |point: Point| {
-            let offset = ray.cross(point - self.properties.centroid);
-            if offset.abs() <= none { 0.0 } else { offset }
-        };
-        let crossing = |(i, wall): (usize, &Wall)| {
-            let (start, end) = (across(wall.start()), across(wall.at(1.0)));
-            let crosses = start == 0.0 || start * end < 0.0;
-            let x = if start == 0.0 { 0.0 } else { start / (start - end) };
-            let distance = ray.dot(wall.at(x) - self.properties.centroid);
-            (crosses && distance > 0.0).then_some((i, x, distance))
-        };
-        let crossings = self.walls.iter().enumerate().filter_map(crossing);
-        crossings.max_by(|a, b| a.2.total_cmp(&b.2)).map(|(i, x, _)| (i, x))
-    }
+/// Where the ray from the centroid along an axis leaves the section: the outermost crossing, as a
+/// wall and a place on it. A vertex belongs to the wall that starts there.
+fn axis_point(walls: &[Wall], centroid: Point, ray: Point) -> Option<(usize, f64)> {
+    let none = outline::coincidence(walls);
+    let across = |point: Point| {
+        let offset = ray.cross(point - centroid);
+        if offset.abs() <= none { 0.0 } else { offset }
+    };
+    let crossing = |(i, wall): (usize, &Wall)| {
+        let (start, end) = (across(wall.start()), across(wall.at(1.0)));
+        let crosses = start == 0.0 || start * end < 0.0;
+        let x = if start == 0.0 { 0.0 } else { start / (start - end) };
+        let distance = ray.dot(wall.at(x) - centroid);
+        (crosses && distance > 0.0).then_some((i, x, distance))
+    };
+    let crossings = walls.iter().enumerate().filter_map(crossing);
+    crossings.max_by(|a, b| a.2.total_cmp(&b.2)).map(|(i, x, _)| (i, x))
 }
 
 /// Relative to the first vertex, so that a far η axis costs no digits.
@@ -186,14 +189,7 @@ impl PolygonStresses<'_> {
 
     /// The wall, from 0, and the place on it where the von Mises stress is largest.
     pub fn severest(&self) -> (usize, f64) {
-        let of_wall = |i: usize| {
-            let stress = self.wall(i);
-            let x = stress.severest();
-            (i, x, stress.at(x).von_mises())
-        };
-        let walls = (1..self.polygon.walls.len()).map(of_wall);
-        let (wall, x, _) = walls.fold(of_wall(0), |a, b| if b.2 > a.2 { b } else { a });
-        (wall, x)
+        severest((0..self.polygon.walls.len()).map(|wall| self.wall(wall)))
     }
 
     /// The stress on the point's wall where it is nearest to the point.

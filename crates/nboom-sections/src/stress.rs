@@ -16,19 +16,20 @@ pub struct Stress {
 impl Stress {
     /// Magnitude of the shear stress.
     pub fn shear(self) -> f64 {
-        self.shear_xi.hypot(self.shear_zeta)
+        norm([self.shear_xi, self.shear_zeta])
     }
 
     /// Equivalent stress √(σ² + 3 τ²): that of the distortion energy, eqs. (11.5), (11.6) and
     /// (11.16).
     pub fn von_mises(self) -> f64 {
-        self.normal.hypot(3.0_f64.sqrt() * self.shear())
+        let factor = 3.0_f64.sqrt();
+        norm([self.normal, factor * self.shear_xi, factor * self.shear_zeta])
     }
 
     /// The largest and the smallest principal stress; the third one is zero.
     pub fn principal(self) -> [f64; 2] {
         let mean = 0.5 * self.normal;
-        let radius = mean.hypot(self.shear());
+        let radius = norm([mean, self.shear_xi, self.shear_zeta]);
         [mean + radius, mean - radius]
     }
 
@@ -43,6 +44,18 @@ impl Stress {
     pub fn of_report_signs([normal, shear_xi, shear_zeta]: [f64; 3]) -> Self {
         Self { normal: -normal, shear_xi: -shear_xi, shear_zeta: -shear_zeta }
     }
+}
+
+/// Sums of squares in which none has lost a digit that matters; `f64::hypot` is slow.
+const SAFE_SQUARES: std::ops::Range<f64> = 1e-270..1e300;
+
+/// √(a² + b² + …), also where squares overflow or vanish.
+fn norm<const N: usize>(components: [f64; N]) -> f64 {
+    let squares: f64 = components.iter().map(|c| c * c).sum();
+    if SAFE_SQUARES.contains(&squares) {
+        return squares.sqrt();
+    }
+    components.into_iter().fold(0.0, f64::hypot)
 }
 
 /// Stress at a point of a section.

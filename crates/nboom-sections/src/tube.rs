@@ -2,7 +2,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom_scalar::Wrench;
 
-use crate::harmonics::{Harmonics, largest};
+use crate::harmonics::Harmonics;
 use crate::{Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Stress};
 
 /// A circular tube around the η axis.
@@ -140,10 +140,9 @@ impl TubeStresses {
 
     /// The θ at which the von Mises stress is largest, from 0 to 2π.
     pub fn severest(&self) -> f64 {
-        let unit =
-            self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
+        let coefficients = self.normal.iter().chain(&self.shear);
+        let unit = coefficients.fold(f64::MIN_POSITIVE, |most, c| most.max(c.abs()));
         let square = |form: [f64; 3]| Harmonics::of_square(form.map(|c| c / unit));
-        let squares = square(self.normal) + square(self.shear) * 3.0;
-        largest(|theta| self.at(theta).stress.von_mises(), |_| squares)
+        (square(self.normal) + square(self.shear) * 3.0).largest()
     }
 }

@@ -1,4 +1,4 @@
-use crate::polynomial::{Polynomial, SignChanges};
+use crate::severest::severest;
 use crate::shear_flow::UnitFlows;
 use crate::{Point, Stress};
 
@@ -82,25 +82,13 @@ impl WallStress {
     }
 
     /// Where the von Mises stress is largest.
-    ///
-    /// Its square is a polynomial of degree four in x, whose maximum is at an end or where the
-    /// derivative changes sign.
     pub fn severest(&self) -> f64 {
-        let inside = SignChanges::of(&self.derivative(), 0.0, 1.0);
-        let severity = |x: f64| self.at(x).von_mises();
-        inside
-            .into_points()
-            .chain([1.0])
-            .fold(0.0, |best, x| if severity(x) > severity(best) { x } else { best })
+        let (_, x) = severest(std::iter::once(*self));
+        x
     }
 
-    /// Half the derivative of σ² + 3 τ² by x, in units of the largest coefficient, so that it
-    /// neither overflows nor vanishes.
-    fn derivative(&self) -> Polynomial {
-        let unit =
-            self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()));
-        let scale = if unit > 0.0 { 1.0 / unit } else { 0.0 };
-        let ([s, ds], [a, b, c]) = (self.normal.map(|n| n * scale), self.shear.map(|n| n * scale));
-        [s * ds + 3.0 * a * b, ds * ds + 3.0 * (b * b + 2.0 * a * c), 9.0 * b * c, 6.0 * c * c, 0.0]
+    /// The largest magnitude of a coefficient.
+    pub(crate) fn largest_coefficient(&self) -> f64 {
+        self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()))
     }
 }

@@ -43,11 +43,6 @@ impl Arrivals {
         arrivals
     }
 
-    /// Whether hinges lock.
-    pub fn has_locks(&self) -> bool {
-        !self.locks.is_empty()
-    }
-
     /// What the initial time itself brings: releases by an angle that holds already.
     pub fn at_start(scene: &Scene) -> Self {
         let holds = |i: &usize| match scene.bodies[*i].hinge.release {

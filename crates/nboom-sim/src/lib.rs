@@ -70,7 +70,7 @@ pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
-    Conservation, Detail, Event, EventKind, Integration, Jump, LockUpMotion, Recorder, Selection,
+    Conservation, Detail, Event, EventKind, InstantMotion, Integration, Jump, Recorder, Selection,
     Snapshot, Summary, Totals,
 };
 pub use run::simulate;

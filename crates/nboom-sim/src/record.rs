@@ -24,27 +24,31 @@ pub trait Recorder {
     /// When it cannot be kept.
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()>;
 
-    /// Whether [`lock_up`](Self::lock_up) is wanted, with [`Snapshot::detail`].
-    fn needs_lock_ups(&self) -> bool {
+    /// Whether [`instant`](Self::instant) is wanted, which costs two evaluations of the equations of
+    /// motion each.
+    fn needs_instants(&self) -> bool {
         false
     }
 
-    /// An instant in which hinges lock, as its loads see it; before its events.
+    /// An instant with events, as its loads see it; before its events.
     ///
     /// # Errors
     /// When it cannot be kept.
-    fn lock_up(&mut self, _lock_up: &LockUpMotion) -> io::Result<()> {
+    fn instant(&mut self, _instant: &InstantMotion) -> io::Result<()> {
         Ok(())
     }
 }
 
-/// Hinges that lock in one instant.
+/// Both sides of an instant in which something happens: what jumps are accelerations, and where hinges
+/// lock velocities too.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LockUpMotion {
-    /// The motion just before, with detail.
-    pub before: Snapshot,
+pub struct InstantMotion {
+    /// The motion just before, with detail; none at the initial time.
+    pub before: Option<Snapshot>,
     /// What each of the hinges that lock changes; the motion after it has the sum of all.
     pub jumps: Vec<Jump>,
+    /// The motion after all events of the instant, with detail.
+    pub after: Snapshot,
 }
 
 /// Change of all velocities by the impulsive torque at one hinge that locks.

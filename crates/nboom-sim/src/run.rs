@@ -10,7 +10,7 @@ use crate::layout::Layout;
 use crate::ledger::{Ledger, totals};
 use crate::options::Options;
 use crate::record::{
-    Event, EventKind, Integration, LockUpMotion, Recorder, Selection, Snapshot, Summary,
+    Event, EventKind, InstantMotion, Integration, Jump, Recorder, Selection, Snapshot, Summary,
 };
 use crate::snapshot;
 use crate::start::Start;
@@ -116,7 +116,7 @@ impl<'a> Run<'a> {
         for i in 0..self.lock_sides.len() {
             self.lock_sides[i] = self.guards.lock_side(i).unwrap_or(self.lock_sides[i]);
         }
-        let before = self.before_lock_ups(arrivals);
+        let before = self.before_instant();
         let outcome = instant::pass(
             self.scene,
             &mut self.equations.dynamics,
@@ -125,9 +125,6 @@ impl<'a> Run<'a> {
             &mut self.mode,
             &mut self.lock_sides,
         )?;
-        if let Some(before) = before {
-            self.tell_lock_up(LockUpMotion { before, jumps: outcome.jumps })?;
-        }
         self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
         self.check_regular()?;
         self.check_springs()?;
@@ -144,6 +141,9 @@ impl<'a> Run<'a> {
             &self.lock_sides,
             &outcome.toggled,
         );
+        if !outcome.events.is_empty() {
+            self.tell_instant(before, outcome.jumps)?;
+        }
         self.report(&outcome.events)?;
         self.check_chatter(&outcome.events)
     }
@@ -274,27 +274,36 @@ impl<'a> Run<'a> {
     }
 
     fn snapshot(&mut self, state: &State) -> Snapshot {
+        let needs_detail = self.recorder.needs_detail();
+        self.snapshot_with(state, needs_detail)
+    }
+
+    fn snapshot_with(&mut self, state: &State, needs_detail: bool) -> Snapshot {
         let Self { scene, mode, equations, .. } = self;
         let seen = snapshot::take(scene, mode, &mut equations.dynamics, state);
-        let needs_detail = self.recorder.needs_detail();
         let detail = needs_detail.then(|| snapshot::detail(scene, mode, equations, state));
         let (steps, next_step) =
             (self.stepper.window().counts.accepted, self.stepper.window().next_step);
         Snapshot { detail, steps, next_step, ..seen }
     }
 
-    /// The motion before an instant in which hinges lock, if the recorder wants it.
-    fn before_lock_ups(&mut self, arrivals: &Arrivals) -> Option<Snapshot> {
-        (arrivals.has_locks() && self.recorder.needs_lock_ups()).then(|| {
-            let Self { scene, mode, equations, state, .. } = self;
-            let detail = Some(snapshot::detail(scene, mode, equations, state));
-            Snapshot { detail, ..snapshot::take(scene, mode, &mut equations.dynamics, state) }
+    /// The motion before an instant, if there is one and the recorder wants it.
+    fn before_instant(&mut self) -> Option<Snapshot> {
+        let has_moved = self.state.time > self.scene.initial.time;
+        (has_moved && self.recorder.needs_instants()).then(|| {
+            let state = self.state.clone();
+            self.snapshot_with(&state, true)
         })
     }
 
-    fn tell_lock_up(&mut self, lock_up: LockUpMotion) -> Result<(), SimError> {
-        let kept = self.recorder.lock_up(&lock_up);
-        kept.map_err(|source| SimError::Record { time: self.state.time, source })
+    fn tell_instant(&mut self, before: Option<Snapshot>, jumps: Vec<Jump>) -> Result<(), SimError> {
+        if !self.recorder.needs_instants() {
+            return Ok(());
+        }
+        let state = self.state.clone();
+        let after = self.snapshot_with(&state, true);
+        let kept = self.recorder.instant(&InstantMotion { before, jumps, after });
+        kept.map_err(|source| SimError::Record { time: state.time, source })
     }
 
     fn report(&mut self, events: &[Event]) -> Result<(), SimError> {

@@ -2,7 +2,7 @@ use nboom_loads::{LoadEquations, LoadSet, Loads, LockUpShare, SceneMotion, Veloc
 use nboom_model::{HingeLabel, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
 use nboom_sections::{PointStress, Section, SectionWarning};
-use nboom_sim::{Detail, LockUpMotion, Snapshot};
+use nboom_sim::{Detail, InstantMotion, Jump, Snapshot};
 
 use crate::envelope::driver;
 use crate::formulas::Formulas;
@@ -127,52 +127,47 @@ impl StressAnalysis {
         snapshot: &Snapshot,
         detail: &Detail,
     ) -> Result<&[StationStress], StrengthError> {
-        self.load(snapshot, detail)?;
-        self.hand_on(&snapshot.beta);
-        Ok(self.judge(snapshot.time, Cause::Motion))
+        self.load(snapshot, detail, &[])?;
+        self.judge(snapshot.time, Cause::Motion);
+        Ok(self.with_axis_points())
     }
 
-    /// Peak loads and stresses of a lock-up: those of the motion just before and the pulses of the
-    /// hinges that lock, eqs. (10.7) to (10.14).
+    /// Loads and stresses on both sides of an instant with events, for the envelope. Where hinges
+    /// lock, those of the peaks are returned: what the motion just before makes, and the pulses of
+    /// the hinges that lock, eqs. (10.7) to (10.14).
     ///
     /// # Errors
     /// When the loads contradict the motion.
-    pub fn lock_up(
-        &mut self,
-        lock_up: &LockUpMotion,
-        detail: &Detail,
-    ) -> Result<&[StationStress], StrengthError> {
-        let before = &lock_up.before;
-        self.load(before, detail)?;
-        for jump in &lock_up.jumps {
-            let share = LockUpShare {
-                pulse_constant: self.pulse_constants[jump.hinge],
-                jump: VelocityChange {
-                    origin_body: jump.velocity_body,
-                    omega_body: jump.omega_body,
-                    tau: &jump.tau,
-                },
-            };
-            let amplification = self.settings.amplification;
-            self.loads.add_lock_up(&before.beta, &[share], amplification, &mut self.found);
+    pub fn instant(&mut self, instant: &InstantMotion) -> Result<&[StationStress], StrengthError> {
+        let InstantMotion { before, jumps, after } = instant;
+        for side in before.iter().chain([after]) {
+            if let Some(detail) = &side.detail {
+                self.load(side, detail, &[])?;
+                self.judge(side.time, Cause::Motion);
+            }
         }
-        self.hand_on(&before.beta);
-        let hinge = lock_up.jumps.first().map_or(0, |jump| jump.hinge);
-        Ok(self.judge(before.time, Cause::LockUp { hinge }))
+        self.stresses.clear();
+        let detailed = before.as_ref().and_then(|before| Some((before, before.detail.as_ref()?)));
+        if let (Some((before, detail)), [first, ..]) = (detailed, &jumps[..]) {
+            self.load(before, detail, jumps)?;
+            self.judge(before.time, Cause::LockUp { hinge: first.hinge });
+        }
+        Ok(self.with_axis_points())
     }
 
-    /// Load and stresses of every station in the last motion or lock-up.
+    /// Load and stresses of every station at the last output time or lock-up; none after an instant in
+    /// which no hinge locks.
     pub fn stresses(&self) -> &[StationStress] {
         &self.stresses
     }
 
     /// Force and moment that each hinge exerts on its outboard body, about the hinge point,
-    /// segment axes; of the last motion or lock-up.
+    /// segment axes; of the same time.
     pub fn hinge_loads(&self) -> impl Iterator<Item = Wrench<f64>> {
         (0..self.labels.len()).map(|i| self.found.hinge(i))
     }
 
-    /// The worst of each station so far; nothing before the first motion or lock-up.
+    /// The worst of each station so far; nothing before the first motion.
     pub fn envelope(&self) -> &[Worst] {
         &self.envelope
     }
@@ -183,7 +178,13 @@ impl StressAnalysis {
         self.largest_residual
     }
 
-    fn load(&mut self, snapshot: &Snapshot, detail: &Detail) -> Result<(), StrengthError> {
+    /// Finds the loads of a motion, and of the pulses of hinges that lock.
+    fn load(
+        &mut self,
+        snapshot: &Snapshot,
+        detail: &Detail,
+        jumps: &[Jump],
+    ) -> Result<(), StrengthError> {
         let springs = detail.kick_off_force.iter().zip(&detail.kick_off_length);
         for (density, (&force, &length)) in self.force_densities.iter_mut().zip(springs) {
             *density = if force == 0.0 { 0.0 } else { force / length };
@@ -200,6 +201,15 @@ impl StressAnalysis {
             force_densities: &self.force_densities,
         };
         self.loads.continuous(&motion, &mut self.found);
+        self.check_balance(snapshot, detail)?;
+        jumps.iter().for_each(|jump| self.add_pulse(&snapshot.beta, jump));
+        if self.settings.slips.contains(Slip::LoadTransfer) {
+            self.loads.hand_on_as_in_1970(&snapshot.beta, &mut self.found);
+        }
+        Ok(())
+    }
+
+    fn check_balance(&mut self, snapshot: &Snapshot, detail: &Detail) -> Result<(), StrengthError> {
         let torques = &detail.hinge_torque;
         let residual = self.loads.largest_torque_residual(&self.found, &snapshot.hinges, torques);
         let Some((hinge, residual)) = residual else { return Ok(()) };
@@ -211,27 +221,27 @@ impl StressAnalysis {
         Err(StrengthError::Unbalanced { time: snapshot.time, hinge, residual, most: BALANCE })
     }
 
-    /// Replaces the loads found by those of 1970, if they are asked for.
-    fn hand_on(&mut self, beta: &[f64]) {
-        if self.settings.slips.contains(Slip::LoadTransfer) {
-            self.loads.hand_on_as_in_1970(beta, &mut self.found);
-        }
+    fn add_pulse(&mut self, beta: &[f64], jump: &Jump) {
+        let share = LockUpShare {
+            pulse_constant: self.pulse_constants[jump.hinge],
+            jump: VelocityChange {
+                origin_body: jump.velocity_body,
+                omega_body: jump.omega_body,
+                tau: &jump.tau,
+            },
+        };
+        self.loads.add_lock_up(beta, &[share], self.settings.amplification, &mut self.found);
     }
 
-    /// Stresses under the loads found, for the envelope too.
-    fn judge(&mut self, time: f64, cause: Cause) -> &[StationStress] {
+    /// The largest stresses under the loads found, for the envelope too.
+    fn judge(&mut self, time: f64, cause: Cause) {
         let Self { settings, labels, found, sections, stresses, envelope, .. } = self;
         stresses.clear();
         stresses.extend(sections.iter().map(|at| {
             let load = found.stations(at.segment)[at.station];
             let stresses = at.section.stresses(&load, found.stresses(at.segment)[at.station]);
-            StationStress {
-                segment: at.segment,
-                station: at.station,
-                load,
-                axis_points: stresses.axis_points(),
-                severest: stresses.severest(),
-            }
+            let (segment, station, severest) = (at.segment, at.station, stresses.severest());
+            StationStress { segment, station, load, axis_points: [None; 4], severest }
         }));
         let worst = |(at, stress): (&StationSection, &StationStress)| Worst {
             segment: labels[at.segment],
@@ -245,14 +255,22 @@ impl StressAnalysis {
         };
         if envelope.is_empty() {
             envelope.extend(sections.iter().zip(&*stresses).map(worst));
-        } else {
-            for (worst_yet, now) in envelope.iter_mut().zip(sections.iter().zip(&*stresses)) {
-                let von_mises = |point: &PointStress| point.stress.von_mises();
-                if von_mises(&now.1.severest) > von_mises(&worst_yet.severest) {
-                    *worst_yet = worst(now);
-                }
+            return;
+        }
+        for (worst_yet, now) in envelope.iter_mut().zip(sections.iter().zip(&*stresses)) {
+            let von_mises = |point: &PointStress| point.stress.von_mises();
+            if von_mises(&now.1.severest) > von_mises(&worst_yet.severest) {
+                *worst_yet = worst(now);
             }
         }
-        stresses
+    }
+
+    /// Adds the axis points to the largest stresses.
+    fn with_axis_points(&mut self) -> &[StationStress] {
+        for (at, stress) in self.sections.iter().zip(&mut self.stresses) {
+            let numbers = self.found.stresses(at.segment)[at.station];
+            stress.axis_points = at.section.stresses(&stress.load, numbers).axis_points();
+        }
+        &self.stresses
     }
 }

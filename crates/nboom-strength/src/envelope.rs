@@ -9,7 +9,7 @@ use crate::formulas::Formulas;
 /// What made a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// The motion at an output time.
+    /// The motion at an output time, or on one side of an instant with events.
     Motion,
     /// A lock-up, of this hinge and maybe others.
     LockUp {

@@ -41,6 +41,7 @@ fn parameters_that_overflow_are_refused() {
 struct Facts<const PINNED: usize>;
 
 impl<const PINNED: usize> Routine for Facts<PINNED> {
+    const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "M";
     const FORMULATION: &'static str = "articulated";
     const PINNED: &'static [(usize, f64)] = [(0, 1.0), (1, 1.0), (2, 1.0)].split_at(PINNED).0;

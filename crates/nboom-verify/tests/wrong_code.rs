@@ -36,6 +36,7 @@ fn given<R: Real>(constants: &[R], coordinates: &[R]) -> (Parameters<R>, Coordin
 struct Accelerations<const WRONG: u32>;
 
 impl<const WRONG: u32> Routine for Accelerations<WRONG> {
+    const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "S2_P";
     const FORMULATION: &'static str = "articulated";
     const PINNED: &'static [(usize, f64)] = &[];
@@ -67,6 +68,7 @@ impl<const WRONG: u32> Routine for Accelerations<WRONG> {
 struct System<const RELATIVE: u32, const WRONG: usize>;
 
 impl<const RELATIVE: u32, const WRONG: usize> Routine for System<RELATIVE, WRONG> {
+    const RESULT: &'static str = "equations";
     const TOPOLOGY: &'static str = "S2_P";
     const FORMULATION: &'static str = if RELATIVE == 1 { "relative" } else { "report" };
     const PINNED: &'static [(usize, f64)] = &[];

@@ -3,7 +3,7 @@
 
 mod original;
 
-use crate::harmonics::{Harmonics, largest};
+use crate::harmonics::{Harmonics, largest_by_quadrant};
 use crate::{Point, Polygon, SecondMoments, Stress, TubeStresses, outline};
 
 pub use original::{Original, SectionSlips};
@@ -64,7 +64,7 @@ pub fn severest_of_tube(stresses: &TubeStresses) -> f64 {
             + Harmonics::of_square(along_xi) * 3.0
             + Harmonics::of_square(along_zeta) * 3.0
     };
-    largest(|theta| tube_stress(stresses, theta).von_mises(), squares)
+    largest_by_quadrant(|theta| tube_stress(stresses, theta).von_mises(), squares)
 }
 
 /// Q₂/S, 2P₃/A and 2P₁/A.

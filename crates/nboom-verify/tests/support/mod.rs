@@ -55,6 +55,7 @@ pub fn fork() -> Scene {
 struct ArticulatedS3P<const WRONG: usize>;
 
 impl<const WRONG: usize> Routine for ArticulatedS3P<WRONG> {
+    const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "S3_P";
     const FORMULATION: &'static str = "articulated";
     const PINNED: &'static [(usize, f64)] = &[];

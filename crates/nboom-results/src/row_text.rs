@@ -1,0 +1,128 @@
+use std::io::{self, Write};
+
+use nboom_model::HingeLabel;
+use nboom_scalar::Wrench;
+use nboom_sections::{Point, Stress};
+use nboom_strength::StationStress;
+
+use crate::number::{field, number, vector_fields};
+
+/// Names of the four axis points in `stress.csv`.
+const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
+
+/// Parts of rows that several rows share, so that they are turned into text once.
+#[derive(Debug, Default)]
+pub(crate) struct RowText {
+    /// Time and event.
+    instant: Vec<u8>,
+    /// Of each row of a time in `stress.csv`.
+    heads: Vec<Head>,
+    /// Load of a station, to the end of the row.
+    load: Vec<u8>,
+}
+
+/// Where a row of stresses is: appendage, segment, station, point and place.
+#[derive(Debug)]
+struct Head {
+    place: Point,
+    text: Vec<u8>,
+}
+
+impl RowText {
+    /// The rows that are added next have this time and event.
+    pub fn set_instant(&mut self, time: f64, event: &str) -> io::Result<()> {
+        self.instant.clear();
+        number(&mut self.instant, time)?;
+        write!(self.instant, ",{event}")
+    }
+
+    /// Rows of `stress.csv`; at each time of a run for the same stations.
+    pub fn add_stresses(
+        &mut self,
+        out: &mut Vec<u8>,
+        hinges: &[HingeLabel],
+        stations: &[StationStress],
+    ) -> io::Result<()> {
+        let mut row = 0;
+        for station in stations {
+            self.load.clear();
+            load_fields(&mut self.load, &station.load)?;
+            writeln!(self.load)?;
+            let axis_points = AXIS_POINTS.into_iter().zip(station.axis_points);
+            let points = axis_points.filter_map(|(name, point)| Some((name, point?)));
+            for (name, point) in points.chain([("max", station.severest)]) {
+                out.extend(&self.instant);
+                out.extend(self.head(
+                    row,
+                    hinges[station.segment],
+                    station.station,
+                    name,
+                    point.place,
+                )?);
+                stress_fields(out, point.stress)?;
+                let [largest, smallest] = point.stress.principal();
+                field(out, largest)?;
+                field(out, smallest)?;
+                field(out, point.stress.von_mises())?;
+                out.extend(&self.load);
+                row += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// The head of a row, which is the one of the time before unless its place has moved.
+    fn head(
+        &mut self,
+        row: usize,
+        hinge: HingeLabel,
+        station: usize,
+        name: &str,
+        place: Point,
+    ) -> io::Result<&[u8]> {
+        if self.heads.len() == row {
+            let nowhere = Point { xi: f64::NAN, zeta: f64::NAN };
+            self.heads.push(Head { place: nowhere, text: Vec::new() });
+        }
+        let head = &mut self.heads[row];
+        if head.place != place {
+            head.place = place;
+            head.text.clear();
+            let HingeLabel { appendage, segment } = hinge;
+            write!(head.text, ",{},{},{},{name}", appendage + 1, segment + 1, station + 1)?;
+            place_fields(&mut head.text, place)?;
+        }
+        Ok(&head.text)
+    }
+
+    /// Rows of `hinge_loads.csv`.
+    pub fn add_hinge_loads(
+        &self,
+        out: &mut Vec<u8>,
+        hinges: &[HingeLabel],
+        loads: impl Iterator<Item = Wrench<f64>>,
+    ) -> io::Result<()> {
+        for (hinge, load) in hinges.iter().zip(loads) {
+            out.extend(&self.instant);
+            write!(out, ",{},{}", hinge.appendage + 1, hinge.segment + 1)?;
+            load_fields(out, &load)?;
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn place_fields(out: &mut impl Write, place: Point) -> io::Result<()> {
+    field(out, place.xi)?;
+    field(out, place.zeta)
+}
+
+pub(crate) fn stress_fields(out: &mut impl Write, stress: Stress) -> io::Result<()> {
+    let Stress { normal, shear_xi, shear_zeta } = stress;
+    [normal, shear_xi, shear_zeta].into_iter().try_for_each(|number| field(out, number))
+}
+
+fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {
+    vector_fields(out, load.force)?;
+    vector_fields(out, load.moment)
+}
