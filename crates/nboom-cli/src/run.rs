@@ -28,7 +28,9 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         warnings.iter().for_each(|warning| say("warning", warning));
     }
     let options = options(args, routines, &file.legacy)?;
-    let run = RunDescription { warnings, ..RunDescription::new(&scene, &options, args.units) };
+    let stress_signs = args.stresses.signs();
+    let description = RunDescription::new(&scene, &options, args.units);
+    let run = RunDescription { warnings, stress_signs, ..description };
     let stresses = stresses.map(|analysis| (analysis, file.legacy.stress_interval));
     let account = simulate_into_files(&scene, &options, run, stresses, args)?;
     Ok(if args.quiet { String::new() } else { account })

@@ -79,7 +79,8 @@ impl RunDirectory {
         every: usize,
     ) -> Result<Self, ResultsError> {
         let hinges = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
-        self.stresses = Some(StressWriter::create(&self.path, hinges, analysis, every)?);
+        self.stresses =
+            Some(StressWriter::create(&self.path, hinges, analysis, every, self.run.stress_signs)?);
         Ok(self)
     }
 

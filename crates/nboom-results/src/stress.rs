@@ -3,12 +3,13 @@ use std::path::{Path, PathBuf};
 
 use nboom_model::HingeLabel;
 use nboom_scalar::Wrench;
-use nboom_sections::{PointStress, Stress};
+use nboom_sections::PointStress;
 use nboom_sim::{LockUpMotion, Snapshot};
 use nboom_strength::{Cause, StationStress, StressAnalysis, Worst};
 
 use crate::number::{field, vector_fields};
 use crate::rows::{self, Output};
+use crate::signs::StressSigns;
 use crate::{ENVELOPE_FILE, HINGE_LOADS_FILE, ResultsError, STRESS_FILE};
 
 const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
@@ -22,13 +23,14 @@ const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
 
 /// Writes `stress.csv` and `hinge_loads.csv` while a run goes on, and the envelope at its end.
 ///
-/// Tension is positive; forces and moments act on what is outboard of a station or hinge, in segment
+/// Stresses have the signs asked for; forces and moments act on what is outboard of a station or hinge, in segment
 /// axes, moments about the point of the station on the η axis or about the hinge point. A row with
 /// the event `lock_up` has peaks: what the motion just before makes, and the pulses.
 #[derive(Debug)]
 pub(crate) struct StressWriter {
     directory: PathBuf,
     pub analysis: StressAnalysis,
+    signs: StressSigns,
     /// Output times from one computation to the next.
     every: usize,
     samples: usize,
@@ -43,6 +45,7 @@ impl StressWriter {
         hinges: Vec<HingeLabel>,
         analysis: StressAnalysis,
         every: usize,
+        signs: StressSigns,
     ) -> Result<Self, ResultsError> {
         let started = |file: &str, header: &str| {
             let path = directory.join(file);
@@ -57,6 +60,7 @@ impl StressWriter {
             stresses: started(STRESS_FILE, STRESS_HEADER)?,
             hinge_loads: started(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
             analysis,
+            signs,
             every: every.max(1),
             samples: 0,
             hinges,
@@ -84,8 +88,11 @@ impl StressWriter {
 
     /// Writes what the analysis has found last.
     fn write(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
-        let Self { stresses, hinges, analysis, .. } = self;
-        let written = write_stations(stresses, hinges, (time, event), analysis.stresses());
+        let Self { stresses, hinges, analysis, signs, .. } = self;
+        let mut of_stations = analysis.stresses().iter();
+        let written = of_stations.try_for_each(|station| {
+            write_station(stresses, hinges[station.segment], (time, event), station, *signs)
+        });
         written.map_err(ResultsError::writing(&self.directory.join(STRESS_FILE)))?;
         let written = self.write_hinges(time, event);
         written.map_err(ResultsError::writing(&self.directory.join(HINGE_LOADS_FILE)))
@@ -128,7 +135,7 @@ impl StressWriter {
                 write!(out, ",lock_up,{},{}", appendage + 1, segment + 1)?;
             }
         }
-        place_fields(out, &worst.severest)?;
+        place_fields(out, &worst.severest, self.signs)?;
         field(out, worst.severest.stress.von_mises())?;
         write!(out, ",{}", worst.driver)?;
         match worst.margin {
@@ -139,36 +146,33 @@ impl StressWriter {
     }
 }
 
-fn write_stations(
+fn write_station(
     out: &mut impl Write,
-    hinges: &[HingeLabel],
+    HingeLabel { appendage, segment }: HingeLabel,
     (time, event): (f64, &str),
-    stations: &[StationStress],
+    station: &StationStress,
+    signs: StressSigns,
 ) -> io::Result<()> {
-    for station in stations {
-        let axis_points = AXIS_POINTS.into_iter().zip(station.axis_points);
-        let points = axis_points.filter_map(|(name, point)| Some((name, point?)));
-        for (name, point) in points.chain([("max", station.severest)]) {
-            let HingeLabel { appendage, segment } = hinges[station.segment];
-            let (appendage, segment) = (appendage + 1, segment + 1);
-            let number = station.station + 1;
-            write!(out, "{time:?},{event},{appendage},{segment},{number},{name}")?;
-            place_fields(out, &point)?;
-            let [largest, smallest] = point.stress.principal();
-            field(out, largest)?;
-            field(out, smallest)?;
-            field(out, point.stress.von_mises())?;
-            load_fields(out, &station.load)?;
-            writeln!(out)?;
-        }
+    let (appendage, segment, number) = (appendage + 1, segment + 1, station.station + 1);
+    let axis_points = AXIS_POINTS.into_iter().zip(station.axis_points);
+    let points = axis_points.filter_map(|(name, point)| Some((name, point?)));
+    for (name, point) in points.chain([("max", station.severest)]) {
+        write!(out, "{time:?},{event},{appendage},{segment},{number},{name}")?;
+        place_fields(out, &point, signs)?;
+        let [largest, smallest] = signs.principal(point.stress);
+        field(out, largest)?;
+        field(out, smallest)?;
+        field(out, point.stress.von_mises())?;
+        load_fields(out, &station.load)?;
+        writeln!(out)?;
     }
     Ok(())
 }
 
 /// Place and stress components.
-fn place_fields(out: &mut impl Write, point: &PointStress) -> io::Result<()> {
-    let Stress { normal, shear_xi, shear_zeta } = point.stress;
-    let numbers = [point.place.xi, point.place.zeta, normal, shear_xi, shear_zeta];
+fn place_fields(out: &mut impl Write, point: &PointStress, signs: StressSigns) -> io::Result<()> {
+    let place = [point.place.xi, point.place.zeta];
+    let numbers = place.into_iter().chain(signs.components(point.stress));
     numbers.into_iter().try_for_each(|number| field(out, number))
 }
 

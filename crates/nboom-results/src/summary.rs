@@ -6,7 +6,7 @@ use nboom_model::{Facts, Scene};
 use nboom_sim::{Conservation, Integration, Selection, Summary};
 use serde::Serialize;
 
-use crate::{ResultsError, UnitSystem};
+use crate::{ResultsError, StressSigns, UnitSystem};
 
 /// What is known about a run before it starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,8 @@ pub struct RunDescription {
     pub samples: usize,
     /// Labels of the scene's units.
     pub units: UnitSystem,
+    /// Which sign stresses have in the files, if there are any.
+    pub stress_signs: StressSigns,
     /// What the scene does not pay for.
     pub skipped: Vec<String>,
     /// What is allowed about the scene but probably not meant.
@@ -42,6 +44,7 @@ impl RunDescription {
             atol: options.atol,
             samples: options.samples,
             units,
+            stress_signs: StressSigns::default(),
             skipped: Facts::of(scene).skipped(),
             warnings: Vec::new(),
         }
@@ -73,6 +76,7 @@ pub struct SummaryFile<'a> {
     atol: f64,
     samples: usize,
     units: &'a str,
+    stress_signs: &'a str,
     complete: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
@@ -147,6 +151,7 @@ impl<'a> SummaryFile<'a> {
             atol: run.atol,
             samples: run.samples,
             units: run.units.name(),
+            stress_signs: run.stress_signs.name(),
             complete: false,
             error: Some("the run is going on or was interrupted"),
             end_time: None,

@@ -153,6 +153,7 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "atol": Options::default().atol,
         "samples": 200,
         "units": "SI",
+        "stress_signs": "tension positive",
         "complete": true,
         "end_time": 10.0,
         "steps_accepted": 7,
