@@ -29,7 +29,7 @@ fn list<'a>(of: &'a Value, key: &str) -> &'a [Value] {
 fn with(slips: &[Slip], options: &Options) -> Collected {
     let slips: Slips = slips.iter().copied().collect();
     let samples = list(&emulation(), "samples").len() - 1;
-    run(&slips.scene(scene()), &Options { samples, ..options.clone() }).0
+    run(&slips.scene(scene()), &Options { samples, ..*options }).0
 }
 
 type OfSnapshot = fn(&Snapshot) -> Vec<f64>;
@@ -168,7 +168,7 @@ fn the_recursion_alone_turns_inertia_so() {
     let kernels = nboom_routines::all();
     let summary = run(&scene, &Options { kernels, ..tight(1) }).1;
     let paths = summary.selections.iter().map(|selection| selection.path);
-    let (first, last) = (paths.clone().next(), paths.clone().last());
+    let (first, last) = (paths.clone().next(), paths.clone().next_back());
     // With arm and paddle held all is rigid, the tensor wrong or not.
     assert_eq!((first, last), (Some("generated"), Some("generated")), "{:?}", summary.selections);
     assert!(paths.clone().any(|path| path == "generic"));
