@@ -8,6 +8,7 @@ mod support;
 mod collect;
 
 mod blocks;
+mod emulation;
 mod events;
 mod kick_off;
 mod loads;

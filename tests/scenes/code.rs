@@ -66,7 +66,8 @@ fn a_closed_form_that_is_demanded_of_a_tree_is_refused() {
             error.to_string(),
             format!(
                 "at time 0.5: formulation {formulation} does not cover hinge 1,2, which belongs \
-                 neither to a chain nor to a paddle; symmetric and recursive cover any tree"
+                 neither to a chain nor to a paddle of rigid bodies; symmetric covers any tree of \
+                 rigid bodies, recursive any scene"
             )
         );
         // Until then it is one boom, which all of them cover.
@@ -97,13 +98,13 @@ fn the_automatic_path_replaces_what_does_not_cover_the_mode() {
     let why = "no articulated routine for topology S1";
     assert_eq!(told(boom), ("generic", "articulated", why));
     let why = "formulation articulated does not cover hinge 1,2, which belongs neither to a chain \
-               nor to a paddle";
+               nor to a paddle of rigid bodies";
     assert_eq!((tree.since, told(tree)), (0.5, ("generic", "recursive", why)));
 
     let (_, summary) = run(&skew(), &asking(Path::Auto, None, nboom_routines::all()));
     let [boom, tree] = &summary.selections[..] else { panic!("{:?}", summary.selections) };
     assert_eq!((boom.path, boom.formulation), ("generated", "articulated"));
-    let why = "no routine: hinge 1,2 belongs neither to a chain nor to a paddle";
+    let why = "no routine: hinge 1,2 belongs neither to a chain nor to a paddle of rigid bodies";
     assert_eq!(told(tree), ("generic", "recursive", why));
 }
 

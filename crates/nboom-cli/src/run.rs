@@ -3,7 +3,9 @@ use std::time::Instant;
 
 use nboom_io::{LegacySettings, SceneFile, read_scene};
 use nboom_model::Scene;
-use nboom_results::{Outcome, RunDescription, RunDirectory, with_causes, write_trust};
+use nboom_results::{
+    Outcome, RunDescription, RunDirectory, StressTables, with_causes, write_trust,
+};
 use nboom_sim::{
     Form, Method, Options, Path, Reference, RkamSettings, Tolerance, Trust, Witness, simulate,
     trust,
@@ -30,7 +32,8 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     }
     let options = options(args, routines, &file.legacy)?;
     let run = RunDescription { warnings, ..RunDescription::new(&scene, &options, args.units) };
-    let stresses = stresses.map(|analysis| (analysis, file.legacy.stress_interval));
+    let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };
+    let stresses = stresses.map(|analysis| (analysis, tables));
     let account = simulate_into_files(&scene, &options, run, stresses, args)?;
     Ok(if args.quiet { String::new() } else { account })
 }
@@ -93,14 +96,14 @@ fn simulate_into_files(
     scene: &Scene,
     options: &Options,
     run: RunDescription,
-    stresses: Option<(StressAnalysis, usize)>,
+    stresses: Option<(StressAnalysis, StressTables)>,
     args: &RunArgs,
 ) -> Result<String, CliError> {
     let directory = args.output.clone().unwrap_or_else(|| default_directory(&scene.name));
     let started = Instant::now();
     let mut files = RunDirectory::create(&directory, scene, run.clone(), args.listing)?;
-    if let Some((analysis, every)) = stresses {
-        files = files.with_stresses(scene, analysis, every)?;
+    if let Some((analysis, tables)) = stresses {
+        files = files.with_stresses(scene, analysis, tables)?;
     }
     let mut watch = Watch {
         files,

@@ -9,8 +9,9 @@ use crate::choice::ChoiceError;
 #[derive(Args, Clone, Copy, Debug)]
 pub struct SlipArgs {
     /// Repeat slips of the original program, so that what it printed can be followed: all, or names
-    /// with commas between them, from paddle-kick-off, load-transfer, tube-inertia, tube-shear,
-    /// product-of-inertia, bending-signs, torsion-arm, closing-wall, level-shear and vertex-before.
+    /// with commas between them, from chain-kick-off, paddle-kick-off, paddle-inertia, load-transfer,
+    /// tube-inertia, tube-shear, product-of-inertia, bending-signs, torsion-arm, closing-wall,
+    /// level-shear and vertex-before.
     /// docs/the-1970-program.md says what each is. The results are wrong on purpose.
     #[arg(long = "as-1970", value_name = "SLIPS", num_args = 0..=1, require_equals = true,
           default_missing_value = ALL, value_parser = slips)]

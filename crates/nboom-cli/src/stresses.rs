@@ -2,6 +2,7 @@
 
 use clap::Args;
 use nboom_io::SceneFile;
+use nboom_results::StressSigns;
 use nboom_scalar::Kernel;
 use nboom_strength::{Settings, Slips, StrengthError, StressAnalysis};
 
@@ -27,9 +28,18 @@ pub struct StressArgs {
     #[arg(long, value_name = "D", default_value = "1", value_parser = choice::positive,
           allow_negative_numbers = true)]
     pub amplification: f64,
+
+    /// Write stresses with the report's signs: compression positive, shear stresses reversed too.
+    #[arg(long)]
+    pub report_signs: bool,
 }
 
 impl StressArgs {
+    /// Which sign stresses have in files.
+    pub(crate) fn signs(&self) -> StressSigns {
+        if self.report_signs { StressSigns::Report } else { StressSigns::Tension }
+    }
+
     /// The analysis that a scene asks for, if it does; `kernels` may have code for its loads.
     ///
     /// # Errors
@@ -40,7 +50,7 @@ impl StressArgs {
         slips: Slips,
         kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
-        let Self { no_stresses, yield_stress, safety_factor, amplification } = *self;
+        let Self { no_stresses, yield_stress, safety_factor, amplification, .. } = *self;
         let structure = file.structure.as_ref().filter(|_| !no_stresses);
         let settings = Settings { amplification, yield_stress, safety_factor, slips };
         let analysis =

@@ -118,3 +118,74 @@ fn sections_and_factors_that_are_none_are_refused() {
         }
     }
 }
+
+fn signs_told(place: &TempDir) -> String {
+    let text = fs::read_to_string(place.path().join("out/summary.json")).expect("written");
+    let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    summary["stresses"]["signs"].as_str().expect("told").to_owned()
+}
+
+/// What files say in the cells of these columns: the same, the opposite, or the opposite of the
+/// column beside.
+fn reversed(rows: &[Vec<String>], opposite: &[usize], exchanged: [usize; 2]) -> Vec<Vec<String>> {
+    let [a, b] = exchanged;
+    let reverse = |row: &Vec<String>| {
+        let mut row = row.clone();
+        row.swap(a, b);
+        for &column in opposite {
+            row[column] = format!("{:?}", -number(&row[column]));
+        }
+        row
+    };
+    let (header, rows) = rows.split_first().expect("a header");
+    [header.clone()].into_iter().chain(rows.iter().map(reverse)).collect()
+}
+
+/// σ₂₂, σ₂₁, σ₂₃ and the principal stresses, of which the largest becomes the smallest.
+#[test]
+fn signs_of_the_report_reverse_all_stresses_and_nothing_else() {
+    let args = ["--samples", "10"];
+    let (_, ours) = run(&deck(), &args);
+    let (output, reports) = run(&deck(), &[&args[..], &["--report-signs"]].concat());
+    assert_eq!(output.status.code(), Some(0));
+    let [stress, hinge_loads, envelope] = FILES;
+    let expected = reversed(&rows(&ours, stress), &[8, 9, 10, 11, 12], [11, 12]);
+    assert_eq!(rows(&reports, stress), expected);
+    assert_ne!(rows(&reports, stress), rows(&ours, stress));
+    let expected = reversed(&rows(&ours, envelope), &[9, 10, 11], [0, 0]);
+    assert_eq!(rows(&reports, envelope), expected);
+    assert_eq!(rows(&reports, hinge_loads), rows(&ours, hinge_loads));
+    assert_eq!(signs_told(&ours), "tension positive");
+    assert_eq!(signs_told(&reports), "compression positive, as in the report");
+}
+
+/// Where the inner boom is held and spun, it is pulled: P_η on what is outboard is negative.
+#[test]
+fn tension_has_the_sign_that_is_told() {
+    for (args, positive) in [(&[][..], true), (&["--report-signs"], false)] {
+        let (_, place) = run(&deck(), args);
+        let stresses = rows(&place, "stress.csv");
+        let last = stresses.last().expect("rows");
+        let pulled = |row: &&Vec<String>| row[0] == last[0] && row[5] != "max";
+        let mean_of = |segment: [&str; 2]| -> (f64, f64) {
+            let of = stresses.iter().filter(pulled).filter(|row| row[2..4] == segment);
+            of.fold((0.0, 0.0), |(p, s), row| (p + number(&row[15]), s + number(&row[8])))
+        };
+        let (p_eta, sigma) = mean_of(["1", "1"]);
+        assert!(p_eta < 0.0 && (sigma > 0.0) == positive, "{args:?}: {p_eta} {sigma}");
+    }
+}
+
+/// Its loads contradict its motion, and it is told so beforehand.
+#[test]
+fn a_run_with_all_slips_of_1970_goes_to_its_end() {
+    let (output, place) = run(&deck(), &["--as-1970", "--samples", "10"]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    assert!(told.contains("wrong on purpose, as in 1970: chain-kick-off, "), "{told}");
+    let events = rows(&place, "events.csv");
+    let last = events.iter().rfind(|row| row[1] == "lock_up").expect("lock-ups");
+    // The emulation's time, which this tolerance meets within 1e-10; one slip alone is off by 1e-3.
+    assert!((number(&last[0]) - 0.328173915).abs() < 1e-8, "{last:?}");
+    assert!(place.path().join("out/stress.csv").exists());
+}

@@ -37,6 +37,7 @@ mod invariants;
 mod pose;
 mod pushing;
 mod recursive;
+mod untransmitted;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};
 pub use invariants::{Invariants, SpringLength};

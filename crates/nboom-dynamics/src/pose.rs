@@ -84,10 +84,13 @@ pub(crate) fn place<R: Real>(
     }
 }
 
-/// Turns the mass properties of every link along with it.
+/// Turns the mass properties of every link along with it, at the hinge angles `beta`.
 #[inline]
-pub(crate) fn turn_inertias<R: Real>(tree: &WeldedTree<R>, poses: &mut [LinkPose<R>]) {
-    for (link, pose) in tree.links.iter().zip(poses) {
+pub(crate) fn turn_inertias<R: Real>(tree: &WeldedTree<R>, beta: &[R], poses: &mut [LinkPose<R>]) {
+    for (link, pose) in tree.links.iter().zip(&mut *poses) {
         pose.inertia = link.inertia.rotated(&pose.rot);
+    }
+    for (link, misturned) in &tree.misturned {
+        poses[*link].inertia.about_origin += misturned.inertia(beta);
     }
 }

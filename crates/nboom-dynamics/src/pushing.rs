@@ -23,7 +23,8 @@ impl<R: Real> PushingSpring<R> {
         pushing.filter_map(|i| Self::of(scene, tree, i)).collect()
     }
 
-    fn of(scene: &Scene, tree: &WeldedTree<R>, i: usize) -> Option<Self> {
+    /// That of hinge `i`, if there is one whose ends move against each other.
+    pub fn of(scene: &Scene, tree: &WeldedTree<R>, i: usize) -> Option<Self> {
         let (member, spring) = (tree.members[i], scene.bodies[i].hinge.kick_off?);
         let in_link = member.rot_link_from_body * Vec3::constant(spring.body_point);
         Some(Self {

@@ -6,6 +6,7 @@ use crate::base::BaseFactor;
 use crate::composite_body;
 use crate::pose::{self, LinkConstants, LinkPose};
 use crate::pushing::PushingSpring;
+use crate::untransmitted::Untransmitted;
 
 /// Rates of the main body and angles and rates of the free hinges, in the order of
 /// [`Recursive::free_hinges`].
@@ -50,6 +51,7 @@ pub struct Recursive<R> {
     pub(crate) tree: WeldedTree<R>,
     pub(crate) constants: Vec<LinkConstants<R>>,
     pushing: Vec<PushingSpring<R>>,
+    untransmitted: Vec<Untransmitted<R>>,
     free: Vec<usize>,
     thrust: Option<Wrench<R>>,
     pub(crate) poses: Vec<LinkPose<R>>,
@@ -73,6 +75,7 @@ impl<R: Real> Recursive<R> {
             tree: WeldedTree::new(scene, &mode, &beta),
             constants: Vec::new(),
             pushing: Vec::new(),
+            untransmitted: Vec::new(),
             free: Vec::new(),
             thrust: None,
             poses: Vec::new(),
@@ -95,6 +98,7 @@ impl<R: Real> Recursive<R> {
         let constants = |link| LinkConstants::new(&self.scene, link);
         self.constants = self.tree.links.iter().map(constants).collect();
         self.pushing = PushingSpring::all(&self.scene, mode, &self.tree);
+        self.untransmitted = Untransmitted::all(&self.scene, mode, &self.tree);
         self.free = self.tree.links.iter().map(|link| link.hinge).collect();
         self.thrust = self.scene.thrust.filter(|_| mode.thrust).map(|thrust| {
             let (point, force) = (Vec3::constant(thrust.point), Vec3::constant(thrust.force));
@@ -173,11 +177,19 @@ impl<R: Real> Recursive<R> {
                 out[j] += pose.axis.dot((end - pose.position).cross(force));
             }
         }
+        self.withhold(out);
+    }
+
+    /// Takes off the torques what kick-off springs do not transmit; everything must be placed.
+    fn withhold(&self, torques: &mut [R]) {
+        for moment in &self.untransmitted {
+            torques[moment.link] -= moment.torque(&self.poses);
+        }
     }
 
     pub(crate) fn place(&mut self, beta: &[R]) {
         pose::place(&self.tree, &self.constants, beta, &mut self.poses);
-        pose::turn_inertias(&self.tree, &mut self.poses);
+        pose::turn_inertias(&self.tree, beta, &mut self.poses);
     }
 
     pub(crate) fn factor(&mut self, beta: &[R]) {
@@ -211,6 +223,7 @@ impl<R: Real> Recursive<R> {
             self.wrenches[spring.link].subtract(Wrench::of_force(arm, force));
             main.add(Wrench::of_force(spring.main_body_point, force));
         }
+        self.withhold(torques);
         if let Some(thrust) = self.thrust {
             main.subtract(thrust);
         }

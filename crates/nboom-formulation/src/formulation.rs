@@ -4,7 +4,7 @@ use nboom_model::{Topology, WeldedTree};
 use nboom_scalar::Real;
 
 use crate::parameters::{Coordinates, Parameters, Solution};
-use crate::recognise::recognise;
+use crate::recognise::{recognise, rigid};
 use crate::section5::{Equations, Place};
 use crate::{articulated, momentum, relative, report, symmetric};
 
@@ -60,11 +60,11 @@ impl Formulation {
     /// Whether it covers the tree.
     ///
     /// # Errors
-    /// The first link (an index of the tree) that it cannot express: all but `symmetric` take
-    /// chains with parallel axes and paddles alone.
+    /// The first link (an index of the tree) that it cannot express: one that is not rigid; all but
+    /// `symmetric` take chains with parallel axes and paddles alone.
     pub fn covers(self, tree: &WeldedTree<f64>) -> Result<(), usize> {
         match self {
-            Self::Symmetric => Ok(()),
+            Self::Symmetric => rigid(tree),
             _ => recognise(tree).map(|_| ()),
         }
     }

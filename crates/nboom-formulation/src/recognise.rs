@@ -21,9 +21,10 @@ const SAME_AXIS: f64 = 1e-12;
 /// Writes the tree as chains and paddles.
 ///
 /// # Errors
-/// The first link (an index of the tree) that does not fit: one of two links on the same
-/// inboard link, or one whose axis is neither that of a chain nor that of a paddle.
+/// The first link (an index of the tree) that does not fit: one that is not rigid, one of two links
+/// on the same inboard link, or one whose axis is neither that of a chain nor that of a paddle.
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
+    rigid(tree)?;
     let mut appendages: Vec<(Shape, Branch<f64>, Vec<usize>)> = Vec::new();
     for root in (0..tree.links.len()).filter(|&j| tree.links[j].inboard.is_none()) {
         appendages.push(appendage(tree, root)?);
@@ -39,6 +40,14 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
         links.extend(of_branch);
     }
     Ok(Recognised { topology, parameters, links })
+}
+
+/// Whether every link is rigid.
+///
+/// # Errors
+/// The first link that is not.
+pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), usize> {
+    tree.misturned.first().map_or(Ok(()), |&(link, _)| Err(link))
 }
 
 /// One appendage: its shape, constants and links.

@@ -4,7 +4,7 @@ use nboom_scalar::Vec3;
 
 use crate::{
     Appendage, Gravity, Hinge, HingeLabel, InitialMotion, MassProperties, ModelError, ModelWarning,
-    Mount, Thrust, error, warning,
+    MotionSlips, Mount, Thrust, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -70,6 +70,7 @@ impl SceneDescription {
 pub struct Scene {
     description: SceneDescription,
     labels: Vec<HingeLabel>,
+    slips: MotionSlips,
 }
 
 impl Scene {
@@ -85,7 +86,8 @@ impl Scene {
         }
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
-        if errors.is_empty() { Ok(Self { description, labels }) } else { Err(errors) }
+        let slips = MotionSlips::default();
+        if errors.is_empty() { Ok(Self { description, labels, slips }) } else { Err(errors) }
     }
 
     /// The scene with another end of the run.
@@ -93,14 +95,32 @@ impl Scene {
     /// # Errors
     /// When that time is not finite or before the initial one.
     pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
-        Self::new(SceneDescription { end_time, ..self.description.clone() })
+        let scene = Self::new(SceneDescription { end_time, ..self.description.clone() })?;
+        Ok(Self { slips: self.slips, ..scene })
     }
 
-    /// The scene without the kick-off springs of these hinges.
+    /// The scene with these slips of the program of 1970 in its motion. Springs that do not act are
+    /// left out.
     #[must_use]
-    pub fn without_kick_off(mut self, hinges: &[usize]) -> Self {
-        hinges.iter().for_each(|&i| self.description.bodies[i].hinge.kick_off = None);
+    pub fn with_slips(mut self, slips: MotionSlips) -> Self {
+        self.slips = slips;
+        if slips.paddle_kick_off {
+            let hinges = 0..self.bodies.len();
+            let with_paddle: Vec<usize> = hinges
+                .clone()
+                .filter(|&i| self.arm_of_paddle(i).is_some())
+                .map(|i| self.label(i).appendage)
+                .collect();
+            for i in hinges.filter(|&i| with_paddle.contains(&self.labels[i].appendage)) {
+                self.description.bodies[i].hinge.kick_off = None;
+            }
+        }
         self
+    }
+
+    /// The slips that the motion repeats.
+    pub fn slips(&self) -> MotionSlips {
+        self.slips
     }
 
     /// What is allowed but probably not meant.
@@ -132,6 +152,13 @@ impl Scene {
             let axis_inboard = body.mount.rot_inboard_from_hinge * body.axis;
             (axis_inboard - self.description.bodies[inboard].axis).norm() < 1e-9
         })
+    }
+
+    /// The arm, if body `i` is a paddle: hinged to a body of the main body, about another axis.
+    pub fn arm_of_paddle(&self, i: usize) -> Option<usize> {
+        let bodies = &self.description.bodies;
+        let inboard = bodies[i].inboard.filter(|&inboard| bodies[inboard].inboard.is_none());
+        inboard.filter(|_| !self.adds_to_inboard_angle(i))
     }
 
     /// Sums along each appendage of hinge angles β or rates τ, in place: α or σ.

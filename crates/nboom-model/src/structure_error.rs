@@ -88,7 +88,10 @@ pub enum StructureDefect {
     #[error("slice with {0}")]
     Slice(MassDefect),
     /// The slices do not add up to the mass of the segment.
-    #[error("slices of mass {found} in all found, {expected} of the segment expected")]
+    #[error(
+        "slices of mass {found} in all found, {expected} of the segment ({} away) expected",
+        rounded(.found - .expected)
+    )]
     Mass {
         /// Of all slices.
         found: f64,
@@ -97,8 +100,8 @@ pub enum StructureDefect {
     },
     /// The mass centre of all slices is not that of the segment.
     #[error(
-        "slices with mass centre {} found, {} of the segment expected",
-        shown(*.found), shown(*.expected)
+        "slices with mass centre {} found, {} of the segment ({} away) expected",
+        shown(*.found), shown(*.expected), rounded((*.found - *.expected).norm())
     )]
     CenterOfMass {
         /// Of all slices.
@@ -108,8 +111,10 @@ pub enum StructureDefect {
     },
     /// The inertia of all slices about their mass centre is not that of the segment.
     #[error(
-        "slices with moments {} and products {} of inertia found, {} and {} of the segment expected",
-        moments(.found), products(.found), moments(.expected), products(.expected)
+        "slices with moments {} and products {} of inertia found, {} and {} of the segment (up to {} \
+         away) expected",
+        moments(.found), products(.found), moments(.expected), products(.expected),
+        rounded((*.found - *.expected).largest_entry())
     )]
     Inertia {
         /// Of all slices.
@@ -129,6 +134,12 @@ fn moments(inertia: &Sym3<f64>) -> String {
 
 fn products(inertia: &Sym3<f64>) -> String {
     shown(Vec3::new(inertia.xy, inertia.xz, inertia.yz))
+}
+
+/// The magnitude of a difference, to four digits.
+fn rounded(difference: f64) -> f64 {
+    let digits = format!("{:.3e}", difference.abs());
+    digits.parse().unwrap_or(difference)
 }
 
 pub(crate) fn find(segment: &SegmentStructure, label: HingeLabel) -> Vec<StructureError> {

@@ -155,21 +155,21 @@ fn slices_that_are_not_the_segment_are_an_error_with_the_difference() {
     heavy.stations[0].slice.mass = 3.5;
     assert_eq!(
         messages(heavy.clone()),
-        ["segment 1,2: slices of mass 3.5 in all found, 3 of the segment expected"]
+        ["segment 1,2: slices of mass 3.5 in all found, 3 of the segment (0.5 away) expected"]
     );
     let mut moved = cut_at(&[0.0]);
     moved.stations[0].slice.center_of_mass.z = 0.25;
     assert_eq!(
         messages(moved),
         ["segment 1,2: slices with mass centre (0, 1, 0.25) found, (0, 1, 0) of the segment \
-          expected"]
+          (0.25 away) expected"]
     );
     let mut slim = cut_at(&[0.0]);
     slim.stations[0].slice.inertia = Sym3::diagonal(0.5, 0.0, 0.5);
     assert_eq!(
         messages(slim),
         ["segment 1,2: slices with moments (0.5, 0, 0.5) and products (0, 0, 0) of inertia \
-          found, (1, 0, 1) and (0, 0, 0) of the segment expected"]
+          found, (1, 0, 1) and (0, 0, 0) of the segment (up to 0.5 away) expected"]
     );
 
     let segments = vec![cut_at(&[0.0]), heavy];

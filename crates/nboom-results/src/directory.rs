@@ -11,7 +11,7 @@ use crate::stress::StressWriter;
 use crate::{
     ENVELOPE_FILE, EVENTS_FILE, EventsWriter, HINGE_LOADS_FILE, LISTING_FILE, ListingWriter,
     ResultsError, RunDescription, STATES_FILE, STRESS_FILE, SUMMARY_FILE, StatesWriter,
-    SummaryFile, TRUST_FILE, with_causes,
+    StressTables, SummaryFile, TRUST_FILE, with_causes,
 };
 
 /// The directory of one run: creates it, writes its tables while the run goes on, and its
@@ -68,7 +68,7 @@ impl RunDirectory {
         Ok(Self { path, run, states, events, listing, stresses: None, instant: None })
     }
 
-    /// Also writes stresses, at every `every`-th output time and at lock-ups, and the worst of them
+    /// Also writes stresses, at output times as `tables` says and at lock-ups, and the worst of them
     /// and of both sides of all events.
     ///
     /// # Errors
@@ -77,10 +77,12 @@ impl RunDirectory {
         mut self,
         scene: &Scene,
         analysis: StressAnalysis,
-        every: usize,
+        tables: StressTables,
     ) -> Result<Self, ResultsError> {
         let hinges = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
-        self.stresses = Some(StressWriter::create(&self.path, hinges, analysis, every)?);
+        self.run.stresses = Some((tables, analysis.generated_for()));
+        self.stresses = Some(StressWriter::create(&self.path, hinges, analysis, tables)?);
+        SummaryFile::unfinished(&self.run).replace(&self.path.join(SUMMARY_FILE))?;
         Ok(self)
     }
 

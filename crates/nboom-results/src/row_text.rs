@@ -6,6 +6,7 @@ use nboom_sections::{Point, Stress};
 use nboom_strength::StationStress;
 
 use crate::number::{field, number, vector_fields};
+use crate::signs::StressSigns;
 
 /// Names of the four axis points in `stress.csv`.
 const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
@@ -13,6 +14,8 @@ const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
 /// Parts of rows that several rows share, so that they are turned into text once.
 #[derive(Debug, Default)]
 pub(crate) struct RowText {
+    /// Of stresses.
+    signs: StressSigns,
     /// Time and event.
     instant: Vec<u8>,
     /// Of each row of a time in `stress.csv`.
@@ -29,6 +32,15 @@ struct Head {
 }
 
 impl RowText {
+    pub fn new(signs: StressSigns) -> Self {
+        Self { signs, ..Self::default() }
+    }
+
+    /// σ₂₂, σ₂₁ and σ₂₃ as they are written.
+    pub fn components(&self, stress: Stress) -> [f64; 3] {
+        self.signs.components(stress)
+    }
+
     /// The rows that are added next have this time and event.
     pub fn set_instant(&mut self, time: f64, event: &str) -> io::Result<()> {
         self.instant.clear();
@@ -59,8 +71,8 @@ impl RowText {
                     name,
                     point.place,
                 )?);
-                stress_fields(out, point.stress)?;
-                let [largest, smallest] = point.stress.principal();
+                stress_fields(out, self.components(point.stress))?;
+                let [largest, smallest] = self.signs.principal(point.stress);
                 field(out, largest)?;
                 field(out, smallest)?;
                 field(out, point.stress.von_mises())?;
@@ -117,9 +129,8 @@ pub(crate) fn place_fields(out: &mut impl Write, place: Point) -> io::Result<()>
     field(out, place.zeta)
 }
 
-pub(crate) fn stress_fields(out: &mut impl Write, stress: Stress) -> io::Result<()> {
-    let Stress { normal, shear_xi, shear_zeta } = stress;
-    [normal, shear_xi, shear_zeta].into_iter().try_for_each(|number| field(out, number))
+pub(crate) fn stress_fields(out: &mut impl Write, components: [f64; 3]) -> io::Result<()> {
+    components.into_iter().try_for_each(|number| field(out, number))
 }
 
 fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {

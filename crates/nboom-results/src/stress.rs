@@ -8,6 +8,7 @@ use nboom_strength::{Cause, StressAnalysis, Worst};
 use crate::number::{field, number};
 use crate::row_text::{RowText, place_fields, stress_fields};
 use crate::rows::{self, LongTable, Output};
+use crate::signs::StressSigns;
 use crate::{ENVELOPE_FILE, HINGE_LOADS_FILE, ResultsError, STRESS_FILE};
 
 const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
@@ -16,11 +17,20 @@ const HINGE_LOADS_HEADER: &str = "t,event,appendage,segment,p_xi,p_eta,p_zeta,q_
 const ENVELOPE_HEADER: &str = "appendage,segment,station,t,event,event_appendage,event_segment,xi,\
      zeta,sigma_22,sigma_21,sigma_23,von_mises,driver,margin";
 
+/// How stresses are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StressTables {
+    /// Output times from one computation to the next; 0 counts as 1.
+    pub every: usize,
+    /// Which sign they have.
+    pub signs: StressSigns,
+}
+
 /// Writes `stress.csv` and `hinge_loads.csv` while a run goes on, and the envelope at its end.
 ///
-/// Tension is positive; forces and moments act on what is outboard of a station or hinge, in segment
-/// axes, moments about the point of the station on the η axis or about the hinge point. A row with
-/// the event `lock_up` has peaks: what the motion just before makes, and the pulses.
+/// Forces and moments act on what is outboard of a station or hinge, in segment axes, moments about
+/// the point of the station on the η axis or about the hinge point. A row with the event `lock_up` has
+/// peaks: what the motion just before makes, and the pulses.
 #[derive(Debug)]
 pub(crate) struct StressWriter {
     directory: PathBuf,
@@ -39,7 +49,7 @@ impl StressWriter {
         directory: &Path,
         hinges: Vec<HingeLabel>,
         analysis: StressAnalysis,
-        every: usize,
+        StressTables { every, signs }: StressTables,
     ) -> Result<Self, ResultsError> {
         Ok(Self {
             directory: directory.to_owned(),
@@ -49,7 +59,7 @@ impl StressWriter {
             every: every.max(1),
             samples: 0,
             hinges,
-            text: RowText::default(),
+            text: RowText::new(signs),
         })
     }
 
@@ -123,7 +133,7 @@ impl StressWriter {
             }
         }
         place_fields(out, worst.severest.place)?;
-        stress_fields(out, worst.severest.stress)?;
+        stress_fields(out, self.text.components(worst.severest.stress))?;
         field(out, worst.severest.stress.von_mises())?;
         write!(out, ",{}", worst.driver)?;
         match worst.margin {

@@ -6,7 +6,7 @@ use nboom_model::{Facts, Scene};
 use nboom_sim::{Conservation, Integration, Selection, Summary};
 use serde::Serialize;
 
-use crate::{ResultsError, UnitSystem};
+use crate::{ResultsError, StressTables, UnitSystem};
 
 /// What is known about a run before it starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +25,8 @@ pub struct RunDescription {
     pub samples: usize,
     /// Labels of the scene's units.
     pub units: UnitSystem,
+    /// How stresses are written, and the instruction set of the generated code that finds loads.
+    pub stresses: Option<(StressTables, Option<&'static str>)>,
     /// What the scene does not pay for.
     pub skipped: Vec<String>,
     /// What is allowed about the scene but probably not meant.
@@ -42,6 +44,7 @@ impl RunDescription {
             atol: options.atol,
             samples: options.samples,
             units,
+            stresses: None,
             skipped: Facts::of(scene).skipped(),
             warnings: Vec::new(),
         }
@@ -73,6 +76,8 @@ pub struct SummaryFile<'a> {
     atol: f64,
     samples: usize,
     units: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stresses: Option<StressKeys>,
     complete: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
@@ -119,6 +124,23 @@ impl From<&Integration> for IntegrationKeys {
 }
 
 #[derive(Clone, Debug, Serialize)]
+struct StressKeys {
+    signs: &'static str,
+    path: &'static str,
+    reason: String,
+}
+
+impl From<(StressTables, Option<&'static str>)> for StressKeys {
+    fn from((tables, generated_for): (StressTables, Option<&'static str>)) -> Self {
+        let (path, reason) = match generated_for {
+            Some(instructions) => ("generated", format!("{instructions} code for this scene")),
+            None => ("generic", "no code was generated for this scene".to_owned()),
+        };
+        Self { signs: tables.signs.name(), path, reason }
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
 struct ConservationKeys {
     linear_momentum: f64,
     angular_momentum: f64,
@@ -147,6 +169,7 @@ impl<'a> SummaryFile<'a> {
             atol: run.atol,
             samples: run.samples,
             units: run.units.name(),
+            stresses: run.stresses.map(StressKeys::from),
             complete: false,
             error: Some("the run is going on or was interrupted"),
             end_time: None,

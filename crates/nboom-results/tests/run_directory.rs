@@ -9,7 +9,8 @@ use nboom_model::{
     Segment, SegmentStructure, Station, Structure,
 };
 use nboom_results::{
-    Outcome, ResultsError, RunDescription, RunDirectory, UnitSystem, path_and_formulation,
+    Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables, UnitSystem,
+    path_and_formulation,
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
@@ -259,7 +260,9 @@ fn analysis() -> StressAnalysis {
 fn no_row_of_stresses_is_on_the_disk_before_the_states_of_its_time() {
     let place = tempfile::tempdir().expect("a directory");
     let directory = create(place.path(), false).expect("writable");
-    let mut directory = directory.with_stresses(&scene(), analysis(), 1).expect("writable");
+    let mut directory = directory
+        .with_stresses(&scene(), analysis(), StressTables { every: 1, signs: StressSigns::Tension })
+        .expect("writable");
     let rows_on_disk = |file: &str| {
         let text = fs::read_to_string(place.path().join(file)).expect("a table");
         text.matches('\n').count().saturating_sub(1)

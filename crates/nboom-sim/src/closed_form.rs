@@ -17,11 +17,11 @@ pub(crate) struct ClosedForm<R> {
     torques: Vec<R>,
 }
 
-/// A formulation is written for chains and paddles, and the mode is not made of them.
+/// A formulation is written for chains and paddles of rigid bodies, and the mode is not made of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "formulation {formulation} does not cover hinge {hinge}, which belongs neither to a chain nor \
-     to a paddle"
+     to a paddle of rigid bodies"
 )]
 pub struct NotCovered {
     /// The formulation.

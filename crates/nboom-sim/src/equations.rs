@@ -64,7 +64,8 @@ impl Equations {
             rates: Rates::new(scene, layout, &[], None),
             jacobian: None,
             series: None,
-            momentum_for_rate: options.integrator.keeps_invariants(),
+            momentum_for_rate: options.integrator.keeps_invariants()
+                && !scene.slips().paddle_inertia,
         }
     }
 

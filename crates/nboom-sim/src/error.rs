@@ -56,7 +56,9 @@ pub enum SimError {
         source: NoRoutine,
     },
     /// A closed form was demanded that does not cover the mode.
-    #[error("at time {time}: {source}; symmetric and recursive cover any tree")]
+    #[error(
+        "at time {time}: {source}; symmetric covers any tree of rigid bodies, recursive any scene"
+    )]
     NotCovered {
         /// Time from which on.
         time: f64,

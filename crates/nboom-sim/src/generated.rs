@@ -28,8 +28,11 @@ struct Place {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoRoutine {
-    /// The mode is not made of chains and paddles.
-    #[error("no {}: hinge {hinge} belongs neither to a chain nor to a paddle", routine(.form))]
+    /// The mode is not made of chains and paddles of rigid bodies.
+    #[error(
+        "no {}: hinge {hinge} belongs neither to a chain nor to a paddle of rigid bodies",
+        routine(.form)
+    )]
     Tree {
         /// The formulation asked for.
         form: Option<Form>,

@@ -1,11 +1,15 @@
-use nboom_model::Scene;
+use nboom_model::{MotionSlips, Scene};
 use nboom_sections::report::SectionSlips;
 
 /// A slip of the program of 1970 that can be asked for; `docs/the-1970-program.md` has the evidence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slip {
+    /// Kick-off springs of chains turned hinges with the forces that belong to α.
+    ChainKickOff,
     /// Kick-off springs did not act on paddles.
     PaddleKickOff,
+    /// The inertia of paddles was turned by two rotations in the wrong order.
+    PaddleInertia,
     /// Loads were handed inboard turned by the angle of the wrong hinge.
     LoadTransfer,
     /// Tubes bent with half of their second moment of area.
@@ -28,8 +32,10 @@ pub enum Slip {
 
 impl Slip {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
+        Self::ChainKickOff,
         Self::PaddleKickOff,
+        Self::PaddleInertia,
         Self::LoadTransfer,
         Self::TubeInertia,
         Self::TubeShear,
@@ -44,7 +50,9 @@ impl Slip {
     /// The name on the command line and in the document.
     pub fn name(self) -> &'static str {
         match self {
+            Self::ChainKickOff => "chain-kick-off",
             Self::PaddleKickOff => "paddle-kick-off",
+            Self::PaddleInertia => "paddle-inertia",
             Self::LoadTransfer => "load-transfer",
             Self::TubeInertia => "tube-inertia",
             Self::TubeShear => "tube-shear",
@@ -97,19 +105,13 @@ impl Slips {
         }
     }
 
-    /// The scene that the original moved instead of `scene`: with [`Slip::PaddleKickOff`] without the
-    /// kick-off springs of appendages that have a paddle.
+    /// The scene that the original moved instead of `scene`.
     pub fn scene(self, scene: Scene) -> Scene {
-        if !self.contains(Slip::PaddleKickOff) {
-            return scene;
-        }
-        let hinges = 0..scene.bodies.len();
-        let is_paddle =
-            |i: &usize| scene.bodies[*i].inboard.is_some() && !scene.adds_to_inboard_angle(*i);
-        let appendage = |i: usize| scene.label(i).appendage;
-        let with_paddle: Vec<usize> = hinges.clone().filter(is_paddle).map(appendage).collect();
-        let pushed: Vec<usize> = hinges.filter(|&i| with_paddle.contains(&appendage(i))).collect();
-        scene.without_kick_off(&pushed)
+        scene.with_slips(MotionSlips {
+            chain_kick_off: self.contains(Slip::ChainKickOff),
+            paddle_kick_off: self.contains(Slip::PaddleKickOff),
+            paddle_inertia: self.contains(Slip::PaddleInertia),
+        })
     }
 }
 

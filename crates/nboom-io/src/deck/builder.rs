@@ -1,4 +1,4 @@
-use nboom_model::{Appendage, MassProperties, Mount, SceneDescription};
+use nboom_model::{Appendage, MassProperties, Mount, SceneDescription, SegmentStructure};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::angles;
@@ -20,6 +20,8 @@ pub(crate) struct Builder<'v, 'r, 'f> {
     pub values: &'v Values,
     pub sizes: Sizes,
     pub report: &'r mut Report<'f>,
+    /// Of each segment, where the stress groups are read.
+    pub structures: Option<Vec<SegmentStructure>>,
 }
 
 impl Builder<'_, '_, '_> {
@@ -56,7 +58,12 @@ impl Builder<'_, '_, '_> {
         }
     }
 
+    /// EMIK, CNIK and HIIK of a segment, or the sum of its slices.
     pub fn segment_mass(&mut self, i: usize) -> MassProperties {
+        let structure = self.structures.as_ref().filter(|_| self.values.is_by_slices(i));
+        if let Some(sum) = structure.and_then(|structures| structures[i].mass_properties()) {
+            return sum;
+        }
         let segments = self.sizes.segments;
         let component = |j| self.values.real("CNIK", i + j * segments);
         let center_of_mass = Vec3::new(component(0), component(1), component(2));

@@ -52,13 +52,13 @@ type Parts = (Scene, crate::LegacySettings, Option<Structure>);
 
 /// The parts of a scene; what is wrong is reported, and stand-ins let the rest be checked.
 fn assemble(name: &str, values: &Values, sizes: Sizes, report: &mut Report<'_>) -> Option<Parts> {
-    let mut builder = Builder { values, sizes, report };
-    let description = builder.description(name);
+    let mut builder = Builder { values, sizes, report, structures: None };
     let legacy = builder.settings();
-    let segments = builder.stress(&legacy);
+    builder.structures = builder.stress();
+    let description = builder.description(name);
     match Scene::new(description) {
         Ok(scene) => {
-            let structure = segments.and_then(|segments| builder.structure(&scene, segments));
+            let structure = builder.structure(&scene);
             Some((scene, legacy, structure))
         }
         Err(errors) => {

@@ -1,5 +1,6 @@
 use nboom_model::{BodyName, HingeLabel, ModelError};
 
+use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
 use super::values::plain;
 
@@ -68,7 +69,9 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
         }
         ModelError::Mass { body: BodyName::Segment(label), .. } => {
             let i = number(*label);
-            if builder.values.get("EMIK", i).is_none_or(|mass| mass > 0.0) {
+            if builder.values.is_by_slices(i) {
+                ("DELM", MOST_STATIONS * i)
+            } else if builder.values.get("EMIK", i).is_none_or(|mass| mass > 0.0) {
                 ("HIIK", 9 * i)
             } else {
                 ("EMIK", i)

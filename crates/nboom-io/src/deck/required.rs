@@ -13,7 +13,9 @@ pub(crate) fn check(values: &Values, report: &mut Report<'_>) {
     } else {
         ("ALIK", [("BETAIK", "IAB is not 0"), ("TAUIK", "IAB is not 0")])
     };
-    require(read, values, report);
+    for name in [read, "EMIK", "HIIK"] {
+        require(name, values, report);
+    }
     warn_ignored(&ignored, values, report);
     if values.real("IXYZ", 0) == 1.0 {
         require("EMO", values, report);
@@ -44,23 +46,40 @@ fn check_symbol(symbol: &'static Symbol, values: &Values, report: &mut Report<'_
         return;
     }
     let count = sizes.extents(symbol).iter().product();
-    let missing = |&i: &usize| values.cell(key, i).is_none() && !may_be_left_out(symbol, i);
+    let missing = |&i: &usize| values.cell(key, i).is_none() && !may_be_left_out(symbol, i, values);
     let Some(first) = (0..count).find(missing) else { return };
     let at = values.position(key, first);
+    let or_slices = match segment_of_mass(symbol, first) {
+        Some(i) if values.has_slices() => format!(
+            ", or none of EMIK, CNIK and HIIK for segment {}, whose slices then say them",
+            i + 1
+        ),
+        _ => String::new(),
+    };
     if values.is_given(symbol.name) {
         let more = (first + 1..count).filter(missing).count();
         let and_more = if more > 0 { format!(" ({more} more are missing)") } else { String::new() };
         let label = values.label(key, first);
-        report.error(at, &label, "nothing", format!("a value{and_more}"));
+        report.error(at, &label, "nothing", format!("a value{and_more}{or_slices}"));
     } else {
-        let expected = if count == 1 { "a value".to_owned() } else { format!("{count} values") };
-        report.error(at, symbol.name, "nothing", expected);
+        let values = if count == 1 { "a value".to_owned() } else { format!("{count} values") };
+        report.error(at, symbol.name, "nothing", format!("{values}{or_slices}"));
     }
 }
 
-/// Products of inertia, which most decks have as zero.
-fn may_be_left_out(symbol: &Symbol, index: usize) -> bool {
-    matches!(symbol.name, "HM" | "HIIK") && !matches!(index % 9, 0 | 4 | 8)
+/// Products of inertia, which most decks have as zero, and what slices say.
+fn may_be_left_out(symbol: &Symbol, index: usize, values: &Values) -> bool {
+    let is_product = matches!(symbol.name, "HM" | "HIIK") && !matches!(index % 9, 0 | 4 | 8);
+    is_product || segment_of_mass(symbol, index).is_some_and(|i| values.is_by_slices(i))
+}
+
+/// The segment, from 0, whose mass or inertia an element is.
+fn segment_of_mass(symbol: &Symbol, index: usize) -> Option<usize> {
+    match symbol.name {
+        "EMIK" => Some(index),
+        "HIIK" => Some(index / 9),
+        _ => None,
+    }
 }
 
 fn warn_ignored(

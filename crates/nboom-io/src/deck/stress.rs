@@ -10,7 +10,6 @@ use super::model_error;
 use super::shown;
 use super::symbols::Group;
 use super::values::{Key, plain};
-use crate::LegacySettings;
 
 /// Vertices of a section, at most.
 const MOST_VERTICES: usize = 6;
@@ -18,22 +17,19 @@ const MOST_VERTICES: usize = 6;
 /// What is expected of most numbers of the stress groups.
 const POSITIVE: &str = "a positive value";
 
-/// The structure of a deck's segments, in the order of the scene's bodies.
-type Segments = Vec<SegmentStructure>;
-
 impl Builder<'_, '_, '_> {
     /// The stress groups, Table 16.1, if stresses are asked for and the groups are there; what is
     /// wrong with them is reported.
-    pub fn stress(&mut self, settings: &LegacySettings) -> Option<Segments> {
+    pub fn stress(&mut self) -> Option<Vec<SegmentStructure>> {
+        if self.values.has_slices() {
+            return Some((0..self.sizes.segments).map(|i| self.stress_segment(i)).collect());
+        }
         let position = |group| self.values.groups.get(&group).copied();
         let present = (position(Group::Dynsta), position(Group::Dynstb));
-        let wanted = settings.stress_interval > 0;
+        let wanted = self.values.wants_stresses();
         match present {
-            (Some(_), Some(_)) if wanted => {
-                return Some((0..self.sizes.segments).map(|i| self.stress_segment(i)).collect());
-            }
             (None, None) if wanted => {
-                let interval = settings.stress_interval.to_string();
+                let interval = shown(self.values.real("INSTR", 0));
                 let expected = "&DYNSTA and &DYNSTB after it; no stresses are computed";
                 self.warn(plain("INSTR"), 0, interval, expected);
             }
@@ -54,8 +50,8 @@ impl Builder<'_, '_, '_> {
 
     /// The structure of `scene`, whose motion goes by the segments; slices that differ from them
     /// are worth a warning.
-    pub fn structure(&mut self, scene: &Scene, segments: Segments) -> Option<Structure> {
-        let checked = Structure::with_differing_slices(scene, segments);
+    pub fn structure(&mut self, scene: &Scene) -> Option<Structure> {
+        let checked = Structure::with_differing_slices(scene, self.structures.take()?);
         // Errors have been reported segment by segment.
         let (structure, differences) = checked.ok()?;
         differences.iter().for_each(|difference| self.report_structure(difference, Self::warn));

@@ -146,6 +146,7 @@ const POINTS: &[Extent] = &[Fixed(3), Segments];
 const FRAMES: &[Extent] = &[Fixed(3), Appendages];
 const STATIONS: &[Extent] = &[Fixed(5), Segments];
 const WALLS: &[Extent] = &[Fixed(6), Fixed(5)];
+const MASS: Absent = ErrorWhen("no slices say it, or EMIK, CNIK or HIIK of the segment is given");
 const STRESS: Absent = ErrorWhen("INSTR is above 0 and the station exists");
 
 /// Every name a deck may contain, Table 16.1.
@@ -177,9 +178,9 @@ pub const SYMBOLS: &[Symbol] = &[
     row(Nxput, "DBK", FRAMES, Real, "L", Error, "first hinge point, body axes"),
     row(Nxput, "FTSIK", FRAMES, Real, "D", Error, "psi, theta, phi of the appendage axes, eq. (9.6)"),
     row(Nxput, "ELIK", N, Real, "L", Error, "length from hinge to hinge"),
-    row(Nxput, "EMIK", N, Real, "FT2/L", Error, "mass"),
-    row(Nxput, "HIIK", &[Fixed(3), Fixed(3), Segments], Real, "FLT2", Error, "inertia about the mass centre, segment axes; products may be left out"),
-    row(Nxput, "CNIK", &[Segments, Fixed(3)], Real, "L", Is(0.0), "mass centre from the inboard hinge, segment axes"),
+    row(Nxput, "EMIK", N, Real, "FT2/L", MASS, "mass"),
+    row(Nxput, "HIIK", &[Fixed(3), Fixed(3), Segments], Real, "FLT2", MASS, "inertia about the mass centre, segment axes; products may be left out"),
+    row(Nxput, "CNIK", &[Segments, Fixed(3)], Real, "L", Means("0, unless slices say it"), "mass centre from the inboard hinge, segment axes"),
     row(Nxput, "EMM", ONE, Real, "FT2/L", Error, "mass of the main body"),
     row(Nxput, "HM", MATRIX, Real, "FLT2", Error, "inertia of the main body about its mass centre; products may be left out"),
     row(Nxput, "BBM", THREE, Real, "L", Is(0.0), "mass centre of the main body from O"),

@@ -111,6 +111,28 @@ impl Values {
         cells.iter().flatten().any(|cell| cell.value != 0.0)
     }
 
+    /// Whether the deck asks for stresses.
+    pub fn wants_stresses(&self) -> bool {
+        self.real("INSTR", 0) > 0.0
+    }
+
+    /// Whether the stress groups are there and asked for, and with them the slices of all segments.
+    pub fn has_slices(&self) -> bool {
+        let is_there = |group| self.groups.contains_key(&group);
+        self.wants_stresses() && is_there(Group::Dynsta) && is_there(Group::Dynstb)
+    }
+
+    /// Whether nothing but its slices says how much mass segment `i`, from 0, has and where.
+    pub fn is_by_slices(&self, i: usize) -> bool {
+        let segments = self.sizes.map_or(0, |sizes| sizes.segments);
+        let is_silent =
+            |name, mut indices: Range<usize>| indices.all(|index| self.get(name, index).is_none());
+        self.has_slices()
+            && is_silent("EMIK", i..i + 1)
+            && (0..3).all(|j| self.get("CNIK", i + j * segments).is_none())
+            && is_silent("HIIK", 9 * i..9 * (i + 1))
+    }
+
     /// Where an element is given; failing that its symbol, its group, the deck.
     pub fn position(&self, key: Key, index: usize) -> Position {
         let array = self.arrays.get(&key);

@@ -41,7 +41,8 @@ fn values_given_twice_and_slices_that_are_not_the_segment_are_worth_a_warning() 
         "DLI31(1,1)",
     ];
     assert_eq!(symbols, expected);
-    assert!(slices[2].ends_with("found slices of mass 0.2 in all, expected 0.5 of the segment"));
+    let of_paddle = "found slices of mass 0.2 in all, expected 0.5 of the segment (0.3 away)";
+    assert!(slices[2].ends_with(of_paddle), "{}", slices[2]);
     let moments = file.structure.expect("the deck asks for stresses").segments()[1]
         .mass_properties()
         .expect("the segment has stations")

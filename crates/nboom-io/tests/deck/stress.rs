@@ -3,8 +3,7 @@
 use super::{REPORT_DECK, errors, lines, read, replaced};
 
 fn changed(old: &str, new: &str) -> String {
-    assert_eq!(REPORT_DECK.matches(old).count(), 1, "{old}");
-    REPORT_DECK.replace(old, new)
+    with_changes(REPORT_DECK, &[(old, new)])
 }
 
 fn without_groups() -> String {
@@ -109,4 +108,90 @@ fn spelling_is_checked_even_when_no_stresses_are_wanted() {
         lines(&errors(&deck)),
         ["a.nml:18:2: &DYNSTA: found `BAD`, expected a symbol of the deck"]
     );
+}
+
+fn with_changes(deck: &str, changes: &[(&str, &str)]) -> String {
+    let change = |deck: String, &(old, new): &(&str, &str)| {
+        assert_eq!(deck.matches(old).count(), 1, "{old}");
+        deck.replace(old, new)
+    };
+    changes.iter().fold(deck.to_owned(), change)
+}
+
+/// The report's deck without EMIK, CNIK and HIIK of segment 1, whose one slice they repeat.
+fn with_slices_alone() -> String {
+    let changes = [
+        ("EMIK=.5,.4", "EMIK(2)=.4"),
+        ("HIIK=10.0,3*0.0,5.0,3*0.0,10.0,\n 45.0", "HIIK(1,1,2)=\n 45.0"),
+        ("CNIK(1,2)=10.0,", ""),
+    ];
+    with_changes(REPORT_DECK, &changes)
+}
+
+#[test]
+fn a_segment_with_slices_alone_has_the_mass_of_its_slices() {
+    let (with_both, with_slices) = (read(REPORT_DECK), read(&with_slices_alone()));
+    assert_eq!(with_slices.scene, with_both.scene);
+    assert_eq!(with_slices.structure, with_both.structure);
+    assert_eq!(with_slices.warnings, with_both.warnings);
+}
+
+/// Segment 2 has three slices, which in the report's deck do not add up to it.
+#[test]
+fn several_slices_alone_are_a_segment_as_one_and_differ_from_nothing() {
+    let changes = [
+        ("EMIK(2)=.4,", "EMIK(3)="),
+        ("HIIK(1,1,2)=\n 45.0,3*0.0,40.0,3*0.0,85.0,", "HIIK(1,1,3)=\n "),
+        ("CNIK(2,2)=10.0,", ""),
+    ];
+    let differing = |deck: &str| {
+        let warnings = read(deck).warnings.into_iter();
+        warnings.filter(|warning| warning.found.starts_with("slices")).count()
+    };
+    let deck = with_changes(&with_slices_alone(), &changes);
+    // Mass, mass centre and inertia of segment 2.
+    assert_eq!((differing(REPORT_DECK), differing(&deck)), (7, 4));
+    let body = read(&deck).scene.bodies[1].mass_properties;
+    let centre = (0.001 * 20.0 + 0.2 * 15.0 + 0.2 * 5.0) / 0.401;
+    assert!((body.mass - 0.401).abs() < 1e-15, "{body:?}");
+    assert!((body.center_of_mass.y - centre).abs() < 1e-14, "{body:?}");
+}
+
+#[test]
+fn a_segment_with_a_part_of_its_mass_properties_is_refused() {
+    let slices = "or none of EMIK, CNIK and HIIK for segment 1, whose slices then say them";
+    let mass = " EMIK(1)=.5,\n &END\n &DYNSTA";
+    let centre = " CNIK(1,2)=10.0,\n &END\n &DYNSTA";
+    let product = " HIIK(1,2,1)=0.0,\n &END\n &DYNSTA";
+    for (cards, symbols) in [
+        (mass, &["HIIK(1,1,1)"][..]),
+        (centre, &["EMIK(1)", "HIIK(1,1,1)"]),
+        (product, &["EMIK(1)", "HIIK(1,1,1)"]),
+    ] {
+        let deck = with_changes(&with_slices_alone(), &[(" &END\n &DYNSTA", cards)]);
+        let errors = errors(&deck);
+        let found: Vec<&str> = errors.iter().map(|error| &*error.symbol).collect();
+        assert_eq!(found, symbols, "{errors:?}");
+        for error in errors {
+            assert_eq!(error.found, "nothing");
+            assert!(error.line > 1 && error.expected.ends_with(slices), "{error}");
+        }
+    }
+}
+
+#[test]
+fn slices_that_are_not_read_say_no_mass() {
+    let deck = with_slices_alone().replace("INSTR=3", "INSTR=0");
+    let errors = errors(&deck);
+    let told: Vec<(&str, &str)> = errors.iter().map(|e| (&*e.symbol, &*e.expected)).collect();
+    let values = [("EMIK(1)", "a value"), ("HIIK(1,1,1)", "a value (2 more are missing)")];
+    assert_eq!(told, values);
+}
+
+#[test]
+fn slices_without_mass_are_no_body() {
+    let deck = with_slices_alone().replace("DELM(1,1)=.5", "DELM(1,1)=0.0");
+    let errors = errors(&deck);
+    let told: Vec<(&str, &str)> = errors.iter().map(|e| (&*e.symbol, &*e.found)).collect();
+    assert_eq!(told, [("DELM(1,1)", "mass 0")]);
 }
