@@ -14,7 +14,7 @@ pub struct Polygon {
     walls: Vec<Wall>,
     properties: Properties,
     signed_area: f64,
-    axis_points: [Option<(usize, f64)>; 4],
+    axis_points: Box<[Option<(usize, f64)>; 4]>,
 }
 
 impl Polygon {
@@ -44,7 +44,8 @@ impl Polygon {
             return Err(vec![SectionError::Range]);
         }
         let axes = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-        let axis_points = axes.map(|(xi, zeta)| axis_point(&walls, centroid, Point { xi, zeta }));
+        let axis_point = |(xi, zeta)| axis_point(&walls, centroid, Point { xi, zeta });
+        let axis_points = Box::new(axes.map(axis_point));
         Ok(Self { walls, properties, signed_area, axis_points })
     }
 
@@ -94,7 +95,7 @@ impl Polygon {
     /// The axis points at 0, 90, 180 and 270 degrees from ξ towards ζ, as a wall and a place on it:
     /// where rays from the centroid leave the section. A section that is not convex may lack some.
     pub fn axis_points(&self) -> [Option<(usize, f64)>; 4] {
-        self.axis_points
+        *self.axis_points
     }
 }
 
