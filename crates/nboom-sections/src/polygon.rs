@@ -44,8 +44,9 @@ impl Polygon {
             return Err(vec![SectionError::Range]);
         }
         let axes = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-        let axis_points = axes.map(|(xi, zeta)| axis_point(&walls, centroid, Point { xi, zeta }));
-        Ok(Self { walls, properties, signed_area, axis_points: Box::new(axis_points) })
+        let axis_point = |(xi, zeta)| axis_point(&walls, centroid, Point { xi, zeta });
+        let axis_points = Box::new(axes.map(axis_point));
+        Ok(Self { walls, properties, signed_area, axis_points })
     }
 
     /// Its walls, in their order.
