@@ -133,7 +133,8 @@ fn reversed(rows: &[Vec<String>], opposite: &[usize], exchanged: [usize; 2]) -> 
         let mut row = row.clone();
         row.swap(a, b);
         for &column in opposite {
-            row[column] = format!("{:?}", -number(&row[column]));
+            let negative = row[column].strip_prefix('-').map(str::to_owned);
+            row[column] = negative.unwrap_or_else(|| format!("-{}", row[column]));
         }
         row
     };

@@ -1,46 +1,18 @@
 //! A directory for one test, and the program run in it with a limit on memory and time.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
-use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
-
 /// The 1970 report's deck, on which the bad ones are made.
-pub const REPORT_DECK: &str = include_str!("../../examples/n-boom-1970.nml");
+pub const REPORT_DECK: &str = include_str!("../../../../examples/n-boom-1970.nml");
 
 /// All the memory that a wrong deck may take, the program's own text included \[kB\].
 const MEMORY: u64 = 200 * 1024;
 
 /// Refusing takes well under a second; this only catches what hangs, on the slowest machine.
 const PATIENCE: Duration = Duration::from_secs(10);
-
-/// The program, built once in the profile of this test.
-fn program() -> &'static Path {
-    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        let test = std::env::current_exe().expect("the test has a file");
-        let is_release = test.components().any(|part| part.as_os_str() == "release");
-        let mut cargo = Command::new(env!("CARGO"));
-        // As the tests themselves are built, or everything would be compiled again.
-        cargo.args(["build", "--workspace", "--bin", "nboom"]);
-        cargo.args(["--message-format", "json"]).current_dir(env!("CARGO_MANIFEST_DIR"));
-        if is_release {
-            cargo.arg("--release");
-        }
-        let output = cargo.stderr(Stdio::inherit()).output().expect("cargo runs");
-        assert!(output.status.success(), "the program does not build");
-        let messages = String::from_utf8(output.stdout).expect("messages are text");
-        let executable = |line: &str| {
-            let message: Value = serde_json::from_str(line).ok()?;
-            let of_nboom = message["target"]["name"] == "nboom";
-            Some(PathBuf::from(message["executable"].as_str().filter(|_| of_nboom)?))
-        };
-        messages.lines().find_map(executable).expect("cargo names the program")
-    })
-}
 
 /// A directory that goes away with the test.
 pub struct Place {
@@ -77,11 +49,10 @@ impl Place {
     }
 
     fn limited(&self, limit: &str, args: &[&str]) -> Finished {
-        let program = program();
         let started = Instant::now();
         let output = Command::new("sh")
             .args(["-c", &format!("{limit}ulimit -v {MEMORY} && exec \"$0\" \"$@\"")])
-            .arg(program)
+            .arg(env!("CARGO_BIN_EXE_nboom"))
             .args(args)
             .current_dir(&self.directory)
             .stdin(Stdio::null())
