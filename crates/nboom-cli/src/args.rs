@@ -219,6 +219,10 @@ pub struct GenerateArgs {
     #[arg(long)]
     pub lock_states: bool,
 
+    /// Also generate the loads and stresses of all stations, with all numbers of the scene built in.
+    #[arg(long)]
+    pub stresses: bool,
+
     /// Write nothing; exit with 1 unless the crate is what would be written.
     #[arg(long)]
     pub check: bool,

@@ -27,6 +27,12 @@ pub enum CliError {
         "--path generated --formulation recursive: the recursion is library code, which --path generic runs"
     )]
     GeneratedRecursion,
+    /// Code for stresses is asked of a scene that has no stations.
+    #[error("--stresses: scene {scene} has no stations, stress groups with INSTR > 0 expected")]
+    NoStations {
+        /// The scene.
+        scene: String,
+    },
     /// The motion cannot be computed, or its results not be kept.
     #[error("{error}")]
     Simulation {
@@ -91,7 +97,7 @@ impl CliError {
         match self {
             Self::Deviation { .. } => 1,
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
-            Self::Sections(_) | Self::Stresses(_) => 2,
+            Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
                 ..

@@ -8,8 +8,12 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     let file = read_scene(&args.scene)?;
     check::warnings(&file).iter().for_each(|warning| say("warning", warning));
     let GenerateArgs { formulation, level, equations, lock_states, .. } = *args;
+    let stresses = match (args.stresses, &file.structure) {
+        (true, None) => return Err(CliError::NoStations { scene: file.scene.name.clone() }),
+        (asked, structure) => structure.as_ref().filter(|_| asked),
+    };
     let numbers = if args.baked { Numbers::Baked } else { Numbers::RunTime };
-    let choices = Choices { formulation, numbers, level, equations, lock_states };
+    let choices = Choices { formulation, numbers, level, equations, lock_states, stresses };
     let (scene, directory) = (&file.scene, &args.output);
     let written = if args.check {
         is_current(scene, &choices, directory)?;

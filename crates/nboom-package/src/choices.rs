@@ -1,10 +1,10 @@
-use nboom_codegen::{CodegenError, Level, Numbers, Request};
+use nboom_codegen::{CodegenError, Level, Module, Numbers, Request, StressRequest};
 use nboom_formulation::Formulation;
-use nboom_model::Scene;
+use nboom_model::{Scene, Structure};
 
 /// Which routines a crate has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Choices {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choices<'a> {
     /// The equations of motion.
     pub formulation: Formulation,
     /// Where the routine has the satellite's numbers from.
@@ -16,9 +16,11 @@ pub struct Choices {
     /// Whether there are routines for the topologies that the scene comes through while hinges
     /// are held.
     pub lock_states: bool,
+    /// The scene's stations, if there is a routine for loads and stresses.
+    pub stresses: Option<&'a Structure>,
 }
 
-impl Default for Choices {
+impl Default for Choices<'_> {
     fn default() -> Self {
         Self {
             formulation: Formulation::Articulated,
@@ -26,6 +28,7 @@ impl Default for Choices {
             level: Level::Fast,
             equations: false,
             lock_states: false,
+            stresses: None,
         }
     }
 }
@@ -38,13 +41,18 @@ pub(crate) struct Requests {
     pub equations: Option<Request>,
     /// Accelerations while hinges are held.
     pub held: Vec<Request>,
+    /// Loads and stresses.
+    pub stresses: Option<StressRequest>,
 }
 
+/// Where generated code finds the crate that it uses.
+const SCALAR: &str = "crate::nboom_scalar";
+
 impl Requests {
-    pub fn new(scene: &Scene, choices: &Choices) -> Result<Self, CodegenError> {
-        let Choices { formulation, numbers, level, equations, lock_states } = *choices;
+    pub fn new(scene: &Scene, choices: &Choices<'_>) -> Result<Self, CodegenError> {
+        let Choices { formulation, numbers, level, equations, lock_states, stresses } = *choices;
         let inside = |request: Request| Request {
-            scalar_path: "crate::nboom_scalar".to_owned(),
+            scalar_path: SCALAR.to_owned(),
             ..request.by(formulation)
         };
         let whole = inside(Request::of_scene(scene, numbers, level)?);
@@ -54,10 +62,19 @@ impl Requests {
         });
         let held = if lock_states { Request::lock_states(scene, level)? } else { Vec::new() };
         let held = held.into_iter().map(inside).collect();
-        Ok(Self { whole, equations, held })
+        let stresses = stresses.map(|structure| StressRequest::of_scene(scene, structure, level));
+        let stresses = stresses
+            .transpose()?
+            .map(|request| StressRequest { scalar_path: SCALAR.to_owned(), ..request });
+        Ok(Self { whole, equations, held, stresses })
     }
 
-    /// All, in the order in which they are written.
+    /// The file with all of them.
+    pub fn module(&self) -> Module {
+        Module { routines: self.all(), stresses: self.stresses.iter().cloned().collect() }
+    }
+
+    /// All but stresses, in the order in which they are written.
     pub fn all(&self) -> Vec<Request> {
         let first = std::iter::once(&self.whole).chain(&self.equations);
         first.chain(&self.held).cloned().collect()

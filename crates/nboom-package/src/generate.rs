@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use nboom_codegen::{Generated, Module, Request, generate as emit, hash};
+use nboom_codegen::{Generated, Request, generate as emit, hash};
 use nboom_expr::Operations;
 use nboom_formulation::Recognised;
 use nboom_model::Scene;
@@ -12,7 +12,7 @@ use crate::certificate::{self, Routine};
 use crate::certified::{Certified, Found};
 use crate::choices::Requests;
 use crate::listing::{self, Files, Listing};
-use crate::{Choices, PackageError, checks, library, manifest, sources};
+use crate::{Choices, PackageError, checks, library, manifest, sources, stresses};
 
 /// What became of a crate.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +39,7 @@ pub enum Written {
 /// when a file cannot be written or would overwrite somebody else's.
 pub fn generate(
     scene: &Scene,
-    choices: &Choices,
+    choices: &Choices<'_>,
     directory: &Path,
 ) -> Result<Written, PackageError> {
     let requests = Requests::new(scene, choices)?;
@@ -59,7 +59,11 @@ pub fn generate(
 ///
 /// # Errors
 /// [`PackageError::Outdated`] with the first file that is not as it would be written.
-pub fn is_current(scene: &Scene, choices: &Choices, directory: &Path) -> Result<(), PackageError> {
+pub fn is_current(
+    scene: &Scene,
+    choices: &Choices<'_>,
+    directory: &Path,
+) -> Result<(), PackageError> {
     let requests = Requests::new(scene, choices)?;
     Listing::require_current(directory, key_of(scene, &requests))
 }
@@ -67,19 +71,21 @@ pub fn is_current(scene: &Scene, choices: &Choices, directory: &Path) -> Result<
 /// A number for everything that a crate is made from.
 fn key_of(scene: &Scene, requests: &Requests) -> u64 {
     let version = sources::VERSION;
-    hash(format!("{version} {:016x} {scene:?}", Module::from(requests.all()).key()).as_bytes())
+    hash(format!("{version} {:016x} {scene:?}", requests.module().key()).as_bytes())
 }
 
 /// The files of a crate, and its routines.
 struct Crate {
     files: Files,
     routines: Vec<Routine>,
+    /// Name of the routine for loads and stresses.
+    stresses: Option<String>,
 }
 
 impl Crate {
     fn new(scene: &Scene, requests: &Requests, key: u64) -> Result<Self, PackageError> {
         // The text first: it is what limits of size refuse.
-        let code = Module::from(requests.all()).text()?;
+        let code = requests.module().text()?;
         let routines = routines(scene, requests)?;
         let name = manifest::name(&scene.name);
         let mut files = Files::from([
@@ -92,8 +98,10 @@ impl Crate {
         files.extend(
             routines.iter().map(|routine| (checks::table_path(routine), checks::table(routine))),
         );
+        files.extend(requests.stresses.iter().flat_map(|request| stresses::checks(&name, request)));
         files.extend(sources::of_scalar(&manifest::rust_name(&name)));
-        Ok(Self { files, routines })
+        let stresses = requests.stresses.as_ref().map(|request| request.name.clone());
+        Ok(Self { files, routines, stresses })
     }
 
     fn written(self) -> Written {
@@ -105,7 +113,10 @@ impl Crate {
             topology: whole.request.topology.to_string(),
             evaluation: whole.operations[0],
             certificate,
-            routines: self.routines.into_iter().map(|routine| routine.request.name).collect(),
+            routines: {
+                let names = self.routines.into_iter().map(|routine| routine.request.name);
+                names.chain(self.stresses).collect()
+            },
         }
     }
 }

@@ -22,6 +22,7 @@ mod listing;
 mod manifest;
 mod program;
 mod sources;
+mod stresses;
 
 pub use certified::TOLERANCE;
 pub use choices::Choices;

@@ -8,6 +8,7 @@ use nboom_model::Scene;
 
 use crate::choices::Requests;
 use crate::manifest::rust_name;
+use crate::stresses;
 
 const TEMPLATE: &str = include_str!("../templates/lib.rs");
 
@@ -21,7 +22,10 @@ pub(crate) fn text(
     requests: &Requests,
     recognised: &Recognised,
 ) -> String {
-    let names: Vec<String> = requests.all().iter().map(|request| request.name.clone()).collect();
+    let of_routines = requests.all().into_iter().map(|request| request.name);
+    let of_stresses = requests.stresses.iter().map(|request| request.name.clone());
+    let names: Vec<String> = of_routines.chain(of_stresses).collect();
+    let row_of_stresses = requests.stresses.as_ref().map(stresses::row);
     let parameters = recognised.parameters.write();
     let equations = requests.equations.as_ref().map(|request| {
         EQUATIONS
@@ -33,7 +37,8 @@ pub(crate) fn text(
         ("SCENE", in_words(&scene.name)),
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("TOPOLOGY", requests.whole.topology.to_string()),
-        ("ROUTINE_TABLE", table(&requests.all())),
+        ("ROUTINE_TABLE", table(&requests.all()) + &row_of_stresses.clone().unwrap_or_default()),
+        ("STRESSES", row_of_stresses.map_or(String::new(), |_| stresses::NUMBERS.to_owned())),
         ("CRATE", rust_name(name)),
         ("NAMES", names.join(", ")),
         ("PARAMETER_COUNT", parameters.len().to_string()),

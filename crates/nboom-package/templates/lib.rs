@@ -38,7 +38,7 @@
 //! a routine that is not `EXTERNAL`), then angle, rate and torque of each hinge, where [`HINGES`]
 //! says. **Accelerations** are ω̇ and a_O (6 numbers, main-body axes; without gravity), then the
 //! acceleration of each hinge.
-//!
+/*STRESSES*///!
 //! # Other parts of nboom
 //!
 //! [`Kernel`] is this crate's own, in [`nboom_scalar`], so that crates of several scenes can be in

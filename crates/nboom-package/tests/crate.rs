@@ -127,6 +127,24 @@ fn a_crate_passes_its_tests_and_fails_them_when_its_code_is_wrong() {
 }
 
 #[test]
+fn a_crate_with_stresses_passes_its_tests_and_fails_them_when_they_are_wrong() {
+    let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/n-boom-1970.nml");
+    let file = nboom_io::read_scene(&deck).expect("the sample deck is right");
+    let choices = Choices { stresses: file.structure.as_ref(), ..Choices::default() };
+    let place = written(&file.scene, &choices);
+    cargo_test(place.path()).expect("the code is right");
+    let library = fs::read_to_string(place.path().join("src/lib.rs")).expect("readable");
+    assert!(library.contains("| [`StressesS2P`] | 4 hinges | loads and stresses |"), "{library}");
+
+    let routines = place.path().join("src/routines.rs");
+    let text = fs::read_to_string(&routines).expect("readable");
+    let (head, tail) = text.split_at(text.rfind("fn evaluate_on").expect("a straight line"));
+    fs::write(&routines, head.to_owned() + &tail.replacen(" + ", " - ", 1)).expect("writable");
+    let said = cargo_test(place.path()).expect_err("the code is wrong");
+    assert!(said.contains("loads_and_stresses_are_those_of_the_equations ... FAILED"), "{said}");
+}
+
+#[test]
 fn two_crates_are_in_one_program() {
     let place = place();
     let write = |path: &str, text: &str| {
