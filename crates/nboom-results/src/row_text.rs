@@ -20,6 +20,8 @@ pub(crate) struct RowText {
     instant: Vec<u8>,
     /// Of each row of a time in `stress.csv`.
     heads: Vec<Head>,
+    /// Of each row of a time in `hinge_loads.csv`: appendage and segment.
+    hinge_heads: Vec<String>,
     /// Load of a station, to the end of the row.
     load: Vec<u8>,
 }
@@ -32,8 +34,9 @@ struct Head {
 }
 
 impl RowText {
-    pub fn new(signs: StressSigns) -> Self {
-        Self { signs, ..Self::default() }
+    pub fn new(signs: StressSigns, hinges: &[HingeLabel]) -> Self {
+        let head = |hinge: &HingeLabel| format!(",{},{}", hinge.appendage + 1, hinge.segment + 1);
+        Self { signs, hinge_heads: hinges.iter().map(head).collect(), ..Self::default() }
     }
 
     /// σ₂₂, σ₂₁ and σ₂₃ as they are written.
@@ -111,12 +114,11 @@ impl RowText {
     pub fn add_hinge_loads(
         &self,
         out: &mut Vec<u8>,
-        hinges: &[HingeLabel],
         loads: impl Iterator<Item = Wrench<f64>>,
     ) -> io::Result<()> {
-        for (hinge, load) in hinges.iter().zip(loads) {
+        for (head, load) in self.hinge_heads.iter().zip(loads) {
             out.extend(&self.instant);
-            write!(out, ",{},{}", hinge.appendage + 1, hinge.segment + 1)?;
+            out.extend(head.as_bytes());
             load_fields(out, &load)?;
             writeln!(out)?;
         }

@@ -28,7 +28,10 @@ impl LongTable {
     /// Makes the file at `path`, empty; the header waits.
     pub(crate) fn create(path: PathBuf, header: &str) -> Result<Self, ResultsError> {
         let file = WholeLines::create(&path).map_err(ResultsError::writing(&path))?;
-        Ok(Self { path, file, lines: format!("{header}\n").into_bytes() })
+        // The lines of one time come on top of what is not yet long.
+        let mut lines = Vec::with_capacity(LONG + LONG / 4);
+        lines.extend([header.as_bytes(), b"\n"].concat());
+        Ok(Self { path, file, lines })
     }
 
     /// Whether it is time to write.

@@ -58,8 +58,8 @@ impl StressWriter {
             analysis,
             every: every.max(1),
             samples: 0,
+            text: RowText::new(signs, &hinges),
             hinges,
-            text: RowText::new(signs),
         })
     }
 
@@ -92,7 +92,7 @@ impl StressWriter {
         let Self { directory, hinges, analysis, text, stresses, hinge_loads, .. } = self;
         let composed = text.set_instant(time, event).and_then(|()| {
             text.add_stresses(&mut stresses.lines, hinges, analysis.stresses())?;
-            text.add_hinge_loads(&mut hinge_loads.lines, hinges, analysis.hinge_loads())
+            text.add_hinge_loads(&mut hinge_loads.lines, analysis.hinge_loads())
         });
         composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))
     }

@@ -22,11 +22,28 @@ pub(crate) struct SignChanges {
 impl SignChanges {
     /// All of them in `from..to`.
     ///
+    /// A polynomial has no more of them than its Bernstein coefficients change sign, and as many or
+    /// fewer by an even number (Descartes' rule): so none or one is known at once.
+    pub(crate) fn of(polynomial: &Polynomial, from: f64, to: f64) -> Self {
+        match signs(&bernstein(polynomial, from, to)) {
+            Signs::Alike => Self { knots: [from; DEGREE + 2], count: 1 },
+            Signs::ChangeOnce => {
+                let mut knots = [from; DEGREE + 2];
+                let root = sign_change(polynomial, from, to);
+                knots[1] = root.unwrap_or(from);
+                Self { knots, count: if root.is_some() { 2 } else { 1 } }
+            }
+            Signs::Any => Self::by_derivatives(polynomial, from, to),
+        }
+    }
+
+    /// All of them in `from..to`, whatever the polynomial.
+    ///
     /// Between neighbouring sign changes of its derivative a polynomial is monotone, so it changes
     /// sign there at most once, and does if its ends say so. Starting with the third derivative,
     /// which is linear, none is missed on the way to the polynomial itself but what rounding hides:
     /// two changes between which it differs from zero by no more than the error of its values.
-    pub(crate) fn of(polynomial: &Polynomial, from: f64, to: f64) -> Self {
+    fn by_derivatives(polynomial: &Polynomial, from: f64, to: f64) -> Self {
         let mut found = Self { knots: [from; DEGREE + 2], count: 1 };
         for order in (0..DEGREE).rev() {
             let derivative = derivative(polynomial, order);
@@ -47,6 +64,57 @@ impl SignChanges {
     pub(crate) fn into_points(self) -> impl Iterator<Item = f64> {
         self.knots.into_iter().take(self.count).skip(1)
     }
+}
+
+/// What the signs of Bernstein coefficients tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Signs {
+    /// None is negative, or none is positive.
+    Alike,
+    /// They change sign once, and none is zero at an end.
+    ChangeOnce,
+    /// Anything else.
+    Any,
+}
+
+fn signs(coefficients: &Polynomial) -> Signs {
+    let mut changes = 0;
+    let mut last = 0.0;
+    for &c in coefficients.iter().filter(|c| **c != 0.0) {
+        if c * last < 0.0 {
+            changes += 1;
+        }
+        last = c.signum();
+    }
+    let ends = coefficients[0] * coefficients[DEGREE].signum();
+    match changes {
+        0 => Signs::Alike,
+        1 if ends < 0.0 => Signs::ChangeOnce,
+        _ => Signs::Any,
+    }
+}
+
+/// Coefficients in Bernstein's basis of the interval.
+fn bernstein(polynomial: &Polynomial, from: f64, to: f64) -> Polynomial {
+    let mut powers = *polynomial;
+    // In powers of x − from, by Horner's scheme again and again, then of that over the length.
+    for done in 0..DEGREE {
+        for power in (done..DEGREE).rev() {
+            powers[power] += from * powers[power + 1];
+        }
+    }
+    let mut scale = 1.0;
+    for (power, over) in powers.iter_mut().zip([1.0, 4.0, 6.0, 4.0, 1.0]) {
+        *power *= scale / over;
+        scale *= to - from;
+    }
+    // b_j = Σ_i binomial(j, i) a_i / binomial(4, i): sums of neighbours again and again.
+    for done in 1..=DEGREE {
+        for j in (done..=DEGREE).rev() {
+            powers[j] += powers[j - 1];
+        }
+    }
+    powers
 }
 
 fn derivative(polynomial: &Polynomial, order: usize) -> Polynomial {
@@ -135,6 +203,59 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn bernstein_coefficients_have_the_polynomials_values() {
+        let p = [0.3, -1.7, 2.9, 0.4, -1.1];
+        let (from, to) = (-0.4, 0.3);
+        let b = bernstein(&p, from, to);
+        for step in 0..=10 {
+            let u = f64::from(step) / 10.0;
+            // De Casteljau.
+            let mut level = b;
+            for last in (0..DEGREE).rev() {
+                for j in 0..=last {
+                    level[j] = (1.0 - u) * level[j] + u * level[j + 1];
+                }
+            }
+            let value = evaluate(&p, from + u * (to - from)).0;
+            assert!((level[0] - value).abs() < 1e-14, "{u}: {} {value}", level[0]);
+        }
+    }
+
+    /// Cubics, which walls have: with any coefficients, some of them zero, and with three roots.
+    #[test]
+    fn descartes_rule_finds_what_derivatives_find() {
+        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut number = || {
+            bits ^= bits << 13;
+            bits ^= bits >> 7;
+            bits ^= bits << 17;
+            if bits % 7 == 0 { 0.0 } else { (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0 }
+        };
+        let mut counts = [0; 4];
+        for case in 0..20_000 {
+            let p = if case % 2 == 0 {
+                [number(), number(), 2.0 * number(), number(), 0.0]
+            } else {
+                with_roots(number(), &[0.5 + number(), 0.5 + number(), 0.5 + number()])
+            };
+            // A root on an end may be told as one.
+            let inside = |found: SignChanges| -> Vec<f64> {
+                found.into_points().filter(|x| *x > 1e-9 && *x < 1.0 - 1e-9).collect()
+            };
+            let quick = inside(SignChanges::of(&p, 0.0, 1.0));
+            let sure = inside(SignChanges::by_derivatives(&p, 0.0, 1.0));
+            assert_eq!(quick.len(), sure.len(), "{p:?}: {quick:?} {sure:?}");
+            for (quick, sure) in quick.iter().zip(&sure) {
+                let slope = evaluate(&p, *sure).1.abs();
+                // Rounding of values over the slope.
+                assert!((quick - sure).abs() * slope < 1e-14, "{p:?}: {quick} {sure}");
+            }
+            counts[sure.len()] += 1;
+        }
+        assert!(counts.iter().all(|&count| count > 20), "{counts:?}");
     }
 
     #[test]

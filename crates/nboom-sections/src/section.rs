@@ -124,7 +124,7 @@ impl SectionStresses<'_> {
     /// where rays from the centroid leave the section. A polygon that is not convex may lack some.
     pub fn axis_points(&self) -> [Option<PointStress>; 4] {
         match self {
-            Self::Tube(stresses) => Tube::AXIS_ANGLES.map(|theta| Some(stresses.at(theta))),
+            Self::Tube(stresses) => stresses.axis_points().map(Some),
             Self::Polygon(stresses) => stresses.axis_points(),
         }
     }

@@ -130,6 +130,15 @@ impl TubeStresses {
     /// The stress at θ.
     pub fn at(&self, theta: f64) -> PointStress {
         let (sin, cos) = theta.sin_cos();
+        self.towards(cos, sin)
+    }
+
+    /// The stresses at the report's axis points, where sines and cosines are exact.
+    pub fn axis_points(&self) -> [PointStress; 4] {
+        [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(cos, sin)| self.towards(cos, sin))
+    }
+
+    fn towards(&self, cos: f64, sin: f64) -> PointStress {
         let value = |[a, b, c]: [f64; 3]| a + b * cos + c * sin;
         let shear = value(self.shear);
         let stress =

@@ -389,7 +389,9 @@ fn without_slips() {
             section.stresses(&load).axis_points().iter().zip(original.axis_points(&load))
         {
             let (right, found) = (right.expect("convex"), found.expect("convex"));
-            assert_eq!(right.place, found.place);
+            // Cosines of right angles are not always zero.
+            let apart = right.place - found.place;
+            assert!(apart.xi.abs().max(apart.zeta.abs()) < 1e-14, "{}", block.name);
             let components = |point: PointStress| point.stress.in_report_signs();
             for (right, found) in components(right).into_iter().zip(components(found)) {
                 assert!((right - found).abs() < 1e-12 * largest, "{}", block.name);
