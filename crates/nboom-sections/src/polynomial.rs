@@ -232,7 +232,11 @@ mod tests {
             bits ^= bits << 13;
             bits ^= bits >> 7;
             bits ^= bits << 17;
-            if bits % 7 == 0 { 0.0 } else { (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0 }
+            if bits.is_multiple_of(7) {
+                0.0
+            } else {
+                (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+            }
         };
         let mut counts = [0; 4];
         for case in 0..20_000 {
