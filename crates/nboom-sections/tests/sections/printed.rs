@@ -384,10 +384,9 @@ fn without_slips() {
     for block in &BLOCKS {
         let (section, load) = ((block.section)(), block.load());
         let original = Original::new(section.clone(), SectionSlips::default());
-        let largest = section.stresses(&load).severest().stress.von_mises();
-        for (right, found) in
-            section.stresses(&load).axis_points().iter().zip(original.axis_points(&load))
-        {
+        let stresses = section.stresses(&load);
+        let largest = stresses.severest().stress.von_mises();
+        for (right, found) in stresses.axis_points().iter().zip(original.axis_points(&load)) {
             let (right, found) = (right.expect("convex"), found.expect("convex"));
             // Cosines of right angles are not always zero.
             let apart = right.place - found.place;
