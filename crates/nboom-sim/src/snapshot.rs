@@ -68,10 +68,16 @@ pub(crate) fn detail(
     let hinge_torque =
         laws.zip(state.beta.iter().zip(&state.tau)).map(|(law, (&b, &t))| law.torque(b, t));
     let hinge_torque = hinge_torque.collect();
-    let (mut kick_off_force, mut kick_off_length) = (beta_ddot.clone(), beta_ddot.clone());
-    for (i, body) in scene.bodies.iter().enumerate() {
-        let [length, _] = state.spring_length(&mut equations.dynamics, i);
-        let acting = body.hinge.kick_off.filter(|_| mode.kick_off[i]);
+    let none = vec![0.0; scene.bodies.len()];
+    let (mut kick_off_force, mut kick_off_length) = (none.clone(), none);
+    let has_spring = |&i: &usize| scene.bodies[i].hinge.kick_off.is_some();
+    let springs: Vec<usize> = (0..scene.bodies.len()).filter(has_spring).collect();
+    let mut squared = vec![0.0; springs.len()];
+    let [beta, _] = state.of_free(&equations.dynamics);
+    equations.dynamics.spring_lengths_squared(&beta, &springs, &mut squared);
+    for (&i, squared) in springs.iter().zip(squared) {
+        let length: f64 = squared.sqrt();
+        let acting = scene.bodies[i].hinge.kick_off.filter(|_| mode.kick_off[i]);
         kick_off_length[i] = length;
         kick_off_force[i] =
             acting.map_or(0.0, |spring| KickOffLaw::new(spring.coefficients).force(length));
