@@ -3,7 +3,7 @@
 use nboom_expr::Graph;
 use nboom_loads::{LoadEquations, RESULT, SceneMotion};
 use nboom_model::{Scene, Structure};
-use nboom_sections::Section;
+use nboom_sections::{AtStation, Section};
 
 use crate::item::Signature;
 use crate::routine::straight;
@@ -35,16 +35,12 @@ impl StressRequest {
         structure: &Structure,
         level: Level,
     ) -> Result<Self, CodegenError> {
-        let mut influences = Vec::new();
-        for (segment, description) in structure.segments().iter().enumerate() {
-            for (station, of_station) in description.stations.iter().enumerate() {
-                let section = Section::of_shape(&of_station.section).map_err(|source| {
-                    let segment = scene.label(segment).to_string();
-                    CodegenError::Section { segment, station: station + 1, source }
-                })?;
-                influences.push(section.influence());
-            }
-        }
+        let sections =
+            Section::all(structure).map_err(|AtStation { segment, station, here }| {
+                let segment = scene.label(segment).to_string();
+                CodegenError::Section { segment, station: station + 1, source: here }
+            })?;
+        let influences = sections.iter().map(|at| at.here.influence());
         let topology = welded(scene, &vec![true; scene.bodies.len()], 0.0)?.topology;
         Ok(Self {
             name: name("Stresses", &topology),

@@ -46,7 +46,7 @@ pub use error::{SectionError, SectionWarning};
 pub use point::Point;
 pub use polygon::{Polygon, PolygonStresses};
 pub use properties::{Properties, SecondMoments};
-pub use section::{Section, SectionStresses};
+pub use section::{AtStation, Section, SectionStresses};
 pub use stress::{PointStress, Stress};
 pub use tube::{Annulus, Tube, TubeStresses};
 pub use wall::{Wall, WallStress};

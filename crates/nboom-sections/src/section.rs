@@ -1,4 +1,4 @@
-use nboom_model::SectionShape;
+use nboom_model::{SectionShape, Structure};
 use nboom_scalar::{Vec3, Wrench};
 
 use crate::{
@@ -15,7 +15,34 @@ pub enum Section {
     Polygon(Polygon),
 }
 
+/// What belongs to a station.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtStation<T> {
+    /// The segment, as its hinge is numbered in the scene.
+    pub segment: usize,
+    /// The station, from 0, outboard ones first.
+    pub station: usize,
+    /// What it is.
+    pub here: T,
+}
+
 impl Section {
+    /// The sections of all stations, segment by segment.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with the first that is none.
+    pub fn all(structure: &Structure) -> Result<Vec<AtStation<Self>>, AtStation<SectionError>> {
+        let mut all = Vec::new();
+        for (segment, description) in structure.segments().iter().enumerate() {
+            for (station, of_station) in description.stations.iter().enumerate() {
+                let section = Self::of_shape(&of_station.section);
+                let here = section.map_err(|here| AtStation { segment, station, here })?;
+                all.push(AtStation { segment, station, here });
+            }
+        }
+        Ok(all)
+    }
+
     /// The section that a station has.
     ///
     /// # Errors

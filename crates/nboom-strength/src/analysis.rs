@@ -1,7 +1,7 @@
 use nboom_loads::{LoadEquations, LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{HingeLabel, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
-use nboom_sections::{PointStress, Section, SectionWarning};
+use nboom_sections::{AtStation, PointStress, Section, SectionWarning};
 use nboom_sim::{Detail, InstantMotion, Jump, Snapshot};
 
 use crate::envelope::driver;
@@ -68,18 +68,20 @@ impl StressAnalysis {
     ) -> Result<Self, StrengthError> {
         settings.check()?;
         let labels: Vec<HingeLabel> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
-        let (mut sections, mut influences) = (Vec::new(), Vec::new());
-        for (segment, description) in structure.segments().iter().enumerate() {
-            for (station, of_station) in description.stations.iter().enumerate() {
-                let at_station =
-                    |source| StrengthError::Section { segment: labels[segment], station, source };
-                let section = Section::of_shape(&of_station.section).map_err(at_station)?;
-                let warnings = section.warnings();
-                influences.push(section.influence());
-                let section = Formulas::new(section, settings.slips);
-                sections.push(StationSection { segment, station, warnings, section });
+        let found = Section::all(structure).map_err(|AtStation { segment, station, here }| {
+            StrengthError::Section { segment: labels[segment], station, source: here }
+        })?;
+        let influences: Vec<_> = found.iter().map(|at| at.here.influence()).collect();
+        let sections = found.into_iter().map(|AtStation { segment, station, here }| {
+            let warnings = here.warnings();
+            StationSection {
+                segment,
+                station,
+                warnings,
+                section: Formulas::new(here, settings.slips),
             }
-        }
+        });
+        let sections = sections.collect();
         let equations = LoadEquations::new(scene, Some(structure)).with_sections(influences);
         let loads = Loads::by(equations);
         let found = loads.load_set();
