@@ -6,8 +6,8 @@ use std::thread;
 use std::time::Duration;
 
 use nboom::model::{
-    Appendage, Dashpot, Hinge, HingeLabel, HingeStart, HingeState, KickOffSpring, MassProperties,
-    Mount, Release, Scene, Segment, Spring,
+    Appendage, Dashpot, Gravity, Hinge, HingeLabel, HingeStart, HingeState, KickOffSpring,
+    MassProperties, Mount, Release, Scene, Segment, Spring,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::{Event, Options, Recorder, SimError, Snapshot, simulate};
@@ -71,6 +71,25 @@ fn a_kick_off_spring_beyond_all_numbers_fails_with_time_and_hinge() {
             assert!((0.0..1e-10).contains(&time), "{time}");
         }
         other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn energies_beyond_all_numbers_fail_at_their_time() {
+    // Squares of speeds from 1.3e154 on are no numbers: at once, or when a fall has lasted as long.
+    let mut thrown = description(&[free(0.0, 1.0)], 1.0);
+    thrown.initial.velocity_inertial = Vec3::new(1e200, 0.0, 0.0);
+    let mut falls = description(&[free(0.0, 1.0)], 4.0);
+    falls.gravity = Some(Gravity { acceleration: 1e154, up: Vec3::unit_y() });
+    let samples = 100;
+    for (description, earliest, latest) in [(thrown, 0.0, 0.0), (falls, 0.1, 1.38)] {
+        let scene = Scene::new(description).expect("all numbers are finite");
+        let (kept, error) = failure(&scene, &tight(samples));
+        let SimError::Overflow { time, hinge: None, .. } = error else { panic!("{error}") };
+        assert!((earliest..=latest).contains(&time), "{error}");
+        let rows = kept.samples.iter();
+        assert!(rows.clone().all(|row| row.time < time && row.kinetic_energy.is_finite()));
+        assert_eq!(rows.count(), (time * samples as f64 / scene.end_time).round() as usize);
     }
 }
 

@@ -170,7 +170,8 @@ pub struct RunArgs {
     #[arg(long)]
     pub no_report: bool,
 
-    /// Print nothing but errors.
+    /// Print no account, no progress and no warnings about the scene; errors, and warnings that the
+    /// results are poor or a part fails, are printed all the same.
     #[arg(long)]
     pub quiet: bool,
 }

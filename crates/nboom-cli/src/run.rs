@@ -122,6 +122,9 @@ fn simulate_into_files(
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_stress();
     let finished = watch.files.finish(&outcome);
+    // Not for --quiet to hide: the results are not what they seem.
+    let poor = outcome.summary.conservation.poor(options.rtol);
+    poor.for_each(|law| say("warning", &law.to_string()));
     // What stopped the run says more than what then could not be written.
     if let Some(error) = failed {
         return Err(CliError::Simulation { error, directory });

@@ -2,9 +2,20 @@ use std::io::{self, Write};
 
 use nboom_scalar::Vec3;
 
+/// A table would hold what is no number.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{0} found, a finite number expected; the results or their units are beyond all numbers")]
+pub(crate) struct NotFinite(f64);
+
 /// Writes the shortest decimal that reads back to the same `f64`, with an exponent where digits
 /// would become many.
+///
+/// # Errors
+/// When the number is not finite, or `out` refuses it.
 pub(crate) fn number(out: &mut impl Write, value: f64) -> io::Result<()> {
+    if !value.is_finite() {
+        return Err(io::Error::other(NotFinite(value)));
+    }
     out.write_all(zmij::Buffer::new().format(value).as_bytes())
 }
 
@@ -70,7 +81,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_reads_back_too() {
-        assert_eq!([f64::INFINITY, -f64::INFINITY, f64::NAN].map(text), ["inf", "-inf", "NaN"]);
+    fn what_is_no_number_is_refused() {
+        for value in [f64::INFINITY, -f64::INFINITY, f64::NAN] {
+            let mut text = Vec::new();
+            let refused = field(&mut text, value).expect_err("it is not finite").to_string();
+            assert!(refused.starts_with(&format!("{value} found, a finite number")), "{refused}");
+        }
     }
 }

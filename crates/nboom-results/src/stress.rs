@@ -136,7 +136,8 @@ impl StressWriter {
         stress_fields(out, self.text.components(worst.severest.stress))?;
         field(out, worst.severest.stress.von_mises())?;
         write!(out, ",{}", worst.driver)?;
-        match worst.margin {
+        // Nothing can be said of what is not loaded.
+        match worst.margin.filter(|margin| margin.is_finite()) {
             Some(margin) => field(out, margin)?,
             None => write!(out, ",")?,
         }

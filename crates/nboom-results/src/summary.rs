@@ -92,7 +92,7 @@ pub struct SummaryFile<'a> {
     conservation: ConservationKeys,
     attitude_drift: f64,
     skipped: &'a [String],
-    warnings: &'a [String],
+    warnings: Vec<String>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -183,7 +183,7 @@ impl<'a> SummaryFile<'a> {
             conservation: Conservation::default().into(),
             attitude_drift: 0.0,
             skipped: &run.skipped,
-            warnings: &run.warnings,
+            warnings: run.warnings.clone(),
         }
     }
 
@@ -195,6 +195,7 @@ impl<'a> SummaryFile<'a> {
         error: Option<&'a str>,
     ) -> Self {
         let (path, formulation) = path_and_formulation(summary);
+        let poor = summary.conservation.poor(run.rtol).map(|law| law.to_string());
         Self {
             path,
             formulation,
@@ -213,6 +214,7 @@ impl<'a> SummaryFile<'a> {
             wall_seconds,
             conservation: summary.conservation.into(),
             attitude_drift: summary.attitude_drift,
+            warnings: run.warnings.iter().cloned().chain(poor).collect(),
             ..Self::unfinished(run)
         }
     }

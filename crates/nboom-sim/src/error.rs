@@ -30,6 +30,17 @@ pub enum SimError {
         /// The first hinge concerned; `None` is the main body.
         hinge: Option<HingeLabel>,
     },
+    /// A number of the motion, of its energies and momenta or of its forces is infinite or not a
+    /// number.
+    #[error("at time {}: {} is not finite; the motion or its units are beyond all numbers", moment(.time), of_hinge(.quantity, .hinge))]
+    Overflow {
+        /// When.
+        time: f64,
+        /// What it is of.
+        quantity: &'static str,
+        /// The first hinge concerned, if it is a quantity of hinges.
+        hinge: Option<HingeLabel>,
+    },
     /// A body has no inertia about a hinge that is free.
     #[error("at time {}, {}: nothing has inertia about this hinge, so the mass matrix is singular", moment(.time), place(.hinge))]
     SingularMassMatrix {
@@ -136,6 +147,10 @@ fn moment(time: &f64) -> String {
 
 fn place(hinge: &Option<HingeLabel>) -> String {
     hinge.map_or_else(|| "main body".to_owned(), |label| format!("hinge {label}"))
+}
+
+fn of_hinge(quantity: &str, hinge: &Option<HingeLabel>) -> String {
+    hinge.map_or_else(|| quantity.to_owned(), |label| format!("{quantity} of hinge {label}"))
 }
 
 /// An option with a value that it cannot have.

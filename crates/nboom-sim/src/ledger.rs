@@ -3,17 +3,28 @@ use nboom_elements::KickOffLaw;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Vec3};
 
+use crate::conservation::Conservation;
 use crate::equations::Equations;
-use crate::record::{Conservation, Totals};
+use crate::error::SimError;
+use crate::finite::Check;
+use crate::record::Totals;
+use crate::scales::reach;
 use crate::state::State;
+
+/// Share of the momentum that the energy could make, below which bodies' own momenta are rounding.
+const ROUNDING: f64 = 1e-7;
 
 /// Keeps account of momentum and energy, and of what should have changed them.
 pub(crate) struct Ledger {
     start_time: f64,
     start: Totals,
     start_energy: f64,
+    /// Largest ones so far.
     residuals: Conservation,
+    /// Largest ones so far.
     scales: Conservation,
+    mass: f64,
+    reach: f64,
 }
 
 impl Ledger {
@@ -26,22 +37,36 @@ impl Ledger {
             start_energy: start.kinetic_energy + potential,
             residuals: Conservation::default(),
             scales: Conservation::default(),
+            mass: scene.total_mass(),
+            reach: reach(scene),
         }
     }
 
     pub fn residuals(&self) -> Conservation {
         let (found, scales) = (&self.residuals, &self.scales);
-        let relative =
-            |residual: f64, scale: f64| if residual > 0.0 { residual / scale } else { 0.0 };
+        // All of the energy in one motion, of a point for linear momentum.
+        let momentum = (2.0 * self.mass).sqrt() * scales.energy.sqrt();
+        let relative = |residual: f64, scale: f64, of_energy: f64| {
+            if residual == 0.0 { 0.0 } else { residual / scale.max(ROUNDING * of_energy) }
+        };
+        let (linear, angular) = (scales.linear_momentum, scales.angular_momentum);
         Conservation {
-            linear_momentum: relative(found.linear_momentum, scales.linear_momentum),
-            angular_momentum: relative(found.angular_momentum, scales.angular_momentum),
-            energy: relative(found.energy, scales.energy),
+            linear_momentum: relative(found.linear_momentum, linear, momentum),
+            angular_momentum: relative(found.angular_momentum, angular, momentum * self.reach),
+            energy: relative(found.energy, scales.energy, 0.0),
         }
     }
 
     /// Compares `state` with what impulses and work account for.
-    pub fn check(&mut self, scene: &Scene, equations: &mut Equations, state: &State) {
+    ///
+    /// # Errors
+    /// When an energy or a momentum is not finite, so that nothing can be said about it.
+    pub fn check(
+        &mut self,
+        scene: &Scene,
+        equations: &mut Equations,
+        state: &State,
+    ) -> Result<(), SimError> {
         let invariants = state.invariants(&mut equations.dynamics);
         let now = totals(state, &invariants);
         let work = &state.work;
@@ -57,16 +82,19 @@ impl Ledger {
         let energy_scale = now.kinetic_energy + potential_scale;
         let (largest, scales) = (&mut self.residuals, &mut self.scales);
         let pairs = [
-            (&mut largest.linear_momentum, linear.norm()),
-            (&mut largest.angular_momentum, angular.norm()),
-            (&mut largest.energy, energy.abs()),
-            (&mut scales.linear_momentum, invariants.linear_momentum_scale),
-            (&mut scales.angular_momentum, invariants.angular_momentum_scale),
-            (&mut scales.energy, energy_scale),
+            ("linear momentum", &mut scales.linear_momentum, invariants.linear_momentum_scale),
+            ("angular momentum", &mut scales.angular_momentum, invariants.angular_momentum_scale),
+            ("energy", &mut scales.energy, energy_scale),
+            ("balance of linear momentum", &mut largest.linear_momentum, linear.norm()),
+            ("balance of angular momentum", &mut largest.angular_momentum, angular.norm()),
+            ("balance of energy", &mut largest.energy, energy.abs()),
         ];
-        for (largest, value) in pairs {
+        let check = Check { scene, time: state.time };
+        for (quantity, largest, value) in pairs {
+            check.numbers(&[(quantity, value)])?;
             *largest = largest.max(value);
         }
+        Ok(())
     }
 }
 

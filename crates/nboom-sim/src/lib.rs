@@ -41,9 +41,11 @@
 mod attitude_norm;
 mod closed_form;
 mod code;
+mod conservation;
 mod equations;
 mod error;
 mod expansion;
+mod finite;
 mod fit;
 mod generated;
 mod guard;
@@ -56,6 +58,7 @@ mod rates;
 mod record;
 mod replay;
 mod run;
+mod scales;
 mod series;
 mod snapshot;
 mod start;
@@ -64,14 +67,15 @@ mod trust;
 mod variables;
 
 pub use closed_form::NotCovered;
+pub use conservation::{Conservation, PoorConservation};
 pub use error::{Failure, OptionError, SimError};
 pub use fit::{Fit, Repertoire};
 pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
-    Conservation, Detail, Event, EventKind, InstantMotion, Integration, Jump, Recorder, Selection,
-    Snapshot, Summary, Totals,
+    Detail, Event, EventKind, InstantMotion, Integration, Jump, Recorder, Selection, Snapshot,
+    Summary, Totals,
 };
 pub use run::simulate;
 pub use trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};

@@ -4,6 +4,8 @@ use nboom_model::HingeState;
 use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3};
 
+use crate::conservation::Conservation;
+
 /// What a run tells while it goes on: a snapshot at every output time, and every event.
 ///
 /// Calls come in time order. An error ends the run with everything recorded so far kept.
@@ -192,18 +194,6 @@ pub struct Totals {
     pub linear_momentum_inertial: Vec3<f64>,
     /// Angular momentum about the system mass centre, inertial axes.
     pub angular_momentum_inertial: Vec3<f64>,
-}
-
-/// Largest residuals of the conservation laws over a run, after every impulse and all work of
-/// thrust, gravity, springs, dashpots and lock-ups have been accounted for.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Conservation {
-    /// Linear momentum, relative to the sum of the bodies' own momenta.
-    pub linear_momentum: f64,
-    /// Angular momentum about the mass centre, relative to the sum of the bodies' own.
-    pub angular_momentum: f64,
-    /// Energy, relative to the sum of the bodies' kinetic energies and potentials.
-    pub energy: f64,
 }
 
 /// How a run went.

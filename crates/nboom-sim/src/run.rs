@@ -4,6 +4,7 @@ use nboom_ode::Stepper;
 use crate::attitude_norm::AttitudeNorm;
 use crate::equations::Equations;
 use crate::error::{Failure, SimError};
+use crate::finite;
 use crate::guard::{GuardKind, Guards, read};
 use crate::instant::{self, Arrivals, ONE_INSTANT};
 use crate::layout::Layout;
@@ -116,7 +117,7 @@ impl<'a> Run<'a> {
         for i in 0..self.lock_sides.len() {
             self.lock_sides[i] = self.guards.lock_side(i).unwrap_or(self.lock_sides[i]);
         }
-        let before = self.before_instant();
+        let before = self.before_instant()?;
         let outcome = instant::pass(
             self.scene,
             &mut self.equations.dynamics,
@@ -141,6 +142,7 @@ impl<'a> Run<'a> {
             &self.lock_sides,
             &outcome.toggled,
         );
+        finite::check_instant(self.scene, time, &outcome.events, &outcome.jumps)?;
         if !outcome.events.is_empty() {
             self.tell_instant(before, outcome.jumps)?;
         }
@@ -267,33 +269,36 @@ impl<'a> Run<'a> {
 
     fn sample(&mut self, state: &State) -> Result<(), SimError> {
         self.next_sample += 1;
-        self.ledger.check(self.scene, &mut self.equations, state);
-        let snapshot = self.snapshot(state);
+        self.ledger.check(self.scene, &mut self.equations, state)?;
+        let snapshot = self.snapshot(state)?;
         let kept = self.recorder.sample(&snapshot);
         kept.map_err(|source| SimError::Record { time: state.time, source })
     }
 
-    fn snapshot(&mut self, state: &State) -> Snapshot {
+    fn snapshot(&mut self, state: &State) -> Result<Snapshot, SimError> {
         let needs_detail = self.recorder.needs_detail();
         self.snapshot_with(state, needs_detail)
     }
 
-    fn snapshot_with(&mut self, state: &State, needs_detail: bool) -> Snapshot {
+    fn snapshot_with(&mut self, state: &State, needs_detail: bool) -> Result<Snapshot, SimError> {
         let Self { scene, mode, equations, .. } = self;
         let seen = snapshot::take(scene, mode, &mut equations.dynamics, state);
         let detail = needs_detail.then(|| snapshot::detail(scene, mode, equations, state));
         let (steps, next_step) =
             (self.stepper.window().counts.accepted, self.stepper.window().next_step);
-        Snapshot { detail, steps, next_step, ..seen }
+        let seen = Snapshot { detail, steps, next_step, ..seen };
+        finite::check_snapshot(scene, &seen)?;
+        Ok(seen)
     }
 
     /// The motion before an instant, if there is one and the recorder wants it.
-    fn before_instant(&mut self) -> Option<Snapshot> {
+    fn before_instant(&mut self) -> Result<Option<Snapshot>, SimError> {
         let has_moved = self.state.time > self.scene.initial.time;
-        (has_moved && self.recorder.needs_instants()).then(|| {
-            let state = self.state.clone();
-            self.snapshot_with(&state, true)
-        })
+        if !(has_moved && self.recorder.needs_instants()) {
+            return Ok(None);
+        }
+        let state = self.state.clone();
+        self.snapshot_with(&state, true).map(Some)
     }
 
     fn tell_instant(&mut self, before: Option<Snapshot>, jumps: Vec<Jump>) -> Result<(), SimError> {
@@ -301,7 +306,7 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let state = self.state.clone();
-        let after = self.snapshot_with(&state, true);
+        let after = self.snapshot_with(&state, true)?;
         let kept = self.recorder.instant(&InstantMotion { before, jumps, after });
         kept.map_err(|source| SimError::Record { time: state.time, source })
     }
@@ -311,8 +316,8 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let state = self.state.clone();
-        self.ledger.check(self.scene, &mut self.equations, &state);
-        let after = self.snapshot(&state);
+        self.ledger.check(self.scene, &mut self.equations, &state)?;
+        let after = self.snapshot(&state)?;
         for event in events {
             self.events += 1;
             let kept = self.recorder.event(event, &after);

@@ -74,6 +74,40 @@ fn forces_beyond_all_numbers() {
 }
 
 #[test]
+fn energies_beyond_all_numbers() {
+    let place = Place::new("energy");
+    place.write("deck.nml", boom(" VBAR=1.0E200,", 1.0));
+    let finished = place.nboom(&["run", "deck.nml", "--quiet"]);
+    finished.refused("energy", 3, &["at time 0:", "not finite", "marked incomplete"]);
+    assert_eq!(summary(&place)["complete"], false);
+    // No row holds what is no number.
+    assert_eq!(place.read("out/deck/states.csv").lines().count(), 1);
+}
+
+/// Steps of the original's integrator as long as they like: a tenth of the energy is lost.
+#[test]
+fn poor_conservation_is_told_even_when_quiet() {
+    let place = Place::new("poor");
+    let deck = boom(" EKNIK(1,2)=-30.0,BSIK=9000.0,", 4.0);
+    let lax = " HZO=0.5,EU1=1.0E3,EL1=1.0E2,HMIN=0.1,HMAX=1.0,\n &END\n";
+    let (before, _) = deck.rsplit_once("\n &END\n").expect("the last group ends");
+    place.write("deck.nml", format!("{before}\n{lax}"));
+    let warned = |told: &str| told.contains("poor conservation: the energy is off by ");
+    for (integrator, is_poor) in [("rkam", true), ("auto", false)] {
+        let finished = place.nboom(&["run", "deck.nml", "--quiet", "--integrator", integrator]);
+        assert_eq!(finished.code(), Some(0), "{}", finished.stderr());
+        assert_eq!(warned(&finished.stderr()), is_poor, "{}", finished.stderr());
+        let summary = summary(&place);
+        let residual = summary["conservation"]["energy"].as_f64().expect("a number");
+        // A thousand times beyond the limit of 1e4 rtol, and as much within.
+        assert!(if is_poor { residual > 1e-2 } else { residual < 1e-8 }, "{residual}");
+        let in_file = summary["warnings"].as_array().expect("a list").iter();
+        let in_file = in_file.filter_map(|warning| warning.as_str()).any(warned);
+        assert_eq!(in_file, is_poor, "{summary}");
+    }
+}
+
+#[test]
 fn a_boom_that_chatters_without_end() {
     let place = Place::new("chatter");
     // Out to one radian by the kick-off spring, back by the hinge's, and braked on both ways.
