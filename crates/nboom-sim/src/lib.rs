@@ -60,6 +60,7 @@ mod series;
 mod snapshot;
 mod start;
 mod state;
+mod step_motion;
 mod trust;
 mod variables;
 
@@ -74,4 +75,5 @@ pub use record::{
     Snapshot, Summary, Totals,
 };
 pub use run::simulate;
+pub use step_motion::{MotionAt, StepMotion};
 pub use trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};
