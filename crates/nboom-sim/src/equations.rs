@@ -16,6 +16,7 @@ use crate::rates::Rates;
 use crate::record::Selection;
 use crate::series;
 use crate::state::State;
+use crate::step_motion::HingeForces;
 use crate::variables::{Variables, gravity, motion};
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
@@ -114,11 +115,27 @@ impl Equations {
     }
 
     /// Accelerations without gravity in the mode that was entered.
-    pub fn accelerations(&mut self, state: &State) -> &Accelerations<f64> {
-        let [beta, tau] = state.of_free(&self.dynamics);
-        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
-        self.compute(&motion);
+    pub fn accelerations(&mut self, motion: &Motion<'_, f64>) -> &Accelerations<f64> {
+        self.compute(motion);
         &self.accelerations
+    }
+
+    /// Writes β, τ and τ̇ of the free hinges, τ̇ as computed last, among those of all hinges.
+    pub fn spread(&self, motion: &Motion<'_, f64>, all: [&mut [f64]; 3]) {
+        let [beta, tau, tau_dot] = all;
+        for (j, &i) in self.dynamics.free_hinges().iter().enumerate() {
+            beta[i] = motion.beta[j];
+            tau[i] = motion.tau[j];
+            tau_dot[i] = self.accelerations.tau_dot[j];
+        }
+    }
+
+    /// Sets `out` to the forces of springs and dashpots in the mode that was entered; β and τ of all
+    /// hinges, and β of the free ones.
+    pub fn set_hinge_forces(&mut self, all: [&[f64]; 2], free: &[f64], out: &mut HingeForces) {
+        let Self { scene, mode, dynamics, laws, .. } = self;
+        out.set_torques(laws, all);
+        out.set_springs(scene, mode, dynamics, free);
     }
 
     /// The acceleration of the mass centre, inertial axes.

@@ -63,6 +63,7 @@ mod series;
 mod snapshot;
 mod start;
 mod state;
+mod step_motion;
 mod trust;
 mod variables;
 
@@ -78,4 +79,5 @@ pub use record::{
     Summary, Totals,
 };
 pub use run::simulate;
+pub use step_motion::{MotionAt, StepMotion};
 pub use trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};

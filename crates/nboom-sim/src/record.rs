@@ -5,6 +5,7 @@ use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3};
 
 use crate::conservation::Conservation;
+use crate::step_motion::StepMotion;
 
 /// What a run tells while it goes on: a snapshot at every output time, and every event.
 ///
@@ -37,6 +38,21 @@ pub trait Recorder {
     /// # Errors
     /// When it cannot be kept.
     fn instant(&mut self, _instant: &InstantMotion) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// Whether [`step`](Self::step) is wanted, which costs dense output of every step and an
+    /// evaluation of the equations of motion for each time that is looked at.
+    fn needs_steps(&self) -> bool {
+        false
+    }
+
+    /// A step, after the output times within it and before the instant that ends it, if one does.
+    /// Steps and instants together are the whole motion. Looking at it changes nothing in the run.
+    ///
+    /// # Errors
+    /// When what is seen cannot be kept.
+    fn step(&mut self, _step: &mut dyn StepMotion) -> io::Result<()> {
         Ok(())
     }
 }

@@ -16,6 +16,7 @@ use crate::record::{
 use crate::snapshot;
 use crate::start::Start;
 use crate::state::State;
+use crate::step_motion::{DenseStep, Room};
 
 mod giving_up;
 
@@ -61,6 +62,7 @@ struct Run<'a> {
     selections: Vec<Selection>,
     integrations: Vec<Integration>,
     attitude_norm: AttitudeNorm,
+    room: Room,
 }
 
 impl<'a> Run<'a> {
@@ -89,6 +91,7 @@ impl<'a> Run<'a> {
             selections: Vec::new(),
             integrations: Vec::new(),
             attitude_norm: AttitudeNorm::new(),
+            room: Room::new(scene),
         }
     }
 
@@ -158,7 +161,7 @@ impl<'a> Run<'a> {
         loop {
             self.step(limit)?;
             let sample_due = self.sample_time() < self.stepper.window().end_time - ONE_INSTANT;
-            if sample_due || !self.guards.list.is_empty() {
+            if sample_due || self.recorder.needs_steps() || !self.guards.list.is_empty() {
                 self.stepper.prepare_dense(&mut self.equations);
             }
             let change = self.guards.first_change(self.scene, &mut self.equations, &*self.stepper);
@@ -166,11 +169,13 @@ impl<'a> Run<'a> {
                 let full = self.stepper.window().length();
                 self.locate(kind, fraction * full, full);
                 self.sample_within(full, self.stepper.window().end_time)?;
+                self.tell_step(full)?;
                 self.accept();
                 return Ok(Some(kind));
             }
             let full = self.stepper.window().length();
             self.sample_within(full, self.stepper.window().end_time)?;
+            self.tell_step(full)?;
             self.accept();
             self.guards.settle(self.scene, &mut self.equations.dynamics, &self.state);
             if self.state.time >= limit {
@@ -256,6 +261,17 @@ impl<'a> Run<'a> {
             self.sample(&state)?;
         }
         Ok(())
+    }
+
+    /// Shows the recorder the step just taken, whose dense output is over a step of length `full`.
+    fn tell_step(&mut self, full: f64) -> Result<(), SimError> {
+        if !self.recorder.needs_steps() {
+            return Ok(());
+        }
+        let Self { mode, equations, stepper, room, recorder, .. } = self;
+        let time = stepper.window().end_time;
+        let mut step = DenseStep::new(&mode.hinges, equations, &**stepper, full, room);
+        recorder.step(&mut step).map_err(|source| SimError::Record { time, source })
     }
 
     /// Records the output time that the present instant coincides with, if there is one.

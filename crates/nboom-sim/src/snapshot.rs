@@ -1,5 +1,4 @@
-use nboom_dynamics::Recursive;
-use nboom_elements::KickOffLaw;
+use nboom_dynamics::{Motion, Recursive};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Number, Quaternion};
 
@@ -7,6 +6,7 @@ use crate::equations::Equations;
 use crate::ledger::totals;
 use crate::record::{Detail, Snapshot};
 use crate::state::State;
+use crate::step_motion::HingeForces;
 
 /// What a recorder that needs no detail sees of `state`; `dynamics` is in `mode`.
 pub(crate) fn take<R: Number>(
@@ -54,43 +54,27 @@ pub(crate) fn detail(
     state: &State,
 ) -> Detail {
     let mass_center_body = state.invariants(&mut equations.dynamics).mass_center;
-    let free = equations.dynamics.free_hinges().to_vec();
-    let accelerations = equations.accelerations(state);
+    let [free_beta, free_tau] = state.of_free(&equations.dynamics);
+    let motion = Motion { omega_body: state.omega_body, beta: &free_beta, tau: &free_tau };
+    let accelerations = equations.accelerations(&motion);
     let omega_dot_body = accelerations.omega_dot_body;
     let origin_acceleration_body = accelerations.origin_body;
-    let mut beta_ddot = vec![0.0; state.beta.len()];
-    for (&i, &tau_dot) in free.iter().zip(&accelerations.tau_dot) {
-        beta_ddot[i] = tau_dot;
-    }
+    let (mut beta, mut tau) = (state.beta.clone(), state.tau.clone());
+    let mut beta_ddot = vec![0.0; beta.len()];
+    equations.spread(&motion, [&mut beta, &mut tau, &mut beta_ddot]);
     let mut alpha_ddot = beta_ddot.clone();
     scene.accumulate_along_appendages(&mut alpha_ddot);
-    let laws = equations.laws().iter();
-    let hinge_torque =
-        laws.zip(state.beta.iter().zip(&state.tau)).map(|(law, (&b, &t))| law.torque(b, t));
-    let hinge_torque = hinge_torque.collect();
-    let none = vec![0.0; scene.bodies.len()];
-    let (mut kick_off_force, mut kick_off_length) = (none.clone(), none);
-    let has_spring = |&i: &usize| scene.bodies[i].hinge.kick_off.is_some();
-    let springs: Vec<usize> = (0..scene.bodies.len()).filter(has_spring).collect();
-    let mut squared = vec![0.0; springs.len()];
-    let [beta, _] = state.of_free(&equations.dynamics);
-    equations.dynamics.spring_lengths_squared(&beta, &springs, &mut squared);
-    for (&i, squared) in springs.iter().zip(squared) {
-        let length: f64 = squared.sqrt();
-        let acting = scene.bodies[i].hinge.kick_off.filter(|_| mode.kick_off[i]);
-        kick_off_length[i] = length;
-        kick_off_force[i] =
-            acting.map_or(0.0, |spring| KickOffLaw::new(spring.coefficients).force(length));
-    }
+    let mut forces = HingeForces::new(scene);
+    equations.set_hinge_forces([&beta, &tau], &free_beta, &mut forces);
     Detail {
         omega_dot_body,
         origin_acceleration_body,
         beta_ddot,
         alpha_ddot,
-        hinge_torque,
+        hinge_torque: forces.torque,
         kick_off_pushes: mode.kick_off.clone(),
-        kick_off_force,
-        kick_off_length,
+        kick_off_force: forces.kick_off_force,
+        kick_off_length: forces.kick_off_length,
         mass_center_body,
         mass_center_inertial: state.center.position,
         mass_center_velocity_inertial: state.center.velocity,
