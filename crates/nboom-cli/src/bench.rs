@@ -3,14 +3,13 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nboom_formulation::{Recognised, symmetric};
-use nboom_io::read_scene;
 use nboom_scalar::{Batch, Eight};
 use nboom_verify::{Code, Label, Subject};
 
 use crate::format::{code_columns, code_head, not_covered, routine_topology};
 use crate::run::default_directory;
 use crate::work_precision::work_precision;
-use crate::{BenchArgs, CliError, Routines, check, say};
+use crate::{BenchArgs, CliError, Routines, check};
 
 /// Different states, so that nothing can be learnt from one.
 const STATES: usize = 64;
@@ -44,8 +43,7 @@ struct Row {
 
 /// Times all code that computes accelerations and returns the account for standard output.
 pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, CliError> {
-    let file = read_scene(&args.scene)?;
-    check::warnings(&file).iter().for_each(|warning| say("warning", warning));
+    let file = check::scene(&args.scene)?;
     if args.work_precision {
         let directory = default_directory(&file.scene.name);
         let directory = args.output.as_ref().unwrap_or(&directory);

@@ -1,4 +1,5 @@
 use std::io;
+use std::path::Path;
 
 use nboom_io::{SceneFile, read_scene};
 use nboom_model::Scene;
@@ -9,14 +10,21 @@ use crate::{CheckArgs, CliError, Routines, print_scene, say};
 
 /// Reads a scene and returns what it contains for standard output.
 pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {
-    let file = read_scene(&args.scene)?;
-    warnings(&file).iter().for_each(|warning| say("warning", warning));
+    let file = scene(&args.scene)?;
     let scene = &file.scene;
     #[cfg(feature = "generator")]
     let generated = generated_code(scene);
     #[cfg(not(feature = "generator"))]
     let generated = "";
     Ok(format!("{}{generated}{}\n", print_scene::text(scene), code_at_start(scene, routines)))
+}
+
+/// What every command but `run`, which may be quiet, begins with: reads a scene, in which all is
+/// checked that a run would refuse, and says its warnings.
+pub(crate) fn scene(path: &Path) -> Result<SceneFile, CliError> {
+    let file = read_scene(path)?;
+    warnings(&file).iter().for_each(|warning| say("warning", warning));
+    Ok(file)
 }
 
 /// What reading the file and looking at the scene warn of.

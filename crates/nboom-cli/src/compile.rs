@@ -1,12 +1,10 @@
-use nboom_io::read_scene;
 use nboom_package::{Build, Built, compile as build};
 
-use crate::{CliError, CompileArgs, check, say};
+use crate::{CliError, CompileArgs, check};
 
 /// Builds a simulator around the scene's routines and returns an account.
 pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
-    let file = read_scene(&args.scene)?;
-    check::warnings(&file).iter().for_each(|warning| say("warning", warning));
+    let file = check::scene(&args.scene)?;
     let CompileArgs { formulation, level, offline, .. } = *args;
     let how = Build { formulation, level, work: args.work.clone(), offline };
     let Built { up_to_date, topology, routines, folder } =

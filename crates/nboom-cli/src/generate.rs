@@ -1,12 +1,10 @@
-use nboom_io::read_scene;
 use nboom_package::{Choices, Numbers, Written, generate as write, is_current};
 
-use crate::{CliError, GenerateArgs, check, say};
+use crate::{CliError, GenerateArgs, check};
 
 /// Writes a crate with the scene's routines, or compares one, and returns an account.
 pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
-    let file = read_scene(&args.scene)?;
-    check::warnings(&file).iter().for_each(|warning| say("warning", warning));
+    let file = check::scene(&args.scene)?;
     let GenerateArgs { formulation, level, equations, lock_states, .. } = *args;
     let stresses = match (args.stresses, &file.structure) {
         (true, None) => return Err(CliError::NoStations { scene: file.scene.name.clone() }),

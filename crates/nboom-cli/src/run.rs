@@ -23,8 +23,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let file = SceneFile { scene: slips.scene(file.scene), ..file };
     let kernels = if args.path == PathChoice::Generic { &[] } else { routines.accelerations };
     let stresses = args.stresses.analysis(&file, slips, kernels)?;
-    let of_sections = stresses.iter().flat_map(StressAnalysis::warnings);
-    let warnings = check::warnings(&file).into_iter().chain(of_sections);
+    let warnings = check::warnings(&file).into_iter();
     let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
     let scene = with_end_time(file.scene, args.end_time)?;
     if !args.quiet {

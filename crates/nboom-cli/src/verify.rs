@@ -1,18 +1,16 @@
 use std::fmt::Write;
 
-use nboom_io::read_scene;
 use nboom_verify::{Comparison, Hinges, Quantity, Row, Subject, compare};
 
 use crate::format::{code_columns, code_head, count, not_covered, routine_topology, short};
 use crate::run::default_directory;
-use crate::{CliError, Routines, VerifyArgs, check, print, say};
+use crate::{CliError, Routines, VerifyArgs, check, print};
 
 const FILE: &str = "verify.json";
 
 /// Compares all code that computes accelerations, writes the largest deviations and prints them.
 pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, CliError> {
-    let file = read_scene(&args.scene)?;
-    check::warnings(&file).iter().for_each(|warning| say("warning", warning));
+    let file = check::scene(&args.scene)?;
     let held = Subject::with_held_hinges(&file.scene, args.states / 2, args.seed)?;
     let free = Subject::new(file.scene, args.states - held.len(), args.seed)?;
     let Routines { accelerations, equations, .. } = *routines;

@@ -118,8 +118,8 @@ fn the_answer_goes_where_it_is_asked_for() {
     assert_eq!(String::from_utf8_lossy(&output.stdout), "1 section, results in new/out.json\n");
     assert_eq!(
         String::from_utf8_lossy(&output.stderr),
-        "warning: sections.json: section a: thickness 0.150 of the radius; thin-wall theory holds \
-         up to 0.1\n"
+        "warning: sections.json: section a: thickness 0.150 of the radius found, at most 0.1 for \
+         thin-wall theory expected\n"
     );
     let written = fs::read_to_string(directory.path().join("new/out.json")).expect("written");
     let written: Value = serde_json::from_str(&written).expect("JSON");
@@ -159,7 +159,7 @@ fn bad_sections_are_named() {
             json!([[1, 1], [1, 1], [0, 1], [0, 0]]),
             "wall 1: length zero found, vertices 1 and 2 at different points expected",
         ),
-        ("vertices", bow_tie, "walls 1 and 3 cross or touch, one cell expected"),
+        ("vertices", bow_tie, "walls 1 and 3 that cross or touch found, one cell expected"),
         (
             "vertices",
             json!([[0, 0], [1, 0], [2, 0], [3, 0]]),

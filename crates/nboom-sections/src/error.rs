@@ -58,7 +58,7 @@ pub enum SectionError {
         next: usize,
     },
     /// The outline meets itself; the first wall that this one meets is told.
-    #[error("walls {} and {} cross or touch, one cell expected", wall + 1, other + 1)]
+    #[error("walls {} and {} that cross or touch found, one cell expected", wall + 1, other + 1)]
     Crossing {
         /// The wall with the lower number.
         wall: usize,
@@ -126,11 +126,16 @@ impl fmt::Display for SectionWarning {
         match self {
             Self::ThickWall { wall, ratio } => write!(
                 f,
-                "wall {}: thickness {ratio:.3} of its length; thin-wall theory holds up to {THIN}",
+                "wall {}: thickness {ratio:.3} of its length found, at most {THIN} for thin-wall theory \
+                 expected",
                 wall + 1
             ),
             Self::ThickTube { ratio } => {
-                write!(f, "thickness {ratio:.3} of the radius; thin-wall theory holds up to {THIN}")
+                write!(
+                    f,
+                    "thickness {ratio:.3} of the radius found, at most {THIN} for thin-wall theory \
+                     expected"
+                )
             }
         }
     }

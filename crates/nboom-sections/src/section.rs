@@ -36,7 +36,11 @@ impl Section {
         for (segment, description) in structure.segments().iter().enumerate() {
             for (station, of_station) in description.stations.iter().enumerate() {
                 let section = Self::of_shape(&of_station.section);
-                let here = section.map_err(|here| AtStation { segment, station, here })?;
+                let here = section.map_err(|mut errors| AtStation {
+                    segment,
+                    station,
+                    here: errors.swap_remove(0),
+                })?;
                 all.push(AtStation { segment, station, here });
             }
         }
@@ -46,18 +50,17 @@ impl Section {
     /// The section that a station has.
     ///
     /// # Errors
-    /// The first thing that is wrong with it.
-    pub fn of_shape(shape: &SectionShape) -> Result<Self, SectionError> {
+    /// Everything that is wrong with its numbers, else with its walls, else with its outline.
+    pub fn of_shape(shape: &SectionShape) -> Result<Self, Vec<SectionError>> {
         match shape {
             SectionShape::Tube { radius, thickness } => {
-                Tube::new(*radius, *thickness).map(Self::Tube)
+                Tube::new(*radius, *thickness).map(Self::Tube).map_err(|error| vec![error])
             }
             SectionShape::Polygon(vertices) => {
                 let places: Vec<Point> =
                     vertices.iter().map(|v| Point { xi: v.xi, zeta: v.zeta }).collect();
                 let thicknesses: Vec<f64> = vertices.iter().map(|v| v.thickness).collect();
-                let polygon = Polygon::new(&places, &thicknesses);
-                polygon.map(Self::Polygon).map_err(|mut errors| errors.swap_remove(0))
+                Polygon::new(&places, &thicknesses).map(Self::Polygon)
             }
         }
     }

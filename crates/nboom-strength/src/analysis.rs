@@ -1,7 +1,7 @@
 use nboom_loads::{LoadEquations, LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{HingeLabel, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
-use nboom_sections::{AtStation, PointStress, Section, SectionWarning};
+use nboom_sections::{AtStation, PointStress, Section};
 use nboom_sim::{Detail, InstantMotion, Jump, Snapshot};
 
 use crate::envelope::driver;
@@ -30,7 +30,6 @@ pub struct StressAnalysis {
 struct StationSection {
     segment: usize,
     station: usize,
-    warnings: Vec<SectionWarning>,
     section: Formulas,
 }
 
@@ -73,13 +72,7 @@ impl StressAnalysis {
         })?;
         let influences: Vec<_> = found.iter().map(|at| at.here.influence()).collect();
         let sections = found.into_iter().map(|AtStation { segment, station, here }| {
-            let warnings = here.warnings();
-            StationSection {
-                segment,
-                station,
-                warnings,
-                section: Formulas::new(here, settings.slips),
-            }
+            StationSection { segment, station, section: Formulas::new(here, settings.slips) }
         });
         let sections = sections.collect();
         let equations = LoadEquations::new(scene, Some(structure)).with_sections(influences);
@@ -106,16 +99,6 @@ impl StressAnalysis {
     /// and structure.
     pub fn with_kernels(self, kernels: &[Kernel]) -> Self {
         Self { loads: self.loads.with_kernels(kernels), ..self }
-    }
-
-    /// Where thin-wall theory may not hold, a line for each station.
-    pub fn warnings(&self) -> Vec<String> {
-        let stations = self.sections.iter();
-        let lines = stations.flat_map(|at| {
-            let place = format!("segment {}, station {}", self.labels[at.segment], at.station + 1);
-            at.warnings.iter().map(move |warning| format!("{place}: {warning}"))
-        });
-        lines.collect()
     }
 
     /// Instruction set of the generated code that finds the loads, if any does.

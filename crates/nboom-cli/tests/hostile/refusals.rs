@@ -90,6 +90,41 @@ fn one_wrong_piece() {
     }
 }
 
+/// Whatever is wrong, in the motion or in a section, all commands say the same about it.
+#[test]
+fn one_gate_for_all_commands() {
+    let place = Place::new("gate");
+    let crossed = ("XI2=2.15,.67,-1.74", "XI2=2.15,-1.74,.67");
+    let tables: [(&[(&str, &str)], &[&str]); 3] = [
+        (&[("EMM=25.0", "EMM=-25.0")], &["EMM"]),
+        (&[("R(2,3)=2.0", "R(2,3)=.01")], &["deck.nml:54:", "T3(1,2)", "at most the radius 0.01"]),
+        (
+            &[crossed, ("EMM=25.0", "EMM=-25.0"), ("NSTA=1,3,2,1", "NSTA=1,3,9,1")],
+            &["deck.nml:56:17: XI2(3,1): found walls 1 and 3", "EMM", "NSTA(3)"],
+        ),
+    ];
+    for (changes, words) in tables {
+        let change = |deck: String, (old, new): &(&str, &str)| deck.replacen(old, new, 1);
+        let deck = changes.iter().fold(REPORT_DECK.to_owned(), change);
+        place.write("deck.nml", deck);
+        let told = format!("{changes:?}");
+        let run = place.nboom(&["run", "deck.nml"]);
+        run.refused(&told, 2, words);
+        for command in [
+            &["check", "deck.nml"][..],
+            &["verify", "deck.nml"],
+            &["bench", "deck.nml"],
+            &["generate", "deck.nml", "-o", "out"],
+            &["compile", "deck.nml", "-o", "out/simulator"],
+        ] {
+            let finished = place.nboom(command);
+            assert_eq!(finished.code(), Some(2), "{command:?}: {told}");
+            assert_eq!(finished.stderr(), run.stderr(), "{command:?}: {told}");
+        }
+        assert!(!place.path("out").exists(), "{told}");
+    }
+}
+
 #[test]
 fn no_text_at_all() {
     let place = Place::new("no-text");

@@ -12,6 +12,7 @@ mod motion;
 mod names;
 mod number;
 mod required;
+mod section;
 mod settings;
 mod stress;
 mod symbols;

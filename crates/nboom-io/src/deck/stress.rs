@@ -1,6 +1,6 @@
 use nboom_model::{
-    MassProperties, Scene, SectionShape, SegmentStructure, Station, Structure, StructureDefect,
-    StructureError, StructurePlace, Vertex,
+    MassProperties, Scene, SegmentStructure, Station, Structure, StructureDefect, StructureError,
+    StructurePlace,
 };
 use nboom_scalar::Vec3;
 
@@ -10,9 +10,6 @@ use super::model_error;
 use super::shown;
 use super::symbols::Group;
 use super::values::{Key, plain};
-
-/// Vertices of a section, at most.
-const MOST_VERTICES: usize = 6;
 
 /// What is expected of most numbers of the stress groups.
 const POSITIVE: &str = "a positive value";
@@ -110,28 +107,8 @@ impl Builder<'_, '_, '_> {
         nboom_scalar::Sym3::zero()
     }
 
-    fn section(&mut self, i: usize, j: usize) -> SectionShape {
-        let flat = MOST_STATIONS * i + j;
-        let walls = ("T", i + 1, 0);
-        if self.values.real("ICIR", i) == 0.0 {
-            let radius = self.positive_element(plain("R"), flat);
-            let thickness = self.positive_element(walls, MOST_VERTICES * j);
-            return SectionShape::Tube { radius, thickness };
-        }
-        let count = self.count_in("NVER", flat, 3..=MOST_VERTICES);
-        let corners = MOST_VERTICES * j..MOST_VERTICES * j + count;
-        let xi = self.values.reals(("XI", i + 1, 0), corners.clone());
-        let zeta = self.values.reals(("ZETA", i + 1, 0), corners.clone());
-        let vertices = corners.zip(xi).zip(zeta).map(|((wall, xi), zeta)| Vertex {
-            xi,
-            zeta,
-            thickness: self.positive_element(walls, wall),
-        });
-        SectionShape::Polygon(vertices.collect())
-    }
-
     /// A count in range, or 0.
-    fn count_in(
+    pub fn count_in(
         &mut self,
         name: &'static str,
         index: usize,
@@ -147,7 +124,7 @@ impl Builder<'_, '_, '_> {
         count.map_or(0, |count| count as usize)
     }
 
-    fn positive_element(&mut self, key: Key, index: usize) -> f64 {
+    pub fn positive_element(&mut self, key: Key, index: usize) -> f64 {
         let value = self.required_element(key, index);
         if value <= 0.0 {
             self.error(key, index, shown(value), POSITIVE);

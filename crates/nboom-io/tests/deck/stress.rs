@@ -101,6 +101,58 @@ fn what_is_checked() {
     }
 }
 
+/// Sections of the report's deck: a tube, a pentagon, a triangle, a pentagon, two tubes and a
+/// rectangle. All that are none are told at once, with the number that makes them so.
+#[test]
+fn sections_that_are_none_are_refused_where_they_stand() {
+    let changes = [
+        ("R(1,1)=2.0", "R(1,1)=.02"),
+        ("XI2=2.15,.67,-1.74", "XI2=2.15,-1.74,.67"),
+        ("4.33,-4.33,-4.33", "4.33,4.33,-4.33"),
+        ("0.0,5.0,-5.0", "0.0,0.0,-5.0"),
+        ("XI4=20.0,-20.0,-20.0,20.0", "XI4=20.0,-20.0,20.0,-20.0"),
+    ];
+    assert_eq!(
+        lines(&errors(&with_changes(REPORT_DECK, &changes))),
+        [
+            "a.nml:54:5: T1(1,1): found thickness 0.05, expected above 0 and at most the radius 0.02",
+            "a.nml:56:17: XI2(3,1): found walls 1 and 3 that cross or touch, expected one cell",
+            "a.nml:56:40: XI2(2,2): found wall 1: length zero, expected vertices 1 and 2 at different \
+             points",
+            "a.nml:58:22: XI4(4,1): found walls 2 and 4 that cross or touch, expected one cell",
+        ]
+    );
+}
+
+#[test]
+fn sections_with_missing_numbers_have_no_other_errors() {
+    let deck = changed("T2=5*.15,0.0,3*.05,", "T2=2*.15,2*,.15,0.0,.05,,.05,");
+    let found = lines(&errors(&deck));
+    assert_eq!(found.len(), 3, "{found:?}");
+    assert!(found.iter().all(|line| line.contains(": T2(")), "{found:?}");
+}
+
+#[test]
+fn thick_walls_are_worth_a_warning() {
+    let of_walls = |deck: &str| {
+        let warnings = read(deck).warnings.into_iter();
+        let texts = warnings.map(|warning| warning.to_string());
+        texts.filter(|text| text.contains("thin-wall theory")).collect::<Vec<_>>()
+    };
+    assert_eq!(of_walls(REPORT_DECK), [""; 0]);
+    let thick =
+        with_changes(REPORT_DECK, &[("T1=.05", "T1=.3"), (".05,.1,.05,.1", ".05,.3,.05,.1")]);
+    assert_eq!(
+        of_walls(&thick),
+        [
+            "a.nml:54:5: T1(1,1): found thickness 0.150 of the radius, expected at most 0.1 for \
+             thin-wall theory",
+            "a.nml:54:69: T4(2,1): found wall 2: thickness 0.150 of its length, expected at most 0.1 for \
+             thin-wall theory",
+        ]
+    );
+}
+
 #[test]
 fn spelling_is_checked_even_when_no_stresses_are_wanted() {
     let deck = replaced(" &ROCK", " &DYNSTA\n BAD=1.0,\n &END\n &ROCK");

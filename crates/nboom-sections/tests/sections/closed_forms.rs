@@ -180,7 +180,7 @@ fn thick_walls_are_warned_of() {
     assert_eq!(Section::Polygon(polygon).warnings(), expected);
     assert_eq!(
         expected[0].to_string(),
-        "wall 2: thickness 0.125 of its length; thin-wall theory holds up to 0.1"
+        "wall 2: thickness 0.125 of its length found, at most 0.1 for thin-wall theory expected"
     );
     let tube = |t| Section::Tube(Tube::new(1.0, t).expect("a tube")).warnings();
     assert_eq!(tube(0.1), []);

@@ -71,7 +71,7 @@ fn outlines_that_meet_themselves() {
         let errors = refused(corners, &vec![0.1; corners.len()]);
         let (wall, other) = walls;
         assert!(errors.contains(&SectionError::Crossing { wall, other }), "{what}: {errors:?}");
-        let words = format!("walls {} and {} cross or touch", wall + 1, other + 1);
+        let words = format!("walls {} and {} that cross or touch found", wall + 1, other + 1);
         assert!(told(&errors).iter().any(|line| line.starts_with(&words)), "{what}");
     }
 }

@@ -1,0 +1,102 @@
+use nboom_model::{SectionShape, Vertex};
+use nboom_sections::{Section, SectionError, SectionWarning};
+
+use super::assignment::MOST_STATIONS;
+use super::builder::Builder;
+use super::model_error::phrases;
+use super::values::{Key, plain};
+
+/// Vertices of a section, at most.
+const MOST_VERTICES: usize = 6;
+
+/// Where in the stress groups a section stands: segment and station, from 0.
+#[derive(Clone, Copy)]
+struct Place {
+    segment: usize,
+    station: usize,
+}
+
+impl Builder<'_, '_, '_> {
+    /// The section of station `j` of segment `i`, both from 0. What is wrong with it is reported, and
+    /// walls for which thin-wall theory may not hold are worth a warning.
+    pub fn section(&mut self, i: usize, j: usize) -> SectionShape {
+        let place = Place { segment: i, station: j };
+        let reported = self.report.errors.len();
+        let shape = self.shape(place);
+        // Numbers that are missing have stand-ins, which enclose nothing in particular.
+        if self.report.errors.len() > reported {
+            return shape;
+        }
+        match Section::of_shape(&shape) {
+            Ok(section) => {
+                for warning in section.warnings() {
+                    let (found, expected) = phrases(&warning.to_string());
+                    let (key, index) = place.of_warning(warning);
+                    self.warn(key, index, found, &expected);
+                }
+            }
+            Err(errors) => {
+                for error in errors {
+                    let (key, index) = place.of_error(&error, &shape);
+                    let (found, expected) = phrases(&error.to_string());
+                    self.error(key, index, found, &expected);
+                }
+            }
+        }
+        shape
+    }
+
+    fn shape(&mut self, place: Place) -> SectionShape {
+        let Place { segment: i, station: j } = place;
+        if self.values.real("ICIR", i) == 0.0 {
+            let (radius, thickness) = (place.radius(), place.of_vertex("T", 0));
+            return SectionShape::Tube {
+                radius: self.positive_element(radius.0, radius.1),
+                thickness: self.positive_element(thickness.0, thickness.1),
+            };
+        }
+        let count = self.count_in("NVER", MOST_STATIONS * i + j, 3..=MOST_VERTICES);
+        let vertices = (0..count).map(|vertex| {
+            let [(xi, first), (zeta, _)] = ["XI", "ZETA"].map(|name| place.of_vertex(name, vertex));
+            let coordinate = |key| self.values.cell(key, first).map_or(0.0, |cell| cell.value);
+            let (xi, zeta) = (coordinate(xi), coordinate(zeta));
+            let (walls, wall) = place.of_vertex("T", vertex);
+            Vertex { xi, zeta, thickness: self.positive_element(walls, wall) }
+        });
+        SectionShape::Polygon(vertices.collect())
+    }
+}
+
+impl Place {
+    fn radius(self) -> (Key, usize) {
+        (plain("R"), MOST_STATIONS * self.segment + self.station)
+    }
+
+    /// A number of a vertex, or of the wall that starts there.
+    fn of_vertex(self, name: &'static str, vertex: usize) -> (Key, usize) {
+        ((name, self.segment + 1, 0), MOST_VERTICES * self.station + vertex)
+    }
+
+    /// The symbol and the element in storage order.
+    fn of_error(self, error: &SectionError, shape: &SectionShape) -> (Key, usize) {
+        match *error {
+            SectionError::Radius { .. } => self.radius(),
+            SectionError::TubeThickness { .. } => self.of_vertex("T", 0),
+            SectionError::Thickness { wall, .. } => self.of_vertex("T", wall),
+            SectionError::Vertex { vertex, .. } => self.of_vertex("XI", vertex),
+            SectionError::ZeroLengthWall { next, .. } => self.of_vertex("XI", next),
+            SectionError::Crossing { other, .. } => self.of_vertex("XI", other),
+            _ => match shape {
+                SectionShape::Tube { .. } => self.radius(),
+                SectionShape::Polygon(_) => self.of_vertex("XI", 0),
+            },
+        }
+    }
+
+    fn of_warning(self, warning: SectionWarning) -> (Key, usize) {
+        match warning {
+            SectionWarning::ThickWall { wall, .. } => self.of_vertex("T", wall),
+            _ => self.of_vertex("T", 0),
+        }
+    }
+}
