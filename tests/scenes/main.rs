@@ -9,6 +9,12 @@ mod support;
 #[path = "../support/collect.rs"]
 mod collect;
 
+#[path = "../support/random_scene.rs"]
+mod random_scene;
+
+#[path = "../support/scaled.rs"]
+mod scaled;
+
 mod catalog;
 mod code;
 mod compare;
@@ -20,3 +26,4 @@ mod stiff;
 mod tolerance;
 mod trajectories;
 mod trust;
+mod units;

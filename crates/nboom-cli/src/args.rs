@@ -120,7 +120,7 @@ pub struct RunArgs {
           allow_negative_numbers = true)]
     pub rtol: f64,
 
-    /// Absolute error allowed in a step, in the units of each variable.
+    /// Absolute error allowed in a step, as a share of each variable's natural size.
     #[arg(long, value_name = "A", default_value = "1e-12", value_parser = choice::positive,
           allow_negative_numbers = true)]
     pub atol: f64,

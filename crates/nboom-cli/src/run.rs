@@ -7,8 +7,8 @@ use nboom_results::{
     Outcome, RunDescription, RunDirectory, StressTables, with_causes, write_trust,
 };
 use nboom_sim::{
-    Form, Method, Options, Path, Reference, RkamSettings, Tolerance, Trust, Witness, simulate,
-    trust,
+    Bound, Form, Method, Options, Path, Reference, RkamSettings, Tolerance, Trust, Witness,
+    simulate, trust,
 };
 use nboom_strength::StressAnalysis;
 
@@ -80,13 +80,13 @@ fn options(
 
 /// What a deck says to `rkam`; where it says nothing, the tolerance does.
 fn rkam(legacy: &LegacySettings, tolerance: Tolerance) -> RkamSettings {
-    let absolute = |bound| Tolerance { relative: 0.0, absolute: bound };
-    let from_upper = RkamSettings::meeting(legacy.upper_error.map_or(tolerance, absolute));
+    let upper = legacy.upper_error.map_or(Bound::Within(tolerance), Bound::Number);
+    let from_upper = RkamSettings::meeting(upper);
     RkamSettings {
         first_step: legacy.first_step,
         shortest: legacy.min_step.unwrap_or(from_upper.shortest),
         longest: legacy.max_step.unwrap_or(from_upper.longest),
-        lower: legacy.lower_error.map_or(from_upper.lower, absolute),
+        lower: legacy.lower_error.map_or(from_upper.lower, Bound::Number),
         ..from_upper
     }
 }
@@ -171,7 +171,7 @@ mod tests {
     fn a_deck_steers_rkam_and_the_tolerance_says_the_rest() {
         let tolerance = Tolerance { relative: 1e-6, absolute: 1e-8 };
         let silent = LegacySettings::default();
-        assert_eq!(rkam(&silent, tolerance), RkamSettings::meeting(tolerance));
+        assert_eq!(rkam(&silent, tolerance), RkamSettings::meeting(Bound::Within(tolerance)));
         let deck = LegacySettings {
             first_step: Some(0.1),
             upper_error: Some(0.2),
@@ -179,13 +179,12 @@ mod tests {
             max_step: Some(0.4),
             ..silent
         };
-        let absolute = |bound| Tolerance { relative: 0.0, absolute: bound };
-        let (upper, lower) = (absolute(0.2), absolute(0.2 / 50.0));
+        let (upper, lower) = (Bound::Number(0.2), Bound::Number(0.2 / 50.0));
         let first_step = Some(0.1);
         let expected = RkamSettings { first_step, shortest: 0.3, longest: 0.4, upper, lower };
         assert_eq!(rkam(&deck, tolerance), expected);
         let deck = LegacySettings { lower_error: Some(0.5), ..deck };
-        assert_eq!(rkam(&deck, tolerance).lower, absolute(0.5));
+        assert_eq!(rkam(&deck, tolerance).lower, Bound::Number(0.5));
     }
 
     #[test]

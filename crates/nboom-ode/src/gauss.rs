@@ -89,7 +89,7 @@ impl Gauss {
     }
 
     fn scale_of(&self, i: usize) -> f64 {
-        self.tolerance.absolute + self.tolerance.relative * self.window.state[i].abs()
+        self.tolerance.allowed(self.window.sizes[i], self.window.state[i])
     }
 
     /// Root mean square of `values` over the controlled variables, in units of the tolerance.
@@ -212,22 +212,22 @@ impl Gauss {
         }
     }
 
-    /// A step over which the variables change by about a hundredth.
+    /// A step over which the variables change by about a hundredth; infinite where nothing moves.
     fn first_guess(&mut self, system: &mut dyn System) -> f64 {
         let Self { window, derivative, .. } = self;
         system.derivative(window.time, &window.state, derivative);
         window.counts.evaluations += 1;
         let (size, slope) =
-            (self.norm(|i| self.window.state[i]), self.norm(|i| self.derivative[i]));
+            (self.norm(|i| self.window.magnitude(i)), self.norm(|i| self.derivative[i]));
         let guess = 0.01 * size / slope;
-        if size < 1e-5 || slope < 1e-5 || !guess.is_finite() { 1e-6 } else { guess }
+        if guess.is_finite() { guess } else { f64::INFINITY }
     }
 
     /// The step for the motion that begins here, found by trying.
     fn first_step(&mut self, system: &mut dyn System) -> f64 {
         let mut step = self.first_guess(system);
         let mut too_long = f64::INFINITY;
-        for _ in 0..TRIALS {
+        for _ in 0..if step.is_finite() { TRIALS } else { 0 } {
             let error = self.attempt(system, step);
             if error > 1.0 {
                 too_long = step;
@@ -258,7 +258,7 @@ impl Gauss {
 impl Stepper for Gauss {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.controlled = controlled;
-        self.window.start(t, y);
+        self.window.start(system, t, y);
         let size = y.len();
         for buffer in [&mut self.lost, &mut self.end_lost, &mut self.argument, &mut self.derivative]
         {
@@ -279,6 +279,7 @@ impl Stepper for Gauss {
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+        self.window.measure(system);
         loop {
             let time = self.window.time;
             self.plan.head_for(limit, time, self.window.next_step);

@@ -47,7 +47,7 @@ pub use error::StepError;
 pub use gauss::Gauss;
 pub use method::Method;
 pub use radau::Radau;
-pub use rkam::{Rkam, RkamSettings};
+pub use rkam::{Bound, Rkam, RkamSettings};
 pub use runge_kutta::RungeKutta;
 pub use stepper::{Choice, Stepper, Window};
 pub use system::{Counts, System, Tolerance};

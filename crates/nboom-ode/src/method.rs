@@ -1,6 +1,8 @@
 use std::fmt;
 
-use crate::{Automatic, Gauss, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Taylor, Tolerance};
+use crate::{
+    Automatic, Bound, Gauss, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Taylor, Tolerance,
+};
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -100,7 +102,7 @@ impl Method {
     pub fn stepper(self, tolerance: Tolerance) -> Box<dyn Stepper> {
         match self {
             Self::Auto => Box::new(Automatic::new(tolerance)),
-            Self::Rkam => Box::new(Rkam::new(RkamSettings::meeting(tolerance))),
+            Self::Rkam => Box::new(Rkam::new(RkamSettings::meeting(Bound::Within(tolerance)))),
             Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
             Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),
             Self::Taylor => Box::new(Taylor::new(tolerance)),

@@ -104,7 +104,7 @@ impl Radau {
 
     /// The last step times the magnitude of the fastest motion's eigenvalue.
     pub(crate) fn stiffness(&mut self) -> f64 {
-        self.step * self.matrix.spectral_radius()
+        self.step * self.matrix.spectral_radius(&self.window.sizes[..self.controlled])
     }
 
     pub(crate) fn window_mut(&mut self) -> &mut Window {
@@ -122,31 +122,34 @@ impl Radau {
             system.derivative(window.time, &window.state, slope);
             window.counts.evaluations += 1;
             self.slope_is_known = true;
-            let Tolerance { relative, absolute } = self.tolerance;
-            for (scale, y) in self.scales.iter_mut().zip(&self.window.state) {
-                *scale = absolute + relative * y.abs();
+            self.window.measure(system);
+            let variables = self.window.sizes.iter().zip(&self.window.state);
+            for (scale, (&size, &y)) in self.scales.iter_mut().zip(variables) {
+                *scale = self.tolerance.allowed(size, y);
             }
         }
         if self.jacobian == Age::Outdated {
             let Self { window, slope, .. } = self;
-            let point = Point { time: window.time, state: &window.state, slope };
-            self.matrix.evaluate(system, point, &mut window.counts);
+            let Window { time, state, sizes, counts, .. } = window;
+            let point = Point { time: *time, state, slope, sizes };
+            self.matrix.evaluate(system, point, counts);
             self.jacobian = Age::New;
         }
     }
 
     /// Root mean square of an error over the controlled variables, in units of the tolerance.
-    fn norm(&self, error: &[f64]) -> f64 {
-        let square = |(e, scale): (&f64, &f64)| (e / scale).powi(2);
-        let sum: f64 = error.iter().zip(&self.scales).map(square).sum();
+    fn norm(&self, error: impl Fn(usize) -> f64) -> f64 {
+        let square = |(i, scale): (usize, &f64)| (error(i) / scale).powi(2);
+        let sum: f64 = self.scales.iter().enumerate().map(square).sum();
         (sum / self.controlled.max(1) as f64).sqrt()
     }
 
-    /// A first step over which the variables change by about a hundredth.
+    /// A first step over which the variables change by about a hundredth; infinite where nothing
+    /// moves.
     fn first_step(&self) -> f64 {
-        let (size, slope) = (self.norm(&self.window.state), self.norm(&self.slope));
-        let guess = 0.01 * size / slope;
-        if size < 1e-5 || slope < 1e-5 || !guess.is_finite() { 1e-6 } else { guess }
+        let size = self.norm(|i| self.window.magnitude(i));
+        let guess = 0.01 * size / self.norm(|i| self.slope[i]);
+        if guess.is_finite() { guess } else { f64::INFINITY }
     }
 
     /// Tries a step.
@@ -245,7 +248,7 @@ impl Radau {
             *e = step * *e + ERROR[0] * z[0] + ERROR[1] * z[1] + ERROR[2] * z[2];
         }
         self.matrix.real.solve(&mut self.error);
-        let norm = self.norm(&self.error);
+        let norm = self.norm(|i| self.error[i]);
         if norm.is_nan() { f64::INFINITY } else { norm.max(SMALLEST_ERROR) }
     }
 
@@ -265,7 +268,7 @@ impl Stepper for Radau {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         let size = y.len();
         self.controlled = controlled;
-        self.window.start(t, y);
+        self.window.start(system, t, y);
         self.matrix.resize(size);
         self.stages.resize(size);
         for (buffer, len) in

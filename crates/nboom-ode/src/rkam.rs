@@ -16,9 +16,37 @@ pub struct RkamSettings {
     /// Steps are not doubled beyond this.
     pub longest: f64,
     /// Difference of predictor and corrector above which the step is halved.
-    pub upper: Tolerance,
+    pub upper: Bound,
     /// Difference below which it is doubled.
-    pub lower: Tolerance,
+    pub lower: Bound,
+}
+
+/// What a difference of predictor and corrector is compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// One number for all variables, each in its own unit, as in 1970.
+    Number(f64),
+    /// What the tolerance allows in each variable.
+    Within(Tolerance),
+}
+
+impl Bound {
+    fn of(self, size: f64, value: f64) -> f64 {
+        match self {
+            Self::Number(number) => number,
+            Self::Within(tolerance) => tolerance.allowed(size, value),
+        }
+    }
+
+    /// The bound below which a step is doubled that is halved above this one.
+    fn for_doubling(self) -> Self {
+        match self {
+            Self::Number(number) => Self::Number(number / BAND),
+            Self::Within(Tolerance { relative, absolute }) => {
+                Self::Within(Tolerance { relative: relative / BAND, absolute: absolute / BAND })
+            }
+        }
+    }
 }
 
 /// How far below the upper bound the lower one is, as in the report's sample. Doubling makes
@@ -26,15 +54,14 @@ pub struct RkamSettings {
 const BAND: f64 = 50.0;
 
 impl RkamSettings {
-    /// Halves above `tolerance`, doubles well below it, and starts with a step of its own choice.
-    pub fn meeting(tolerance: Tolerance) -> Self {
-        let Tolerance { relative, absolute } = tolerance;
+    /// Halves above `upper`, doubles well below it, and starts with a step of its own choice.
+    pub fn meeting(upper: Bound) -> Self {
         Self {
             first_step: None,
             shortest: 0.0,
             longest: f64::INFINITY,
-            upper: tolerance,
-            lower: Tolerance { relative: relative / BAND, absolute: absolute / BAND },
+            upper,
+            lower: upper.for_doubling(),
         }
     }
 }
@@ -157,21 +184,28 @@ impl Rkam {
     }
 
     /// The largest difference, in units of `bound`.
-    fn largest(&self, bound: Tolerance) -> f64 {
+    fn largest(&self, bound: Bound) -> f64 {
         let share = |i: usize| self.difference[i].abs() / self.bound_of(bound, i);
         (0..self.controlled).map(share).fold(0.0, f64::max)
     }
 
-    fn bound_of(&self, bound: Tolerance, i: usize) -> f64 {
-        bound.absolute + bound.relative * self.window.state[i].abs()
+    fn bound_of(&self, bound: Bound, i: usize) -> f64 {
+        bound.of(self.window.sizes[i], self.window.state[i])
     }
 
     /// A first step at which the last stage and the derivative at the end, which differ by
-    /// terms of order 4, agree within the upper bound.
+    /// terms of order 4, agree within the upper bound; infinite where nothing moves.
     fn find_first_step(&mut self, system: &mut dyn System) -> f64 {
-        let size = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let (y, f) = (size(&self.window.state), size(self.history.past(0)));
-        let guess = if y > 0.0 && f > 0.0 && f.is_finite() { 0.1 * y / f } else { 1e-3 };
+        let largest = |value: &dyn Fn(usize) -> f64| {
+            let in_sizes = |i: usize| value(i).abs() / self.window.sizes[i];
+            (0..self.controlled).map(in_sizes).fold(0.0, f64::max)
+        };
+        let slopes = self.history.past(0);
+        let (y, f) = (largest(&|i| self.window.magnitude(i)), largest(&|i| slopes[i]));
+        let guess = 0.1 * y / f;
+        if !guess.is_finite() {
+            return self.settings.longest;
+        }
         let mut step = guess.clamp(self.settings.shortest, self.settings.longest);
         for _ in 0..TRIALS {
             self.runge_kutta(system, step);
@@ -235,7 +269,7 @@ fn nested(terms: &[f64], x: f64) -> f64 {
 impl Stepper for Rkam {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.controlled = controlled;
-        self.window.start(t, y);
+        self.window.start(system, t, y);
         self.history.start(y.len());
         for (buffer, terms) in [
             (&mut self.argument, 1),
@@ -260,8 +294,9 @@ impl Stepper for Rkam {
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+        self.window.measure(system);
         loop {
-            let wanted = self.window.next_step;
+            let wanted = self.window.wanted(limit);
             let remaining = limit - self.window.time;
             let reaches = wanted * 1.01 >= remaining;
             let step = if reaches { remaining } else { wanted };
@@ -273,6 +308,7 @@ impl Stepper for Rkam {
             }
             self.step = step;
             self.window.end_time = if reaches { limit } else { self.window.time + step };
+            self.window.next_step = wanted;
             if doubles && 2.0 * step <= self.settings.longest {
                 self.window.next_step = 2.0 * step;
             }

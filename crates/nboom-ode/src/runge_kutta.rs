@@ -72,8 +72,9 @@ impl RungeKutta {
         let (mut of_slopes, mut of_states) = (0.0, 0.0);
         for i in 0..self.controlled {
             let slope = |stage: usize| self.stages[stage * self.stride + i];
-            of_slopes += (slope(last) - slope(last - 1)).powi(2);
-            of_states += (self.window.end_state[i] - self.stage_state[i]).powi(2);
+            let size = self.window.sizes[i];
+            of_slopes += ((slope(last) - slope(last - 1)) / size).powi(2);
+            of_states += ((self.window.end_state[i] - self.stage_state[i]) / size).powi(2);
         }
         if of_states > 0.0 { self.step * (of_slopes / of_states).sqrt() } else { 0.0 }
     }
@@ -153,8 +154,8 @@ impl RungeKutta {
     }
 
     fn scale_of(&self, i: usize) -> f64 {
-        let size = self.window.state[i].abs().max(self.window.end_state[i].abs());
-        self.tolerance.absolute + self.tolerance.relative * size
+        let value = self.window.state[i].abs().max(self.window.end_state[i].abs());
+        self.tolerance.allowed(self.window.sizes[i], value)
     }
 
     fn factor(&self, error: f64) -> f64 {
@@ -174,14 +175,17 @@ impl RungeKutta {
         StepError::Underflow { time, step, variable }
     }
 
-    /// A first step from the sizes of the first and second derivative (Hairer, Nørsett, Wanner,
-    /// Section II.4).
+    /// A first step from the times in which the first and the second derivative change the variables
+    /// by what they are, after Hairer, Nørsett, Wanner, Section II.4, who measure them in units of
+    /// time; infinite where nothing moves.
     fn first_step(&mut self, system: &mut dyn System) -> f64 {
         let n = self.size();
-        let size = self.norm(|i| self.window.state[i]);
-        let slope = self.norm(|i| self.stages[i]);
-        let guess = 0.01 * size / slope;
-        let guess = if size < 1e-5 || slope < 1e-5 || !guess.is_finite() { 1e-6 } else { guess };
+        let size = self.norm(|i| self.window.magnitude(i));
+        let by_slope = size / self.norm(|i| self.stages[i]);
+        if !by_slope.is_finite() {
+            return f64::INFINITY;
+        }
+        let guess = 0.01 * by_slope;
         for i in 0..n {
             self.stage_state[i] = self.window.state[i] + guess * self.stages[i];
         }
@@ -190,13 +194,8 @@ impl RungeKutta {
         self.window.counts.evaluations += 1;
         let stride = self.stride;
         let curvature = self.norm(|i| self.stages[stride + i] - self.stages[i]) / guess;
-        let largest = slope.max(curvature);
-        let by_order = if largest <= 1e-15 || largest.is_nan() {
-            (guess * 1e-3).max(1e-6)
-        } else {
-            (0.01 / largest).powf(self.tableau.control.exponent)
-        };
-        by_order.min(100.0 * guess)
+        let by_curvature = (size / curvature).sqrt();
+        by_slope.min(by_curvature) * (0.01 / size).powf(self.tableau.control.exponent)
     }
 
     /// Root mean square of `values` over the controlled variables, in units of the tolerance.
@@ -223,7 +222,7 @@ impl Stepper for RungeKutta {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.controlled = controlled;
         self.previous_error = SMALL_ERROR;
-        self.window.start(t, y);
+        self.window.start(system, t, y);
         self.stride = y.len().next_multiple_of(BLOCK);
         let terms = self.terms();
         for (buffer, size) in [
@@ -244,6 +243,7 @@ impl Stepper for RungeKutta {
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+        self.window.measure(system);
         let mut last_rejected = false;
         loop {
             let Some((step, reaches)) = self.window.attempt(limit) else {

@@ -73,6 +73,9 @@ impl Choice {
     }
 }
 
+/// Share of the way to its limit that a step takes where nothing moves, and may begin to.
+const AT_REST: f64 = 1e-3;
+
 /// The step just taken, from its start to its end.
 #[derive(Clone, Debug)]
 pub struct Window {
@@ -84,7 +87,9 @@ pub struct Window {
     pub end_time: f64,
     /// Variables at the step's end.
     pub end_state: Vec<f64>,
-    /// The step that is tried next.
+    /// Natural sizes of the variables, where the step starts.
+    pub sizes: Vec<f64>,
+    /// The step that is tried next; infinite where nothing moves.
     pub next_step: f64,
     /// What no step is longer than.
     pub longest: f64,
@@ -99,6 +104,7 @@ impl Default for Window {
             state: Vec::new(),
             end_time: 0.0,
             end_state: Vec::new(),
+            sizes: Vec::new(),
             next_step: 0.0,
             longest: f64::INFINITY,
             counts: Counts::default(),
@@ -112,20 +118,37 @@ impl Window {
         self.end_time - self.time
     }
 
-    pub(crate) fn start(&mut self, t: f64, y: &[f64]) {
+    pub(crate) fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64]) {
         (self.time, self.end_time) = (t, t);
-        for buffer in [&mut self.state, &mut self.end_state] {
+        for buffer in [&mut self.state, &mut self.end_state, &mut self.sizes] {
             buffer.clear();
             buffer.extend_from_slice(y);
         }
+        self.measure(system);
+    }
+
+    /// Asks for the natural sizes where the step starts.
+    pub(crate) fn measure(&mut self, system: &mut dyn System) {
+        system.sizes(&self.state, &mut self.sizes);
+    }
+
+    /// The magnitude of variable `i` at the step's start, or its natural size if that is more.
+    pub(crate) fn magnitude(&self, i: usize) -> f64 {
+        self.state[i].abs().max(self.sizes[i])
+    }
+
+    /// The step that is tried next on the way to `limit`.
+    pub(crate) fn wanted(&self, limit: f64) -> f64 {
+        let careful = AT_REST * (limit - self.time);
+        if self.next_step.is_finite() { self.next_step } else { careful.min(self.longest) }
     }
 
     /// The step to try on the way to `limit`, and whether it reaches it, which it does when it
     /// comes close; `None` where it would not change the time.
     pub(crate) fn attempt(&self, limit: f64) -> Option<(f64, bool)> {
-        let remaining = limit - self.time;
-        let reaches = self.next_step * 1.01 >= remaining;
-        let step = if reaches { remaining } else { self.next_step };
+        let (remaining, wanted) = (limit - self.time, self.wanted(limit));
+        let reaches = wanted * 1.01 >= remaining;
+        let step = if reaches { remaining } else { wanted };
         (reaches || self.time + 0.1 * step != self.time).then_some((step, reaches))
     }
 
@@ -134,7 +157,8 @@ impl Window {
     pub(crate) fn accept(&mut self, end: f64, reaches: bool, next: f64) {
         self.end_time = end;
         // A step cut short by the limit must not slow the next one down.
-        let next = if reaches { self.next_step.max(next) } else { next };
+        let next =
+            if reaches && self.next_step.is_finite() { self.next_step.max(next) } else { next };
         self.next_step = next.min(self.longest);
         self.counts.accepted += 1;
     }

@@ -3,6 +3,13 @@ pub trait System {
     /// Writes f(t, y) to `dy`, which has the length of `y`.
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]);
 
+    /// Writes the natural size of each variable to `sizes`, of which [`Tolerance::absolute`] is a
+    /// share; asked where each step starts, at `y`. Sizes in proportion to the units that the variables
+    /// are in make steps independent of units.
+    fn sizes(&mut self, _y: &[f64], sizes: &mut [f64]) {
+        sizes.fill(1.0);
+    }
+
     /// Writes ∂f/∂y at (t, y) to `out`, row by row, and returns `true`; a system that returns
     /// `false` leaves it to the method to take differences. Only implicit methods ask.
     fn jacobian(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> bool {
@@ -17,13 +24,21 @@ pub trait System {
     }
 }
 
-/// Error allowed in a step: `absolute + relative · |y|` for each variable.
+/// Error allowed in a step: `absolute · size + relative · |y|` for each variable, whose natural
+/// size [`System::sizes`] tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Relative part.
     pub relative: f64,
-    /// Absolute part, in the variable's unit.
+    /// Absolute part, as a share of the variable's natural size.
     pub absolute: f64,
+}
+
+impl Tolerance {
+    /// The error allowed in a variable of natural size `size` whose value is `value`.
+    pub(crate) fn allowed(self, size: f64, value: f64) -> f64 {
+        self.absolute * size + self.relative * value.abs()
+    }
 }
 
 /// What integration has cost so far.

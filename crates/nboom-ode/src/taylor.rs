@@ -94,7 +94,7 @@ impl Taylor {
 
     /// The error allowed in variable `i`.
     fn allowed(&self, i: usize) -> f64 {
-        self.tolerance.absolute + self.tolerance.relative * self.window.state[i].abs()
+        self.tolerance.allowed(self.window.sizes[i], self.window.state[i])
     }
 
     fn first_not_finite(&self) -> Option<usize> {
@@ -121,9 +121,9 @@ impl Taylor {
 }
 
 impl Stepper for Taylor {
-    fn start(&mut self, _system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+    fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.controlled = controlled;
-        self.window.start(t, y);
+        self.window.start(system, t, y);
         self.coefficients.clear();
         self.coefficients.resize((self.order + 1) * y.len(), 0.0);
         self.expanded = false;
@@ -134,6 +134,7 @@ impl Stepper for Taylor {
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+        self.window.measure(system);
         self.expand(system)?;
         let time = self.window.time;
         if let Some(variable) = self.first_not_finite() {

@@ -1,7 +1,7 @@
 //! The 1970 integrator: what its settings do, on problems whose differences of predictor and
 //! corrector are known.
 
-use nboom_ode::{Rkam, RkamSettings, StepError, Stepper, System, Tolerance};
+use nboom_ode::{Bound, Rkam, RkamSettings, StepError, Stepper, System, Tolerance};
 
 /// (ċ, ṡ) = (−φ̇ s, φ̇ c), whose solution is (cos φ, sin φ): with φ = t + `swing` · atan(t − 5) it
 /// turns at unit rate but for the time around 5.
@@ -35,8 +35,8 @@ impl System for Turning {
     }
 }
 
-fn absolute(bound: f64) -> Tolerance {
-    Tolerance { relative: 0.0, absolute: bound }
+fn absolute(bound: f64) -> Bound {
+    Bound::Number(bound)
 }
 
 /// Bounds between which steps of 0.1 stay: 270/720 · 0.1⁵ = 3.75e-6, and 32 times less at half.
@@ -177,7 +177,7 @@ fn a_cut_step_loses_no_order() {
 fn bounds_from_a_tolerance_are_relative_to_the_variables() {
     let tolerance = Tolerance { relative: 1e-7, absolute: 0.0 };
     let steps_at_size = |size: f64| {
-        let mut stepper = Rkam::new(RkamSettings::meeting(tolerance));
+        let mut stepper = Rkam::new(RkamSettings::meeting(Bound::Within(tolerance)));
         stepper.start(&mut { UNIFORM }, 0.0, &[size, 0.3 * size], 2);
         run(&mut stepper, UNIFORM, 5.0).expect("met")
     };

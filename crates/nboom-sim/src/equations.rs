@@ -15,6 +15,7 @@ use crate::options::Options;
 use crate::rates::Rates;
 use crate::record::Selection;
 use crate::series;
+use crate::sizes::Sizes;
 use crate::state::State;
 use crate::step_motion::HingeForces;
 use crate::variables::{Variables, gravity, motion};
@@ -38,6 +39,7 @@ pub(crate) struct Equations {
     jacobian: Option<Jacobian>,
     /// The same.
     series: Option<Series<f64>>,
+    sizes: Sizes,
     /// Whether the angular momentum stands for the rate where nothing changes it.
     momentum_for_rate: bool,
 }
@@ -65,6 +67,7 @@ impl Equations {
             rates: Rates::new(scene, layout, &[], None),
             jacobian: None,
             series: None,
+            sizes: Sizes::of(scene),
             momentum_for_rate: options.integrator.keeps_invariants()
                 && !scene.slips().paddle_inertia,
         }
@@ -91,6 +94,20 @@ impl Equations {
         (self.jacobian, self.series) = (None, None);
         self.variables = Variables::new(scene, layout, state);
         self.variables.write(free, y);
+        self.size_up(state);
+    }
+
+    /// Notes how fast `state` is, and how fast it soon will be.
+    fn size_up(&mut self, state: &State) {
+        self.sizes.saw(&state.omega_body.to_array());
+        self.sizes.saw(&state.tau);
+        let [beta, tau] = state.of_free(&self.dynamics);
+        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
+        self.dynamics.accelerations(&motion, &mut self.accelerations);
+        let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
+        let angular = omega_dot_body.to_array().into_iter().chain(tau_dot.iter().copied());
+        let force = self.thrust.map_or(Vec3::zero(), |thrust| thrust.force);
+        self.sizes.saw_accelerations(angular, force * (1.0 / self.total_mass));
     }
 
     /// The state that the variables `y` at time `t` stand for.
@@ -146,6 +163,11 @@ impl Equations {
         self.gravity + thrust
     }
 
+    /// The largest rate so far.
+    pub fn fastest(&self) -> f64 {
+        self.sizes.rate()
+    }
+
     /// The spring and dashpot law of each hinge.
     pub fn laws(&self) -> &[HingeLaw<f64>] {
         &self.laws
@@ -165,6 +187,13 @@ impl System for Equations {
         }
         let free_fall = self.variables.free_fall(t).velocity;
         self.rates.write(&mut self.dynamics, (&motion, &self.accelerations), free_fall, y, dy);
+    }
+
+    fn sizes(&mut self, y: &[f64], sizes: &mut [f64]) {
+        let layout = &self.variables.layout;
+        self.sizes.saw(&y[layout.omega()]);
+        self.sizes.saw(&y[layout.tau()]);
+        self.sizes.write(layout, sizes);
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {

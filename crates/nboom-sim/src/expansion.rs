@@ -10,7 +10,7 @@ pub(crate) struct Accuracy {
     pub order: usize,
     /// Relative error allowed in a step.
     pub relative: f64,
-    /// Absolute error allowed in a step, in the units of each variable.
+    /// Absolute error allowed in a step, as a share of each variable's natural size.
     pub absolute: f64,
 }
 
@@ -26,24 +26,20 @@ pub(crate) struct Expansion {
     accuracy: Accuracy,
     series: Series<DoubleDouble>,
     size: usize,
-    controlled: usize,
+    /// Natural sizes of the variables that decide on the step.
+    sizes: Vec<f64>,
     /// Those of all variables for each power in turn.
     coefficients: Vec<DoubleDouble>,
 }
 
 impl Expansion {
-    /// Of what `graph` computes with the `fixed` inputs; the first `controlled` variables decide
-    /// on the step.
-    pub fn new(
-        graph: &Graph,
-        fixed: &[DoubleDouble],
-        controlled: usize,
-        accuracy: Accuracy,
-    ) -> Self {
+    /// Of what `graph` computes with the `fixed` inputs; the first variables, whose natural sizes
+    /// are `sizes`, decide on the step.
+    pub fn new(graph: &Graph, fixed: &[DoubleDouble], sizes: Vec<f64>, accuracy: Accuracy) -> Self {
         let size = graph.outputs().len();
         let coefficients = vec![DoubleDouble::zero(); (accuracy.order + 1) * size];
         let series = Series::new(graph, fixed, accuracy.order);
-        Self { accuracy, series, size, controlled, coefficients }
+        Self { accuracy, series, size, sizes, coefficients }
     }
 
     /// Expands about the variables `y` at time `t`. Returns the step at whose end neither of the
@@ -64,9 +60,10 @@ impl Expansion {
     /// finite.
     fn largest(&self, power: usize) -> f64 {
         let Accuracy { relative, absolute, .. } = self.accuracy;
-        let of_power = |power: usize| &self.coefficients[power * self.size..][..self.controlled];
-        let terms = of_power(power).iter().zip(of_power(0));
-        let sizes = terms.map(|(c, y)| c.to_f64().abs() / (absolute + relative * y.to_f64().abs()));
+        let of_power = |power: usize| &self.coefficients[power * self.size..][..self.sizes.len()];
+        let terms = of_power(power).iter().zip(of_power(0)).zip(&self.sizes);
+        let allowed = |y: f64, size: f64| absolute * size + relative * y.abs();
+        let sizes = terms.map(|((c, y), &size)| c.to_f64().abs() / allowed(y.to_f64(), size));
         let finite = |size: f64| if size.is_finite() { size } else { f64::INFINITY };
         sizes.map(finite).fold(0.0, f64::max)
     }

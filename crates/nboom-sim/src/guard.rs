@@ -4,7 +4,7 @@ use nboom_ode::{Bernstein, Interpolation, Stepper};
 use nboom_scalar::Number;
 
 use crate::equations::Equations;
-use crate::instant::ONE_INSTANT;
+use crate::instant;
 use crate::state::State;
 
 /// A quantity whose change of sign is an event.
@@ -31,6 +31,15 @@ impl GuardKind {
             Self::Lock { hinge } | Self::Trigger { hinge, .. } | Self::KickOff { hinge } => hinge,
         }
     }
+
+    /// How fast it goes, in radians or limit lengths per time unit.
+    pub fn pace<R: Number>(self, scene: &Scene, reading: Reading<R>) -> f64 {
+        let rate = reading.rate.to_f64().abs();
+        match self {
+            Self::Lock { .. } | Self::Trigger { .. } => rate,
+            Self::KickOff { hinge } => rate / limit_length(scene, hinge),
+        }
+    }
 }
 
 /// On which side of zero a guard is.
@@ -44,12 +53,12 @@ enum Side {
 }
 
 impl Guard {
-    /// Whether it leaves its side within `duration` before or after the reading.
-    pub fn is_passing<R: Number>(&self, reading: Reading<R>, duration: f64) -> bool {
+    /// How long before or after the reading it is zero, if it leaves its side there.
+    pub fn time_away<R: Number>(&self, reading: Reading<R>) -> Option<f64> {
         let (value, rate) = (reading.value.to_f64(), reading.rate.to_f64());
         match self.side {
-            Side::Known(sign) => rate * sign < 0.0 && value.abs() <= duration * rate.abs(),
-            Side::Leaving { .. } => false,
+            Side::Known(sign) if rate * sign < 0.0 => Some((value / rate).abs()),
+            _ => None,
         }
     }
 }
@@ -179,6 +188,8 @@ impl Guards {
         state: &State<R>,
         located: Option<GuardKind>,
     ) -> bool {
+        let mut pace = |kind: GuardKind| kind.pace(scene, read(kind, scene, dynamics, state));
+        let of_located = located.map_or(0.0, &mut pace);
         let mut others = self.list.iter().filter(|guard| Some(guard.kind) != located);
         others.any(|guard| {
             let reading = read(guard.kind, scene, dynamics, state);
@@ -189,7 +200,9 @@ impl Guards {
                     value * s < -BEYOND_ROUNDING * limit_length(scene, guard.kind.hinge())
                 }),
             };
-            has_left && !guard.is_passing(reading, ONE_INSTANT)
+            let pace = guard.kind.pace(scene, reading).max(of_located);
+            let instant = instant::duration(scene, state.time.to_f64(), pace);
+            has_left && guard.time_away(reading).is_none_or(|away| away > instant)
         })
     }
 

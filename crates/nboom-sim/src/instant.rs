@@ -8,8 +8,26 @@ use crate::ledger::totals;
 use crate::record::{Event, EventKind, Jump, Totals};
 use crate::state::State;
 
-/// Crossings within this many time units of each other are one instant.
-pub(crate) const ONE_INSTANT: f64 = 1e-11;
+/// Angle \[rad\] through which the fastest hinge that arrives turns in one instant; of a kick-off
+/// spring, the share of its limit length by which it changes.
+const ONE_INSTANT: f64 = 1e-11;
+
+/// Spacings of `f64` that an instant lasts at least.
+const SPACINGS: f64 = 4.0;
+
+/// Share of the span that an instant lasts at most, however slowly something arrives.
+const LONGEST: f64 = 1e-6;
+
+/// How long after the first arrival at `time` an instant lasts, when the fastest to arrive goes at
+/// `pace`, radians or limit lengths per time unit; zero where nothing moves.
+pub(crate) fn duration(scene: &Scene, time: f64, pace: f64) -> f64 {
+    let spacings = SPACINGS * (time.abs().next_up() - time.abs());
+    if pace == 0.0 {
+        return spacings;
+    }
+    let longest = LONGEST * (scene.end_time - scene.initial.time);
+    (ONE_INSTANT / pace).min(longest).max(spacings)
+}
 
 /// What has changed sign in an instant.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +35,8 @@ pub(crate) struct Arrivals {
     locks: Vec<usize>,
     triggered: Vec<usize>,
     springs: Vec<usize>,
+    /// What is scheduled until this long after belongs to the instant, too.
+    duration: f64,
 }
 
 impl Arrivals {
@@ -29,12 +49,67 @@ impl Arrivals {
         state: &State<R>,
         located: Option<GuardKind>,
     ) -> Self {
-        let mut arrivals = Self::default();
+        Self::within_an_instant(scene, guards, dynamics, state, |kind| located == Some(kind))
+    }
+
+    /// What the initial time itself brings: releases by an angle that holds already, and what reaches
+    /// zero within the same instant.
+    pub fn at_start<R: Number>(
+        scene: &Scene,
+        guards: &Guards,
+        dynamics: &mut Recursive<R>,
+        state: &State<R>,
+    ) -> Self {
+        let holds = |i: usize| match scene.bodies[i].hinge.release {
+            Release::Angle { hinge, angle } => {
+                (scene.bodies[hinge].hinge.start.angle - angle).abs() <= SAME_ANGLE
+            }
+            _ => false,
+        };
+        let mut arrivals = Self::within_an_instant(
+            scene,
+            guards,
+            dynamics,
+            state,
+            |kind| matches!(kind, GuardKind::Trigger { hinge, .. } if holds(hinge)),
+        );
+        // Held hinges have no guards.
+        arrivals.triggered = (0..scene.bodies.len())
+            .filter(|&i| holds(i) || arrivals.triggered.contains(&i))
+            .collect();
+        arrivals
+    }
+
+    /// The guards that are `here`, and those that arrive in the same instant.
+    fn within_an_instant<R: Number>(
+        scene: &Scene,
+        guards: &Guards,
+        dynamics: &mut Recursive<R>,
+        state: &State<R>,
+        here: impl Fn(GuardKind) -> bool,
+    ) -> Self {
+        let time = state.time.to_f64();
+        let mut coming: Vec<(f64, f64, GuardKind)> = Vec::new();
         for guard in &guards.list {
-            let arrived = located == Some(guard.kind)
-                || guard.is_passing(read(guard.kind, scene, dynamics, state), ONE_INSTANT);
-            match guard.kind {
-                _ if !arrived => {}
+            let reading = read(guard.kind, scene, dynamics, state);
+            let away = if here(guard.kind) { Some(0.0) } else { guard.time_away(reading) };
+            let pace = guard.kind.pace(scene, reading);
+            coming.extend(away.map(|away| (away, pace, guard.kind)));
+        }
+        coming.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (mut arrived, mut fastest) = (Vec::new(), 0.0_f64);
+        for (away, pace, kind) in coming {
+            let faster = fastest.max(pace);
+            if away > duration(scene, time, faster) {
+                break;
+            }
+            fastest = faster;
+            arrived.push(kind);
+        }
+        let mut arrivals = Self { duration: duration(scene, time, fastest), ..Self::default() };
+        for kind in guards.list.iter().map(|guard| guard.kind).filter(|kind| arrived.contains(kind))
+        {
+            match kind {
                 GuardKind::Lock { hinge } => arrivals.locks.push(hinge),
                 GuardKind::Trigger { hinge, .. } => arrivals.triggered.push(hinge),
                 GuardKind::KickOff { hinge } => arrivals.springs.push(hinge),
@@ -43,16 +118,9 @@ impl Arrivals {
         arrivals
     }
 
-    /// What the initial time itself brings: releases by an angle that holds already.
-    pub fn at_start(scene: &Scene) -> Self {
-        let holds = |i: &usize| match scene.bodies[*i].hinge.release {
-            Release::Angle { hinge, angle } => {
-                (scene.bodies[hinge].hinge.start.angle - angle).abs() <= SAME_ANGLE
-            }
-            _ => false,
-        };
-        let triggered = (0..scene.bodies.len()).filter(holds).collect();
-        Self { triggered, ..Self::default() }
+    /// Whether a hinge locks.
+    pub fn lock(&self) -> bool {
+        !self.locks.is_empty()
     }
 }
 
@@ -100,7 +168,7 @@ pub(crate) fn pass<R: Number>(
         let kind = if acts { EventKind::KickOffEngage } else { EventKind::KickOffDisengage };
         events.push(event(kind, Some(i), None, after));
     }
-    if let Some(thrust) = thrust_change(scene, mode, time) {
+    if let Some(thrust) = thrust_change(scene, mode, time + arrivals.duration) {
         mode.thrust = thrust;
         let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
         events.push(event(kind, None, None, after));
@@ -163,7 +231,7 @@ fn released(scene: &Scene, mode: &Mode, arrivals: &Arrivals, time: f64) -> Vec<u
     let due = |i: &usize| {
         mode.hinges[*i] == HingeState::Unreleased
             && match scene.bodies[*i].hinge.release {
-                Release::Time(at) => at <= time + ONE_INSTANT,
+                Release::Time(at) => at <= time + arrivals.duration,
                 Release::Angle { hinge, angle } => {
                     arrivals.triggered.contains(i) || locked_at(hinge, angle)
                 }
@@ -173,10 +241,10 @@ fn released(scene: &Scene, mode: &Mode, arrivals: &Arrivals, time: f64) -> Vec<u
     (0..scene.bodies.len()).filter(due).collect()
 }
 
-/// Whether the thrust is on from `time` on, if that is a change.
-fn thrust_change(scene: &Scene, mode: &Mode, time: f64) -> Option<bool> {
+/// Whether the thrust is on from the end of an instant on, if that is a change.
+fn thrust_change(scene: &Scene, mode: &Mode, end: f64) -> Option<bool> {
     let thrust = scene.thrust?;
-    let on = thrust.on <= time + ONE_INSTANT && time + ONE_INSTANT < thrust.off;
+    let on = thrust.on <= end && end < thrust.off;
     (on != mode.thrust).then_some(on)
 }
 
@@ -187,6 +255,6 @@ pub(crate) fn next_scheduled(scene: &Scene, mode: &Mode, time: f64) -> f64 {
         _ => f64::INFINITY,
     };
     let releases = mode.hinges.iter().enumerate().map(release);
-    let thrust = scene.thrust.iter().flat_map(|thrust| [thrust.on, thrust.off]);
-    releases.chain(thrust).filter(|&at| at > time + ONE_INSTANT).fold(f64::INFINITY, f64::min)
+    let thrust = scene.thrust.map(|thrust| if mode.thrust { thrust.off } else { thrust.on });
+    releases.chain(thrust).filter(|&at| at > time).fold(f64::INFINITY, f64::min)
 }

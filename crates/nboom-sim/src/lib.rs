@@ -60,6 +60,7 @@ mod replay;
 mod run;
 mod scales;
 mod series;
+mod sizes;
 mod snapshot;
 mod start;
 mod state;
@@ -72,7 +73,7 @@ pub use conservation::{Conservation, PoorConservation};
 pub use error::{Failure, OptionError, SimError};
 pub use fit::{Fit, Repertoire};
 pub use generated::{NoRoutine, Unmet};
-pub use nboom_ode::{Choice, Method, RkamSettings, Tolerance};
+pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
     Detail, Event, EventKind, InstantMotion, Integration, Jump, Recorder, Selection, Snapshot,

@@ -65,7 +65,8 @@ pub struct Options {
     pub rkam: Option<RkamSettings>,
     /// Relative error allowed in a step.
     pub rtol: f64,
-    /// Absolute error allowed in a step, in the units of each variable.
+    /// Absolute error allowed in a step, as a share of each variable's natural size: 1 rad for angles,
+    /// for rates the largest so far, or one radian in the whole run if that is more.
     pub atol: f64,
     /// What no step is longer than, but by up to a hundredth of it to reach the next scheduled
     /// time.

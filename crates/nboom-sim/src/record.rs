@@ -61,7 +61,7 @@ pub trait Recorder {
 /// lock velocities too.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstantMotion {
-    /// The motion just before, with detail; none at the initial time.
+    /// The motion just before, with detail; none at the initial time unless a hinge locks there.
     pub before: Option<Snapshot>,
     /// What each of the hinges that lock changes; the motion after it has the sum of all.
     pub jumps: Vec<Jump>,

@@ -7,10 +7,11 @@ use nboom_scalar::{DoubleDouble, Real};
 use crate::error::SimError;
 use crate::expansion::{Accuracy, Expansion};
 use crate::guard::{GuardKind, Guards, Reading, read};
-use crate::instant::{self, Arrivals, ONE_INSTANT};
+use crate::instant::{self, Arrivals};
 use crate::layout::Layout;
 use crate::record::{Event, EventKind, Snapshot};
 use crate::series::exact_graph;
+use crate::sizes::Sizes;
 use crate::snapshot;
 use crate::start::Start;
 use crate::state::State;
@@ -40,6 +41,7 @@ pub(crate) struct Replay<'a> {
     scratch: State<DoubleDouble>,
     lock_sides: Vec<f64>,
     guards: Guards,
+    sizes: Sizes,
     /// What has happened so far.
     pub events: Vec<Event>,
 }
@@ -78,6 +80,7 @@ impl<'a> Replay<'a> {
             most_steps,
             steps: 0,
             dynamics: Recursive::new(scene),
+            sizes: Sizes::of(scene),
             mode,
             scratch: state.clone(),
             state,
@@ -92,7 +95,10 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// When the motion cannot be followed or an event not be located.
     pub fn complete(&mut self) -> Result<bool, SimError> {
-        let mut arrivals = Arrivals::at_start(self.scene);
+        let Self { scene, mode, guards, dynamics, state, lock_sides, .. } = self;
+        dynamics.set_mode(mode, &state.beta);
+        guards.set(scene, mode, dynamics, state, lock_sides, &[]);
+        let mut arrivals = Arrivals::at_start(scene, guards, dynamics, state);
         loop {
             let toggled = self.pass_instant(&arrivals)?;
             let kinds = |events: &[Event]| -> Vec<_> {
@@ -143,7 +149,12 @@ impl<'a> Replay<'a> {
         let graph = exact_graph(scene, mode, layout, thrust);
         let mut fixed = state.beta.clone();
         fixed.extend(state.center.velocity.to_array());
-        let expansion = Expansion::new(&graph, &fixed, layout.controlled(), self.accuracy);
+        let rates = state.omega_body.to_array().into_iter().chain(state.tau.iter().copied());
+        self.sizes.saw(&rates.map(|rate| rate.to_f64()).collect::<Vec<_>>());
+        let mut sizes = vec![1.0; layout.len()];
+        self.sizes.write(&layout, &mut sizes);
+        sizes.truncate(layout.controlled());
+        let expansion = Expansion::new(&graph, &fixed, sizes, self.accuracy);
         let variables = Variables::new(scene, layout, state);
         let mut now = Vec::new();
         variables.write(dynamics.free_hinges(), &mut now);
@@ -172,7 +183,7 @@ impl<'a> Replay<'a> {
                 None if remaining.to_f64() <= reach => (remaining, Some(Ending::Schedule)),
                 None => (exact(reach), None),
             };
-            let is_past = since.to_f64() <= -ONE_INSTANT;
+            let is_past = first.is_some_and(|(_, kind)| -since.to_f64() > self.instant_of(kind));
             if is_past || !self.go_on(since, first.map(|(_, kind)| kind), &mut course) {
                 return Ok(Ending::Astray);
             }
@@ -187,7 +198,7 @@ impl<'a> Replay<'a> {
     fn awaited(&self) -> (f64, Vec<GuardKind>) {
         let next = &self.guide[self.events.len()..];
         let expected = next.first().map_or(f64::INFINITY, |event| event.time);
-        let tells = |event: &&Event| event.time <= expected + ONE_INSTANT;
+        let tells = |event: &&Event| event.time == expected;
         let events: Vec<&Event> = next.iter().take_while(tells).collect();
         let kinds = self.guards.list.iter().map(|guard| guard.kind);
         let is_told = |kind: &GuardKind| events.iter().any(|event| belongs(event, *kind));
@@ -210,6 +221,12 @@ impl<'a> Replay<'a> {
             }
         }
         Ok(first)
+    }
+
+    /// How long an instant would last that a guard makes as fast as it is now.
+    fn instant_of(&mut self, kind: GuardKind) -> f64 {
+        let reading = read(kind, self.scene, &mut self.dynamics, &self.state);
+        instant::duration(self.scene, self.state.time.to_f64(), kind.pace(self.scene, reading))
     }
 
     /// When a guard is zero, as time since the present, by Newton's method.

@@ -6,7 +6,7 @@ use crate::equations::Equations;
 use crate::error::{Failure, SimError};
 use crate::finite;
 use crate::guard::{GuardKind, Guards, read};
-use crate::instant::{self, Arrivals, ONE_INSTANT};
+use crate::instant::{self, Arrivals};
 use crate::layout::Layout;
 use crate::ledger::{Ledger, totals};
 use crate::options::Options;
@@ -97,7 +97,9 @@ impl<'a> Run<'a> {
 
     fn complete(&mut self) -> Result<(), SimError> {
         self.options.check()?;
-        let mut arrivals = Arrivals::at_start(self.scene);
+        let Self { scene, mode, state, equations, guards, lock_sides, .. } = self;
+        guards.set(scene, mode, &mut equations.dynamics, state, lock_sides, &[]);
+        let mut arrivals = Arrivals::at_start(scene, guards, &mut equations.dynamics, state);
         loop {
             self.pass_instant(&arrivals)?;
             self.sample_here()?;
@@ -120,7 +122,7 @@ impl<'a> Run<'a> {
         for i in 0..self.lock_sides.len() {
             self.lock_sides[i] = self.guards.lock_side(i).unwrap_or(self.lock_sides[i]);
         }
-        let before = self.before_instant()?;
+        let before = self.before_instant(arrivals)?;
         let outcome = instant::pass(
             self.scene,
             &mut self.equations.dynamics,
@@ -160,7 +162,7 @@ impl<'a> Run<'a> {
         let limit = scheduled.min(self.scene.end_time);
         loop {
             self.step(limit)?;
-            let sample_due = self.sample_time() < self.stepper.window().end_time - ONE_INSTANT;
+            let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
             if sample_due || self.recorder.needs_steps() || !self.guards.list.is_empty() {
                 self.stepper.prepare_dense(&mut self.equations);
             }
@@ -238,6 +240,11 @@ impl<'a> Run<'a> {
         self.equations.read(window.time, &window.state, &mut self.state);
     }
 
+    /// Whether `time` is before `other` and not in its instant, which the fastest motion of all makes.
+    fn is_before(&self, time: f64, other: f64) -> bool {
+        time < other - instant::duration(self.scene, time, self.equations.fastest())
+    }
+
     fn sample_time(&self) -> f64 {
         let (start, end) = (self.scene.initial.time, self.scene.end_time);
         let share = self.next_sample as f64 / self.options.samples as f64;
@@ -251,7 +258,7 @@ impl<'a> Run<'a> {
     /// Records the output times before `until` (and not in its instant) from dense output over
     /// a step of length `full`.
     fn sample_within(&mut self, full: f64, until: f64) -> Result<(), SimError> {
-        while self.sample_time() < until - ONE_INSTANT {
+        while self.is_before(self.sample_time(), until) {
             let time = self.sample_time();
             self.variables.resize(self.equations.variables.layout.len(), 0.0);
             let fraction = (time - self.stepper.window().time) / full;
@@ -276,7 +283,7 @@ impl<'a> Run<'a> {
 
     /// Records the output time that the present instant coincides with, if there is one.
     fn sample_here(&mut self) -> Result<(), SimError> {
-        while self.sample_time() <= self.state.time + ONE_INSTANT {
+        while !self.is_before(self.state.time, self.sample_time()) {
             let state = State { time: self.sample_time(), ..self.state.clone() };
             self.sample(&state)?;
         }
@@ -302,14 +309,15 @@ impl<'a> Run<'a> {
         let detail = needs_detail.then(|| snapshot::detail(scene, mode, equations, state));
         let (steps, next_step) =
             (self.stepper.window().counts.accepted, self.stepper.window().next_step);
+        let next_step = next_step.min(scene.end_time - scene.initial.time);
         let seen = Snapshot { detail, steps, next_step, ..seen };
         finite::check_snapshot(scene, &seen)?;
         Ok(seen)
     }
 
     /// The motion before an instant, if there is one and the recorder wants it.
-    fn before_instant(&mut self) -> Result<Option<Snapshot>, SimError> {
-        let has_moved = self.state.time > self.scene.initial.time;
+    fn before_instant(&mut self, arrivals: &Arrivals) -> Result<Option<Snapshot>, SimError> {
+        let has_moved = self.state.time > self.scene.initial.time || arrivals.lock();
         if !(has_moved && self.recorder.needs_instants()) {
             return Ok(None);
         }

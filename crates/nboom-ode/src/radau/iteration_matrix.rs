@@ -14,7 +14,7 @@ pub(super) struct IterationMatrix {
     factored: Option<f64>,
     shifted: Vec<f64>,
     shifted_slope: Vec<f64>,
-    /// About the eigenvector of J's largest eigenvalue, and J times it.
+    /// About the eigenvector of J's largest eigenvalue, and J times it, in natural sizes.
     dominant: [Vec<f64>; 2],
 }
 
@@ -28,6 +28,8 @@ pub(super) struct Point<'a> {
     pub state: &'a [f64],
     /// f(t, y)
     pub slope: &'a [f64],
+    /// Natural sizes of the variables.
+    pub sizes: &'a [f64],
 }
 
 impl IterationMatrix {
@@ -50,16 +52,20 @@ impl IterationMatrix {
         }
     }
 
-    /// About the magnitude of J's largest eigenvalue, by the power method.
-    pub fn spectral_radius(&mut self) -> f64 {
-        let Self { size, jacobian, dominant: [vector, image], .. } = self;
+    /// About the magnitude of J's largest eigenvalue, by the power method; `sizes` has the natural
+    /// sizes of the first variables, on which the others do not act.
+    pub fn spectral_radius(&mut self, sizes: &[f64]) -> f64 {
+        let Self { size, jacobian, dominant, .. } = self;
+        let [vector, image] = dominant.each_mut().map(|all| &mut all[..sizes.len()]);
         let mut growth = 0.0;
         for _ in 0..ITERATIONS {
-            for (out, row) in image.iter_mut().zip(jacobian.chunks_exact(*size)) {
-                *out = row.iter().zip(&*vector).map(|(a, x)| a * x).sum();
+            let rows = jacobian.chunks_exact(*size).zip(sizes);
+            for (out, (row, size_of_row)) in image.iter_mut().zip(rows) {
+                let terms = row.iter().zip(sizes).zip(&*vector);
+                *out = terms.map(|((a, size), x)| a * size * x).sum::<f64>() / size_of_row;
             }
             let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let (before, after) = (norm(vector), norm(image));
+            let (before, after) = (norm(&*vector), norm(&*image));
             growth = after / before;
             if !(growth > 0.0 && growth.is_finite()) {
                 return 0.0;
@@ -86,7 +92,7 @@ impl IterationMatrix {
         self.shifted.copy_from_slice(point.state);
         for j in 0..n {
             let y = point.state[j];
-            let shift = (f64::EPSILON * y.abs().max(1e-5)).sqrt();
+            let shift = f64::EPSILON.sqrt() * y.abs().max(point.sizes[j]);
             self.shifted[j] = y + shift;
             system.derivative(point.time, &self.shifted, &mut self.shifted_slope);
             let shift = self.shifted[j] - y;

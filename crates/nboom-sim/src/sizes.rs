@@ -1,0 +1,57 @@
+use nboom_model::Scene;
+use nboom_scalar::Vec3;
+
+use crate::layout::Layout;
+use crate::scales::reach;
+
+/// Natural sizes of the variables: one for attitude and angles, a rate for rates, a length for the way
+/// that the thrust displaces the mass centre. They follow the scene's units, so that no step depends
+/// on these.
+#[derive(Clone, Debug)]
+pub(crate) struct Sizes {
+    /// How far matter and the thrust are from O.
+    length: f64,
+    /// The largest rate so far \[1/T\].
+    rate: f64,
+}
+
+/// Angle \[rad\] through which accelerations act at least.
+const START: f64 = 1e-3;
+
+impl Sizes {
+    /// At the beginning of `scene`: less than one radian in the whole run is no motion.
+    pub fn of(scene: &Scene) -> Self {
+        let point = scene.thrust.map_or(0.0, |thrust| thrust.point.norm());
+        let rate = 1.0 / (scene.end_time - scene.initial.time).max(f64::MIN_POSITIVE);
+        Self { length: reach(scene).max(point), rate }
+    }
+
+    /// The largest rate so far, or one radian in the whole run.
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// Notes rates; what is no number any more is no size.
+    pub fn saw(&mut self, rates: &[f64]) {
+        let sizes = rates.iter().map(|rate| rate.abs()).filter(|size| size.is_finite());
+        self.rate = sizes.fold(self.rate, f64::max);
+    }
+
+    /// Notes accelerations, which soon make rates: angular ones, and one of the mass centre.
+    pub fn saw_accelerations(&mut self, angular: impl Iterator<Item = f64>, linear: Vec3<f64>) {
+        let linear = if self.length > 0.0 { linear.norm() / self.length } else { 0.0 };
+        let largest = angular.fold(linear, |largest, rate| largest.max(rate.abs()));
+        self.saw(&[(2.0 * START * largest).sqrt()]);
+    }
+
+    /// Writes the size of each variable.
+    pub fn write(&self, layout: &Layout, sizes: &mut [f64]) {
+        sizes.fill(1.0);
+        sizes[layout.omega()].fill(self.rate);
+        sizes[layout.tau()].fill(self.rate);
+        if let [displacement @ .., vx, vy, vz] = &mut sizes[layout.thrust_motion()] {
+            displacement.fill(self.length);
+            [*vx, *vy, *vz] = [self.length * self.rate; 3];
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! A scene written in other units.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use nboom::model::{MassProperties, Release, SceneDescription};
+
+/// How many new units there are in one old unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    pub time: f64,
+    pub mass: f64,
+    pub length: f64,
+}
+
+impl Units {
+    pub fn force(self) -> f64 {
+        self.mass * self.length / (self.time * self.time)
+    }
+
+    pub fn torque(self) -> f64 {
+        self.force() * self.length
+    }
+
+    /// Of an impulsive torque.
+    pub fn impulse(self) -> f64 {
+        self.torque() * self.time
+    }
+
+    fn mass_properties(self, body: &mut MassProperties) {
+        body.mass *= self.mass;
+        body.center_of_mass = body.center_of_mass * self.length;
+        body.inertia = body.inertia * (self.mass * self.length * self.length);
+    }
+
+    /// The same scene, with all numbers in the new units.
+    pub fn scene(self, old: &SceneDescription) -> SceneDescription {
+        let Self { time, length, .. } = self;
+        let (force, torque) = (self.force(), self.torque());
+        let mut scene = old.clone();
+        self.mass_properties(&mut scene.main_body);
+        for body in &mut scene.bodies {
+            self.mass_properties(&mut body.mass_properties);
+            body.mount.point = body.mount.point * length;
+            let hinge = &mut body.hinge;
+            hinge.spring.quadratic *= torque;
+            hinge.spring.linear *= torque;
+            hinge.dashpot.rate_quadratic *= torque * time * time;
+            hinge.dashpot.rate_linear *= torque * time;
+            hinge.dashpot.angle_quadratic *= torque;
+            hinge.dashpot.angle_linear *= torque;
+            hinge.start.rate /= time;
+            if let Release::Time(at) = &mut hinge.release {
+                *at *= time;
+            }
+            if let Some(spring) = &mut hinge.kick_off {
+                spring.main_body_point = spring.main_body_point * length;
+                spring.body_point = spring.body_point * length;
+                spring.limit_length *= length;
+                for (power, coefficient) in spring.coefficients.iter_mut().enumerate() {
+                    *coefficient *= force / length.powi(power as i32);
+                }
+            }
+        }
+        if let Some(gravity) = &mut scene.gravity {
+            gravity.acceleration *= length / (time * time);
+        }
+        if let Some(thrust) = &mut scene.thrust {
+            thrust.force = thrust.force * force;
+            thrust.point = thrust.point * length;
+            thrust.on *= time;
+            thrust.off *= time;
+        }
+        let initial = &mut scene.initial;
+        initial.time *= time;
+        initial.omega_body = initial.omega_body * (1.0 / time);
+        initial.position_inertial = initial.position_inertial * length;
+        initial.velocity_inertial = initial.velocity_inertial * (length / time);
+        scene.end_time *= time;
+        scene
+    }
+}
