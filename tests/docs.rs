@@ -224,6 +224,27 @@ fn the_table_of_deck_symbols_is_that_of_the_reader() {
     }
 }
 
+/// A reader copies them, so they are whole decks that nothing is wrong with.
+#[test]
+fn decks_in_the_document_are_read_without_a_warning() {
+    let document = read("docs/decks.md");
+    let blocks: Vec<&str> = document.split("```nml\n").skip(1).collect();
+    assert_eq!(document.matches("```").count(), 2 * blocks.len(), "a block of another kind");
+    assert!(!document.contains("\n\n    "), "an indented block");
+    for (number, block) in blocks.iter().enumerate() {
+        let deck = block.split("```").next().expect("blocks end");
+        let file = nboom::io::parse_deck(&format!("block {number}"), deck, "block")
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+        assert_eq!(file.scene.warnings(), []);
+    }
+    let is_the_example = |block: &&str| block.starts_with(&read("examples/four-wings.nml"));
+    assert!(
+        blocks.iter().any(|block| is_the_example(&block)),
+        "examples/four-wings.nml has changed"
+    );
+}
+
 fn symbol_table() -> String {
     let mut text = String::new();
     for group in Group::ALL {

@@ -22,6 +22,7 @@ fn scene(lock_angle: Option<f64>, end_time: f64) -> SceneDescription {
         mount: Mount::at(Vec3::unit_x()),
         axis: Vec3::unit_z(),
         mass_properties: panel,
+        tip: Vec3::unit_x(),
         hinge,
     });
     scene.initial.omega_body = Vec3::new(0.2, 0.0, 0.0);

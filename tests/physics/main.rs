@@ -19,3 +19,4 @@ mod thrust;
 mod torque_free;
 mod transforms;
 mod weld;
+mod wings;

@@ -35,7 +35,8 @@ fn scene(spring: Spring, dashpot: Dashpot, angle: f64, rate: f64, end: f64) -> S
     let boom = MassProperties::new(3.0, axis * 0.6, inertia_about(axis, J_BOOM));
     let start = HingeStart { angle, rate, state: HingeState::Free };
     let hinge = Hinge { spring, dashpot, start, ..Hinge::free() };
-    scene.bodies.push(Body { inboard: None, mount, axis, mass_properties: boom, hinge });
+    let tip = Vec3::zero();
+    scene.bodies.push(Body { inboard: None, mount, axis, mass_properties: boom, tip, hinge });
     scene.initial.attitude = dice.attitude();
     scene.initial.velocity_inertial = dice.vector(2.0);
     scene.initial.omega_body = along * 0.37;

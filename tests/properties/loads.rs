@@ -314,6 +314,7 @@ fn load_of_cut(case: &Sliced, i: usize, segment: &SegmentStructure, j: usize) ->
         mount: Mount::at(cut),
         axis: Vec3::unit_x(),
         mass_properties: outer_mass,
+        tip: Vec3::zero(),
         hinge,
     };
     scene.bodies.insert(i + 1, outer);

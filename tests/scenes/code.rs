@@ -46,8 +46,8 @@ fn skew() -> Scene {
     let mass_properties = MassProperties::new(1.0, Vec3::new(0.1, 0.5, 0.2), inertia);
     let mut scene = SceneDescription::at_rest("skew", mass_properties, 1.0);
     let mount = Mount::at(Vec3::unit_y());
-    let boom =
-        Body { inboard: None, mount, axis: Vec3::unit_x(), mass_properties, hinge: Hinge::free() };
+    let (tip, hinge) = (Vec3::unit_y(), Hinge::free());
+    let boom = Body { inboard: None, mount, axis: Vec3::unit_x(), mass_properties, tip, hinge };
     let mut hinge = Hinge::free();
     (hinge.start.state, hinge.release) = (HingeState::Unreleased, Release::Time(0.5));
     let axis = Vec3::new(0.5_f64.sqrt(), 0.5_f64.sqrt(), 0.0);

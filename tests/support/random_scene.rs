@@ -145,7 +145,7 @@ fn body(dice: &mut Dice, inboard: Option<usize>) -> Body {
     hinge.start.angle = dice.between(-3.0, 3.0);
     hinge.start.rate = dice.between(-2.0, 2.0);
     let mount = Mount { point: dice.vector(1.0), rot_inboard_from_hinge: dice.rotation() };
-    Body { inboard, mount, axis: dice.direction(), mass_properties, hinge }
+    Body { inboard, mount, axis: dice.direction(), mass_properties, tip: Vec3::zero(), hinge }
 }
 
 /// The same without anything that takes or gives energy: no dashpot rates and no thrust.

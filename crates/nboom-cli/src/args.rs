@@ -166,7 +166,7 @@ pub struct RunArgs {
     #[command(flatten)]
     pub stresses: StressArgs,
 
-    /// Do not write report.html; this build writes none.
+    /// Ignored, and said so: this build writes no report.html.
     #[arg(long)]
     pub no_report: bool,
 

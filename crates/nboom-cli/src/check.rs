@@ -6,6 +6,7 @@ use nboom_model::Scene;
 use nboom_results::with_causes;
 use nboom_sim::{Event, Options, Recorder, Snapshot, simulate};
 
+use crate::ignored::ignored;
 use crate::{CheckArgs, CliError, Routines, print_scene, say};
 
 /// Reads a scene and returns what it contains for standard output.
@@ -16,7 +17,9 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let generated = generated_code(scene);
     #[cfg(not(feature = "generator"))]
     let generated = "";
-    Ok(format!("{}{generated}{}\n", print_scene::text(scene), code_at_start(scene, routines)))
+    let ignored = ignored(&file, None).map_or_else(String::new, |line| line + "\n");
+    let (text, code) = (print_scene::text(scene), code_at_start(scene, routines));
+    Ok(format!("{text}{ignored}{generated}{code}\n"))
 }
 
 /// What every command but `run`, which may be quiet, begins with: reads a scene, in which all is

@@ -24,6 +24,7 @@ mod error;
 mod format;
 #[cfg(feature = "generator")]
 mod generate;
+mod ignored;
 mod print_run;
 mod print_scene;
 mod progress;

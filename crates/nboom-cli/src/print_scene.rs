@@ -1,5 +1,6 @@
 use nboom_model::{
-    Body, Dashpot, Facts, Hinge, HingeState, KickOffSpring, MassProperties, Release, Scene, Spring,
+    Body, Dashpot, Facts, Hinge, HingePlace, HingeState, KickOffSpring, MassProperties, Posture,
+    Release, Scene, Spring,
 };
 use nboom_scalar::Vec3;
 
@@ -9,8 +10,12 @@ use crate::format::{count, degrees, short, vector};
 pub(crate) fn text(scene: &Scene) -> String {
     let mut lines = vec![heading(scene)];
     lines.push(format!("main body: {}", mass_properties(&scene.main_body)));
+    let postures = [Posture::at_start(scene), Posture::locked(scene)];
     for branch in branches(scene) {
-        lines.extend(branch_lines(scene, &branch));
+        lines.extend(branch_lines(scene, &branch, &postures));
+    }
+    if !scene.bodies.is_empty() {
+        lines.push(PLACES.to_owned());
     }
     lines.extend(environment(scene));
     let (start, end) = (short(scene.initial.time, 10), short(scene.end_time, 10));
@@ -44,11 +49,11 @@ fn branches(scene: &Scene) -> Vec<Vec<usize>> {
     branches
 }
 
-fn branch_lines(scene: &Scene, branch: &[usize]) -> Vec<String> {
+fn branch_lines(scene: &Scene, branch: &[usize], postures: &[Posture; 2]) -> Vec<String> {
     let segments = count(branch.len(), "segment", "segments");
     let number = scene.label(branch[0]).appendage + 1;
     let mut lines = vec![format!("appendage {number}: {}, {segments}", kind(scene, branch))];
-    lines.extend(branch.iter().flat_map(|&i| hinge_lines(scene, i)));
+    lines.extend(branch.iter().flat_map(|&i| hinge_lines(scene, i, postures)));
     lines
 }
 
@@ -65,18 +70,33 @@ fn kind(scene: &Scene, branch: &[usize]) -> &'static str {
     }
 }
 
-fn hinge_lines(scene: &Scene, i: usize) -> Vec<String> {
-    let Body { mount, axis, mass_properties: mass, hinge, .. } = &scene.bodies[i];
-    let (point, axis) = (vector(mount.point), vector(*axis));
+fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> {
+    let Body { mass_properties: mass, hinge, .. } = &scene.bodies[i];
     let forces =
         [spring(&hinge.spring), dashpot(&hinge.dashpot), hinge.kick_off.as_ref().map(kick_off)];
-    let mut lines = vec![
-        format!("  hinge {}: at {point}, axis {axis}", scene.label(i)),
-        format!("    {}", course(scene, hinge)),
-    ];
+    let mut lines = vec![format!("  hinge {}: {}", scene.label(i), course(scene, hinge))];
+    let places = postures.each_ref().map(|posture| place(&posture.hinges[i]));
+    let when = ["at the start", "locked"];
+    lines.extend(when.iter().zip(places).map(|(when, place)| format!("    {when}: {place}")));
     lines.extend(forces.into_iter().flatten().map(|force| format!("    {force}")));
     lines.push(format!("    body: {}", mass_properties(mass)));
     lines
+}
+
+/// What the places of hinges are.
+const PLACES: &str = "places: main-body axes, from O; locked: with all lock angles reached, hinges \
+                      without one as at the start";
+
+fn place(hinge: &HingePlace) -> String {
+    let [point, tip] = [hinge.point, hinge.tip].map(|place| vector(without_rounding(place)));
+    format!("hinge at {point}, axis {}, outer end at {tip}", vector(without_rounding(hinge.axis)))
+}
+
+/// Components that are nothing but rounding beside the largest one, or beside 1 in a direction, are
+/// zero.
+fn without_rounding(v: Vec3<f64>) -> Vec3<f64> {
+    let largest = v.to_array().iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    v.map(|x| if x.abs() <= 1e-12 * largest { 0.0 } else { x })
 }
 
 /// How a hinge starts, is released and locks.

@@ -1,8 +1,8 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, SceneFile, read_scene};
-use nboom_model::Scene;
+use nboom_io::{LegacySettings, NEVER, SceneFile, read_scene};
+use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::{
     Outcome, RunDescription, RunDirectory, StressTables, with_causes, write_trust,
 };
@@ -12,6 +12,7 @@ use nboom_sim::{
 };
 use nboom_strength::StressAnalysis;
 
+use crate::ignored::ignored;
 use crate::progress::Progress;
 use crate::watch::Watch;
 use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say};
@@ -24,13 +25,20 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let kernels = if args.path == PathChoice::Generic { &[] } else { routines.accelerations };
     let stresses = args.stresses.analysis(&file, slips, kernels)?;
     let warnings = check::warnings(&file).into_iter();
+    let warnings = warnings.chain(never_released(&file.scene, args.end_time));
     let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
+    let ignored = ignored(&file, Some(args));
     let scene = with_end_time(file.scene, args.end_time)?;
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));
+        ignored.iter().for_each(|ignored| say("note", ignored));
     }
     let options = options(args, routines, &file.legacy)?;
-    let run = RunDescription { warnings, ..RunDescription::new(&scene, &options, args.units) };
+    let run = RunDescription {
+        warnings,
+        print_interval: file.legacy.print_interval.unwrap_or(1),
+        ..RunDescription::new(&scene, &options, args.units)
+    };
     let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };
     let stresses = stresses.map(|analysis| (analysis, tables));
     let account = simulate_into_files(&scene, &options, run, stresses, args)?;
@@ -42,6 +50,20 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
         Some(end_time) => scene.ending_at(end_time).map_err(CliError::EndTime),
         None => Ok(scene),
     }
+}
+
+/// What a deck that means never by a time cannot know: that this run lasts longer.
+fn never_released(scene: &Scene, end_time: Option<f64>) -> Option<String> {
+    let end_time = end_time.filter(|&time| time >= NEVER)?;
+    let waits = |hinge: &Hinge| {
+        hinge.start.state == HingeState::Unreleased && hinge.release == Release::Never
+    };
+    let i = scene.bodies.iter().position(|body| waits(&body.hinge))?;
+    Some(format!(
+        "--end-time {end_time}: hinge {} is never released, since a release time of {NEVER:e} and \
+         more in a deck means never",
+        scene.label(i)
+    ))
 }
 
 fn options(

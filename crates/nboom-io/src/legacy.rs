@@ -15,10 +15,10 @@ pub struct LegacySettings {
     pub max_step: Option<f64>,
     /// `LSTEP`: most steps, positive.
     pub max_steps: Option<usize>,
-    /// `IAX`: steps from one printout to the next after the twentieth, positive.
+    /// `IAX`: steps (output times) from one printout to the next after the twentieth, positive.
     pub print_interval: Option<usize>,
     /// `INSTR`: printouts from one stress computation to the next; 0 for no stresses.
     pub stress_interval: usize,
-    /// `NOPLT` = 1: no plots.
-    pub no_plots: bool,
+    /// `NOPLT`: whether plots are wanted.
+    pub plots: Option<bool>,
 }

@@ -45,7 +45,7 @@ use std::path::Path;
 use nboom_model::{Scene, Structure};
 
 pub use deck::{
-    Absent, Extent, Group, LARGEST_COUNT, NumberKind, Numbering, SYMBOLS, Symbol, parse_deck,
+    Absent, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering, SYMBOLS, Symbol, parse_deck,
 };
 pub use diagnostic::Diagnostic;
 pub use error::InputError;

@@ -5,7 +5,7 @@ use crate::{Body, Hinge, MassProperties, Mount};
 /// One segment of a regular or paddle appendage, in segment axes ξ, η, ζ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// ℓ, from this segment's hinge to the next one along η.
+    /// ℓ, from this segment's hinge along η to the next one, or to its outer end.
     pub length: f64,
     /// Mass properties; mass centre from the inboard hinge, segment axes.
     pub mass_properties: MassProperties,
@@ -33,7 +33,7 @@ pub enum Appendage {
         mount: Mount,
         /// The arm; its length reaches to a point on the paddle's axis.
         arm: Segment,
-        /// The paddle; its length plays no part.
+        /// The paddle, whose length no motion depends on.
         paddle: Segment,
     },
 }
@@ -66,6 +66,7 @@ fn chain<'a>(
             mount,
             axis,
             mass_properties: segment.mass_properties,
+            tip: Vec3::unit_y() * segment.length,
             hinge: segment.hinge,
         });
         mount = Mount::at(Vec3::unit_y() * segment.length);

@@ -222,7 +222,7 @@ fn find_in_hinge(
     };
     let finite_points = |points: &[Vec3<f64>]| points.iter().all(|p| p.is_finite());
     let checks = [
-        (finite_points(&[body.mount.point]), "hinge point"),
+        (finite_points(&[body.mount.point, body.tip]), "hinge point or outer end"),
         (all_finite(&spring_numbers), "hinge spring"),
         (all_finite(&dashpot_numbers), "hinge dashpot"),
         (all_finite(&[hinge.start.angle, hinge.start.rate]), "initial angle or rate"),

@@ -138,4 +138,13 @@ impl Hinge {
             start: HingeStart { angle: 0.0, rate: 0.0, state: HingeState::Free },
         }
     }
+
+    /// Whether it starts free or something may release it.
+    pub fn can_turn(&self) -> bool {
+        match self.start.state {
+            HingeState::Free => true,
+            HingeState::Locked => false,
+            HingeState::Unreleased => self.release != Release::Never,
+        }
+    }
 }

@@ -21,6 +21,8 @@ pub struct Body {
     pub axis: Vec3<f64>,
     /// Mass properties, from the hinge, body axes.
     pub mass_properties: MassProperties,
+    /// The outer end, from the hinge, body axes; no motion depends on it.
+    pub tip: Vec3<f64>,
     /// What acts about the hinge and when it is released and locks.
     pub hinge: Hinge,
 }

@@ -1,7 +1,10 @@
+mod forces;
+mod geometry;
+mod releases;
+
 use std::fmt;
 
-use crate::hinge::SAME_ANGLE;
-use crate::{Hinge, HingeLabel, HingeStart, HingeState, Release, Scene};
+use crate::{HingeLabel, Scene};
 
 /// Something a scene may do but its author probably does not want.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +28,66 @@ pub enum ModelWarning {
     },
     /// This hinge starts locked, but away from the angle at which it locks.
     LockedElsewhere(HingeLabel),
+    /// The dashpot pushes along with the motion instead of against it.
+    DashpotFeeds {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// The coefficient that has the wrong sign, and the power of the rate that it belongs to.
+        coefficient: (f64, u8),
+        /// Rate beyond which it does \[rad/T\].
+        beyond: f64,
+    },
+    /// The torque of spring and dashpot grows with the distance from an angle and points away from it.
+    SpringWithoutRest {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Torque per angle \[torque/rad\], positive.
+        stiffness: f64,
+        /// The angle \[rad\].
+        away_from: f64,
+    },
+    /// The torque of spring and dashpot drives the hinge on and on, and it has no lock angle there.
+    SpringDrivesOn {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Where it starts \[rad\].
+        start: f64,
+    },
+    /// At the start the torque of spring and dashpot turns the hinge away from its lock angle, and no
+    /// kick-off spring turns it back.
+    DrivenFromLock {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Where it starts \[rad\].
+        start: f64,
+        /// Its lock angle \[rad\].
+        lock: f64,
+    },
+    /// A kick-off spring pulls its ends together at the start.
+    KickOffPulls {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Its force, negative.
+        force: f64,
+        /// Its length.
+        length: f64,
+    },
+    /// At its lock angle a body lies folded back on its inboard body.
+    FoldsBack {
+        /// The body's hinge.
+        hinge: HingeLabel,
+        /// That of the inboard body.
+        inboard: HingeLabel,
+        /// The lock angle \[rad\].
+        lock: f64,
+    },
+    /// With all lock angles reached the outer end of a body is back at a hinge inboard of it.
+    EndsAtHinge {
+        /// The body's hinge.
+        hinge: HingeLabel,
+        /// The hinge it is back at.
+        at: HingeLabel,
+    },
 }
 
 impl fmt::Display for ModelWarning {
@@ -45,78 +108,62 @@ impl fmt::Display for ModelWarning {
             Self::LockedElsewhere(hinge) => {
                 write!(f, "hinge {hinge} starts locked, but not at its lock angle, and stays there")
             }
+            Self::DashpotFeeds { hinge, coefficient: (value, 1), .. } => write!(
+                f,
+                "dashpot of hinge {hinge} feeds energy: coefficient {value:?} of the rate found, \
+                 a negative one damps"
+            ),
+            Self::DashpotFeeds { hinge, coefficient: (value, _), beyond } => write!(
+                f,
+                "dashpot of hinge {hinge} feeds energy beyond a rate of {} per time unit: coefficient {value:?} of \
+                 the squared rate found, which pushes one way however the hinge turns",
+                degrees(beyond.abs().copysign(*value))
+            ),
+            Self::SpringWithoutRest { hinge, stiffness, away_from } => write!(
+                f,
+                "spring of hinge {hinge} pushes the harder the farther it is from {}: coefficient \
+                 {stiffness:?} of the angle found, a negative one restores",
+                degrees(*away_from)
+            ),
+            Self::SpringDrivesOn { hinge, start } => write!(
+                f,
+                "spring of hinge {hinge} drives it on and on from {}, ever harder, and no lock angle \
+                 stops it",
+                degrees(*start)
+            ),
+            Self::DrivenFromLock { hinge, start, lock } => write!(
+                f,
+                "spring torque of hinge {hinge} drives it away from its lock angle: from {}, not \
+                 towards {}",
+                degrees(*start),
+                degrees(*lock)
+            ),
+            Self::KickOffPulls { hinge, force, length } => write!(
+                f,
+                "kick-off spring of hinge {hinge} pulls: force {force:?} at its length {length:?} found, \
+                 a positive one pushes"
+            ),
+            Self::FoldsBack { hinge, inboard, lock } => write!(
+                f,
+                "segment {hinge}, locked at {}, lies folded back on segment {inboard}; at 0 deg it \
+                 is straight",
+                degrees(*lock)
+            ),
+            Self::EndsAtHinge { hinge, at } => write!(
+                f,
+                "with all hinges locked the outer end of segment {hinge} is back at hinge {at}"
+            ),
         }
     }
 }
 
 pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
-    let mut warnings = Vec::new();
-    for i in 0..scene.bodies.len() {
-        if starts_locked_elsewhere(&scene.bodies[i].hinge) {
-            warnings.push(ModelWarning::LockedElsewhere(scene.label(i)));
-        }
-        let Some((trigger, angle)) = waits_for(scene, i) else { continue };
-        let circle = circle_from(scene, i);
-        let (hinge, of_trigger) = (scene.label(i), &scene.bodies[trigger].hinge);
-        if circle.first() == Some(&i) && circle.iter().min() == Some(&i) {
-            let labels = circle.iter().map(|&j| scene.label(j)).collect();
-            warnings.push(ModelWarning::ReleaseCircle(labels));
-        } else if never_turns(of_trigger) {
-            let trigger = scene.label(trigger);
-            warnings.push(ModelWarning::TriggerNeverTurns { hinge, trigger });
-        } else if locks_before(of_trigger, angle) {
-            let trigger = scene.label(trigger);
-            warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
-        }
-    }
-    warnings
+    [releases::find(scene), forces::find(scene), geometry::find(scene)].concat()
 }
 
-fn starts_locked_elsewhere(hinge: &Hinge) -> bool {
-    let HingeStart { angle, state, .. } = hinge.start;
-    let elsewhere = |lock: f64| (lock - angle).abs() > SAME_ANGLE;
-    state == HingeState::Locked && hinge.lock_angle.is_some_and(elsewhere)
-}
-
-/// Whether its lock angle is between where `hinge` starts and `angle`.
-fn locks_before(hinge: &Hinge, angle: f64) -> bool {
-    let between = |lock: f64| {
-        (angle - lock).abs() > SAME_ANGLE && (angle - lock) * (lock - hinge.start.angle) > 0.0
-    };
-    hinge.lock_angle.is_some_and(between)
-}
-
-/// The hinge that an unreleased hinge `i` waits for, and the angle, unless that one starts at it.
-fn waits_for(scene: &Scene, i: usize) -> Option<(usize, f64)> {
-    let hinge = &scene.bodies[i].hinge;
-    match hinge.release {
-        Release::Angle { hinge: trigger, angle }
-            if hinge.start.state == HingeState::Unreleased
-                && scene.bodies[trigger].hinge.start.angle != angle =>
-        {
-            Some((trigger, angle))
-        }
-        _ => None,
-    }
-}
-
-fn never_turns(hinge: &Hinge) -> bool {
-    match hinge.start.state {
-        HingeState::Free => false,
-        HingeState::Locked => true,
-        HingeState::Unreleased => hinge.release == Release::Never,
-    }
-}
-
-/// The hinges met by following triggers from `start` until one comes round again; empty when
-/// the chain ends.
-fn circle_from(scene: &Scene, start: usize) -> Vec<usize> {
-    let mut seen = vec![start];
-    while let Some((next, _)) = waits_for(scene, seen[seen.len() - 1]) {
-        if let Some(position) = seen.iter().position(|&j| j == next) {
-            return seen.split_off(position);
-        }
-        seen.push(next);
-    }
-    Vec::new()
+/// An angle or a rate for people, to six digits.
+fn degrees(radians: f64) -> String {
+    let rounded = format!("{:.5e}", radians.to_degrees()).parse();
+    // Nobody wants to read of -0.
+    format!("{} deg", rounded.unwrap_or(radians.to_degrees()) + 0.0)
 }

@@ -19,6 +19,7 @@ pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Scene, 
         mount: Mount { point: link.point, rot_inboard_from_hinge: link.rot_inboard_at_zero },
         axis: link.axis,
         mass_properties: mass_properties(link.inertia),
+        tip: scene.bodies[link.hinge].tip,
         hinge: without_events(&scene.bodies[link.hinge].hinge),
     };
     description.bodies = tree.links.iter().map(body).collect();

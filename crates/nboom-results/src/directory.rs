@@ -212,7 +212,10 @@ fn open_listing(
     run: &RunDescription,
     hinges: Vec<HingeLabel>,
 ) -> Result<ListingWriter<Output>, ResultsError> {
-    open(directory, LISTING_FILE, |out| ListingWriter::new(out, &run.scene, hinges, run.units))
+    open(directory, LISTING_FILE, |out| {
+        let listing = ListingWriter::new(out, &run.scene, hinges, run.units)?;
+        Ok(listing.thinned(run.print_interval))
+    })
 }
 
 fn remove_stale(path: &Path) -> Result<(), ResultsError> {

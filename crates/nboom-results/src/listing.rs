@@ -22,7 +22,14 @@ pub struct ListingWriter<W> {
     units: UnitSystem,
     /// Time of the last block, so that an output time at an event is printed once.
     printed: Option<f64>,
+    /// Output times so far.
+    samples: usize,
+    /// Of those after the first ones every so many are printed.
+    interval: usize,
 }
+
+/// Output times that are printed in any case.
+const FIRST: usize = 20;
 
 impl<W: Write> ListingWriter<W> {
     /// Writes the title; `hinges` has the label of every hinge of the scene.
@@ -36,7 +43,14 @@ impl<W: Write> ListingWriter<W> {
         units: UnitSystem,
     ) -> io::Result<Self> {
         writeln!(out, "N-BOOM DYNAMICS   SCENE {scene}   UNITS {}", units.name())?;
-        Ok(Self { out, hinges, units, printed: None })
+        Ok(Self { out, hinges, units, printed: None, samples: 0, interval: 1 })
+    }
+
+    /// The same with no more than every `interval`th of the output times after the twentieth, as
+    /// the original printed its steps; instants with events are all there.
+    #[must_use]
+    pub fn thinned(self, interval: usize) -> Self {
+        Self { interval: interval.max(1), ..self }
     }
 
     /// Writes the block of an output time.
@@ -44,7 +58,9 @@ impl<W: Write> ListingWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn write(&mut self, snapshot: &Snapshot) -> io::Result<()> {
-        if self.printed == Some(snapshot.time) {
+        self.samples += 1;
+        let is_due = self.samples.saturating_sub(FIRST).is_multiple_of(self.interval);
+        if !is_due || self.printed == Some(snapshot.time) {
             return Ok(());
         }
         self.write_time(snapshot)?;
@@ -259,6 +275,26 @@ mod tests {
 
     fn block() -> String {
         listing(UnitSystem::FtLbfS, |w| w.write(&snapshot(0.5)).expect("memory"))
+    }
+
+    #[test]
+    fn of_output_times_after_the_twentieth_every_third_is_printed_and_all_instants() {
+        let mut bytes = Vec::new();
+        let units = UnitSystem::None;
+        let writer = ListingWriter::new(&mut bytes, "booms", fixture::labels(), units);
+        let mut writer = writer.expect("memory").thinned(3);
+        for time in (1..=30_u32).map(f64::from) {
+            writer.write(&snapshot(time)).expect("memory");
+            if time == 24.0 {
+                let release = event(24.5, EventKind::Release, Some(0));
+                writer.write_instant(&[release], &snapshot(24.5)).expect("memory");
+            }
+        }
+        let text = String::from_utf8(bytes).expect("text");
+        let times = text.lines().filter_map(|line| line.strip_prefix("TIME ")?.split(' ').next());
+        let times: Vec<f64> = times.map(|time| time.parse().expect("a number")).collect();
+        let first = (1..=20_u32).map(f64::from);
+        assert_eq!(times, first.chain([23.0, 24.5, 26.0, 29.0]).collect::<Vec<_>>());
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub struct RunDescription {
     pub units: UnitSystem,
     /// How stresses are written, and the instruction set of the generated code that finds loads.
     pub stresses: Option<(StressTables, Option<&'static str>)>,
+    /// Of output times after the twentieth, the printout has every so many: `IAX` of a deck.
+    pub print_interval: usize,
     /// What the scene does not pay for.
     pub skipped: Vec<String>,
     /// What is allowed about the scene but probably not meant.
@@ -45,6 +47,7 @@ impl RunDescription {
             samples: options.samples,
             units,
             stresses: None,
+            print_interval: 1,
             skipped: Facts::of(scene).skipped(),
             warnings: Vec::new(),
         }

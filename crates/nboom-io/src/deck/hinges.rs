@@ -8,8 +8,9 @@ use super::layout::Place;
 use super::shown;
 use super::values::plain;
 
-/// Lock angles and release values of at least this magnitude never happen.
-const NEVER: f64 = 1e6;
+/// Lock angles \[degrees\] and release times or angles of a deck, of at least this magnitude, never
+/// happen.
+pub const NEVER: f64 = 1e6;
 
 impl Builder<'_, '_, '_> {
     /// Segment `i`, from 0.
@@ -99,11 +100,26 @@ impl Builder<'_, '_, '_> {
             return Release::Never;
         }
         if value.abs() >= NEVER {
+            if trigger == 0.0 && self.values.real("SEGSTT", i) == 0.0 {
+                self.check_never(i, value);
+            }
             Release::Never
         } else if trigger == 0.0 {
             Release::Time(value)
         } else {
             Release::Angle { hinge: trigger as usize - 1, angle: value.to_radians() }
+        }
+    }
+
+    /// A time that means never ought not to lie within the run.
+    fn check_never(&mut self, i: usize, time: f64) {
+        let (from, to) = (self.values.real("TZO", 0), self.values.real("TF", 0));
+        if time <= to {
+            let found =
+                format!("time {} in a run from {} to {}", shown(time), shown(from), shown(to));
+            let expected =
+                "less than 1e6; from there on it means never, and the hinge is not released";
+            self.warn(plain("RELTB"), i, found, expected);
         }
     }
 

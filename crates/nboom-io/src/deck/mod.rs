@@ -25,6 +25,7 @@ use crate::{InputError, SceneFile};
 use builder::Builder;
 use values::{Sizes, Values};
 
+pub use hinges::NEVER;
 pub use symbols::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
 pub use values::LARGEST_COUNT;
 

@@ -102,7 +102,7 @@ fn not_finite(quantity: &str, i: usize, builder: &Builder<'_, '_, '_>) -> (&'sta
         "initial velocity" => ("VBAR", 0),
         "initial angular rate" => ("OMEG", 0),
         "thrust" => ("FT", 0),
-        "hinge point" => ("ELIK", i),
+        "hinge point or outer end" => ("ELIK", i),
         "initial angle or rate" => (builder.initial_angle_name(), i),
         _ => ("TF", 0),
     }

@@ -15,7 +15,7 @@ impl Builder<'_, '_, '_> {
             max_steps: self.positive("LSTEP").map(|steps| steps as usize),
             print_interval: self.positive("IAX").map(|steps| steps as usize),
             stress_interval: self.not_negative("INSTR").unwrap_or(0.0) as usize,
-            no_plots: self.values.real("NOPLT", 0) == 1.0,
+            plots: self.values.get("NOPLT", 0).map(|no_plots| no_plots != 1.0),
         }
     }
 

@@ -157,7 +157,7 @@ pub const SYMBOLS: &[Symbol] = &[
     row(Dim, "IXK", ONE, Integer, "-", Error, "segments in all"),
     row(Dim, "IXYZ", ONE, Integer, "-", Is(0.0), "0: orientation by FTSM; 1: by EMO"),
     row(Dim, "IAB", ONE, Integer, "-", Is(0.0), "0: BETAIK and TAUIK are read; otherwise ALIK and SIGIK"),
-    row(Dim, "NOPLT", ONE, Integer, "-", Is(0.0), "1: no plots"),
+    row(Dim, "NOPLT", ONE, Integer, "-", Is(0.0), "1: no plots; ignored, nothing is plotted"),
 
     row(Nxput, "INSTR", ONE, Integer, "-", Is(0.0), "0: no stresses; n: stresses at every n-th print"),
     row(Nxput, "BETAIK", N, Real, "D", ErrorWhen("IAB is 0"), "initial angle relative to the inboard segment"),
@@ -177,7 +177,7 @@ pub const SYMBOLS: &[Symbol] = &[
     row(Nxput, "NK", NA, Integer, "-", Error, "segments of each appendage"),
     row(Nxput, "DBK", FRAMES, Real, "L", Error, "first hinge point, body axes"),
     row(Nxput, "FTSIK", FRAMES, Real, "D", Error, "psi, theta, phi of the appendage axes, eq. (9.6)"),
-    row(Nxput, "ELIK", N, Real, "L", Error, "length from hinge to hinge"),
+    row(Nxput, "ELIK", N, Real, "L", Error, "length from hinge to hinge, or to the outer end"),
     row(Nxput, "EMIK", N, Real, "FT2/L", MASS, "mass"),
     row(Nxput, "HIIK", &[Fixed(3), Fixed(3), Segments], Real, "FLT2", MASS, "inertia about the mass centre, segment axes; products may be left out"),
     row(Nxput, "CNIK", &[Segments, Fixed(3)], Real, "L", Means("0, unless slices say it"), "mass centre from the inboard hinge, segment axes"),
@@ -212,8 +212,8 @@ pub const SYMBOLS: &[Symbol] = &[
     row(Dynsta, "XI", WALLS, Real, "L", Is(0.0), "first vertex coordinate at (vertex, station)").numbered(Numbering::Segment),
     row(Dynsta, "ZETA", WALLS, Real, "L", Is(0.0), "second vertex coordinate at (vertex, station)").numbered(Numbering::Segment),
     row(Dynsta, "CMN", N, Real, "T", ErrorWhen("INSTR is above 0"), "lock-up pulse: impulse over peak"),
-    row(Dynsta, "XNU", N, Real, "-", Is(0.0), "Poisson's ratio"),
-    row(Dynsta, "E", N, Real, "F/L2", ErrorWhen("INSTR is above 0"), "Young's modulus"),
+    row(Dynsta, "XNU", N, Real, "-", Is(0.0), "Poisson's ratio; ignored, no stress depends on it"),
+    row(Dynsta, "E", N, Real, "F/L2", ErrorWhen("INSTR is above 0"), "Young's modulus; ignored, no stress depends on it"),
 
     row(Dynstb, "DLI", MATRIX, Real, "FLT2", Is(0.0), "inertia of a slice about its own mass centre").numbered(Numbering::SegmentAndStation),
 
@@ -225,6 +225,6 @@ pub const SYMBOLS: &[Symbol] = &[
     row(Rock, "TZO", ONE, Real, "T", Is(0.0), "initial time"),
     row(Rock, "TF", ONE, Real, "T", Error, "final time"),
     row(Rock, "LSTEP", ONE, Integer, "-", Means("no setting"), "most steps"),
-    row(Rock, "IAX", ONE, Integer, "-", Means("no setting"), "steps between printouts after the twentieth"),
+    row(Rock, "IAX", ONE, Integer, "-", Means("no setting"), "output times from one printout to the next after the twentieth, with --listing"),
     row(Rock, "SEGSTT", N, Integer, "-", Is(0.0), "0: unreleased; 1: released; 2: locked"),
 ];

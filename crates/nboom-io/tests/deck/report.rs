@@ -161,7 +161,7 @@ fn the_motion_and_the_settings() {
             max_steps: Some(150),
             print_interval: Some(2),
             stress_interval: 3,
-            no_plots: false,
+            plots: Some(true),
         }
     );
 }

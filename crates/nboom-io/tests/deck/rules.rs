@@ -174,6 +174,32 @@ fn releases() {
 }
 
 #[test]
+fn a_time_that_means_never_is_worth_a_warning_within_the_run() {
+    let run =
+        |cards: &str, span: &str| lines(&read(&with_cards(cards).replace("TF=1.0", span)).warnings);
+    let told = |at: &str, time: &str, span: &str| {
+        format!(
+            "a.nml:16:{at}: found time {time} in a run from {span}, expected less than 1e6; from \
+             there on it means never, and the hinge is not released"
+        )
+    };
+    assert_eq!(
+        run(" RELTB=1.0E6,2.0E6,2.0E6,3.0E6,", "TZO=0.0,TF=2.0E6"),
+        [
+            told("8: RELTB(1)", "1000000", "0 to 2000000"),
+            told("14: RELTB(2)", "2000000", "0 to 2000000"),
+            told("20: RELTB(3)", "2000000", "0 to 2000000"),
+        ]
+    );
+    let negative = run(" RELTB=-1.0E6,", "TZO=-2.0E6,TF=1.0");
+    assert_eq!(negative, [told("8: RELTB(1)", "-1000000", "-2000000 to 1")]);
+    // An angle, a hinge that is free, and a time that is never reached.
+    assert_eq!(run(" IREL=0,1,RELTB=0.0,1.0E6,", "TF=2.0E6"), [""; 0]);
+    assert_eq!(run(" RELTB=1.0E6,", "TF=2.0E6,SEGSTT=1,"), [""; 0]);
+    assert_eq!(run(" RELTB=1.0E6,", "TF=9.0E5"), [""; 0]);
+}
+
+#[test]
 fn superseded_release_times_must_agree() {
     assert_eq!(
         warnings(" TSK=0.5,0.0,RELTB=0.5,"),
@@ -253,8 +279,9 @@ fn settings_of_the_original() {
     assert_eq!((legacy.upper_error, legacy.lower_error), (Some(0.1), Some(0.2)));
     assert_eq!((legacy.first_step, legacy.max_step), (None, Some(5.0)));
     assert_eq!((legacy.max_steps, legacy.print_interval), (Some(7), None));
-    assert_eq!((legacy.stress_interval, legacy.no_plots), (0, false));
-    assert!(read(&replaced("NA=2,", "NA=2,NOPLT=1,")).legacy.no_plots);
+    assert_eq!((legacy.stress_interval, legacy.plots), (0, None));
+    assert_eq!(read(&replaced("NA=2,", "NA=2,NOPLT=1,")).legacy.plots, Some(false));
+    assert_eq!(read(&replaced("NA=2,", "NA=2,NOPLT=0,")).legacy.plots, Some(true));
 }
 
 /// An assignment to the first element, under one of the symbol's names.

@@ -1,0 +1,140 @@
+//! Signs of springs and dashpots by which they drive a hinge where nobody wants it.
+
+use nboom_scalar::Vec3;
+
+use super::ModelWarning;
+use crate::hinge::SAME_ANGLE;
+use crate::{Hinge, Posture, Scene};
+
+/// Share of its terms below which a torque is none.
+const NO_TORQUE: f64 = 1e-9;
+
+pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
+    let posture = Posture::at_start(scene);
+    let hinges = (0..scene.bodies.len()).filter(|&i| scene.bodies[i].hinge.can_turn());
+    hinges.flat_map(|i| of_hinge(scene, &posture, i)).collect()
+}
+
+fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
+    let body = &scene.bodies[i];
+    let (hinge, label) = (&body.hinge, scene.label(i));
+    let mut found = dashpot(hinge)
+        .map(|(coefficient, beyond)| ModelWarning::DashpotFeeds {
+            hinge: label,
+            coefficient,
+            beyond,
+        })
+        .into_iter()
+        .collect::<Vec<_>>();
+    let torque = AngleTorque::of(hinge);
+    let start = hinge.start.angle;
+    if let Some((stiffness, away_from)) = torque.without_rest() {
+        found.push(ModelWarning::SpringWithoutRest { hinge: label, stiffness, away_from });
+    } else if torque.drives_on(start, hinge.lock_angle) {
+        found.push(ModelWarning::SpringDrivesOn { hinge: label, start });
+    }
+    if let Some(lock) = hinge.lock_angle.filter(|lock| (lock - start).abs() > SAME_ANGLE) {
+        let towards_lock = (lock - start).signum();
+        let by_spring = torque.at(start) * towards_lock;
+        if by_spring < 0.0 && by_spring + kick_off_torque(scene, posture, i) * towards_lock < 0.0 {
+            found.push(ModelWarning::DrivenFromLock { hinge: label, start, lock });
+        }
+    }
+    if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
+        found.push(ModelWarning::KickOffPulls { hinge: label, force, length });
+    }
+    found
+}
+
+/// A coefficient by which the dashpot gives power q₁τ³ + q₂τ² above zero, with the power of the
+/// rate it belongs to, and the rate beyond which it does. The squared rate pushes one way; where
+/// that is not the way to the lock angle, it is taken for meant.
+fn dashpot(hinge: &Hinge) -> Option<((f64, u8), f64)> {
+    let (quadratic, linear) = (hinge.dashpot.rate_quadratic, hinge.dashpot.rate_linear);
+    if linear > 0.0 {
+        return Some(((linear, 1), 0.0));
+    }
+    let way = hinge.lock_angle.map_or(hinge.start.rate, |lock| lock - hinge.start.angle);
+    let is_along = quadratic != 0.0 && (way == 0.0 || way * quadratic > 0.0);
+    is_along.then(|| ((quadratic, 2), (linear / quadratic).abs()))
+}
+
+/// Torque A₂β² + A₁β + A₀ of spring and dashpot at rest, eq. (6.1) in powers of β.
+struct AngleTorque {
+    a2: f64,
+    a1: f64,
+    a0: f64,
+}
+
+impl AngleTorque {
+    fn of(hinge: &Hinge) -> Self {
+        let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
+        let [q3, q4, gamma] =
+            [dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle];
+        let [k1, k2, theta] = [spring.quadratic, spring.linear, spring.preload_angle];
+        Self {
+            a2: q3 + k1,
+            a1: q4 + k2 + 2.0 * (q3 * gamma + k1 * theta),
+            a0: (q3 * gamma + q4) * gamma + (k1 * theta + k2) * theta,
+        }
+    }
+
+    /// Zero where nothing but rounding is left.
+    fn at(&self, beta: f64) -> f64 {
+        let terms = [self.a2 * beta * beta, self.a1 * beta, self.a0];
+        let (sum, scale) = terms.iter().fold((0.0, 0.0), |(s, a), t| (s + t, a + f64::abs(*t)));
+        if f64::abs(sum) <= NO_TORQUE * scale { 0.0 } else { sum }
+    }
+
+    fn potential(&self, beta: f64) -> f64 {
+        -(((self.a2 / 3.0 * beta + self.a1 / 2.0) * beta + self.a0) * beta)
+    }
+
+    /// The stiffness of a linear torque that points away from an angle, and that angle.
+    fn without_rest(&self) -> Option<(f64, f64)> {
+        (self.a2 == 0.0 && self.a1 > 0.0).then(|| (self.a1, -self.a0 / self.a1))
+    }
+
+    /// Whether a hinge that starts at rest turns for ever: on the side to which a quadratic torque
+    /// pushes far out, no potential is above that of the start, and there is no lock angle.
+    fn drives_on(&self, start: f64, lock: Option<f64>) -> bool {
+        if self.a2 == 0.0 || lock.is_some_and(|lock| (lock - start) * self.a2 > 0.0) {
+            return false;
+        }
+        let discriminant = self.a1 * self.a1 - 4.0 * self.a2 * self.a0;
+        if discriminant < 0.0 {
+            return true;
+        }
+        // Beyond its root farther out the torque points outward; the potential is largest there.
+        let summit = (-self.a1 + discriminant.sqrt().copysign(self.a2)) / (2.0 * self.a2);
+        let is_beyond = (start - summit) * self.a2 > 0.0;
+        is_beyond || self.potential(summit) < self.potential(start)
+    }
+}
+
+/// Moment about hinge `i` of all kick-off springs that push at the start on it and outboard of it.
+fn kick_off_torque(scene: &Scene, posture: &Posture, i: usize) -> f64 {
+    let hinge = &posture.hinges[i];
+    let mut is_outboard = vec![false; scene.bodies.len()];
+    for (j, body) in scene.bodies.iter().enumerate().skip(i) {
+        is_outboard[j] = j == i || body.inboard.is_some_and(|inboard| is_outboard[inboard]);
+    }
+    let moment = |j: usize| {
+        let (direction, force, _) = push(scene, posture, j)?;
+        let arm = posture.hinges[j].kick_off - hinge.point;
+        Some(hinge.axis.dot(arm.cross(direction)) * force)
+    };
+    (i..scene.bodies.len()).filter(|&j| is_outboard[j]).filter_map(moment).sum()
+}
+
+/// Direction, force and length of the kick-off spring of hinge `j`, if it acts at the start.
+fn push(scene: &Scene, posture: &Posture, j: usize) -> Option<(Vec3<f64>, f64, f64)> {
+    let spring = scene.bodies[j].hinge.kick_off?;
+    let between = posture.hinges[j].kick_off - spring.main_body_point;
+    let length = between.norm();
+    let [a0, a1, a2, a3] = spring.coefficients;
+    let acts = length > 0.0 && length <= spring.limit_length;
+    acts.then(|| {
+        (between * (1.0 / length), ((a3 * length + a2) * length + a1) * length + a0, length)
+    })
+}

@@ -1,0 +1,69 @@
+//! Releases that never come, and hinges that start locked elsewhere.
+
+use super::ModelWarning;
+use crate::hinge::SAME_ANGLE;
+use crate::{Hinge, HingeStart, HingeState, Release, Scene};
+
+pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
+    let mut warnings = Vec::new();
+    for i in 0..scene.bodies.len() {
+        if starts_locked_elsewhere(&scene.bodies[i].hinge) {
+            warnings.push(ModelWarning::LockedElsewhere(scene.label(i)));
+        }
+        let Some((trigger, angle)) = waits_for(scene, i) else { continue };
+        let circle = circle_from(scene, i);
+        let (hinge, of_trigger) = (scene.label(i), &scene.bodies[trigger].hinge);
+        if circle.first() == Some(&i) && circle.iter().min() == Some(&i) {
+            let labels = circle.iter().map(|&j| scene.label(j)).collect();
+            warnings.push(ModelWarning::ReleaseCircle(labels));
+        } else if !of_trigger.can_turn() {
+            let trigger = scene.label(trigger);
+            warnings.push(ModelWarning::TriggerNeverTurns { hinge, trigger });
+        } else if locks_before(of_trigger, angle) {
+            let trigger = scene.label(trigger);
+            warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
+        }
+    }
+    warnings
+}
+
+fn starts_locked_elsewhere(hinge: &Hinge) -> bool {
+    let HingeStart { angle, state, .. } = hinge.start;
+    let elsewhere = |lock: f64| (lock - angle).abs() > SAME_ANGLE;
+    state == HingeState::Locked && hinge.lock_angle.is_some_and(elsewhere)
+}
+
+/// Whether its lock angle is between where `hinge` starts and `angle`.
+fn locks_before(hinge: &Hinge, angle: f64) -> bool {
+    let between = |lock: f64| {
+        (angle - lock).abs() > SAME_ANGLE && (angle - lock) * (lock - hinge.start.angle) > 0.0
+    };
+    hinge.lock_angle.is_some_and(between)
+}
+
+/// The hinge that an unreleased hinge `i` waits for, and the angle, unless that one starts at it.
+fn waits_for(scene: &Scene, i: usize) -> Option<(usize, f64)> {
+    let hinge = &scene.bodies[i].hinge;
+    match hinge.release {
+        Release::Angle { hinge: trigger, angle }
+            if hinge.start.state == HingeState::Unreleased
+                && scene.bodies[trigger].hinge.start.angle != angle =>
+        {
+            Some((trigger, angle))
+        }
+        _ => None,
+    }
+}
+
+/// The hinges met by following triggers from `start` until one comes round again; empty when
+/// the chain ends.
+fn circle_from(scene: &Scene, start: usize) -> Vec<usize> {
+    let mut seen = vec![start];
+    while let Some((next, _)) = waits_for(scene, seen[seen.len() - 1]) {
+        if let Some(position) = seen.iter().position(|&j| j == next) {
+            return seen.split_off(position);
+        }
+        seen.push(next);
+    }
+    Vec::new()
+}

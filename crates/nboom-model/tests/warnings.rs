@@ -1,0 +1,227 @@
+//! Signs and geometry that nobody means, told before a run; and what is meant, which is not.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nboom_model::{
+    Appendage, Dashpot, Hinge, HingeLabel, HingeState, KickOffSpring, MassProperties, ModelWarning,
+    Mount, Posture, Release, Scene, SceneDescription, Segment, Spring,
+};
+use nboom_scalar::{Mat3, Sym3, Vec3};
+
+const FIRST: HingeLabel = HingeLabel { appendage: 0, segment: 0 };
+
+fn body() -> MassProperties {
+    MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0))
+}
+
+/// A chain with these hinges and lengths, its first hinge one length along the body's y axis.
+fn chain(hinges: &[(Hinge, f64)]) -> Scene {
+    let mut description = SceneDescription::at_rest("chain", body(), 1.0);
+    let segment =
+        |&(hinge, length): &(Hinge, f64)| Segment { length, mass_properties: body(), hinge };
+    let segments = hinges.iter().map(segment).collect();
+    description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
+    Scene::new(description).expect("a scene")
+}
+
+fn one(hinge: Hinge) -> Vec<ModelWarning> {
+    chain(&[(hinge, 1.0)]).warnings()
+}
+
+fn from_to(start: f64, lock: f64) -> Hinge {
+    let mut hinge = Hinge { lock_angle: Some(lock), ..Hinge::free() };
+    hinge.start.angle = start;
+    hinge
+}
+
+fn spring(quadratic: f64, linear: f64, preload_angle: f64) -> Spring {
+    Spring { quadratic, linear, preload_angle }
+}
+
+#[test]
+fn a_dashpot_that_feeds_energy_at_every_rate() {
+    let dashpot = |rate_linear| Dashpot { rate_linear, ..Dashpot::default() };
+    let hinge = from_to(1.0, 0.0);
+    assert_eq!(one(Hinge { dashpot: dashpot(-0.5), ..hinge }), []);
+    assert_eq!(
+        one(Hinge { dashpot: dashpot(0.5), ..hinge })[0].to_string(),
+        "dashpot of hinge 1,1 feeds energy: coefficient 0.5 of the rate found, a negative one damps"
+    );
+}
+
+/// Power q₁τ³ + q₂τ² is above zero for τ of the sign of q₁ beyond |q₂/q₁|.
+#[test]
+fn a_dashpot_that_feeds_energy_at_great_rates() {
+    let dashpot = Dashpot { rate_quadratic: 0.2, rate_linear: -0.5, ..Dashpot::default() };
+    let warned =
+        |beyond| [ModelWarning::DashpotFeeds { hinge: FIRST, coefficient: (0.2, 2), beyond }];
+    assert_eq!(one(Hinge { dashpot, ..from_to(0.0, 1.0) }), warned(2.5));
+    assert_eq!(one(Hinge { dashpot, ..Hinge::free() }), warned(2.5));
+    // It turns the other way, in which the squared rate damps as well.
+    assert_eq!(one(Hinge { dashpot, ..from_to(1.0, 0.0) }), []);
+    let mut held = from_to(0.0, 1.0);
+    held.start.state = HingeState::Locked;
+    assert!(!one(Hinge { dashpot, ..held }).contains(&warned(2.5)[0]));
+    (held.start.state, held.release) = (HingeState::Unreleased, Release::Never);
+    assert_eq!(one(Hinge { dashpot, ..held }), []);
+}
+
+#[test]
+fn a_spring_without_an_angle_of_rest() {
+    let hinge = from_to(1.0, 2.0);
+    assert_eq!(one(Hinge { spring: spring(0.0, -3.0, -2.0), ..hinge }), []);
+    // From rest at 0.25 it is pushed to the lock angle, ever harder.
+    let found = one(Hinge { spring: spring(0.0, 3.0, -0.25), ..hinge });
+    let stiffness = 3.0;
+    let warning = ModelWarning::SpringWithoutRest { hinge: FIRST, stiffness, away_from: 0.25 };
+    assert_eq!(found, [warning]);
+    // The dashpot's angle terms are springs too.
+    let dashpot = Dashpot { angle_linear: 1.0, ..Dashpot::default() };
+    assert_eq!(one(Hinge { spring: spring(0.0, -3.0, -2.0), dashpot, ..hinge }), []);
+    let dashpot = Dashpot { angle_linear: 4.0, ..Dashpot::default() };
+    assert_eq!(one(Hinge { spring: spring(0.0, -3.0, -2.0), dashpot, ..hinge }).len(), 1);
+}
+
+/// Torque β² − (β + 1): at rest at one of its roots (1 ± √5)/2, beyond the other it drives on.
+#[test]
+fn a_quadratic_spring_that_drives_on() {
+    let quadratic = Hinge {
+        spring: spring(1.0, 0.0, 0.0),
+        dashpot: Dashpot { angle_linear: -1.0, preload_angle: 1.0, ..Dashpot::default() },
+        ..Hinge::free()
+    };
+    let starting = |angle: f64| {
+        let mut hinge = quadratic;
+        hinge.start.angle = angle;
+        hinge
+    };
+    let drives_on = |hinge| {
+        one(hinge).iter().any(|warning| matches!(warning, ModelWarning::SpringDrivesOn { .. }))
+    };
+    let summit = 0.5 * (1.0 + 5.0_f64.sqrt());
+    assert!(!drives_on(starting(summit - 0.01)));
+    assert!(drives_on(starting(summit + 0.01)));
+    // The potential −β³/3 + β²/2 + β has the summit's value again where (β − summit)² (β + s) is
+    // zero: s = 2 summit − 3/2.
+    let as_high = 1.5 - 2.0 * summit;
+    assert!(!drives_on(starting(as_high + 0.01)));
+    assert!(drives_on(starting(as_high - 0.01)));
+    // A lock angle on the way stops it, one behind does not.
+    let start = summit + 0.01;
+    assert!(!drives_on(Hinge { lock_angle: Some(4.0), ..starting(start) }));
+    assert!(drives_on(Hinge { lock_angle: Some(0.0), ..starting(start) }));
+}
+
+#[test]
+fn a_spring_that_drives_away_from_the_lock_angle() {
+    let away = |start, lock, rest: f64| {
+        let found = one(Hinge { spring: spring(0.0, -1.0, -rest), ..from_to(start, lock) });
+        found == [ModelWarning::DrivenFromLock { hinge: FIRST, start, lock }]
+    };
+    assert!(away(1.0, 0.0, 2.0) && away(-1.0, 0.0, -2.0) && away(0.0, 1.0, -0.1));
+    assert!(!away(1.0, 0.0, -2.0) && !away(1.0, 0.0, 0.5));
+    // At rest where it starts.
+    assert!(!away(0.1 + 0.2, 1.0, 0.3));
+}
+
+/// A force of 5 along x at the outer end of a boom that stands along y turns it from z to y, against
+/// its angle about x; one along z turns it along.
+#[test]
+fn a_kick_off_spring_may_turn_it_all_the_same() {
+    let hinge = Hinge { spring: spring(0.0, -1.0, -2.0), ..from_to(1.0, 0.0) };
+    let (y, z) = (1.0_f64.cos(), 1.0_f64.sin());
+    let end = Vec3::new(0.0, 1.0 + y, z);
+    let pushed_along = |direction: Vec3<f64>, force: f64| {
+        let kick_off = KickOffSpring {
+            main_body_point: end - direction,
+            body_point: Vec3::unit_y(),
+            coefficients: [force, 0.0, 0.0, 0.0],
+            limit_length: 2.0,
+        };
+        one(Hinge { kick_off: Some(kick_off), ..hinge })
+    };
+    let inward = Vec3::new(0.0, z, -y);
+    let warned = ModelWarning::DrivenFromLock { hinge: FIRST, start: 1.0, lock: 0.0 };
+    // The spring's torque is 1, the force's its own size over an arm of 1.
+    assert_eq!(pushed_along(inward, 1.5), []);
+    assert_eq!(pushed_along(inward, 0.5), [warned.clone()]);
+    assert_eq!(pushed_along(inward * -1.0, 1.5), [warned.clone()]);
+    let force = -0.5;
+    let pulls = ModelWarning::KickOffPulls { hinge: FIRST, force, length: 1.0 };
+    let found = pushed_along(inward, force);
+    assert_eq!(found[0], warned);
+    assert_eq!(found[1].to_string().split(':').next(), pulls.to_string().split(':').next());
+}
+
+#[test]
+fn a_chain_that_folds_back_onto_itself() {
+    let texts = |angles: &[f64], lengths: &[f64]| -> Vec<String> {
+        let hinges = angles.iter().map(|&angle| from_to(0.5, angle));
+        let hinges: Vec<_> = hinges.zip(lengths.iter().copied()).collect();
+        chain(&hinges).warnings().iter().map(ModelWarning::to_string).collect()
+    };
+    let folded = |hinge: &str, inboard: &str, lock: &str| {
+        format!(
+            "segment {hinge}, locked at {lock} deg, lies folded back on segment {inboard}; at 0 deg it \
+             is straight"
+        )
+    };
+    assert_eq!(texts(&[PI, 0.0, FRAC_PI_2], &[1.0; 3]), [""; 0]);
+    assert_eq!(texts(&[0.0, PI], &[1.0, 0.3]), [folded("1,2", "1,1", "180")]);
+    assert_eq!(texts(&[0.0, 3.0 * PI], &[1.0, 0.3]), [folded("1,2", "1,1", "540")]);
+    assert_eq!(texts(&[0.0, 0.0, -PI], &[1.0; 3]), [folded("1,3", "1,2", "-180")]);
+    // Nothing of no length lies on anything.
+    assert_eq!(texts(&[0.0, PI], &[1.0, 0.0]), [""; 0]);
+    // A triangle and a square close on themselves, a square with a longer side does not.
+    let third = 2.0 * PI / 3.0;
+    let closed = |hinge: &str| {
+        format!("with all hinges locked the outer end of segment {hinge} is back at hinge 1,1")
+    };
+    assert_eq!(texts(&[0.2, third, third], &[2.0; 3]), [closed("1,3")]);
+    assert_eq!(texts(&[0.2, FRAC_PI_2, FRAC_PI_2, FRAC_PI_2], &[2.0; 4]), [closed("1,4")]);
+    assert_eq!(texts(&[0.2, FRAC_PI_2, FRAC_PI_2, FRAC_PI_2], &[2.0, 2.0, 2.5, 2.0]), [""; 0]);
+}
+
+#[test]
+fn what_is_stowed_folded_or_has_no_lock_angle_is_not_told() {
+    let mut folded = from_to(PI, 0.0);
+    assert_eq!(chain(&[(from_to(1.0, 0.0), 1.0), (folded, 1.0)]).warnings(), []);
+    folded.lock_angle = None;
+    assert_eq!(chain(&[(from_to(1.0, 0.0), 1.0), (folded, 1.0)]).warnings(), []);
+    (folded.start.state, folded.lock_angle) = (HingeState::Locked, Some(PI));
+    assert_eq!(chain(&[(from_to(1.0, 0.0), 1.0), (folded, 1.0)]).warnings(), []);
+}
+
+/// A boom of 2 and one of 1 about the body's z axis, from (3, 0, 0) on: stowed at 90 and 180 degrees,
+/// locked at 0 and 90. A paddle's axis is its arm's.
+#[test]
+fn places_of_hinges_axes_and_outer_ends() {
+    let (x, y, z) = (Vec3::unit_x(), Vec3::<f64>::unit_y(), Vec3::unit_z());
+    // Appendage axes: the hinge axis along z, the straight boom along x.
+    let mount = Mount { point: x * 3.0, rot_inboard_from_hinge: Mat3::from_columns(z, x, y) };
+    let boom = |start, lock, length| Segment {
+        length,
+        mass_properties: body(),
+        hinge: from_to(start, lock),
+    };
+    let mut description = SceneDescription::at_rest("two", body(), 1.0);
+    let segments = vec![boom(FRAC_PI_2, 0.0, 2.0), boom(PI, FRAC_PI_2, 1.0)];
+    description.attach(&Appendage::Regular { mount, segments });
+    let (arm, paddle) = (boom(FRAC_PI_2, 0.0, 2.0), boom(0.3, 0.4, 5.0));
+    description.attach(&Appendage::Paddle { mount, arm, paddle });
+    let scene = Scene::new(description).expect("a scene");
+    let (stowed, locked) = (Posture::at_start(&scene), Posture::locked(&scene));
+    let near = |found: Vec3<f64>, expected: Vec3<f64>| (found - expected).norm() < 1e-14;
+    let check = |posture: &Posture, i: usize, point, axis, tip| {
+        let found = &posture.hinges[i];
+        assert!(near(found.point, point), "{i}: {found:?}");
+        assert!(near(found.axis, axis), "{i}: {found:?}");
+        assert!(near(found.tip, tip), "{i}: {found:?}");
+    };
+    check(&stowed, 0, x * 3.0, z, x * 3.0 + y * 2.0);
+    check(&stowed, 1, x * 3.0 + y * 2.0, z, x * 3.0 + y);
+    check(&locked, 0, x * 3.0, z, x * 5.0);
+    check(&locked, 1, x * 5.0, z, x * 5.0 + y);
+    check(&stowed, 3, x * 3.0 + y * 2.0, y, x * 3.0 + y * 7.0);
+    check(&locked, 3, x * 5.0, x, x * 10.0);
+}
