@@ -17,16 +17,17 @@ pub fn granted(topology: &Topology, pinned: &[Option<f64>], external: bool) -> V
     }
     let zero = |at: usize| pinned[at] == Some(0.0);
     let all_zero = |first: usize, places: &[usize]| places.iter().all(|at| zero(first + at));
-    let mut said = 0;
-    let mut say = |places: usize, phrase: String| {
-        said += places;
+    let mut said = vec![false; pinned.len()];
+    let mut say = |firsts: &[usize], places: &[usize], phrase: String| {
+        let all = firsts.iter().flat_map(|first| places.iter().map(move |at| first + at));
+        all.for_each(|at| said[at] = true);
         phrases.push(phrase);
     };
     if all_zero(0, &CENTER) {
-        say(CENTER.len(), "O at the main body's mass centre".to_owned());
+        say(&[0], &CENTER, "O at the main body's mass centre".to_owned());
     }
     if all_zero(0, &PRODUCTS) {
-        say(PRODUCTS.len(), "main body along its principal axes".to_owned());
+        say(&[0], &PRODUCTS, "main body along its principal axes".to_owned());
     }
     let links = links(topology);
     for (places, phrase) in [
@@ -35,17 +36,76 @@ pub fn granted(topology: &Topology, pinned: &[Option<f64>], external: bool) -> V
         (&PRODUCTS[..], "inertia along the segment axes"),
         (&WAY_ACROSS[..], "next hinge on the η axis"),
     ] {
-        let count = links.iter().filter(|&&link| all_zero(link, places)).count();
-        if count > 0 {
-            let of = links.len();
-            say(count * places.len(), format!("{phrase} of {count} of {of} links"));
+        let found: Vec<usize> =
+            links.iter().copied().filter(|&link| all_zero(link, places)).collect();
+        if !found.is_empty() {
+            let (count, of) = (found.len(), links.len());
+            say(&found, places, format!("{phrase} of {count} of {of} links"));
         }
     }
-    if fixed > said {
-        phrases.push(format!("{} further zeros and ones", fixed - said));
-    }
+    phrases.extend(rest(topology, pinned, &said));
     phrases
 }
+
+/// What no phrase says: each number by its name, owners with the same ones together.
+fn rest(topology: &Topology, pinned: &[Option<f64>], said: &[bool]) -> Vec<String> {
+    let mut found: Vec<(String, Vec<String>)> = Vec::new();
+    let mut at = 0;
+    for (owner, names) in owners(topology) {
+        let range = at..at + names.len();
+        at = range.end;
+        let named = range.zip(names).filter(|&(at, _)| !said[at]);
+        let values: Vec<(f64, &str)> =
+            named.filter_map(|(at, name)| Some((pinned[at]?, *name))).collect();
+        if values.is_empty() {
+            continue;
+        }
+        let equations = equations(&values);
+        match found.iter_mut().find(|(of_others, _)| *of_others == equations) {
+            Some((_, owners)) => owners.push(owner),
+            None => found.push((equations, vec![owner])),
+        }
+    }
+    let phrase = |(equations, owners): (String, Vec<String>)| {
+        format!("{equations} of {}", owners.join(", "))
+    };
+    found.into_iter().map(phrase).collect()
+}
+
+/// `a = b = 0, c = 1`.
+fn equations(values: &[(f64, &str)]) -> String {
+    let mut groups: Vec<(f64, Vec<&str>)> = Vec::new();
+    for &(value, name) in values {
+        match groups.iter_mut().find(|(other, _)| *other == value) {
+            Some((_, names)) => names.push(name),
+            None => groups.push((value, vec![name])),
+        }
+    }
+    let group = |(value, names): (f64, Vec<&str>)| format!("{} = {value}", names.join(" = "));
+    groups.into_iter().map(group).collect::<Vec<_>>().join(", ")
+}
+
+/// Whose the parameters are, one owner after the other as in [`Layout`], and what theirs are called.
+fn owners(topology: &Topology) -> Vec<(String, &'static [&'static str])> {
+    let mut owners = vec![("the main body".to_owned(), &MAIN[..])];
+    for (appendage, shape) in topology.shapes().iter().enumerate() {
+        let appendage = appendage + 1;
+        owners.push((format!("appendage {appendage}"), &BRANCH));
+        let link = |link| (format!("link {appendage},{link}"), &LINK[..]);
+        owners.extend((1..=Shape::hinges(*shape)).map(link));
+    }
+    owners
+}
+
+/// Mass, first moment and inertia about O.
+const MAIN: [&str; Layout::MAIN] =
+    ["m", "c_x", "c_y", "c_z", "J_xx", "J_yy", "J_zz", "J_xy", "J_xz", "J_yz"];
+/// Rotation from appendage axes to main-body axes, and the first hinge from O in appendage axes.
+const BRANCH: [&str; Layout::BRANCH] =
+    ["R_11", "R_12", "R_13", "R_21", "R_22", "R_23", "R_31", "R_32", "R_33", "d_ξ", "d_η", "d_ζ"];
+/// Mass, first moment and inertia about the hinge, and the way to the next hinge.
+const LINK: [&str; Layout::LINK] =
+    ["m", "c_ξ", "c_η", "c_ζ", "J_ξξ", "J_ηη", "J_ζζ", "J_ξη", "J_ξζ", "J_ηζ", "l_η", "l_ζ"];
 
 /// First moment, all of it.
 const CENTER: [usize; 3] = [1, 2, 3];
@@ -100,8 +160,17 @@ mod tests {
             ]
         );
         let mut partly = principal;
-        partly.pinned[Layout::MAIN] = Some(1.0);
-        assert_eq!(phrases(&partly).last().map(String::as_str), Some("1 further zeros and ones"));
+        // Rows of a rotation first, then the hinge's place; the second link of the paddle is 2,2.
+        for first in [Layout::MAIN, Layout::MAIN + Layout::BRANCH + 2 * Layout::LINK] {
+            (partly.pinned[first], partly.pinned[first + 10]) = (Some(1.0), Some(0.0));
+        }
+        *partly.pinned.last_mut().expect("a link") = None;
+        partly.pinned[7] = None;
+        let rest =
+            ["J_xz = J_yz = 0 of the main body", "R_11 = 1, d_η = 0 of appendage 1, appendage 2"];
+        let found = phrases(&partly);
+        assert!(found.contains(&"next hinge on the η axis of 3 of 4 links".to_owned()));
+        assert_eq!(found[found.len() - 2..], rest);
         let parameters = vec![2.0; general.pinned.len()];
         assert_eq!(phrases(&general.baked(&parameters))[1..], ["all 82 parameters"]);
     }

@@ -1,20 +1,69 @@
-use nboom_package::{Build, Built, compile as build};
+use std::io::{self, IsTerminal};
+use std::time::{Duration, Instant};
 
-use crate::{CliError, CompileArgs, check};
+use indicatif::{ProgressBar, ProgressStyle};
+use nboom_package::{Build, Built, Progress, compile as build};
+
+use crate::format::{count, short};
+use crate::{CliError, CompileArgs, check, say};
 
 /// Builds a simulator around the scene's routines and returns an account.
 pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
+    let started = Instant::now();
     let file = check::scene(&args.scene)?;
     let CompileArgs { formulation, level, offline, .. } = *args;
     let how = Build { formulation, level, work: args.work.clone(), offline };
-    let Built { up_to_date, topology, routines, folder } =
-        build(&file.scene, file.structure.as_ref(), &how, &args.output)?;
+    let shown = Shown::new();
+    let built =
+        build(&file.scene, file.structure.as_ref(), &how, &args.output, |step| shown.show(&step));
+    shown.line.finish_and_clear();
+    let Built { up_to_date, topology, routines, folder } = built?;
     let (scene, program) = (&file.scene.name, args.output.display());
+    let seconds = short(started.elapsed().as_secs_f64(), 3);
     if up_to_date {
-        return Ok(format!("{scene}: {program} is up to date\n"));
+        return Ok(format!("{scene}: {program} is up to date, {seconds} s\n"));
     }
     let sources = folder.display();
     Ok(format!(
-        "{scene}: topology {topology}, {routines} routines, built {program}\nsources in {sources}\n"
+        "{scene}: topology {topology}, {routines} routines, built {program} in {seconds} s\n\
+         sources in {sources}\n"
     ))
+}
+
+/// How far a build has come and how long it has taken: on a terminal a line that changes, elsewhere a
+/// line for each step. How long it will take nobody knows.
+struct Shown {
+    line: ProgressBar,
+}
+
+/// How often the line shows the time.
+const TICK: Duration = Duration::from_millis(200);
+
+impl Shown {
+    fn new() -> Self {
+        if !io::stderr().is_terminal() {
+            return Self { line: ProgressBar::hidden() };
+        }
+        let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}");
+        let style = style.expect("the template is well formed");
+        let line = ProgressBar::new_spinner().with_style(style);
+        line.enable_steady_tick(TICK);
+        Self { line }
+    }
+
+    fn show(&self, step: &Progress) {
+        let text = match step {
+            Progress::Writing { routines } => {
+                format!("writing {}", count(*routines, "routine", "routines"))
+            }
+            Progress::Building => "building with cargo, the first time for a minute or more".into(),
+            Progress::Crate { count: done, name } => {
+                format!("building, {} done, the last one {name}", count(*done, "crate", "crates"))
+            }
+        };
+        if self.line.is_hidden() && !matches!(step, Progress::Crate { .. }) {
+            say("compile", &text);
+        }
+        self.line.set_message(text);
+    }
 }

@@ -112,6 +112,35 @@ fn a_compiler_that_is_not_there_or_fails_is_said() {
     ends(&nboom(place, &in_file), 2, &["file"]);
 }
 
+/// In place of cargo: says that two crates are done, the second one the program, long after the first.
+const SLOW_CARGO: &str = r#"#!/bin/sh
+echo '{"reason":"compiler-artifact","target":{"name":"first-crate"},"executable":null}'
+sleep 1
+printf 'program' > program
+echo '{"reason":"compiler-artifact","target":{"name":"last"},"executable":"'$PWD'/program"}'
+"#;
+
+#[cfg(unix)]
+#[test]
+fn a_build_says_how_far_it_is_and_how_long_it_took() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = place();
+    let place = place.path();
+    let cargo = place.join("cargo");
+    fs::write(&cargo, SLOW_CARGO).expect("writable");
+    fs::set_permissions(&cargo, PermissionsExt::from_mode(0o755)).expect("it is ours");
+    let compile = ["compile", "boom.nml", "-o", "boom", "--work", "work"];
+    let built = command(place, &compile).env("CARGO", &cargo).output().expect("it starts");
+    let out = String::from_utf8(built.stdout.clone()).expect("text");
+    ends(&built, 0, &["topology S2", "built boom in "]);
+    let seconds = out.split("built boom in ").nth(1).and_then(|rest| rest.split(' ').next());
+    let seconds: f64 = seconds.and_then(|text| text.parse().ok()).expect("seconds");
+    assert!(seconds >= 1.0, "cargo took a second, {seconds} s are told");
+    let steps = String::from_utf8(built.stderr).expect("text");
+    let at = |words: &str| steps.find(words).unwrap_or_else(|| panic!("no {words:?} in {steps}"));
+    assert!(at("compile: writing ") < at("compile: building with cargo"), "{steps}");
+}
+
 #[test]
 fn a_program_is_not_put_over_what_is_no_simulator() {
     let place = place();

@@ -91,10 +91,10 @@ impl Crate {
         let mut files = Files::from([
             ("Cargo.toml".to_owned(), manifest::of_library(&name)),
             ("CERTIFICATE.json".to_owned(), certificate::text(scene, key, &routines)),
-            ("src/lib.rs".to_owned(), library::text(scene, &name, requests, &recognised(scene)?)),
             ("src/routines.rs".to_owned(), code),
             ("tests/certificate.rs".to_owned(), checks::code(&name, &routines)),
         ]);
+        files.extend(library::files(scene, &name, requests, &recognised(scene)?));
         files.extend(
             routines.iter().map(|routine| (checks::table_path(routine), checks::table(routine))),
         );

@@ -26,7 +26,7 @@ mod stresses;
 
 pub use certified::TOLERANCE;
 pub use choices::Choices;
-pub use compile::{Build, Built, compile};
+pub use compile::{Build, Built, Progress, compile};
 pub use error::PackageError;
 pub use generate::{Written, generate, is_current};
 pub use nboom_codegen::{Level, Numbers, Standing};

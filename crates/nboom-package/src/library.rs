@@ -1,4 +1,4 @@
-//! `src/lib.rs` of a crate of routines.
+//! `README.md` and `src/lib.rs` of a crate of routines.
 
 use std::fmt::Write;
 
@@ -10,18 +10,21 @@ use crate::choices::Requests;
 use crate::manifest::rust_name;
 use crate::stresses;
 
-const TEMPLATE: &str = include_str!("../templates/lib.rs");
+/// What the crate is, which is its documentation too.
+const README: &str = include_str!("../templates/README.md");
+
+const CODE: &str = include_str!("../templates/lib.rs");
 
 /// What only a crate with equations has.
 const EQUATIONS: &str = include_str!("../templates/equations.rs");
 
-/// The text for a scene; `name` is the crate's.
-pub(crate) fn text(
+/// Paths and texts for a scene; `name` is the crate's.
+pub(crate) fn files(
     scene: &Scene,
     name: &str,
     requests: &Requests,
     recognised: &Recognised,
-) -> String {
+) -> [(String, String); 2] {
     let of_routines = requests.all().into_iter().map(|request| request.name);
     let of_stresses = requests.stresses.iter().map(|request| request.name.clone());
     let names: Vec<String> = of_routines.chain(of_stresses).collect();
@@ -39,6 +42,7 @@ pub(crate) fn text(
         ("TOPOLOGY", requests.whole.topology.to_string()),
         ("ROUTINE_TABLE", table(&requests.all()) + &row_of_stresses.clone().unwrap_or_default()),
         ("STRESSES", row_of_stresses.map_or(String::new(), |_| stresses::NUMBERS.to_owned())),
+        ("PACKAGE", name.to_owned()),
         ("CRATE", rust_name(name)),
         ("NAMES", names.join(", ")),
         ("PARAMETER_COUNT", parameters.len().to_string()),
@@ -48,12 +52,16 @@ pub(crate) fn text(
         ("HINGE_LIST", hinges),
         ("EQUATIONS_FUNCTION", equations.unwrap_or_default()),
     ];
-    values
-        .iter()
-        .fold(TEMPLATE.to_owned(), |text, (key, value)| text.replace(&format!("/*{key}*/"), value))
+    let filled = |template: &str| {
+        let fill = |text: String, (key, value): &(&str, String)| {
+            text.replace(&format!("/*{key}*/"), value)
+        };
+        values.iter().fold(template.to_owned(), fill)
+    };
+    [("README.md".to_owned(), filled(README)), ("src/lib.rs".to_owned(), filled(CODE))]
 }
 
-/// A scene's name as it can stand in a comment of one line.
+/// A scene's name as it can stand in a line of Markdown.
 fn in_words(name: &str) -> String {
     name.chars()
         .filter(|c| !c.is_control())
@@ -70,7 +78,7 @@ fn table(requests: &[Request]) -> String {
         let facts = if facts.is_empty() { "nothing".to_owned() } else { facts };
         writeln!(
             rows,
-            "//! | [`{name}`] | {topology} | {} | {formulation} | {} | {facts} |",
+            "| `{name}` | {topology} | {} | {formulation} | {} | {facts} |",
             output.name(),
             level.name()
         )

@@ -15,7 +15,16 @@ pub(crate) fn rust_name(name: &str) -> String {
 
 /// `Cargo.toml` of a crate of routines.
 pub(crate) fn of_library(name: &str) -> String {
-    format!("{}[dependencies]\n", package(name))
+    format!(
+        "{}\
+         [dependencies]\n\
+         \n\
+         [lints.clippy]\n\
+         # Equations read best with the field's one-letter names and with indices that name bodies.\n\
+         many_single_char_names = \"allow\"\n\
+         needless_range_loop = \"allow\"\n",
+        package(name)
+    )
 }
 
 /// `Cargo.toml` of a simulator whose crates are in the folder `crates`.

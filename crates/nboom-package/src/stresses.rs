@@ -10,18 +10,18 @@ use crate::manifest::rust_name;
 
 const TEST: &str = include_str!("../templates/stresses.rs");
 
-/// What `src/lib.rs` says of the numbers.
+/// What `README.md` says of the numbers.
 pub(crate) const NUMBERS: &str = include_str!("../templates/stresses.txt");
 
 /// Motions that the compiled code is tested on.
 const MOTIONS: usize = 20;
 
-/// The row of the routine among those of `src/lib.rs`.
+/// The row of the routine among those of `README.md`.
 pub(crate) fn row(request: &StressRequest) -> String {
     let StressRequest { name, equations, level, .. } = request;
     let (hinges, numbers) = (equations.hinges(), equations.numbers().len());
     format!(
-        "//! | [`{name}`] | {hinges} hinges | loads and stresses | | {} | all {numbers} numbers of \
+        "| `{name}` | {hinges} hinges | loads and stresses | | {} | all {numbers} numbers of \
          the scene |\n",
         level.name()
     )

@@ -133,8 +133,10 @@ fn a_crate_with_stresses_passes_its_tests_and_fails_them_when_they_are_wrong() {
     let choices = Choices { stresses: file.structure.as_ref(), ..Choices::default() };
     let place = written(&file.scene, &choices);
     cargo_test(place.path()).expect("the code is right");
-    let library = fs::read_to_string(place.path().join("src/lib.rs")).expect("readable");
-    assert!(library.contains("| [`StressesS2P`] | 4 hinges | loads and stresses |"), "{library}");
+    let readme = fs::read_to_string(place.path().join("README.md")).expect("readable");
+    assert!(readme.contains("| `StressesS2P` | 4 hinges | loads and stresses |"), "{readme}");
+    // Lints of today's clippy, which is there wherever the gate runs.
+    cargo(place.path(), &["clippy", "--all-targets", "--quiet"]).expect("the code is clean");
 
     let routines = place.path().join("src/routines.rs");
     let text = fs::read_to_string(&routines).expect("readable");
@@ -346,6 +348,44 @@ fn a_directory_that_cannot_be_made_is_an_error() {
     fs::write(&file, "").expect("writable");
     let error = generate(&one_boom(), &Choices::default(), &file).expect_err("a file is there");
     assert!(matches!(error, PackageError::Read { .. } | PackageError::Write { .. }), "{error}");
+}
+
+/// Every parameter that a routine takes for granted is named in the crate's README: the numbers
+/// of a parameter's name over all phrases are those that are pinned in the code.
+#[test]
+fn a_crate_names_all_that_it_takes_for_granted() {
+    let place = written(&satellite("mixed", &[1, 2, 2]), &Choices::default());
+    let readme = fs::read_to_string(place.path().join("README.md")).expect("readable");
+    let row = readme.lines().find(|line| line.starts_with("| `Satellite")).expect("a row");
+    let phrases = row.trim_end_matches(" |").rsplit(" | ").next().expect("a last column");
+    let named: usize = phrases.split("; ").map(parameters_of).sum();
+    let code = fs::read_to_string(place.path().join("src/routines.rs")).expect("readable");
+    let start = code.find("const PINNED").expect("a table");
+    let table = &code[start..start + code[start..].find("];").expect("its end")];
+    // A pair of place and number for each, after the pair of types.
+    let pinned = table.matches('(').count() - 1;
+    assert!(pinned > 30, "{table}");
+    assert_eq!(named, pinned, "{phrases}");
+}
+
+/// How many parameters a phrase speaks of.
+fn parameters_of(phrase: &str) -> usize {
+    let links = || -> usize {
+        let (count, _) = phrase.split_once(" of 5 links").expect("five links");
+        count.rsplit(' ').next().and_then(|count| count.parse().ok()).expect("a count")
+    };
+    match phrase {
+        "no external wrench on the main body" => 0,
+        "O at the main body's mass centre" | "main body along its principal axes" => 3,
+        _ if phrase.starts_with("inertia along the segment axes") => 3 * links(),
+        _ if phrase.ends_with("links") => links(),
+        _ => {
+            let (equations, owners) = phrase.rsplit_once(" of ").expect("equations and owners");
+            let owners = owners.split(", ").count();
+            let of_group = |group: &str| group.matches(" = ").count();
+            owners * equations.split(", ").map(of_group).sum::<usize>()
+        }
+    }
 }
 
 #[test]
