@@ -7,7 +7,7 @@ use crate::collect::Collected;
 use crate::follow::{Follow, STATIONS, analysis, swinging};
 
 #[test]
-fn the_envelope_is_the_worst_of_all_that_was_told() {
+fn the_envelope_is_no_less_than_all_that_was_told() {
     let limit = 3e8;
     let settings =
         Settings { yield_stress: Some(limit), safety_factor: 1.25, ..Settings::default() };
@@ -15,16 +15,20 @@ fn the_envelope_is_the_worst_of_all_that_was_told() {
     let envelope = follow.analysis.envelope();
     assert_eq!(envelope.len(), STATIONS.len());
     for (station, worst) in envelope.iter().enumerate() {
-        let told = follow.at_samples.iter().chain(&follow.at_lock_ups);
         let von_mises = |all: &Vec<StationStress>| all[station].severest.stress.von_mises();
+        let told = follow.at_samples.iter().chain(&follow.at_lock_ups);
         let largest = told.map(von_mises).fold(0.0, f64::max);
         let found = worst.severest.stress.von_mises();
-        assert_eq!((worst.station, found), (station, largest));
-        assert_eq!(worst.margin, Some(limit / (1.25 * largest) - 1.0));
+        assert_eq!(worst.station, station);
+        // By what the search may miss.
+        assert!(found >= largest * (1.0 - 1e-7), "{found} {largest}");
+        assert_eq!(worst.margin, Some(limit / (1.25 * found) - 1.0));
     }
     // A latch that stops a swing bends the root, about the hinge's axis.
     let root = envelope.last().expect("stations");
-    assert_eq!((root.cause, root.driver), (Cause::LockUp { hinge: 0 }, Component::MomentXi));
+    assert_eq!(root.driver, Some(Component::MomentXi));
+    let Cause::LockUp { hinge: 0, share } = root.cause else { panic!("{root:?}") };
+    assert!(share > 0.9 && share < 1.1, "{share}");
 }
 
 #[test]

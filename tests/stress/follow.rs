@@ -7,7 +7,9 @@ use nboom::model::{
     SectionShape, Segment, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::{Event, EventKind, InstantMotion, Options, Recorder, Snapshot, simulate};
+use nboom::sim::{
+    Event, EventKind, InstantMotion, Options, Recorder, Snapshot, StepMotion, simulate,
+};
 use nboom::strength::{Settings, StationStress, StrengthError, StressAnalysis};
 
 pub const MASS: f64 = 3.0;
@@ -96,6 +98,7 @@ impl Follow {
         };
         let options = Options { samples, rtol: 1e-12, atol: 1e-14, ..Options::default() };
         simulate(scene, &options, &mut follow).expect("a smooth motion");
+        follow.analysis.finish().expect("finite loads");
         follow
     }
 }
@@ -124,6 +127,14 @@ impl Recorder for Follow {
             self.at_lock_ups.push(found.to_vec());
         }
         Ok(())
+    }
+
+    fn needs_steps(&self) -> bool {
+        true
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
+        self.analysis.step(step).map_err(io::Error::other)
     }
 
     fn event(&mut self, event: &Event, _after: &Snapshot) -> io::Result<()> {

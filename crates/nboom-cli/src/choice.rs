@@ -6,6 +6,7 @@ use nboom_formulation::Formulation;
 use nboom_package::Level;
 use nboom_results::UnitSystem;
 use nboom_sim::{Form, Method, OptionError, Options, Reference};
+use nboom_strength::PulseShape;
 
 /// Why the value of an option is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -62,6 +63,11 @@ pub(crate) fn reference(name: &str) -> Result<Reference, ChoiceError> {
 pub(crate) fn units(name: &str) -> Result<UnitSystem, ChoiceError> {
     let names = || UnitSystem::ALL.map(UnitSystem::name).into();
     UnitSystem::from_name(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
+}
+
+pub(crate) fn pulse_shape(name: &str) -> Result<PulseShape, ChoiceError> {
+    let available = PulseShape::ALL.map(PulseShape::name).into();
+    PulseShape::named(name).ok_or(ChoiceError::Unknown { available })
 }
 
 pub(crate) fn finite(text: &str) -> Result<f64, ChoiceError> {

@@ -29,7 +29,7 @@ impl Account<'_> {
         lines.extend(self.event_lines());
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
-        lines.extend(self.worst.as_ref().map(worst_line));
+        lines.extend(self.worst.as_ref().map(|worst| worst_line(self.scene, worst)));
         lines.extend(self.trust.as_ref().map(trust_line));
         lines.push(format!("files         {}", directory.display()));
         lines.join("\n") + "\n"
@@ -127,20 +127,25 @@ impl Account<'_> {
 }
 
 /// The largest von Mises stress of the run.
-fn worst_line(worst: &Worst) -> String {
+fn worst_line(scene: &Scene, worst: &Worst) -> String {
     let why = match worst.cause {
-        Cause::Motion => "motion",
-        Cause::LockUp { .. } => "lock up",
+        Cause::Motion => "motion".to_owned(),
+        Cause::LockUp { hinge, share } => {
+            let percent = short(100.0 * share, 3);
+            format!("lock up of hinge {} ({percent} % of it)", scene.label(hinge))
+        }
     };
+    let mostly =
+        worst.driver.map_or(", unloaded".to_owned(), |driver| format!(", mostly {driver}"));
     let margin =
         worst.margin.map_or(String::new(), |margin| format!(", margin {}", short(margin, 3)));
     format!(
-        "worst stress  von Mises {} in segment {}, station {}, at {} by {why}, mostly {}{margin}",
+        "worst stress  von Mises {} in segment {}, station {}, at {} by {why}{mostly}{margin}; of thin \
+         walls, without corners and holes",
         short(worst.severest.stress.von_mises(), 5),
         worst.segment,
         worst.station + 1,
         short(worst.time, 10),
-        worst.driver,
     )
 }
 

@@ -4,7 +4,7 @@ use clap::Args;
 use nboom_io::SceneFile;
 use nboom_results::StressSigns;
 use nboom_scalar::Kernel;
-use nboom_strength::{Settings, Slips, StrengthError, StressAnalysis};
+use nboom_strength::{PulseShape, Settings, Slips, StrengthError, StressAnalysis};
 
 use crate::choice;
 
@@ -29,6 +29,17 @@ pub struct StressArgs {
           allow_negative_numbers = true)]
     pub amplification: f64,
 
+    /// How the pulses of latches that act together add up: half-sines over time, or each with its peak
+    /// as long as it lasts.
+    #[arg(long, value_name = "SHAPE", default_value = PulseShape::default().name(),
+          value_parser = choice::pulse_shape)]
+    pub pulses: PulseShape,
+
+    /// Write the loads of hinges, of any scene: hinge_loads.csv and its companions. With stresses they
+    /// are written anyway.
+    #[arg(long)]
+    pub hinge_loads: bool,
+
     /// Write stresses with the report's signs: compression positive, shear stresses reversed too.
     #[arg(long)]
     pub report_signs: bool,
@@ -40,7 +51,8 @@ impl StressArgs {
         if self.report_signs { StressSigns::Report } else { StressSigns::Tension }
     }
 
-    /// The analysis that a scene asks for, if it does; `kernels` may have code for its loads.
+    /// The analysis that a scene or the command line asks for, if one does; `kernels` may have code for
+    /// its loads.
     ///
     /// # Errors
     /// When a section is not one.
@@ -50,11 +62,18 @@ impl StressArgs {
         slips: Slips,
         kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
-        let Self { no_stresses, yield_stress, safety_factor, amplification, .. } = *self;
-        let structure = file.structure.as_ref().filter(|_| !no_stresses);
-        let settings = Settings { amplification, yield_stress, safety_factor, slips };
-        let analysis =
-            structure.map(|structure| StressAnalysis::new(&file.scene, structure, settings));
-        Ok(analysis.transpose()?.map(|analysis| analysis.with_kernels(kernels)))
+        let Self { yield_stress, safety_factor, amplification, pulses, .. } = *self;
+        let settings = Settings { amplification, pulses, yield_stress, safety_factor, slips };
+        let SceneFile { scene, structure, .. } = file;
+        match structure {
+            Some(structure) if !self.no_stresses => {
+                let analysis = StressAnalysis::new(scene, structure, settings)?;
+                Ok(Some(analysis.with_kernels(kernels)))
+            }
+            structure if self.hinge_loads => {
+                StressAnalysis::of_hinges(scene, structure.as_ref(), settings).map(Some)
+            }
+            _ => Ok(None),
+        }
     }
 }

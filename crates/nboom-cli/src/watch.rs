@@ -1,7 +1,7 @@
 use std::io;
 
 use nboom_results::RunDirectory;
-use nboom_sim::{Event, EventKind, InstantMotion, Recorder, Snapshot, Witness};
+use nboom_sim::{Event, EventKind, InstantMotion, Recorder, Snapshot, StepMotion, Witness};
 
 use crate::progress::Progress;
 
@@ -35,6 +35,14 @@ impl Recorder for Watch {
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
         self.files.instant(instant)
+    }
+
+    fn needs_steps(&self) -> bool {
+        self.files.needs_steps()
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
+        self.files.step(step)
     }
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {

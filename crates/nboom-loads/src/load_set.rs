@@ -75,10 +75,42 @@ impl<R: Real> LoadSet<R> {
     /// stresses of each station, and for each hinge the magnitude by which
     /// [`Loads::largest_torque_residual`](crate::Loads::largest_torque_residual) judges.
     pub fn numbers(&self) -> Vec<R> {
+        let mut row = vec![R::zero(); self.count()];
+        self.write(&mut row);
+        row
+    }
+
+    /// Writes [`numbers`](Self::numbers) into a row.
+    ///
+    /// # Panics
+    /// When the row has not [`count`](Self::count) places.
+    pub fn write(&self, row: &mut [R]) {
+        let (of_wrenches, rest) = row.split_at_mut(self.stress_at(0));
+        let (of_stresses, of_sizes) = rest.split_at_mut(6 * self.stresses.len());
         let wrenches = self.hinges.iter().chain(&self.stations);
-        let of_wrenches = wrenches.flat_map(|w| [w.force.to_array(), w.moment.to_array()].concat());
-        let of_stresses = self.stresses.iter().flatten().copied();
-        of_wrenches.chain(of_stresses).chain(self.sizes.iter().map(|size| size.moment)).collect()
+        for (place, load) in of_wrenches.chunks_exact_mut(6).zip(wrenches) {
+            place[..3].copy_from_slice(&load.force.to_array());
+            place[3..].copy_from_slice(&load.moment.to_array());
+        }
+        of_stresses.copy_from_slice(self.stresses.as_flattened());
+        assert_eq!(of_sizes.len(), self.sizes.len(), "one place for each number");
+        of_sizes.iter_mut().zip(&self.sizes).for_each(|(place, size)| *place = size.moment);
+    }
+
+    /// Where P and Q of hinge `i` start among the numbers.
+    pub fn hinge_at(&self, i: usize) -> usize {
+        6 * i
+    }
+
+    /// Where P and Q of a station, as counted over all segments, start among the numbers.
+    pub fn station_at(&self, station: usize) -> usize {
+        6 * (self.hinges.len() + station)
+    }
+
+    /// Where the numbers for the stresses of a station, as counted over all segments, start among the
+    /// numbers.
+    pub fn stress_at(&self, station: usize) -> usize {
+        6 * (self.hinges.len() + self.stations.len() + station)
     }
 
     /// How many [`numbers`](Self::numbers) there are.

@@ -3,15 +3,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
-use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, Summary};
+use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion, Summary};
 use nboom_strength::{StressAnalysis, Worst};
 
 use crate::rows::{self, Output};
 use crate::stress::StressWriter;
 use crate::{
-    ENVELOPE_FILE, EVENTS_FILE, EventsWriter, HINGE_LOADS_FILE, LISTING_FILE, ListingWriter,
-    ResultsError, RunDescription, STATES_FILE, STRESS_FILE, SUMMARY_FILE, StatesWriter,
-    StressTables, SummaryFile, TRUST_FILE, with_causes,
+    ENVELOPE_FILE, EVENTS_FILE, EventsWriter, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,
+    LATCH_IMPULSES_FILE, LISTING_FILE, ListingWriter, ResultsError, RunDescription, STATES_FILE,
+    STRESS_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, with_causes,
 };
 
 /// The directory of one run: creates it, writes its tables while the run goes on, and its
@@ -57,8 +57,10 @@ impl RunDirectory {
         fs::create_dir_all(path)
             .map_err(|source| ResultsError::Directory { path: path.to_owned(), source })?;
         remove_stale(&path.join(SUMMARY_FILE))?;
-        let optional = [LISTING_FILE, TRUST_FILE, STRESS_FILE, HINGE_LOADS_FILE, ENVELOPE_FILE];
-        optional.into_iter().try_for_each(|file| remove_stale(&path.join(file)))?;
+        let of_loads = [HINGE_LOADS_FILE, LATCH_IMPULSES_FILE, HINGE_ENVELOPE_FILE];
+        let of_stresses = [STRESS_FILE, ENVELOPE_FILE];
+        let optional = [LISTING_FILE, TRUST_FILE].into_iter().chain(of_loads).chain(of_stresses);
+        { optional }.try_for_each(|file| remove_stale(&path.join(file)))?;
         SummaryFile::unfinished(&run).replace(&path.join(SUMMARY_FILE))?;
         let labels: Vec<_> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
@@ -86,11 +88,12 @@ impl RunDirectory {
         Ok(self)
     }
 
-    /// The largest von Mises stress so far, and where.
-    pub fn worst_stress(&self) -> Option<Worst> {
-        let worst = self.stresses.as_ref()?.analysis.envelope().iter().copied();
-        let von_mises = |worst: &Worst| worst.severest.stress.von_mises();
-        worst.max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
+    /// The largest von Mises stress when the run is over, and where.
+    pub fn worst_stress(&mut self) -> Option<Worst> {
+        let analysis = &mut self.stresses.as_mut()?.analysis;
+        // Whatever is wrong, `finish` comes upon it again.
+        analysis.finish().ok()?;
+        analysis.worst_stress()
     }
 
     /// Writes what is left and the summary.
@@ -186,6 +189,15 @@ impl Recorder for RunDirectory {
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
         stresses.instant(instant).map_err(ResultsError::into_io)?;
         self.write_stresses().map_err(ResultsError::into_io)
+    }
+
+    fn needs_steps(&self) -> bool {
+        self.stresses.is_some()
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
+        let Some(stresses) = &mut self.stresses else { return Ok(()) };
+        stresses.step(step).map_err(ResultsError::into_io)
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {

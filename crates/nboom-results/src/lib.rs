@@ -1,5 +1,6 @@
-//! Files of a run: `states.csv`, `events.csv`, `summary.json`, `listing.txt`, and with stresses
-//! `stress.csv`, `hinge_loads.csv` and `stress_envelope.csv`.
+//! Files of a run: `states.csv`, `events.csv`, `summary.json`, `listing.txt`, with hinge loads
+//! `hinge_loads.csv`, `latch_impulses.csv` and `hinge_load_envelope.csv`, and with stresses
+//! `stress.csv` and `stress_envelope.csv` too.
 //!
 //! [`RunDirectory`] is a [`nboom_sim::Recorder`]: it writes each row as soon as it is known, so
 //! that a run that fails leaves everything computed before, with a summary that says
@@ -58,6 +59,10 @@ pub const SUMMARY_FILE: &str = "summary.json";
 pub const STRESS_FILE: &str = "stress.csv";
 /// Name of the table of hinge loads within a run's directory.
 pub const HINGE_LOADS_FILE: &str = "hinge_loads.csv";
+/// Name of the table of impulses that hinges transmit at lock-ups within a run's directory.
+pub const LATCH_IMPULSES_FILE: &str = "latch_impulses.csv";
+/// Name of the table of each hinge's largest loads within a run's directory.
+pub const HINGE_ENVELOPE_FILE: &str = "hinge_load_envelope.csv";
 /// Name of the table of each station's worst stress within a run's directory.
 pub const ENVELOPE_FILE: &str = "stress_envelope.csv";
 /// Name of the printout within a run's directory.

@@ -51,6 +51,13 @@ impl RowText {
         write!(self.instant, ",{event}")
     }
 
+    /// The rows that are added next have this time and the hinge that locks then.
+    pub fn set_latch(&mut self, time: f64, hinge: HingeLabel) -> io::Result<()> {
+        self.instant.clear();
+        number(&mut self.instant, time)?;
+        write!(self.instant, ",{},{}", hinge.appendage + 1, hinge.segment + 1)
+    }
+
     /// Rows of `stress.csv`; at each time of a run for the same stations.
     pub fn add_stresses(
         &mut self,
@@ -110,16 +117,12 @@ impl RowText {
         Ok(&head.text)
     }
 
-    /// Rows of `hinge_loads.csv`.
-    pub fn add_hinge_loads(
-        &self,
-        out: &mut Vec<u8>,
-        loads: impl Iterator<Item = Wrench<f64>>,
-    ) -> io::Result<()> {
+    /// Rows of `hinge_loads.csv` or `latch_impulses.csv`.
+    pub fn add_hinge_loads(&self, out: &mut Vec<u8>, loads: &[Wrench<f64>]) -> io::Result<()> {
         for (head, load) in self.hinge_heads.iter().zip(loads) {
             out.extend(&self.instant);
             out.extend(head.as_bytes());
-            load_fields(out, &load)?;
+            load_fields(out, load)?;
             writeln!(out)?;
         }
         Ok(())
@@ -135,7 +138,7 @@ pub(crate) fn stress_fields(out: &mut impl Write, components: [f64; 3]) -> io::R
     components.into_iter().try_for_each(|number| field(out, number))
 }
 
-fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {
+pub(crate) fn load_fields(out: &mut impl Write, load: &Wrench<f64>) -> io::Result<()> {
     vector_fields(out, load.force)?;
     vector_fields(out, load.moment)
 }

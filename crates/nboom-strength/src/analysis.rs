@@ -1,36 +1,56 @@
-use nboom_loads::{LoadEquations, LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
+use std::io;
+
+use nboom_loads::LoadEquations;
 use nboom_model::{HingeLabel, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
 use nboom_sections::{AtStation, PointStress, Section};
-use nboom_sim::{Detail, InstantMotion, Jump, Snapshot};
+use nboom_sim::{Detail, Event, InstantMotion, MotionAt, Recorder, Snapshot, StepMotion};
 
 use crate::envelope::driver;
+use crate::finder::LoadFinder;
 use crate::formulas::Formulas;
-use crate::{Cause, Settings, Slip, StrengthError, Worst};
+use crate::gauge::{Gauge, Measure};
+use crate::piece::{search_pulses, search_step};
+use crate::pulse::Pulses;
+use crate::record::{Record, Records};
+use crate::search::Search;
+use crate::{HingeQuantity, LatchImpulses, Settings, Slip, StrengthError, Worst, WorstHingeLoad};
 
-/// Follows the stresses of a run.
+/// Share of the largest stress below which that of a station is rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Follows the loads of a run, and its stresses where sections are known.
+///
+/// As a [`Recorder`] it sees all that the envelope is made of; [`finish`](Self::finish) ends it. It can
+/// be asked for loads at output times beside that.
 #[derive(Clone, Debug)]
 pub struct StressAnalysis {
     settings: Settings,
     labels: Vec<HingeLabel>,
-    pulse_constants: Vec<f64>,
-    loads: Loads,
-    found: LoadSet,
-    force_densities: Vec<f64>,
-    sections: Vec<StationSection>,
+    /// None where no structure says them.
+    pulse_constants: Option<Vec<f64>>,
+    finder: LoadFinder,
+    stations: Vec<StationPlace>,
+    search: Search,
+    pulses: Pulses,
+    /// When the last step or instant was over.
+    reached: f64,
+    /// The worst of the run.
+    worst: Records,
+    /// The worst that the pulses make which were known at the last lock-up.
+    at_lock_up: Records,
+    /// Loads of the motion at one time.
+    row: Vec<f64>,
     stresses: Vec<StationStress>,
-    /// The worst of each station; none before the first evaluation.
-    envelope: Vec<Worst>,
-    largest_residual: f64,
-    most_residual: f64,
+    hinge_loads: Vec<Wrench<f64>>,
+    latch_impulses: Vec<LatchImpulses>,
 }
 
-/// The section of a station.
+/// Which station a gauge is for.
 #[derive(Clone, Debug)]
-struct StationSection {
+struct StationPlace {
     segment: usize,
     station: usize,
-    section: Formulas,
 }
 
 /// Load and stresses of one station at one time.
@@ -49,12 +69,6 @@ pub struct StationStress {
     pub severest: PointStress,
 }
 
-/// Largest difference between the load about a free hinge's axis and its torque, in shares of what
-/// the load is made of. Both follow from accelerations that are good to 1e-11 of their size, of
-/// which a light boom on a heavy chain takes a small difference. A motion that repeats a slip by
-/// which forces and accelerations contradict each other is not held to it.
-const BALANCE: f64 = 1e-7;
-
 impl StressAnalysis {
     /// The analysis of `scene`, whose stations are in `structure`.
     ///
@@ -65,82 +79,200 @@ impl StressAnalysis {
         structure: &Structure,
         settings: Settings,
     ) -> Result<Self, StrengthError> {
+        let sections =
+            Section::all(structure).map_err(|AtStation { segment, station, here }| {
+                StrengthError::Section { segment: scene.label(segment), station, source: here }
+            })?;
+        let equations = LoadEquations::new(scene, Some(structure));
+        Self::of(scene, equations, sections, Some(pulse_constants(structure)), settings)
+    }
+
+    /// The analysis of the hinges of any scene, without stresses. Pulse constants belong to a structure:
+    /// without one, what latches add is known as impulses alone.
+    ///
+    /// # Errors
+    /// When a setting is not one.
+    pub fn of_hinges(
+        scene: &Scene,
+        structure: Option<&Structure>,
+        settings: Settings,
+    ) -> Result<Self, StrengthError> {
+        let equations = LoadEquations::new(scene, None);
+        Self::of(scene, equations, Vec::new(), structure.map(pulse_constants), settings)
+    }
+
+    fn of(
+        scene: &Scene,
+        equations: LoadEquations,
+        sections: Vec<AtStation<Section>>,
+        pulse_constants: Option<Vec<f64>>,
+        settings: Settings,
+    ) -> Result<Self, StrengthError> {
         settings.check()?;
         let labels: Vec<HingeLabel> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
-        let found = Section::all(structure).map_err(|AtStation { segment, station, here }| {
-            StrengthError::Section { segment: labels[segment], station, source: here }
-        })?;
-        let influences: Vec<_> = found.iter().map(|at| at.here.influence()).collect();
-        let sections = found.into_iter().map(|AtStation { segment, station, here }| {
-            StationSection { segment, station, section: Formulas::new(here, settings.slips) }
-        });
-        let sections = sections.collect();
-        let equations = LoadEquations::new(scene, Some(structure)).with_sections(influences);
-        let loads = Loads::by(equations);
-        let found = loads.load_set();
-        let pulse_constants = structure.segments().iter().map(|s| s.pulse_constant).collect();
-        let (stresses, envelope) = (Vec::new(), Vec::new());
+        let influences: Vec<_> = sections.iter().map(|at| at.here.influence()).collect();
+        let equations = equations.with_sections(influences);
+        let hands_on = settings.slips.contains(Slip::LoadTransfer);
+        let finder = LoadFinder::new(scene, labels.clone(), equations, hands_on);
+        let loads = finder.load_set();
+        let (mut stations, mut gauges) = (Vec::new(), Vec::new());
+        for (i, AtStation { segment, station, here }) in sections.into_iter().enumerate() {
+            stations.push(StationPlace { segment, station });
+            gauges.push(Gauge::of_station(i, &loads, Formulas::new(here, settings.slips)));
+        }
+        gauges.extend((0..labels.len()).flat_map(|hinge| Gauge::of_hinge(hinge, &loads)));
+        let records = Records::new(&gauges);
         Ok(Self {
             settings,
             labels,
             pulse_constants,
-            force_densities: vec![0.0; scene.bodies.len()],
-            loads,
-            found,
-            sections,
-            stresses,
-            envelope,
-            largest_residual: 0.0,
-            most_residual: if scene.slips().obey_newton() { BALANCE } else { f64::INFINITY },
+            stations,
+            pulses: Pulses::new(settings.pulses),
+            reached: f64::NEG_INFINITY,
+            worst: records.clone(),
+            at_lock_up: records,
+            row: vec![0.0; loads.count()],
+            search: Search::new(gauges, loads.count()),
+            finder,
+            stresses: Vec::new(),
+            hinge_loads: Vec::new(),
+            latch_impulses: Vec::new(),
         })
     }
 
     /// The same with the code among `kernels`, if there is any, that was generated for this scene
     /// and structure.
     pub fn with_kernels(self, kernels: &[Kernel]) -> Self {
-        Self { loads: self.loads.with_kernels(kernels), ..self }
+        Self { finder: self.finder.with_kernels(kernels), ..self }
+    }
+
+    /// How stresses are judged.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Whether there are stations, and so stresses.
+    pub fn has_stations(&self) -> bool {
+        !self.stations.is_empty()
     }
 
     /// Instruction set of the generated code that finds the loads, if any does.
     pub fn generated_for(&self) -> Option<&'static str> {
-        self.loads.generated_for()
+        self.finder.loads.generated_for()
     }
 
-    /// Loads and stresses of the motion at an output time.
+    /// Loads and stresses of the motion at an output time. They are part of a step or instant, and only
+    /// a run of no length has its one output time in the envelope from here.
     ///
     /// # Errors
-    /// When the loads contradict the motion.
+    /// When the loads contradict the motion, or are no numbers.
     pub fn motion(
         &mut self,
         snapshot: &Snapshot,
         detail: &Detail,
     ) -> Result<&[StationStress], StrengthError> {
-        self.load(snapshot, detail, &[])?;
-        self.judge(snapshot.time, Cause::Motion);
-        Ok(self.with_axis_points())
+        self.finder.write(&MotionAt::of(snapshot, detail), &mut self.row)?;
+        if self.reached == f64::NEG_INFINITY {
+            self.worst.look(&self.search.gauges, (&self.pulses, snapshot.time), &self.row);
+        }
+        let Self { search, stations, row, stresses, hinge_loads, labels, .. } = self;
+        let of_row = |gauge: &Gauge| (gauge.load(row), gauge.numbers(row));
+        set_stresses(stresses, stations, &search.gauges, |g| of_row(&search.gauges[g]));
+        hinge_loads.clear();
+        let forces = &search.gauges[stations.len()..];
+        hinge_loads.extend((0..labels.len()).map(|i| forces[2 * i].load(row)));
+        Ok(&self.stresses)
     }
 
-    /// Loads and stresses on both sides of an instant with events, for the envelope. Where hinges
-    /// lock, those of the peaks are returned: what the motion just before makes, and the pulses of
-    /// the hinges that lock, eqs. (10.7) to (10.14).
+    /// The largest loads of a step, for the envelope.
     ///
     /// # Errors
-    /// When the loads contradict the motion.
+    /// When the loads contradict the motion, or are no numbers.
+    pub fn step(&mut self, step: &mut dyn StepMotion) -> Result<(), StrengthError> {
+        let Self { search, finder, pulses, worst, .. } = self;
+        search_step(search, step, finder, pulses, worst)?;
+        let [_, end] = step.span();
+        self.reached = end;
+        if !self.pulses.is_empty() {
+            self.pulses.forget_until(end - self.pulses.since);
+        }
+        Ok(())
+    }
+
+    /// Both sides of an instant with events, for the envelope. Where hinges lock whose pulse constants
+    /// are known, the largest stresses are returned that their pulses and those which still go on make
+    /// on either side, as if nothing locked later, eqs. (10.7) to (10.14).
+    ///
+    /// # Errors
+    /// When the loads contradict the motion, or are no numbers.
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<&[StationStress], StrengthError> {
         let InstantMotion { before, jumps, after } = instant;
+        self.finder.jump();
+        self.reached = after.time;
+        self.forget_instant();
+        let mut sides = Vec::new();
         for side in before.iter().chain([after]) {
-            if let Some(detail) = &side.detail {
-                self.load(side, detail, &[])?;
-                self.judge(side.time, Cause::Motion);
+            let Some(detail) = &side.detail else { continue };
+            self.finder.write(&MotionAt::of(side, detail), &mut self.row)?;
+            if !jumps.is_empty() {
+                sides.push(self.row.clone());
             }
+            let u = side.time - self.pulses.since;
+            self.pulses.add_to(&mut self.row, u, u);
+            self.worst.look(&self.search.gauges, (&self.pulses, u), &self.row);
         }
+        if jumps.is_empty() {
+            return Ok(&self.stresses);
+        }
+        self.latch_impulses.extend(jumps.iter().map(|jump| LatchImpulses {
+            latch: jump.hinge,
+            hinges: self.finder.impulses(&after.beta, jump),
+        }));
+        let Some(constants) = &self.pulse_constants else { return Ok(&self.stresses) };
+        self.pulses.start_at(after.time);
+        let mut until: f64 = 0.0;
+        for jump in jumps {
+            let (constant, factor) = (constants[jump.hinge], self.settings.amplification);
+            let peak = self.finder.peak(&after.beta, jump, constant, factor);
+            if !peak.iter().all(|number| number.is_finite()) {
+                return Err(StrengthError::NotFinite { time: after.time });
+            }
+            until = until.max(self.pulses.add(jump.hinge, constant, peak));
+        }
+        sides.into_iter().for_each(|loads| self.pulses.add_side(until, loads));
+        self.look_ahead()
+    }
+
+    fn forget_instant(&mut self) {
         self.stresses.clear();
-        let detailed = before.as_ref().and_then(|before| Some((before, before.detail.as_ref()?)));
-        if let (Some((before, detail)), [first, ..]) = (detailed, &jumps[..]) {
-            self.load(before, detail, jumps)?;
-            self.judge(before.time, Cause::LockUp { hinge: first.hinge });
-        }
-        Ok(self.with_axis_points())
+        self.hinge_loads.clear();
+        self.latch_impulses.clear();
+    }
+
+    /// What the pulses that are known make, for the tables.
+    fn look_ahead(&mut self) -> Result<&[StationStress], StrengthError> {
+        let Self { search, pulses, at_lock_up, stations, stresses, hinge_loads, .. } = self;
+        at_lock_up.forget();
+        search_pulses(search, [0.0, pulses.end()], pulses, at_lock_up)?;
+        let none = (Wrench::zero(), [0.0; 6]);
+        let of_record = |g| at_lock_up.get(g).map_or(none, |found| (found.load, found.numbers));
+        set_stresses(stresses, stations, &search.gauges, of_record);
+        let moments = (stations.len()..search.gauges.len())
+            .filter(|&g| matches!(search.gauges[g].measure, Measure::Moment));
+        hinge_loads.extend(moments.map(|g| of_record(g).0));
+        Ok(stresses)
+    }
+
+    /// Lets the pulses that still go on come to their ends, after the last step of a run.
+    ///
+    /// # Errors
+    /// None are to be expected.
+    pub fn finish(&mut self) -> Result<(), StrengthError> {
+        let Self { search, pulses, worst, reached, .. } = self;
+        let end = pulses.end();
+        search_pulses(search, [*reached - pulses.since, end], pulses, worst)?;
+        pulses.forget_until(end);
+        Ok(())
     }
 
     /// Load and stresses of every station at the last output time or lock-up; none after an instant in
@@ -149,117 +281,109 @@ impl StressAnalysis {
         &self.stresses
     }
 
-    /// Force and moment that each hinge exerts on its outboard body, about the hinge point,
-    /// segment axes; of the same time.
-    pub fn hinge_loads(&self) -> impl Iterator<Item = Wrench<f64>> {
-        (0..self.labels.len()).map(|i| self.found.hinge(i))
+    /// Force and moment that each hinge exerts on its outboard body, about the hinge point, segment
+    /// axes, at the last output time; at a lock-up when the moment is largest; none after an instant
+    /// in which no hinge of known pulse constant locks.
+    pub fn hinge_loads(&self) -> &[Wrench<f64>] {
+        &self.hinge_loads
+    }
+
+    /// The impulses of each latch of the last instant.
+    pub fn latch_impulses(&self) -> &[LatchImpulses] {
+        &self.latch_impulses
     }
 
     /// The worst of each station so far; nothing before the first motion.
-    pub fn envelope(&self) -> &[Worst] {
-        &self.envelope
+    pub fn envelope(&self) -> Vec<Worst> {
+        let stations = self.stations.iter().enumerate();
+        stations.filter_map(|(g, place)| self.worst_of(g, place)).collect()
+    }
+
+    fn worst_of(&self, g: usize, place: &StationPlace) -> Option<Worst> {
+        let Record { value, time, cause, load, numbers } = *self.worst.get(g)?;
+        let Measure::Stress(formulas) = &self.search.gauges[g].measure else { return None };
+        let severest = formulas.severest_of(numbers);
+        let has_load = value > ROUNDING * self.worst.largest_of_kind(g);
+        let (segment, station) = (self.labels[place.segment], place.station);
+        let driver = has_load.then(|| driver(formulas, &load, &severest));
+        let margin = self.settings.margin(value).filter(|_| has_load);
+        Some(Worst { segment, station, time, cause, load, severest, driver, margin })
+    }
+
+    /// The station with the largest von Mises stress so far.
+    pub fn worst_stress(&self) -> Option<Worst> {
+        let von_mises = |worst: &Worst| worst.severest.stress.von_mises();
+        self.envelope().into_iter().max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
+    }
+
+    /// The largest force and the largest moment of each hinge so far; nothing before the first motion.
+    pub fn hinge_envelope(&self) -> Vec<WorstHingeLoad> {
+        let of_hinge = |(i, hinge): (usize, &HingeLabel)| {
+            let first = self.stations.len() + 2 * i;
+            let hinge = *hinge;
+            HingeQuantity::ALL.into_iter().enumerate().filter_map(move |(j, quantity)| {
+                let Record { time, cause, load, .. } = *self.worst.get(first + j)?;
+                Some(WorstHingeLoad { hinge, quantity, time, cause, load })
+            })
+        };
+        self.labels.iter().enumerate().flat_map(of_hinge).collect()
     }
 
     /// The largest difference so far between the load about a free hinge's axis and its torque, in
     /// shares of what the load is made of.
     pub fn largest_residual(&self) -> f64 {
-        self.largest_residual
+        self.finder.largest_residual
+    }
+}
+
+fn pulse_constants(structure: &Structure) -> Vec<f64> {
+    structure.segments().iter().map(|segment| segment.pulse_constant).collect()
+}
+
+/// The stresses of all stations under the load and numbers of each gauge.
+fn set_stresses(
+    stresses: &mut Vec<StationStress>,
+    stations: &[StationPlace],
+    gauges: &[Gauge],
+    of: impl Fn(usize) -> (Wrench<f64>, [f64; 6]),
+) {
+    stresses.clear();
+    for (g, (at, gauge)) in stations.iter().zip(gauges).enumerate() {
+        let Measure::Stress(formulas) = &gauge.measure else { continue };
+        let (load, numbers) = of(g);
+        let axis_points = formulas.stresses(&load, numbers).axis_points();
+        let (segment, station, severest) = (at.segment, at.station, formulas.severest_of(numbers));
+        stresses.push(StationStress { segment, station, load, axis_points, severest });
+    }
+}
+
+/// Sees the whole of a run and needs no output times.
+impl Recorder for StressAnalysis {
+    fn needs_detail(&self) -> bool {
+        false
     }
 
-    /// Finds the loads of a motion, and of the pulses of hinges that lock.
-    fn load(
-        &mut self,
-        snapshot: &Snapshot,
-        detail: &Detail,
-        jumps: &[Jump],
-    ) -> Result<(), StrengthError> {
-        let springs = detail.kick_off_force.iter().zip(&detail.kick_off_length);
-        for (density, (&force, &length)) in self.force_densities.iter_mut().zip(springs) {
-            *density = if force == 0.0 { 0.0 } else { force / length };
-        }
-        let motion = SceneMotion {
-            omega_body: snapshot.omega_body,
-            beta: &snapshot.beta,
-            tau: &snapshot.tau,
-            acceleration: VelocityChange {
-                origin_body: detail.origin_acceleration_body,
-                omega_body: detail.omega_dot_body,
-                tau: &detail.beta_ddot,
-            },
-            force_densities: &self.force_densities,
-        };
-        self.loads.continuous(&motion, &mut self.found);
-        self.check_balance(snapshot, detail)?;
-        jumps.iter().for_each(|jump| self.add_pulse(&snapshot.beta, jump));
-        if self.settings.slips.contains(Slip::LoadTransfer) {
-            self.loads.hand_on_as_in_1970(&snapshot.beta, &mut self.found);
-        }
+    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
         Ok(())
     }
 
-    fn check_balance(&mut self, snapshot: &Snapshot, detail: &Detail) -> Result<(), StrengthError> {
-        let torques = &detail.hinge_torque;
-        let residual = self.loads.largest_torque_residual(&self.found, &snapshot.hinges, torques);
-        let Some((hinge, residual)) = residual else { return Ok(()) };
-        self.largest_residual = self.largest_residual.max(residual);
-        let most = self.most_residual;
-        if residual <= most {
-            return Ok(());
-        }
-        let hinge = self.labels[hinge];
-        Err(StrengthError::Unbalanced { time: snapshot.time, hinge, residual, most })
+    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
+        Ok(())
     }
 
-    fn add_pulse(&mut self, beta: &[f64], jump: &Jump) {
-        let share = LockUpShare {
-            pulse_constant: self.pulse_constants[jump.hinge],
-            jump: VelocityChange {
-                origin_body: jump.velocity_body,
-                omega_body: jump.omega_body,
-                tau: &jump.tau,
-            },
-        };
-        self.loads.add_lock_up(beta, &[share], self.settings.amplification, &mut self.found);
+    fn needs_instants(&self) -> bool {
+        true
     }
 
-    /// The largest stresses under the loads found, for the envelope too.
-    fn judge(&mut self, time: f64, cause: Cause) {
-        let Self { settings, labels, found, sections, stresses, envelope, .. } = self;
-        stresses.clear();
-        stresses.extend(sections.iter().map(|at| {
-            let load = found.stations(at.segment)[at.station];
-            let stresses = at.section.stresses(&load, found.stresses(at.segment)[at.station]);
-            let (segment, station, severest) = (at.segment, at.station, stresses.severest());
-            StationStress { segment, station, load, axis_points: [None; 4], severest }
-        }));
-        let worst = |(at, stress): (&StationSection, &StationStress)| Worst {
-            segment: labels[at.segment],
-            station: at.station,
-            time,
-            cause,
-            load: stress.load,
-            severest: stress.severest,
-            driver: driver(&at.section, &stress.load, &stress.severest),
-            margin: settings.margin(stress.severest.stress.von_mises()),
-        };
-        if envelope.is_empty() {
-            envelope.extend(sections.iter().zip(&*stresses).map(worst));
-            return;
-        }
-        for (worst_yet, now) in envelope.iter_mut().zip(sections.iter().zip(&*stresses)) {
-            let von_mises = |point: &PointStress| point.stress.von_mises();
-            if von_mises(&now.1.severest) > von_mises(&worst_yet.severest) {
-                *worst_yet = worst(now);
-            }
-        }
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        self.instant(instant).map(|_| ()).map_err(io::Error::other)
     }
 
-    /// Adds the axis points to the largest stresses.
-    fn with_axis_points(&mut self) -> &[StationStress] {
-        for (at, stress) in self.sections.iter().zip(&mut self.stresses) {
-            let numbers = self.found.stresses(at.segment)[at.station];
-            stress.axis_points = at.section.stresses(&stress.load, numbers).axis_points();
-        }
-        &self.stresses
+    fn needs_steps(&self) -> bool {
+        true
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
+        self.step(step).map_err(io::Error::other)
     }
 }

@@ -7,14 +7,17 @@ use nboom_sections::PointStress;
 use crate::formulas::Formulas;
 
 /// What made a load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
-    /// The motion at an output time, or on one side of an instant with events.
+    /// The motion alone.
     Motion,
-    /// A lock-up, of this hinge and maybe others.
+    /// Latches, beside the motion.
     LockUp {
-        /// As numbered in the scene.
+        /// The hinge whose pulse has the largest share, as numbered in the scene.
         hinge: usize,
+        /// Its share: the part of the stress or load that its pulse makes, along the whole, over the
+        /// whole. Those of all pulses and of the motion add up to 1.
+        share: f64,
     },
 }
 
@@ -91,14 +94,73 @@ pub struct Worst {
     /// Why.
     pub cause: Cause,
     /// Force and moment on the part outboard of the station, about the point on the η axis,
-    /// segment axes; at a lock-up the sum of what the motion and the pulses make.
+    /// segment axes; while pulses go on the sum of what the motion and the pulses make.
     pub load: Wrench<f64>,
     /// Where the von Mises stress is largest, and the stress there.
     pub severest: PointStress,
-    /// The component of the load that alone makes the largest von Mises stress at that point.
-    pub driver: Component,
-    /// Share of the strength that is left there, if a yield stress is known.
+    /// The component of the load that alone makes the largest von Mises stress at that point; none of a
+    /// station without load: its stress is no more than the rounding of the worst one.
+    pub driver: Option<Component>,
+    /// Share of the strength that is left there, if a yield stress is known and there is a load.
     pub margin: Option<f64>,
+}
+
+/// The largest force or moment that a hinge has seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstHingeLoad {
+    /// The hinge.
+    pub hinge: HingeLabel,
+    /// Of which the magnitude is largest.
+    pub quantity: HingeQuantity,
+    /// When.
+    pub time: f64,
+    /// Why.
+    pub cause: Cause,
+    /// Force and moment that the hinge then exerts on its outboard body, about the hinge point,
+    /// segment axes.
+    pub load: Wrench<f64>,
+}
+
+impl WorstHingeLoad {
+    /// The magnitude of the force or moment.
+    pub fn magnitude(&self) -> f64 {
+        match self.quantity {
+            HingeQuantity::Force => self.load.force.norm(),
+            HingeQuantity::Moment => self.load.moment.norm(),
+        }
+    }
+}
+
+/// What of a hinge's load is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HingeQuantity {
+    /// P.
+    Force,
+    /// Q.
+    Moment,
+}
+
+impl HingeQuantity {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Force, Self::Moment];
+
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Force => "force",
+            Self::Moment => "moment",
+        }
+    }
+}
+
+/// Impulses that all hinges transmit when one of them locks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LatchImpulses {
+    /// The hinge that locks, as numbered in the scene.
+    pub latch: usize,
+    /// For each hinge, force and moment on its outboard body, integrated over the pulse, about the
+    /// hinge point, segment axes \[FT, FLT\].
+    pub hinges: Vec<Wrench<f64>>,
 }
 
 /// The component that alone makes the largest von Mises stress at a point of a section.

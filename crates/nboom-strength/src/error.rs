@@ -39,4 +39,10 @@ pub enum StrengthError {
         /// What rounding may make of it.
         most: f64,
     },
+    /// A load is too large for a number, or none.
+    #[error("at time {time} the loads are no finite numbers")]
+    NotFinite {
+        /// When.
+        time: f64,
+    },
 }

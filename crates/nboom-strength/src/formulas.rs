@@ -1,4 +1,4 @@
-use nboom_scalar::Wrench;
+use nboom_scalar::{Vec3, Wrench};
 use nboom_sections::report::Original;
 use nboom_sections::{PointStress, Section, SectionStresses, Stress};
 
@@ -27,6 +27,18 @@ impl Formulas {
             Self::Right(section) => Stresses::Right(section.described_by(numbers)),
             Self::Of1970(original) => Stresses::Of1970(original, *load),
         }
+    }
+
+    /// Whether they are formulas of 1970, which take loads in place of numbers.
+    pub fn are_of_1970(&self) -> bool {
+        matches!(self, Self::Of1970(_))
+    }
+
+    /// Where the von Mises stress is largest under P and Q, of formulas of 1970, or with the stresses
+    /// that the numbers describe.
+    pub fn severest_of(&self, [a, b, c, d, e, f]: [f64; 6]) -> PointStress {
+        let load = Wrench { force: Vec3::new(a, b, c), moment: Vec3::new(d, e, f) };
+        self.stresses(&load, [a, b, c, d, e, f]).severest()
     }
 
     /// The stress that a load makes at a point which other stresses were found at.

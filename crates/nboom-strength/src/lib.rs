@@ -1,19 +1,29 @@
-//! Stresses of a run: at output times and lock-ups, in every section, with margins.
+//! Loads and stresses of a run: the largest of every section and hinge, with margins.
 //!
-//! A [`StressAnalysis`] takes the snapshots and lock-ups of a run, finds the loads of every station
-//! and hinge and the stresses that they make, and keeps for each station the worst that it has
-//! seen: when, why, by which component of the load, and how far from yield. It changes nothing in
-//! the run, and a run without one does not know of it.
+//! A [`StressAnalysis`] is a [`nboom_sim::Recorder`] that sees every step and instant of a run, finds
+//! the loads of every station and hinge and the stresses that they make, and keeps for each the worst
+//! of the motion: when, why, by which component of the load, and how far from yield. It is searched
+//! within every step, so that it depends neither on output times nor on how long the run goes on. It
+//! changes nothing in the run, and a run without one does not know of it.
 
 mod analysis;
 mod envelope;
 mod error;
+mod finder;
 mod formulas;
+mod gauge;
+mod nodes;
+mod peak;
+mod piece;
+mod pulse;
+mod record;
+mod search;
 mod settings;
 mod slip;
 
 pub use analysis::{StationStress, StressAnalysis};
-pub use envelope::{Cause, Component, Worst};
+pub use envelope::{Cause, Component, HingeQuantity, LatchImpulses, Worst, WorstHingeLoad};
 pub use error::StrengthError;
+pub use pulse::PulseShape;
 pub use settings::Settings;
 pub use slip::{Slip, Slips};

@@ -1,4 +1,4 @@
-use crate::{Slips, StrengthError};
+use crate::{PulseShape, Slips, StrengthError};
 
 /// How stresses are judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -6,6 +6,8 @@ pub struct Settings {
     /// Peak of the structure's response over the peak of a lock-up pulse. 1 is a pulse that is slow
     /// against the first bending mode; a half-sine makes it at most 1.77, a rectangle at most 2.
     pub amplification: f64,
+    /// How pulses run, which says how those of several latches add up.
+    pub pulses: PulseShape,
     /// Stress at which the material yields \[F/L²\]; without it there are no margins.
     pub yield_stress: Option<f64>,
     /// Factor on stresses when they are compared with the yield stress.
@@ -16,7 +18,13 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { amplification: 1.0, yield_stress: None, safety_factor: 1.0, slips: Slips::default() }
+        Self {
+            amplification: 1.0,
+            pulses: PulseShape::default(),
+            yield_stress: None,
+            safety_factor: 1.0,
+            slips: Slips::default(),
+        }
     }
 }
 

@@ -1,0 +1,126 @@
+//! Quantities whose largest values are looked for.
+
+use nboom_loads::LoadSet;
+use nboom_scalar::{Vec3, Wrench};
+use nboom_sections::PointStress;
+
+use crate::formulas::Formulas;
+
+/// What a gauge measures.
+#[derive(Clone, Debug)]
+pub(crate) enum Measure {
+    /// The largest von Mises stress in a section.
+    Stress(Formulas),
+    /// The magnitude of a hinge's force.
+    Force,
+    /// The magnitude of a hinge's moment.
+    Moment,
+}
+
+/// One quantity: a norm of six of the numbers in a row of loads, see [`LoadSet::numbers`].
+///
+/// The von Mises stress at one point is the length of a vector that is linear in the load, and the
+/// largest of such lengths is a norm again: it is convex, and no larger than the sum of what the
+/// numbers make one by one.
+#[derive(Clone, Debug)]
+pub(crate) struct Gauge {
+    pub measure: Measure,
+    /// Where its load starts in the row.
+    load: usize,
+    /// Where its numbers start in the row; those of the load unless a section has its own.
+    numbers: usize,
+    /// What one unit of each number alone makes.
+    gains: [f64; 6],
+}
+
+impl Gauge {
+    /// The stress of a station, as counted over all segments.
+    pub fn of_station(station: usize, loads: &LoadSet, formulas: Formulas) -> Self {
+        let load = loads.station_at(station);
+        let numbers = if formulas.are_of_1970() { load } else { loads.stress_at(station) };
+        Self::new(Measure::Stress(formulas), load, numbers)
+    }
+
+    /// Force and moment of a hinge.
+    pub fn of_hinge(hinge: usize, loads: &LoadSet) -> [Self; 2] {
+        let load = loads.hinge_at(hinge);
+        [Self::new(Measure::Force, load, load), Self::new(Measure::Moment, load, load)]
+    }
+
+    fn new(measure: Measure, load: usize, numbers: usize) -> Self {
+        let mut gauge = Self { measure, load, numbers, gains: [0.0; 6] };
+        gauge.gains = std::array::from_fn(|j| {
+            gauge.value(&std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 }))
+        });
+        gauge
+    }
+
+    /// Its numbers in a row of loads.
+    pub fn numbers(&self, row: &[f64]) -> [f64; 6] {
+        six(row, self.numbers)
+    }
+
+    /// Its load in a row of loads.
+    pub fn load(&self, row: &[f64]) -> Wrench<f64> {
+        wrench(six(row, self.load))
+    }
+
+    /// The quantity for these numbers.
+    pub fn value(&self, numbers: &[f64; 6]) -> f64 {
+        let Wrench { force, moment } = wrench(*numbers);
+        match &self.measure {
+            Measure::Stress(formulas) => formulas.severest_of(*numbers).stress.von_mises(),
+            Measure::Force => force.norm(),
+            Measure::Moment => moment.norm(),
+        }
+    }
+
+    /// What the quantity does not exceed for these numbers, for less work.
+    pub fn bound(&self, numbers: &[f64; 6]) -> f64 {
+        self.gains.iter().zip(numbers).map(|(gain, number)| gain * number.abs()).sum()
+    }
+
+    /// What each of `parts` of a load contributes to the quantity under the whole load, as a share of
+    /// it: along the vector whose length the quantity is.
+    pub fn shares<'a>(
+        &'a self,
+        row: &'a [f64],
+        parts: impl Iterator<Item = &'a [f64]> + 'a,
+    ) -> impl Iterator<Item = f64> + 'a {
+        let point = self.severest(row);
+        let vector = move |row: &[f64]| self.vector(row, point.as_ref());
+        let whole = vector(row);
+        let size = whole.norm_squared();
+        parts.map(move |part| if size > 0.0 { vector(part).dot(whole) / size } else { 0.0 })
+    }
+
+    /// Where a station is stressed most under a row of loads.
+    fn severest(&self, row: &[f64]) -> Option<PointStress> {
+        match &self.measure {
+            Measure::Stress(formulas) => Some(formulas.severest_of(self.numbers(row))),
+            Measure::Force | Measure::Moment => None,
+        }
+    }
+
+    /// The vector whose length the quantity is, at a point of the section.
+    fn vector(&self, row: &[f64], point: Option<&PointStress>) -> Vec3<f64> {
+        let load = self.load(row);
+        match (&self.measure, point) {
+            (Measure::Stress(formulas), Some(point)) => {
+                let stress = formulas.at(point, &load);
+                let factor = 3.0_f64.sqrt();
+                Vec3::new(stress.normal, factor * stress.shear_xi, factor * stress.shear_zeta)
+            }
+            (Measure::Moment, _) => load.moment,
+            _ => load.force,
+        }
+    }
+}
+
+fn six(row: &[f64], start: usize) -> [f64; 6] {
+    std::array::from_fn(|i| row[start + i])
+}
+
+fn wrench([px, py, pz, qx, qy, qz]: [f64; 6]) -> Wrench<f64> {
+    Wrench { force: Vec3::new(px, py, pz), moment: Vec3::new(qx, qy, qz) }
+}

@@ -1,0 +1,113 @@
+//! Intervals of time in which the loads of motion and pulses are smooth.
+
+use nboom_sim::StepMotion;
+
+use crate::StrengthError;
+use crate::finder::LoadFinder;
+use crate::gauge::Gauge;
+use crate::pulse::Pulses;
+use crate::record::Records;
+use crate::search::{Loaded, Search};
+
+/// What the motion alone makes.
+pub(crate) enum OfMotion<'a> {
+    /// That of a step.
+    Step(&'a mut dyn StepMotion, &'a mut LoadFinder),
+    /// Always the same.
+    Standing(&'a [f64]),
+}
+
+/// An interval in which the loads of the motion are smooth and no pulse starts, peaks or ends; in
+/// times since the last instant in which a hinge locked.
+struct Piece<'a> {
+    motion: OfMotion<'a>,
+    from: f64,
+    pulses: &'a Pulses,
+    records: &'a mut Records,
+}
+
+impl Loaded for Piece<'_> {
+    fn write(&mut self, u: f64, row: &mut [f64]) -> Result<(), StrengthError> {
+        match &mut self.motion {
+            OfMotion::Standing(loads) => row.copy_from_slice(loads),
+            OfMotion::Step(step, finder) => {
+                let [start, end] = step.span();
+                let time = (self.pulses.since + u).clamp(start, end);
+                finder.write_within(*step, time, row)?;
+            }
+        }
+        self.pulses.add_to(row, self.from, u);
+        Ok(())
+    }
+
+    fn largest(&self, g: usize) -> f64 {
+        self.records.largest(g)
+    }
+
+    fn largest_of_kind(&self, g: usize) -> f64 {
+        self.records.largest_of_kind(g)
+    }
+
+    fn keep(&mut self, g: usize, gauge: &Gauge, value: f64, u: f64, row: &[f64]) {
+        self.records.keep((g, gauge), value, (self.pulses, self.from, u), row);
+    }
+}
+
+/// Looks for the largest loads of a step, and of what stands for its motion while pulses go on.
+///
+/// # Errors
+/// When the loads contradict the motion, or are no numbers.
+pub(crate) fn search_step(
+    search: &mut Search,
+    step: &mut dyn StepMotion,
+    finder: &mut LoadFinder,
+    pulses: &Pulses,
+    records: &mut Records,
+) -> Result<(), StrengthError> {
+    let span = step.span().map(|time| time - pulses.since);
+    for_each_piece(pulses, span, |from, to| {
+        let motion = OfMotion::Step(&mut *step, &mut *finder);
+        search.over([from, to], &mut Piece { motion, from, pulses, records })?;
+        search_sides(search, [from, to], pulses, records)
+    })
+}
+
+/// Looks for the largest loads of pulses on what stands for the motion, between two times.
+///
+/// # Errors
+/// None are to be expected.
+pub(crate) fn search_pulses(
+    search: &mut Search,
+    span: [f64; 2],
+    pulses: &Pulses,
+    records: &mut Records,
+) -> Result<(), StrengthError> {
+    for_each_piece(pulses, span, |from, to| search_sides(search, [from, to], pulses, records))
+}
+
+fn search_sides(
+    search: &mut Search,
+    [from, to]: [f64; 2],
+    pulses: &Pulses,
+    records: &mut Records,
+) -> Result<(), StrengthError> {
+    for side in pulses.sides(from) {
+        let motion = OfMotion::Standing(&side.loads);
+        search.over([from, to], &mut Piece { motion, from, pulses, records })?;
+    }
+    Ok(())
+}
+
+fn for_each_piece(
+    pulses: &Pulses,
+    [start, end]: [f64; 2],
+    mut look: impl FnMut(f64, f64) -> Result<(), StrengthError>,
+) -> Result<(), StrengthError> {
+    let mut from = start;
+    while from < end {
+        let to = pulses.next_after(from).map_or(end, |next| next.min(end));
+        look(from, to)?;
+        from = to;
+    }
+    Ok(())
+}

@@ -1,0 +1,150 @@
+//! Latches spread their impulses over time.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// How the pulses of latches are taken to run, eq. (10.13).
+///
+/// A pulse starts when its hinge locks, and its peak is the impulse over the pulse constant c.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PulseShape {
+    /// Half a sine, which lasts π c/2.
+    #[default]
+    HalfSine,
+    /// The peak as long as a half-sine would last: whatever acts together peaks together.
+    AllAtOnce,
+}
+
+impl PulseShape {
+    /// All.
+    pub const ALL: [Self; 2] = [Self::HalfSine, Self::AllAtOnce];
+
+    /// The name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::HalfSine => "half-sine",
+            Self::AllAtOnce => "all-at-once",
+        }
+    }
+
+    /// The one with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|shape| shape.name() == name)
+    }
+
+    /// How long a pulse of constant c lasts.
+    pub fn duration(self, constant: f64) -> f64 {
+        (FRAC_PI_2 * constant).min(LONGEST)
+    }
+
+    /// Share of the peak after `phase` of the duration, from 0 to 1.
+    fn at(self, phase: f64) -> f64 {
+        match self {
+            Self::HalfSine => (PI * phase).sin().max(0.0),
+            Self::AllAtOnce => 1.0,
+        }
+    }
+}
+
+/// What no pulse outlasts, so that sums of times are numbers.
+const LONGEST: f64 = f64::MAX / 4.0;
+
+/// What a latch adds to all loads at its peak.
+#[derive(Clone, Debug)]
+pub(crate) struct Pulse {
+    pub hinge: usize,
+    /// Time that it had been going on at the last instant in which a hinge locked.
+    age: f64,
+    duration: f64,
+    pub peak: Vec<f64>,
+}
+
+/// Loads of the motion on one side of a lock-up, which stand for those during its pulses.
+#[derive(Clone, Debug)]
+pub(crate) struct Side {
+    /// Until when after the last instant in which a hinge locked.
+    until: f64,
+    pub loads: Vec<f64>,
+}
+
+/// Pulses that go on, in times since the last instant in which a hinge locked: a pulse may be shorter
+/// than the spacing of times.
+#[derive(Clone, Debug)]
+pub(crate) struct Pulses {
+    shape: PulseShape,
+    /// The last instant in which a hinge locked.
+    pub since: f64,
+    active: Vec<Pulse>,
+    sides: Vec<Side>,
+}
+
+impl Pulses {
+    pub fn new(shape: PulseShape) -> Self {
+        Self { shape, since: 0.0, active: Vec::new(), sides: Vec::new() }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.active.is_empty()
+    }
+
+    /// Counts from the instant at `time`.
+    pub fn start_at(&mut self, time: f64) {
+        let passed = time - self.since;
+        self.since = time;
+        self.active.iter_mut().for_each(|pulse| pulse.age += passed);
+        self.sides.iter_mut().for_each(|side| side.until -= passed);
+        self.forget_until(0.0);
+    }
+
+    /// Forgets what is over at `u`.
+    pub fn forget_until(&mut self, u: f64) {
+        self.active.retain(|pulse| pulse.duration - pulse.age > u);
+        self.sides.retain(|side| side.until > u);
+    }
+
+    /// Adds the pulse of `hinge` at this instant, and returns how long it lasts.
+    pub fn add(&mut self, hinge: usize, constant: f64, peak: Vec<f64>) -> f64 {
+        let duration = self.shape.duration(constant);
+        self.active.push(Pulse { hinge, age: 0.0, duration, peak });
+        duration
+    }
+
+    /// Lets the loads on one side of this instant stand for those until `until`.
+    pub fn add_side(&mut self, until: f64, loads: Vec<f64>) {
+        self.sides.push(Side { until, loads });
+    }
+
+    /// Those that go on from `u` on, and how much of each.
+    pub fn going_on(&self, u: f64) -> impl Iterator<Item = &Pulse> {
+        self.active.iter().filter(move |pulse| pulse.duration - pulse.age > u)
+    }
+
+    /// Share of its peak that a pulse has at `u`.
+    pub fn share(&self, pulse: &Pulse, u: f64) -> f64 {
+        self.shape.at((pulse.age + u) / pulse.duration)
+    }
+
+    /// The sides that stand for the motion from `u` on.
+    pub fn sides(&self, u: f64) -> impl Iterator<Item = &Side> {
+        self.sides.iter().filter(move |side| side.until > u)
+    }
+
+    /// Adds to `row` what those that go on from `from` on make at `u`.
+    pub fn add_to(&self, row: &mut [f64], from: f64, u: f64) {
+        for pulse in self.going_on(from) {
+            let share = self.share(pulse, u);
+            row.iter_mut().zip(&pulse.peak).for_each(|(sum, part)| *sum += share * part);
+        }
+    }
+
+    /// When the last of them ends.
+    pub fn end(&self) -> f64 {
+        self.active.iter().map(|pulse| pulse.duration - pulse.age).fold(0.0, f64::max)
+    }
+
+    /// The next peak or end of a pulse after `u`; none after all of them.
+    pub fn next_after(&self, u: f64) -> Option<f64> {
+        let peaks_and_ends =
+            self.active.iter().flat_map(|p| [0.5 * p.duration - p.age, p.duration - p.age]);
+        peaks_and_ends.filter(|next| *next > u).min_by(f64::total_cmp)
+    }
+}

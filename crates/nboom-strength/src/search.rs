@@ -1,0 +1,276 @@
+//! Largest values of gauges over an interval of time in which all loads are smooth.
+//!
+//! Loads are looked at in a few points, and polynomials through those stand for them: five points
+//! where their bound says that nothing becomes larger than it has been, nine otherwise, and halves of
+//! the interval where nine are not enough. A gauge is a norm, hence convex, and a polynomial is a mean
+//! of its Bernstein coefficients: over an interval the gauge of the polynomial is at most that of its
+//! largest coefficient. What the polynomial leaves out is judged by its last two coefficients in
+//! Chebyshev's basis.
+
+use crate::StrengthError;
+use crate::gauge::Gauge;
+use crate::nodes::{self, Basis, COARSE, FINE};
+use crate::peak::peak;
+
+/// From one coarse point to the next among the fine ones.
+const STRIDE: usize = (FINE - 1) / (COARSE - 1);
+
+/// Share by which a largest value may be missed.
+const TOLERANCE: f64 = 1e-8;
+
+/// Share of the largest value among gauges of one kind below which values are rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// How often an interval is halved; the loads of a step that its integrator took need that far less.
+const MOST_HALVINGS: usize = 12;
+
+/// How often the polynomials of an interval are halved, where the place in a section that is stressed
+/// most jumps.
+const MOST_CUTS: usize = 24;
+
+/// Where rows of loads come from, and what becomes of the largest.
+pub(crate) trait Loaded {
+    /// Writes the loads at `u`.
+    ///
+    /// # Errors
+    /// When they contradict the motion.
+    fn write(&mut self, u: f64, row: &mut [f64]) -> Result<(), StrengthError>;
+
+    /// The largest value of gauge `g` so far.
+    fn largest(&self, g: usize) -> f64;
+
+    /// The largest value so far among the gauges of the kind of gauge `g`.
+    fn largest_of_kind(&self, g: usize) -> f64;
+
+    /// Keeps a larger one of gauge `g`, which is `gauge`, at `u` under the loads in `row`.
+    fn keep(&mut self, g: usize, gauge: &Gauge, value: f64, u: f64, row: &[f64]);
+}
+
+/// Looks for largest values; allocates nothing after it is made.
+#[derive(Clone, Debug)]
+pub(crate) struct Search {
+    pub gauges: Vec<Gauge>,
+    width: usize,
+    places: [f64; FINE],
+    coarse: Basis<COARSE>,
+    fine: Basis<FINE>,
+    /// A row for each fine point.
+    rows: Vec<f64>,
+    /// A row in between.
+    between: Vec<f64>,
+    /// For each level of halving, the gauges that may become larger.
+    open: Vec<Vec<usize>>,
+}
+
+/// Whether nine points are enough for a gauge.
+#[derive(PartialEq)]
+enum Verdict {
+    Done,
+    TooLong,
+}
+
+impl Search {
+    /// For rows of so many numbers.
+    pub fn new(gauges: Vec<Gauge>, width: usize) -> Self {
+        let open = vec![Vec::with_capacity(gauges.len()); MOST_HALVINGS + 1];
+        Self {
+            gauges,
+            width,
+            places: nodes::places(),
+            coarse: Basis::new(),
+            fine: Basis::new(),
+            rows: vec![0.0; FINE * width],
+            between: vec![0.0; width],
+            open,
+        }
+    }
+
+    /// Keeps what is larger anywhere between two times than it has been.
+    ///
+    /// # Errors
+    /// Those of `loaded`.
+    pub fn over(&mut self, span: [f64; 2], loaded: &mut dyn Loaded) -> Result<(), StrengthError> {
+        self.open[0].clear();
+        self.open[0].extend(0..self.gauges.len());
+        self.at_level(0, span, loaded)
+    }
+
+    fn at_level(
+        &mut self,
+        level: usize,
+        [from, to]: [f64; 2],
+        loaded: &mut dyn Loaded,
+    ) -> Result<(), StrengthError> {
+        let mut open = std::mem::take(&mut self.open[level]);
+        let time = |k: usize, places: &[f64; FINE]| from + (to - from) * places[k];
+        let looked = (|| {
+            for k in (0..FINE).step_by(STRIDE) {
+                loaded.write(time(k, &self.places), row_mut(&mut self.rows, self.width, k))?;
+            }
+            for &g in &open {
+                self.keep_largest(g, (0..FINE).step_by(STRIDE), [from, to], loaded);
+            }
+            open.retain(|&g| !self.is_below(g, loaded));
+            if open.is_empty() {
+                return Ok(());
+            }
+            for k in (1..FINE).step_by(STRIDE) {
+                loaded.write(time(k, &self.places), row_mut(&mut self.rows, self.width, k))?;
+            }
+            for &g in &open {
+                self.keep_largest(g, (1..FINE).step_by(STRIDE), [from, to], loaded);
+            }
+            open.retain(|&g| self.climb(g, [from, to], loaded) == Verdict::TooLong);
+            let middle = 0.5 * (from + to);
+            if open.is_empty() || level == MOST_HALVINGS || middle <= from || to <= middle {
+                return Ok(());
+            }
+            for half in [[from, middle], [middle, to]] {
+                self.open[level + 1].clear();
+                self.open[level + 1].extend_from_slice(&open);
+                self.at_level(level + 1, half, loaded)?;
+            }
+            Ok(())
+        })();
+        self.open[level] = open;
+        looked
+    }
+
+    fn row(&self, k: usize) -> &[f64] {
+        &self.rows[k * self.width..(k + 1) * self.width]
+    }
+
+    /// Keeps the largest value of gauge `g` at some of the points, if it is larger than it has been.
+    fn keep_largest(
+        &self,
+        g: usize,
+        points: impl Iterator<Item = usize>,
+        [from, to]: [f64; 2],
+        loaded: &mut dyn Loaded,
+    ) {
+        let gauge = &self.gauges[g];
+        let (mut largest, mut at) = (loaded.largest(g), None);
+        for k in points {
+            let numbers = gauge.numbers(self.row(k));
+            if gauge.bound(&numbers) <= largest {
+                continue;
+            }
+            let value = gauge.value(&numbers);
+            if value > largest {
+                (largest, at) = (value, Some(k));
+            }
+        }
+        if let Some(k) = at {
+            let u = from + (to - from) * self.places[k];
+            loaded.keep(g, gauge, largest, u, self.row(k));
+        }
+    }
+
+    /// What a gauge need not be searched for.
+    fn enough(g: usize, loaded: &dyn Loaded) -> f64 {
+        loaded.largest(g) * (1.0 + TOLERANCE) + loaded.largest_of_kind(g) * ROUNDING
+    }
+
+    /// Whether five points show that gauge `g` stays below what it has been.
+    fn is_below(&self, g: usize, loaded: &dyn Loaded) -> bool {
+        let gauge = &self.gauges[g];
+        let values: [[f64; 6]; COARSE] =
+            std::array::from_fn(|k| gauge.numbers(self.row(STRIDE * k)));
+        let (coefficients, tails) = (self.coarse.coefficients(&values), self.coarse.tails(&values));
+        stays_below(gauge, &coefficients, &tails, Self::enough(g, loaded))
+    }
+
+    /// Keeps what of gauge `g` nine points show to be larger than it has been, if they are enough.
+    fn climb(&mut self, g: usize, [from, to]: [f64; 2], loaded: &mut dyn Loaded) -> Verdict {
+        let gauge = &self.gauges[g];
+        let values: [[f64; 6]; FINE] = std::array::from_fn(|k| gauge.numbers(self.row(k)));
+        let (coefficients, tails) = (self.fine.coefficients(&values), self.fine.tails(&values));
+        let enough = Self::enough(g, loaded);
+        if stays_below(gauge, &coefficients, &tails, enough) {
+            return Verdict::Done;
+        }
+        let left_out: f64 = tails.iter().map(|tail| gauge.value(tail)).sum();
+        if left_out > enough - loaded.largest(g) {
+            return Verdict::TooLong;
+        }
+        let curve = Curve { basis: &self.fine, places: &self.places, gauge };
+        let (mut largest, mut at) = (loaded.largest(g), None);
+        let slack = loaded.largest_of_kind(g) * ROUNDING;
+        curve.climb(&coefficients, [0.0, 1.0], 0, slack, &mut (&mut largest, &mut at));
+        if let Some(x) = at {
+            let weights = nodes::weights(&self.places, x);
+            self.between.fill(0.0);
+            for (weight, row) in weights.iter().zip(self.rows.chunks_exact(self.width)) {
+                self.between.iter_mut().zip(row).for_each(|(sum, number)| *sum += weight * number);
+            }
+            loaded.keep(g, gauge, largest, from + (to - from) * x, &self.between);
+        }
+        Verdict::Done
+    }
+}
+
+fn row_mut(rows: &mut [f64], width: usize, k: usize) -> &mut [f64] {
+    &mut rows[k * width..(k + 1) * width]
+}
+
+/// Whether a gauge is at most `level` for polynomials with these coefficients, and what they leave
+/// out, over all of their interval.
+fn stays_below(gauge: &Gauge, coefficients: &[[f64; 6]], tails: &[[f64; 6]], level: f64) -> bool {
+    let at_most = |of: fn(&Gauge, &[f64; 6]) -> f64| {
+        let left_out: f64 = tails.iter().map(|tail| of(gauge, tail)).sum();
+        coefficients.iter().all(|coefficient| of(gauge, coefficient) + left_out <= level)
+    };
+    at_most(Gauge::bound) || at_most(Gauge::value)
+}
+
+/// A gauge of polynomials in time.
+struct Curve<'a> {
+    basis: &'a Basis<FINE>,
+    places: &'a [f64; FINE],
+    gauge: &'a Gauge,
+}
+
+impl Curve<'_> {
+    /// Raises `largest`, and says where, by what the gauge is over a part of the interval.
+    ///
+    /// The square of a gauge is smooth wherever the place that is stressed most does not jump, and
+    /// then the largest of its own polynomial is the one that is looked for. Where the place jumps it has
+    /// a corner, with a minimum if any, which halves come ever closer to until nothing is left beside
+    /// the ends.
+    fn climb(
+        &self,
+        coefficients: &[[f64; 6]; FINE],
+        [from, to]: [f64; 2],
+        cuts: usize,
+        slack: f64,
+        found: &mut (&mut f64, &mut Option<f64>),
+    ) {
+        let Self { basis, places, gauge } = self;
+        let time = |x: f64| from + (to - from) * x;
+        let raise = |value: f64, x: f64, found: &mut (&mut f64, &mut Option<f64>)| {
+            if value > *found.0 {
+                (*found.0, *found.1) = (value, Some(time(x)));
+            }
+        };
+        if cuts > 0 && stays_below(gauge, coefficients, &[], *found.0 * (1.0 + TOLERANCE) + slack) {
+            return;
+        }
+        let values: [f64; FINE] =
+            std::array::from_fn(|k| gauge.value(&nodes::value(coefficients, places[k])));
+        places.iter().zip(values).for_each(|(&x, value)| raise(value, x, found));
+        let unit = *found.0;
+        let squares = values.map(|value| [(value / unit).powi(2)]);
+        let left_out: f64 = basis.tails(&squares).iter().map(|[tail]| tail.abs()).sum();
+        if left_out <= TOLERANCE || cuts == MOST_CUTS {
+            let of_squares = basis.coefficients(&squares).map(|[c]| c);
+            if let Some(x) = peak(&of_squares, 1.0 + TOLERANCE) {
+                raise(gauge.value(&nodes::value(coefficients, x)), x, found);
+            }
+            return;
+        }
+        let middle = 0.5 * (from + to);
+        let [left, right] = nodes::halves(coefficients);
+        self.climb(&left, [from, middle], cuts + 1, slack, found);
+        self.climb(&right, [middle, to], cuts + 1, slack, found);
+    }
+}
