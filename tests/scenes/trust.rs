@@ -39,7 +39,8 @@ fn differences_are_the_errors(rtol: f64, truth: Truth, [share, least]: [f64; 2])
         let options = Options { rtol, atol: 0.1 * rtol, samples: 1, ..Options::default() };
         let mut witness = Witness::new();
         simulate(&scene, &options, &mut witness).expect("every scene runs to its end");
-        let said = trust(&scene, &options, &witness, truth).expect("the reference runs, too");
+        let said =
+            trust(&scene, &options, &witness, truth, &|| false).expect("the reference runs, too");
         assert!(said.same_events, "{}", reference.name);
 
         for event in &said.events {
@@ -115,7 +116,8 @@ fn double_double_agrees_with_the_references() {
     let (mut events, mut impulses) = (0, 0);
     for reference in Reference::all() {
         let (scene, name) = (reference.scene(), reference.name);
-        let said = trust(&scene, &Options::default(), &oracle(&reference), Truth::DoubleDouble);
+        let said =
+            trust(&scene, &Options::default(), &oracle(&reference), Truth::DoubleDouble, &|| false);
         let said = said.expect("every scene runs to its end");
         assert!(said.same_events, "{name}");
         events += said.events.len();

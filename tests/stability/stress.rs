@@ -84,7 +84,8 @@ pub fn error(scene: &Scene, options: &Options) -> (f64, bool) {
     let mut witness = Witness::new();
     simulate(scene, options, &mut witness).expect("it runs to its end");
     let reference = Reference::TighterTolerance;
-    let found = trust(scene, options, &witness, reference).expect("the tighter run, too");
+    let found =
+        trust(scene, options, &witness, reference, &|| false).expect("the tighter run, too");
     let of_interest = found.end.iter().filter(|d| !["rho", "v"].contains(&d.quantity));
     let worst = of_interest.map(|d| d.difference).fold(0.0, f64::max);
     println!("error {worst:.1e}, same events: {}", found.same_events);

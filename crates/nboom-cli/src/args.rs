@@ -14,7 +14,7 @@ use crate::{SlipArgs, StressArgs, choice};
 const EXIT_CODES: &str = "\
 Exit codes: 0 done; 1 a comparison failed (verify, \
 generate --check); 2 the input or the command line is wrong; 3 the computation or the writing \
-failed, and what was computed before is on disk, marked incomplete.";
+failed or was interrupted, and what was computed before is on disk, marked incomplete.";
 
 /// Simulates spacecraft that unfold.
 #[derive(Debug, Parser)]
@@ -30,7 +30,10 @@ pub struct Cli {
 pub enum Command {
     /// Simulate a scene and write what happens.
     ///
-    /// Writes states.csv, events.csv and summary.json, and prints a short account.
+    /// Writes states.csv, events.csv and summary.json, and prints a short account. The files are
+    /// written in DIR.partial and take DIR's place when the run is complete; docs/results.md says
+    /// what becomes of them otherwise. The first Ctrl-C or SIGTERM ends the run in good order, the
+    /// second at once.
     Run(RunArgs),
     /// Read and validate a scene, and say what it contains.
     ///

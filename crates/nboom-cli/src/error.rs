@@ -33,14 +33,35 @@ pub enum CliError {
         /// The scene.
         scene: String,
     },
+    /// No run can begin with these options.
+    #[error(transparent)]
+    Start(SimError),
     /// The motion cannot be computed, or its results not be kept.
     #[error("{error}")]
     Simulation {
         /// What stopped it.
         #[source]
         error: SimError,
-        /// Where the results up to then are.
+        /// Where the results up to then are, if there are any.
+        directory: Option<PathBuf>,
+    },
+    /// The run that a certificate needs for comparison cannot be finished.
+    #[error("the reference run: {error}")]
+    Certificate {
+        /// What stopped it.
+        #[source]
+        error: SimError,
+        /// Where the results of the run are.
         directory: PathBuf,
+    },
+    /// Signals cannot be waited for.
+    #[error("cannot wait for signals")]
+    Signals(#[source] std::io::Error),
+    /// A command would overwrite what it reads.
+    #[error("{}: found the input, expected another file for the output", path.display())]
+    OutputIsInput {
+        /// The file.
+        path: PathBuf,
     },
     /// The results cannot be written.
     #[error(transparent)]
@@ -70,15 +91,6 @@ pub enum CliError {
     /// Stresses cannot be computed.
     #[error(transparent)]
     Stresses(#[from] StrengthError),
-    /// What was computed cannot be written.
-    #[error("{}: cannot be written", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the operating system says.
-        #[source]
-        source: io::Error,
-    },
     /// Standard output takes no more.
     #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),
@@ -92,11 +104,13 @@ fn is_wrong_path(kind: io::ErrorKind) -> bool {
 }
 
 impl CliError {
-    /// 1 when a comparison failed, 2 when the input or the command line is wrong, 3 when computing or writing failed.
+    /// 1 when a comparison failed, 2 when the input or the command line is wrong, 3 when computing or writing failed or was interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Deviation { .. } => 1,
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
+            Self::Start(_) | Self::OutputIsInput { .. } => 2,
+            Self::Results(error) if error.is_refusal() => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
@@ -104,7 +118,8 @@ impl CliError {
             } => 2,
             Self::Verify(VerifyError::NotFinite { .. }) => 2,
             Self::Simulation { .. } | Self::Verify(_) => 3,
-            Self::Results(_) | Self::Write { .. } | Self::Stdout(_) => 3,
+            Self::Certificate { .. } | Self::Signals(_) => 3,
+            Self::Results(_) | Self::Stdout(_) => 3,
             #[cfg(feature = "generator")]
             Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
             #[cfg(feature = "generator")]
@@ -129,9 +144,13 @@ impl CliError {
             Self::Sections(error @ SectionFileError::Sections(_)) => {
                 error.to_string().lines().map(str::to_owned).collect()
             }
-            Self::Simulation { directory, .. } => {
+            Self::Simulation { directory: Some(directory), .. } => {
                 let (why, kept) = (with_causes(self), directory.display());
                 vec![format!("{why}; what was computed before is in {kept}, marked incomplete")]
+            }
+            Self::Certificate { directory, .. } => {
+                let (why, kept) = (with_causes(self), directory.display());
+                vec![format!("{why}; the run itself is complete, its results are in {kept}")]
             }
             _ => vec![with_causes(self)],
         }

@@ -25,6 +25,8 @@ mod format;
 #[cfg(feature = "generator")]
 mod generate;
 mod ignored;
+mod interrupt;
+mod output;
 mod print_run;
 mod print_scene;
 mod progress;
@@ -36,11 +38,11 @@ mod section_file;
 mod simulator;
 mod slips;
 mod stresses;
+mod terminal;
 mod verify;
 mod watch;
 mod work_precision;
 
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 use nboom_scalar::{Batch, Kernel};
@@ -55,6 +57,9 @@ pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 pub use slips::SlipArgs;
 pub use stresses::StressArgs;
+pub use terminal::refuse;
+
+use terminal::{print, say};
 
 /// Generated routines that commands choose from.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +73,8 @@ pub struct Routines {
 }
 
 /// Does what the command line asks for and tells how it went by the exit code: 0 done, 1 a
-/// comparison failed, 2 the input is wrong, 3 the computation or the writing failed.
+/// comparison failed, 2 the input is wrong, 3 the computation or the writing failed or was
+/// interrupted.
 #[cfg(feature = "generator")]
 pub fn execute(cli: &Cli) -> ExitCode {
     let (accelerations, equations) = (nboom_routines::all(), nboom_routines::equations());
@@ -96,18 +102,4 @@ pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
             ExitCode::from(error.exit_code())
         }
     }
-}
-
-/// Writes to standard output; a reader who has left, as `head` does, has seen enough.
-fn print(text: &str) -> Result<(), CliError> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::Stdout(error)),
-        _ => Ok(()),
-    }
-}
-
-/// Says something beside the results. When nobody can hear it there is nobody to tell.
-fn say(kind: &str, line: &str) {
-    let _ = writeln!(io::stderr(), "{kind}: {line}");
 }

@@ -5,5 +5,8 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    nboom_cli::execute(&nboom_cli::Cli::parse())
+    match nboom_cli::Cli::try_parse() {
+        Ok(cli) => nboom_cli::execute(&cli),
+        Err(error) => nboom_cli::refuse(&error),
+    }
 }

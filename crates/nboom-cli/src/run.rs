@@ -3,16 +3,15 @@ use std::time::Instant;
 
 use nboom_io::{LegacySettings, NEVER, SceneFile, read_scene};
 use nboom_model::{Hinge, HingeState, Release, Scene};
-use nboom_results::{
-    Outcome, RunDescription, RunDirectory, StressTables, with_causes, write_trust,
-};
+use nboom_results::{Kept, Outcome, RunDescription, RunDirectory, StressTables, with_causes};
 use nboom_sim::{
     Bound, Form, Method, Options, Path, Reference, RkamSettings, Tolerance, Trust, Witness,
-    simulate, trust,
+    check_start, simulate, trust,
 };
 use nboom_strength::StressAnalysis;
 
 use crate::ignored::ignored;
+use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::watch::Watch;
 use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say};
@@ -34,6 +33,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         ignored.iter().for_each(|ignored| say("note", ignored));
     }
     let options = options(args, routines, &file.legacy)?;
+    check_start(&scene, &options).map_err(CliError::Start)?;
     let run = RunDescription {
         warnings,
         print_interval: file.legacy.print_interval.unwrap_or(1),
@@ -122,12 +122,21 @@ fn simulate_into_files(
 ) -> Result<String, CliError> {
     let directory = args.output.clone().unwrap_or_else(|| default_directory(&scene.name));
     let started = Instant::now();
+    let interrupt = Interrupt::watch()?;
     let mut files = RunDirectory::create(&directory, scene, run.clone(), args.listing)?;
+    if files.has_put_right() && !args.quiet {
+        let directory = directory.display();
+        say("warning", &format!("{directory}: a finished run had not taken its place and now has"));
+    }
+    if args.certify.is_some() {
+        files = files.with_trust();
+    }
     if let Some((analysis, tables)) = stresses {
         files = files.with_stresses(scene, analysis, tables)?;
     }
     let mut watch = Watch {
         files,
+        interrupt: interrupt.clone(),
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
         events_to_keep: print_run::EVENTS_SHOWN,
@@ -142,21 +151,21 @@ fn simulate_into_files(
     let error = failed.as_ref().map(|error| with_causes(error));
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_stress();
-    let finished = watch.files.finish(&outcome);
+    let kept = watch.files.finish(&outcome);
     // Not for --quiet to hide: the results are not what they seem.
     let poor = outcome.summary.conservation.poor(options.rtol);
     poor.for_each(|law| say("warning", &law.to_string()));
     // What stopped the run says more than what then could not be written.
     if let Some(error) = failed {
-        return Err(CliError::Simulation { error, directory });
+        return Err(CliError::Simulation { error, directory: Some(kept.directory) });
     }
-    finished?;
     let trust = match watch.witness.as_ref().zip(args.certify) {
-        Some((witness, reference)) => {
-            Some(certify(scene, options, witness, reference, &directory)?)
+        Some((witness, reference)) if kept.written.is_ok() => {
+            Some(certify(scene, options, witness, reference, &kept, &interrupt)?)
         }
-        None => None,
+        _ => None,
     };
+    kept.written?;
     let (outcome, events) = (&outcome, watch.events);
     let account = print_run::Account { scene, run: &run, outcome, events, worst, trust };
     Ok(account.text(&directory))
@@ -168,12 +177,15 @@ fn certify(
     options: &Options,
     witness: &Witness,
     reference: Reference,
-    directory: &std::path::Path,
+    kept: &Kept,
+    interrupt: &Interrupt,
 ) -> Result<Trust, CliError> {
-    let found = trust(scene, options, witness, reference).map_err(|failure| {
-        CliError::Simulation { error: failure.error, directory: directory.to_owned() }
+    let found = trust(scene, options, witness, reference, &|| interrupt.came());
+    let found = found.map_err(|failure| CliError::Certificate {
+        error: failure.error,
+        directory: kept.directory.clone(),
     })?;
-    write_trust(directory, scene, &found)?;
+    kept.add_trust(scene, &found)?;
     Ok(found)
 }
 

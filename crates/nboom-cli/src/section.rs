@@ -1,10 +1,9 @@
-use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
 
 use crate::section_file::{Case, read};
-use crate::{CliError, SectionArgs, say, section_answer};
+use crate::{CliError, SectionArgs, output, say, section_answer};
 
 /// Computes the sections of a file and returns the answer, or where it is, for standard output.
 pub(crate) fn section(args: &SectionArgs) -> Result<String, CliError> {
@@ -15,9 +14,7 @@ pub(crate) fn section(args: &SectionArgs) -> Result<String, CliError> {
     let document = json!({ "convention": section_answer::CONVENTION, "cases": answers });
     let text = format!("{document:#}\n");
     let Some(path) = &args.output else { return Ok(text) };
-    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
-    let written = folder.and_then(|()| fs::write(path, text));
-    written.map_err(|source| CliError::Write { path: path.clone(), source })?;
+    output::write(path, &args.sections, &text)?;
     let sections = crate::format::count(count, "section", "sections");
     Ok(format!("{sections}, results in {}\n", path.display()))
 }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, FromArgMatches};
 use nboom_scalar::Kernel;
 
-use crate::{Cli, Routines, execute_with};
+use crate::{Cli, Routines, execute_with, refuse};
 
 /// The command line of a stand-alone simulator with routines of its own: `run` may be left out.
 /// `about` is what its help begins with.
@@ -24,7 +24,7 @@ pub fn simulator(
     }
     match command.try_get_matches_from(words).and_then(|found| Cli::from_arg_matches(&found)) {
         Ok(cli) => execute_with(&cli, &Routines { accelerations, equations: &[], batches: &[] }),
-        Err(error) => error.exit(),
+        Err(error) => refuse(&error),
     }
 }
 

@@ -4,21 +4,22 @@ use nboom_verify::{Comparison, Hinges, Quantity, Row, Subject, compare};
 
 use crate::format::{code_columns, code_head, count, not_covered, routine_topology, short};
 use crate::run::default_directory;
-use crate::{CliError, Routines, VerifyArgs, check, print};
+use crate::{CliError, Routines, VerifyArgs, check, output, print};
 
 const FILE: &str = "verify.json";
 
 /// Compares all code that computes accelerations, writes the largest deviations and prints them.
 pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
+    let beside = || default_directory(&file.scene.name).join(FILE);
+    let path = args.output.clone().unwrap_or_else(beside);
+    output::check(&path, &args.scene)?;
     let held = Subject::with_held_hinges(&file.scene, args.states / 2, args.seed)?;
     let free = Subject::new(file.scene, args.states - held.len(), args.seed)?;
     let Routines { accelerations, equations, .. } = *routines;
     let comparison = compare(&free, &held, accelerations, equations, args.tol)?;
     print(&table(&comparison))?;
-    let beside = || default_directory(&comparison.scene).join(FILE);
-    let path = args.output.clone().unwrap_or_else(beside);
-    comparison.write(&path)?;
+    output::write(&path, &args.scene, &comparison.json())?;
     let worst = comparison.worst();
     if !comparison.passed() {
         return Err(CliError::Deviation {

@@ -3,6 +3,7 @@ use std::io;
 use nboom_results::RunDirectory;
 use nboom_sim::{Event, EventKind, InstantMotion, Recorder, Snapshot, StepMotion, Witness};
 
+use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 
 /// Passes everything on to the files and keeps what the terminal shows: the progress, and the
@@ -12,6 +13,7 @@ pub(crate) struct Watch {
     pub(crate) progress: Progress,
     pub(crate) events: Vec<Event>,
     pub(crate) events_to_keep: usize,
+    pub(crate) interrupt: Interrupt,
     /// What a reference run is compared with, if there is to be one.
     pub(crate) witness: Option<Witness>,
 }
@@ -19,6 +21,10 @@ pub(crate) struct Watch {
 impl Recorder for Watch {
     fn needs_detail(&self) -> bool {
         self.files.needs_detail()
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupt.came()
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {

@@ -66,7 +66,8 @@ pub struct SceneFile {
     pub structure: Option<Structure>,
 }
 
-/// Reads a scene from a deck `NAME.nml`; the scene is named NAME.
+/// Reads a scene from a deck `NAME.nml`; the scene is named NAME, with U+FFFD for control
+/// characters, which would give orders to a terminal.
 ///
 /// Files of at most 16 MiB are read; bytes that are not UTF-8 may occur in comments only.
 ///
@@ -76,5 +77,6 @@ pub struct SceneFile {
 pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
     let text = source::read_deck(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = name.replace(char::is_control, "\u{fffd}");
     parse_deck(&path.display().to_string(), &text, &name)
 }

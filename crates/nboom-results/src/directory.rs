@@ -1,34 +1,61 @@
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
-use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion, Summary};
+use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion, Summary, Trust};
 use nboom_strength::{StressAnalysis, Worst};
 
+use crate::place::Place;
 use crate::rows::{self, Output};
 use crate::stress::StressWriter;
+use crate::whole::Draft;
 use crate::{
-    ENVELOPE_FILE, EVENTS_FILE, EventsWriter, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,
-    LATCH_IMPULSES_FILE, LISTING_FILE, ListingWriter, ResultsError, RunDescription, STATES_FILE,
-    STRESS_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, with_causes,
+    EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, ResultsError, RunDescription,
+    STATES_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, trust,
+    with_causes,
 };
 
-/// The directory of one run: creates it, writes its tables while the run goes on, and its
+/// What of the disk is kept for the summary, in which a full disk is told \[bytes\].
+const ROOM: usize = 1 << 14;
+
+/// The directory of one run: creates its files, writes tables while the run goes on, and the
 /// summary at the end.
 ///
-/// From its creation until [`RunDirectory::finish`] the directory holds a summary marked
-/// incomplete, whatever an earlier run left there and however this one is stopped.
+/// The files of a run into DIR are written in `DIR.partial`, with a summary that is marked
+/// incomplete, until [`RunDirectory::finish`]; no other run can write there.
 #[derive(Debug)]
 pub struct RunDirectory {
-    path: PathBuf,
+    place: Place,
     run: RunDescription,
+    /// The summary to come; taken when it is written.
+    draft: Option<Draft>,
     states: StatesWriter<Output>,
     events: EventsWriter<Output>,
     listing: Option<ListingWriter<Output>>,
     stresses: Option<StressWriter>,
+    with_trust: bool,
     /// Events whose instant may not be over, and the motion after them.
     instant: Option<(Vec<Event>, Snapshot)>,
+}
+
+/// What a run that has ended leaves; nobody else can write there as long as this lives.
+#[derive(Debug)]
+pub struct Kept {
+    place: Place,
+    /// Where it is.
+    pub directory: PathBuf,
+    /// Whether all of it could be written.
+    pub written: Result<(), ResultsError>,
+}
+
+impl Kept {
+    /// Adds how many digits of the run can be trusted.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn add_trust(&self, scene: &Scene, found: &Trust) -> Result<(), ResultsError> {
+        self.place.add(TRUST_FILE, &trust::text(scene, found))
+    }
 }
 
 /// How a run ended.
@@ -43,31 +70,47 @@ pub struct Outcome {
 }
 
 impl RunDirectory {
-    /// Creates the directory at `path`, if need be, and in it the files of a run of `scene`;
-    /// files of an earlier run are replaced or removed.
+    /// Locks the place of the results `directory` and creates in `directory.partial` the files of a
+    /// run of `scene`.
     ///
     /// # Errors
-    /// When the directory or a file in it cannot be made.
+    /// When the place is refused ([`ResultsError::is_refusal`]) or a file cannot be made; what is
+    /// in `directory` is as it was then.
     pub fn create(
-        path: &Path,
+        directory: &Path,
         scene: &Scene,
         run: RunDescription,
         listing: bool,
     ) -> Result<Self, ResultsError> {
-        fs::create_dir_all(path)
-            .map_err(|source| ResultsError::Directory { path: path.to_owned(), source })?;
-        remove_stale(&path.join(SUMMARY_FILE))?;
-        let of_loads = [HINGE_LOADS_FILE, LATCH_IMPULSES_FILE, HINGE_ENVELOPE_FILE];
-        let of_stresses = [STRESS_FILE, ENVELOPE_FILE];
-        let optional = [LISTING_FILE, TRUST_FILE].into_iter().chain(of_loads).chain(of_stresses);
-        { optional }.try_for_each(|file| remove_stale(&path.join(file)))?;
-        SummaryFile::unfinished(&run).replace(&path.join(SUMMARY_FILE))?;
+        let place = Place::take(directory)?;
+        let draft = announce(&place, &run)?;
+        let path = place.partial();
         let labels: Vec<_> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
         let events = open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone()))?;
         let listing = listing.then(|| open_listing(path, &run, labels)).transpose()?;
-        let path = path.to_owned();
-        Ok(Self { path, run, states, events, listing, stresses: None, instant: None })
+        Ok(Self {
+            place,
+            run,
+            draft: Some(draft),
+            states,
+            events,
+            listing,
+            stresses: None,
+            with_trust: false,
+            instant: None,
+        })
+    }
+
+    /// Whether results of an earlier run that was killed in the last moment were put into their
+    /// place first.
+    pub fn has_put_right(&self) -> bool {
+        self.place.has_put_right
+    }
+
+    /// Expects [`Kept::add_trust`].
+    pub fn with_trust(self) -> Self {
+        Self { with_trust: true, ..self }
     }
 
     /// Also writes stresses, at output times as `tables` says and at lock-ups, and the worst of them
@@ -83,8 +126,8 @@ impl RunDirectory {
     ) -> Result<Self, ResultsError> {
         let hinges = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
         self.run.stresses = Some((tables, analysis.generated_for()));
-        self.stresses = Some(StressWriter::create(&self.path, hinges, analysis, tables)?);
-        SummaryFile::unfinished(&self.run).replace(&self.path.join(SUMMARY_FILE))?;
+        let stresses = StressWriter::create(self.place.partial(), hinges, analysis, tables)?;
+        self.stresses = Some(stresses);
         Ok(self)
     }
 
@@ -96,14 +139,12 @@ impl RunDirectory {
         analysis.worst_stress()
     }
 
-    /// Writes what is left and the summary.
+    /// Writes what is left and the summary, and lets the results take their place: complete ones
+    /// that of earlier ones, others only where there is no finished result.
     ///
     /// The summary says that the run is complete only when `outcome` has no error and every
     /// table could be written to its end.
-    ///
-    /// # Errors
-    /// The first file that cannot be written; the others are written nevertheless.
-    pub fn finish(mut self, outcome: &Outcome) -> Result<(), ResultsError> {
+    pub fn finish(mut self, outcome: &Outcome) -> Kept {
         let instant = self.close_instant();
         let states = self.states.flush().map_err(self.writing(STATES_FILE));
         let listing = self.flush_listing();
@@ -111,8 +152,31 @@ impl RunDirectory {
         let tables = instant.and(states).and(listing).and(stresses);
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
-        let summary = SummaryFile::ended(&self.run, &outcome.summary, outcome.wall_seconds, error);
-        tables.and(summary.replace(&self.path.join(SUMMARY_FILE)))
+        let summary = self.write_summary(outcome, error);
+        let settled = self.place.settle().map(Path::to_owned);
+        let partial = || self.place.partial().to_owned();
+        let directory = settled.as_ref().map_or_else(|_| partial(), Clone::clone);
+        let written = tables.and(summary).and(settled.map(|_| ()));
+        Kept { place: self.place, directory, written }
+    }
+
+    fn write_summary(
+        &mut self,
+        outcome: &Outcome,
+        error: Option<&str>,
+    ) -> Result<(), ResultsError> {
+        let mut files: Vec<_> = self.place.files().collect();
+        files.extend(self.with_trust.then_some(TRUST_FILE));
+        let Outcome { summary, wall_seconds, .. } = outcome;
+        let ended = SummaryFile::ended(&self.run, summary, *wall_seconds, error, files.clone());
+        let without_room = |why: &io::Error| {
+            let why = why.to_string();
+            SummaryFile::failed(&self.run, error.unwrap_or(&why), files).text()
+        };
+        let path = self.place.partial().join(SUMMARY_FILE);
+        let draft = self.draft.take().expect("there is one until the end");
+        let written = draft.publish_or(&path, &ended.text(), without_room);
+        written.map_err(ResultsError::writing(&path))
     }
 
     fn flush_listing(&mut self) -> Result<(), ResultsError> {
@@ -149,13 +213,12 @@ impl RunDirectory {
     }
 
     fn write_stresses(&mut self) -> Result<(), ResultsError> {
-        let Some(stresses) = &mut self.stresses else { return Ok(()) };
-        if !stresses.is_full() {
+        if !self.stresses.as_ref().is_some_and(StressWriter::is_full) {
             return Ok(());
         }
         // Long tables that fill the disk must not take the room of rows that wait in memory.
-        self.states.flush().map_err(ResultsError::writing(&self.path.join(STATES_FILE)))?;
-        stresses.write()
+        self.states.flush().map_err(self.writing(STATES_FILE))?;
+        self.stresses.as_mut().map_or(Ok(()), StressWriter::write)
     }
 
     fn add_event(&mut self, event: &Event, after: &Snapshot) -> Result<(), ResultsError> {
@@ -172,7 +235,7 @@ impl RunDirectory {
     }
 
     fn writing(&self, file: &str) -> impl FnOnce(io::Error) -> ResultsError + use<> {
-        ResultsError::writing(&self.path.join(file))
+        ResultsError::writing(&self.place.partial().join(file))
     }
 }
 
@@ -214,9 +277,8 @@ fn open<T>(
     file: &str,
     start: impl FnOnce(Output) -> io::Result<T>,
 ) -> Result<T, ResultsError> {
-    let path = directory.join(file);
-    let started = rows::create(&path).and_then(start);
-    started.map_err(ResultsError::writing(&path))
+    let started = rows::create(directory, file).and_then(start);
+    started.map_err(ResultsError::writing(&directory.join(file)))
 }
 
 fn open_listing(
@@ -230,11 +292,12 @@ fn open_listing(
     })
 }
 
-fn remove_stale(path: &Path) -> Result<(), ResultsError> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            Err(ResultsError::writing(path)(error))
-        }
-        _ => Ok(()),
-    }
+/// Writes a summary that says that the run is not complete, and keeps room for another.
+fn announce(place: &Place, run: &RunDescription) -> Result<Draft, ResultsError> {
+    let path = place.partial().join(SUMMARY_FILE);
+    let first = place.draft()?.publish(&path, &SummaryFile::unfinished(run).text());
+    first.map_err(ResultsError::writing(&path))?;
+    let mut draft = place.draft()?;
+    draft.reserve(ROOM).map_err(ResultsError::writing(&path))?;
+    Ok(draft)
 }

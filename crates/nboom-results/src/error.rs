@@ -4,6 +4,9 @@ use std::path::{Path, PathBuf};
 
 use nboom_strength::StrengthError;
 
+use crate::kind::Kind;
+use crate::lock::Holder;
+
 /// Why the files of a run could not be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -24,12 +27,82 @@ pub enum ResultsError {
         /// What the system says.
         source: io::Error,
     },
+    /// A run is going on in a directory.
+    #[error("a run into {} is going on, by {}", directory.display(), holder.told())]
+    InUse {
+        /// The directory for its results.
+        directory: PathBuf,
+        /// Who holds it.
+        holder: Holder,
+    },
+    /// Something that no run has written has the name of a file of a run.
+    #[error(
+        "{}: found {found} that no run has written, expected a file of a run or nothing; move or \
+         delete it, or name another directory",
+        path.display()
+    )]
+    Foreign {
+        /// The path.
+        path: PathBuf,
+        /// What is there.
+        found: Kind,
+    },
+    /// Results cannot go into something that is no directory.
+    #[error("{}: found {found}, expected a directory or nothing", path.display())]
+    NotADirectory {
+        /// The path.
+        path: PathBuf,
+        /// What is there.
+        found: Kind,
+    },
+    /// A directory for results has no name that `.partial` can be added to, or has it already.
+    #[error(
+        "{}: found a directory that results cannot go into, expected a name that does not end in \
+         .partial, as unfinished results have",
+        path.display()
+    )]
+    Name {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A directory for results is a volume of its own, so that nothing beside it can be moved in.
+    #[error(
+        "{}: found a volume of its own, expected a directory of one; name one within it",
+        path.display()
+    )]
+    Mounted {
+        /// The path.
+        path: PathBuf,
+    },
+    /// Results that were written cannot be put into their place.
+    #[error(
+        "cannot move results to {}, so that they are in {}; the next run into this directory tries \
+         again",
+        to.display(), from.display()
+    )]
+    Misplaced {
+        /// Where they are.
+        from: PathBuf,
+        /// Where they should be.
+        to: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
     /// Stresses cannot be computed.
     #[error(transparent)]
     Stresses(#[from] StrengthError),
 }
 
 impl ResultsError {
+    /// Whether a place for results was refused, before anything was written.
+    pub fn is_refusal(&self) -> bool {
+        use ResultsError::{Foreign, InUse, Mounted, Name, NotADirectory};
+        matches!(
+            self,
+            InUse { .. } | Foreign { .. } | NotADirectory { .. } | Name { .. } | Mounted { .. }
+        )
+    }
+
     pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {
         let path = path.to_owned();
         move |source| Self::Write { path, source }
@@ -39,7 +112,8 @@ impl ResultsError {
     pub(crate) fn into_io(self) -> io::Error {
         let kind = match &self {
             Self::Directory { source, .. } | Self::Write { source, .. } => source.kind(),
-            Self::Stresses(_) => io::ErrorKind::Other,
+            Self::Misplaced { source, .. } => source.kind(),
+            _ => io::ErrorKind::Other,
         };
         io::Error::new(kind, self)
     }

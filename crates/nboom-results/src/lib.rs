@@ -19,12 +19,17 @@
 //! ```
 
 mod directory;
+mod earlier;
 mod error;
 mod euler;
 mod events;
+mod kind;
 mod layout;
 mod listing;
+mod lock;
+mod names;
 mod number;
+mod place;
 mod row_text;
 mod rows;
 mod signs;
@@ -33,37 +38,25 @@ mod stress;
 mod summary;
 mod trust;
 mod units;
+mod whole;
 
 #[cfg(test)]
 mod fixture;
 
-pub use directory::{Outcome, RunDirectory};
+pub use directory::{Kept, Outcome, RunDirectory};
 pub use error::{ResultsError, with_causes};
 pub use euler::euler_angles;
 pub use events::{EventsWriter, event_order};
+pub use kind::Kind;
 pub use listing::ListingWriter;
+pub use lock::Holder;
+pub use names::{
+    ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, LATCH_IMPULSES_FILE,
+    LISTING_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
+};
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;
 pub use summary::{RunDescription, SummaryFile, path_and_formulation};
-pub use trust::{TRUST_FILE, write_trust};
 pub use units::UnitSystem;
-
-/// Name of the table of states within a run's directory.
-pub const STATES_FILE: &str = "states.csv";
-/// Name of the table of events within a run's directory.
-pub const EVENTS_FILE: &str = "events.csv";
-/// Name of the summary within a run's directory.
-pub const SUMMARY_FILE: &str = "summary.json";
-/// Name of the table of stresses within a run's directory.
-pub const STRESS_FILE: &str = "stress.csv";
-/// Name of the table of hinge loads within a run's directory.
-pub const HINGE_LOADS_FILE: &str = "hinge_loads.csv";
-/// Name of the table of impulses that hinges transmit at lock-ups within a run's directory.
-pub const LATCH_IMPULSES_FILE: &str = "latch_impulses.csv";
-/// Name of the table of each hinge's largest loads within a run's directory.
-pub const HINGE_ENVELOPE_FILE: &str = "hinge_load_envelope.csv";
-/// Name of the table of each station's worst stress within a run's directory.
-pub const ENVELOPE_FILE: &str = "stress_envelope.csv";
-/// Name of the printout within a run's directory.
-pub const LISTING_FILE: &str = "listing.txt";
+pub use whole::write_file;

@@ -1,15 +1,49 @@
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::ResultsError;
+use crate::{FILES, ResultsError};
 
-/// A buffered file of lines.
-pub(crate) type Output = BufWriter<WholeLines>;
+/// What of a table waits in memory \[bytes\].
+const SHORT: usize = 1 << 13;
 
-/// Makes the file at `path`, empty.
-pub(crate) fn create(path: &Path) -> io::Result<Output> {
-    Ok(BufWriter::new(WholeLines::create(path)?))
+/// A table that is handed to the system in whole lines only.
+#[derive(Debug)]
+pub(crate) struct Output {
+    file: WholeLines,
+    waiting: Vec<u8>,
+}
+
+/// Makes the file `name` of a run, empty, in the directory that it writes into.
+pub(crate) fn create(directory: &Path, name: &str) -> io::Result<Output> {
+    let file = WholeLines::create(directory, name)?;
+    Ok(Output { file, waiting: Vec::with_capacity(2 * SHORT) })
+}
+
+impl Output {
+    fn hand_on(&mut self) -> io::Result<()> {
+        let last = self.waiting.iter().rposition(|byte| *byte == b'\n');
+        let whole = last.map_or(0, |newline| newline + 1);
+        self.file.append(&self.waiting[..whole])?;
+        self.waiting.drain(..whole);
+        Ok(())
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.check()?;
+        self.waiting.extend_from_slice(bytes);
+        // Numbers come one by one; only a line's end can make a whole line of what waits.
+        if self.waiting.len() >= SHORT && bytes.contains(&b'\n') {
+            self.hand_on()?;
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.hand_on()
+    }
 }
 
 /// What of a long table waits in memory \[bytes\].
@@ -25,9 +59,11 @@ pub(crate) struct LongTable {
 }
 
 impl LongTable {
-    /// Makes the file at `path`, empty; the header waits.
-    pub(crate) fn create(path: PathBuf, header: &str) -> Result<Self, ResultsError> {
-        let file = WholeLines::create(&path).map_err(ResultsError::writing(&path))?;
+    /// Makes the file `name` of a run, empty, in the directory that it writes into; the header
+    /// waits.
+    pub(crate) fn create(directory: &Path, name: &str, header: &str) -> Result<Self, ResultsError> {
+        let path = directory.join(name);
+        let file = WholeLines::create(directory, name).map_err(ResultsError::writing(&path))?;
         // The lines of one time come on top of what is not yet long.
         let mut lines = Vec::with_capacity(LONG + LONG / 4);
         lines.extend([header.as_bytes(), b"\n"].concat());
@@ -41,57 +77,72 @@ impl LongTable {
 
     /// Hands the lines on to the system.
     pub(crate) fn write(&mut self) -> Result<(), ResultsError> {
-        self.file.write_all(&self.lines).map_err(ResultsError::writing(&self.path))?;
+        self.file.append(&self.lines).map_err(ResultsError::writing(&self.path))?;
         self.lines.clear();
         Ok(())
     }
 }
 
+/// What the system takes from a process in one piece \[bytes\]: a process that is killed while it
+/// writes has written up to a multiple of this in the file.
+const PAGE: usize = 1 << 12;
+
 /// A file that ends with a whole line even when the disk is full, because half a number reads
 /// as another number.
+///
+/// A kill cannot leave half a line either, but where a line lies across the end of a page and the
+/// kill comes between its two parts.
 #[derive(Debug)]
 pub(crate) struct WholeLines {
     file: File,
-    /// Length of the file up to the end of its last whole line.
-    whole: u64,
-    /// Length of the file.
-    written: u64,
+    /// Length of the file, which ends with a whole line.
+    length: u64,
     /// Why the file was cut back, after which nothing can be added.
     torn: Option<io::Error>,
 }
 
-impl Write for WholeLines {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if let Some(error) = &self.torn {
-            return Err(same(error));
-        }
-        let written = self.file.write(bytes).map_err(|error| self.cut(error))?;
-        if let Some(newline) = bytes[..written].iter().rposition(|byte| *byte == b'\n') {
-            self.whole = self.written + newline as u64 + 1;
-        }
-        self.written += written as u64;
-        Ok(written)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
-    }
-}
-
 impl WholeLines {
-    fn create(path: &Path) -> io::Result<Self> {
-        Ok(Self { file: File::create(path)?, whole: 0, written: 0, torn: None })
+    fn create(directory: &Path, name: &str) -> io::Result<Self> {
+        assert!(FILES.contains(&name), "{name} is in the table of names");
+        // What has that name already is not ours, and may be a link or a pipe.
+        let file = OpenOptions::new().write(true).create_new(true).open(directory.join(name))?;
+        Ok(Self { file, length: 0, torn: None })
+    }
+
+    /// Adds whole lines.
+    fn append(&mut self, mut lines: &[u8]) -> io::Result<()> {
+        self.check()?;
+        while !lines.is_empty() {
+            let room = PAGE - (self.length % PAGE as u64) as usize;
+            let (piece, rest) = lines.split_at(whole_lines_within(lines, room));
+            self.file.write_all(piece).map_err(|error| self.cut(error))?;
+            self.length += piece.len() as u64;
+            lines = rest;
+        }
+        Ok(())
+    }
+
+    /// Refuses once the file was cut back.
+    fn check(&self) -> io::Result<()> {
+        self.torn.as_ref().map_or(Ok(()), |error| Err(same(error)))
     }
 
     /// Cuts the file back after this error, and gives the error back.
     fn cut(&mut self, error: io::Error) -> io::Error {
-        if error.kind() != io::ErrorKind::Interrupted {
-            self.torn = Some(same(&error));
-            // The first error is the one to report; devices cannot be cut anyway.
-            let _ = self.file.set_len(self.whole);
-        }
+        self.torn = Some(same(&error));
+        // The first error is the one to report; devices cannot be cut anyway.
+        let _ = self.file.set_len(self.length);
         error
     }
+}
+
+/// Length of the lines that fit into `room`, of the first one if it does not.
+fn whole_lines_within(lines: &[u8], room: usize) -> usize {
+    let is_end = |byte: &u8| *byte == b'\n';
+    let within = lines.len().min(room);
+    let last = lines[..within].iter().rposition(is_end);
+    let end = last.or_else(|| lines.iter().position(is_end));
+    end.map_or(lines.len(), |newline| newline + 1)
 }
 
 /// Another error that says the same.
@@ -102,30 +153,47 @@ fn same(error: &io::Error) -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::STATES_FILE;
 
     #[test]
     fn half_a_line_is_cut_off_and_nothing_follows_it() {
         let place = tempfile::tempdir().expect("a directory");
-        let path = place.path().join("table");
-        let mut out = create(&path).expect("writable");
-        out.write_all(b"1,2\n3,4\n5,").expect("writable");
-        out.flush().expect("writable");
-        out.get_mut().cut(io::ErrorKind::StorageFull.into());
-        out.write_all(b"6\n").expect("the buffer is empty");
-        let refused = out.flush().expect_err("nothing can follow");
+        let mut out = create(place.path(), STATES_FILE).expect("writable");
+        out.file.append(b"1,2\n3,4\n").expect("writable");
+        // As much of the next as the disk takes.
+        out.file.file.write_all(b"5,").expect("writable");
+        out.file.cut(io::ErrorKind::StorageFull.into());
+        let refused = out.write_all(b"5,6\n").expect_err("nothing can follow");
         assert_eq!(refused.kind(), io::ErrorKind::StorageFull);
         drop(out);
-        assert_eq!(std::fs::read_to_string(&path).expect("text"), "1,2\n3,4\n");
+        let text = std::fs::read_to_string(place.path().join(STATES_FILE)).expect("text");
+        assert_eq!(text, "1,2\n3,4\n");
     }
 
     #[test]
-    fn lines_arrive_unchanged() {
+    fn no_piece_but_a_line_lies_across_the_end_of_a_page() {
+        let lines = b"12\n4\n789\n";
+        for (room, piece) in [(10, 9), (9, 9), (8, 5), (5, 5), (4, 3), (3, 3), (2, 3), (1, 3)] {
+            assert_eq!(whole_lines_within(lines, room), piece, "{room}");
+        }
+    }
+
+    #[test]
+    fn lines_arrive_unchanged_and_whole() {
         let place = tempfile::tempdir().expect("a directory");
-        let path = place.path().join("table");
-        let text: String = (0..5000).map(|i| format!("{i},{}\n", i * i)).collect();
-        let mut out = create(&path).expect("writable");
-        out.write_all(text.as_bytes()).expect("writable");
+        let mut out = create(place.path(), STATES_FILE).expect("writable");
+        let on_disk = || std::fs::read_to_string(place.path().join(STATES_FILE)).expect("text");
+        let mut text = String::new();
+        for i in 0..5000 {
+            for piece in [format!("{i},"), format!("{}", i * i), "\n".to_owned()] {
+                out.write_all(piece.as_bytes()).expect("writable");
+                text += &piece;
+                let seen = on_disk();
+                // What a kill in this moment would leave.
+                assert!(seen.is_empty() || seen.ends_with('\n'), "after {i}");
+            }
+        }
         out.flush().expect("writable");
-        assert_eq!(std::fs::read_to_string(&path).expect("text"), text);
+        assert_eq!(on_disk(), text);
     }
 }

@@ -65,7 +65,7 @@ impl StressWriter {
         analysis: StressAnalysis,
         StressTables { every, signs }: StressTables,
     ) -> Result<Self, ResultsError> {
-        let table = |file: &str, header: &str| LongTable::create(directory.join(file), header);
+        let table = |file: &str, header: &str| LongTable::create(directory, file, header);
         let stresses = analysis.has_stations().then(|| table(STRESS_FILE, STRESS_HEADER));
         Ok(Self {
             directory: directory.to_owned(),
@@ -165,7 +165,7 @@ impl StressWriter {
         rows: impl FnOnce(&mut Output) -> io::Result<()>,
     ) -> Result<(), ResultsError> {
         let path = self.directory.join(file);
-        let written = rows::create(&path).and_then(|mut out| {
+        let written = rows::create(&self.directory, file).and_then(|mut out| {
             writeln!(out, "{header}")?;
             rows(&mut out)?;
             out.flush()

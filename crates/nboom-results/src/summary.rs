@@ -1,12 +1,8 @@
-use std::fs;
-use std::io::Write;
-use std::path::Path;
-
 use nboom_model::{Facts, Scene};
 use nboom_sim::{Conservation, Integration, Selection, Summary};
 use serde::Serialize;
 
-use crate::{ResultsError, StressTables, UnitSystem};
+use crate::{StressTables, UnitSystem};
 
 /// What is known about a run before it starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,6 +92,9 @@ pub struct SummaryFile<'a> {
     attitude_drift: f64,
     skipped: &'a [String],
     warnings: Vec<String>,
+    /// Names of the run's files; while they are not known all that a run may write are its own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<&'static str>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -187,7 +186,13 @@ impl<'a> SummaryFile<'a> {
             attitude_drift: 0.0,
             skipped: &run.skipped,
             warnings: run.warnings.clone(),
+            files: Vec::new(),
         }
+    }
+
+    /// The summary of a run of which nothing is known but that it failed, and why.
+    pub fn failed(run: &'a RunDescription, error: &'a str, files: Vec<&'static str>) -> Self {
+        Self { error: Some(error), files, ..Self::unfinished(run) }
     }
 
     /// The summary of a run that has ended; it is complete when there is no `error`.
@@ -196,6 +201,7 @@ impl<'a> SummaryFile<'a> {
         summary: &'a Summary,
         wall_seconds: f64,
         error: Option<&'a str>,
+        files: Vec<&'static str>,
     ) -> Self {
         let (path, formulation) = path_and_formulation(summary);
         let poor = summary.conservation.poor(run.rtol).map(|law| law.to_string());
@@ -218,28 +224,15 @@ impl<'a> SummaryFile<'a> {
             conservation: summary.conservation.into(),
             attitude_drift: summary.attitude_drift,
             warnings: run.warnings.iter().cloned().chain(poor).collect(),
+            files,
             ..Self::unfinished(run)
         }
     }
 
-    /// Replaces the file at `path` by this summary, all of it or nothing.
-    ///
-    /// # Errors
-    /// When the file or its neighbour `*.tmp` cannot be written.
-    pub fn replace(&self, path: &Path) -> Result<(), ResultsError> {
-        let new = path.with_extension("json.tmp");
-        let written = serde_json::to_vec_pretty(self).map_err(Into::into).and_then(|mut text| {
-            text.push(b'\n');
-            let mut file = fs::File::create(&new)?;
-            file.write_all(&text)?;
-            // A rename may reach the disk before the data it names.
-            file.sync_all()?;
-            fs::rename(&new, path)
-        });
-        written.map_err(|source| {
-            // What is left of a full disk is worth more than half a summary.
-            let _ = fs::remove_file(&new);
-            ResultsError::writing(path)(source)
-        })
+    /// The text of the file.
+    pub fn text(&self) -> Vec<u8> {
+        let mut text = serde_json::to_vec_pretty(self).expect("the keys are texts and numbers");
+        text.push(b'\n');
+        text
     }
 }

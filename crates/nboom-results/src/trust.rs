@@ -1,14 +1,6 @@
-use std::fs;
-use std::path::Path;
-
 use nboom_model::Scene;
 use nboom_sim::{Digits, Trust};
 use serde::Serialize;
-
-use crate::ResultsError;
-
-/// The file of a run that tells how many of its digits can be trusted.
-pub const TRUST_FILE: &str = "certificate.json";
 
 #[derive(Serialize)]
 struct TrustKeys<'a> {
@@ -46,11 +38,8 @@ impl From<&Digits> for DigitKeys {
     }
 }
 
-/// Writes [`TRUST_FILE`] into the directory of a run.
-///
-/// # Errors
-/// When it cannot be written.
-pub fn write_trust(directory: &Path, scene: &Scene, trust: &Trust) -> Result<(), ResultsError> {
+/// The text of [`TRUST_FILE`](crate::TRUST_FILE).
+pub(crate) fn text(scene: &Scene, trust: &Trust) -> String {
     let events = trust.events.iter().map(|known| {
         let label = known.event.hinge.map(|hinge| scene.label(hinge));
         EventKeys {
@@ -71,7 +60,5 @@ pub fn write_trust(directory: &Path, scene: &Scene, trust: &Trust) -> Result<(),
         events: events.collect(),
         end: trust.end.iter().map(DigitKeys::from).collect(),
     };
-    let text = serde_json::to_string_pretty(&keys).expect("the keys are texts and numbers");
-    let path = directory.join(TRUST_FILE);
-    fs::write(&path, text + "\n").map_err(|source| ResultsError::Write { path, source })
+    serde_json::to_string_pretty(&keys).expect("the keys are texts and numbers") + "\n"
 }

@@ -1,7 +1,6 @@
 //! The directory of a run as a whole: what is in it at each stage, and when the disk is full.
 
 use std::fs;
-use std::os::unix::fs::symlink;
 use std::path::Path;
 
 use nboom_model::{
@@ -132,7 +131,10 @@ fn a_finished_run_has_all_rows_and_every_key() {
     directory.event(&event(5.0, EventKind::LockUp, Some(0)), &snapshot(5.0)).expect("writable");
     directory.sample(&snapshot(10.0)).expect("writable");
     directory.event(&event(10.0, EventKind::End, None), &snapshot(10.0)).expect("writable");
-    directory.finish(&outcome(None)).expect("writable");
+    assert!(!path.exists());
+    let kept = directory.finish(&outcome(None));
+    kept.written.as_ref().expect("writable");
+    assert_eq!(kept.directory, path);
 
     assert_eq!(lines(&path, "states.csv").len(), 3);
     let events = lines(&path, "events.csv");
@@ -169,72 +171,77 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "attitude_drift": 3e-12,
         "skipped": nboom_model::Facts::of(&scene()).skipped(),
         "warnings": [],
+        "files": ["states.csv", "events.csv", "summary.json"],
     });
     assert_eq!(summary(&path), expected);
     assert!(!path.join("listing.txt").exists());
-    assert!(!path.join("summary.json.tmp").exists());
+    assert_eq!(fs::read_dir(&path).expect("readable").count(), 3);
+    drop(kept);
+    assert!(!place.path().join("out/run.partial").exists());
 }
 
+/// What was finished stays until something finished takes its place, whole.
 #[test]
-fn an_earlier_run_in_the_directory_is_never_taken_for_this_one() {
+fn an_earlier_result_stays_until_the_next_one_is_finished() {
     let place = tempfile::tempdir().expect("a directory");
-    let first = create(place.path(), true).expect("writable");
-    first.finish(&outcome(None)).expect("writable");
-    assert_eq!(summary(place.path())["complete"], true);
-    assert!(place.path().join("listing.txt").exists());
+    let (path, partial) = (place.path().join("run"), place.path().join("run.partial"));
+    fs::create_dir(&path).expect("writable");
+    fs::write(path.join("notes.txt"), "mine").expect("writable");
+    create(&path, true).expect("writable").finish(&outcome(None)).written.expect("writable");
+    let finished = |with_listing: bool| {
+        assert_eq!(summary(&path)["complete"], true);
+        assert_eq!(path.join("listing.txt").exists(), with_listing);
+        assert_eq!(fs::read_to_string(path.join("notes.txt")).ok().as_deref(), Some("mine"));
+    };
+    finished(true);
 
-    let abandoned = create(place.path(), false).expect("writable");
-    assert_eq!(summary(place.path())["complete"], false);
+    // Given up without a word, as by a panic.
+    let abandoned = create(&path, false).expect("writable");
+    assert_eq!(summary(&partial)["complete"], false);
+    let error = summary(&partial)["error"].as_str().expect("a text").to_owned();
+    assert!(error.contains("going on or was interrupted"), "{error}");
     drop(abandoned);
-    assert_eq!(summary(place.path())["complete"], false);
-    assert!(!place.path().join("listing.txt").exists());
+    assert_eq!(summary(&partial)["complete"], false);
+    finished(true);
+
+    let failed = create(&path, false).expect("writable").finish(&outcome(Some("too stiff")));
+    assert_eq!(failed.directory, partial);
+    drop(failed);
+    assert_eq!(summary(&partial)["error"], "too stiff");
+    finished(true);
+
+    create(&path, false).expect("writable").finish(&outcome(None)).written.expect("writable");
+    finished(false);
+    assert!(!partial.exists());
 }
 
 #[test]
 fn a_failed_run_keeps_what_was_computed_and_says_why() {
     let place = tempfile::tempdir().expect("a directory");
-    let mut directory = create(place.path(), true).expect("writable");
+    let path = place.path().join("run");
+    let mut directory = create(&path, true).expect("writable");
     assert!(directory.needs_detail());
     directory.sample(&snapshot(0.0)).expect("writable");
     directory.event(&event(1.0, EventKind::Release, Some(0)), &snapshot(1.0)).expect("writable");
-    directory.finish(&outcome(Some("step too small at 1.5"))).expect("writable");
+    // Nothing is there that is finished.
+    assert_eq!(directory.finish(&outcome(Some("step too small at 1.5"))).directory, path);
 
-    assert_eq!(lines(place.path(), "states.csv").len(), 2);
-    assert_eq!(lines(place.path(), "events.csv").len(), 2);
-    let listing = lines(place.path(), "listing.txt").join("\n");
+    assert_eq!(lines(&path, "states.csv").len(), 2);
+    assert_eq!(lines(&path, "events.csv").len(), 2);
+    let listing = lines(&path, "listing.txt").join("\n");
     assert_eq!(listing.matches("SYSTEM MOTION").count(), 2);
-    let summary = summary(place.path());
+    let summary = summary(&path);
     assert_eq!(summary["complete"], false);
     assert_eq!(summary["error"], "step too small at 1.5");
     assert_eq!(summary["steps_accepted"], 7);
 }
 
 #[test]
-fn a_full_disk_names_the_file_and_leaves_the_run_incomplete() {
-    let place = tempfile::tempdir().expect("a directory");
-    symlink("/dev/full", place.path().join("states.csv")).expect("a unix system");
-    let mut directory = create(place.path(), false).expect("the header is not flushed yet");
-    let refused = (0..1000)
-        .find_map(|i| directory.sample(&snapshot(f64::from(i))).err())
-        .expect("the disk is full");
-    assert_eq!(refused.kind(), std::io::ErrorKind::StorageFull);
-    assert!(refused.to_string().contains("states.csv"), "{refused}");
-
-    // The run did not hear of it: the summary must not be taken in either.
-    let refused = directory.finish(&outcome(None)).expect_err("the disk is still full");
-    assert!(matches!(refused, ResultsError::Write { .. }));
-    let summary = summary(place.path());
-    assert_eq!(summary["complete"], false);
-    let error = summary["error"].as_str().expect("a text");
-    assert!(error.contains("states.csv") && error.contains("No space left"), "{error}");
-}
-
-#[test]
 fn rows_do_not_wait_in_memory_for_a_printout_to_fill_the_disk() {
     let place = tempfile::tempdir().expect("a directory");
-    let mut directory = create(place.path(), true).expect("writable");
+    let mut directory = create(&place.path().join("run"), true).expect("writable");
     directory.sample(&snapshot(0.0)).expect("writable");
-    assert_eq!(lines(place.path(), "states.csv").len(), 2);
+    assert_eq!(lines(&place.path().join("run.partial"), "states.csv").len(), 2);
 }
 
 /// Stresses of the boom, whose one station is at its hinge.
@@ -259,12 +266,13 @@ fn analysis() -> StressAnalysis {
 #[test]
 fn no_row_of_stresses_is_on_the_disk_before_the_states_of_its_time() {
     let place = tempfile::tempdir().expect("a directory");
-    let directory = create(place.path(), false).expect("writable");
+    let directory = create(&place.path().join("run"), false).expect("writable");
     let mut directory = directory
         .with_stresses(&scene(), analysis(), StressTables { every: 1, signs: StressSigns::Tension })
         .expect("writable");
     let rows_on_disk = |file: &str| {
-        let text = fs::read_to_string(place.path().join(file)).expect("a table");
+        let text =
+            fs::read_to_string(place.path().join("run.partial").join(file)).expect("a table");
         text.matches('\n').count().saturating_sub(1)
     };
     let (mut writes, mut seen) = (0, 0);

@@ -118,6 +118,12 @@ pub enum SimError {
         /// The time they took.
         within: f64,
     },
+    /// The recorder asked for the end.
+    #[error("interrupted at time {}", moment(.time))]
+    Interrupted {
+        /// Time reached.
+        time: f64,
+    },
     /// The recorder could not keep something.
     #[error("at time {time}: {source}")]
     Record {

@@ -39,6 +39,7 @@
 //! ```
 
 mod attitude_norm;
+mod beforehand;
 mod closed_form;
 mod code;
 mod conservation;
@@ -68,6 +69,7 @@ mod step_motion;
 mod trust;
 mod variables;
 
+pub use beforehand::check_start;
 pub use closed_form::NotCovered;
 pub use conservation::{Conservation, PoorConservation};
 pub use error::{Failure, OptionError, SimError};

@@ -27,6 +27,12 @@ pub trait Recorder {
     /// When it cannot be kept.
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()>;
 
+    /// Whether the run shall end where it is, with [`SimError::Interrupted`](crate::SimError);
+    /// asked at every step and output time.
+    fn interrupted(&self) -> bool {
+        false
+    }
+
     /// Whether [`instant`](Self::instant) is wanted, which costs two evaluations of the equations of
     /// motion each.
     fn needs_instants(&self) -> bool {

@@ -34,6 +34,7 @@ pub(crate) struct Replay<'a> {
     guide: &'a [Event],
     accuracy: Accuracy,
     most_steps: usize,
+    interrupted: &'a dyn Fn() -> bool,
     steps: usize,
     dynamics: Recursive<DoubleDouble>,
     pub mode: Mode,
@@ -71,6 +72,7 @@ impl<'a> Replay<'a> {
         guide: &'a [Event],
         accuracy: Accuracy,
         most_steps: usize,
+        interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
         let Start { state, mode, lock_sides } = Start::of(scene);
         Self {
@@ -78,6 +80,7 @@ impl<'a> Replay<'a> {
             guide,
             accuracy,
             most_steps,
+            interrupted,
             steps: 0,
             dynamics: Recursive::new(scene),
             sizes: Sizes::of(scene),
@@ -281,6 +284,9 @@ impl<'a> Replay<'a> {
     /// Refuses a step that leads nowhere.
     fn check_step(&mut self, reach: f64) -> Result<(), SimError> {
         let time = self.state.time.to_f64();
+        if (self.interrupted)() {
+            return Err(SimError::Interrupted { time });
+        }
         if reach.is_nan() {
             return Err(SimError::NotFinite { time, hinge: None });
         }

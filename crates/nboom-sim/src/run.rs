@@ -187,6 +187,7 @@ impl<'a> Run<'a> {
     }
 
     fn step(&mut self, limit: f64) -> Result<(), SimError> {
+        self.check_interrupt(self.state.time)?;
         self.check_progress()?;
         let taken = self.stepper.step(&mut self.equations, limit);
         taken.map_err(|error| SimError::from_step(error, self.hinge_to_blame(error)))?;
@@ -291,6 +292,7 @@ impl<'a> Run<'a> {
     }
 
     fn sample(&mut self, state: &State) -> Result<(), SimError> {
+        self.check_interrupt(state.time)?;
         self.next_sample += 1;
         self.ledger.check(self.scene, &mut self.equations, state)?;
         let snapshot = self.snapshot(state)?;

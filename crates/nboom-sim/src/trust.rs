@@ -59,6 +59,30 @@ impl Recorder for Witness {
     }
 }
 
+/// The witness of a reference, which may be interrupted too.
+struct Asked<'a> {
+    witness: Witness,
+    interrupted: &'a dyn Fn() -> bool,
+}
+
+impl Recorder for Asked<'_> {
+    fn needs_detail(&self) -> bool {
+        self.witness.needs_detail()
+    }
+
+    fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
+        self.witness.sample(snapshot)
+    }
+
+    fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
+        self.witness.event(event, after)
+    }
+
+    fn interrupted(&self) -> bool {
+        (self.interrupted)()
+    }
+}
+
 /// What a run is compared with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reference {
@@ -145,7 +169,8 @@ impl Digits {
 /// of the run under `options`.
 ///
 /// # Errors
-/// When the reference cannot be computed to the end.
+/// When the reference cannot be computed to the end, or is `interrupted`, which is asked at every
+/// step.
 ///
 /// # Panics
 /// When `witness` saw no run.
@@ -154,16 +179,21 @@ pub fn trust(
     options: &Options,
     witness: &Witness,
     reference: Reference,
+    interrupted: &dyn Fn() -> bool,
 ) -> Result<Trust, Failure> {
     let (rtol, atol, truth) = match reference {
         Reference::TighterTolerance => {
             let rtol = (options.rtol * TIGHTER).max(TIGHTEST);
             let atol = options.atol * TIGHTER;
-            (rtol, atol, run_again(scene, options, rtol, atol)?.0)
+            (rtol, atol, run_again(scene, options, rtol, atol, interrupted)?.0)
         }
         Reference::DoubleDouble => {
             let Accuracy { relative, absolute, .. } = Accuracy::REFERENCE;
-            (relative, absolute, in_double_double(scene, options, Accuracy::REFERENCE)?)
+            (
+                relative,
+                absolute,
+                in_double_double(scene, options, Accuracy::REFERENCE, interrupted)?,
+            )
         }
     };
     let same = |(a, b): &(&Event, &Event)| (a.kind, a.hinge) == (b.kind, b.hinge);
@@ -183,6 +213,7 @@ fn run_again(
     options: &Options,
     rtol: f64,
     atol: f64,
+    interrupted: &dyn Fn() -> bool,
 ) -> Result<(Witness, Summary), Failure> {
     // A method that no tolerance makes accurate is compared with one.
     let integrator = match options.integrator {
@@ -191,9 +222,9 @@ fn run_again(
     };
     let max_steps = Options::default().max_steps.max(options.max_steps);
     let tighter = Options { integrator, rtol, atol, max_steps, samples: 1, ..*options };
-    let mut witness = Witness::new();
-    let summary = simulate(scene, &tighter, &mut witness)?;
-    Ok((witness, summary))
+    let mut asked = Asked { witness: Witness::new(), interrupted };
+    let summary = simulate(scene, &tighter, &mut asked)?;
+    Ok((asked.witness, summary))
 }
 
 /// The same in double-double, along the events of a run that is as accurate as `f64` allows.
@@ -201,9 +232,11 @@ fn in_double_double(
     scene: &Scene,
     options: &Options,
     accuracy: Accuracy,
+    interrupted: &dyn Fn() -> bool,
 ) -> Result<Witness, Failure> {
-    let (guide, summary) = run_again(scene, options, TIGHTEST, options.atol * TIGHTER)?;
-    let mut replay = Replay::new(scene, &guide.events, accuracy, options.max_steps);
+    let atol = options.atol * TIGHTER;
+    let (guide, summary) = run_again(scene, options, TIGHTEST, atol, interrupted)?;
+    let mut replay = Replay::new(scene, &guide.events, accuracy, options.max_steps, interrupted);
     match replay.complete() {
         Ok(as_guided) => {
             let last = as_guided.then(|| replay.snapshot());

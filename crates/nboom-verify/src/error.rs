@@ -1,6 +1,3 @@
-use std::io;
-use std::path::PathBuf;
-
 use nboom_model::HingeLabel;
 
 /// Why code cannot be compared.
@@ -50,14 +47,6 @@ pub enum VerifyError {
     NoEquations {
         /// The routine's formulation.
         formulation: &'static str,
-    },
-    /// The file cannot be written.
-    #[error("cannot write {}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
     },
 }
 

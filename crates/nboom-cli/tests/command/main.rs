@@ -4,7 +4,6 @@ mod certificate;
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -369,19 +368,6 @@ fn an_output_directory_that_cannot_be_made_is_a_failure() {
     refused(&place.nboom(&["run", "boom.nml", "-o", "file/run"]), 3, &["file/run"]);
     // Here not even the superuser may write.
     refused(&place.nboom(&["run", "boom.nml", "-o", "/proc/nboom"]), 3, &["/proc/nboom"]);
-}
-
-#[test]
-fn a_full_disk_is_a_failure_that_is_marked_incomplete() {
-    for file in ["states.csv", "events.csv"] {
-        let place = Place::new();
-        fs::create_dir(place.path("run")).expect("writable");
-        symlink("/dev/full", place.path("run").join(file)).expect("a unix system");
-        let output = place.nboom(&["run", "boom.nml", "-o", "run", "--samples", "1000"]);
-        refused(&output, 3, &[&format!("run/{file}"), "No space left"]);
-        let summary = place.summary("run");
-        assert_eq!(summary["complete"], false, "{summary}");
-    }
 }
 
 #[test]

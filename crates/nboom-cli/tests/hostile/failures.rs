@@ -144,11 +144,18 @@ fn a_disk_that_is_full() {
         let mut args = vec!["run", "deck.nml", "-o", "run", "--samples", "5000", "--quiet"];
         args.extend(more);
         let finished = place.nboom_with_files_of(blocks, &args);
-        finished.refused(told, 3, &["at time ", &format!("run/{file}"), "marked incomplete"]);
+        finished.refused(
+            told,
+            3,
+            &["at time ", &format!("run.partial/{file}"), "marked incomplete"],
+        );
         let rows = place.read("run/states.csv");
         assert!(rows.lines().count() > 20, "{told}: {} rows", rows.lines().count());
+        assert!(rows.ends_with('\n'), "{told}");
         let summary: Value = serde_json::from_str(&place.read("run/summary.json")).expect("JSON");
         assert_eq!(summary["complete"], false, "{told}");
+        let error = summary["error"].as_str().expect("a text");
+        assert!(error.contains(&format!("run.partial/{file}")), "{told}: {error}");
     }
 }
 

@@ -2,7 +2,8 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// The 1970 report's deck, on which the bad ones are made.
@@ -48,6 +49,14 @@ impl Place {
         self.limited(&format!("trap '' XFSZ && ulimit -f {blocks} && "), args)
     }
 
+    /// Starts the program and returns while it runs.
+    pub fn start(&self, args: &[&str]) -> Running {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+        command.args(args).current_dir(&self.directory).stdin(Stdio::null());
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+        Running { child: child.expect("the program starts") }
+    }
+
     fn limited(&self, limit: &str, args: &[&str]) -> Finished {
         let started = Instant::now();
         let output = Command::new("sh")
@@ -75,6 +84,44 @@ impl Place {
 impl Drop for Place {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.directory);
+    }
+}
+
+/// The program while it runs.
+pub struct Running {
+    child: Child,
+}
+
+impl Running {
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Waits until something is so that the program brings about.
+    pub fn wait_until(&mut self, mut is_so: impl FnMut() -> bool) {
+        let started = Instant::now();
+        while !is_so() {
+            assert!(started.elapsed() < PATIENCE, "it never came");
+            let ended = self.child.try_wait().expect("it is a child");
+            assert!(ended.is_none(), "it has ended: {ended:?}");
+            sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// Sends a signal, such as `INT`.
+    pub fn signal(&self, name: &str) {
+        let mut kill = Command::new("kill");
+        kill.args([format!("-{name}"), self.id().to_string()]).stderr(Stdio::null());
+        // The program may have ended by itself.
+        let _ = kill.status().expect("there is kill");
+    }
+
+    pub fn end(self) -> Finished {
+        let started = Instant::now();
+        let output = self.child.wait_with_output().expect("it ends");
+        let took = started.elapsed();
+        assert!(took < PATIENCE, "it took {took:?}");
+        Finished { output }
     }
 }
 

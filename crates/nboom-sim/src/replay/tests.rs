@@ -49,7 +49,7 @@ fn guide(scene: &Scene) -> Vec<Event> {
 }
 
 fn replay<'a>(scene: &'a Scene, guide: &'a [Event], accuracy: Accuracy) -> Replay<'a> {
-    let mut replay = Replay::new(scene, guide, accuracy, 1000);
+    let mut replay = Replay::new(scene, guide, accuracy, 1000, &|| false);
     assert!(replay.complete().expect("it runs to its end"), "{:?}", replay.events);
     replay
 }
@@ -74,7 +74,7 @@ fn energy_and_angular_momentum_are_conserved() {
     let scene = unfolding();
     let guide = guide(&scene);
     assert!(lock_ups(&guide) >= 2 && guide.len() > lock_ups(&guide), "{guide:?}");
-    let before = conserved(&mut Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000));
+    let before = conserved(&mut Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000, &|| false));
     let mut replay = replay(&scene, &guide, Accuracy::REFERENCE);
     let after = conserved(&mut replay);
     let largest = |all: &[DoubleDouble]| all.iter().fold(0.0_f64, |m, x| m.max(x.to_f64().abs()));
@@ -119,7 +119,7 @@ fn an_event_that_the_guide_misses_is_noticed() {
     for left_out in 0..whole.len() {
         let mut guide = whole.clone();
         guide.remove(left_out);
-        let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000);
+        let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000, &|| false);
         assert!(!replay.complete().expect("up to there it runs"), "{:?}", whole[left_out]);
     }
 }
@@ -132,7 +132,7 @@ fn an_event_that_does_not_come_is_refused_or_noticed() {
     // Of a hinge that is far from its lock angle.
     let other = (0..4).rfind(|&i| Some(i) != guide[first].hinge && i != 3).expect("one");
     guide[first].hinge = Some(other);
-    let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000);
+    let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000, &|| false);
     assert!(!matches!(replay.complete(), Ok(true)));
 }
 
@@ -140,6 +140,6 @@ fn an_event_that_does_not_come_is_refused_or_noticed() {
 fn steps_without_end_are_given_up() {
     let scene = unfolding();
     let guide = guide(&scene);
-    let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 2);
+    let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 2, &|| false);
     assert!(matches!(replay.complete(), Err(SimError::TooManySteps { steps: 2, .. })));
 }

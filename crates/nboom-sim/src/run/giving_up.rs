@@ -26,6 +26,11 @@ const CHATTER_EVENTS: usize = 1000;
 const CHATTER_SPAN: f64 = 1e-4;
 
 impl Run<'_> {
+    /// Ends a run whose recorder asks for that; `time` is how far it has come.
+    pub(super) fn check_interrupt(&self, time: f64) -> Result<(), SimError> {
+        if self.recorder.interrupted() { Err(SimError::Interrupted { time }) } else { Ok(()) }
+    }
+
     /// Gives up a run that has used up its steps, or that would at its present pace.
     pub(super) fn check_progress(&mut self) -> Result<(), SimError> {
         let counts = self.stepper.window().counts;

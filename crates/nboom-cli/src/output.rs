@@ -1,0 +1,25 @@
+//! Files that a command writes one at a time.
+
+use std::fs;
+use std::path::Path;
+
+use nboom_results::write_file;
+
+use crate::CliError;
+
+/// Refuses an output that is the command's own input.
+pub(crate) fn check(output: &Path, input: &Path) -> Result<(), CliError> {
+    let found = |path: &Path| fs::canonicalize(path).ok();
+    match found(output) {
+        Some(path) if Some(&path) == found(input).as_ref() => {
+            Err(CliError::OutputIsInput { path: output.to_owned() })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file, which is not the command's own input.
+pub(crate) fn write(output: &Path, input: &Path, text: &str) -> Result<(), CliError> {
+    check(output, input)?;
+    Ok(write_file(output, text)?)
+}

@@ -1,0 +1,73 @@
+//! What a terminal is given: text, and no orders to it that came in a name.
+
+use std::borrow::Cow;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use crate::CliError;
+
+/// Writes to standard output; a reader who has left, as `head` does, has seen enough.
+pub(crate) fn print(text: &str) -> Result<(), CliError> {
+    let mut out = io::stdout().lock();
+    match out.write_all(shown(text).as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::Stdout(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Says something beside the results. When nobody can hear it there is nobody to tell.
+pub(crate) fn say(kind: &str, line: &str) {
+    let _ = writeln!(io::stderr(), "{kind}: {}", shown(line));
+}
+
+/// Says what is wrong with the command line, or what it asks to be told of it, and ends.
+pub fn refuse(error: &clap::Error) -> ExitCode {
+    let text = error.render().to_string();
+    match shown(&text) {
+        // With the colours of a terminal.
+        Cow::Borrowed(_) => error.exit(),
+        Cow::Owned(text) => {
+            let _ = write!(io::stderr(), "{text}");
+            ExitCode::from(error.exit_code().clamp(0, 255) as u8)
+        }
+    }
+}
+
+/// Text in which characters that a terminal obeys are written out, in the form in which JSON has
+/// them; lines stay lines.
+fn shown(text: &str) -> Cow<'_, str> {
+    let is_order = |c: char| (c.is_control() && c != '\n') || turns_text_around(c);
+    if !text.contains(is_order) {
+        return Cow::Borrowed(text);
+    }
+    let escaped = |c: char| {
+        if is_order(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() }
+    };
+    Cow::Owned(text.chars().map(escaped).collect())
+}
+
+/// Whether a character changes the direction in which others are shown.
+fn turns_text_around(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orders_are_shown_and_not_sent() {
+        let plain = "Ø: 1 °, \u{65e5}\nand a line";
+        assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
+        assert_eq!(shown("a\u{1b}[2Jb\r\u{9b}1m\u{7f}"), "a\\u001b[2Jb\\u000d\\u009b1m\\u007f");
+        assert_eq!(shown("exe\u{202e}lmn"), "exe\\u202elmn");
+    }
+
+    #[test]
+    fn json_stays_json() {
+        let value = serde_json::json!({ "id": "a\u{1b}\u{7f}\u{9b}\u{202e}\u{2066}b" });
+        let text = format!("{value:#}\n");
+        let read: serde_json::Value = serde_json::from_str(&shown(&text)).expect("JSON");
+        assert_eq!(read, value);
+    }
+}

@@ -1,0 +1,36 @@
+//! Names of the files of a run.
+
+/// Name of the table of states within a run's directory.
+pub const STATES_FILE: &str = "states.csv";
+/// Name of the table of events within a run's directory.
+pub const EVENTS_FILE: &str = "events.csv";
+/// Name of the summary within a run's directory.
+pub const SUMMARY_FILE: &str = "summary.json";
+/// Name of the table of stresses within a run's directory.
+pub const STRESS_FILE: &str = "stress.csv";
+/// Name of the table of hinge loads within a run's directory.
+pub const HINGE_LOADS_FILE: &str = "hinge_loads.csv";
+/// Name of the table of impulses that hinges transmit at lock-ups within a run's directory.
+pub const LATCH_IMPULSES_FILE: &str = "latch_impulses.csv";
+/// Name of the table of each hinge's largest loads within a run's directory.
+pub const HINGE_ENVELOPE_FILE: &str = "hinge_load_envelope.csv";
+/// Name of the table of each station's worst stress within a run's directory.
+pub const ENVELOPE_FILE: &str = "stress_envelope.csv";
+/// Name of the printout within a run's directory.
+pub const LISTING_FILE: &str = "listing.txt";
+/// The file of a run that tells how many of its digits can be trusted.
+pub const TRUST_FILE: &str = "certificate.json";
+
+/// All names that a run may write; what has another name in its directory is not its own.
+pub const FILES: [&str; 10] = [
+    STATES_FILE,
+    EVENTS_FILE,
+    STRESS_FILE,
+    HINGE_LOADS_FILE,
+    LATCH_IMPULSES_FILE,
+    HINGE_ENVELOPE_FILE,
+    ENVELOPE_FILE,
+    LISTING_FILE,
+    TRUST_FILE,
+    SUMMARY_FILE,
+];

@@ -1,0 +1,255 @@
+//! Where a run writes, and how what it wrote takes the place of an earlier result.
+//!
+//! A run writes into `DIR.partial`, which it holds locked. When it is complete its files are moved
+//! to DIR one by one, from the moment on in which the summary in `DIR.partial` says complete: a run
+//! that is killed then has taken its place as soon as the next one begins.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use crate::earlier::Earlier;
+use crate::kind::Kind;
+use crate::lock::Lock;
+use crate::whole::Draft;
+use crate::{FILES, ResultsError, SUMMARY_FILE};
+
+/// What the name of a directory gets while results in it are not finished.
+const PARTIAL: &str = ".partial";
+
+/// Name of a summary that will take the place of another, within `DIR.partial`.
+const DRAFT_FILE: &str = "summary.json.new";
+
+/// A directory for the results of a run, and the locked one that they are written into.
+#[derive(Debug)]
+pub(crate) struct Place {
+    finished: PathBuf,
+    partial: PathBuf,
+    lock: Lock,
+    /// Whether an earlier run was complete and had not been put into its place.
+    pub has_put_right: bool,
+}
+
+impl Place {
+    /// Locks the place of the results `directory`, puts right what a run left that was killed, and
+    /// leaves nothing of an unfinished run.
+    ///
+    /// # Errors
+    /// When it is held by another run, when a file of a run's name was not written by a run, and
+    /// when the system refuses. What is in `directory` is not touched then.
+    pub fn take(directory: &Path) -> Result<Self, ResultsError> {
+        let (parent, name) = parted(directory)?;
+        let finished = parent.join(&name);
+        let partial = parent.join([name, PARTIAL.into()].join(&OsString::new()));
+        let lock = Lock::acquire(&partial, &finished)?;
+        let mut place = Self { finished, partial, lock, has_put_right: false };
+        same_volume(&place.finished, &place.partial)?;
+        place.put_right()?;
+        check(&place.finished)?;
+        place.clear()?;
+        Ok(place)
+    }
+
+    /// The directory that is written into.
+    pub fn partial(&self) -> &Path {
+        &self.partial
+    }
+
+    /// A file that will be a summary.
+    pub fn draft(&self) -> Result<Draft, ResultsError> {
+        let path = self.partial.join(DRAFT_FILE);
+        Draft::create(path.clone()).map_err(ResultsError::writing(&path))
+    }
+
+    /// The names of a run that have been written.
+    pub fn files(&self) -> impl Iterator<Item = &'static str> {
+        let is_there = |name: &&str| self.partial.join(name).exists();
+        FILES.into_iter().filter(is_there)
+    }
+
+    /// Moves what was written to the finished directory, unless it is incomplete and that one has a
+    /// finished result. Returns where it is then.
+    ///
+    /// # Errors
+    /// When something cannot be moved; then the rest is still where it was written.
+    pub fn settle(&self) -> Result<&Path, ResultsError> {
+        let new = Earlier::in_directory(&self.partial)?.expect("a run writes a summary first");
+        let old = check(&self.finished)?;
+        if !new.complete && old.as_ref().is_some_and(|old| old.complete) {
+            return Ok(&self.partial);
+        }
+        if new.complete {
+            self.files().try_for_each(|name| sync(&self.partial.join(name)))?;
+        }
+        fs::create_dir_all(&self.finished).map_err(|error| self.misplaced("", error))?;
+        let steps = steps(&new, old.as_ref());
+        steps.into_iter().try_for_each(|step| self.take_step(&new, step))?;
+        Ok(&self.finished)
+    }
+
+    /// Adds a file to the finished results.
+    pub fn add(&self, name: &'static str, text: &str) -> Result<(), ResultsError> {
+        assert!(FILES.contains(&name), "{name} is in the table of names");
+        let (path, target) = (self.partial.join(name), self.finished.join(name));
+        let added = Draft::create(path).and_then(|draft| draft.publish(&target, text.as_bytes()));
+        added.map_err(ResultsError::writing(&target))
+    }
+
+    fn take_step(&self, new: &Earlier, step: Step) -> Result<(), ResultsError> {
+        match step {
+            Step::Mark(files) => {
+                let mark = new.as_mark(&files, &self.partial);
+                let _ = fs::remove_file(self.partial.join(DRAFT_FILE));
+                let target = self.finished.join(SUMMARY_FILE);
+                let marked = self.draft()?.publish(&target, &mark);
+                marked.map_err(|error| self.misplaced(SUMMARY_FILE, error))
+            }
+            Step::Remove(name) => remove(&self.finished.join(name)),
+            Step::Move(name) => {
+                let moved = fs::rename(self.partial.join(name), self.finished.join(name));
+                match moved {
+                    // A run that was killed had moved it already, or never wrote it.
+                    Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+                    moved => moved.map_err(|error| self.misplaced(name, error)),
+                }
+            }
+        }
+    }
+
+    fn misplaced(&self, name: &str, source: io::Error) -> ResultsError {
+        let (from, to) = (self.partial.clone(), self.finished.join(name));
+        ResultsError::Misplaced { from, to, source }
+    }
+
+    /// Lets a complete run that was killed before it took its place do so.
+    fn put_right(&mut self) -> Result<(), ResultsError> {
+        self.require_ours()?;
+        if Earlier::in_directory(&self.partial)?.is_some_and(|left| left.complete) {
+            self.settle()?;
+            self.has_put_right = true;
+        }
+        Ok(())
+    }
+
+    /// Refuses files of a run's name that no run has written. Whatever a run holds is its own.
+    fn require_ours(&self) -> Result<(), ResultsError> {
+        if self.lock.was_left { Ok(()) } else { check(&self.partial).map(|_| ()) }
+    }
+
+    /// Removes what is left of an unfinished run.
+    fn clear(&self) -> Result<(), ResultsError> {
+        let mut names = FILES.into_iter().chain([DRAFT_FILE]);
+        names.try_for_each(|name| remove(&self.partial.join(name)))
+    }
+}
+
+/// One of the steps by which results take the place of others. After each of them a summary says
+/// what is there.
+#[derive(Clone, Debug, PartialEq)]
+enum Step {
+    /// Say that the place is being taken, and whose all these files are.
+    Mark(Vec<String>),
+    /// Remove a file that the new results do not have.
+    Remove(&'static str),
+    /// Move a file.
+    Move(&'static str),
+}
+
+/// The steps by which `new` results take the place of `old` ones.
+///
+/// Complete results say so last. Of incomplete ones the summary, which says that, comes first.
+fn steps(new: &Earlier, old: Option<&Earlier>) -> Vec<Step> {
+    let is_new = |name: &&str| new.files.iter().any(|file| file == name);
+    let is_old = |name: &str| old.is_some_and(|old| old.files.iter().any(|file| file == name));
+    let all = FILES.into_iter().filter(|name| is_new(name) || is_old(name));
+    let all: Vec<String> = all.map(str::to_owned).collect();
+    let stale = FILES.into_iter().filter(|name| is_old(name) && !is_new(name));
+    let tables = FILES.into_iter().filter(|name| *name != SUMMARY_FILE).filter(is_new);
+    let (stale, tables) = (stale.map(Step::Remove), tables.map(Step::Move));
+    let summary = Step::Move(SUMMARY_FILE);
+    let mut steps = Vec::new();
+    if new.complete {
+        steps.push(Step::Mark(all));
+        steps.extend(stale.chain(tables));
+        steps.push(summary);
+    } else {
+        steps.extend(stale);
+        steps.push(summary);
+        steps.extend(tables);
+    }
+    steps
+}
+
+/// Parent and name of a directory for results.
+fn parted(directory: &Path) -> Result<(PathBuf, OsString), ResultsError> {
+    let unnamed = || ResultsError::Name { path: directory.to_owned() };
+    let named = match directory.file_name() {
+        Some(_) => directory.to_owned(),
+        // `.` and `..` have names of their own.
+        None => fs::canonicalize(directory).map_err(|_| unnamed())?,
+    };
+    let name = named.file_name().ok_or_else(unnamed)?.to_owned();
+    if name.to_string_lossy().ends_with(PARTIAL) {
+        return Err(unnamed());
+    }
+    Ok((named.parent().map(Path::to_owned).unwrap_or_default(), name))
+}
+
+/// What a run has left in a directory, in which no file of a run's name is anybody else's.
+fn check(directory: &Path) -> Result<Option<Earlier>, ResultsError> {
+    let failed = |source| ResultsError::Directory { path: directory.to_owned(), source };
+    match Kind::of(directory).map_err(failed)? {
+        Kind::Nothing => return Ok(None),
+        Kind::Directory => {}
+        found => return Err(ResultsError::NotADirectory { path: directory.to_owned(), found }),
+    }
+    let earlier = Earlier::in_directory(directory)?;
+    for name in FILES {
+        let path = directory.join(name);
+        let is_ours = |earlier: &Earlier| earlier.files.iter().any(|file| file == name);
+        match Kind::of(&path).map_err(ResultsError::writing(&path))? {
+            Kind::Nothing => {}
+            Kind::File if earlier.as_ref().is_some_and(is_ours) => {}
+            found => return Err(ResultsError::Foreign { path, found }),
+        }
+    }
+    Ok(earlier)
+}
+
+/// Refuses a directory that files beside it cannot be moved into.
+#[cfg(unix)]
+fn same_volume(finished: &Path, partial: &Path) -> Result<(), ResultsError> {
+    use std::os::unix::fs::MetadataExt;
+    let volume = |path: &Path| fs::metadata(path).ok().map(|found| found.dev());
+    match volume(finished) {
+        Some(found) if Some(found) != volume(partial) => {
+            Err(ResultsError::Mounted { path: finished.to_owned() })
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(not(unix))]
+fn same_volume(_: &Path, _: &Path) -> Result<(), ResultsError> {
+    Ok(())
+}
+
+/// Waits until a file is on the disk.
+fn sync(path: &Path) -> Result<(), ResultsError> {
+    let synced = fs::OpenOptions::new().write(true).open(path).and_then(|file| file.sync_all());
+    synced.map_err(ResultsError::writing(path))
+}
+
+/// Removes a file or a link, if there is one.
+fn remove(path: &Path) -> Result<(), ResultsError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(ResultsError::writing(path)(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

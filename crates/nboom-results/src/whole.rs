@@ -1,0 +1,143 @@
+//! Files that are replaced whole: they hold what they held or what they shall, and nothing else.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use crate::ResultsError;
+use crate::kind::Kind;
+
+/// Writes a file at `path`, into a folder that is made if need be; an older file is replaced.
+///
+/// # Errors
+/// [`ResultsError::Foreign`] where something else than a file is there, a link too; otherwise
+/// when it cannot be written, and then an older file stays.
+pub fn write_file(path: &Path, text: &str) -> Result<(), ResultsError> {
+    match Kind::of(path).map_err(ResultsError::writing(path))? {
+        Kind::File | Kind::Nothing => {}
+        found => return Err(ResultsError::Foreign { path: path.to_owned(), found }),
+    }
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    folder.map_err(ResultsError::writing(path))?;
+    let mut numbers = 0..;
+    let draft = loop {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let number = numbers.next().unwrap_or(0);
+        match Draft::create(path.with_file_name(format!(".{name}.{number}.new"))) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            made => break made.map_err(ResultsError::writing(path))?,
+        }
+    };
+    draft.publish(path, text.as_bytes()).map_err(ResultsError::writing(path))
+}
+
+/// A file that will take the place of another; where it does not, it goes.
+#[derive(Debug)]
+pub(crate) struct Draft {
+    path: PathBuf,
+    file: File,
+    published: bool,
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        if !self.published {
+            // What is left over then matters less than why.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+impl Draft {
+    /// Makes the file at `path`, where nothing is.
+    pub fn create(path: PathBuf) -> io::Result<Self> {
+        let file = OpenOptions::new().write(true).create_new(true).open(&path)?;
+        Ok(Self { path, file, published: false })
+    }
+
+    /// Keeps so many bytes of the disk for this file.
+    pub fn reserve(&mut self, bytes: usize) -> io::Result<()> {
+        self.file.write_all(&vec![b' '; bytes])
+    }
+
+    /// Makes the file hold a text and puts it at `target`.
+    pub fn publish(mut self, target: &Path, text: &[u8]) -> io::Result<()> {
+        self.write(text)?;
+        self.put(target)
+    }
+
+    /// The same; where there is no room for the text, with one that says why.
+    ///
+    /// # Errors
+    /// When it is not the text that is there now.
+    pub fn publish_or(
+        mut self,
+        target: &Path,
+        text: &[u8],
+        instead: impl FnOnce(&io::Error) -> Vec<u8>,
+    ) -> io::Result<()> {
+        match self.write(text) {
+            Ok(()) => self.put(target),
+            Err(error) => {
+                // The first reason says most.
+                let _ = self.publish(target, &instead(&error));
+                Err(error)
+            }
+        }
+    }
+
+    fn put(&mut self, target: &Path) -> io::Result<()> {
+        fs::rename(&self.path, target)?;
+        self.published = true;
+        Ok(())
+    }
+
+    /// Makes the file hold a text and nothing else.
+    fn write(&mut self, text: &[u8]) -> io::Result<()> {
+        self.file.rewind()?;
+        self.file.write_all(text)?;
+        self.file.set_len(text.len() as u64)?;
+        // A rename may reach the disk before the data it names.
+        self.file.sync_all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_and_its_neighbours_stay() {
+        let place = tempfile::tempdir().expect("a directory");
+        let path = place.path().join("answer.json");
+        fs::write(&path, "old and longer").expect("writable");
+        fs::write(place.path().join(".answer.json.0.new"), "mine").expect("writable");
+        write_file(&path, "new").expect("writable");
+        assert_eq!(fs::read_to_string(&path).ok().as_deref(), Some("new"));
+        assert_eq!(fs::read_dir(place.path()).expect("readable").count(), 2);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_directories_are_refused() {
+        let place = tempfile::tempdir().expect("a directory");
+        let (target, link) = (place.path().join("target"), place.path().join("link"));
+        fs::write(&target, "mine").expect("writable");
+        std::os::unix::fs::symlink(&target, &link).expect("a unix system");
+        for path in [&link, place.path()] {
+            let refused = write_file(path, "new").expect_err("it is no file");
+            assert!(matches!(refused, ResultsError::Foreign { .. }), "{refused}");
+        }
+        assert_eq!(fs::read_to_string(&target).ok().as_deref(), Some("mine"));
+    }
+
+    #[test]
+    fn what_is_reserved_leaves_no_trace() {
+        let place = tempfile::tempdir().expect("a directory");
+        let target = place.path().join("summary.json");
+        let mut draft = Draft::create(place.path().join("draft")).expect("writable");
+        draft.reserve(1 << 14).expect("writable");
+        draft.publish(&target, b"short").expect("writable");
+        assert_eq!(fs::read_to_string(&target).ok().as_deref(), Some("short"));
+    }
+}
