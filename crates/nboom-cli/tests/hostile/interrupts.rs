@@ -99,7 +99,7 @@ fn a_run_that_only_writes_is_interrupted() {
     };
     let reached = summary(&place.path("run")).expect("a summary")["end_time"].as_f64();
     let reached = reached.expect("a time");
-    // Output times are 1e-7 apart, and the last ones are in both tables.
-    assert!((last_time("states.csv") - last_time("stress.csv")).abs() < 1e-10);
+    // Output times are 1e-7 apart, and stresses are asked for at every third.
     assert!(last_time("states.csv") >= reached - 1.5e-7, "{reached}");
+    assert!(last_time("stress.csv") >= reached - 3.5e-7, "{reached}");
 }
