@@ -36,6 +36,7 @@ mod section_file;
 mod simulator;
 mod slips;
 mod stresses;
+mod verdict;
 mod verify;
 mod watch;
 mod work_precision;

@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
 use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion, Summary};
-use nboom_strength::{StressAnalysis, Worst};
+use nboom_strength::StressAnalysis;
 
 use crate::rows::{self, Output};
 use crate::stress::StressWriter;
 use crate::{
     ENVELOPE_FILE, EVENTS_FILE, EventsWriter, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,
     LATCH_IMPULSES_FILE, LISTING_FILE, ListingWriter, ResultsError, RunDescription, STATES_FILE,
-    STRESS_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, with_causes,
+    STRESS_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, WorstLoads,
+    with_causes,
 };
 
 /// The directory of one run: creates it, writes its tables while the run goes on, and its
@@ -88,12 +89,14 @@ impl RunDirectory {
         Ok(self)
     }
 
-    /// The largest von Mises stress when the run is over, and where.
-    pub fn worst_stress(&mut self) -> Option<Worst> {
-        let analysis = &mut self.stresses.as_mut()?.analysis;
+    /// The worst stresses and hinge loads when the run is over; nothing where none are computed.
+    pub fn worst_loads(&mut self) -> WorstLoads {
+        let Some(stresses) = &mut self.stresses else { return WorstLoads::default() };
         // Whatever is wrong, `finish` comes upon it again.
-        analysis.finish().ok()?;
-        analysis.worst_stress()
+        match stresses.analysis.finish() {
+            Ok(()) => WorstLoads::of(&stresses.analysis),
+            Err(_) => WorstLoads::default(),
+        }
     }
 
     /// Writes what is left and the summary.
@@ -111,7 +114,9 @@ impl RunDirectory {
         let tables = instant.and(states).and(listing).and(stresses);
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
-        let summary = SummaryFile::ended(&self.run, &outcome.summary, outcome.wall_seconds, error);
+        let worst = self.worst_loads();
+        let Outcome { summary, wall_seconds, .. } = outcome;
+        let summary = SummaryFile::ended(&self.run, summary, &worst, *wall_seconds, error);
         tables.and(summary.replace(&self.path.join(SUMMARY_FILE)))
     }
 

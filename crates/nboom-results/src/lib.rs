@@ -33,6 +33,7 @@ mod stress;
 mod summary;
 mod trust;
 mod units;
+mod verdict;
 
 #[cfg(test)]
 mod fixture;
@@ -45,9 +46,10 @@ pub use listing::ListingWriter;
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;
-pub use summary::{RunDescription, SummaryFile, path_and_formulation};
+pub use summary::{RunDescription, SummaryFile};
 pub use trust::{TRUST_FILE, write_trust};
 pub use units::UnitSystem;
+pub use verdict::WorstLoads;
 
 /// Name of the table of states within a run's directory.
 pub const STATES_FILE: &str = "states.csv";

@@ -2,10 +2,11 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-use nboom_model::{Facts, Scene};
-use nboom_sim::{Conservation, Integration, Selection, Summary};
+use nboom_model::{Facts, HingeLabel, Scene};
+use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
 use serde::Serialize;
 
+use crate::verdict::{VerdictKeys, WorstLoads};
 use crate::{ResultsError, StressTables, UnitSystem};
 
 /// What is known about a run before it starts.
@@ -33,6 +34,10 @@ pub struct RunDescription {
     pub skipped: Vec<String>,
     /// What is allowed about the scene but probably not meant.
     pub warnings: Vec<String>,
+    /// SHA-256 of the scene's file, in hexadecimal digits; none of a scene that was made in memory.
+    pub input_sha256: Option<String>,
+    /// Labels of the scene's hinges.
+    pub hinges: Vec<HingeLabel>,
 }
 
 impl RunDescription {
@@ -50,17 +55,10 @@ impl RunDescription {
             print_interval: 1,
             skipped: Facts::of(scene).skipped(),
             warnings: Vec::new(),
+            input_sha256: None,
+            hinges: (0..scene.bodies.len()).map(|i| scene.label(i)).collect(),
         }
     }
-}
-
-/// The path and the formulation that stand for a whole run: those of its generated modes, if it
-/// has any, else of its closed forms, else the recursion.
-pub fn path_and_formulation(summary: &Summary) -> (&'static str, &'static str) {
-    const RECURSION: (&str, &str) = ("generic", "recursive");
-    let each = || summary.selections.iter().map(|s| (s.path, s.formulation));
-    let generated = each().find(|(path, _)| *path == "generated");
-    generated.or_else(|| each().find(|code| *code != RECURSION)).unwrap_or(RECURSION)
 }
 
 /// The keys of `summary.json`.
@@ -69,9 +67,12 @@ pub fn path_and_formulation(summary: &Summary) -> (&'static str, &'static str) {
 #[derive(Clone, Debug, Serialize)]
 pub struct SummaryFile<'a> {
     scene: &'a str,
+    version: &'static str,
+    input_sha256: Option<&'a str>,
     degrees_of_freedom: usize,
     path: &'a str,
     formulation: &'a str,
+    generated_share: f64,
     selections: Vec<SelectionKeys<'a>>,
     integrator: &'a str,
     integrations: Vec<IntegrationKeys>,
@@ -91,6 +92,7 @@ pub struct SummaryFile<'a> {
     jacobians: usize,
     factorizations: usize,
     events: usize,
+    verdict: Option<VerdictKeys>,
     wall_seconds: f64,
     conservation: ConservationKeys,
     attitude_drift: f64,
@@ -104,12 +106,13 @@ struct SelectionKeys<'a> {
     path: &'a str,
     formulation: &'a str,
     reason: &'a str,
+    evaluations: usize,
 }
 
 impl<'a> From<&'a Selection> for SelectionKeys<'a> {
     fn from(selection: &'a Selection) -> Self {
-        let Selection { since, path, formulation, reason } = selection;
-        Self { since: *since, path, formulation, reason }
+        let Selection { since, path, formulation, reason, evaluations } = selection;
+        Self { since: *since, path, formulation, reason, evaluations: *evaluations }
     }
 }
 
@@ -162,9 +165,12 @@ impl<'a> SummaryFile<'a> {
     pub fn unfinished(run: &'a RunDescription) -> Self {
         Self {
             scene: &run.scene,
+            version: env!("CARGO_PKG_VERSION"),
+            input_sha256: run.input_sha256.as_deref(),
             degrees_of_freedom: run.degrees_of_freedom,
             path: "generic",
             formulation: "recursive",
+            generated_share: 0.0,
             selections: Vec::new(),
             integrator: run.integrator,
             integrations: Vec::new(),
@@ -182,6 +188,7 @@ impl<'a> SummaryFile<'a> {
             jacobians: 0,
             factorizations: 0,
             events: 0,
+            verdict: None,
             wall_seconds: 0.0,
             conservation: Conservation::default().into(),
             attitude_drift: 0.0,
@@ -191,17 +198,21 @@ impl<'a> SummaryFile<'a> {
     }
 
     /// The summary of a run that has ended; it is complete when there is no `error`.
+    ///
+    /// `worst` has the worst stresses and hinge loads, if any were computed.
     pub fn ended(
         run: &'a RunDescription,
         summary: &'a Summary,
+        worst: &WorstLoads,
         wall_seconds: f64,
         error: Option<&'a str>,
     ) -> Self {
-        let (path, formulation) = path_and_formulation(summary);
+        let CodeOfRun { path, formulation, generated_share } = summary.code();
         let poor = summary.conservation.poor(run.rtol).map(|law| law.to_string());
         Self {
             path,
             formulation,
+            generated_share,
             selections: summary.selections.iter().map(SelectionKeys::from).collect(),
             integrator: summary.integrator,
             integrations: summary.integrations.iter().map(IntegrationKeys::from).collect(),
@@ -214,6 +225,7 @@ impl<'a> SummaryFile<'a> {
             jacobians: summary.jacobians,
             factorizations: summary.factorizations,
             events: summary.events,
+            verdict: Some(VerdictKeys::new(&run.hinges, &summary.verdict, worst)),
             wall_seconds,
             conservation: summary.conservation.into(),
             attitude_drift: summary.attitude_drift,
