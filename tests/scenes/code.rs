@@ -6,7 +6,7 @@ use nboom::model::{
     Body, Hinge, HingeState, MassProperties, Mount, Release, Scene, SceneDescription,
 };
 use nboom::scalar::{Kernel, Sym3, Vec3};
-use nboom::sim::{Form, NoRoutine, Options, Path, Selection, SimError};
+use nboom::sim::{Form, Method, NoRoutine, Options, Path, Selection, SimError};
 
 use crate::catalog::Reference;
 use crate::collect::{run, tight, try_run};
@@ -106,6 +106,38 @@ fn the_automatic_path_replaces_what_does_not_cover_the_mode() {
     assert_eq!((boom.path, boom.formulation), ("generated", "articulated"));
     let why = "no routine: hinge 1,2 belongs neither to a chain nor to a paddle of rigid bodies";
     assert_eq!(told(tree), ("generic", "recursive", why));
+}
+
+/// Evaluations are counted by the integrator, too.
+#[test]
+fn evaluations_are_shared_out_among_the_code_that_made_them() {
+    // Each half of the span takes several steps.
+    for (path, told, [least, most]) in
+        [(Path::Auto, "mixed", [0.1, 0.9]), (Path::Generic, "generic", [0.0, 0.0])]
+    {
+        let (_, summary) = run(&skew(), &asking(path, None, nboom_routines::all()));
+        let code = summary.code();
+        assert_eq!(code.path, told, "{:?}", summary.selections);
+        let counted: usize = summary.selections.iter().map(|of| of.evaluations).sum();
+        assert_eq!(counted, summary.evaluations);
+        let of_routines = summary.selections.iter().filter(|of| of.path == "generated");
+        let of_routines: usize = of_routines.map(|of| of.evaluations).sum();
+        assert_eq!(code.generated_share, of_routines as f64 / counted as f64);
+        assert!((least..=most).contains(&code.generated_share), "{}", code.generated_share);
+    }
+}
+
+#[test]
+fn series_are_nobody_else_s_code() {
+    let options =
+        Options { integrator: Method::Taylor, ..asking(Path::Auto, None, nboom_routines::all()) };
+    let (_, summary) = run(&skew(), &options);
+    let [boom, tree] = &summary.selections[..] else { panic!("{:?}", summary.selections) };
+    let why = "power series of these equations, as recorded";
+    assert_eq!(told(boom), ("series", "articulated", why));
+    assert_eq!((tree.since, told(tree)), (0.5, ("series", "recursive", why)));
+    assert_eq!((summary.code().path, summary.code().generated_share), ("series", 0.0));
+    assert_eq!(boom.evaluations + tree.evaluations, summary.evaluations);
 }
 
 /// The stock routines for a boom under the name of this formulation.

@@ -27,6 +27,9 @@ pub enum ChoiceError {
     /// A tolerance or a length of time is zero or negative.
     #[error("a number above zero expected")]
     NotPositive,
+    /// The number is below 1 or above 2.
+    #[error("a number from 1 to 2 expected")]
+    NotAnAmplification,
     /// No run can have this.
     #[error(transparent)]
     Option(#[from] OptionError),
@@ -80,6 +83,12 @@ pub(crate) fn positive(text: &str) -> Result<f64, ChoiceError> {
     if value > 0.0 { Ok(value) } else { Err(ChoiceError::NotPositive) }
 }
 
+/// Slow pulses are not amplified, and none by more than 2.
+pub(crate) fn amplification(text: &str) -> Result<f64, ChoiceError> {
+    let value = finite(text)?;
+    if (1.0..=2.0).contains(&value) { Ok(value) } else { Err(ChoiceError::NotAnAmplification) }
+}
+
 pub(crate) fn rtol(text: &str) -> Result<f64, ChoiceError> {
     let rtol = finite(text)?;
     Options { rtol, ..Options::default() }.check()?;
@@ -111,6 +120,16 @@ mod tests {
         ] {
             assert_eq!(rtol(text), Err(error.clone()));
             assert_eq!(positive(text), Err(error));
+        }
+    }
+
+    #[test]
+    fn amplifications_are_from_one_to_two() {
+        for text in ["1", "1.77", "2"] {
+            assert_eq!(amplification(text).ok(), text.parse().ok());
+        }
+        for text in ["0.5", "0.99", "2.01", "7", "-1"] {
+            assert_eq!(amplification(text), Err(ChoiceError::NotAnAmplification), "{text}");
         }
     }
 

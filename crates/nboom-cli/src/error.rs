@@ -27,9 +27,26 @@ pub enum CliError {
         "--path generated --formulation recursive: the recursion is library code, which --path generic runs"
     )]
     GeneratedRecursion,
-    /// Code for stresses is asked of a scene that has no stations.
-    #[error("--stresses: scene {scene} has no stations, stress groups with INSTR > 0 expected")]
+    /// The choice of code is asked of a method that makes its own.
+    #[error(
+        "{option} with --integrator taylor: it is made of power series of the equations of motion, \
+         for which there is no other code"
+    )]
+    NotWithTaylor {
+        /// The option that would do nothing.
+        option: &'static str,
+    },
+    /// Something about stresses is asked of a run that is to compute none.
+    #[error("{option} with --no-stresses: there is nothing for it to act on")]
+    NoStresses {
+        /// The option.
+        option: &'static str,
+    },
+    /// Something about stresses is asked of a scene that has no stations.
+    #[error("{option}: scene {scene} has no stations, stress groups with INSTR > 0 expected")]
     NoStations {
+        /// The option.
+        option: &'static str,
         /// The scene.
         scene: String,
     },
@@ -111,6 +128,7 @@ impl CliError {
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
+            Self::NotWithTaylor { .. } | Self::NoStresses { .. } => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },

@@ -7,7 +7,10 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
     let GenerateArgs { formulation, level, equations, lock_states, .. } = *args;
     let stresses = match (args.stresses, &file.structure) {
-        (true, None) => return Err(CliError::NoStations { scene: file.scene.name.clone() }),
+        (true, None) => {
+            let scene = file.scene.name.clone();
+            return Err(CliError::NoStations { option: "--stresses", scene });
+        }
         (asked, structure) => structure.as_ref().filter(|_| asked),
     };
     let numbers = if args.baked { Numbers::Baked } else { Numbers::RunTime };

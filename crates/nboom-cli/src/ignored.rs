@@ -1,28 +1,69 @@
-//! What is accepted but does nothing in a run, so that nobody waits for it.
+//! What would do nothing in a run: options that are refused, and what is accepted but said to be
+//! ignored, so that nobody waits for it.
 
 use nboom_io::{LegacySettings, SceneFile};
-use nboom_sim::Method;
+use nboom_sim::{Method, Options};
+use nboom_strength::PulseShape;
 
-use crate::RunArgs;
+use crate::{CliError, PathChoice, RunArgs};
+
+/// Refuses options of a run to which others, or the scene, leave nothing to do.
+pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliError> {
+    let taylor = args.integrator == Method::Taylor;
+    let has_path = args.path != PathChoice::Auto;
+    let code = [("--path", has_path), ("--formulation", args.formulation.is_some())];
+    if let Some((option, _)) = code.into_iter().find(|(_, given)| taylor && *given) {
+        return Err(CliError::NotWithTaylor { option });
+    }
+    let stresses = &args.stresses;
+    let structure = file.structure.is_some();
+    let has_stresses = structure && !stresses.no_stresses;
+    let has_pulses = has_stresses || structure && stresses.hinge_loads;
+    let needed = [
+        ("--yield-stress", stresses.yield_stress.is_some(), has_stresses),
+        ("--report-signs", stresses.report_signs, has_stresses),
+        ("--amplification", stresses.amplification.is_some(), has_pulses),
+        ("--pulses", stresses.pulses != PulseShape::default(), has_pulses),
+    ];
+    match needed.into_iter().find(|(_, given, needed)| *given && !needed) {
+        Some((option, ..)) if structure => Err(CliError::NoStresses { option }),
+        Some((option, ..)) => Err(CliError::NoStations { option, scene: file.scene.name.clone() }),
+        None => Ok(()),
+    }
+}
 
 /// What a run by default, if there is no command line to say otherwise, takes no notice of: words of
 /// the deck and options, each with its reason, in one line. `None` when there is nothing of the kind.
+/// `file` has the scene as it is without slips.
 pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String> {
     let by_rkam = args.is_some_and(|args| args.integrator == Method::Rkam);
     let listing = args.is_some_and(|args| args.listing);
     let stresses = file.structure.is_some() && !args.is_some_and(|args| args.stresses.no_stresses);
     let for_rkam = if by_rkam { Vec::new() } else { words_for_rkam(&file.legacy) };
+    let bounded = by_rkam && file.legacy.upper_error.is_some();
+    let tolerances = args.filter(|_| bounded).map_or_else(Vec::new, given_tolerances);
+    let structure = file.structure.as_ref().filter(|_| stresses);
+    let slips = args.map_or_else(Vec::new, |args| args.slips.idle(&file.scene, structure));
     let reasons = [
         (for_rkam, "they steer --integrator rkam"),
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),
         (words("NOPLT=0", file.legacy.plots == Some(true)), "nothing is plotted"),
         (words("XNU, E", stresses), "no stress depends on them"),
         (words("--no-report", args.is_some_and(|args| args.no_report)), "no report is written"),
+        (tolerances, "EU1 of the deck bounds the errors of rkam"),
+        (slips, "nothing in this run shows these slips of 1970"),
     ];
     let given = reasons.iter().filter(|(words, _)| !words.is_empty());
     let phrases: Vec<String> =
         given.map(|(words, reason)| format!("{} ({reason})", words.join(", "))).collect();
     (!phrases.is_empty()).then(|| format!("ignored: {}", phrases.join("; ")))
+}
+
+/// Those that differ from what they are when nobody gives them.
+fn given_tolerances(args: &RunArgs) -> Vec<&'static str> {
+    let defaults = Options::default();
+    let given = [("--rtol", args.rtol != defaults.rtol), ("--atol", args.atol != defaults.atol)];
+    given.into_iter().filter(|(_, given)| *given).map(|(option, _)| option).collect()
 }
 
 fn words(words: &'static str, are_ignored: bool) -> Vec<&'static str> {

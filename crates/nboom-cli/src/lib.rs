@@ -39,6 +39,7 @@ mod simulator;
 mod slips;
 mod stresses;
 mod terminal;
+mod verdict;
 mod verify;
 mod watch;
 mod work_precision;

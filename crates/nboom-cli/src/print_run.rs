@@ -1,11 +1,14 @@
 use std::path::Path;
 
 use nboom_model::Scene;
-use nboom_results::{EVENTS_FILE, Outcome, RunDescription, event_order, path_and_formulation};
-use nboom_sim::{Digits, Event, EventKind, Reference, Totals, Trust};
-use nboom_strength::{Cause, Worst};
+use nboom_results::{EVENTS_FILE, Outcome, RunDescription, WorstLoads, event_order};
+use nboom_sim::{
+    CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, Selection, Totals, Trust,
+};
+use nboom_strength::{Cause, HingeQuantity, Worst, WorstHingeLoad};
 
 use crate::format::{count, short};
+use crate::verdict;
 
 /// Events beyond these are only in the file.
 pub(crate) const EVENTS_SHOWN: usize = 100;
@@ -17,8 +20,8 @@ pub(crate) struct Account<'a> {
     pub(crate) outcome: &'a Outcome,
     /// The first events, the end left out.
     pub(crate) events: Vec<Event>,
-    /// The largest von Mises stress, if stresses were computed.
-    pub(crate) worst: Option<Worst>,
+    /// The worst stresses and hinge loads, if any were computed.
+    pub(crate) worst: WorstLoads,
     /// What a reference run has shown, if there was one.
     pub(crate) trust: Option<Trust>,
 }
@@ -27,9 +30,12 @@ impl Account<'_> {
     pub(crate) fn text(&self, directory: &Path) -> String {
         let mut lines = vec![self.scene_line(), String::new()];
         lines.extend(self.event_lines());
+        lines.extend(verdict::lines(self.scene, &self.outcome.summary.verdict));
+        lines.extend(self.impulse_line());
+        lines.extend(self.worst.station().map(|worst| worst_line(self.scene, worst)));
+        lines.extend(self.hinge_load_line());
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
-        lines.extend(self.worst.as_ref().map(|worst| worst_line(self.scene, worst)));
         lines.extend(self.trust.as_ref().map(trust_line));
         lines.push(format!("files         {}", directory.display()));
         lines.join("\n") + "\n"
@@ -38,11 +44,15 @@ impl Account<'_> {
     fn scene_line(&self) -> String {
         let RunDescription { scene, .. } = self.run;
         let integrator = self.methods();
-        let (path, formulation) = path_and_formulation(&self.outcome.summary);
+        let CodeOfRun { path, formulation, generated_share } = self.outcome.summary.code();
         let bodies = count(1 + self.scene.bodies.len(), "body", "bodies");
         let freedom = count(self.run.degrees_of_freedom, "degree", "degrees");
+        let share = match path {
+            Selection::MIXED => format!(" ({} % generated)", short(100.0 * generated_share, 2)),
+            _ => String::new(),
+        };
         format!(
-            "{scene}: {bodies}, {freedom} of freedom; {path} path, {formulation} formulation, \
+            "{scene}: {bodies}, {freedom} of freedom; {path} path{share}, {formulation} formulation, \
              integrator {integrator}"
         )
     }
@@ -105,6 +115,25 @@ impl Account<'_> {
             cells.extend([change(event, h), change(event, p)]);
         }
         cells
+    }
+
+    fn impulse_line(&self) -> Option<String> {
+        let LockUpImpulse { hinge, time, impulse } = self.outcome.summary.verdict.largest_impulse?;
+        let (hinge, time) = (self.scene.label(hinge), short(time, 10));
+        let (impulse, unit) = (short(impulse, 8), self.run.units.angular_momentum());
+        Some(format!("worst impulse {impulse} {unit} in hinge {hinge}, at {time}"))
+    }
+
+    fn hinge_load_line(&self) -> Option<String> {
+        let [force, moment] = [HingeQuantity::Force, HingeQuantity::Moment]
+            .map(|quantity| self.worst.hinge(quantity));
+        let told = |worst: &WorstHingeLoad, unit: &str| {
+            let (name, magnitude) = (worst.quantity.name(), short(worst.magnitude(), 5));
+            format!("{name} {magnitude} {unit} in hinge {}", worst.hinge)
+        };
+        let units = self.run.units;
+        let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
+        Some(format!("hinge loads   at most {force}, {moment}"))
     }
 
     fn conservation_line(&self) -> String {
@@ -193,10 +222,14 @@ fn aligned(rows: &[Vec<String>]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nboom_model::{Appendage, Hinge, MassProperties, Mount, SceneDescription, Segment};
+    use nboom_model::{
+        Appendage, Hinge, HingeState, MassProperties, Mount, SceneDescription, Segment,
+    };
     use nboom_results::UnitSystem;
     use nboom_scalar::{Sym3, Vec3};
-    use nboom_sim::{Choice, Conservation, Integration, Method, Options, Summary};
+    use nboom_sim::{
+        Choice, Conservation, HingeVerdict, Integration, Method, Options, Summary, Verdict,
+    };
 
     fn scene() -> Scene {
         let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
@@ -243,10 +276,25 @@ mod tests {
                 .to_vec(),
             attitude_drift: 0.0,
             selections: Vec::new(),
+            verdict: Verdict {
+                hinges: vec![HingeVerdict {
+                    state: HingeState::Locked,
+                    since: Some(0.25),
+                    angle: 0.0,
+                }],
+                largest_impulse: Some(LockUpImpulse { hinge: 0, time: 0.25, impulse: -0.125 }),
+            },
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
-        Account { scene: &scene, run: &run, outcome: &outcome, events, worst: None, trust: None }
-            .text(Path::new("out/boom"))
+        Account {
+            scene: &scene,
+            run: &run,
+            outcome: &outcome,
+            events,
+            worst: WorstLoads::default(),
+            trust: None,
+        }
+        .text(Path::new("out/boom"))
     }
 
     #[test]
@@ -257,6 +305,8 @@ boom: 2 bodies, 7 degrees of freedom; generic path, recursive formulation, integ
 time [s]  event    hinge  impulse [ft lbf s]  kinetic energy [ft lbf]  |H| [ft lbf s]  |P| [lbf s]
 0.25      lock up  1,1    -0.125              2 -> 1.5                 3 -> 3          0 -> 0
 
+all locked    1,1 at 0.25
+worst impulse -0.125 ft lbf s in hinge 1,1, at 0.25
 conservation  linear momentum 0, angular momentum 1.2e-15, energy 3e-13 (relative)
 effort        10 steps and 2 rejected, 144 evaluations, 0.0123 s
 files         out/boom

@@ -10,23 +10,24 @@ use nboom_sim::{
 };
 use nboom_strength::StressAnalysis;
 
-use crate::ignored::ignored;
+use crate::ignored::{ignored, refuse_idle};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::watch::Watch;
-use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say};
+use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say, verdict};
 
 /// Simulates a scene, writes its files and returns the account of it for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
     let slips = args.slips.as_1970.unwrap_or_default();
     let file = read_scene(&args.scene)?;
+    refuse_idle(args, &file)?;
+    let ignored = ignored(&file, Some(args));
     let file = SceneFile { scene: slips.scene(file.scene), ..file };
     let kernels = if args.path == PathChoice::Generic { &[] } else { routines.accelerations };
     let stresses = args.stresses.analysis(&file, slips, kernels)?;
     let warnings = check::warnings(&file).into_iter();
     let warnings = warnings.chain(never_released(&file.scene, args.end_time));
     let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
-    let ignored = ignored(&file, Some(args));
     let scene = with_end_time(file.scene, args.end_time)?;
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));
@@ -37,6 +38,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let run = RunDescription {
         warnings,
         print_interval: file.legacy.print_interval.unwrap_or(1),
+        input_sha256: Some(file.sha256),
         ..RunDescription::new(&scene, &options, args.units)
     };
     let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };
@@ -150,11 +152,13 @@ fn simulate_into_files(
     };
     let error = failed.as_ref().map(|error| with_causes(error));
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
-    let worst = watch.files.worst_stress();
+    let worst = watch.files.worst_loads();
     let kept = watch.files.finish(&outcome);
     // Not for --quiet to hide: the results are not what they seem.
     let poor = outcome.summary.conservation.poor(options.rtol);
     poor.for_each(|law| say("warning", &law.to_string()));
+    let negative = worst.weakest().and_then(verdict::negative_margin);
+    negative.iter().for_each(|warning| say("warning", warning));
     // What stopped the run says more than what then could not be written.
     if let Some(error) = failed {
         return Err(CliError::Simulation { error, directory: Some(kept.directory) });

@@ -1,6 +1,7 @@
 //! What the command line says about slips of the original program.
 
 use clap::Args;
+use nboom_model::{Scene, SectionShape, Structure};
 use nboom_strength::{Slip, Slips};
 
 use crate::choice::ChoiceError;
@@ -23,6 +24,49 @@ impl SlipArgs {
     pub(crate) fn warning(self) -> Option<String> {
         let names: Vec<&str> = self.as_1970?.iter().map(Slip::name).collect();
         Some(format!("wrong on purpose, as in 1970: {}", names.join(", ")))
+    }
+
+    /// Slips by name that nothing in a scene and its stations shows; of all slips, all if none does.
+    pub(crate) fn idle(self, scene: &Scene, structure: Option<&Structure>) -> Vec<&'static str> {
+        let slips = self.as_1970.unwrap_or_default();
+        let shows = |slip: &Slip| shows(*slip, scene, structure);
+        if slips == Slips::all() {
+            return if slips.iter().any(|slip| shows(&slip)) { Vec::new() } else { vec![ALL] };
+        }
+        slips.iter().filter(|slip| !shows(slip)).map(Slip::name).collect()
+    }
+}
+
+/// Whether there is what a slip acts on.
+fn shows(slip: Slip, scene: &Scene, structure: Option<&Structure>) -> bool {
+    let mut bodies = 0..scene.bodies.len();
+    let has_spring = |i: usize| scene.bodies[i].hinge.kick_off.is_some();
+    let is_of_paddle = |i: usize| {
+        let of_same = |&j: &usize| scene.label(j).appendage == scene.label(i).appendage;
+        (0..scene.bodies.len()).filter(of_same).any(|j| scene.arm_of_paddle(j).is_some())
+    };
+    let in_chain = |i: usize| {
+        std::iter::successors(Some(i), |&i| scene.bodies[i].inboard)
+            .any(|i| scene.adds_to_inboard_angle(i))
+    };
+    let segments = structure.into_iter().flat_map(|structure| structure.segments());
+    let mut sections = segments.flat_map(|segment| &segment.stations).map(|at| &at.section);
+    match slip {
+        Slip::ChainKickOff => bodies.any(|i| has_spring(i) && in_chain(i)),
+        Slip::PaddleKickOff => bodies.any(|i| has_spring(i) && is_of_paddle(i)),
+        Slip::PaddleInertia => bodies.any(is_of_paddle),
+        Slip::LoadTransfer => {
+            structure.is_some() && bodies.any(|i| scene.bodies[i].inboard.is_some())
+        }
+        Slip::TubeInertia | Slip::TubeShear => {
+            sections.any(|section| matches!(section, SectionShape::Tube { .. }))
+        }
+        Slip::ProductOfInertia
+        | Slip::BendingSigns
+        | Slip::TorsionArm
+        | Slip::ClosingWall
+        | Slip::LevelShear
+        | Slip::VertexBefore => sections.any(|section| matches!(section, SectionShape::Polygon(_))),
     }
 }
 
@@ -62,6 +106,22 @@ mod tests {
         for wrong in ["--as-1970=", "--as-1970=tube", "--as-1970=tube-inertia,"] {
             assert_eq!(parsed(&[wrong]), Err(2));
         }
+    }
+
+    #[test]
+    fn slips_that_nothing_shows_are_named_or_all_together() {
+        let deck = include_str!("../tests/decks/boom.nml");
+        let file = nboom_io::parse_deck("boom.nml", deck, "boom").expect("a deck");
+        let idle = |slips: &[Slip]| {
+            let args = SlipArgs { as_1970: Some(slips.iter().copied().collect()) };
+            args.idle(&file.scene, file.structure.as_ref())
+        };
+        // One boom without a spring.
+        for slip in Slip::ALL {
+            assert_eq!(idle(&[slip]), [slip.name()]);
+        }
+        assert_eq!(idle(&Slip::ALL), ["all"]);
+        assert!(idle(&[]).is_empty());
     }
 
     #[test]

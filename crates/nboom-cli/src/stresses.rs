@@ -16,18 +16,20 @@ pub struct StressArgs {
     pub no_stresses: bool,
 
     /// Stress at which the material yields, for the margins in stress_envelope.csv.
-    #[arg(long, value_name = "S", value_parser = choice::positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = choice::positive, allow_negative_numbers = true,
+          conflicts_with = "no_stresses")]
     pub yield_stress: Option<f64>,
 
     /// Factor on stresses in margins.
     #[arg(long, value_name = "F", default_value = "1", value_parser = choice::positive,
-          allow_negative_numbers = true)]
+          allow_negative_numbers = true, requires = "yield_stress")]
     pub safety_factor: f64,
 
-    /// Peak of a segment's response over the peak of a lock-up pulse: 1 for slow pulses, at most 2.
-    #[arg(long, value_name = "D", default_value = "1", value_parser = choice::positive,
+    /// Peak of a segment's response over the peak of a lock-up pulse: 1 for slow pulses, and without
+    /// it; at most 2.
+    #[arg(long, value_name = "D", value_parser = choice::amplification,
           allow_negative_numbers = true)]
-    pub amplification: f64,
+    pub amplification: Option<f64>,
 
     /// How the pulses of latches that act together add up: half-sines over time, or each with its peak
     /// as long as it lasts.
@@ -41,7 +43,7 @@ pub struct StressArgs {
     pub hinge_loads: bool,
 
     /// Write stresses with the report's signs: compression positive, shear stresses reversed too.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "no_stresses")]
     pub report_signs: bool,
 }
 
@@ -63,6 +65,7 @@ impl StressArgs {
         kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
         let Self { yield_stress, safety_factor, amplification, pulses, .. } = *self;
+        let amplification = amplification.unwrap_or(1.0);
         let settings = Settings { amplification, pulses, yield_stress, safety_factor, slips };
         let SceneFile { scene, structure, .. } = file;
         match structure {

@@ -108,7 +108,7 @@ fn sections_and_factors_that_are_none_are_refused() {
     let (output, _) = run(&thick, &[]);
     let told = String::from_utf8(output.stderr).expect("text");
     assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.contains("segment 1,1, station 1"), "{told}");
+    assert!(told.contains("deck.nml:54:5: T1(1,1): "), "{told}");
     for option in ["--yield-stress", "--safety-factor", "--amplification"] {
         for value in ["0", "-1", "NaN", "inf", "strong"] {
             let (output, _) = run(&deck(), &[option, value]);

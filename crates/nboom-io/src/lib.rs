@@ -64,6 +64,8 @@ pub struct SceneFile {
     /// What the stress groups say, when the deck asks for stresses (`INSTR` above zero) and has
     /// the groups.
     pub structure: Option<Structure>,
+    /// SHA-256 of what was read, in hexadecimal digits.
+    pub sha256: String,
 }
 
 /// Reads a scene from a deck `NAME.nml`; the scene is named NAME, with U+FFFD for control
@@ -75,8 +77,8 @@ pub struct SceneFile {
 /// When the file cannot be read, is not a deck by its name, is too long or is not text; and all
 /// errors of the deck itself, as [`parse_deck`] returns them.
 pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
-    let text = source::read_deck(path)?;
+    let (text, sha256) = source::read_deck(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = name.replace(char::is_control, "\u{fffd}");
-    parse_deck(&path.display().to_string(), &text, &name)
+    Ok(SceneFile { sha256, ..parse_deck(&path.display().to_string(), &text, &name)? })
 }

@@ -2,16 +2,25 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
+
 use crate::InputError;
 
 /// The longest deck that is read \[bytes\].
 const LARGEST_DECK: u64 = 16 << 20;
 
-/// The text of a deck's file.
-pub(crate) fn read_deck(path: &Path) -> Result<String, InputError> {
+/// The text of a deck's file, and the hash of its bytes.
+pub(crate) fn read_deck(path: &Path) -> Result<(String, String), InputError> {
     check_file(path)?;
     check_ending(path)?;
-    read_text(path, LARGEST_DECK)
+    let bytes = read_bytes(path, LARGEST_DECK)?;
+    let hash = sha256(&bytes);
+    Ok((decode(path, bytes)?, hash))
+}
+
+/// SHA-256 in hexadecimal digits.
+pub(crate) fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The text of a file of at most `limit` bytes; bytes that are not UTF-8 become U+FFFD.
@@ -19,6 +28,10 @@ pub(crate) fn read_deck(path: &Path) -> Result<String, InputError> {
 /// # Errors
 /// When the file cannot be read, is a directory or a device, is too long or is not text.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, InputError> {
+    decode(path, read_bytes(path, limit)?)
+}
+
+fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, InputError> {
     let length = check_file(path)?;
     check_length(path, length, limit)?;
     let mut bytes = Vec::new();
@@ -26,7 +39,7 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, InputError> {
     let file = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
     file.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
     check_length(path, bytes.len() as u64, limit)?;
-    decode(path, bytes)
+    Ok(bytes)
 }
 
 /// The length of a file that is one, not a pipe that nobody writes to.

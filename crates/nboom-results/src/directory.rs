@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
 use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion, Summary, Trust};
-use nboom_strength::{StressAnalysis, Worst};
+use nboom_strength::StressAnalysis;
 
 use crate::place::Place;
 use crate::rows::{self, Output};
@@ -11,8 +11,8 @@ use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
     EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, ResultsError, RunDescription,
-    STATES_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, trust,
-    with_causes,
+    STATES_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, WorstLoads,
+    trust, with_causes,
 };
 
 /// What of the disk is kept for the summary, in which a full disk is told \[bytes\].
@@ -131,12 +131,14 @@ impl RunDirectory {
         Ok(self)
     }
 
-    /// The largest von Mises stress when the run is over, and where.
-    pub fn worst_stress(&mut self) -> Option<Worst> {
-        let analysis = &mut self.stresses.as_mut()?.analysis;
+    /// The worst stresses and hinge loads when the run is over; nothing where none are computed.
+    pub fn worst_loads(&mut self) -> WorstLoads {
+        let Some(stresses) = &mut self.stresses else { return WorstLoads::default() };
         // Whatever is wrong, `finish` comes upon it again.
-        analysis.finish().ok()?;
-        analysis.worst_stress()
+        match stresses.analysis.finish() {
+            Ok(()) => WorstLoads::of(&stresses.analysis),
+            Err(_) => WorstLoads::default(),
+        }
     }
 
     /// Writes what is left and the summary, and lets the results take their place: complete ones
@@ -167,8 +169,10 @@ impl RunDirectory {
     ) -> Result<(), ResultsError> {
         let mut files: Vec<_> = self.place.files().collect();
         files.extend(self.with_trust.then_some(TRUST_FILE));
+        let worst = self.worst_loads();
         let Outcome { summary, wall_seconds, .. } = outcome;
-        let ended = SummaryFile::ended(&self.run, summary, *wall_seconds, error, files.clone());
+        let ended =
+            SummaryFile::ended(&self.run, summary, &worst, *wall_seconds, error, files.clone());
         let without_room = |why: &io::Error| {
             let why = why.to_string();
             SummaryFile::failed(&self.run, error.unwrap_or(&why), files).text()

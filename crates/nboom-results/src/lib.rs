@@ -38,6 +38,7 @@ mod stress;
 mod summary;
 mod trust;
 mod units;
+mod verdict;
 mod whole;
 
 #[cfg(test)]
@@ -57,6 +58,7 @@ pub use names::{
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;
-pub use summary::{RunDescription, SummaryFile, path_and_formulation};
+pub use summary::{RunDescription, SummaryFile};
 pub use units::UnitSystem;
+pub use verdict::WorstLoads;
 pub use whole::write_file;

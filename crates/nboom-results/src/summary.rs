@@ -1,7 +1,8 @@
-use nboom_model::{Facts, Scene};
-use nboom_sim::{Conservation, Integration, Selection, Summary};
+use nboom_model::{Facts, HingeLabel, Scene};
+use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
 use serde::Serialize;
 
+use crate::verdict::{VerdictKeys, WorstLoads};
 use crate::{StressTables, UnitSystem};
 
 /// What is known about a run before it starts.
@@ -29,6 +30,10 @@ pub struct RunDescription {
     pub skipped: Vec<String>,
     /// What is allowed about the scene but probably not meant.
     pub warnings: Vec<String>,
+    /// SHA-256 of the scene's file, in hexadecimal digits; none of a scene that was made in memory.
+    pub input_sha256: Option<String>,
+    /// Labels of the scene's hinges.
+    pub hinges: Vec<HingeLabel>,
 }
 
 impl RunDescription {
@@ -46,17 +51,10 @@ impl RunDescription {
             print_interval: 1,
             skipped: Facts::of(scene).skipped(),
             warnings: Vec::new(),
+            input_sha256: None,
+            hinges: (0..scene.bodies.len()).map(|i| scene.label(i)).collect(),
         }
     }
-}
-
-/// The path and the formulation that stand for a whole run: those of its generated modes, if it
-/// has any, else of its closed forms, else the recursion.
-pub fn path_and_formulation(summary: &Summary) -> (&'static str, &'static str) {
-    const RECURSION: (&str, &str) = ("generic", "recursive");
-    let each = || summary.selections.iter().map(|s| (s.path, s.formulation));
-    let generated = each().find(|(path, _)| *path == "generated");
-    generated.or_else(|| each().find(|code| *code != RECURSION)).unwrap_or(RECURSION)
 }
 
 /// The keys of `summary.json`.
@@ -65,9 +63,12 @@ pub fn path_and_formulation(summary: &Summary) -> (&'static str, &'static str) {
 #[derive(Clone, Debug, Serialize)]
 pub struct SummaryFile<'a> {
     scene: &'a str,
+    version: &'static str,
+    input_sha256: Option<&'a str>,
     degrees_of_freedom: usize,
     path: &'a str,
     formulation: &'a str,
+    generated_share: f64,
     selections: Vec<SelectionKeys<'a>>,
     integrator: &'a str,
     integrations: Vec<IntegrationKeys>,
@@ -87,6 +88,7 @@ pub struct SummaryFile<'a> {
     jacobians: usize,
     factorizations: usize,
     events: usize,
+    verdict: Option<VerdictKeys>,
     wall_seconds: f64,
     conservation: ConservationKeys,
     attitude_drift: f64,
@@ -103,12 +105,13 @@ struct SelectionKeys<'a> {
     path: &'a str,
     formulation: &'a str,
     reason: &'a str,
+    evaluations: usize,
 }
 
 impl<'a> From<&'a Selection> for SelectionKeys<'a> {
     fn from(selection: &'a Selection) -> Self {
-        let Selection { since, path, formulation, reason } = selection;
-        Self { since: *since, path, formulation, reason }
+        let Selection { since, path, formulation, reason, evaluations } = selection;
+        Self { since: *since, path, formulation, reason, evaluations: *evaluations }
     }
 }
 
@@ -161,9 +164,12 @@ impl<'a> SummaryFile<'a> {
     pub fn unfinished(run: &'a RunDescription) -> Self {
         Self {
             scene: &run.scene,
+            version: env!("CARGO_PKG_VERSION"),
+            input_sha256: run.input_sha256.as_deref(),
             degrees_of_freedom: run.degrees_of_freedom,
             path: "generic",
             formulation: "recursive",
+            generated_share: 0.0,
             selections: Vec::new(),
             integrator: run.integrator,
             integrations: Vec::new(),
@@ -181,6 +187,7 @@ impl<'a> SummaryFile<'a> {
             jacobians: 0,
             factorizations: 0,
             events: 0,
+            verdict: None,
             wall_seconds: 0.0,
             conservation: Conservation::default().into(),
             attitude_drift: 0.0,
@@ -196,18 +203,22 @@ impl<'a> SummaryFile<'a> {
     }
 
     /// The summary of a run that has ended; it is complete when there is no `error`.
+    ///
+    /// `worst` has the worst stresses and hinge loads, if any were computed.
     pub fn ended(
         run: &'a RunDescription,
         summary: &'a Summary,
+        worst: &WorstLoads,
         wall_seconds: f64,
         error: Option<&'a str>,
         files: Vec<&'static str>,
     ) -> Self {
-        let (path, formulation) = path_and_formulation(summary);
+        let CodeOfRun { path, formulation, generated_share } = summary.code();
         let poor = summary.conservation.poor(run.rtol).map(|law| law.to_string());
         Self {
             path,
             formulation,
+            generated_share,
             selections: summary.selections.iter().map(SelectionKeys::from).collect(),
             integrator: summary.integrator,
             integrations: summary.integrations.iter().map(IntegrationKeys::from).collect(),
@@ -220,6 +231,7 @@ impl<'a> SummaryFile<'a> {
             jacobians: summary.jacobians,
             factorizations: summary.factorizations,
             events: summary.events,
+            verdict: Some(VerdictKeys::new(&run.hinges, &summary.verdict, worst)),
             wall_seconds,
             conservation: summary.conservation.into(),
             attitude_drift: summary.attitude_drift,

@@ -9,12 +9,11 @@ use nboom_model::{
 };
 use nboom_results::{
     Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables, UnitSystem,
-    path_and_formulation,
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
-    Choice, Conservation, Detail, Event, EventKind, Integration, Method, Options, Recorder,
-    Selection, Snapshot, Summary, Totals,
+    Choice, Conservation, Detail, Event, EventKind, HingeVerdict, Integration, LockUpImpulse,
+    Method, Options, Recorder, Selection, Snapshot, Summary, Totals, Verdict,
 };
 use nboom_strength::{Settings, StressAnalysis};
 
@@ -80,7 +79,8 @@ fn event(time: f64, kind: EventKind, hinge: Option<usize>) -> Event {
 }
 
 fn selection(since: f64, path: &'static str, formulation: &'static str, reason: &str) -> Selection {
-    Selection { since, path, formulation, reason: reason.to_owned() }
+    let evaluations = if path == "generated" { 72 } else { 24 };
+    Selection { since, path, formulation, reason: reason.to_owned(), evaluations }
 }
 
 fn integration(since: f64, method: Method) -> Integration {
@@ -106,6 +106,10 @@ fn outcome(error: Option<&str>) -> Outcome {
             selection(0.0, "generic", "recursive", "no routine"),
             selection(5.0, "generated", "articulated", "routine"),
         ],
+        verdict: Verdict {
+            hinges: vec![HingeVerdict { state: HingeState::Locked, since: Some(5.0), angle: 0.25 }],
+            largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
+        },
     };
     Outcome { summary, wall_seconds: 0.25, error: error.map(str::to_owned) }
 }
@@ -142,12 +146,17 @@ fn a_finished_run_has_all_rows_and_every_key() {
     assert_eq!(kinds, ["lock_up", "release", "end"]);
     let expected = serde_json::json!({
         "scene": "one boom",
+        "version": env!("CARGO_PKG_VERSION"),
+        "input_sha256": null,
         "degrees_of_freedom": 7,
-        "path": "generated",
+        "path": "mixed",
         "formulation": "articulated",
+        "generated_share": 0.75,
         "selections": [
-            {"since": 0.0, "path": "generic", "formulation": "recursive", "reason": "no routine"},
-            {"since": 5.0, "path": "generated", "formulation": "articulated", "reason": "routine"},
+            {"since": 0.0, "path": "generic", "formulation": "recursive", "reason": "no routine",
+             "evaluations": 24},
+            {"since": 5.0, "path": "generated", "formulation": "articulated", "reason": "routine",
+             "evaluations": 72},
         ],
         "integrator": "auto",
         "integrations": [
@@ -166,6 +175,19 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "jacobians": 2,
         "factorizations": 3,
         "events": 2,
+        "verdict": {
+            "hinges": [{"appendage": 1, "segment": 1, "state": 1, "time": 5.0, "angle": 0.25}],
+            "largest_impulse": 1.5,
+            "largest_impulse_at": {"appendage": 1, "segment": 1, "time": 5.0, "impulse": -1.5},
+            "worst_load": null,
+            "worst_load_at": null,
+            "smallest_margin": null,
+            "smallest_margin_at": null,
+            "largest_hinge_force": null,
+            "largest_hinge_force_at": null,
+            "largest_hinge_moment": null,
+            "largest_hinge_moment_at": null,
+        },
         "wall_seconds": 0.25,
         "conservation": {"linear_momentum": 1e-15, "angular_momentum": 2e-15, "energy": 3e-13},
         "attitude_drift": 3e-12,
@@ -298,20 +320,4 @@ fn a_directory_that_cannot_be_made_is_named() {
     let refused = create(&file.join("run"), false).expect_err("a file is no directory");
     assert!(matches!(refused, ResultsError::Directory { .. }));
     assert!(refused.to_string().contains("file/run"), "{refused}");
-}
-
-#[test]
-fn the_most_special_code_stands_for_the_whole_run() {
-    let recursion = || selection(0.0, "generic", "recursive", "not covered");
-    let closed_form = || selection(1.0, "generic", "symmetric", "no routine");
-    let routine = || selection(2.0, "generated", "articulated", "routine");
-    for (selections, expected) in [
-        (vec![], ("generic", "recursive")),
-        (vec![recursion()], ("generic", "recursive")),
-        (vec![closed_form(), recursion()], ("generic", "symmetric")),
-        (vec![closed_form(), routine(), recursion()], ("generated", "articulated")),
-    ] {
-        let summary = Summary { selections, ..outcome(None).summary };
-        assert_eq!(path_and_formulation(&summary), expected);
-    }
 }

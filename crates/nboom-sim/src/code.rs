@@ -1,14 +1,16 @@
 //! Which code computes accelerations in a mode.
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_formulation::Formulation;
 use nboom_model::Scene;
+use nboom_ode::Method;
 
 use crate::closed_form::{ClosedForm, NotCovered};
 use crate::error::SimError;
 use crate::fit::Repertoire;
 use crate::generated::{Generated, NoRoutine};
 use crate::options::{Form, Options, Path};
-use crate::record::Selection;
+use crate::selection::Selection;
 
 /// Code that computes the accelerations of one mode.
 #[derive(Clone, Debug)]
@@ -33,6 +35,12 @@ impl Code {
         options: &Options,
         since: f64,
     ) -> Result<(Self, Selection), SimError> {
+        if options.integrator == Method::Taylor {
+            let code = Self::recorded(scene, dynamics);
+            let (path, (_, formulation)) = (Selection::SERIES, code.path_and_formulation());
+            let reason = "power series of these equations, as recorded".to_owned();
+            return Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }));
+        }
         let as_demanded = "as demanded".to_owned();
         let chosen = match (options.path, options.formulation) {
             (Path::Generated, _) => generated(scene, dynamics, repertoire, options)
@@ -44,14 +52,23 @@ impl Code {
         };
         let (code, reason) = chosen?;
         let (path, formulation) = code.path_and_formulation();
-        Ok((code, Selection { since, path, formulation, reason }))
+        Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }))
+    }
+
+    /// The equations that [`series::graph`](crate::series::graph) records, for what is told beside.
+    pub fn recorded(scene: &Scene, dynamics: &Recursive<f64>) -> Self {
+        let (tree, external) = (dynamics.tree(), dynamics.external());
+        let form = ClosedForm::fit(scene, tree, external, Formulation::Articulated);
+        form.map_or(Self::Recursion, Self::ClosedForm)
     }
 
     fn path_and_formulation(&self) -> (&'static str, &'static str) {
         match self {
-            Self::Recursion => ("generic", Form::Recursive.name()),
-            Self::ClosedForm(form) => ("generic", form.formulation().name()),
-            Self::Generated(routine) => ("generated", routine.routine().kernel.formulation),
+            Self::Recursion => (Selection::GENERIC, Form::Recursive.name()),
+            Self::ClosedForm(form) => (Selection::GENERIC, form.formulation().name()),
+            Self::Generated(routine) => {
+                (Selection::GENERATED, routine.routine().kernel.formulation)
+            }
         }
     }
 

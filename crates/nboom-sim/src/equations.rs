@@ -13,7 +13,7 @@ use crate::layout::Layout;
 use crate::ledger::totals;
 use crate::options::Options;
 use crate::rates::Rates;
-use crate::record::Selection;
+use crate::selection::Selection;
 use crate::series;
 use crate::sizes::Sizes;
 use crate::state::State;
@@ -40,6 +40,8 @@ pub(crate) struct Equations {
     /// The same.
     series: Option<Series<f64>>,
     sizes: Sizes,
+    /// Evaluations of accelerations, and series of them, that integration has asked for.
+    evaluations: usize,
     /// Whether the angular momentum stands for the rate where nothing changes it.
     momentum_for_rate: bool,
 }
@@ -68,6 +70,7 @@ impl Equations {
             jacobian: None,
             series: None,
             sizes: Sizes::of(scene),
+            evaluations: 0,
             momentum_for_rate: options.integrator.keeps_invariants()
                 && !scene.slips().paddle_inertia,
         }
@@ -168,6 +171,11 @@ impl Equations {
         self.sizes.rate()
     }
 
+    /// Evaluations of accelerations, and series of them, that integration has asked for.
+    pub fn evaluations(&self) -> usize {
+        self.evaluations
+    }
+
     /// The spring and dashpot law of each hinge.
     pub fn laws(&self) -> &[HingeLaw<f64>] {
         &self.laws
@@ -184,6 +192,7 @@ impl System for Equations {
         let motion = motion(&self.variables.layout, &mut self.dynamics, y);
         if self.variables.layout.needs_accelerations() {
             self.compute(&motion);
+            self.evaluations += 1;
         }
         let free_fall = self.variables.free_fall(t).velocity;
         self.rates.write(&mut self.dynamics, (&motion, &self.accelerations), free_fall, y, dy);
@@ -205,6 +214,7 @@ impl System for Equations {
     }
 
     fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
+        self.evaluations += 1;
         self.series.take_if(|series| series.order() != order);
         let Self { scene, mode, variables, thrust, .. } = self;
         let of_mode = || Series::new(&series::graph(scene, mode, variables, *thrust), &[], order);

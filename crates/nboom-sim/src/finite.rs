@@ -64,7 +64,8 @@ pub(crate) struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn of(
+    /// A number of the whole satellite or of a hinge.
+    pub fn of(
         &self,
         hinge: Option<usize>,
         quantity: &'static str,

@@ -30,7 +30,7 @@ pub(crate) struct Ledger {
 impl Ledger {
     pub fn new(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
         let start = totals(state, &state.invariants(&mut equations.dynamics));
-        let (potential, _) = potential(scene, equations, state);
+        let Potential { sum: potential, .. } = potential(scene, equations, state);
         Self {
             start_time: state.time,
             start,
@@ -76,10 +76,13 @@ impl Ledger {
         let angular = now.angular_momentum_inertial
             - self.start.angular_momentum_inertial
             - work.thrust_angular_impulse;
-        let (potential, potential_scale) = potential(scene, equations, state);
-        let energy = now.kinetic_energy + potential - work.dashpots - work.thrust + work.lock_ups
+        let potential = potential(scene, equations, state);
+        let check = Check { scene, time: state.time };
+        check.of(potential.beyond, "potential energy", potential.beyond.is_none())?;
+        let energy = now.kinetic_energy + potential.sum - work.dashpots - work.thrust
+            + work.lock_ups
             - self.start_energy;
-        let energy_scale = now.kinetic_energy + potential_scale;
+        let energy_scale = now.kinetic_energy + potential.scale;
         let (largest, scales) = (&mut self.residuals, &mut self.scales);
         let pairs = [
             ("linear momentum", &mut scales.linear_momentum, invariants.linear_momentum_scale),
@@ -89,7 +92,6 @@ impl Ledger {
             ("balance of angular momentum", &mut largest.angular_momentum, angular.norm()),
             ("balance of energy", &mut largest.energy, energy.abs()),
         ];
-        let check = Check { scene, time: state.time };
         for (quantity, largest, value) in pairs {
             check.numbers(&[(quantity, value)])?;
             *largest = largest.max(value);
@@ -108,23 +110,36 @@ pub(crate) fn totals<R: Number>(state: &State<R>, found: &Invariants<R>) -> Tota
     }
 }
 
-/// Potential energy, and the sum of the magnitudes of its parts.
-fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> (f64, f64) {
-    let (mut sum, mut scale) = (0.0, 0.0);
-    let mut add = |part: f64| {
-        sum += part;
-        scale += part.abs();
-    };
-    for (law, &beta) in equations.laws().iter().zip(&state.beta) {
-        add(law.potential(beta));
+/// Potential energy of springs and gravity.
+struct Potential {
+    sum: f64,
+    /// Sum of the magnitudes of the parts.
+    scale: f64,
+    /// The first hinge whose springs have one that is not finite.
+    beyond: Option<usize>,
+}
+
+impl Potential {
+    fn add(&mut self, part: f64, hinge: Option<usize>) {
+        self.sum += part;
+        self.scale += part.abs();
+        self.beyond = self.beyond.or(hinge.filter(|_| !part.is_finite()));
+    }
+}
+
+fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> Potential {
+    let mut found = Potential { sum: 0.0, scale: 0.0, beyond: None };
+    for (i, (law, &beta)) in equations.laws().iter().zip(&state.beta).enumerate() {
+        found.add(law.potential(beta), Some(i));
     }
     if equations.gravity() != Vec3::zero() {
-        add(-scene.total_mass() * equations.gravity().dot(state.center.position));
+        let height = equations.gravity().dot(state.center.position);
+        found.add(-scene.total_mass() * height, None);
     }
     for (i, body) in scene.bodies.iter().enumerate() {
         let Some(spring) = body.hinge.kick_off else { continue };
         let length = state.spring_length(&mut equations.dynamics, i)[0].min(spring.limit_length);
-        add(KickOffLaw::new(spring.coefficients).potential(length));
+        found.add(KickOffLaw::new(spring.coefficients).potential(length), Some(i));
     }
-    (sum, scale)
+    found
 }

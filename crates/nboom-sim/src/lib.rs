@@ -60,6 +60,7 @@ mod record;
 mod replay;
 mod run;
 mod scales;
+mod selection;
 mod series;
 mod sizes;
 mod snapshot;
@@ -68,6 +69,7 @@ mod state;
 mod step_motion;
 mod trust;
 mod variables;
+mod verdict;
 
 pub use beforehand::check_start;
 pub use closed_form::NotCovered;
@@ -78,9 +80,11 @@ pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
-    Detail, Event, EventKind, InstantMotion, Integration, Jump, Recorder, Selection, Snapshot,
-    Summary, Totals,
+    Detail, Event, EventKind, InstantMotion, Integration, Jump, Recorder, Snapshot, Summary, Totals,
 };
 pub use run::simulate;
+pub use scales::Scales;
+pub use selection::{CodeOfRun, Selection};
 pub use step_motion::{MotionAt, StepMotion};
 pub use trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};
+pub use verdict::{HingeVerdict, LockUpImpulse, Verdict};

@@ -5,7 +5,9 @@ use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3};
 
 use crate::conservation::Conservation;
+use crate::selection::{CodeOfRun, Selection};
 use crate::step_motion::StepMotion;
+use crate::verdict::Verdict;
 
 /// What a run tells while it goes on: a snapshot at every output time, and every event.
 ///
@@ -246,6 +248,15 @@ pub struct Summary {
     pub integrations: Vec<Integration>,
     /// Which code computed accelerations, mode by mode.
     pub selections: Vec<Selection>,
+    /// What became of the hinges.
+    pub verdict: Verdict,
+}
+
+impl Summary {
+    /// What stands for all code that computed accelerations.
+    pub fn code(&self) -> CodeOfRun {
+        CodeOfRun::of(&self.selections)
+    }
 }
 
 /// Which method took the steps from a time on.
@@ -255,17 +266,4 @@ pub struct Integration {
     pub since: f64,
     /// The method, and why this one.
     pub choice: Choice,
-}
-
-/// Which code computed accelerations from a time on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Selection {
-    /// Time from which on.
-    pub since: f64,
-    /// `generated` or `generic`.
-    pub path: &'static str,
-    /// Name of the formulation.
-    pub formulation: &'static str,
-    /// Which routine, or why none.
-    pub reason: String,
 }

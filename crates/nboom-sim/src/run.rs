@@ -11,12 +11,14 @@ use crate::layout::Layout;
 use crate::ledger::{Ledger, totals};
 use crate::options::Options;
 use crate::record::{
-    Event, EventKind, InstantMotion, Integration, Jump, Recorder, Selection, Snapshot, Summary,
+    Event, EventKind, InstantMotion, Integration, Jump, Recorder, Snapshot, Summary,
 };
+use crate::selection::Selection;
 use crate::snapshot;
 use crate::start::Start;
 use crate::state::State;
 use crate::step_motion::{DenseStep, Room};
+use crate::verdict::Verdict;
 
 mod giving_up;
 
@@ -63,6 +65,7 @@ struct Run<'a> {
     integrations: Vec<Integration>,
     attitude_norm: AttitudeNorm,
     room: Room,
+    verdict: Verdict,
 }
 
 impl<'a> Run<'a> {
@@ -78,6 +81,7 @@ impl<'a> Run<'a> {
             lock_sides,
             ledger: Ledger::new(scene, &mut equations, &state),
             scratch: state.clone(),
+            verdict: Verdict::of(&mode.hinges, &state.beta),
             mode,
             state,
             equations,
@@ -346,6 +350,7 @@ impl<'a> Run<'a> {
         let after = self.snapshot(&state)?;
         for event in events {
             self.events += 1;
+            self.verdict.note(event);
             let kept = self.recorder.event(event, &after);
             kept.map_err(|source| SimError::Record { time: event.time, source })?;
         }
@@ -368,11 +373,25 @@ impl<'a> Run<'a> {
     /// Chooses the code for the mode, and notes when that is a change.
     fn select(&mut self) -> Result<(), SimError> {
         let selection = self.equations.select(self.scene, &self.options)?;
-        let same = |last: &Selection| Selection { since: last.since, ..selection.clone() } == *last;
+        self.selections = self.counted_selections();
+        let same = |last: &Selection| {
+            let Selection { since, evaluations, .. } = *last;
+            Selection { since, evaluations, ..selection.clone() } == *last
+        };
         if !self.selections.last().is_some_and(same) {
             self.selections.push(selection);
         }
         Ok(())
+    }
+
+    /// The selections so far, the last one with all evaluations since the others.
+    fn counted_selections(&self) -> Vec<Selection> {
+        let mut selections = self.selections.clone();
+        if let Some((last, others)) = selections.split_last_mut() {
+            let before: usize = others.iter().map(|selection| selection.evaluations).sum();
+            last.evaluations = self.equations.evaluations() - before;
+        }
+        selections
     }
 
     fn summary(&self) -> Summary {
@@ -388,7 +407,8 @@ impl<'a> Run<'a> {
             factorizations: counts.factorizations,
             integrator: self.options.integrator.name(),
             integrations: self.integrations.clone(),
-            selections: self.selections.clone(),
+            selections: self.counted_selections(),
+            verdict: self.verdict.ending_with(&self.mode.hinges, &self.state.beta),
             attitude_drift: self.attitude_norm.largest_drift,
         }
     }

@@ -10,6 +10,7 @@ use crate::options::Options;
 use crate::record::{Event, EventKind, Recorder, Snapshot, Summary};
 use crate::replay::Replay;
 use crate::run::simulate;
+use crate::scales::{Largest, Scales, natural};
 
 /// The reference's tolerances are this many times tighter, as far as rounding allows.
 const TIGHTER: f64 = 1e-3;
@@ -25,6 +26,7 @@ const MOST_EVENTS: usize = 100_000;
 pub struct Witness {
     pub(crate) events: Vec<Event>,
     last: Option<Snapshot>,
+    largest: Largest,
 }
 
 impl Witness {
@@ -37,6 +39,11 @@ impl Witness {
     pub fn end(&self) -> Option<&Snapshot> {
         self.last.as_ref()
     }
+
+    /// Natural sizes of what was seen of a run of `scene`.
+    pub fn scales(&self, scene: &Scene) -> Scales {
+        Scales::of(scene, &self.largest)
+    }
 }
 
 impl Recorder for Witness {
@@ -45,11 +52,14 @@ impl Recorder for Witness {
     }
 
     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
+        self.largest.saw(snapshot);
         self.last = Some(snapshot.clone());
         Ok(())
     }
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
+        self.largest.saw(after);
+        self.largest.saw_impulse(event.impulse.unwrap_or(0.0));
         if event.kind == EventKind::End {
             self.last = Some(after.clone());
         } else if self.events.len() < MOST_EVENTS {
@@ -134,18 +144,18 @@ pub struct Trust {
 pub struct EventTrust {
     /// The event, as the run has it.
     pub event: Event,
-    /// Its time, relative to the time since the beginning.
+    /// Its time since the beginning, relative to itself.
     pub time: Digits,
     /// Its impulse, if it has one.
     pub impulse: Option<Digits>,
 }
 
-/// A relative difference of a quantity.
+/// A difference of a quantity, relative to its natural size; see [`Scales`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Digits {
     /// What it is.
     pub quantity: &'static str,
-    /// The difference, relative to the quantity's size.
+    /// The difference, relative to that size.
     pub difference: f64,
 }
 
@@ -198,11 +208,12 @@ pub fn trust(
     };
     let same = |(a, b): &(&Event, &Event)| (a.kind, a.hinge) == (b.kind, b.hinge);
     let pairs = witness.events.iter().zip(&truth.events).take_while(same);
-    let start = scene.initial.time;
-    let events: Vec<EventTrust> = pairs.map(|(run, truth)| compare(start, run, truth)).collect();
+    let (start, scales) = (scene.initial.time, witness.scales(scene));
+    let compared = pairs.map(|(run, truth)| compare(start, run, truth, &scales));
+    let events: Vec<EventTrust> = compared.collect();
     let counts = [witness.events.len(), truth.events.len()];
     let last = witness.last.as_ref().expect("a run ends with an event");
-    let end = truth.last.as_ref().map(|truth| differences(last, truth));
+    let end = truth.last.as_ref().map(|truth| differences(last, truth, &scales));
     let same_events = counts == [events.len(); 2] && end.is_some();
     Ok(Trust { reference, rtol, atol, same_events, events, end: end.unwrap_or_default() })
 }
@@ -240,44 +251,43 @@ fn in_double_double(
     match replay.complete() {
         Ok(as_guided) => {
             let last = as_guided.then(|| replay.snapshot());
-            Ok(Witness { events: replay.events, last })
+            Ok(Witness { events: replay.events, last, ..Witness::new() })
         }
         Err(error) => Err(Failure { error, summary: Box::new(summary) }),
     }
 }
 
-fn compare(start: f64, run: &Event, truth: &Event) -> EventTrust {
-    let since = (truth.time - start).abs().max(f64::MIN_POSITIVE);
+fn compare(start: f64, run: &Event, truth: &Event, scales: &Scales) -> EventTrust {
+    let since = natural((truth.time - start).abs(), scales.time);
     let impulse = run.impulse.zip(truth.impulse).map(|(run, truth)| {
-        Digits::new("impulse", (run - truth).abs(), truth.abs().max(f64::MIN_POSITIVE))
+        Digits::new("impulse", (run - truth).abs(), natural(truth.abs(), scales.impulse))
     });
     let time = Digits::new("time", (run.time - truth.time).abs(), since);
     EventTrust { event: *run, time, impulse }
 }
 
-/// How far one state of a scene is from another, quantity by quantity.
-pub fn differences(run: &Snapshot, truth: &Snapshot) -> Vec<Digits> {
-    let vector = |quantity, run: Vec3<f64>, truth: Vec3<f64>| {
-        of_list(quantity, &run.to_array(), &truth.to_array())
+/// How far one state of a scene is from another, quantity by quantity: the largest difference of each,
+/// relative to its natural size.
+pub fn differences(run: &Snapshot, truth: &Snapshot, scales: &Scales) -> Vec<Digits> {
+    let vector = |quantity, run: Vec3<f64>, truth: Vec3<f64>, size| {
+        of_list(quantity, &run.to_array(), &truth.to_array(), size)
     };
     // The angle between the two attitudes; half of it is the length of the difference.
     let (a, b) = (run.attitude, truth.attitude);
     let turned = (a.scalar - b.scalar).hypot((a.vector - b.vector).norm()) * 2.0;
     vec![
         Digits::new("attitude", turned, 1.0),
-        vector("omega", run.omega_body, truth.omega_body),
-        of_list("beta", &run.beta, &truth.beta),
-        of_list("tau", &run.tau, &truth.tau),
-        vector("rho", run.position_inertial, truth.position_inertial),
-        vector("v", run.velocity_inertial, truth.velocity_inertial),
+        vector("omega", run.omega_body, truth.omega_body, scales.omega),
+        of_list("beta", &run.beta, &truth.beta, scales.beta),
+        of_list("tau", &run.tau, &truth.tau, scales.tau),
+        vector("rho", run.position_inertial, truth.position_inertial, scales.rho),
+        vector("v", run.velocity_inertial, truth.velocity_inertial, scales.v),
     ]
 }
 
-/// The largest difference relative to the largest number.
-fn of_list(quantity: &'static str, run: &[f64], truth: &[f64]) -> Digits {
-    let largest = truth.iter().fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
+fn of_list(quantity: &'static str, run: &[f64], truth: &[f64], size: f64) -> Digits {
     let off = run.iter().zip(truth).map(|(a, b)| (a - b).abs());
-    Digits::new(quantity, off.fold(0.0, f64::max), largest)
+    Digits::new(quantity, off.fold(0.0, f64::max), size)
 }
 
 #[cfg(test)]

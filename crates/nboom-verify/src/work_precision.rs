@@ -8,7 +8,9 @@ use std::time::Instant;
 use nboom_formulation::Formulation;
 use nboom_model::Scene;
 use nboom_scalar::Kernel;
-use nboom_sim::{Failure, Form, Method, Options, Path, Snapshot, Witness, differences, simulate};
+use nboom_sim::{
+    Failure, Form, Method, Options, Path, Scales, Snapshot, Witness, differences, simulate,
+};
 
 use crate::picture::{Curve, picture};
 
@@ -57,8 +59,12 @@ pub struct TimedRun {
     pub integrator: Method,
     /// Relative error allowed in a step.
     pub rtol: f64,
-    /// The largest relative difference of any quantity at the end from the reference by series.
+    /// The largest difference of any quantity at the end from the reference by series, each relative
+    /// to its natural size.
     pub error: f64,
+    /// The largest difference of any variable from that reference, over the largest value of any:
+    /// attitude, β, velocity of O, ω, τ, all in main-body axes.
+    pub error_as_peers: f64,
     /// The shortest time, from a checked scene to the end of the run, preparation included.
     pub microseconds: f64,
     /// Evaluations of the equations of motion; of series, as many as there are series.
@@ -76,7 +82,7 @@ impl WorkPrecision {
         kernels: &'static [Kernel],
         seconds: f64,
     ) -> Result<Self, Failure> {
-        let truth = reference(scene, Method::Taylor)?;
+        let truth = Truth::of(scene)?;
         let second = reference(scene, Method::Dop853)?;
         let mut measured: Vec<(TimedRun, Options)> = Vec::new();
         let beginning = beginning(scene);
@@ -103,20 +109,22 @@ impl WorkPrecision {
         }
         Ok(Self {
             scene: scene.name.clone(),
-            known_to: largest_difference(&second, &truth),
+            known_to: truth.error(second.end().expect("a run ends with an event")),
             runs: measured.into_iter().map(|(run, _)| run).collect(),
         })
     }
 
     /// All runs as comma-separated values.
     pub fn csv(&self) -> String {
-        let head = "path,formulation,integrator,rtol,error,microseconds,evaluations\n";
+        let head =
+            "path,formulation,integrator,rtol,error,microseconds,evaluations,error_as_peers\n";
         self.runs.iter().fold(head.to_owned(), |mut text, run| {
             let TimedRun { path, formulation, integrator, rtol, .. } = run;
-            let TimedRun { error, microseconds, evaluations, .. } = run;
+            let TimedRun { error, microseconds, evaluations, error_as_peers, .. } = run;
             writeln!(
                 text,
-                "{path},{formulation},{integrator},{rtol:e},{error:.3e},{microseconds:.1},{evaluations}"
+                "{path},{formulation},{integrator},{rtol:e},{error:.3e},{microseconds:.1},{evaluations},\
+                 {error_as_peers:.3e}"
             )
             .expect("a string takes any text");
             text
@@ -199,14 +207,14 @@ impl Source {
     }
 
     fn options(self, integrator: Method, exponent: i32, kernels: &'static [Kernel]) -> Options {
-        let (path, form) = match self {
-            Self::Library(form) => (Path::Generic, form),
-            Self::Generated(formulation) => (Path::Generated, Form::Closed(formulation)),
-            Self::Recorded => (Path::Generic, Form::Recursive),
+        let (path, formulation) = match self {
+            Self::Library(form) => (Path::Generic, Some(form)),
+            Self::Generated(formulation) => (Path::Generated, Some(Form::Closed(formulation))),
+            Self::Recorded => (Path::Auto, None),
         };
         Options {
             path,
-            formulation: Some(form),
+            formulation,
             integrator,
             rtol: 10.0_f64.powi(-exponent),
             atol: 10.0_f64.powi(-exponent - 2),
@@ -230,14 +238,51 @@ fn combinations(kernels: &[Kernel]) -> impl Iterator<Item = (Source, Method)> {
     pairs.into_iter()
 }
 
-/// The end of a run that is as good as `f64` allows.
-fn reference(scene: &Scene, integrator: Method) -> Result<Snapshot, Failure> {
+/// What is seen of a run that is as good as `f64` allows.
+fn reference(scene: &Scene, integrator: Method) -> Result<Witness, Failure> {
     let (rtol, atol) = TIGHTEST;
-    let path = Path::Generic;
-    let options = Options { path, integrator, rtol, atol, samples: 1, ..Options::default() };
+    let options = Options { path: Path::Generic, integrator, rtol, atol, ..Options::default() };
     let mut witness = Witness::new();
     simulate(scene, &options, &mut witness)?;
-    Ok(witness.end().expect("a run ends with an event").clone())
+    Ok(witness)
+}
+
+/// What runs are compared with: how a reference ends, and the natural sizes of its quantities.
+struct Truth {
+    end: Snapshot,
+    scales: Scales,
+}
+
+impl Truth {
+    fn of(scene: &Scene) -> Result<Self, Failure> {
+        let witness = reference(scene, Method::Taylor)?;
+        let end = witness.end().expect("a run ends with an event").clone();
+        Ok(Self { end, scales: witness.scales(scene) })
+    }
+
+    /// The largest difference of any quantity, relative to its natural size.
+    fn error(&self, end: &Snapshot) -> f64 {
+        let quantities = differences(end, &self.end, &self.scales);
+        quantities.iter().map(|digits| digits.difference).fold(0.0, f64::max)
+    }
+
+    /// The largest difference of any variable, relative to the largest one.
+    fn error_as_peers(&self, end: &Snapshot) -> f64 {
+        let (ours, true_ones) = (variables(end), variables(&self.end));
+        let largest = true_ones.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let off = ours.iter().zip(&true_ones).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        off / largest
+    }
+}
+
+/// What those integrate who have no closed form for the mass centre.
+fn variables(end: &Snapshot) -> Vec<f64> {
+    let attitude = end.attitude;
+    let velocity_body = attitude.to_matrix().transpose_mul(end.velocity_inertial);
+    let vectors = [attitude.vector, velocity_body, end.omega_body];
+    let vectors = vectors.into_iter().flat_map(|vector| vector.to_array());
+    let all = [attitude.scalar].into_iter().chain(vectors);
+    all.chain(end.beta.iter().copied()).chain(end.tau.iter().copied()).collect()
 }
 
 /// The scene for a small share of its span.
@@ -259,7 +304,7 @@ fn timed(
     scene: &Scene,
     code: Source,
     options: &Options,
-    truth: &Snapshot,
+    truth: &Truth,
     seconds: f64,
 ) -> Option<TimedRun> {
     let mut witness = Witness::new();
@@ -272,7 +317,8 @@ fn timed(
         formulation,
         integrator: options.integrator,
         rtol: options.rtol,
-        error: largest_difference(witness.end()?, truth),
+        error: truth.error(witness.end()?),
+        error_as_peers: truth.error_as_peers(witness.end()?),
         microseconds: if first < seconds { shortest(scene, options, seconds) } else { first * 1e6 },
         evaluations: summary.evaluations,
     })
@@ -290,8 +336,4 @@ fn shortest(scene: &Scene, options: &Options, seconds: f64) -> f64 {
         }
     }
     least
-}
-
-fn largest_difference(end: &Snapshot, truth: &Snapshot) -> f64 {
-    differences(end, truth).iter().map(|digits| digits.difference).fold(0.0, f64::max)
 }

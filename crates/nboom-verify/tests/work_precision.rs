@@ -5,18 +5,33 @@ use nboom_scalar::{Sym3, Vec3};
 use nboom_sim::Method;
 use nboom_verify::{TimedRun, WorkPrecision};
 
-/// A rigid body without symmetry, which all code covers.
-fn measured() -> WorkPrecision {
-    let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 2.0, 2.5));
-    let mut description = SceneDescription::at_rest("top", body, 2.0);
-    description.initial.omega_body = Vec3::new(0.3, 2.0, 0.1);
+/// A rigid body without symmetry, which all code covers, for some time with these rates.
+fn measured(omega_body: Vec3<f64>, end_time: f64) -> WorkPrecision {
+    let center = Vec3::new(0.1, 0.2, 0.7);
+    let body = MassProperties::new(1.0, center, Sym3::diagonal(1.0, 2.0, 2.5));
+    let mut description = SceneDescription::at_rest("top", body, end_time);
+    description.initial.omega_body = omega_body;
     let scene = Scene::new(description).expect("a physical body");
-    WorkPrecision::measure(&scene, &[], 1e-3).expect("free spin is easy")
+    WorkPrecision::measure(&scene, &[], 1e-4).expect("free spin is easy")
+}
+
+/// Most of what is compared is then zero but for rounding.
+#[test]
+fn rest_and_spin_about_one_axis_are_known_to_all_digits() {
+    for omega in [Vec3::zero(), Vec3::new(0.0, 0.0, 2.0)] {
+        let found = measured(omega, 0.5);
+        // As for any motion.
+        assert!(found.known_to < 1e-12, "{omega:?}: {:e}", found.known_to);
+        let tight = found.runs.iter().filter(|run| run.rtol < 1e-11);
+        for run in tight {
+            assert!(run.error < 1e-9 && run.error_as_peers < 1e-9, "{omega:?}: {run:?}");
+        }
+    }
 }
 
 #[test]
 fn errors_fall_with_the_tolerance_and_series_run_once() {
-    let found = measured();
+    let found = measured(Vec3::new(0.3, 2.0, 0.1), 2.0);
     // Two methods on two derivations, some hundred steps of rounding each.
     assert!(found.known_to < 1e-12, "{:e}", found.known_to);
     let of = |path: &str, form: &str, integrator: Method| -> Vec<&TimedRun> {
@@ -43,7 +58,17 @@ fn errors_fall_with_the_tolerance_and_series_run_once() {
 
     let csv = found.csv();
     assert_eq!(csv.lines().count(), 1 + found.runs.len());
-    assert!(csv.starts_with("path,formulation,integrator,rtol,error,microseconds,evaluations\n"));
+    assert!(csv.starts_with(
+        "path,formulation,integrator,rtol,error,microseconds,evaluations,error_as_peers\n"
+    ));
+    for (row, run) in csv.lines().skip(1).zip(&found.runs) {
+        let as_peers = row.rsplit(',').next().and_then(|cell| cell.parse::<f64>().ok());
+        let told = as_peers.expect("a number in the last column");
+        // Written with four digits.
+        assert!((told - run.error_as_peers).abs() <= 1e-3 * run.error_as_peers, "{row}");
+        // One quantity for all: its largest value is that of no smaller one.
+        assert!(run.error_as_peers <= 4.0 * run.error + found.known_to, "{run:?}");
+    }
     let table = found.table();
     assert!(table.contains("\nrecorded any taylor "), "{table}");
     let picture = found.picture();

@@ -68,20 +68,29 @@ fn a_hinge_without_inertia() {
 #[test]
 fn forces_beyond_all_numbers() {
     let place = Place::new("overflow");
-    let cards = " RELTB=0.5,IREL=0,EKNIK(1,2)=-1.0E308,THETIK=9000.0,";
-    place.write("deck.nml", boom(cards, 1.0).replace("SEGSTT=1.0", "SEGSTT=0.0"));
+    // A radian from 30 degrees: energy and torque are still numbers, what they make of a light boom is not.
+    let cards = " RELTB=0.5,IREL=0,EKNIK(1,2)=-1.0E308,THETIK=87.3,";
+    let light = |deck: String| {
+        deck.replace("HIIK=10.0,3*0.0,8.0,3*0.0,8.0", "HIIK=0.05,3*0.0,0.04,3*0.0,0.04")
+    };
+    place.write("deck.nml", light(boom(cards, 1.0)).replace("SEGSTT=1.0", "SEGSTT=0.0"));
     fails_at(&place, "overflow", 0.5, &["hinge 1,1", "not finite"]);
 }
 
 #[test]
 fn energies_beyond_all_numbers() {
     let place = Place::new("energy");
-    place.write("deck.nml", boom(" VBAR=1.0E200,", 1.0));
-    let finished = place.nboom(&["run", "deck.nml", "--quiet"]);
-    finished.refused("energy", 3, &["at time 0:", "not finite", "marked incomplete"]);
-    assert_eq!(summary(&place)["complete"], false);
-    // No row holds what is no number.
-    assert_eq!(place.read("out/deck/states.csv").lines().count(), 1);
+    for (told, cards, what) in [
+        ("thrown", " VBAR=1.0E200,", "momentum"),
+        ("wound up", " EKNIK(1,2)=-1.0E308,THETIK=9000.0,", "potential energy of hinge 1,1"),
+    ] {
+        place.write("deck.nml", boom(cards, 1.0));
+        let finished = place.nboom(&["run", "deck.nml", "--quiet"]);
+        finished.refused(told, 3, &["at time 0:", what, "not finite", "marked incomplete"]);
+        assert_eq!(summary(&place)["complete"], false);
+        // No row holds what is no number.
+        assert_eq!(place.read("out/deck/states.csv").lines().count(), 1, "{told}");
+    }
 }
 
 /// Steps of the original's integrator as long as they like: a tenth of the energy is lost.

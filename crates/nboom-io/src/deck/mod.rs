@@ -21,6 +21,7 @@ mod values;
 use nboom_model::{Scene, Structure};
 
 use crate::diagnostic::Report;
+use crate::source::sha256;
 use crate::{InputError, SceneFile};
 use builder::Builder;
 use values::{Sizes, Values};
@@ -44,7 +45,8 @@ pub fn parse_deck(file: &str, text: &str, name: &str) -> Result<SceneFile, Input
     report.sort();
     match parts {
         Some((scene, legacy, structure)) if report.errors.is_empty() => {
-            Ok(SceneFile { scene, warnings: report.warnings, legacy, structure })
+            let sha256 = sha256(text.as_bytes());
+            Ok(SceneFile { scene, warnings: report.warnings, legacy, structure, sha256 })
         }
         _ => Err(InputError::Deck(report.errors)),
     }

@@ -1,0 +1,63 @@
+//! What became of the hinges, in words.
+
+use nboom_model::{HingeState, Scene};
+use nboom_sim::{HingeVerdict, Verdict};
+use nboom_strength::Worst;
+
+use crate::format::{degrees, short};
+
+/// Hinges beyond these are only counted.
+const SHOWN: usize = 12;
+
+/// A line with the hinges that are locked and since when, and one with the others and how far they
+/// came; nothing of a scene without hinges.
+pub(crate) fn lines(scene: &Scene, verdict: &Verdict) -> Vec<String> {
+    let each = || verdict.hinges.iter().enumerate();
+    let is_locked = |hinge: &HingeVerdict| hinge.state == HingeState::Locked;
+    let locked = each().filter(|(_, hinge)| is_locked(hinge));
+    let locked = listed(locked.map(|(i, hinge)| locked_hinge(scene, i, hinge)).collect());
+    let others = each().filter(|(_, hinge)| !is_locked(hinge));
+    let others = listed(others.map(|(i, hinge)| other_hinge(scene, i, hinge)).collect());
+    match (locked, others) {
+        (None, None) => Vec::new(),
+        (Some(locked), None) => vec![format!("all locked    {locked}")],
+        (None, Some(others)) => vec![format!("none locked   {others}")],
+        (Some(locked), Some(others)) => {
+            vec![format!("locked        {locked}"), format!("not locked    {others}")]
+        }
+    }
+}
+
+/// The first of them, and how many more there are.
+fn listed(hinges: Vec<String>) -> Option<String> {
+    let shown = hinges.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join("; ");
+    match hinges.len().saturating_sub(SHOWN) {
+        _ if hinges.is_empty() => None,
+        0 => Some(shown),
+        more => Some(format!("{shown}; and {more} more")),
+    }
+}
+
+fn locked_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
+    let label = scene.label(i);
+    match hinge.since {
+        Some(time) => format!("{label} at {}", short(time, 10)),
+        None => format!("{label} from the start"),
+    }
+}
+
+fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
+    let state = if hinge.state == HingeState::Free { "free" } else { "unreleased" };
+    let (label, angle) = (scene.label(i), degrees(hinge.angle));
+    match scene.bodies[i].hinge.lock_angle {
+        Some(lock) => format!("{label} {state} at {angle}, locks at {}", degrees(lock)),
+        None => format!("{label} {state} at {angle}, has no lock"),
+    }
+}
+
+/// What is said of a part that fails.
+pub(crate) fn negative_margin(worst: &Worst) -> Option<String> {
+    let margin = worst.margin.filter(|margin| *margin < 0.0)?;
+    let (segment, station, margin) = (worst.segment, worst.station + 1, short(margin, 3));
+    Some(format!("negative margin: {margin} in segment {segment}, station {station}"))
+}

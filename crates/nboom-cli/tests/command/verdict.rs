@@ -1,0 +1,175 @@
+//! What became of the hinges, the worst of all, and what the run was made of: in the account, and in
+//! `summary.json`.
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+use crate::{Place, code, refused, rows, stderr, stdout};
+
+/// The sample deck: four segments that lock, with stations.
+const SAMPLE: &str = include_str!("../../../../examples/n-boom-1970.nml");
+
+fn table(place: &Place, file: &str) -> Vec<Vec<String>> {
+    let lines = rows(&place.path("out").join(file));
+    lines[1..].iter().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn number(cell: &str) -> f64 {
+    cell.parse().expect("a number")
+}
+
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[test]
+fn hinges_that_lock_are_told_with_their_times_and_the_largest_impulse() {
+    let place = Place::new();
+    place.write("sample.nml", SAMPLE);
+    let output = place.nboom(&["run", "sample.nml", "-o", "out"]);
+    let account = stdout(&output);
+    let summary = place.summary("out");
+    let verdict = &summary["verdict"];
+    let lock_ups: Vec<_> =
+        table(&place, "events.csv").into_iter().filter(|row| row[1] == "lock_up").collect();
+    let states = table(&place, "states.csv");
+    let last = states.last().expect("rows");
+    let hinges = verdict["hinges"].as_array().expect("a list");
+    assert_eq!(hinges.len(), 4);
+    for (i, hinge) in hinges.iter().enumerate() {
+        let label = [&hinge["appendage"], &hinge["segment"]].map(ToString::to_string);
+        let row = lock_ups.iter().find(|row| row[2..4] == label).expect("it has locked");
+        assert_eq!(hinge["time"], json!(number(&row[0])));
+        // Columns as in the contract: fourteen, then five for each hinge.
+        assert_eq!(hinge["angle"], json!(number(&last[14 + 5 * i])));
+        assert_eq!(hinge["state"], json!(1));
+        assert_eq!(last[14 + 5 * i + 4], "1");
+    }
+    let impulse = largest(lock_ups.iter().map(|row| number(&row[4]).abs()));
+    assert_eq!(verdict["largest_impulse"], json!(impulse));
+    let line = account.lines().find(|line| line.starts_with("all locked ")).expect("told");
+    assert!(["1,1 at 0.1617", "2,2 at 0.3241"].iter().all(|part| line.contains(part)), "{line}");
+    assert!(account.contains("\nworst impulse 6439.0932 "), "{account}");
+    let worst = largest(table(&place, "stress_envelope.csv").iter().map(|row| number(&row[12])));
+    assert_eq!(verdict["worst_load"], json!(worst));
+    assert_eq!(verdict["smallest_margin"], Value::Null);
+}
+
+#[test]
+fn a_run_in_which_nothing_locks_says_how_far_hinges_came() {
+    let place = Place::new();
+    let output =
+        place.nboom(&["run", "boom.nml", "-o", "out", "--end-time", "0.5", "--samples", "2"]);
+    let states = table(&place, "states.csv");
+    let angle = number(&states.last().expect("rows")[14]);
+    let verdict = &place.summary("out")["verdict"];
+    let hinge = json!({"appendage": 1, "segment": 1, "state": 0, "time": 0.25, "angle": angle});
+    assert_eq!(verdict["hinges"], json!([hinge]));
+    for key in ["largest_impulse", "worst_load", "smallest_margin"] {
+        assert_eq!(verdict[key], Value::Null, "{key}");
+    }
+    let line = stdout(&output);
+    let line = line.lines().find(|line| line.starts_with("none locked ")).expect("told");
+    let rest = line.split_once("1,1 free at ").expect("the hinge").1;
+    let (told, lock) = rest.split_once(" deg, locks at ").expect("both angles");
+    // Told with six digits.
+    assert!((number(told) - angle.to_degrees()).abs() < 1e-4, "{line} {angle}");
+    assert_eq!(lock, "0 deg");
+    let output = place.nboom(&["run", "boom.nml", "-o", "out", "--end-time", "0.1"]);
+    assert!(stdout(&output).contains("none locked   1,1 unreleased at 80 deg"), "{output:?}");
+    assert_eq!(place.summary("out")["verdict"]["hinges"][0]["time"], Value::Null);
+}
+
+#[test]
+fn a_negative_margin_is_told_even_when_quiet() {
+    let place = Place::new();
+    place.write("sample.nml", SAMPLE);
+    for (yield_stress, is_negative) in [("1e5", true), ("1e7", false)] {
+        let words = ["run", "sample.nml", "-o", "out", "--quiet", "--yield-stress", yield_stress];
+        let output = place.nboom(&words);
+        let told = stderr(&output);
+        assert_eq!(code(&output), 0, "{told}");
+        let verdict = &place.summary("out")["verdict"];
+        let margins = table(&place, "stress_envelope.csv");
+        let margins = margins.iter().filter(|row| !row[14].is_empty());
+        let least = -largest(margins.map(|row| -number(&row[14])));
+        assert_eq!(verdict["smallest_margin"], json!(least));
+        let line = told.lines().find(|line| line.starts_with("warning: negative margin: "));
+        assert_eq!(line.is_some(), is_negative && least < 0.0, "{told}");
+        let at = &verdict["smallest_margin_at"];
+        let place =
+            format!("segment {},{}, station {}", at["appendage"], at["segment"], at["station"]);
+        assert!(line.is_none_or(|line| line.contains(&place)), "{told}: {place}");
+    }
+}
+
+#[test]
+fn a_summary_names_the_program_and_hashes_its_input() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["run", "boom.nml", "-o", "out"])), 0);
+    let summary = place.summary("out");
+    assert_eq!(summary["version"], env!("CARGO_PKG_VERSION"));
+    let known = Command::new("sha256sum").arg(place.path("boom.nml")).output();
+    let known = String::from_utf8(known.expect("a unix system").stdout).expect("text");
+    let hash = summary["input_sha256"].as_str().expect("a text");
+    assert_eq!(known.split(' ').next(), Some(hash));
+}
+
+#[test]
+fn series_are_said_to_be_series_and_take_no_code() {
+    let place = Place::new();
+    let series = ["run", "boom.nml", "-o", "out", "--integrator", "taylor"];
+    let output = place.nboom(&series);
+    assert!(stdout(&output).contains("series path, articulated formulation, integrator taylor"));
+    let summary = place.summary("out");
+    assert_eq!((&summary["path"], &summary["generated_share"]), (&json!("series"), &json!(0.0)));
+    for ignored in
+        [["--path", "generated"], ["--path", "generic"], ["--formulation", "articulated"]]
+    {
+        let output = place.nboom(&[&series[..], &ignored].concat());
+        refused(&output, 2, &[ignored[0], "--integrator taylor"]);
+    }
+    let output = place.nboom(&[&series[..], &["--path", "auto"]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+}
+
+#[test]
+fn options_that_act_on_nothing_are_refused_or_said() {
+    let place = Place::new();
+    place.write("sample.nml", SAMPLE);
+    let cases: &[(&str, &[&str], &[&str])] = &[
+        ("boom.nml", &["--yield-stress", "1e5"], &["--yield-stress", "no stations"]),
+        ("boom.nml", &["--amplification", "1.5"], &["--amplification", "no stations"]),
+        ("boom.nml", &["--report-signs"], &["--report-signs", "no stations"]),
+        ("sample.nml", &["--safety-factor", "1.5"], &["--yield-stress"]),
+        ("sample.nml", &["--amplification", "7"], &["--amplification", "from 1 to 2"]),
+        ("sample.nml", &["--amplification", "0.5"], &["--amplification", "from 1 to 2"]),
+        ("sample.nml", &["--no-stresses", "--yield-stress", "1e5"], &["--no-stresses"]),
+        ("sample.nml", &["--no-stresses", "--amplification", "2"], &["--no-stresses"]),
+        ("sample.nml", &["--no-stresses", "--report-signs"], &["--no-stresses"]),
+        ("sample.nml", &["--no-stresses", "--pulses", "all-at-once"], &["--pulses"]),
+        ("boom.nml", &["--hinge-loads", "--pulses", "all-at-once"], &["--pulses", "no stations"]),
+    ];
+    for (deck, options, words) in cases {
+        let output = place.nboom(&[&["run", deck][..], options].concat());
+        refused(&output, 2, words);
+    }
+    assert!(!place.path("out").exists());
+    let idle = "tube-shear (nothing in this run shows these slips of 1970)";
+    let bound = "--rtol (EU1 of the deck bounds the errors of rkam)";
+    let said: &[(&[&str], &str, bool)] = &[
+        (&["--no-stresses", "--as-1970=tube-shear"], idle, true),
+        (&["--as-1970=tube-shear"], idle, false),
+        (&["--integrator", "rkam", "--end-time", "0.1", "--rtol", "1e-7"], bound, true),
+        (&["--integrator", "rkam", "--end-time", "0.1"], bound, false),
+        (&["--rtol", "1e-7"], bound, false),
+    ];
+    for (options, words, is_said) in said {
+        let output = place.nboom(&[&["run", "sample.nml", "-o", "out"][..], options].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let told = stderr(&output);
+        let mut notes = told.lines().filter(|line| line.starts_with("note: ignored: "));
+        assert_eq!(notes.any(|line| line.contains(words)), *is_said, "{options:?}: {told}");
+    }
+}

@@ -1,0 +1,164 @@
+use nboom_model::HingeLabel;
+use nboom_sim::{HingeVerdict, LockUpImpulse, Verdict};
+use nboom_strength::{Cause, HingeQuantity, StressAnalysis, Worst, WorstHingeLoad};
+use serde::Serialize;
+
+/// The worst stresses and hinge loads of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorstLoads {
+    /// The largest von Mises stress of each station; nothing without stations.
+    pub stations: Vec<Worst>,
+    /// The largest force and the largest moment of each hinge.
+    pub hinges: Vec<WorstHingeLoad>,
+}
+
+impl WorstLoads {
+    /// What an analysis has found so far.
+    pub fn of(analysis: &StressAnalysis) -> Self {
+        Self { stations: analysis.envelope(), hinges: analysis.hinge_envelope() }
+    }
+
+    /// The station with the largest von Mises stress.
+    pub fn station(&self) -> Option<&Worst> {
+        let von_mises = |worst: &Worst| worst.severest.stress.von_mises();
+        self.stations.iter().max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
+    }
+
+    /// The station with the smallest margin, if a yield stress is known.
+    pub fn weakest(&self) -> Option<&Worst> {
+        let margin = |worst: &Worst| worst.margin.unwrap_or(f64::INFINITY);
+        let known = self.stations.iter().filter(|worst| worst.margin.is_some());
+        known.min_by(|a, b| margin(a).total_cmp(&margin(b)))
+    }
+
+    /// The hinge with the largest force or moment.
+    pub fn hinge(&self, quantity: HingeQuantity) -> Option<&WorstHingeLoad> {
+        let of_quantity = self.hinges.iter().filter(|worst| worst.quantity == quantity);
+        of_quantity.max_by(|a, b| a.magnitude().total_cmp(&b.magnitude()))
+    }
+}
+
+/// What `summary.json` says under `verdict`. Where a number is the largest or smallest of many, the key
+/// with `_at` says where it is.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct VerdictKeys {
+    hinges: Vec<HingeKeys>,
+    /// Its magnitude.
+    largest_impulse: Option<f64>,
+    largest_impulse_at: Option<LockUpKeys>,
+    /// The largest von Mises stress.
+    worst_load: Option<f64>,
+    worst_load_at: Option<StationKeys>,
+    smallest_margin: Option<f64>,
+    smallest_margin_at: Option<StationKeys>,
+    largest_hinge_force: Option<f64>,
+    largest_hinge_force_at: Option<HingeLoadKeys>,
+    largest_hinge_moment: Option<f64>,
+    largest_hinge_moment_at: Option<HingeLoadKeys>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct HingeKeys {
+    appendage: usize,
+    segment: usize,
+    /// As in `states.csv`.
+    state: i8,
+    time: Option<f64>,
+    angle: f64,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct LockUpKeys {
+    appendage: usize,
+    segment: usize,
+    time: f64,
+    impulse: f64,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct StationKeys {
+    appendage: usize,
+    segment: usize,
+    station: usize,
+    time: f64,
+    event: Option<&'static str>,
+}
+
+impl VerdictKeys {
+    pub fn new(labels: &[HingeLabel], verdict: &Verdict, worst: &WorstLoads) -> Self {
+        let hinges = labels.iter().zip(&verdict.hinges);
+        let largest = verdict.largest_impulse;
+        let (most_loaded, weakest) = (worst.station(), worst.weakest());
+        let [force, moment] =
+            [HingeQuantity::Force, HingeQuantity::Moment].map(|quantity| worst.hinge(quantity));
+        Self {
+            hinges: hinges.map(|(&label, hinge)| HingeKeys::new(label, hinge)).collect(),
+            largest_impulse: largest.map(|largest| largest.impulse.abs()),
+            largest_impulse_at: largest.map(|largest| LockUpKeys::new(labels, &largest)),
+            worst_load: most_loaded.map(|worst| worst.severest.stress.von_mises()),
+            worst_load_at: most_loaded.map(StationKeys::from),
+            smallest_margin: weakest.and_then(|worst| worst.margin),
+            smallest_margin_at: weakest.map(StationKeys::from),
+            largest_hinge_force: force.map(WorstHingeLoad::magnitude),
+            largest_hinge_force_at: force.map(HingeLoadKeys::from),
+            largest_hinge_moment: moment.map(WorstHingeLoad::magnitude),
+            largest_hinge_moment_at: moment.map(HingeLoadKeys::from),
+        }
+    }
+}
+
+impl HingeKeys {
+    fn new(label: HingeLabel, hinge: &HingeVerdict) -> Self {
+        Self {
+            appendage: label.appendage + 1,
+            segment: label.segment + 1,
+            state: hinge.state.code(),
+            time: hinge.since,
+            angle: hinge.angle,
+        }
+    }
+}
+
+impl LockUpKeys {
+    fn new(labels: &[HingeLabel], largest: &LockUpImpulse) -> Self {
+        let HingeLabel { appendage, segment } = labels[largest.hinge];
+        let LockUpImpulse { time, impulse, .. } = *largest;
+        Self { appendage: appendage + 1, segment: segment + 1, time, impulse }
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct HingeLoadKeys {
+    appendage: usize,
+    segment: usize,
+    time: f64,
+    event: Option<&'static str>,
+}
+
+impl From<&WorstHingeLoad> for HingeLoadKeys {
+    fn from(worst: &WorstHingeLoad) -> Self {
+        let HingeLabel { appendage, segment } = worst.hinge;
+        let (time, event) = (worst.time, event_of(worst.cause));
+        Self { appendage: appendage + 1, segment: segment + 1, time, event }
+    }
+}
+
+fn event_of(cause: Cause) -> Option<&'static str> {
+    match cause {
+        Cause::Motion => None,
+        Cause::LockUp { .. } => Some("lock_up"),
+    }
+}
+
+impl From<&Worst> for StationKeys {
+    fn from(worst: &Worst) -> Self {
+        let HingeLabel { appendage, segment } = worst.segment;
+        Self {
+            appendage: appendage + 1,
+            segment: segment + 1,
+            station: worst.station + 1,
+            time: worst.time,
+            event: event_of(worst.cause),
+        }
+    }
+}

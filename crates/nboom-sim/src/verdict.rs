@@ -1,0 +1,64 @@
+use nboom_model::HingeState;
+
+use crate::record::{Event, EventKind};
+
+/// What became of the hinges of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// Every hinge of the scene.
+    pub hinges: Vec<HingeVerdict>,
+    /// The lock-up with the largest impulse, if there was one.
+    pub largest_impulse: Option<LockUpImpulse>,
+}
+
+/// What became of a hinge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HingeVerdict {
+    /// Its state when the run ended.
+    pub state: HingeState,
+    /// When it was released or locked for the last time; `None` if it is as it was at the start.
+    pub since: Option<f64>,
+    /// β when the run ended \[rad\].
+    pub angle: f64,
+}
+
+/// The impulse of a lock-up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LockUpImpulse {
+    /// The hinge that locked.
+    pub hinge: usize,
+    /// When.
+    pub time: f64,
+    /// Impulsive torque on the outboard side, positive along the hinge axis.
+    pub impulse: f64,
+}
+
+impl Verdict {
+    /// Before anything has happened to as many hinges.
+    pub(crate) fn of(hinges: &[HingeState], beta: &[f64]) -> Self {
+        let hinge =
+            |(&state, &angle): (&HingeState, &f64)| HingeVerdict { state, since: None, angle };
+        Self { hinges: hinges.iter().zip(beta).map(hinge).collect(), largest_impulse: None }
+    }
+
+    /// Notes an event.
+    pub(crate) fn note(&mut self, event: &Event) {
+        let Some(hinge) = event.hinge else { return };
+        if matches!(event.kind, EventKind::LockUp | EventKind::Release) {
+            self.hinges[hinge].since = Some(event.time);
+        }
+        let Some(impulse) = event.impulse else { return };
+        if self.largest_impulse.is_none_or(|largest| impulse.abs() > largest.impulse.abs()) {
+            self.largest_impulse = Some(LockUpImpulse { hinge, time: event.time, impulse });
+        }
+    }
+
+    /// What it is when the hinges are left in these states at these angles.
+    pub(crate) fn ending_with(&self, hinges: &[HingeState], beta: &[f64]) -> Self {
+        let mut ended = self.clone();
+        for (hinge, (&state, &angle)) in ended.hinges.iter_mut().zip(hinges.iter().zip(beta)) {
+            (hinge.state, hinge.angle) = (state, angle);
+        }
+        ended
+    }
+}
