@@ -193,6 +193,14 @@ fn first_commands_of_the_readme_are_those_of_the_gate() {
 }
 
 #[test]
+fn what_the_readme_installs_is_the_command() {
+    let readme = read("README.md");
+    let line = readme.lines().find_map(|line| line.strip_prefix("cargo install --locked --path "));
+    let manifest = read(Path::new(line.expect("README.md says how to install")).join("Cargo.toml"));
+    assert!(manifest.contains("[[bin]]\nname = \"nboom\"\n"), "{manifest}");
+}
+
+#[test]
 fn nothing_names_a_place_on_some_machine() {
     let places = ["work", "home", "Users", "root", "tmp"].map(|folder| format!("/{folder}/"));
     let kinds = [".rs", ".md", ".toml", ".nml", ".lock", ".yml", "run", ".json"];

@@ -144,8 +144,8 @@ fn a_kick_off_spring_may_turn_it_all_the_same() {
     let warned = ModelWarning::DrivenFromLock { hinge: FIRST, start: 1.0, lock: 0.0 };
     // The spring's torque is 1, the force's its own size over an arm of 1.
     assert_eq!(pushed_along(inward, 1.5), []);
-    assert_eq!(pushed_along(inward, 0.5), [warned.clone()]);
-    assert_eq!(pushed_along(inward * -1.0, 1.5), [warned.clone()]);
+    assert_eq!(pushed_along(inward, 0.5), std::slice::from_ref(&warned));
+    assert_eq!(pushed_along(inward * -1.0, 1.5), std::slice::from_ref(&warned));
     let force = -0.5;
     let pulls = ModelWarning::KickOffPulls { hinge: FIRST, force, length: 1.0 };
     let found = pushed_along(inward, force);

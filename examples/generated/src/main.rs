@@ -1,16 +1,16 @@
 //! A program around a crate that `nboom generate` has written, without any other part of nboom.
 //!
 //! ```sh
-//! examples/generated/generate
-//! cargo run --release --manifest-path examples/generated/Cargo.toml
+//! ./generate
+//! cargo run --release
 //! ```
 //!
-//! The satellite of the 1970 report tumbles with its hinges free and no springs. The program
+//! A satellite with two wings tumbles with its hinges free and no springs. The program
 //! follows it by the classical Runge-Kutta method with the generated accelerations, and computes
 //! the kinetic energy with the generated mass matrix. It ends with an error if the energy does not
 //! stay what it was.
 
-use satellite_n_boom_1970::{HINGES, Kernel, equations, kernels, parameters};
+use satellite_wings::{HINGES, Kernel, equations, kernels, parameters};
 
 /// Largest relative change of energy that the method's error explains.
 const TOLERANCE: f64 = 1e-8;

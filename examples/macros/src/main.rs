@@ -4,7 +4,7 @@
 //! cargo run --release --manifest-path examples/macros/Cargo.toml
 //! ```
 //!
-//! `scene!` compiles the sample deck of 1970 into the program, with routines for it and for each
+//! `scene!` compiles the deck beside `Cargo.toml` into the program, with routines for it and for each
 //! state with held hinges that it comes through. `routine!` makes one for a topology. The
 //! deployment is run in the scene's own code, then once more in library code; the program ends
 //! with an error if any stage ran in other code than it should, or if a hinge locks at another
@@ -21,11 +21,11 @@ nboom::routine! {
     BoomAndPaddle: S2_P, level = exact
 }
 
-const SAMPLE: nboom::CompiledScene = nboom::scene!("../n-boom-1970.nml");
+const BOOMS: nboom::CompiledScene = nboom::scene!("booms.nml");
 
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("{}: {} routines", SAMPLE.name(), SAMPLE.kernels().len());
-    let own = Options { path: Path::Generated, kernels: SAMPLE.kernels(), ..Options::default() };
+    println!("{}: {} routines", BOOMS.name(), BOOMS.kernels().len());
+    let own = Options { path: Path::Generated, kernels: BOOMS.kernels(), ..Options::default() };
     let (generated, summary) = run(&own)?;
     for event in &generated {
         println!("{:.9} {:8} hinge {}", event.time, event.kind.name(), event.hinge);
@@ -47,19 +47,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("library code has the same events");
 
     let general = Kernel::of::<BoomAndPaddle>();
-    let all_free = SAMPLE.kernels().iter().find(|kernel| kernel.topology == general.topology);
+    let all_free = BOOMS.kernels().iter().find(|kernel| kernel.topology == general.topology);
     let baked = all_free.ok_or("a routine for all hinges free expected")?;
     println!(
-        "{}: {} constants to prepare, {} with the sample's numbers built in",
+        "{}: {} constants to prepare, {} with the deck's numbers built in",
         general.topology, general.constants, baked.constants
     );
     Ok(())
 }
 
-/// What the sample does: runs it and keeps releases and lock-ups.
+/// What the deck does: runs it and keeps releases and lock-ups.
 fn run(options: &Options) -> Result<(Vec<Change>, Summary), Box<dyn Error>> {
     let mut changes = Changes(Vec::new());
-    let summary = simulate(&SAMPLE.scene()?, options, &mut changes)?;
+    let summary = simulate(&BOOMS.scene()?, options, &mut changes)?;
     Ok((changes.0, summary))
 }
 

@@ -2,6 +2,7 @@
 
 mod certificate;
 mod verdict;
+mod told;
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -212,84 +213,6 @@ fn check_says_what_the_scene_contains_and_computes_nothing() {
         assert!(text.contains(words), "no {words:?} in {text}");
     }
     assert!(!place.path("out").exists());
-}
-
-#[test]
-fn what_is_probably_not_meant_is_a_warning_of_check_and_of_run() {
-    let place = Place::new();
-    let deck = BOOM
-        .replace("EKNIK(1,2)=-30.0", "EKNIK(1,2)=30.0,QNIK(1,2)=0.5")
-        .replace("RELTB=0.25", "RELTB=2.0E6")
-        .replace("TF=4.0", "TZO=1999999.0,TF=2000001.0");
-    place.write("boom.nml", &deck);
-    let words = [
-        "boom.nml:12:15: RELTB(1): found time 2000000 in a run from 1999999 to 2000001, expected less than \
-         1e6; from there on it means never, and the hinge is not released",
-    ];
-    let check = place.nboom(&["check", "boom.nml"]);
-    let run = place.nboom(&["run", "boom.nml"]);
-    for output in [&check, &run] {
-        assert_eq!(code(output), 0);
-        for words in words {
-            assert!(stderr(output).contains(words), "no {words:?} in {}", stderr(output));
-        }
-    }
-    let deck = deck.replace("RELTB=2.0E6", "RELTB=0.25");
-    place.write("boom.nml", &deck.replace("BETAIK=80.0", "BETAIK=-80.0"));
-    let check = place.nboom(&["check", "boom.nml"]);
-    let run = place.nboom(&["run", "boom.nml", "--end-time", "1999999.5"]);
-    let told = [
-        "dashpot of hinge 1,1 feeds energy: coefficient 0.5 of the rate found",
-        "spring of hinge 1,1 pushes the harder the farther it is from 0 deg",
-        "spring torque of hinge 1,1 drives it away from its lock angle: from -80 deg, not towards 0 deg",
-    ];
-    for words in told {
-        for output in [&check, &run] {
-            assert!(stderr(output).contains(words), "no {words:?} in {}", stderr(output));
-        }
-        let summary = place.summary("out/boom");
-        let warnings = summary["warnings"].as_array().expect("a list").iter();
-        let warnings: Vec<&str> = warnings.map(|w| w.as_str().expect("text")).collect();
-        assert!(warnings.iter().any(|warning| warning.contains(words)), "{warnings:?}");
-    }
-}
-
-#[test]
-fn an_end_time_beyond_a_release_time_that_means_never_is_a_warning() {
-    let place = Place::new();
-    place.write("boom.nml", &BOOM.replace("RELTB=0.25", "RELTB=2.0E6"));
-    let words = "--end-time 3000000: hinge 1,1 is never released";
-    for (end_time, is_told) in [("3E6", true), ("1E5", false)] {
-        let output = place.nboom(&["run", "boom.nml", "--samples", "1", "--end-time", end_time]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
-        assert_eq!(stderr(&output).contains(words), is_told, "{}", stderr(&output));
-    }
-}
-
-#[test]
-fn words_that_do_nothing_are_said_to_be_ignored() {
-    let place = Place::new();
-    let words = "IAX=2,HZO=0.001,LSTEP=1000,SEGSTT=0.0";
-    place.write("boom.nml", &BOOM.replace("SEGSTT=0.0", words).replace("NOPLT=1", "NOPLT=0"));
-    let note = |args: &[&str]| {
-        let output = place.nboom(&[&["run", "boom.nml"], args].concat());
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
-        stderr(&output).lines().filter(|line| line.contains("ignored")).collect::<String>()
-    };
-    let (rkam, iax) = ("HZO, LSTEP (they steer --integrator rkam)", "IAX (it thins out --listing)");
-    let plots = "NOPLT=0 (nothing is plotted)";
-    assert_eq!(note(&[]), format!("note: ignored: {rkam}; {iax}; {plots}"));
-    assert_eq!(note(&["--listing"]), format!("note: ignored: {rkam}; {plots}"));
-    let report = "--no-report (no report is written)";
-    assert_eq!(
-        note(&["--integrator", "rkam", "--no-report"]),
-        format!("note: ignored: {iax}; {plots}; {report}")
-    );
-    assert_eq!(note(&["--quiet"]), "");
-    let check = place.nboom(&["check", "boom.nml"]);
-    assert!(stdout(&check).contains(&format!("\nignored: {rkam}; {iax}; {plots}\n")));
-    place.write("boom.nml", BOOM);
-    assert_eq!(note(&[]), "");
 }
 
 #[test]

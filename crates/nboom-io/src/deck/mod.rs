@@ -5,6 +5,7 @@ mod assignment;
 mod builder;
 mod group;
 mod hinges;
+mod ignored;
 mod layout;
 mod lexer;
 mod model_error;
@@ -60,6 +61,7 @@ fn assemble(name: &str, values: &Values, sizes: Sizes, report: &mut Report<'_>) 
     let legacy = builder.settings();
     builder.structures = builder.stress();
     let description = builder.description(name);
+    builder.warn_ignored_of_hinges();
     match Scene::new(description) {
         Ok(scene) => {
             let structure = builder.structure(&scene);

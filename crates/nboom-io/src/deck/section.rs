@@ -7,7 +7,7 @@ use super::model_error::phrases;
 use super::values::{Key, plain};
 
 /// Vertices of a section, at most.
-const MOST_VERTICES: usize = 6;
+pub(super) const MOST_VERTICES: usize = 6;
 
 /// Where in the stress groups a section stands: segment and station, from 0.
 #[derive(Clone, Copy)]
@@ -50,12 +50,26 @@ impl Builder<'_, '_, '_> {
         let Place { segment: i, station: j } = place;
         if self.values.real("ICIR", i) == 0.0 {
             let (radius, thickness) = (place.radius(), place.of_vertex("T", 0));
+            let vertices = thickness.1..thickness.1 + MOST_VERTICES;
+            let since = format!("ICIR({}) is 0, a tube", i + 1);
+            self.warn_ignored_elements(thickness.0, vertices.start + 1..vertices.end, &since);
+            for name in ["XI", "ZETA"] {
+                self.warn_ignored_elements((name, i + 1, 0), vertices.clone(), &since);
+            }
             return SectionShape::Tube {
                 radius: self.positive_element(radius.0, radius.1),
                 thickness: self.positive_element(thickness.0, thickness.1),
             };
         }
         let count = self.count_in("NVER", MOST_STATIONS * i + j, 3..=MOST_VERTICES);
+        let (radius, index) = place.radius();
+        let since = format!("ICIR({}) is not 0, a polygon", i + 1);
+        self.warn_ignored_elements(radius, index..index + 1, &since);
+        let since = format!("NVER({},{}) is {count}", j + 1, i + 1);
+        for name in ["T", "XI", "ZETA"] {
+            let (key, first) = place.of_vertex(name, 0);
+            self.warn_ignored_elements(key, first + count..first + MOST_VERTICES, &since);
+        }
         let vertices = (0..count).map(|vertex| {
             let [(xi, first), (zeta, _)] = ["XI", "ZETA"].map(|name| place.of_vertex(name, vertex));
             let coordinate = |key| self.values.cell(key, first).map_or(0.0, |cell| cell.value);

@@ -6,6 +6,8 @@ use crate::LegacySettings;
 impl Builder<'_, '_, '_> {
     /// What steers the original's integrator and printer.
     pub fn settings(&mut self) -> LegacySettings {
+        self.warn_order("HMIN", "HMAX");
+        self.warn_order("EL1", "EU1");
         LegacySettings {
             first_step: self.positive("HZO"),
             upper_error: self.positive("EU1"),
@@ -16,6 +18,16 @@ impl Builder<'_, '_, '_> {
             print_interval: self.positive("IAX").map(|steps| steps as usize),
             stress_interval: self.not_negative("INSTR").unwrap_or(0.0) as usize,
             plots: self.values.get("NOPLT", 0).map(|no_plots| no_plots != 1.0),
+        }
+    }
+
+    /// Limits in the wrong order, which matter to `rkam` alone.
+    fn warn_order(&mut self, least: &'static str, most: &'static str) {
+        let (low, high) = (self.values.real(least, 0), self.values.real(most, 0));
+        if high > 0.0 && low > high {
+            let expected =
+                format!("at most {most}, which is {}, for --integrator rkam", shown(high));
+            self.warn(plain(least), 0, shown(low), &expected);
         }
     }
 

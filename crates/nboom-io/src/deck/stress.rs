@@ -57,6 +57,7 @@ impl Builder<'_, '_, '_> {
 
     fn stress_segment(&mut self, i: usize) -> SegmentStructure {
         let count = self.count_in("NSTA", i, 1..=MOST_STATIONS);
+        self.warn_ignored_of_stations(i, count);
         let segment = SegmentStructure {
             pulse_constant: self.required_element(plain("CMN"), i),
             poissons_ratio: self.values.real("XNU", i),

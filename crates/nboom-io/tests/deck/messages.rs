@@ -203,8 +203,8 @@ fn a_group_mark_in_another_column_is_accepted() {
 #[test]
 fn blanks_for_commas_are_accepted_with_a_warning() {
     assert_eq!(
-        super::warnings(" THETIK=1.0 2.0,"),
-        ["a.nml:16:13: THETIK: found a blank before `2.0`, expected a comma; it is read as one"]
+        super::warnings(" BBM=1.0 2.0,"),
+        ["a.nml:16:10: BBM: found a blank before `2.0`, expected a comma; it is read as one"]
     );
 }
 

@@ -132,6 +132,27 @@ fn sections_with_missing_numbers_have_no_other_errors() {
     assert!(found.iter().all(|line| line.contains(": T2(")), "{found:?}");
 }
 
+/// Segment 1 is a tube with one station, segment 2 has polygons with five, three and five vertices.
+#[test]
+fn numbers_of_stations_and_walls_that_are_not_there_are_ignored_with_a_warning() {
+    let ignored = |old: &str, new: &str| -> Vec<String> {
+        let warnings = read(&changed(old, new)).warnings.into_iter();
+        let ignored = warnings.filter(|warning| warning.expected.ends_with("it is ignored"));
+        ignored.map(|w| format!("{}: {}", w.symbol, w.expected)).collect()
+    };
+    assert_eq!(ignored("INSTR=3", "INSTR=3"), [""; 0]);
+    for (old, new, expected) in [
+        ("S(1,1)=0.0", "S(1,1)=0.0,1.0", "S(2,1): none since NSTA(1) is 1"),
+        ("DLI21=9*0.0", "DLI21=9*0.0,DLI14=1.0", "DLI14(1,1): none since NSTA(1) is 1"),
+        ("T1=.05", "T1=.05,.06", "T1(2,1): none since ICIR(1) is 0, a tube"),
+        ("XI4=20.0", "XI1=20.0,XI4=20.0", "XI1(1,1): none since ICIR(1) is 0, a tube"),
+        ("R(1,1)=2.0", "R(1,1)=2.0,R(2,2)=1.0", "R(2,2): none since ICIR(2) is not 0, a polygon"),
+        ("T2=5*.15,0.0", "T2=6*.15", "T2(6,1): none since NVER(1,2) is 5"),
+    ] {
+        assert_eq!(ignored(old, new), [format!("{expected}; it is ignored")], "{new}");
+    }
+}
+
 #[test]
 fn thick_walls_are_worth_a_warning() {
     let of_walls = |deck: &str| {
