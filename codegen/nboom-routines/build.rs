@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use nboom_codegen::{Level, Request, source};
-use nboom_formulation::Formulation;
+use nboom_formulation::{Formulation, Layout};
 use nboom_model::Shape::{Chain, Paddle};
 use nboom_model::{Shape, Topology};
 
@@ -83,7 +83,29 @@ fn exact() -> Vec<Request> {
     });
     let equations =
         with_equations(|formulation| s2_p("Equations", Level::Exact, formulation).for_equations());
-    rolled.into_iter().chain(general).chain(principal).chain(equations).collect()
+    let unequal = unequal(satellite("RolledUnequal", vec![Chain(2); 4]));
+    rolled.into_iter().chain([unequal]).chain(general).chain(principal).chain(equations).collect()
+}
+
+/// Takes for granted of some appendages and links what it does not of others, or other numbers.
+fn unequal(mut request: Request) -> Request {
+    let link = |appendage: usize, link: usize| {
+        let branch = Layout::MAIN + appendage * (Layout::BRANCH + 2 * Layout::LINK);
+        branch + Layout::BRANCH + link * Layout::LINK
+    };
+    let mut pin = |at: usize, value: f64| request.pinned[at] = Some(value);
+    // The first appendage's masses; the last one's hinge point, in front of its links.
+    pin(link(0, 0), 1.25);
+    pin(link(0, 1), 1.5);
+    pin(link(3, 0) - 1, 0.0);
+    for appendage in 0..4 {
+        // First moments: of the first link alone, of all links.
+        pin(link(appendage, 0) + 1, 0.0);
+        (0..2).for_each(|i| pin(link(appendage, i) + 3, 0.0));
+        // A moment of inertia that is another one in each appendage.
+        (0..2).for_each(|i| pin(link(appendage, i) + 5, 1.5 + 0.25 * appendage as f64));
+    }
+    request
 }
 
 fn with_equations(request: impl Fn(Formulation) -> Request) -> Vec<Request> {

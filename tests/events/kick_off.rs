@@ -7,10 +7,10 @@ use nboom::model::{
     Segment,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::EventKind::{KickOffDisengage, KickOffEngage};
+use nboom::sim::EventKind::{self, KickOffDisengage, KickOffEngage};
 
 use crate::collect::{detail, run, tight};
-use crate::rotors::{HUB, REDUCED, ROUNDING, ball, free, scene};
+use crate::rotors::{HUB, REDUCED, ROUNDING, ball, description, free, scene};
 
 const A: f64 = 1.0;
 const B: f64 = 0.8;
@@ -174,4 +174,52 @@ fn a_spring_between_bodies_that_do_not_move_has_no_events() {
     let locked = with_spring(Hinge { start, ..Hinge::free() }, [1.0, 0.0, 0.0, 0.0]);
     let (found, _) = run(&scene(&[locked, free(0.0, 1.0)], 1.0), &tight(1));
     assert_eq!(found.happenings(), []);
+}
+
+/// A boom with a spring of this reach that turns at `rate` from `start`, on a scene that begins at
+/// `initial`: whenever its length passes the limit, in closed form and as it is found.
+fn passings(start: f64, rate: f64, initial: f64, turns: f64) -> [Vec<(EventKind, f64)>; 2] {
+    let mut description = description(&[with_spring(free(start, rate), FEEBLE)], 0.0);
+    description.initial.time = initial;
+    description.end_time = initial + turns * TAU / rate;
+    let scene = Scene::new(description).expect("rotors are bodies");
+    let found = run(&scene, &tight(1)).0.happenings();
+    let (from, to) = (start, start + turns * TAU);
+    let turn = |n: i32| f64::from(n) * TAU;
+    let first = (start / TAU).floor() as i32 - 1;
+    let expected = (first..=first + turns as i32 + 2).flat_map(|n| {
+        [(KickOffDisengage, turn(n) + limit_angle()), (KickOffEngage, turn(n + 1) - limit_angle())]
+    });
+    let within = expected.filter(|(_, angle)| (from..to).contains(angle));
+    let expected = within.map(|(kind, angle)| (kind, initial + (angle - start) / rate));
+    [expected.collect(), found.iter().map(|&(kind, _, time)| (kind, time)).collect()]
+}
+
+fn are_alike([expected, found]: &[Vec<(EventKind, f64)>; 2], off: f64) {
+    let kinds = |all: &[(EventKind, f64)]| all.iter().map(|event| event.0).collect::<Vec<_>>();
+    assert_eq!(kinds(found), kinds(expected), "{found:?}, {expected:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found.1 - expected.1).abs() < off, "{found:?}, {expected:?}");
+    }
+}
+
+#[test]
+fn a_spring_that_has_passed_its_limit_is_beyond_it_where_time_has_few_digits() {
+    // At a million a time has steps of 1.2e-10, by half of which each event may shift those after.
+    for rate in [2.0, 31.0] {
+        are_alike(&passings(0.0, rate, 1e6, 5.75), 12.0 * 0.6e-10);
+    }
+}
+
+#[test]
+fn a_spring_that_leaves_its_limit_is_followed_through_all_of_a_long_step() {
+    // From the limit outward, so fast that the first step is some turns long.
+    let start = 16.0 * TAU + limit_angle();
+    let rate = 1000.0;
+    let [mut expected, found] = passings(start, rate, 0.0, 4.75);
+    // The spring lets go at once, or has just done so.
+    expected.retain(|&(_, time)| time > 1e-9);
+    let found = found.into_iter().filter(|&(_, time)| time > 1e-9).collect();
+    // Roundings of an angle of 130.
+    are_alike(&[expected, found], 1e-13);
 }

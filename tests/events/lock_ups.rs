@@ -8,6 +8,7 @@ use nboom::model::{
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::EventKind::{LockUp, Release as Released};
+use nboom::sim::{Event, InstantMotion, Jump, Recorder, Snapshot, simulate};
 
 use crate::collect::{run, tight};
 use crate::rotors::{
@@ -39,6 +40,24 @@ fn a_hinge_that_starts_on_its_lock_angle_locks_when_it_returns() {
     let (found, _) = run(&scene(&[with_rate], 2.0), &tight(1));
     let [(LockUp, Some(0), time)] = found.happenings()[..] else { panic!("one lock-up") };
     assert!((time - std::f64::consts::PI / 3.0).abs() < 1e-11, "{time}");
+}
+
+#[test]
+fn a_hinge_that_left_its_lock_angle_is_known_to_have_left_it_at_later_events() {
+    // Until the second boom is released it is rigid with the hub, and β₁ is sin wt / w.
+    let frequency = 3.0 * (0.8 / (5.0 / 6.0_f64)).sqrt();
+    let back = std::f64::consts::PI / frequency;
+    for before in [1e-2, 1e-4, 1e-6, 1e-8] {
+        let swings = locking_at(oscillating(free(0.0, 1.0), 3.0, 0.0), 0.0);
+        let late = waiting(Release::Time(back - before));
+        let (found, _) = run(&scene(&[swings, late], 4.0), &tight(1));
+        let [(Released, Some(1), _), (LockUp, Some(0), time)] = found.happenings()[..] else {
+            panic!("{before:e}: a release, then a lock-up: {:?}", found.happenings())
+        };
+        // The other boom takes no part in what is about the axis; the frequency is 3 from its
+        // release on, which changes the time by `before` cubed at most.
+        assert!((time - back).abs() < 1e-11 + before.powi(3), "{before:e}: {time}, {back}");
+    }
 }
 
 /// β of a hinge released at rest at β = 0 under β̈ = −w²(β − c) + 2gβ̇.
@@ -134,6 +153,13 @@ fn a_hinge_released_while_another_locks_is_rigid_during_the_impulse() {
     let after = &found.events[0].1;
     assert!((after.omega_body.x - expected).abs() < ROUNDING, "{}", after.omega_body.x);
     assert_eq!(after.tau, [0.0, 0.0]);
+    // The lock-up takes energy, and the release after it none.
+    let [before, after] = [0.5 * BOOM, 0.5 * (HUB + 2.0 * BOOM) * expected * expected];
+    for ((event, _), energies) in found.events.iter().zip([[before, after], [after, after]]) {
+        let told = [event.before.kinetic_energy, event.after.kinetic_energy];
+        let off = told.iter().zip(energies).map(|(told, energy)| (told - energy).abs());
+        assert!(off.fold(0.0, f64::max) < ROUNDING, "{:?}: {told:?} {energies:?}", event.kind);
+    }
 }
 
 #[test]
@@ -227,4 +253,57 @@ fn a_joint_lock_up_is_one_lock_up_after_the_other_with_latches_kept() {
     }
     let impulses = both.impulses;
     assert!((impulses[0] - impulses[1]).abs() < 1e-11, "mirror images: {impulses:?}");
+}
+
+/// The jumps of the one instant in which hinges lock.
+#[derive(Default)]
+struct Shares(Vec<Jump>);
+
+impl Recorder for Shares {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, _: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn event(&mut self, _: &Event, _: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn needs_instants(&self) -> bool {
+        true
+    }
+
+    fn instant(&mut self, instant: &InstantMotion) -> std::io::Result<()> {
+        assert!(self.0.is_empty() || instant.jumps.is_empty(), "a second lock-up");
+        self.0.extend(instant.jumps.iter().cloned());
+        Ok(())
+    }
+}
+
+#[test]
+fn each_share_of_a_joint_lock_up_is_by_its_own_impulse() {
+    // The first two lock at 0.5, the third turns on.
+    let rates = [1.0, -3.0, 0.4];
+    let [first, second] = [0, 1].map(|i| locking_at(free(0.0, rates[i]), 0.5 * rates[i]));
+    let scene = scene(&[first, second, free(0.0, rates[2])], 0.7);
+    let mut shares = Shares::default();
+    simulate(&scene, &tight(1), &mut shares).expect("a uniform motion");
+    let hinges: Vec<usize> = shares.0.iter().map(|jump| jump.hinge).collect();
+    assert_eq!(hinges, [0, 1]);
+    // Two booms give the hub their momentum and get a share of the rate.
+    let rate = BOOM * (rates[0] + rates[1]) / (HUB + 2.0 * BOOM);
+    for jump in &shares.0 {
+        let impulse = BOOM * (rate - rates[jump.hinge]);
+        let (hub, booms) = (jump.omega_body.x, jump.tau.iter().map(|tau| jump.omega_body.x + tau));
+        assert!((hub + impulse / HUB).abs() < ROUNDING, "{jump:?}");
+        for (i, absolute) in booms.enumerate() {
+            let expected = if i == jump.hinge { impulse / BOOM } else { 0.0 };
+            assert!((absolute - expected).abs() < ROUNDING, "boom {i}: {jump:?}");
+        }
+        // All mass centres stay where they are.
+        assert!(jump.velocity_body.norm() < ROUNDING, "{jump:?}");
+    }
 }

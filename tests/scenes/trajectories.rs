@@ -1,5 +1,7 @@
 //! Every reference run, from JSON and from its deck, within the limits that are promised.
 
+use std::collections::BTreeSet;
+
 use nboom::model::Scene;
 use nboom::sim::{Method, Options};
 
@@ -22,15 +24,32 @@ pub fn agrees(told: &str, found: &Collected, reference: &Reference) {
     assert!(within, "{} {told}: {deviation}", reference.name);
 }
 
+/// By the recursion and by what the command takes: stock routines wherever one fits.
 fn check(from: &str, scene_of: impl Fn(&Reference) -> Scene) {
     let mut events = 0;
+    let mut routines = BTreeSet::new();
     for reference in Reference::all() {
-        let (found, _) = run(&scene_of(&reference), &tight(reference.intervals()));
-        agrees(&format!("from {from}"), &found, &reference);
-        events += found.happenings().len();
+        let scene = scene_of(&reference);
+        let recursive = tight(reference.intervals());
+        let shipped = Options { kernels: nboom_routines::all(), ..recursive };
+        let (by_recursion, summary) = run(&scene, &recursive);
+        agrees(&format!("from {from}, recursion"), &by_recursion, &reference);
+        assert!(summary.selections.iter().all(|s| s.formulation == "recursive"), "{summary:?}");
+        let (as_shipped, summary) = run(&scene, &shipped);
+        agrees(&format!("from {from}, as shipped"), &as_shipped, &reference);
+        // A stock routine fits every mode of every one of these scenes.
+        assert!(summary.selections.iter().all(|s| s.path == "generated"), "{summary:?}");
+        routines.extend(summary.selections.into_iter().map(|s| s.reason));
+        // Other operations leave other roundings; with the same ones it is the same code.
+        let rounded_alike = as_shipped.samples == by_recursion.samples;
+        assert!(!rounded_alike || scene.bodies.is_empty(), "{}: the same code", reference.name);
+        for found in [by_recursion, as_shipped] {
+            events += found.happenings().len();
+        }
     }
     // All events of all scenes; a reference that lost its own would otherwise go unnoticed.
-    assert_eq!(events, 55);
+    assert_eq!(events, 2 * 55);
+    assert!(routines.len() > 8, "{routines:?}");
 }
 
 #[test]

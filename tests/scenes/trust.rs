@@ -180,3 +180,35 @@ fn wings(omega: f64, rate: f64) -> Scene {
     }
     Scene::new(description).expect("the bodies are physical")
 }
+
+/// A run that missed an event, wherever it was, and one that has one too many.
+#[test]
+fn events_that_only_one_of_the_runs_has_are_told() {
+    let reference = Reference::load("s02_single_boom");
+    let (scene, options) = (reference.scene(), Options::default());
+    let (found, _) = run(&scene, &options);
+    let inner = found.events.iter().filter(|(event, _)| event.kind != EventKind::End);
+    let events: Vec<Event> = inner.map(|(event, _)| *event).collect();
+    let witness = |events: &[Event]| {
+        let mut witness = Witness::new();
+        let kept = |event: &Event| witness.event(event, found.last()).expect("it is kept");
+        events.iter().for_each(kept);
+        witness.sample(found.last()).expect("it is kept");
+        witness
+    };
+    let same_events = |events: &[Event], truth| {
+        let said = trust(&scene, &options, &witness(events), truth).expect("the reference runs");
+        (said.same_events, said.events.len())
+    };
+    assert!(events.len() >= 2, "{events:?}");
+    for truth in Truth::ALL {
+        assert_eq!(same_events(&events, truth), (true, events.len()), "{}", truth.name());
+        for missed in 0..events.len() {
+            let mut rest = events.clone();
+            rest.remove(missed);
+            assert_eq!(same_events(&rest, truth), (false, missed), "{}", truth.name());
+        }
+        let one_more = [&events[..], &events[events.len() - 1..]].concat();
+        assert_eq!(same_events(&one_more, truth), (false, events.len()), "{}", truth.name());
+    }
+}

@@ -127,6 +127,32 @@ fn a_hundred_periods() {
     }
 }
 
+/// A ball that turns about one axis at a rate of 1: half the angle that its attitude is behind after
+/// full turns, and the drift of its norm.
+fn spin(turns: f64, options: &Options) -> [f64; 2] {
+    let ball = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+    let mut scene = SceneDescription::at_rest("ball", ball, turns * TAU);
+    scene.initial.omega_body = Vec3::unit_x();
+    let (found, summary) = run(&checked(scene), options);
+    // After full turns it is the unit quaternion or its opposite.
+    [found.last().attitude.vector.x.abs().asin(), summary.attitude_drift]
+}
+
+/// Where the absolute tolerance is the larger one, steps are as long as the norm allows. With a norm
+/// that is put back to 1 they are of one length, and each of them errs as the one before.
+#[test]
+fn attitude_and_norm_drift_as_much_in_every_turn() {
+    let (integrator, rtol, atol) = (Method::Dop853, 1e-6, 1e-3);
+    let options = Options { samples: 1, integrator, rtol, atol, ..Options::default() };
+    let [few, many] = [200.0, 2000.0].map(|turns| spin(turns, &options));
+    println!("{few:?}, {many:?}");
+    for (few, many) in few.into_iter().zip(many) {
+        assert!(few > 0.01, "{few:e} is too little to matter to steps");
+        // The first steps are others, and so are the last ones: a few of each of some thousand.
+        assert!((9.7..10.3).contains(&(many / few)), "{few:e}, then {many:e}");
+    }
+}
+
 #[test]
 #[ignore = "minutes"]
 fn ten_thousand_periods() {

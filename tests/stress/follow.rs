@@ -23,7 +23,7 @@ pub const PULSE_CONSTANT: f64 = 0.02;
 pub const STATIONS: [f64; 3] = [1.5, 0.5, 0.0];
 
 /// A uniform rod from `from` to `to` along y.
-fn rod(from: f64, to: f64) -> MassProperties {
+pub fn rod(from: f64, to: f64) -> MassProperties {
     let (length, middle) = (to - from, Vec3::unit_y() * (0.5 * (from + to)));
     let mass = MASS * length / LENGTH;
     let across = mass * length * length / 12.0;

@@ -7,3 +7,4 @@ mod closed_forms;
 mod envelope;
 mod follow;
 mod instants;
+mod joint;

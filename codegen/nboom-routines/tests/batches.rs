@@ -126,3 +126,17 @@ fn one_state_that_breaks_what_is_taken_for_granted_is_not_accepted() {
         assert!(!batch.accepts(&parameters[1..]));
     }
 }
+
+#[test]
+fn one_state_with_parameters_that_are_no_numbers_is_not_accepted() {
+    for batch in nboom_routines::batches() {
+        let good = side_by_side(&Satellites::of(batch).parameters);
+        for at in 0..good.len() {
+            for bad in [f64::NAN, f64::INFINITY] {
+                let mut parameters = good.clone();
+                parameters[at].0[6] = bad;
+                assert!(!batch.accepts(&parameters), "{} {at}: {bad}", batch.topology);
+            }
+        }
+    }
+}

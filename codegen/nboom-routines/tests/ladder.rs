@@ -98,6 +98,13 @@ fn exact_code_is_the_closed_form_bit_for_bit() {
     for_each_exact_routine!(is_the_closed_form);
 }
 
+/// Appendages and links that go through loops together.
+#[test]
+fn what_is_taken_for_granted_of_one_appendage_or_link_is_not_of_the_others() {
+    is_the_closed_form::<exact::RolledUnequal>();
+    const { assert!(exact::RolledUnequal::PINNED.len() == 3 + 4 * 5) };
+}
+
 #[test]
 fn lanes_hold_independent_states() {
     type T = exact::RolledMixed;
@@ -195,5 +202,21 @@ fn a_parameter_that_breaks_what_is_taken_for_granted_is_not_accepted() {
         parameters[kernel.pinned[0].0] += 1e-12;
         assert!(!kernel.accepts(&parameters));
         assert!(!kernel.accepts(&parameters[1..]));
+    }
+}
+
+#[test]
+fn parameters_that_are_no_numbers_are_not_accepted() {
+    for kernel in nboom_routines::all().iter().chain(nboom_routines::equations()) {
+        let topology = ClosedForm::of_kernel(kernel).topology;
+        let good = parameters(&topology, kernel.pinned, &mut Numbers(5));
+        assert!(kernel.accepts(&good));
+        for at in 0..good.len() {
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut parameters = good.clone();
+                parameters[at] = bad;
+                assert!(!kernel.accepts(&parameters), "{} {at}: {bad}", kernel.topology);
+            }
+        }
     }
 }

@@ -166,3 +166,33 @@ fn a_program_is_not_put_over_what_is_no_simulator() {
     assert_eq!(fs::read_to_string(place.join("boom.nml")).ok().as_deref(), Some(BOOM));
     assert!(!place.join("work").exists());
 }
+
+#[test]
+fn routines_in_the_working_folder_are_those_of_the_scene_whatever_became_of_them() {
+    let place = place();
+    let place = place.path();
+    // What is compiled is written before cargo is called.
+    let write = || {
+        let compile = ["compile", "boom.nml", "-o", "boom", "--work", "work"];
+        let output = command(place, &compile).env("CARGO", "false").output();
+        ends(&output.expect("it starts"), 3, &["cargo has failed in"]);
+    };
+    write();
+    let folders = fs::read_dir(place.join("work")).expect("it was made");
+    let mut files = folders.map(|entry| entry.expect("readable").path().join("src/routines.rs"));
+    let path = files.find(|path| path.exists()).expect("one folder is the simulator's");
+    let ours = fs::read_to_string(&path).expect("readable");
+    let edited = ours.replacen(" + ", " - ", 1);
+    let of_others = "pub fn kernels() {}\n".to_owned();
+    let cut_short = ours[..ours.len() / 2].to_owned();
+    let stale = ours.replacen("Request ", "Request 0", 1);
+    for other in [edited, of_others, cut_short, stale, String::new()] {
+        assert_ne!(other, ours);
+        fs::write(&path, &other).expect("writable");
+        write();
+        assert!(fs::read_to_string(&path).ok().as_ref() == Some(&ours), "{other:.200}");
+    }
+    fs::write(&path, [0xff, 0xfe]).expect("writable");
+    write();
+    assert!(fs::read_to_string(&path).ok() == Some(ours), "what is no text is kept");
+}

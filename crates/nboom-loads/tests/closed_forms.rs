@@ -3,8 +3,8 @@
 use nboom_dynamics::Recursive;
 use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{
-    Appendage, Hinge, KickOffSpring, MassProperties, Mode, Mount, Scene, SceneDescription,
-    SectionShape, Segment, SegmentStructure, Station, Structure,
+    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mode, Mount, Scene,
+    SceneDescription, SectionShape, Segment, SegmentStructure, Station, Structure,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -261,5 +261,37 @@ fn a_second_boom_is_carried_by_the_stations_inboard_of_it() {
         assert_near(load.force, [force + carried, 0.0, 0.0]);
         // The branch reaches along z; its mass centre is 1 from the first boom.
         assert_near(load.moment, [0.0, carried, -moment - carried * (1.0 - s)]);
+    }
+}
+
+#[test]
+fn the_hinge_that_is_out_of_balance_most_is_named_wherever_it_is() {
+    // Two booms on one hub, turning about x with their hinges alone: torques are J τ̇.
+    let mut description = (*boom(Vec3::zero(), None)).clone();
+    description.bodies.push(description.bodies[0]);
+    let scene = Scene::new(description).expect("rods are bodies");
+    let mut loads = Loads::new(&scene, None);
+    let mut found = loads.load_set();
+    let (zero, tau_dot) = (Vec3::zero(), [2.0, 3.0]);
+    let acceleration = VelocityChange { origin_body: zero, omega_body: zero, tau: &tau_dot };
+    let (beta, tau, force_densities) = (&[0.0; 2], &[0.0; 2], &[0.0; 2]);
+    let motion = SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities };
+    loads.continuous(&motion, &mut found);
+    let torques = tau_dot.map(|tau_dot| MASS * LENGTH * LENGTH / 3.0 * tau_dot);
+    let free = [HingeState::Free; 2];
+    let (_, residual) = loads.largest_torque_residual(&found, &free, &torques).expect("two");
+    assert!(residual < ROUNDING, "{residual:e}");
+    for hinge in [0, 1] {
+        let mut wrong = torques;
+        wrong[hinge] *= 1.1;
+        let most = loads.largest_torque_residual(&found, &free, &wrong);
+        let (named, residual) = most.expect("two are free");
+        // A tenth of a torque, of what is at most some times as much.
+        assert!(named == hinge && residual > 0.01, "{named} instead of {hinge}, {residual}");
+        // Nobody looks at a hinge that is held.
+        let mut held = free;
+        held[hinge] = HingeState::Locked;
+        let (named, residual) = loads.largest_torque_residual(&found, &held, &wrong).expect("one");
+        assert!(named == 1 - hinge && residual < ROUNDING, "{named}: {residual:e}");
     }
 }

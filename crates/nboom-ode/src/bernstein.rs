@@ -304,6 +304,22 @@ mod tests {
     }
 
     #[test]
+    fn an_excursion_counts_from_the_start_and_all_the_way() {
+        // Largest distances from the value at 0; the first polynomial comes back to it, the second
+        // ends nearer to all of its values than it starts.
+        for (expected, p) in [
+            (0.25, through(|x| 2.0 + x * (1.0 - x))),
+            (1.0, through(|x| 1.0 - (1.0 - 1.5 * x).powi(2))),
+        ] {
+            let (found, start) = (p.excursion(), p.coefficients()[0]);
+            assert!(found >= expected - 1e-14, "{found} {expected}");
+            // Coefficients of degree 7 bound these to within a sixth.
+            assert!(found < 1.2 * expected, "{found} {expected}");
+            assert!((0..=20).all(|i| (p.at(f64::from(i) / 20.0) - start).abs() <= found + 1e-14));
+        }
+    }
+
+    #[test]
     fn a_root_at_the_start_can_be_divided_out() {
         let p = through(|x| x * (x - 0.25));
         assert!(p.leaves_side(1.0).is_some_and(|root| root < 1e-12));

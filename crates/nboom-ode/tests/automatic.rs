@@ -5,10 +5,13 @@ use nboom_ode::{Automatic, Method, RungeKutta, Stepper, System, Tolerance};
 /// ẏ = −rate(t) (y − cos t) − sin t, which y = cos t solves; fast for `fast.0 < t < fast.1`.
 struct Drawn {
     fast: (f64, f64),
+    /// How often it was evaluated.
+    evaluations: usize,
 }
 
 impl System for Drawn {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.evaluations += 1;
         let rate = if self.fast.0 < t && t < self.fast.1 { 1e5 } else { 1.0 };
         dy[0] = -rate * (y[0] - t.cos()) - t.sin();
     }
@@ -16,18 +19,23 @@ impl System for Drawn {
 
 /// Error at the end, evaluations, and the methods in the order in which they were taken.
 fn run(stepper: &mut dyn Stepper, fast: (f64, f64), end: f64) -> (f64, usize, Vec<Method>) {
-    let mut system = Drawn { fast };
+    let mut system = Drawn { fast, evaluations: 0 };
     stepper.start(&mut system, 0.0, &[1.0], 1);
     let mut methods = vec![stepper.choice().method];
+    let mut steps = 0;
     while stepper.window().time < end {
         stepper.step(&mut system, end).expect("a bounded motion");
         stepper.advance();
+        steps += 1;
         let method = stepper.choice().method;
         if methods.last() != Some(&method) {
             methods.push(method);
         }
     }
     let window = stepper.window();
+    // Nothing is lost on the way, whichever method it was done by.
+    assert_eq!(window.counts.accepted, steps);
+    assert_eq!(window.counts.evaluations, system.evaluations);
     ((window.state[0] - end.cos()).abs(), window.counts.evaluations, methods)
 }
 

@@ -147,3 +147,27 @@ fn steps_are_shortened_for_good_where_the_motion_demands_it() {
     // Some 200 steps, each within the tolerance.
     assert!(error < 2e-8, "{error:e}");
 }
+
+/// Nothing but time.
+struct Clock;
+
+impl System for Clock {
+    fn derivative(&mut self, _t: f64, _y: &[f64], dy: &mut [f64]) {
+        dy[0] = 1.0;
+    }
+}
+
+#[test]
+fn what_rounding_takes_from_one_step_the_next_ones_give_back() {
+    let (step, count) = (0.1, 100_000);
+    let mut stepper = Gauss::new(tolerance(1e-10));
+    stepper.start(&mut Clock, 0.0, &[0.0], 1);
+    stride(&mut stepper, &mut Clock, step, count);
+    // The sum of as many tenths, each added to what is there with a rounding, is off by 1.9e-8.
+    let plain = (0..count).fold(0.0, |sum, _| sum + step);
+    let exact = step * count as f64;
+    assert!((plain - exact).abs() > 1e-8, "{plain}");
+    // Eight increments make a step, to some roundings of a tenth each.
+    let off = (stepper.window().state[0] - exact).abs();
+    assert!(off < 1e-16 * count as f64, "{off:e}");
+}

@@ -235,3 +235,50 @@ fn residual(found: &[f64], unknowns: &[f64]) -> f64 {
     });
     rows.fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use nboom_codegen::{Level, Numbers};
+    use nboom_model::{Appendage, Hinge, MassProperties, Mount, SceneDescription, Segment};
+    use nboom_scalar::{Sym3, Vec3};
+
+    use super::*;
+
+    fn one_boom() -> Scene {
+        let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
+        let boom = MassProperties::new(3.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
+        let segments = vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }];
+        let mut description = SceneDescription::at_rest("one boom", hub, 1.0);
+        description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
+        Scene::new(description).expect("the bodies are physical")
+    }
+
+    /// What is certified of code with the scene's numbers in it, the mass of the boom off by this
+    /// share.
+    fn with_mass_off(output: Output, share: f64) -> Result<Certified, PackageError> {
+        let scene = one_boom();
+        let request = Request::of_scene(&scene, Numbers::Baked, Level::Exact);
+        let mut request = request.expect("a boom is a chain").by(Formulation::Symmetric);
+        request.output = output;
+        let mass = request.pinned[Layout::MAIN + Layout::BRANCH].as_mut().expect("it is built in");
+        assert_eq!(*mass, 3.0);
+        *mass *= 1.0 + share;
+        Certified::new(&scene, &request, None)
+    }
+
+    #[test]
+    fn code_that_computes_something_else_is_not_certified() {
+        for output in [Output::Accelerations, Output::Equations] {
+            let right = with_mass_off(output, 0.0).expect("these are the scene's numbers");
+            assert!(right.tolerance() < TOLERANCE);
+            // Five times what may be off is seen of a boom that is a thirtieth of the whole.
+            for share in [2e-9, 1e-3] {
+                let wrong = with_mass_off(output, share).err();
+                let Some(PackageError::Deviation { deviation, tolerance, .. }) = wrong else {
+                    panic!("{output:?}, {share:e}: certified, or {wrong:?}")
+                };
+                assert!(deviation > tolerance && deviation < 10.0 * share, "{deviation:e}");
+            }
+        }
+    }
+}

@@ -420,3 +420,25 @@ fn the_example_is_covered() {
     assert_eq!(found["routines"][0]["topology"], "S2_P");
     assert!(found["routines"].as_array().is_some_and(|routines| routines.len() > 5));
 }
+
+#[test]
+fn a_crate_for_another_mass_is_out_of_date() {
+    let (scene, choices) = (one_boom(), Choices::default());
+    let place = written(&scene, &choices);
+    is_current(&scene, &choices, place.path()).expect("as it was written");
+    // Masses are no part of the code, but of what its certificate was measured with.
+    let mut description = (*scene).clone();
+    let mass = &mut description.bodies[0].mass_properties.mass;
+    *mass = mass.next_up();
+    let heavier = Scene::new(description).expect("the bodies are physical");
+    let stale = is_current(&heavier, &choices, place.path()).expect_err("another mass");
+    assert!(
+        matches!(stale, PackageError::Outdated { standing: Some(Standing::Stale), .. }),
+        "{stale}"
+    );
+    let before = relative(place.path());
+    let outcome = generate(&heavier, &choices, place.path()).expect("what was ours is replaced");
+    assert!(matches!(outcome, Written::Anew { .. }), "{outcome:?}");
+    assert_ne!(relative(place.path()), before);
+    is_current(&heavier, &choices, place.path()).expect("as it was written");
+}

@@ -78,9 +78,11 @@ impl Batch {
         })
     }
 
-    /// Whether the parameters of all eight states are what the routine takes for granted.
+    /// Whether the parameters of all eight states are finite numbers and what the routine takes for
+    /// granted.
     pub fn accepts(&self, parameters: &[Eight]) -> bool {
         parameters.len() == self.parameters
+            && parameters.iter().flat_map(|eight| eight.0).all(f64::is_finite)
             && self.pinned.iter().all(|&(i, value)| parameters[i] == Eight::splat(value))
     }
 

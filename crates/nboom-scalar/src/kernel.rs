@@ -59,9 +59,10 @@ impl Kernel {
         })
     }
 
-    /// Whether these parameters are what the routine takes for granted.
+    /// Whether these parameters are finite numbers and what the routine takes for granted.
     pub fn accepts(&self, parameters: &[f64]) -> bool {
         parameters.len() == self.parameters
+            && parameters.iter().all(|parameter| parameter.is_finite())
             && self.pinned.iter().all(|&(i, value)| parameters[i] == value)
     }
 

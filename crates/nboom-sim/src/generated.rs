@@ -77,6 +77,14 @@ pub enum Unmet {
         /// Its value in the mode.
         found: f64,
     },
+    /// A parameter is too large for a number.
+    #[error("{parameter} is {found}, and finite numbers are taken for granted")]
+    NotFinite {
+        /// Which one, in words.
+        parameter: String,
+        /// Its value in the mode.
+        found: f64,
+    },
 }
 
 impl NoRoutine {
@@ -93,7 +101,13 @@ impl NoRoutine {
                 granted,
                 found: parameters[i],
             };
-            wrench.into_iter().chain(wrong.map(parameter)).collect()
+            let infinite = parameters.iter().enumerate().filter(|(_, found)| !found.is_finite());
+            let not_finite = |(i, &found): (usize, &f64)| Unmet::NotFinite {
+                parameter: Layout::name(&recognised.topology, i),
+                found,
+            };
+            let wrong = wrong.map(parameter).chain(infinite.map(not_finite));
+            wrench.into_iter().chain(wrong).collect()
         };
         let asked_for = options.kernels.iter().filter(|kernel| {
             (kernel.topology == topology && kernel.parameters == parameters.len())

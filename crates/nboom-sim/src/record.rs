@@ -203,7 +203,7 @@ pub struct Event {
     pub hinge: Option<usize>,
     /// Impulsive torque of a lock-up on the outboard side, positive along the hinge axis.
     pub impulse: Option<f64>,
-    /// Energy and momenta just before the instant.
+    /// Energy and momenta before the event; for lock-ups of one instant, before all of them.
     pub before: Totals,
     /// Energy and momenta after the event; for lock-ups of one instant, after all of them.
     pub after: Totals,

@@ -52,14 +52,26 @@ mod tests {
         assert_eq!(rot.column(2), Vec3::new(1.0, 0.0, 0.0));
     }
 
+    /// The same turns by radians; those of up to two and a half turns are rounded by up to 2e-15.
+    fn agree_with_radians(psi: f64, theta: f64, phi: f64) {
+        let found = rotation_from_degrees(psi, theta, phi);
+        let expected = Mat3::from_euler_121(psi.to_radians(), theta.to_radians(), phi.to_radians());
+        let close = (found - expected).rows.iter().all(|row| row.norm() < 1e-14);
+        assert!(close, "{psi}, {theta}, {phi}: {found:?}, {expected:?}");
+    }
+
     #[test]
     fn any_angles_agree_with_radians() {
-        let found = rotation_from_degrees(10.0, -20.0, 450.5);
-        let expected = Mat3::from_euler_121(
-            10.0_f64.to_radians(),
-            (-20.0_f64).to_radians(),
-            450.5_f64.to_radians(),
-        );
-        assert!((found - expected).rows.iter().all(|row| row.norm() < 1e-15));
+        agree_with_radians(10.0, -20.0, 450.5);
+    }
+
+    #[test]
+    fn quarter_turns_agree_with_radians() {
+        for quarters in -9..=9 {
+            let degrees = 90.0 * f64::from(quarters);
+            agree_with_radians(degrees, 0.0, 0.0);
+            agree_with_radians(0.0, degrees, 0.0);
+            agree_with_radians(30.0, degrees, -degrees);
+        }
     }
 }

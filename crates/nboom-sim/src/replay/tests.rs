@@ -1,7 +1,7 @@
 use nboom_elements::HingeLaw;
 use nboom_model::{
-    Appendage, Hinge, HingeStart, HingeState, MassProperties, Mount, Release, SceneDescription,
-    Segment, Spring,
+    Appendage, Hinge, HingeStart, HingeState, KickOffSpring, MassProperties, Mount, Release,
+    SceneDescription, Segment, Spring,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -142,4 +142,53 @@ fn steps_without_end_are_given_up() {
     let guide = guide(&scene);
     let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 2, &|| false);
     assert!(matches!(replay.complete(), Err(SimError::TooManySteps { steps: 2, .. })));
+}
+
+/// A boom on a hub, both turning about x, with a kick-off spring whose length is
+/// sqrt(1.64 − 1.6 cos β): at the angle `start` of the hinge and turning at `rate`.
+fn kicked(start: f64, rate: f64, limit_length: f64) -> Scene {
+    let ball =
+        |moment| MassProperties::new(2.0, Vec3::zero(), Sym3::diagonal(moment, moment, moment));
+    let mut description = SceneDescription::at_rest("kicked", ball(4.0), 6.0);
+    let kick_off = Some(KickOffSpring {
+        main_body_point: Vec3::unit_y(),
+        body_point: Vec3::unit_y() * 0.8,
+        coefficients: [0.125, 0.0, 0.0, 0.0],
+        limit_length,
+    });
+    let start = HingeStart { angle: start, rate, state: HingeState::Free };
+    let hinge = Hinge { kick_off, start, ..Hinge::free() };
+    let segments = vec![Segment { length: 1.0, mass_properties: ball(1.0), hinge }];
+    description.attach(&Appendage::Regular { mount: Mount::at(Vec3::zero()), segments });
+    Scene::new(description).expect("bodies are physical")
+}
+
+#[test]
+fn a_kick_off_spring_that_nobody_told_of_is_noticed() {
+    // Over its limit and back; then from its limit on, whose length at a right angle is known to
+    // the last digit, outward and inward.
+    let right_angle = std::f64::consts::FRAC_PI_2;
+    let at_limit = 1.64_f64.sqrt();
+    for (scene, least) in [
+        (kicked(0.5, 1.0, 1.0), 2),
+        (kicked(right_angle, 1.0, at_limit), 2),
+        (kicked(right_angle, -1.0, at_limit), 1),
+    ] {
+        let whole = guide(&scene);
+        assert!(whole.len() >= least, "{whole:?}");
+        assert!(whole.iter().all(|event| matches!(
+            event.kind,
+            EventKind::KickOffEngage | EventKind::KickOffDisengage
+        )));
+        replay(&scene, &whole, Accuracy::REFERENCE);
+        for left_out in 0..whole.len() {
+            let mut guide = whole.clone();
+            guide.remove(left_out);
+            let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000);
+            let outcome = replay.complete();
+            assert!(!matches!(outcome, Ok(true)), "{:?}", whole[left_out]);
+        }
+        let mut replay = Replay::new(&scene, &[], Accuracy::REFERENCE, 1000);
+        assert!(!matches!(replay.complete(), Ok(true)), "none of {whole:?}");
+    }
 }
