@@ -21,10 +21,21 @@ pub(crate) fn read_deck(path: &Path) -> Result<String, InputError> {
 pub fn read_text(path: &Path, limit: u64) -> Result<String, InputError> {
     let length = check_file(path)?;
     check_length(path, length, limit)?;
-    let mut bytes = Vec::new();
+    let file = File::open(path);
+    let file = file.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
     // The file may have grown since it was measured.
-    let file = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
-    file.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
+    read_limited(path, file, limit)
+}
+
+/// The text of a deck that comes from somewhere; `path` stands for it in messages.
+pub(crate) fn read_stream(path: &Path, reader: impl Read) -> Result<String, InputError> {
+    read_limited(path, reader, LARGEST_DECK)
+}
+
+fn read_limited(path: &Path, reader: impl Read, limit: u64) -> Result<String, InputError> {
+    let mut bytes = Vec::new();
+    let read = reader.take(limit + 1).read_to_end(&mut bytes);
+    read.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
     check_length(path, bytes.len() as u64, limit)?;
     decode(path, bytes)
 }

@@ -1,6 +1,7 @@
 //! The binary as its users meet it: exit codes, messages and files.
 
 mod certificate;
+mod standard_input;
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
