@@ -151,7 +151,8 @@ fn what_is_zero_is_known_to_all_digits() {
             let options = Options { rtol, ..Options::default() };
             let mut witness = Witness::new();
             simulate(&scene, &options, &mut witness).expect("a short run");
-            let said = trust(&scene, &options, &witness, truth).expect("the reference runs, too");
+            let said = trust(&scene, &options, &witness, truth, &|| false)
+                .expect("the reference runs, too");
             assert!(said.same_events, "{told}");
             let impulses = said.events.iter().filter_map(|event| event.impulse);
             for digits in said.end.iter().copied().chain(impulses) {
@@ -197,7 +198,8 @@ fn events_that_only_one_of_the_runs_has_are_told() {
         witness
     };
     let same_events = |events: &[Event], truth| {
-        let said = trust(&scene, &options, &witness(events), truth).expect("the reference runs");
+        let said = trust(&scene, &options, &witness(events), truth, &|| false)
+            .expect("the reference runs");
         (said.same_events, said.events.len())
     };
     assert!(events.len() >= 2, "{events:?}");

@@ -199,7 +199,7 @@ fn references_in_double_double_have_no_units() {
         let differences = |units: Units| {
             let (scene, mut witness) = (checked(units.scene(&scene)), Witness::new());
             simulate(&scene, &by_default(), &mut witness).expect("it runs to its end");
-            let trust = trust(&scene, &by_default(), &witness, Truth::DoubleDouble);
+            let trust = trust(&scene, &by_default(), &witness, Truth::DoubleDouble, &|| false);
             let trust = trust.expect("it can be followed");
             assert!(trust.same_events, "{} {units:?}", scene.name);
             let of_events = trust.events.iter().flat_map(|event| [Some(event.time), event.impulse]);

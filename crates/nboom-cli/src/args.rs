@@ -9,7 +9,7 @@ use nboom_package::Level;
 use nboom_results::UnitSystem;
 use nboom_sim::{Form, Method, Reference};
 
-use crate::{SlipArgs, StressArgs, choice};
+use crate::{SceneArgs, SlipArgs, StressArgs, choice};
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 done; 1 a comparison failed (verify, \
@@ -93,9 +93,9 @@ pub enum Command {
 /// Options of `nboom run`.
 #[derive(Args, Debug)]
 pub struct RunArgs {
-    /// Legacy deck, a file NAME.nml.
-    #[arg(value_name = "SCENE")]
-    pub scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 
     /// Directory for the results, made if need be; without it out/ and the scene's name.
     #[arg(short, long, value_name = "DIR")]
@@ -182,18 +182,18 @@ pub struct RunArgs {
 /// Options of `nboom check`.
 #[derive(Args, Debug)]
 pub struct CheckArgs {
-    /// Legacy deck, a file NAME.nml.
-    #[arg(value_name = "SCENE")]
-    pub scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 }
 
 /// Options of `nboom generate`.
 #[cfg(feature = "generator")]
 #[derive(Args, Debug)]
 pub struct GenerateArgs {
-    /// Legacy deck, a file NAME.nml.
-    #[arg(value_name = "SCENE")]
-    pub scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 
     /// Directory of the crate, made if need be.
     #[arg(short, long, value_name = "DIR")]
@@ -236,9 +236,9 @@ pub struct GenerateArgs {
 #[cfg(feature = "generator")]
 #[derive(Args, Debug)]
 pub struct CompileArgs {
-    /// Legacy deck, a file NAME.nml.
-    #[arg(value_name = "SCENE")]
-    pub scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 
     /// The program to build; only a simulator that this command has built is replaced.
     #[arg(short, long, value_name = "BINARY")]
@@ -266,9 +266,9 @@ pub struct CompileArgs {
 /// Options of `nboom verify`.
 #[derive(Args, Debug)]
 pub struct VerifyArgs {
-    /// Legacy deck, a file NAME.nml.
-    #[arg(value_name = "SCENE")]
-    pub scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 
     /// File for the deviations, in JSON, its folder made if need be; without it verify.json in
     /// out/ and the scene's name.
@@ -294,9 +294,9 @@ pub struct VerifyArgs {
 /// Options of `nboom bench`.
 #[derive(Args, Debug)]
 pub struct BenchArgs {
-    /// Legacy deck, a file NAME.nml.
-    #[arg(value_name = "SCENE")]
-    pub scene: PathBuf,
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 
     /// Print an array of objects in JSON instead of a table.
     #[arg(long, conflicts_with = "harness")]

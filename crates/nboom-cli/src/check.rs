@@ -1,13 +1,12 @@
 use std::io;
-use std::path::Path;
 
-use nboom_io::{SceneFile, read_scene};
+use nboom_io::SceneFile;
 use nboom_model::Scene;
 use nboom_results::with_causes;
 use nboom_sim::{Event, Options, Recorder, Snapshot, simulate};
 
 use crate::ignored::ignored;
-use crate::{CheckArgs, CliError, Routines, print_scene, say};
+use crate::{CheckArgs, CliError, Routines, SceneArgs, print_scene, say};
 
 /// Reads a scene and returns what it contains for standard output.
 pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {
@@ -24,8 +23,8 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
 
 /// What every command but `run`, which may be quiet, begins with: reads a scene, in which all is
 /// checked that a run would refuse, and says its warnings.
-pub(crate) fn scene(path: &Path) -> Result<SceneFile, CliError> {
-    let file = read_scene(path)?;
+pub(crate) fn scene(args: &SceneArgs) -> Result<SceneFile, CliError> {
+    let file = args.read()?;
     warnings(&file).iter().for_each(|warning| say("warning", warning));
     Ok(file)
 }

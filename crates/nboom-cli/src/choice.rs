@@ -8,6 +8,8 @@ use nboom_results::UnitSystem;
 use nboom_sim::{Form, Method, OptionError, Options, Reference};
 use nboom_strength::PulseShape;
 
+use crate::SceneFormat;
+
 /// Why the value of an option is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -61,6 +63,12 @@ pub(crate) fn integrator(name: &str) -> Result<Method, ChoiceError> {
 pub(crate) fn reference(name: &str) -> Result<Reference, ChoiceError> {
     let available = Reference::ALL.map(Reference::name).into();
     Reference::named(name).ok_or(ChoiceError::Unknown { available })
+}
+
+pub(crate) fn scene_format(name: &str) -> Result<SceneFormat, ChoiceError> {
+    let available = SceneFormat::ALL.map(SceneFormat::name).into();
+    let found = SceneFormat::ALL.into_iter().find(|format| format.name() == name);
+    found.ok_or(ChoiceError::Unknown { available })
 }
 
 pub(crate) fn units(name: &str) -> Result<UnitSystem, ChoiceError> {

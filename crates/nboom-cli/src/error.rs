@@ -19,6 +19,20 @@ pub enum CliError {
     /// The scene cannot be read, or is wrong.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// Standard input is to be read, and nothing says as what.
+    #[error("-: --format nml expected, which says what standard input is")]
+    NoFormat,
+    /// A format is given for what is a file.
+    #[error(
+        "--format {format}: found the file {}, expected - for standard input; a file's format is its \
+         name's ending", path.display()
+    )]
+    VainFormat {
+        /// The file.
+        path: PathBuf,
+        /// The format.
+        format: &'static str,
+    },
     /// The scene is wrong with the end time of the command line.
     #[error("--end-time: {}", .0.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; "))]
     EndTime(Vec<ModelError>),
@@ -127,6 +141,7 @@ impl CliError {
             Self::Deviation { .. } => 1,
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
+            Self::NoFormat | Self::VainFormat { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
             Self::NotWithTaylor { .. } | Self::NoStresses { .. } => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, NEVER, SceneFile, read_scene};
+use nboom_io::{LegacySettings, NEVER, SceneFile};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::{Kept, Outcome, RunDescription, RunDirectory, StressTables, with_causes};
 use nboom_sim::{
@@ -19,7 +19,7 @@ use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say, verd
 /// Simulates a scene, writes its files and returns the account of it for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
     let slips = args.slips.as_1970.unwrap_or_default();
-    let file = read_scene(&args.scene)?;
+    let file = args.scene.read()?;
     refuse_idle(args, &file)?;
     let ignored = ignored(&file, Some(args));
     let file = SceneFile { scene: slips.scene(file.scene), ..file };

@@ -13,13 +13,13 @@ pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, C
     let file = check::scene(&args.scene)?;
     let beside = || default_directory(&file.scene.name).join(FILE);
     let path = args.output.clone().unwrap_or_else(beside);
-    output::check(&path, &args.scene)?;
+    output::check(&path, &args.scene.scene)?;
     let held = Subject::with_held_hinges(&file.scene, args.states / 2, args.seed)?;
     let free = Subject::new(file.scene, args.states - held.len(), args.seed)?;
     let Routines { accelerations, equations, .. } = *routines;
     let comparison = compare(&free, &held, accelerations, equations, args.tol)?;
     print(&table(&comparison))?;
-    output::write(&path, &args.scene, &comparison.json())?;
+    output::write(&path, &args.scene.scene, &comparison.json())?;
     let worst = comparison.worst();
     if !comparison.passed() {
         return Err(CliError::Deviation {

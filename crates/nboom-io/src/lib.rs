@@ -40,6 +40,7 @@ mod error;
 mod legacy;
 mod source;
 
+use std::io::Read;
 use std::path::Path;
 
 use nboom_model::{Scene, Structure};
@@ -81,4 +82,14 @@ pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = name.replace(char::is_control, "\u{fffd}");
     Ok(SceneFile { sha256, ..parse_deck(&path.display().to_string(), &text, &name)? })
+}
+
+/// Reads a scene from a deck that is no file; `name` is the scene's and stands for the file in
+/// messages. As much is read as of a file.
+///
+/// # Errors
+/// Those of [`read_scene`] but for the name.
+pub fn read_scene_from(reader: impl Read, name: &str) -> Result<SceneFile, InputError> {
+    let (text, sha256) = source::read_stream(Path::new(name), reader)?;
+    Ok(SceneFile { sha256, ..parse_deck(name, &text, name)? })
 }

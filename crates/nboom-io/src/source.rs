@@ -13,7 +13,16 @@ const LARGEST_DECK: u64 = 16 << 20;
 pub(crate) fn read_deck(path: &Path) -> Result<(String, String), InputError> {
     check_file(path)?;
     check_ending(path)?;
-    let bytes = read_bytes(path, LARGEST_DECK)?;
+    hashed(path, read_bytes(path, LARGEST_DECK)?)
+}
+
+/// The text of a deck that comes from somewhere, and the hash of its bytes; `path` stands for it in
+/// messages.
+pub(crate) fn read_stream(path: &Path, reader: impl Read) -> Result<(String, String), InputError> {
+    hashed(path, read_limited(path, reader, LARGEST_DECK)?)
+}
+
+fn hashed(path: &Path, bytes: Vec<u8>) -> Result<(String, String), InputError> {
     let hash = sha256(&bytes);
     Ok((decode(path, bytes)?, hash))
 }
@@ -34,10 +43,16 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, InputError> {
 fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, InputError> {
     let length = check_file(path)?;
     check_length(path, length, limit)?;
-    let mut bytes = Vec::new();
+    let file = File::open(path);
+    let file = file.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
     // The file may have grown since it was measured.
-    let file = File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes));
-    file.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
+    read_limited(path, file, limit)
+}
+
+fn read_limited(path: &Path, reader: impl Read, limit: u64) -> Result<Vec<u8>, InputError> {
+    let mut bytes = Vec::new();
+    let read = reader.take(limit + 1).read_to_end(&mut bytes);
+    read.map_err(|source| InputError::Io { path: path.to_owned(), source })?;
     check_length(path, bytes.len() as u64, limit)?;
     Ok(bytes)
 }

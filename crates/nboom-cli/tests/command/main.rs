@@ -1,8 +1,9 @@
 //! The binary as its users meet it: exit codes, messages and files.
 
 mod certificate;
-mod verdict;
+mod standard_input;
 mod told;
+mod verdict;
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
