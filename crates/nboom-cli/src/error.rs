@@ -88,6 +88,12 @@ pub enum CliError {
     /// Signals cannot be waited for.
     #[error("cannot wait for signals")]
     Signals(#[source] std::io::Error),
+    /// A run was interrupted and did not come to the end of its step in time.
+    #[error(
+        "interrupted within a step; what was computed before is in the directory for unfinished \
+         results, DIR.partial, marked incomplete"
+    )]
+    WithinStep,
     /// A command would overwrite what it reads.
     #[error("{}: found the input, expected another file for the output", path.display())]
     OutputIsInput {
@@ -151,7 +157,7 @@ impl CliError {
             } => 2,
             Self::Verify(VerifyError::NotFinite { .. }) => 2,
             Self::Simulation { .. } | Self::Verify(_) => 3,
-            Self::Certificate { .. } | Self::Signals(_) => 3,
+            Self::Certificate { .. } | Self::Signals(_) | Self::WithinStep => 3,
             Self::Results(_) | Self::Stdout(_) => 3,
             #[cfg(feature = "generator")]
             Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,

@@ -1,29 +1,64 @@
-use std::sync::Arc;
+use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::thread;
+use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use crate::CliError;
+use crate::{CliError, say};
+
+/// How often the program looks whether a signal has come.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// How long a run may take to end in good order; a step of a thousand hinges may take longer.
+const PATIENCE: Duration = Duration::from_millis(700);
 
 /// Whether the user or the system has asked the program to end, by Ctrl-C or SIGTERM.
 #[derive(Clone, Debug)]
-pub(crate) struct Interrupt(Arc<AtomicBool>);
+pub(crate) struct Interrupt {
+    came: Arc<AtomicBool>,
+    /// Held by what must come to its end.
+    shield: Arc<Mutex<()>>,
+}
 
 impl Interrupt {
-    /// From now on the first such signal is only noted; the second ends the program at once.
+    /// From now on the first such signal is only noted, and a program that does not heed it within
+    /// a second ends all the same; the second signal ends it at once.
     pub(crate) fn watch() -> Result<Self, CliError> {
-        let came = Arc::new(AtomicBool::new(false));
+        let interrupt = Self { came: Arc::default(), shield: Arc::default() };
         for signal in [SIGINT, SIGTERM] {
             // In this order: the first signal finds that none has come.
-            flag::register_conditional_default(signal, came.clone())
-                .and_then(|_| flag::register(signal, came.clone()))
+            flag::register_conditional_default(signal, interrupt.came.clone())
+                .and_then(|_| flag::register(signal, interrupt.came.clone()))
                 .map_err(CliError::Signals)?;
         }
-        Ok(Self(came))
+        let (came, shield) = (interrupt.came.clone(), Arc::downgrade(&interrupt.shield));
+        thread::spawn(move || insist(&came, &shield));
+        Ok(interrupt)
     }
 
     pub(crate) fn came(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.came.load(Ordering::Relaxed)
     }
+
+    /// Does what must not be broken off.
+    pub(crate) fn shielded<T>(&self, work: impl FnOnce() -> T) -> T {
+        let _held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
+        work()
+    }
+}
+
+/// Ends the program a while after a signal has come, unless the run is over by then.
+fn insist(came: &AtomicBool, shield: &Weak<Mutex<()>>) {
+    while !came.load(Ordering::Relaxed) {
+        thread::sleep(LOOK);
+    }
+    thread::sleep(PATIENCE);
+    let Some(shield) = shield.upgrade() else { return };
+    let _held = shield.lock().unwrap_or_else(PoisonError::into_inner);
+    let error = CliError::WithinStep;
+    error.lines().iter().for_each(|line| say("error", line));
+    process::exit(error.exit_code().into());
 }

