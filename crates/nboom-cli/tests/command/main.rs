@@ -1,8 +1,8 @@
 //! The binary as its users meet it: exit codes, messages and files.
 
 mod certificate;
-mod verdict;
 mod told;
+mod verdict;
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
