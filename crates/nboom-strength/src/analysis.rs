@@ -230,16 +230,16 @@ impl StressAnalysis {
         }));
         let Some(constants) = &self.pulse_constants else { return Ok(&self.stresses) };
         self.pulses.start_at(after.time);
-        let mut until: f64 = 0.0;
+        let mut longest: f64 = 0.0;
         for jump in jumps {
             let (constant, factor) = (constants[jump.hinge], self.settings.amplification);
             let peak = self.finder.peak(&after.beta, jump, constant, factor);
             if !peak.iter().all(|number| number.is_finite()) {
                 return Err(StrengthError::NotFinite { time: after.time });
             }
-            until = until.max(self.pulses.add(jump.hinge, constant, peak));
+            longest = longest.max(self.pulses.add(jump.hinge, constant, peak));
         }
-        sides.into_iter().for_each(|loads| self.pulses.add_side(until, loads));
+        sides.into_iter().for_each(|loads| self.pulses.add_side(longest, loads));
         self.look_ahead()
     }
 

@@ -48,21 +48,32 @@ impl PulseShape {
 /// What no pulse outlasts, so that sums of times are numbers.
 const LONGEST: f64 = f64::MAX / 4.0;
 
+/// What began at a lock-up and lasts for some time.
+#[derive(Clone, Copy, Debug)]
+struct Course {
+    /// Time that it had been going on at the last instant in which a hinge locked.
+    age: f64,
+    duration: f64,
+}
+
+impl Course {
+    fn end(&self) -> f64 {
+        self.duration - self.age
+    }
+}
+
 /// What a latch adds to all loads at its peak.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulse {
     pub hinge: usize,
-    /// Time that it had been going on at the last instant in which a hinge locked.
-    age: f64,
-    duration: f64,
+    course: Course,
     pub peak: Vec<f64>,
 }
 
 /// Loads of the motion on one side of a lock-up, which stand for those during its pulses.
 #[derive(Clone, Debug)]
 pub(crate) struct Side {
-    /// Until when after the last instant in which a hinge locked.
-    until: f64,
+    course: Course,
     pub loads: Vec<f64>,
 }
 
@@ -90,42 +101,44 @@ impl Pulses {
     pub fn start_at(&mut self, time: f64) {
         let passed = time - self.since;
         self.since = time;
-        self.active.iter_mut().for_each(|pulse| pulse.age += passed);
-        self.sides.iter_mut().for_each(|side| side.until -= passed);
+        let courses = self.active.iter_mut().map(|pulse| &mut pulse.course);
+        let of_sides = self.sides.iter_mut().map(|side| &mut side.course);
+        courses.chain(of_sides).for_each(|course| course.age += passed);
         self.forget_until(0.0);
     }
 
     /// Forgets what is over at `u`.
     pub fn forget_until(&mut self, u: f64) {
-        self.active.retain(|pulse| pulse.duration - pulse.age > u);
-        self.sides.retain(|side| side.until > u);
+        self.active.retain(|pulse| pulse.course.end() > u);
+        self.sides.retain(|side| side.course.end() > u);
     }
 
     /// Adds the pulse of `hinge` at this instant, and returns how long it lasts.
     pub fn add(&mut self, hinge: usize, constant: f64, peak: Vec<f64>) -> f64 {
         let duration = self.shape.duration(constant);
-        self.active.push(Pulse { hinge, age: 0.0, duration, peak });
+        self.active.push(Pulse { hinge, course: Course { age: 0.0, duration }, peak });
         duration
     }
 
-    /// Lets the loads on one side of this instant stand for those until `until`.
-    pub fn add_side(&mut self, until: f64, loads: Vec<f64>) {
-        self.sides.push(Side { until, loads });
+    /// Lets the loads on one side of this instant stand for those during pulses of this duration.
+    pub fn add_side(&mut self, duration: f64, loads: Vec<f64>) {
+        self.sides.push(Side { course: Course { age: 0.0, duration }, loads });
     }
 
     /// Those that go on from `u` on, and how much of each.
     pub fn going_on(&self, u: f64) -> impl Iterator<Item = &Pulse> {
-        self.active.iter().filter(move |pulse| pulse.duration - pulse.age > u)
+        self.active.iter().filter(move |pulse| pulse.course.end() > u)
     }
 
     /// Share of its peak that a pulse has at `u`.
     pub fn share(&self, pulse: &Pulse, u: f64) -> f64 {
-        self.shape.at((pulse.age + u) / pulse.duration)
+        let Course { age, duration } = pulse.course;
+        self.shape.at((age + u) / duration)
     }
 
     /// The sides that stand for the motion from `u` on.
     pub fn sides(&self, u: f64) -> impl Iterator<Item = &Side> {
-        self.sides.iter().filter(move |side| side.until > u)
+        self.sides.iter().filter(move |side| side.course.end() > u)
     }
 
     /// Adds to `row` what those that go on from `from` on make at `u`.
@@ -138,13 +151,13 @@ impl Pulses {
 
     /// When the last of them ends.
     pub fn end(&self) -> f64 {
-        self.active.iter().map(|pulse| pulse.duration - pulse.age).fold(0.0, f64::max)
+        self.active.iter().map(|pulse| pulse.course.end()).fold(0.0, f64::max)
     }
 
     /// The next peak or end of a pulse after `u`; none after all of them.
     pub fn next_after(&self, u: f64) -> Option<f64> {
-        let peaks_and_ends =
-            self.active.iter().flat_map(|p| [0.5 * p.duration - p.age, p.duration - p.age]);
+        let courses = self.active.iter().map(|pulse| pulse.course);
+        let peaks_and_ends = courses.flat_map(|c| [0.5 * c.duration - c.age, c.end()]);
         peaks_and_ends.filter(|next| *next > u).min_by(f64::total_cmp)
     }
 }
