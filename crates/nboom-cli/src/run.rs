@@ -3,10 +3,9 @@ use std::time::Instant;
 
 use nboom_io::{LegacySettings, NEVER, SceneFile};
 use nboom_model::{Hinge, HingeState, Release, Scene};
-use nboom_results::{Kept, Outcome, RunDescription, RunDirectory, StressTables, with_causes};
+use nboom_results::{Outcome, RunDescription, RunDirectory, StressTables, with_causes};
 use nboom_sim::{
-    Bound, Form, Method, Options, Path, Reference, RkamSettings, Tolerance, Trust, Witness,
-    check_start, simulate, trust,
+    Bound, Form, Method, Options, Path, RkamSettings, Tolerance, Witness, check_start, simulate,
 };
 use nboom_strength::StressAnalysis;
 
