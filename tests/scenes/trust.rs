@@ -8,7 +8,8 @@ use nboom::model::{
 };
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 use nboom::sim::{
-    Event, EventKind, Options, Recorder, Reference as Truth, Snapshot, Witness, simulate, trust,
+    Event, EventKind, Nobody, Options, Recorder, Reference as Truth, Snapshot, Witness, simulate,
+    trust,
 };
 
 use serde_json::Value;
@@ -45,7 +46,7 @@ fn differences_are_the_errors(rtol: f64, truth: Truth, [share, least]: [f64; 2])
         let mut witness = Witness::new();
         simulate(&scene, &options, &mut witness).expect("every scene runs to its end");
         let said =
-            trust(&scene, &options, &witness, truth, &|| false).expect("the reference runs, too");
+            trust(&scene, &options, &witness, truth, &mut Nobody).expect("the reference runs, too");
         assert!(said.same_events, "{}", reference.name);
 
         for event in &said.events {
@@ -123,8 +124,13 @@ fn double_double_agrees_with_the_references() {
     let (mut events, mut impulses) = (0, 0);
     for reference in Reference::all() {
         let (scene, name) = (reference.scene(), reference.name);
-        let said =
-            trust(&scene, &Options::default(), &oracle(&reference), Truth::DoubleDouble, &|| false);
+        let said = trust(
+            &scene,
+            &Options::default(),
+            &oracle(&reference),
+            Truth::DoubleDouble,
+            &mut Nobody,
+        );
         let said = said.expect("every scene runs to its end");
         assert!(said.same_events, "{name}");
         events += said.events.len();
@@ -151,7 +157,7 @@ fn what_is_zero_is_known_to_all_digits() {
             let options = Options { rtol, ..Options::default() };
             let mut witness = Witness::new();
             simulate(&scene, &options, &mut witness).expect("a short run");
-            let said = trust(&scene, &options, &witness, truth, &|| false)
+            let said = trust(&scene, &options, &witness, truth, &mut Nobody)
                 .expect("the reference runs, too");
             assert!(said.same_events, "{told}");
             let impulses = said.events.iter().filter_map(|event| event.impulse);

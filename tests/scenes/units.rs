@@ -194,12 +194,12 @@ fn latches_that_close_near_one_instant_do_so_in_any_unit() {
 /// A run in double-double has the same rule.
 #[test]
 fn references_in_double_double_have_no_units() {
-    use nboom::sim::{Reference as Truth, Witness, simulate, trust};
+    use nboom::sim::{Nobody, Reference as Truth, Witness, simulate, trust};
     for scene in [driven(), two_latches(4e-12), two_latches(6e-12)] {
         let differences = |units: Units| {
             let (scene, mut witness) = (checked(units.scene(&scene)), Witness::new());
             simulate(&scene, &by_default(), &mut witness).expect("it runs to its end");
-            let trust = trust(&scene, &by_default(), &witness, Truth::DoubleDouble, &|| false);
+            let trust = trust(&scene, &by_default(), &witness, Truth::DoubleDouble, &mut Nobody);
             let trust = trust.expect("it can be followed");
             assert!(trust.same_events, "{} {units:?}", scene.name);
             let of_events = trust.events.iter().flat_map(|event| [Some(event.time), event.impulse]);

@@ -5,7 +5,7 @@ use nboom::model::{
     Segment,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::{Options, Path, Reference, Summary, Witness, simulate, trust};
+use nboom::sim::{Nobody, Options, Path, Reference, Summary, Witness, simulate, trust};
 
 use crate::collect::{Collected, run};
 
@@ -85,7 +85,7 @@ pub fn error(scene: &Scene, options: &Options) -> (f64, bool) {
     simulate(scene, options, &mut witness).expect("it runs to its end");
     let reference = Reference::TighterTolerance;
     let found =
-        trust(scene, options, &witness, reference, &|| false).expect("the tighter run, too");
+        trust(scene, options, &witness, reference, &mut Nobody).expect("the tighter run, too");
     let of_interest = found.end.iter().filter(|d| !["rho", "v"].contains(&d.quantity));
     let worst = of_interest.map(|d| d.difference).fold(0.0, f64::max);
     println!("error {worst:.1e}, same events: {}", found.same_events);

@@ -155,8 +155,8 @@ pub struct RunArgs {
     pub listing: bool,
 
     /// Run again with tolerances a thousand times tighter, or in double-double, and say how many
-    /// digits of event times, impulses and the final state can be trusted; also writes
-    /// certificate.json. Without a name it is tighter-tolerance; the other is double-double.
+    /// digits of event times, impulses, the final state and the largest loads can be trusted; also
+    /// writes certificate.json. Without a name it is tighter-tolerance; the other is double-double.
     #[arg(long, value_name = "REFERENCE", num_args = 0..=1, require_equals = true,
           default_missing_value = Reference::default().name(), value_parser = choice::reference)]
     pub certify: Option<Reference>,

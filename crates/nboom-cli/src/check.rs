@@ -1,9 +1,7 @@
-use std::io;
-
 use nboom_io::SceneFile;
 use nboom_model::Scene;
 use nboom_results::with_causes;
-use nboom_sim::{Event, Options, Recorder, Snapshot, simulate};
+use nboom_sim::{Nobody, Options, simulate};
 
 use crate::ignored::ignored;
 use crate::{CheckArgs, CliError, Routines, SceneArgs, print_scene, say};
@@ -59,22 +57,5 @@ fn code_at_start(scene: &Scene, routines: &Routines) -> String {
             format!("code at the start: {} {}, {}", code.path, code.formulation, code.reason)
         }),
         Err(failure) => format!("code at the start: none, {}", with_causes(&failure.error)),
-    }
-}
-
-/// Records nothing.
-struct Nobody;
-
-impl Recorder for Nobody {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
-        Ok(())
     }
 }

@@ -16,6 +16,7 @@
 
 mod args;
 mod bench;
+mod certify;
 mod check;
 mod choice;
 #[cfg(feature = "generator")]

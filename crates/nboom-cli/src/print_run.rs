@@ -1,12 +1,11 @@
 use std::path::Path;
 
 use nboom_model::Scene;
-use nboom_results::{EVENTS_FILE, Outcome, RunDescription, WorstLoads, event_order};
-use nboom_sim::{
-    CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, Selection, Totals, Trust,
-};
+use nboom_results::{EVENTS_FILE, Outcome, PeakDigits, RunDescription, WorstLoads, event_order};
+use nboom_sim::{CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, Selection, Totals};
 use nboom_strength::{Cause, HingeQuantity, Worst, WorstHingeLoad};
 
+use crate::certify::Certified;
 use crate::format::{count, short};
 use crate::verdict;
 
@@ -23,7 +22,7 @@ pub(crate) struct Account<'a> {
     /// The worst stresses and hinge loads, if any were computed.
     pub(crate) worst: WorstLoads,
     /// What a reference run has shown, if there was one.
-    pub(crate) trust: Option<Trust>,
+    pub(crate) certified: Option<Certified>,
 }
 
 impl Account<'_> {
@@ -36,7 +35,7 @@ impl Account<'_> {
         lines.extend(self.hinge_load_line());
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
-        lines.extend(self.trust.as_ref().map(trust_line));
+        lines.extend(self.certified.as_ref().map(trust_line));
         lines.push(format!("files         {}", directory.display()));
         lines.join("\n") + "\n"
     }
@@ -178,8 +177,8 @@ fn worst_line(scene: &Scene, worst: &Worst) -> String {
     )
 }
 
-/// The fewest digits of event times, of impulses, and of each quantity at the end.
-fn trust_line(trust: &Trust) -> String {
+/// The fewest digits of event times, of impulses, of each quantity at the end, and of peaks.
+fn trust_line(Certified { trust, peaks }: &Certified) -> String {
     let mut known: Vec<String> = Vec::new();
     let mut say = |what: &str, digits: Option<u32>| {
         known.extend(digits.map(|digits| format!("{what} {digits}")));
@@ -188,6 +187,11 @@ fn trust_line(trust: &Trust) -> String {
     let impulses = trust.events.iter().filter_map(|event| event.impulse.as_ref());
     say("impulses", impulses.map(Digits::count).min());
     trust.end.iter().for_each(|digits| say(digits.quantity, Some(digits.count())));
+    let (stations, hinges): (Vec<&PeakDigits>, Vec<_>) =
+        peaks.iter().partition(|peak| peak.station.is_some());
+    for (what, peaks) in [("peak stresses", stations), ("peak hinge loads", hinges)] {
+        say(what, peaks.iter().map(|peak| peak.digits.count()).min());
+    }
     let other = if trust.same_events { "" } else { "; the reference has other events" };
     let known = known.join(", ");
     match trust.reference {
@@ -292,7 +296,7 @@ mod tests {
             outcome: &outcome,
             events,
             worst: WorstLoads::default(),
-            trust: None,
+            certified: None,
         }
         .text(Path::new("out/boom"))
     }

@@ -3,13 +3,13 @@ use std::time::Instant;
 
 use nboom_io::{LegacySettings, NEVER, SceneFile};
 use nboom_model::{Hinge, HingeState, Release, Scene};
-use nboom_results::{Kept, Outcome, RunDescription, RunDirectory, StressTables, with_causes};
+use nboom_results::{Outcome, RunDescription, RunDirectory, StressTables, with_causes};
 use nboom_sim::{
-    Bound, Form, Method, Options, Path, Reference, RkamSettings, Tolerance, Trust, Witness,
-    check_start, simulate, trust,
+    Bound, Form, Method, Options, Path, RkamSettings, Tolerance, Witness, check_start, simulate,
 };
 use nboom_strength::StressAnalysis;
 
+use crate::certify::Certifier;
 use crate::ignored::{ignored, refuse_idle};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
@@ -134,12 +134,14 @@ fn simulate_into_files(
     if args.certify.is_some() {
         files = files.with_trust();
     }
+    let analysis = stresses.as_ref().map(|(analysis, _)| analysis.clone());
+    let certifier = Certifier { interrupt: interrupt.clone(), analysis };
     if let Some((analysis, tables)) = stresses {
         files = files.with_stresses(scene, analysis, tables)?;
     }
     let mut watch = Watch {
         files,
-        interrupt: interrupt.clone(),
+        interrupt,
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
         events_to_keep: print_run::EVENTS_SHOWN,
@@ -164,34 +166,16 @@ fn simulate_into_files(
     if let Some(error) = failed {
         return Err(CliError::Simulation { error, directory: Some(kept.directory) });
     }
-    let trust = match watch.witness.as_ref().zip(args.certify) {
+    let certified = match watch.witness.as_ref().zip(args.certify) {
         Some((witness, reference)) if kept.written.is_ok() => {
-            Some(certify(scene, options, witness, reference, &kept, interrupt)?)
+            Some(certifier.certify(scene, options, reference, (witness, &worst), &kept)?)
         }
         _ => None,
     };
     kept.written?;
     let (outcome, events) = (&outcome, watch.events);
-    let account = print_run::Account { scene, run: &run, outcome, events, worst, trust };
+    let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
     Ok(account.text(&directory))
-}
-
-/// Runs again, more accurately, and writes how far the results are from that.
-fn certify(
-    scene: &Scene,
-    options: &Options,
-    witness: &Witness,
-    reference: Reference,
-    kept: &Kept,
-    interrupt: &Interrupt,
-) -> Result<Trust, CliError> {
-    let found = trust(scene, options, witness, reference, &|| interrupt.came());
-    let found = found.map_err(|failure| CliError::Certificate {
-        error: failure.error,
-        directory: kept.directory.clone(),
-    })?;
-    kept.add_trust(scene, &found)?;
-    Ok(found)
 }
 
 /// `out/` and the scene's name, with what a file name cannot hold replaced.

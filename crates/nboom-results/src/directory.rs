@@ -10,9 +10,9 @@ use crate::rows::{self, Output};
 use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
-    EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, ResultsError, RunDescription,
-    STATES_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE, WorstLoads,
-    trust, with_causes,
+    EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, PeakDigits, ResultsError,
+    RunDescription, STATES_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE,
+    WorstLoads, trust, with_causes,
 };
 
 /// What of the disk is kept for the summary, in which a full disk is told \[bytes\].
@@ -49,12 +49,17 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// Adds how many digits of the run can be trusted.
+    /// Adds how many digits of the run, and of its largest loads, can be trusted.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn add_trust(&self, scene: &Scene, found: &Trust) -> Result<(), ResultsError> {
-        self.place.add(TRUST_FILE, &trust::text(scene, found))
+    pub fn add_trust(
+        &self,
+        scene: &Scene,
+        found: &Trust,
+        peaks: &[PeakDigits],
+    ) -> Result<(), ResultsError> {
+        self.place.add(TRUST_FILE, &trust::text(scene, found, peaks))
     }
 }
 

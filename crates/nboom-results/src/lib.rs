@@ -29,6 +29,7 @@ mod listing;
 mod lock;
 mod names;
 mod number;
+mod peaks;
 mod place;
 mod row_text;
 mod rows;
@@ -55,6 +56,7 @@ pub use names::{
     ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, LATCH_IMPULSES_FILE,
     LISTING_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
 };
+pub use peaks::{PeakDigits, peak_digits};
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;

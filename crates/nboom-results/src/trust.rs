@@ -2,6 +2,8 @@ use nboom_model::Scene;
 use nboom_sim::{Digits, Trust};
 use serde::Serialize;
 
+use crate::PeakDigits;
+
 #[derive(Serialize)]
 struct TrustKeys<'a> {
     scene: &'a str,
@@ -11,6 +13,30 @@ struct TrustKeys<'a> {
     same_events: bool,
     events: Vec<EventKeys>,
     end: Vec<DigitKeys>,
+    /// The largest stresses and hinge loads, if any were computed.
+    peaks: Vec<PeakKeys>,
+}
+
+#[derive(Serialize)]
+struct PeakKeys {
+    appendage: usize,
+    segment: usize,
+    /// `null` of a hinge.
+    station: Option<usize>,
+    #[serde(flatten)]
+    digits: DigitKeys,
+}
+
+impl From<&PeakDigits> for PeakKeys {
+    fn from(peak: &PeakDigits) -> Self {
+        let PeakDigits { hinge, station, digits } = peak;
+        Self {
+            appendage: hinge.appendage + 1,
+            segment: hinge.segment + 1,
+            station: station.map(|station| station + 1),
+            digits: digits.into(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -39,7 +65,7 @@ impl From<&Digits> for DigitKeys {
 }
 
 /// The text of [`TRUST_FILE`](crate::TRUST_FILE).
-pub(crate) fn text(scene: &Scene, trust: &Trust) -> String {
+pub(crate) fn text(scene: &Scene, trust: &Trust, peaks: &[PeakDigits]) -> String {
     let events = trust.events.iter().map(|known| {
         let label = known.event.hinge.map(|hinge| scene.label(hinge));
         EventKeys {
@@ -59,6 +85,7 @@ pub(crate) fn text(scene: &Scene, trust: &Trust) -> String {
         same_events: trust.same_events,
         events: events.collect(),
         end: trust.end.iter().map(DigitKeys::from).collect(),
+        peaks: peaks.iter().map(PeakKeys::from).collect(),
     };
     serde_json::to_string_pretty(&keys).expect("the keys are texts and numbers") + "\n"
 }

@@ -80,10 +80,11 @@ pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, Options, Path};
 pub use record::{
-    Detail, Event, EventKind, InstantMotion, Integration, Jump, Recorder, Snapshot, Summary, Totals,
+    Detail, Event, EventKind, InstantMotion, Integration, Jump, Nobody, Recorder, Snapshot,
+    Summary, Totals,
 };
 pub use run::simulate;
-pub use scales::Scales;
+pub use scales::{Scales, natural};
 pub use selection::{CodeOfRun, Selection};
 pub use step_motion::{MotionAt, StepMotion};
 pub use trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};

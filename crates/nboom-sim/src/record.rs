@@ -65,6 +65,24 @@ pub trait Recorder {
     }
 }
 
+/// Records nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Nobody;
+
+impl Recorder for Nobody {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
+}
+
 /// Both sides of an instant in which something happens: what jumps are accelerations, and where hinges
 /// lock velocities too.
 #[derive(Clone, Debug, PartialEq)]

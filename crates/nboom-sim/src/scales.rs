@@ -9,8 +9,8 @@ use crate::record::Snapshot;
 /// what anybody asks about.
 const NOTHING: f64 = 1e-9;
 
-/// What is `largest`, measured by itself unless it is nothing beside `of_motion`.
-pub(crate) fn natural(largest: f64, of_motion: f64) -> f64 {
+/// The natural size of what is `largest`: itself, unless it is nothing beside `of_motion`.
+pub fn natural(largest: f64, of_motion: f64) -> f64 {
     if largest >= NOTHING * of_motion { largest } else { of_motion }
 }
 
@@ -64,6 +64,10 @@ pub struct Scales {
     pub v: f64,
     /// Of impulses.
     pub impulse: f64,
+    /// Of forces, as the motion makes them.
+    pub force: f64,
+    /// Of moments, as the motion makes them.
+    pub moment: f64,
 }
 
 impl Scales {
@@ -83,6 +87,8 @@ impl Scales {
             rho: natural(rho, length),
             v: natural(v, length * rate),
             impulse: natural(impulse, momentum),
+            force: scene.total_mass() * length * rate * rate,
+            moment: momentum * rate,
         }
     }
 }

@@ -1,5 +1,7 @@
 //! How many digits of a run can be trusted, from a second run that is more accurate.
 
+use std::io;
+
 use nboom_model::Scene;
 use nboom_ode::Method;
 use nboom_scalar::Vec3;
@@ -7,10 +9,11 @@ use nboom_scalar::Vec3;
 use crate::error::Failure;
 use crate::expansion::Accuracy;
 use crate::options::Options;
-use crate::record::{Event, EventKind, Recorder, Snapshot, Summary};
+use crate::record::{Event, EventKind, InstantMotion, Recorder, Snapshot, Summary};
 use crate::replay::Replay;
 use crate::run::simulate;
 use crate::scales::{Largest, Scales, natural};
+use crate::step_motion::StepMotion;
 
 /// The reference's tolerances are this many times tighter, as far as rounding allows.
 const TIGHTER: f64 = 1e-3;
@@ -51,13 +54,13 @@ impl Recorder for Witness {
         false
     }
 
-    fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
+    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         self.largest.saw(snapshot);
         self.last = Some(snapshot.clone());
         Ok(())
     }
 
-    fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
+    fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {
         self.largest.saw(after);
         self.largest.saw_impulse(event.impulse.unwrap_or(0.0));
         if event.kind == EventKind::End {
@@ -69,27 +72,45 @@ impl Recorder for Witness {
     }
 }
 
-/// The witness of a reference, which may be interrupted too.
-struct Asked<'a> {
+/// The witness of a reference, and who else looks at it.
+struct Both<'a> {
     witness: Witness,
-    interrupted: &'a dyn Fn() -> bool,
+    beside: &'a mut dyn Recorder,
 }
 
-impl Recorder for Asked<'_> {
+impl Recorder for Both<'_> {
     fn needs_detail(&self) -> bool {
-        self.witness.needs_detail()
+        self.beside.needs_detail()
     }
 
-    fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
-        self.witness.sample(snapshot)
+    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+        self.witness.sample(snapshot)?;
+        self.beside.sample(snapshot)
     }
 
-    fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
-        self.witness.event(event, after)
+    fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {
+        self.witness.event(event, after)?;
+        self.beside.event(event, after)
     }
 
     fn interrupted(&self) -> bool {
-        (self.interrupted)()
+        self.beside.interrupted()
+    }
+
+    fn needs_instants(&self) -> bool {
+        self.beside.needs_instants()
+    }
+
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        self.beside.instant(instant)
+    }
+
+    fn needs_steps(&self) -> bool {
+        self.beside.needs_steps()
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
+        self.beside.step(step)
     }
 }
 
@@ -160,7 +181,8 @@ pub struct Digits {
 }
 
 impl Digits {
-    fn new(quantity: &'static str, difference: f64, size: f64) -> Self {
+    /// Of a quantity of this natural size.
+    pub fn new(quantity: &'static str, difference: f64, size: f64) -> Self {
         let difference = if difference == 0.0 { 0.0 } else { difference / size };
         Self { quantity, difference }
     }
@@ -178,9 +200,11 @@ impl Digits {
 /// Runs `scene` again, more accurately than `options` say, and compares with what `witness` saw
 /// of the run under `options`.
 ///
+/// What a run tells its recorder the reference tells `beside`: of one in double-double the `f64` run that
+/// it follows, whose errors are rounding.
+///
 /// # Errors
-/// When the reference cannot be computed to the end, or is `interrupted`, which is asked at every
-/// step.
+/// When the reference cannot be computed to the end, or `beside` interrupts it.
 ///
 /// # Panics
 /// When `witness` saw no run.
@@ -189,21 +213,17 @@ pub fn trust(
     options: &Options,
     witness: &Witness,
     reference: Reference,
-    interrupted: &dyn Fn() -> bool,
+    beside: &mut dyn Recorder,
 ) -> Result<Trust, Failure> {
     let (rtol, atol, truth) = match reference {
         Reference::TighterTolerance => {
             let rtol = (options.rtol * TIGHTER).max(TIGHTEST);
             let atol = options.atol * TIGHTER;
-            (rtol, atol, run_again(scene, options, rtol, atol, interrupted)?.0)
+            (rtol, atol, run_again(scene, options, rtol, atol, beside)?.0)
         }
         Reference::DoubleDouble => {
             let Accuracy { relative, absolute, .. } = Accuracy::REFERENCE;
-            (
-                relative,
-                absolute,
-                in_double_double(scene, options, Accuracy::REFERENCE, interrupted)?,
-            )
+            (relative, absolute, in_double_double(scene, options, Accuracy::REFERENCE, beside)?)
         }
     };
     let same = |(a, b): &(&Event, &Event)| (a.kind, a.hinge) == (b.kind, b.hinge);
@@ -224,7 +244,7 @@ fn run_again(
     options: &Options,
     rtol: f64,
     atol: f64,
-    interrupted: &dyn Fn() -> bool,
+    beside: &mut dyn Recorder,
 ) -> Result<(Witness, Summary), Failure> {
     // A method that no tolerance makes accurate is compared with one.
     let integrator = match options.integrator {
@@ -233,9 +253,9 @@ fn run_again(
     };
     let max_steps = Options::default().max_steps.max(options.max_steps);
     let tighter = Options { integrator, rtol, atol, max_steps, samples: 1, ..*options };
-    let mut asked = Asked { witness: Witness::new(), interrupted };
-    let summary = simulate(scene, &tighter, &mut asked)?;
-    Ok((asked.witness, summary))
+    let mut both = Both { witness: Witness::new(), beside };
+    let summary = simulate(scene, &tighter, &mut both)?;
+    Ok((both.witness, summary))
 }
 
 /// The same in double-double, along the events of a run that is as accurate as `f64` allows.
@@ -243,11 +263,12 @@ fn in_double_double(
     scene: &Scene,
     options: &Options,
     accuracy: Accuracy,
-    interrupted: &dyn Fn() -> bool,
+    beside: &mut dyn Recorder,
 ) -> Result<Witness, Failure> {
     let atol = options.atol * TIGHTER;
-    let (guide, summary) = run_again(scene, options, TIGHTEST, atol, interrupted)?;
-    let mut replay = Replay::new(scene, &guide.events, accuracy, options.max_steps, interrupted);
+    let (guide, summary) = run_again(scene, options, TIGHTEST, atol, beside)?;
+    let interrupted = || beside.interrupted();
+    let mut replay = Replay::new(scene, &guide.events, accuracy, options.max_steps, &interrupted);
     match replay.complete() {
         Ok(as_guided) => {
             let last = as_guided.then(|| replay.snapshot());

@@ -2,7 +2,12 @@
 
 use std::fs;
 
-use crate::Place;
+use serde_json::Value;
+
+use crate::{Place, rows, stdout};
+
+/// The sample deck: seven stations on four segments.
+const SAMPLE: &str = include_str!("../../../../examples/n-boom-1970.nml");
 
 #[test]
 fn a_certificate_in_double_double_says_so() {
@@ -59,4 +64,77 @@ fn a_certificate_tells_the_digits_and_goes_with_the_next_run() {
 
     assert_eq!(place.nboom(&["run", "boom.nml", "-o", "out"]).status.code(), Some(0));
     assert!(!path.exists(), "it was of another run");
+}
+
+/// Appendage, segment, station of one; what it is; and how large, from an envelope's file.
+fn peaks(place: &Place, directory: &str) -> Vec<([Value; 3], String, f64)> {
+    let table = |file: &str| -> Vec<Vec<String>> {
+        let lines = rows(&place.path(directory).join(file));
+        lines[1..].iter().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let number = |cell: &str| cell.parse::<f64>().expect("a number");
+    let count = |cell: &str| Value::from(cell.parse::<usize>().expect("a count"));
+    let stations = table("stress_envelope.csv").into_iter().map(|row| {
+        let at = [count(&row[0]), count(&row[1]), count(&row[2])];
+        (at, "von_mises".to_owned(), number(&row[12]))
+    });
+    let hinges = table("hinge_load_envelope.csv").into_iter().map(|row| {
+        ([count(&row[0]), count(&row[1]), Value::Null], row[2].clone(), number(&row[7]))
+    });
+    stations.chain(hinges).collect()
+}
+
+/// The reference has tolerances a thousand times tighter: it is run by hand too.
+#[test]
+fn peaks_of_stresses_and_hinge_loads_have_their_digits() {
+    let place = Place::new();
+    place.write("sample.nml", SAMPLE);
+    let run = |directory: &str, rtol: &str, atol: &str, more: &[&str]| {
+        let words = ["run", "sample.nml", "-o", directory, "--rtol", rtol, "--atol", atol];
+        let output = place.nboom(&[&words[..], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        stdout(&output)
+    };
+    let account = run("loose", "1e-5", "1e-7", &["--certify"]);
+    run("tight", "1e-8", "1e-10", &[]);
+    let text = fs::read_to_string(place.path("loose").join("certificate.json"));
+    let certificate: Value = serde_json::from_str(&text.expect("it is there")).expect("JSON");
+    let said = certificate["peaks"].as_array().expect("a list");
+    let (loose, tight) = (peaks(&place, "loose"), peaks(&place, "tight"));
+    assert_eq!((said.len(), loose.len(), tight.len()), (15, 15, 15));
+    let mut fewest = [16, 16];
+    for ((said, (at, quantity, ours)), (_, _, truth)) in said.iter().zip(loose).zip(tight) {
+        assert_eq!(at, [&said["appendage"], &said["segment"], &said["station"]].map(Clone::clone));
+        assert_eq!(said["quantity"], quantity.as_str());
+        let difference = said["difference"].as_f64().expect("a number");
+        let off = (ours - truth).abs() / truth.abs();
+        // The end of each chain carries nothing, and its stress is rounding.
+        if truth > 1e-3 {
+            // Tolerances a thousandth of each other differ in their last digit, and so do runs.
+            assert!((difference - off).abs() <= 1e-9 + 1e-3 * off, "{said}: {off:e}");
+        }
+        let digits = said["digits"].as_u64().expect("a count");
+        let kind = usize::from(said["station"].is_null());
+        fewest[kind] = digits.min(fewest[kind]);
+    }
+    // What was asked for is off by more than rounding, and by less than it could be.
+    assert!(fewest.iter().all(|digits| (2..12).contains(digits)), "{fewest:?}");
+    let [stresses, loads] = fewest;
+    let words = format!("peak stresses {stresses}, peak hinge loads {loads}\n");
+    assert!(account.contains(&words), "{account}: {words}");
+}
+
+#[test]
+fn loads_that_are_none_have_their_digits() {
+    let place = Place::new();
+    let at_rest =
+        crate::BOOM.replace("OMEG=1.0,2.0,-1.0", "OMEG=3*0.0").replace("RELTB=0.25", "RELTB=1.0E7");
+    place.write("rest.nml", &at_rest);
+    let output = place.nboom(&["run", "rest.nml", "-o", "out", "--hinge-loads", "--certify"]);
+    let account = stdout(&output);
+    assert!(account.contains("peak hinge loads 16\n"), "{account}");
+    let line = account.lines().find(|line| line.starts_with("certified ")).expect("told");
+    for quantity in ["attitude", "omega", "beta", "tau", "rho", "v"] {
+        assert!(line.contains(&format!(" {quantity} 16")), "{line}");
+    }
 }

@@ -1,0 +1,87 @@
+//! A run again, more accurately.
+
+use std::io;
+
+use nboom_model::Scene;
+use nboom_results::{Kept, PeakDigits, WorstLoads, peak_digits};
+use nboom_sim::{
+    Event, InstantMotion, Options, Recorder, Reference, Snapshot, StepMotion, Trust, Witness, trust,
+};
+use nboom_strength::StressAnalysis;
+
+use crate::CliError;
+use crate::interrupt::Interrupt;
+
+/// What a reference run has shown.
+#[derive(Clone, Debug)]
+pub(crate) struct Certified {
+    pub(crate) trust: Trust,
+    /// Of the largest stresses and hinge loads, if any were computed.
+    pub(crate) peaks: Vec<PeakDigits>,
+}
+
+/// Looks at a reference run.
+pub(crate) struct Certifier {
+    pub(crate) interrupt: Interrupt,
+    /// Finds the loads, if those of the run were found.
+    pub(crate) analysis: Option<StressAnalysis>,
+}
+
+impl Certifier {
+    /// Runs again, and writes how far the results, `worst` among them, are from that.
+    pub(crate) fn certify(
+        mut self,
+        scene: &Scene,
+        options: &Options,
+        reference: Reference,
+        (witness, worst): (&Witness, &WorstLoads),
+        kept: &Kept,
+    ) -> Result<Certified, CliError> {
+        let trust = trust(scene, options, witness, reference, &mut self).map_err(|failure| {
+            CliError::Certificate { error: failure.error, directory: kept.directory.clone() }
+        })?;
+        let peaks = match &mut self.analysis {
+            Some(analysis) => {
+                analysis.finish()?;
+                peak_digits(worst, &WorstLoads::of(analysis), &witness.scales(scene))
+            }
+            None => Vec::new(),
+        };
+        kept.add_trust(scene, &trust, &peaks)?;
+        Ok(Certified { trust, peaks })
+    }
+}
+
+impl Recorder for Certifier {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupt.came()
+    }
+
+    fn needs_instants(&self) -> bool {
+        self.analysis.is_some()
+    }
+
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        self.analysis.as_mut().map_or(Ok(()), |analysis| Recorder::instant(analysis, instant))
+    }
+
+    fn needs_steps(&self) -> bool {
+        self.analysis.is_some()
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
+        self.analysis.as_mut().map_or(Ok(()), |analysis| Recorder::step(analysis, step))
+    }
+}
