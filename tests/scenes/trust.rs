@@ -204,7 +204,7 @@ fn events_that_only_one_of_the_runs_has_are_told() {
         witness
     };
     let same_events = |events: &[Event], truth| {
-        let said = trust(&scene, &options, &witness(events), truth, &|| false)
+        let said = trust(&scene, &options, &witness(events), truth, &mut Nobody)
             .expect("the reference runs");
         (said.same_events, said.events.len())
     };

@@ -141,7 +141,7 @@ fn simulate_into_files(
     }
     let mut watch = Watch {
         files,
-        interrupt,
+        interrupt: interrupt.clone(),
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
         events_to_keep: print_run::EVENTS_SHOWN,
