@@ -141,7 +141,7 @@ fn steps_without_end_are_given_up() {
     let scene = unfolding();
     let guide = guide(&scene);
     let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 2, &|| false);
-    assert!(matches!(replay.complete(), Err(SimError::TooManySteps { steps: 2, .. })));
+    assert!(matches!(replay.complete(), Err(SimError::StepsUsedUp { steps: 2, .. })));
 }
 
 /// A boom on a hub, both turning about x, with a kick-off spring whose length is
@@ -184,11 +184,11 @@ fn a_kick_off_spring_that_nobody_told_of_is_noticed() {
         for left_out in 0..whole.len() {
             let mut guide = whole.clone();
             guide.remove(left_out);
-            let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000);
+            let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000, &|| false);
             let outcome = replay.complete();
             assert!(!matches!(outcome, Ok(true)), "{:?}", whole[left_out]);
         }
-        let mut replay = Replay::new(&scene, &[], Accuracy::REFERENCE, 1000);
+        let mut replay = Replay::new(&scene, &[], Accuracy::REFERENCE, 1000, &|| false);
         assert!(!matches!(replay.complete(), Ok(true)), "none of {whole:?}");
     }
 }
