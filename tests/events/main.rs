@@ -13,6 +13,7 @@ mod rotors;
 mod sampled;
 
 mod crossings;
+mod error_bound;
 mod failures;
 mod kick_off;
 mod limits;
@@ -21,4 +22,5 @@ mod output;
 mod random_rotors;
 mod random_trees;
 mod releases;
+mod runaways;
 mod thrust;

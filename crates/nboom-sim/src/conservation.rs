@@ -44,8 +44,8 @@ impl Conservation {
             ("angular momentum", self.angular_momentum),
             ("energy", self.energy),
         ];
-        // Not the other way round, as a residual may be no number.
-        let poor = laws.into_iter().filter(move |&(_, residual)| !(residual <= limit));
+        let poor =
+            laws.into_iter().filter(move |&(_, residual)| residual.is_nan() || residual > limit);
         poor.map(move |(quantity, residual)| PoorConservation { quantity, residual, limit })
     }
 }

@@ -1,4 +1,4 @@
-use std::io;
+use std::{fmt, io};
 
 use nboom_model::HingeLabel;
 use nboom_ode::StepError;
@@ -93,9 +93,32 @@ pub enum SimError {
         /// The hinge of the event.
         hinge: HingeLabel,
     },
-    /// The allowed number of steps is used up, or would be at the present pace.
+    /// Something feeds energy without end.
+    #[error("at time {}, hinge {hinge}: the motion runs away, with {growth:.0e} times the energy of its \
+             beginning; its {feeds} feeds it, a coefficient may have the wrong sign", moment(.time))]
+    Runaway {
+        /// Time reached.
+        time: f64,
+        /// The hinge that feeds most.
+        hinge: HingeLabel,
+        /// What of it.
+        feeds: Feeds,
+        /// Kinetic energy in units of what the scene has of energy at the initial time.
+        growth: f64,
+    },
+    /// The steps that are allowed are used up.
+    #[error("at time {}: the {steps} steps that {by} allows are used up", moment(.time))]
+    StepsUsedUp {
+        /// Time reached.
+        time: f64,
+        /// How many were allowed.
+        steps: usize,
+        /// By what: an option, or the symbol of a deck.
+        by: &'static str,
+    },
+    /// The run would take forever at its present pace.
     #[error("at time {}, {}: the last {steps} steps took only {within:e} time units; the motion \
-             may be running away or too stiff", moment(.time), place(.hinge))]
+             is too stiff for so long a run", moment(.time), place(.hinge))]
     TooManySteps {
         /// Time reached.
         time: f64,
@@ -132,6 +155,24 @@ pub enum SimError {
         /// Why not.
         source: io::Error,
     },
+}
+
+/// What of a hinge feeds energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feeds {
+    /// What depends on its angle: the spring, or the dashpot's terms in the angle.
+    Spring,
+    /// What depends on its rate.
+    Dashpot,
+}
+
+impl fmt::Display for Feeds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Spring => "spring",
+            Self::Dashpot => "dashpot",
+        })
+    }
 }
 
 impl SimError {

@@ -74,7 +74,7 @@ mod verdict;
 pub use beforehand::check_start;
 pub use closed_form::NotCovered;
 pub use conservation::{Conservation, PoorConservation};
-pub use error::{Failure, OptionError, SimError};
+pub use error::{Failure, Feeds, OptionError, SimError};
 pub use fit::{Fit, Repertoire};
 pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};

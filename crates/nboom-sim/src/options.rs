@@ -118,10 +118,35 @@ impl Options {
             (max_step > 0.0, "longest step", max_step, "a number above zero"),
             (samples > 0, "output intervals", samples as f64, "at least 1"),
         ];
-        let wrong = checks.into_iter().find(|(is_right, ..)| !is_right);
+        let shortest = self.rkam.filter(|_| self.integrator == Method::Rkam);
+        let of_rkam = shortest.map(|RkamSettings { shortest, longest, .. }| {
+            let expected = "a number at most the longest (HMAX)";
+            (shortest <= longest, "shortest step (HMIN)", shortest, expected)
+        });
+        let wrong = checks.into_iter().chain(of_rkam).find(|(is_right, ..)| !is_right);
         wrong.map_or(Ok(()), |(_, option, value, expected)| {
             Err(OptionError { option, value, expected })
         })
+    }
+
+    /// Refuses also a longest step with which no run over `span` time units comes to its end.
+    ///
+    /// # Errors
+    /// The first of them.
+    pub fn check_span(&self, span: f64) -> Result<(), OptionError> {
+        self.check()?;
+        let (option, value) = ("longest step", self.max_step);
+        let expected = "one that reaches the end in the steps that are allowed";
+        let reaches = span <= value * self.max_steps as f64;
+        if reaches { Ok(()) } else { Err(OptionError { option, value, expected }) }
+    }
+
+    /// What says how many steps are allowed.
+    pub(crate) fn most_steps_by(&self) -> &'static str {
+        match (self.integrator, self.rkam) {
+            (Method::Rkam, Some(_)) if self.max_steps != Self::default().max_steps => "LSTEP",
+            _ => "max_steps",
+        }
     }
 
     /// Errors allowed in a step.

@@ -295,8 +295,7 @@ impl<'a> Replay<'a> {
         }
         self.steps += 1;
         if self.steps > self.most_steps {
-            let (steps, within) = (self.most_steps, time - self.scene.initial.time);
-            return Err(SimError::TooManySteps { time, hinge: None, steps, within });
+            return Err(SimError::StepsUsedUp { time, steps: self.most_steps, by: "max_steps" });
         }
         Ok(())
     }

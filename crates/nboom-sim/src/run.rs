@@ -21,6 +21,9 @@ use crate::step_motion::{DenseStep, Room};
 use crate::verdict::Verdict;
 
 mod giving_up;
+mod runaway;
+
+use runaway::Resources;
 
 /// Runs `scene` from its initial to its end time and tells `recorder` on the way.
 ///
@@ -61,6 +64,7 @@ struct Run<'a> {
     burst: (f64, usize),
     /// Time and number of steps when progress was last looked at.
     pace: (f64, usize),
+    resources: Resources,
     selections: Vec<Selection>,
     integrations: Vec<Integration>,
     attitude_norm: AttitudeNorm,
@@ -80,6 +84,7 @@ impl<'a> Run<'a> {
             recorder,
             lock_sides,
             ledger: Ledger::new(scene, &mut equations, &state),
+            resources: Resources::of(scene, &mut equations, &state),
             scratch: state.clone(),
             verdict: Verdict::of(&mode.hinges, &state.beta),
             mode,
@@ -100,7 +105,7 @@ impl<'a> Run<'a> {
     }
 
     fn complete(&mut self) -> Result<(), SimError> {
-        self.options.check()?;
+        self.options.check_span(self.scene.end_time - self.scene.initial.time)?;
         let Self { scene, mode, state, equations, guards, lock_sides, .. } = self;
         guards.set(scene, mode, &mut equations.dynamics, state, lock_sides, &[]);
         let mut arrivals = Arrivals::at_start(scene, guards, &mut equations.dynamics, state);
@@ -193,8 +198,9 @@ impl<'a> Run<'a> {
     fn step(&mut self, limit: f64) -> Result<(), SimError> {
         self.check_interrupt(self.state.time)?;
         self.check_progress()?;
+        self.check_growth()?;
         let taken = self.stepper.step(&mut self.equations, limit);
-        taken.map_err(|error| SimError::from_step(error, self.hinge_to_blame(error)))?;
+        taken.map_err(|error| self.stopped(error))?;
         self.note_method();
         Ok(())
     }

@@ -4,6 +4,7 @@ mod certificate;
 mod standard_input;
 mod told;
 mod verdict;
+mod what_1970_saw;
 
 use std::ffi::OsStr;
 use std::fs::{self, File};

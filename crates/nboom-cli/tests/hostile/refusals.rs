@@ -195,3 +195,26 @@ fn an_unreadable_file() {
     symlink("/proc/self/mem", place.path("deck.nml")).expect("a unix system");
     refuse(&place, "unreadable", &["deck.nml", "cannot be read"]);
 }
+
+#[test]
+fn limits_of_steps_in_the_wrong_order() {
+    let place = Place::new("limits");
+    place.write("deck.nml", REPORT_DECK.replace("HMIN=.001,HMAX=0.1E6", "HMIN=5.0,HMAX=1.0"));
+    let finished = place.nboom(&["run", "deck.nml", "--integrator", "rkam"]);
+    finished.refused(
+        "HMIN above HMAX",
+        2,
+        &["shortest step (HMIN) 5", "at most the longest (HMAX)"],
+    );
+    assert!(!place.path("out").exists());
+}
+
+/// A million million steps are known to be too many before the first.
+#[test]
+fn a_longest_step_that_leads_nowhere() {
+    let place = Place::new("longest");
+    place.write("deck.nml", REPORT_DECK);
+    let finished = place.nboom(&["run", "deck.nml", "--max-step", "1e-12"]);
+    finished.refused("longest step", 2, &["longest step 1e-12", "steps that are allowed"]);
+    assert!(!place.path("out").exists());
+}

@@ -141,7 +141,7 @@ fn steps_without_end_are_given_up() {
     let scene = unfolding();
     let guide = guide(&scene);
     let mut replay = Replay::new(&scene, &guide, Accuracy::REFERENCE, 2, &|| false);
-    assert!(matches!(replay.complete(), Err(SimError::TooManySteps { steps: 2, .. })));
+    assert!(matches!(replay.complete(), Err(SimError::StepsUsedUp { steps: 2, .. })));
 }
 
 /// A boom on a hub, both turning about x, with a kick-off spring whose length is

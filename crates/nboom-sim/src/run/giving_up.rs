@@ -38,11 +38,18 @@ impl Run<'_> {
         let span = self.scene.end_time - self.scene.initial.time;
         let (since, steps_then) = self.pace;
         let crawls = steps - steps_then >= PACE_STEPS && time - since < PACE_SPAN * span;
-        if crawls || steps >= self.options.max_steps {
-            let within = time - since;
-            let steps_within = steps - steps_then;
+        let used_up = steps >= self.options.max_steps;
+        if let Some(runaway) = (crawls || used_up).then(|| self.runaway()).flatten() {
+            return Err(runaway);
+        }
+        if used_up {
+            let by = self.options.most_steps_by();
+            return Err(SimError::StepsUsedUp { time, steps: self.options.max_steps, by });
+        }
+        if crawls {
+            let (steps, within) = (steps - steps_then, time - since);
             let hinge = self.worst_hinge();
-            return Err(SimError::TooManySteps { time, hinge, steps: steps_within, within });
+            return Err(SimError::TooManySteps { time, hinge, steps, within });
         }
         if steps - steps_then >= PACE_STEPS {
             self.pace = (time, steps);
@@ -50,8 +57,14 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Why the stepper does not go on.
+    pub(super) fn stopped(&mut self, error: StepError) -> SimError {
+        let hinge = self.hinge_to_blame(error);
+        self.runaway().unwrap_or(SimError::from_step(error, hinge))
+    }
+
     /// The hinge with the largest error in the last step.
-    pub(super) fn worst_hinge(&self) -> Option<HingeLabel> {
+    fn worst_hinge(&self) -> Option<HingeLabel> {
         let start = self.equations.variables.layout.tau().start;
         let error_of = |position: usize| self.stepper.error_of(start + position);
         let free = self.equations.dynamics.free_hinges();
@@ -61,7 +74,7 @@ impl Run<'_> {
 
     /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
     /// the one with the largest error, unless that is far below the main body's.
-    pub(super) fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
+    fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
         let layout = self.equations.variables.layout;
         let free = self.equations.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];

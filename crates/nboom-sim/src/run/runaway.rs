@@ -1,0 +1,102 @@
+//! When a motion runs away: its energy grows beyond all that the scene has, and its end is out of reach.
+
+use nboom_elements::KickOffLaw;
+use nboom_model::{Hinge, Scene};
+
+use super::Run;
+use crate::equations::Equations;
+use crate::error::{Feeds, SimError};
+use crate::state::State;
+
+/// Kinetic energy beyond this many times what the scene has is fed without end: rates have grown a
+/// hundredfold.
+const GROWTH: f64 = 1e4;
+
+/// Steps to the end at the present pace from which on such a motion is given up.
+const TOO_FAR: f64 = 1e5;
+
+/// Steps after which the energy is looked at again.
+const INTERVAL: usize = 256;
+
+/// What growth is measured by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Resources {
+    /// The kinetic energy about the mass centre at the initial time, and what springs store.
+    energy: f64,
+    /// Number of steps when the motion was last looked at.
+    looked_at: usize,
+}
+
+impl Resources {
+    pub fn of(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
+        let stored = scene.bodies.iter().map(|body| stored_about(&body.hinge));
+        let energy = stored.sum::<f64>() + turning(scene, equations, state);
+        Self { energy, looked_at: 0 }
+    }
+}
+
+/// Energy of the springs of a hinge over all angles between start, lock angle and preload angle and a
+/// radian beyond, every term taken by its magnitude.
+fn stored_about(hinge: &Hinge) -> f64 {
+    let over = |quadratic: f64, linear: f64, preload: f64| {
+        let from = |angle: f64| (angle + preload).abs() + 1.0;
+        let reach = from(hinge.start.angle).max(hinge.lock_angle.map_or(0.0, from));
+        (quadratic.abs() * reach / 3.0 + linear.abs() / 2.0) * reach * reach
+    };
+    let (spring, dashpot) = (hinge.spring, hinge.dashpot);
+    let of_kick_off = hinge.kick_off.map_or(0.0, |kick_off| {
+        let magnitudes = kick_off.coefficients.map(f64::abs);
+        KickOffLaw::<f64>::new(magnitudes).potential(kick_off.limit_length).abs()
+    });
+    over(spring.quadratic, spring.linear, spring.preload_angle)
+        + over(dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle)
+        + of_kick_off
+}
+
+/// Kinetic energy about the mass centre.
+fn turning(scene: &Scene, equations: &mut Equations, state: &State) -> f64 {
+    let found = state.invariants(&mut equations.dynamics);
+    found.kinetic_energy - 0.5 * found.linear_momentum.norm_squared() / scene.total_mass()
+}
+
+impl Run<'_> {
+    /// Gives up a motion that runs away and whose end is too far at its pace.
+    pub(super) fn check_growth(&mut self) -> Result<(), SimError> {
+        let window = self.stepper.window();
+        let steps = window.counts.accepted + window.counts.rejected;
+        if steps - self.resources.looked_at < INTERVAL {
+            return Ok(());
+        }
+        self.resources.looked_at = steps;
+        let is_far = self.scene.end_time - window.time > TOO_FAR * window.next_step;
+        match self.runaway().filter(|_| is_far) {
+            Some(runaway) => Err(runaway),
+            None => Ok(()),
+        }
+    }
+
+    /// That the motion runs away, if it does, and what feeds it most.
+    pub(super) fn runaway(&mut self) -> Option<SimError> {
+        let Self { scene, equations, state, .. } = self;
+        let growth =
+            turning(scene, equations, state) / (self.resources.energy + state.work.thrust.abs());
+        if growth.is_nan() || growth <= GROWTH {
+            return None;
+        }
+        let laws = || equations.laws().iter().zip(&scene.bodies).enumerate();
+        let from_spring = laws().map(|(i, (law, body))| {
+            (i, law.potential(body.hinge.start.angle) - law.potential(state.beta[i]))
+        });
+        let from_dashpot =
+            laws().map(|(i, (law, _))| (i, law.rate_torque(state.tau[i]) * state.tau[i]));
+        let larger = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
+        let (spring, from_spring) = from_spring.max_by(larger)?;
+        let (dashpot, _) = from_dashpot.max_by(larger)?;
+        let (hinge, feeds) = if state.work.dashpots > from_spring {
+            (dashpot, Feeds::Dashpot)
+        } else {
+            (spring, Feeds::Spring)
+        };
+        Some(SimError::Runaway { time: state.time, hinge: scene.label(hinge), feeds, growth })
+    }
+}

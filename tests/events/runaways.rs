@@ -1,0 +1,98 @@
+//! Motions that are fed without end are given up by what they gain, with hinge and cause, long before
+//! their steps are used up; others go on to the end. Counts of steps, not clocks, say when.
+
+use nboom::model::{Dashpot, Hinge, HingeLabel, Scene, Spring};
+use nboom::sim::{Feeds, Options, SimError, Summary};
+
+use crate::collect::{run, try_run};
+use crate::random_scene::conservative;
+use crate::rotors::{free, growing, oscillating, scene};
+
+const FIRST: HingeLabel = HingeLabel { appendage: 0, segment: 0 };
+const SECOND: HingeLabel = HingeLabel { appendage: 1, segment: 0 };
+
+/// Some seconds' worth in any profile; all of these went on for a hundred times as many.
+const FEW: usize = 30_000;
+
+fn given_up(scene: &Scene) -> (HingeLabel, Feeds, Summary) {
+    let options = Options { samples: 1, ..Options::default() };
+    let failure = try_run(scene, &options).1.expect_err("it has no end");
+    let SimError::Runaway { hinge, feeds, growth, time } = failure.error else {
+        panic!("{}", failure.error)
+    };
+    assert!(growth > 1e4 && time < scene.end_time, "{growth:e} at {time}");
+    let summary = *failure.summary;
+    let steps = summary.steps_accepted + summary.steps_rejected;
+    println!("{steps} steps, {growth:.1e} at {time}");
+    assert!(steps < FEW, "{steps} steps");
+    (hinge, feeds, summary)
+}
+
+/// τ grows as exp(2 t), and with it the number of steps for each unit of time.
+#[test]
+fn a_dashpot_of_the_wrong_sign() {
+    for growth in [1e-3, 1.0, 1e3] {
+        let (hinge, feeds, _) =
+            given_up(&scene(&[free(0.3, 0.1), growing(free(0.0, 1.0), growth)], 1e4 / growth));
+        assert_eq!((hinge, feeds), (SECOND, Feeds::Dashpot));
+    }
+}
+
+/// A swing that a dashpot of the wrong sign drives up.
+#[test]
+fn a_swing_of_the_wrong_damping() {
+    let hinge = growing(oscillating(free(0.1, 0.0), 3.0, 0.0), 0.3);
+    let (hinge, feeds, _) = given_up(&scene(&[hinge], 1e5));
+    assert_eq!((hinge, feeds), (FIRST, Feeds::Dashpot));
+}
+
+/// τ̇ = τ² and β̈ = β², whose poles are reached in finite time.
+#[test]
+fn torques_that_grow_as_squares() {
+    let dashpot = Dashpot { rate_quadratic: 0.8, ..Dashpot::default() };
+    let (hinge, feeds, _) = given_up(&scene(&[Hinge { dashpot, ..free(0.0, 1.0) }], 1e6));
+    assert_eq!((hinge, feeds), (FIRST, Feeds::Dashpot));
+    let spring = Spring { quadratic: 0.8, linear: 0.0, preload_angle: 0.0 };
+    let (hinge, feeds, _) =
+        given_up(&scene(&[free(0.0, 1.0), Hinge { spring, ..free(0.5, 0.0) }], 1e6));
+    assert_eq!((hinge, feeds), (SECOND, Feeds::Spring));
+}
+
+/// A spring that pushes away from its rest, weak and strong.
+#[test]
+fn a_spring_of_the_wrong_sign() {
+    for linear in [1e-6, 1.0, 1e6] {
+        let spring = Spring { quadratic: 0.0, linear, preload_angle: 0.1 };
+        let end_time = 1e4 / linear.sqrt();
+        let (hinge, feeds, _) = given_up(&scene(&[Hinge { spring, ..free(0.0, 0.0) }], end_time));
+        assert_eq!((hinge, feeds), (FIRST, Feeds::Spring));
+    }
+}
+
+/// In space and with other hinges about: one hinge of a random tree feeds.
+#[test]
+fn one_wrong_sign_in_a_tree() {
+    for seed in 0..6 {
+        let mut description = conservative(3, seed);
+        description.end_time = 1e4;
+        for body in &mut description.bodies {
+            body.hinge.spring.quadratic = 0.0;
+            body.hinge.dashpot.angle_quadratic = 0.0;
+        }
+        description.bodies[1].hinge.dashpot.rate_linear = 2.0;
+        let scene = Scene::new(description).expect("a physical scene");
+        let (hinge, feeds, _) = given_up(&scene);
+        assert_eq!((hinge, feeds), (scene.label(1), Feeds::Dashpot), "{seed}");
+    }
+}
+
+/// Energy that grows ten-million-fold is followed where the end is near: τ = exp(t).
+#[test]
+fn a_growing_motion_with_an_end_is_followed() {
+    let end = 8.5;
+    let (found, summary) = run(&scene(&[growing(free(0.0, 1.0), 0.5)], end), &Options::default());
+    let growth = found.last().kinetic_energy / found.samples[0].kinetic_energy;
+    assert!(growth > 1e7, "{growth:e}");
+    let off = (found.last().tau[0] / end.exp() - 1.0).abs();
+    assert!(off < summary.steps_accepted as f64 * 1e-9, "{off:e}");
+}
