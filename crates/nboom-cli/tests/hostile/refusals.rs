@@ -95,7 +95,8 @@ fn one_wrong_piece() {
 fn one_gate_for_all_commands() {
     let place = Place::new("gate");
     let crossed = ("XI2=2.15,.67,-1.74", "XI2=2.15,-1.74,.67");
-    let tables: [(&[(&str, &str)], &[&str]); 3] = [
+    type Changes<'a> = &'a [(&'a str, &'a str)];
+    let tables: [(Changes<'_>, &[&str]); 3] = [
         (&[("EMM=25.0", "EMM=-25.0")], &["EMM"]),
         (&[("R(2,3)=2.0", "R(2,3)=.01")], &["deck.nml:54:", "T3(1,2)", "at most the radius 0.01"]),
         (
