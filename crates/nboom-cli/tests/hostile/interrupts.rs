@@ -103,3 +103,35 @@ fn a_run_that_only_writes_is_interrupted() {
     assert!(last_time("states.csv") >= reached - 1.5e-7, "{reached}");
     assert!(last_time("stress.csv") >= reached - 3.5e-7, "{reached}");
 }
+
+/// A chain of a thousand hinges by an implicit method: one step is a matrix of 2000 rows and takes
+/// seconds. It is broken off, also while the run is being prepared.
+#[test]
+fn a_long_step_is_broken_off() {
+    let place = Place::new("interrupt-long");
+    place.write("old.nml", SWINGING);
+    let old = place.nboom(&["run", "old.nml", "-o", "run", "--quiet"]);
+    assert_eq!(old.code(), Some(0), "{}", old.stderr());
+    let old = contents(&place.path("run"));
+    let inertia = vec!["1.1,3*0.0,0.05,3*0.0,1.1"; 1000].join(",\n ");
+    let springs: Vec<String> = (1..=1000).map(|i| format!(" EKNIK({i},2)=-30.0,\n")).collect();
+    let chain = format!(
+        " &DIM\n NA=1,NP=0,IXK=1000,\n &END\n &NXPUT\n INSTR=0,BETAIK=1000*10.0,BSIK=1000*1.0E6,\n \
+         OMEG=1.0,2.0,-1.0,NK=1000,DBK=0.0,0.5,0.1,FTSIK=0.0,90.0,0.0,\n \
+         ELIK=1000*2.0,EMIK=1000*3.0,HIIK={inertia},\n EMM=100.0,HM=40.0,3*0.0,30.0,3*0.0,35.0,\n{}\
+         \n &END\n &ROCK\n TF=1000.0,SEGSTT=1000*1.0,\n &END\n",
+        springs.concat()
+    );
+    place.write("chain.nml", chain);
+    for wait in [300, 3000] {
+        let args = ["run", "chain.nml", "-o", "run", "--integrator", "radau5", "--quiet"];
+        let running = place.start(&args);
+        std::thread::sleep(std::time::Duration::from_millis(wait));
+        running.signal("INT");
+        running.end().refused("a long step", 3, &["interrupted", "marked incomplete"]);
+        assert_eq!(contents(&place.path("run")), old);
+        if let Some(summary) = summary(&place.path("run.partial")) {
+            assert_eq!(summary["complete"], false);
+        }
+    }
+}
