@@ -15,6 +15,7 @@ mod sampled;
 mod crossings;
 mod error_bound;
 mod failures;
+mod interrupts;
 mod kick_off;
 mod limits;
 mod lock_ups;
