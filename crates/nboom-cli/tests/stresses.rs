@@ -9,7 +9,13 @@ use tempfile::TempDir;
 /// Columns that scripts rely on.
 const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
      sigma_23,principal_1,principal_2,von_mises,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
-const FILES: [&str; 3] = ["stress.csv", "hinge_loads.csv", "stress_envelope.csv"];
+const FILES: [&str; 5] = [
+    "stress.csv",
+    "stress_envelope.csv",
+    "hinge_loads.csv",
+    "latch_impulses.csv",
+    "hinge_load_envelope.csv",
+];
 
 /// The sample deck, which has four segments with seven stations in all and INSTR = 3.
 fn deck() -> String {
@@ -59,26 +65,139 @@ fn the_envelope_has_the_worst_of_each_station_and_the_account_the_worst_of_all()
     let stresses = rows(&place, "stress.csv");
     let envelope = rows(&place, "stress_envelope.csv");
     assert_eq!(envelope.len(), 1 + 7);
-    let events: Vec<String> =
-        rows(&place, "events.csv").into_iter().map(|mut row| row.swap_remove(0)).collect();
-    let mut at_events = 0;
     for worst in &envelope[1..] {
         let station = |row: &&Vec<String>| row[2..5] == worst[0..3];
         let of_station = stresses[1..].iter().filter(station);
         let largest = of_station.map(|row| number(&row[13])).fold(0.0, f64::max);
         let found = number(&worst[12]);
-        // What is worse than all rows is so on one side of an event.
-        let at_event = found > largest && worst[4].is_empty() && events.contains(&worst[3]);
-        assert!(found == largest || at_event, "{worst:?}: {largest}");
-        at_events += usize::from(at_event);
+        // By what the search of a step may miss.
+        assert!(found >= largest * (1.0 - 1e-7), "{worst:?}: {largest}");
         let margin = 4e5 / (1.5 * found) - 1.0;
         // Written to the last digit; two roundings to get there.
         assert!((number(&worst[14]) - margin).abs() < 1e-14 * (1.0 + margin.abs()));
+        // A hinge, and its share, where it is a lock-up; P and Q anyway.
+        let is_lock_up = worst[4] == "lock_up";
+        assert!([5, 6, 15].iter().all(|&column| worst[column].is_empty() != is_lock_up));
+        assert!(worst[16..22].iter().any(|cell| number(cell) != 0.0), "{worst:?}");
     }
-    assert!(at_events > 0, "the end of segment 1,2 is loaded most just after the release of 1,1");
+    // The end of segment 1,2 is loaded most just after the release of 1,1.
+    let releases = rows(&place, "events.csv").into_iter().filter(|row| row[1] == "release");
+    let released: Vec<f64> = releases.map(|row| number(&row[0])).collect();
+    let at_release = |worst: &&Vec<String>| {
+        worst[4].is_empty() && released.iter().any(|at| (at - number(&worst[3])).abs() < 1e-9)
+    };
+    assert!(envelope[1..].iter().any(|worst| at_release(&worst)), "{envelope:?} {released:?}");
     let told = String::from_utf8(output.stdout).expect("text");
     let line = told.lines().find(|line| line.starts_with("worst stress")).expect("told");
     assert!(line.contains("segment 2,1, station 2") && line.contains("margin"), "{line}");
+}
+
+/// All of a table but the header, by the numbers in some columns.
+fn numbers(place: &TempDir, file: &str, column: usize) -> Vec<f64> {
+    rows(place, file)[1..].iter().map(|row| number(&row[column])).collect()
+}
+
+/// The largest stress of each station, then the largest force and moment of each hinge.
+fn envelopes(place: &TempDir) -> Vec<f64> {
+    let stresses = numbers(place, "stress_envelope.csv", 12);
+    [stresses, numbers(place, "hinge_load_envelope.csv", 7)].concat()
+}
+
+#[test]
+fn the_worst_depends_neither_on_outputs_nor_on_the_length_of_the_run() {
+    let (_, usual) = run(&deck(), &[]);
+    let expected = envelopes(&usual);
+    assert_eq!(expected.len(), 7 + 2 * 4);
+    for (deck, args) in [
+        (deck(), &["--samples", "1"][..]),
+        (deck(), &["--samples", "3000"]),
+        (deck().replace("INSTR=3", "INSTR=1000"), &[]),
+        // All hinges are locked by then, and the satellite goes on to spin as it does.
+        (deck(), &["--end-time", "3"]),
+    ] {
+        let (output, place) = run(&deck, args);
+        assert_eq!(output.status.code(), Some(0));
+        for (found, expected) in envelopes(&place).iter().zip(&expected) {
+            assert!((found / expected - 1.0).abs() < 1e-6, "{args:?}: {found} {expected}");
+        }
+    }
+}
+
+#[test]
+fn all_at_once_is_no_less_than_half_sines() {
+    let (_, sines) = run(&deck(), &[]);
+    let (output, at_once) = run(&deck(), &["--pulses", "all-at-once"]);
+    assert_eq!(output.status.code(), Some(0));
+    let (sines, at_once) = (envelopes(&sines), envelopes(&at_once));
+    let pairs = || sines.iter().zip(&at_once);
+    assert!(pairs().all(|(sine, peak)| *peak >= sine * (1.0 - 1e-7)), "{sines:?} {at_once:?}");
+    // The last two hinges lock within a pulse of each other.
+    assert!(pairs().any(|(sine, peak)| *peak > 1.01 * sine), "{sines:?} {at_once:?}");
+}
+
+/// Impulses about the axes of hinges that lock are those of `events.csv`.
+#[test]
+fn any_scene_has_hinge_loads_on_request() {
+    let without_stations = deck().replace("INSTR=3", "INSTR=0");
+    let (output, place) = run(&without_stations, &["--hinge-loads", "--samples", "20"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let of_stresses = |file: &&str| file.starts_with("stress");
+    assert!(FILES.iter().filter(of_stresses).all(|f| !place.path().join("out").join(f).exists()));
+    let motion = rows(&place, "hinge_loads.csv");
+    assert_eq!(motion.len() - 1, 4 * 21, "peaks need pulse constants");
+    assert_eq!(rows(&place, "hinge_load_envelope.csv").len() - 1, 2 * 4);
+    let impulses = rows(&place, "latch_impulses.csv");
+    assert_eq!(impulses.len() - 1, 4 * 4, "four lock-ups, four hinges");
+    let events = rows(&place, "events.csv");
+    for event in events.iter().filter(|row| row[1] == "lock_up") {
+        let is_own = |row: &&Vec<String>| {
+            row[0] == event[0] && row[1..3] == event[2..4] && row[3..5] == event[2..4]
+        };
+        let own = impulses.iter().find(is_own).expect("a row for each hinge");
+        let moment = own[8..11].iter().map(|cell| number(cell).powi(2)).sum::<f64>().sqrt();
+        assert!(moment >= number(&event[4]).abs() * (1.0 - 1e-9), "{own:?} {event:?}");
+    }
+}
+
+/// Without inertias of their own slices change what stations carry, and nothing of the motion.
+#[test]
+fn a_deck_may_have_stations_without_inertias_of_slices() {
+    let (from, to) = (deck().find(" &DYNSTB").unwrap(), deck().find(" &ROCK").unwrap());
+    let alone = format!("{}{}", &deck()[..from], &deck()[to..]);
+    let (output, place) = run(&alone, &["--samples", "30"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(FILES.iter().all(|file| place.path().join("out").join(file).exists()));
+    let (_, whole) = run(&deck(), &["--samples", "30"]);
+    assert_eq!(rows(&place, "states.csv"), rows(&whole, "states.csv"));
+    assert_eq!(rows(&place, "hinge_loads.csv"), rows(&whole, "hinge_loads.csv"));
+}
+
+#[test]
+fn a_run_says_what_its_stresses_leave_out() {
+    let (output, place) = run(&deck(), &[]);
+    let told = String::from_utf8(output.stdout).expect("text");
+    let line = told.lines().find(|line| line.starts_with("worst stress")).expect("told");
+    assert!(line.contains("thin walls") && line.contains("corners and holes"), "{line}");
+    let text = fs::read_to_string(place.path().join("out/summary.json")).expect("written");
+    let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let left_out = summary["stresses"]["left_out"].as_str().expect("told");
+    assert!(left_out.contains("corners, holes"), "{left_out}");
+    assert_eq!(summary["stresses"]["pulses"], "half-sine");
+}
+
+/// The outer end of a segment whose outermost slice has no mass carries nothing.
+#[test]
+fn what_carries_nothing_says_so() {
+    let massless = deck().replace("DELM(1,2)=.001", "DELM(1,2)=0.0");
+    assert_ne!(massless, deck());
+    let (output, place) = run(&massless, &["--yield-stress", "4e5"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let envelope = rows(&place, "stress_envelope.csv");
+    let unloaded: Vec<_> = envelope.iter().filter(|row| row[13] == "unloaded").collect();
+    let [row] = unloaded[..] else { panic!("{envelope:?}") };
+    assert_eq!((row[0..3].join(","), &*row[14]), ("1,2,1".to_owned(), ""));
+    let margins = envelope[1..].iter().filter(|row| row[13] != "unloaded");
+    assert!(margins.clone().all(|row| number(&row[14]).is_finite()));
 }
 
 #[test]
@@ -149,7 +268,7 @@ fn signs_of_the_report_reverse_all_stresses_and_nothing_else() {
     let (_, ours) = run(&deck(), &args);
     let (output, reports) = run(&deck(), &[&args[..], &["--report-signs"]].concat());
     assert_eq!(output.status.code(), Some(0));
-    let [stress, hinge_loads, envelope] = FILES;
+    let [stress, envelope, hinge_loads, ..] = FILES;
     let expected = reversed(&rows(&ours, stress), &[8, 9, 10, 11, 12], [11, 12]);
     assert_eq!(rows(&reports, stress), expected);
     assert_ne!(rows(&reports, stress), rows(&ours, stress));

@@ -11,8 +11,8 @@ use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
     EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, PeakDigits, ResultsError,
-    RunDescription, STATES_FILE, SUMMARY_FILE, StatesWriter, StressTables, SummaryFile, TRUST_FILE,
-    WorstLoads, trust, with_causes,
+    RunDescription, STATES_FILE, SUMMARY_FILE, StatesWriter, StressDescription, StressTables,
+    SummaryFile, TRUST_FILE, WorstLoads, trust, with_causes,
 };
 
 /// What of the disk is kept for the summary, in which a full disk is told \[bytes\].
@@ -118,8 +118,8 @@ impl RunDirectory {
         Self { with_trust: true, ..self }
     }
 
-    /// Also writes stresses, at output times as `tables` says and at lock-ups, and the worst of them
-    /// and of both sides of all events.
+    /// Also writes hinge loads, and stresses where there are stations: at output times as `tables` says
+    /// and at lock-ups, and the worst of the whole motion.
     ///
     /// # Errors
     /// When a file cannot be made.
@@ -130,7 +130,10 @@ impl RunDirectory {
         tables: StressTables,
     ) -> Result<Self, ResultsError> {
         let hinges = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
-        self.run.stresses = Some((tables, analysis.generated_for()));
+        let (signs, pulses) = (tables.signs, analysis.settings().pulses);
+        let generated_for = analysis.generated_for();
+        let description = StressDescription { signs, pulses, generated_for };
+        self.run.stresses = analysis.has_stations().then_some(description);
         let stresses = StressWriter::create(self.place.partial(), hinges, analysis, tables)?;
         self.stresses = Some(stresses);
         Ok(self)

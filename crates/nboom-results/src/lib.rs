@@ -60,7 +60,7 @@ pub use peaks::{PeakDigits, peak_digits};
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;
-pub use summary::{RunDescription, SummaryFile};
+pub use summary::{RunDescription, StressDescription, SummaryFile};
 pub use units::UnitSystem;
 pub use verdict::WorstLoads;
 pub use whole::write_file;

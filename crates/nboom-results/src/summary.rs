@@ -1,9 +1,10 @@
 use nboom_model::{Facts, HingeLabel, Scene};
 use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
+use nboom_strength::PulseShape;
 use serde::Serialize;
 
 use crate::verdict::{VerdictKeys, WorstLoads};
-use crate::{StressTables, UnitSystem};
+use crate::{StressSigns, UnitSystem};
 
 /// What is known about a run before it starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +23,8 @@ pub struct RunDescription {
     pub samples: usize,
     /// Labels of the scene's units.
     pub units: UnitSystem,
-    /// How stresses are written, and the instruction set of the generated code that finds loads.
-    pub stresses: Option<(StressTables, Option<&'static str>)>,
+    /// How stresses are found and written.
+    pub stresses: Option<StressDescription>,
     /// Of output times after the twentieth, the printout has every so many: `IAX` of a deck.
     pub print_interval: usize,
     /// What the scene does not pay for.
@@ -128,20 +129,39 @@ impl From<&Integration> for IntegrationKeys {
     }
 }
 
+/// How the stresses of a run are found and written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressDescription {
+    /// Which sign they have.
+    pub signs: StressSigns,
+    /// How pulses of latches run.
+    pub pulses: PulseShape,
+    /// Instruction set of the generated code that finds loads, if any does.
+    pub generated_for: Option<&'static str>,
+}
+
+/// What stresses do not have in them.
+const LEFT_OUT: &str = "stresses are those of thin walls: concentrations at corners, holes, welds and \
+     fittings are not in them, nor is buckling";
+
 #[derive(Clone, Debug, Serialize)]
 struct StressKeys {
     signs: &'static str,
+    pulses: &'static str,
+    left_out: &'static str,
     path: &'static str,
     reason: String,
 }
 
-impl From<(StressTables, Option<&'static str>)> for StressKeys {
-    fn from((tables, generated_for): (StressTables, Option<&'static str>)) -> Self {
+impl From<StressDescription> for StressKeys {
+    fn from(description: StressDescription) -> Self {
+        let StressDescription { signs, pulses, generated_for } = description;
         let (path, reason) = match generated_for {
             Some(instructions) => ("generated", format!("{instructions} code for this scene")),
             None => ("generic", "no code was generated for this scene".to_owned()),
         };
-        Self { signs: tables.signs.name(), path, reason }
+        let (signs, pulses) = (signs.name(), pulses.name());
+        Self { signs, pulses, left_out: LEFT_OUT, path, reason }
     }
 }
 

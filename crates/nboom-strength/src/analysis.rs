@@ -310,12 +310,6 @@ impl StressAnalysis {
         Some(Worst { segment, station, time, cause, load, severest, driver, margin })
     }
 
-    /// The station with the largest von Mises stress so far.
-    pub fn worst_stress(&self) -> Option<Worst> {
-        let von_mises = |worst: &Worst| worst.severest.stress.von_mises();
-        self.envelope().into_iter().max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
-    }
-
     /// The largest force and the largest moment of each hinge so far; nothing before the first motion.
     pub fn hinge_envelope(&self) -> Vec<WorstHingeLoad> {
         let of_hinge = |(i, hinge): (usize, &HingeLabel)| {

@@ -27,11 +27,8 @@ impl Builder<'_, '_, '_> {
         match present {
             (None, None) if wanted => {
                 let interval = shown(self.values.real("INSTR", 0));
-                let expected = "&DYNSTA and &DYNSTB after it; no stresses are computed";
+                let expected = "&DYNSTA; no stresses are computed";
                 self.warn(plain("INSTR"), 0, interval, expected);
-            }
-            (Some(at), None) if wanted => {
-                self.report.error(at, "&DYNSTA", "&DYNSTA alone", "&DYNSTB after it");
             }
             (None, Some(at)) if wanted => {
                 self.report.error(at, "&DYNSTB", "&DYNSTB alone", "&DYNSTA before it");

@@ -116,10 +116,10 @@ impl Values {
         self.real("INSTR", 0) > 0.0
     }
 
-    /// Whether the stress groups are there and asked for, and with them the slices of all segments.
+    /// Whether stations are there and asked for, and with them the slices of all segments, which
+    /// without `&DYNSTB` have no inertia of their own.
     pub fn has_slices(&self) -> bool {
-        let is_there = |group| self.groups.contains_key(&group);
-        self.wants_stresses() && is_there(Group::Dynsta) && is_there(Group::Dynstb)
+        self.wants_stresses() && self.groups.contains_key(&Group::Dynsta)
     }
 
     /// Whether nothing but its slices says how much mass segment `i`, from 0, has and where.

@@ -1,5 +1,7 @@
 //! The stress groups: when they are read, and what is checked in them.
 
+use nboom_scalar::Sym3;
+
 use super::{REPORT_DECK, errors, lines, read, replaced};
 
 fn changed(old: &str, new: &str) -> String {
@@ -30,14 +32,36 @@ fn groups_and_flag_together_ask_for_stresses() {
     assert!(neither.structure.is_none() && neither.warnings.is_empty());
 }
 
+/// The report's deck without one of its groups.
+fn without(group: &str, next: &str) -> String {
+    let (start, end) = (REPORT_DECK.find(group).unwrap(), REPORT_DECK.find(next).unwrap());
+    format!("{}{}", &REPORT_DECK[..start], &REPORT_DECK[end..])
+}
+
 #[test]
-fn one_group_needs_the_other() {
-    let start = REPORT_DECK.find(" &DYNSTB").unwrap();
-    let end = REPORT_DECK.find(" &ROCK").unwrap();
-    let deck = format!("{}{}", &REPORT_DECK[..start], &REPORT_DECK[end..]);
-    assert_eq!(
-        lines(&errors(&deck)),
-        ["a.nml:46:2: &DYNSTA: found &DYNSTA alone, expected &DYNSTB after it"]
+fn stations_do_without_inertias_of_slices_which_are_then_zero() {
+    let found = read(&without(" &DYNSTB", " &ROCK"));
+    let segments = found.structure.as_ref().expect("stations are enough").segments();
+    let slices = segments.iter().flat_map(|segment| &segment.stations).map(|at| at.slice);
+    assert!(slices.clone().all(|slice| slice.inertia == Sym3::zero()));
+    // All else is that of the whole deck.
+    let whole = read(REPORT_DECK);
+    let masses = whole.structure.iter().flat_map(|structure| structure.segments());
+    let masses = masses.flat_map(|segment| &segment.stations).map(|at| at.slice.mass);
+    assert!(slices.map(|slice| slice.mass).eq(masses));
+    assert_eq!(found.scene, whole.scene);
+    // Slices without inertia do not add up to their segments, which is told of each.
+    let told = found.warnings.iter().filter(|warning| warning.symbol.starts_with("DLI"));
+    assert_eq!(told.count(), segments.len());
+}
+
+#[test]
+fn inertias_of_slices_are_nothing_without_stations() {
+    let deck = without(" &DYNSTA", " &DYNSTB");
+    let errors = lines(&errors(&deck));
+    assert!(
+        errors[0].ends_with("&DYNSTB: found &DYNSTB alone, expected &DYNSTA before it"),
+        "{errors:?}"
     );
 }
 
