@@ -141,7 +141,7 @@ fn any_scene_has_hinge_loads_on_request() {
     let without_stations = deck().replace("INSTR=3", "INSTR=0");
     let (output, place) = run(&without_stations, &["--hinge-loads", "--samples", "20"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let of_stresses = |file: &&str| file.starts_with("stress");
+    let of_stresses = |file: &&&str| file.starts_with("stress");
     assert!(FILES.iter().filter(of_stresses).all(|f| !place.path().join("out").join(f).exists()));
     let motion = rows(&place, "hinge_loads.csv");
     assert_eq!(motion.len() - 1, 4 * 21, "peaks need pulse constants");
