@@ -29,13 +29,13 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let warnings = warnings.chain(never_released(&file.scene, args.end_time));
     let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
     let scene = with_end_time(file.scene, args.end_time)?;
+    let options = options(args, routines, &file.legacy)?;
+    let interrupt = Interrupt::watch()?;
+    check_start(&scene, &options).map_err(CliError::Start)?;
     if !args.quiet {
         warnings.iter().for_each(|warning| say("warning", warning));
         ignored.iter().for_each(|ignored| say("note", ignored));
     }
-    let options = options(args, routines, &file.legacy)?;
-    let interrupt = Interrupt::watch()?;
-    check_start(&scene, &options).map_err(CliError::Start)?;
     let run = RunDescription {
         warnings,
         print_interval: file.legacy.print_interval.unwrap_or(1),
