@@ -20,13 +20,13 @@ const MEMORY: u32 = 200 * 1024;
 const FILE_BLOCKS: u32 = 16 << 11;
 
 /// After so long most runs are interrupted, so that many are.
-const SHORT_PATIENCE: Duration = Duration::from_millis(500);
+const SHORT_PATIENCE: Duration = Duration::from_millis(200);
 
 /// After so long the others are.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Of so many inputs one has the longer time.
-const PATIENT: u64 = 16;
+const PATIENT: u64 = 64;
 
 /// After so long beyond it is killed.
 const LAST: Duration = Duration::from_secs(60);
