@@ -22,11 +22,6 @@ impl Impatient {
     fn asking_after(patience: usize) -> Self {
         Self { patience: Cell::new(patience), times: Vec::new() }
     }
-
-    fn is_over(patience: &Cell<usize>) -> bool {
-        patience.set(patience.get().saturating_sub(1));
-        patience.get() == 0
-    }
 }
 
 impl Recorder for Impatient {
@@ -44,7 +39,8 @@ impl Recorder for Impatient {
     }
 
     fn interrupted(&self) -> bool {
-        Self::is_over(&self.patience)
+        self.patience.set(self.patience.get().saturating_sub(1));
+        self.patience.get() == 0
     }
 }
 
@@ -79,16 +75,18 @@ fn reference_runs_are_asked_too() {
     for reference in Reference::ALL {
         // Early, and for double-double also when the run that guides it is over.
         for patience in [1, 100, 3000] {
-            let left = Cell::new(patience);
-            let asked = || Impatient::is_over(&left);
-            match trust(&busy, &tight(1), &witness, reference, &asked) {
+            let mut beside = Impatient::asking_after(patience);
+            match trust(&busy, &tight(1), &witness, reference, &mut beside) {
                 Err(failure) => assert!(
                     matches!(failure.error, SimError::Interrupted { .. }),
                     "{}: {failure}",
                     reference.name()
                 ),
                 // It needs fewer steps than that.
-                Ok(_) => assert!(left.get() > 0 && patience == 3000, "{}", reference.name()),
+                Ok(_) => {
+                    let left = beside.patience.get();
+                    assert!(left > 0 && patience == 3000, "{}", reference.name());
+                }
             }
         }
     }

@@ -107,10 +107,10 @@ impl StressWriter {
             return Ok(());
         }
         let Self { directory, hinges, analysis, text, latch_impulses, .. } = self;
-        let mut out = &mut latch_impulses.lines;
+        let out = &mut latch_impulses.lines;
         let written = analysis.latch_impulses().iter().try_for_each(|found| {
             text.set_latch(instant.after.time, hinges[found.latch])?;
-            text.add_hinge_loads(&mut out, &found.hinges)
+            text.add_hinge_loads(out, &found.hinges)
         });
         written.map_err(ResultsError::writing(&directory.join(LATCH_IMPULSES_FILE)))?;
         self.compose(instant.after.time, "lock_up")

@@ -72,7 +72,7 @@ enum Verdict {
 impl Search {
     /// For rows of so many numbers.
     pub fn new(gauges: Vec<Gauge>, width: usize) -> Self {
-        let open = vec![Vec::with_capacity(gauges.len()); MOST_HALVINGS + 1];
+        let open = (0..=MOST_HALVINGS).map(|_| Vec::with_capacity(gauges.len())).collect();
         Self {
             gauges,
             width,

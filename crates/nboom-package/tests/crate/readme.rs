@@ -1,0 +1,61 @@
+use super::*;
+
+/// Every parameter that a routine takes for granted is named in the crate's README: the numbers
+/// of a parameter's name over all phrases are those that are pinned in the code.
+#[test]
+fn a_crate_names_all_that_it_takes_for_granted() {
+    let place = written(&satellite("mixed", &[1, 2, 2]), &Choices::default());
+    let readme = fs::read_to_string(place.path().join("README.md")).expect("readable");
+    let row = readme.lines().find(|line| line.starts_with("| `Satellite")).expect("a row");
+    let phrases = row.trim_end_matches(" |").rsplit(" | ").next().expect("a last column");
+    let named: usize = phrases.split("; ").map(parameters_of).sum();
+    let code = fs::read_to_string(place.path().join("src/routines.rs")).expect("readable");
+    let start = code.find("const PINNED").expect("a table");
+    let table = &code[start..start + code[start..].find("];").expect("its end")];
+    // A pair of place and number for each, after the pair of types.
+    let pinned = table.matches('(').count() - 1;
+    assert!(pinned > 30, "{table}");
+    assert_eq!(named, pinned, "{phrases}");
+}
+
+/// How many parameters a phrase speaks of.
+fn parameters_of(phrase: &str) -> usize {
+    let links = || -> usize {
+        let (count, _) = phrase.split_once(" of 5 links").expect("five links");
+        count.rsplit(' ').next().and_then(|count| count.parse().ok()).expect("a count")
+    };
+    match phrase {
+        "no external wrench on the main body" => 0,
+        "O at the main body's mass centre" | "main body along its principal axes" => 3,
+        _ if phrase.starts_with("inertia along the segment axes") => 3 * links(),
+        _ if phrase.ends_with("links") => links(),
+        _ => {
+            let (equations, owners) = phrase.rsplit_once(" of ").expect("equations and owners");
+            let owners = owners.split(", ").count();
+            let of_group = |group: &str| group.matches(" = ").count();
+            owners * equations.split(", ").map(of_group).sum::<usize>()
+        }
+    }
+}
+
+#[test]
+fn a_crate_says_where_the_numbers_of_a_hinge_stand() {
+    let place = written(&satellite("mixed", &[1, 2, 2]), &Choices::default());
+    let text = fs::read_to_string(place.path().join("src/lib.rs")).expect("readable");
+    let found: Vec<&str> = text.lines().filter(|line| line.starts_with("    Hinge {")).collect();
+    // Two chains of two side by side, then the chain of one: 9 numbers before the hinges.
+    let expected = [
+        (1, 1, [21, 22, 23, 10]),
+        (2, 1, [9, 11, 13, 6]),
+        (2, 2, [15, 17, 19, 8]),
+        (3, 1, [10, 12, 14, 7]),
+        (3, 2, [16, 18, 20, 9]),
+    ];
+    let line = |(appendage, segment, [angle, rate, torque, acceleration]): (i32, i32, [i32; 4])| {
+        format!(
+            "    Hinge {{ appendage: {appendage}, segment: {segment}, angle: {angle}, rate: {rate}, \
+             torque: {torque}, acceleration: {acceleration} }},"
+        )
+    };
+    assert_eq!(found, expected.map(line));
+}
