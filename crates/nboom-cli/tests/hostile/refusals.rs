@@ -201,7 +201,7 @@ fn an_unreadable_file() {
 fn limits_of_steps_in_the_wrong_order() {
     let place = Place::new("limits");
     place.write("deck.nml", REPORT_DECK.replace("HMIN=.001,HMAX=0.1E6", "HMIN=5.0,HMAX=1.0"));
-    let finished = place.nboom(&["run", "deck.nml", "--integrator", "rkam"]);
+    let finished = place.nboom(&["run", "deck.nml", "--integrator", "rkam", "--quiet"]);
     finished.refused(
         "HMIN above HMAX",
         2,
@@ -215,7 +215,7 @@ fn limits_of_steps_in_the_wrong_order() {
 fn a_longest_step_that_leads_nowhere() {
     let place = Place::new("longest");
     place.write("deck.nml", REPORT_DECK);
-    let finished = place.nboom(&["run", "deck.nml", "--max-step", "1e-12"]);
+    let finished = place.nboom(&["run", "deck.nml", "--max-step", "1e-12", "--quiet"]);
     finished.refused("longest step", 2, &["longest step 1e-12", "steps that are allowed"]);
     assert!(!place.path("out").exists());
 }
