@@ -21,7 +21,7 @@ mod search;
 mod settings;
 mod slip;
 
-pub use analysis::{StationStress, StressAnalysis};
+pub use analysis::{LockUpPeaks, StationStress, StressAnalysis};
 pub use envelope::{Cause, Component, HingeQuantity, LatchImpulses, Worst, WorstHingeLoad};
 pub use error::StrengthError;
 pub use pulse::PulseShape;
