@@ -1,10 +1,8 @@
-use std::io;
-
 use nboom_loads::LoadEquations;
 use nboom_model::{HingeLabel, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
-use nboom_sections::{AtStation, PointStress, Section};
-use nboom_sim::{Detail, Event, InstantMotion, MotionAt, Recorder, Snapshot, StepMotion};
+use nboom_sections::{AtStation, Section};
+use nboom_sim::{Detail, InstantMotion, MotionAt, Snapshot, StepMotion};
 
 use crate::envelope::driver;
 use crate::finder::LoadFinder;
@@ -14,7 +12,11 @@ use crate::piece::{search_pulses, search_step};
 use crate::pulse::Pulses;
 use crate::record::{Record, Records};
 use crate::search::Search;
-use crate::{HingeQuantity, LatchImpulses, Settings, Slip, StrengthError, Worst, WorstHingeLoad};
+use crate::station::{StationPlace, set_stresses};
+use crate::{
+    HingeQuantity, LatchImpulses, LockUpPeaks, Settings, Slip, StationStress, StrengthError, Worst,
+    WorstHingeLoad,
+};
 
 /// Share of the largest stress below which that of a station is rounding.
 const ROUNDING: f64 = 1e-13;
@@ -47,42 +49,6 @@ pub struct StressAnalysis {
     stresses: Vec<StationStress>,
     hinge_loads: Vec<Wrench<f64>>,
     latch_impulses: Vec<LatchImpulses>,
-}
-
-/// Which station a gauge is for.
-#[derive(Clone, Debug)]
-struct StationPlace {
-    segment: usize,
-    station: usize,
-}
-
-/// Load and stresses of one station at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StationStress {
-    /// The segment, as its hinge is numbered in the scene.
-    pub segment: usize,
-    /// The station, from 0, outboard ones first.
-    pub station: usize,
-    /// Force and moment on the part outboard of the station, about the point on the η axis,
-    /// segment axes.
-    pub load: Wrench<f64>,
-    /// At 0, 90, 180 and 270 degrees; a section that is not convex may lack some.
-    pub axis_points: [Option<PointStress>; 4],
-    /// Where the von Mises stress is largest.
-    pub severest: PointStress,
-}
-
-/// The largest loads on either side of a lock-up, by its pulses and those that still went on, until they
-/// had come to their ends or the next hinge locked.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LockUpPeaks {
-    /// When the hinge or hinges locked.
-    pub time: f64,
-    /// When the von Mises stress of each station was largest.
-    pub stresses: Vec<StationStress>,
-    /// When the moment of each hinge was largest: force and moment that it exerts on its outboard body,
-    /// about the hinge point, segment axes.
-    pub hinge_loads: Vec<Wrench<f64>>,
 }
 
 impl StressAnalysis {
@@ -377,52 +343,4 @@ impl StressAnalysis {
 
 fn pulse_constants(structure: &Structure) -> Vec<f64> {
     structure.segments().iter().map(|segment| segment.pulse_constant).collect()
-}
-
-/// The stresses of all stations under the load and numbers of each gauge.
-fn set_stresses(
-    stresses: &mut Vec<StationStress>,
-    stations: &[StationPlace],
-    gauges: &[Gauge],
-    of: impl Fn(usize) -> (Wrench<f64>, [f64; 6]),
-) {
-    stresses.clear();
-    for (g, (at, gauge)) in stations.iter().zip(gauges).enumerate() {
-        let Measure::Stress(formulas) = &gauge.measure else { continue };
-        let (load, numbers) = of(g);
-        let axis_points = formulas.stresses(&load, numbers).axis_points();
-        let (segment, station, severest) = (at.segment, at.station, formulas.severest_of(numbers));
-        stresses.push(StationStress { segment, station, load, axis_points, severest });
-    }
-}
-
-/// Sees the whole of a run and needs no output times.
-impl Recorder for StressAnalysis {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn needs_instants(&self) -> bool {
-        true
-    }
-
-    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        self.instant(instant).map_err(io::Error::other)
-    }
-
-    fn needs_steps(&self) -> bool {
-        true
-    }
-
-    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
-        self.step(step).map_err(io::Error::other)
-    }
 }
