@@ -99,6 +99,8 @@ impl Follow {
         let options = Options { samples, rtol: 1e-12, atol: 1e-14, ..Options::default() };
         simulate(scene, &options, &mut follow).expect("a smooth motion");
         follow.analysis.finish().expect("finite loads");
+        let settled = follow.analysis.settled().into_iter();
+        follow.at_lock_ups = settled.map(|peaks| peaks.stresses).collect();
         follow
     }
 }
@@ -122,10 +124,7 @@ impl Recorder for Follow {
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
         self.instants.push(instant.after.time);
-        let found = self.analysis.instant(instant).map_err(io::Error::other)?;
-        if !instant.jumps.is_empty() {
-            self.at_lock_ups.push(found.to_vec());
-        }
+        self.analysis.instant(instant).map_err(io::Error::other)?;
         Ok(())
     }
 

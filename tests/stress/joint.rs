@@ -56,6 +56,10 @@ impl Follow {
         };
         let options = Options { samples: 1, rtol: 1e-12, atol: 1e-14, ..Options::default() };
         simulate(&scene, &options, &mut follow).expect("a smooth motion");
+        follow.analysis.finish().expect("finite loads");
+        let settled = follow.analysis.settled();
+        let loads = settled.iter().flat_map(|peaks| &peaks.stresses);
+        follow.moments = loads.map(|at| at.load.moment.x).collect();
         follow
     }
 }
@@ -74,10 +78,7 @@ impl Recorder for Follow {
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        let found = self.analysis.instant(instant).map_err(io::Error::other)?;
-        if !instant.jumps.is_empty() {
-            self.moments.extend(found.iter().map(|at| at.load.moment.x));
-        }
+        self.analysis.instant(instant).map_err(io::Error::other)?;
         Ok(())
     }
 

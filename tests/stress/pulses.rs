@@ -149,6 +149,37 @@ fn two_half_sines_are_superposed_over_time() {
     }
 }
 
+/// Where pulses counteract, one may act without the other, before or after it.
+#[test]
+fn all_at_once_bounds_pulses_that_counteract() {
+    for rate in [-0.4, -1.0, -3.0] {
+        let other = Latch { time: FIRST.time + 0.2 * FIRST.duration(), rate, ..FIRST };
+        let peak = |latch: &Latch| latch.impulse().abs() / latch.pulse_constant;
+        let at_once = worst(&[FIRST, other], 1.0, PulseShape::AllAtOnce).magnitude();
+        is_near(at_once, peak(&FIRST).max(peak(&other)));
+        let over_time = worst(&[FIRST, other], 1.0, PulseShape::HalfSine).magnitude();
+        is_near(over_time, largest_sum(&[FIRST, other], 1.0));
+        assert!(over_time < at_once, "{rate}: {over_time} {at_once}");
+    }
+}
+
+/// Peaks of two lock-ups that a pulse is longer than apart: each until the other locks.
+#[test]
+fn peaks_of_lock_ups_are_never_above_the_envelope() {
+    for rate in [2.0, -2.0] {
+        let latches = [FIRST, Latch { time: FIRST.time + 0.3 * FIRST.duration(), rate, ..FIRST }];
+        let mut analysis = analysed(&latches, 1.0, PulseShape::HalfSine);
+        let envelope = analysis.hinge_envelope()[1].magnitude();
+        let peaks = analysis.settled();
+        let moments = peaks.iter().map(|peaks| peaks.hinge_loads[0].moment.norm());
+        let [first, second] = moments.collect::<Vec<f64>>()[..] else { panic!("{peaks:?}") };
+        // The first pulse rises until the other hinge locks.
+        is_near(first, FIRST.torque(latches[1].time));
+        is_near(second, envelope);
+        is_near(second, largest_sum(&latches, 1.0));
+    }
+}
+
 #[test]
 fn unlike_pulses_are_superposed_over_time() {
     let rates = [(0.7, 0.03), (-0.8, 0.06), (-2.0, 0.1), (1.3, 0.25)];

@@ -141,8 +141,10 @@ fn any_scene_has_hinge_loads_on_request() {
     let without_stations = deck().replace("INSTR=3", "INSTR=0");
     let (output, place) = run(&without_stations, &["--hinge-loads", "--samples", "20"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let of_stresses = |file: &&&str| file.starts_with("stress");
-    assert!(FILES.iter().filter(of_stresses).all(|f| !place.path().join("out").join(f).exists()));
+    let of_stresses = |file: &&str| file.starts_with("stress");
+    assert!(
+        FILES.into_iter().filter(of_stresses).all(|f| !place.path().join("out").join(f).exists())
+    );
     let motion = rows(&place, "hinge_loads.csv");
     assert_eq!(motion.len() - 1, 4 * 21, "peaks need pulse constants");
     assert_eq!(rows(&place, "hinge_load_envelope.csv").len() - 1, 2 * 4);
@@ -188,8 +190,10 @@ fn a_run_says_what_its_stresses_leave_out() {
 /// The outer end of a segment whose outermost slice has no mass carries nothing.
 #[test]
 fn what_carries_nothing_says_so() {
+    // Its kick-off spring pushes at the very end.
     let massless = deck().replace("DELM(1,2)=.001", "DELM(1,2)=0.0");
-    assert_ne!(massless, deck());
+    let massless = massless.replace("4.0,-.5,.05,0.0,1.0", "4*0.0,1.0");
+    assert_eq!(massless.len(), deck().len() - 11);
     let (output, place) = run(&massless, &["--yield-stress", "4e5"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let envelope = rows(&place, "stress_envelope.csv");

@@ -42,7 +42,8 @@ pub struct StressTables {
 ///
 /// Forces and moments act on what is outboard of a station or hinge, in segment axes, moments about
 /// the point of the station on the η axis or about the hinge point. A row with the event `lock_up` has
-/// peaks: what the motion makes, and the pulses that are known.
+/// peaks: what the motion makes, and the pulses. They are known when the pulses are over; until then rows
+/// of later output times wait.
 #[derive(Debug)]
 pub(crate) struct StressWriter {
     directory: PathBuf,
@@ -55,8 +56,13 @@ pub(crate) struct StressWriter {
     stresses: Option<LongTable>,
     hinge_loads: LongTable,
     latch_impulses: LongTable,
+    /// Rows of stresses and of hinge loads that are later than a lock-up whose peaks are to come.
+    held: [Vec<u8>; 2],
     text: RowText,
 }
+
+/// Rows that are held \[bytes\]; when there are more they do not wait for peaks.
+const MOST_HELD: usize = 1 << 20;
 
 impl StressWriter {
     pub fn create(
@@ -73,6 +79,7 @@ impl StressWriter {
             hinge_loads: table(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
             latch_impulses: table(LATCH_IMPULSES_FILE, LATCH_IMPULSES_HEADER)?,
             analysis,
+            held: [Vec::new(), Vec::new()],
             every: every.max(1),
             samples: 0,
             text: RowText::new(signs, &hinges),
@@ -90,42 +97,71 @@ impl StressWriter {
         let due = self.is_due();
         self.samples += 1;
         let Some(detail) = snapshot.detail.as_ref().filter(|_| due) else { return Ok(()) };
-        self.analysis.motion(snapshot, detail)?;
-        self.compose(snapshot.time, "")
+        let Self { directory, hinges, analysis, text, stresses, hinge_loads, held, .. } = self;
+        analysis.motion(snapshot, detail)?;
+        let [held_stresses, held_loads] = held;
+        let (of_stresses, of_loads) = if analysis.awaits_peaks() {
+            (stresses.is_some().then_some(held_stresses), held_loads)
+        } else {
+            (stresses.as_mut().map(|table| &mut table.lines), &mut hinge_loads.lines)
+        };
+        let composed = text.set_instant(snapshot.time, "").and_then(|()| {
+            if let Some(out) = of_stresses {
+                text.add_stresses(out, hinges, analysis.stresses())?;
+            }
+            text.add_hinge_loads(of_loads, analysis.hinge_loads())
+        });
+        composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
+        if self.held.iter().map(Vec::len).sum::<usize>() > MOST_HELD {
+            self.release();
+        }
+        Ok(())
     }
 
     /// The largest loads of a step, for the envelopes.
     pub fn step(&mut self, step: &mut dyn StepMotion) -> Result<(), ResultsError> {
-        Ok(self.analysis.step(step)?)
+        self.analysis.step(step)?;
+        self.tell_peaks()
     }
 
-    /// Computes both sides of an instant, and the peaks if hinges lock, whose rows wait for
+    /// Computes both sides of an instant, and the impulses if hinges lock, whose rows wait for
     /// [`Self::write`].
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), ResultsError> {
         self.analysis.instant(instant)?;
-        if instant.jumps.is_empty() {
-            return Ok(());
-        }
+        self.tell_peaks()?;
         let Self { directory, hinges, analysis, text, latch_impulses, .. } = self;
-        let out = &mut latch_impulses.lines;
         let written = analysis.latch_impulses().iter().try_for_each(|found| {
             text.set_latch(instant.after.time, hinges[found.latch])?;
-            text.add_hinge_loads(out, &found.hinges)
+            text.add_hinge_loads(&mut latch_impulses.lines, &found.hinges)
         });
-        written.map_err(ResultsError::writing(&directory.join(LATCH_IMPULSES_FILE)))?;
-        self.compose(instant.after.time, "lock_up")
+        written.map_err(ResultsError::writing(&directory.join(LATCH_IMPULSES_FILE)))
     }
 
-    /// Adds rows of what the analysis has found last to what waits in memory.
-    fn compose(&mut self, time: f64, event: &str) -> Result<(), ResultsError> {
+    /// Adds rows of peaks that have become known to what waits in memory.
+    fn tell_peaks(&mut self) -> Result<(), ResultsError> {
         let Self { directory, hinges, analysis, text, stresses, hinge_loads, .. } = self;
-        let composed = text.set_instant(time, event).and_then(|()| {
+        let peaks = analysis.settled();
+        let composed = peaks.iter().try_for_each(|peaks| {
+            text.set_instant(peaks.time, "lock_up")?;
             if let Some(stresses) = stresses {
-                text.add_stresses(&mut stresses.lines, hinges, analysis.stresses())?;
+                text.add_stresses(&mut stresses.lines, hinges, &peaks.stresses)?;
             }
-            text.add_hinge_loads(&mut hinge_loads.lines, analysis.hinge_loads())
+            text.add_hinge_loads(&mut hinge_loads.lines, &peaks.hinge_loads)
         });
-        composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))
+        composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
+        if !peaks.is_empty() {
+            self.release();
+        }
+        Ok(())
+    }
+
+    /// Lets rows that are held go on to wait with the others.
+    fn release(&mut self) {
+        let Self { stresses, hinge_loads, held: [of_stresses, of_loads], .. } = self;
+        if let Some(stresses) = stresses {
+            stresses.lines.append(of_stresses);
+        }
+        hinge_loads.lines.append(of_loads);
     }
 
     /// Whether so much waits in memory that it is time to write.
@@ -144,8 +180,11 @@ impl StressWriter {
     /// Lets the last pulses come to their ends, and writes what waits in memory and the worst of each
     /// station and hinge.
     pub fn finish(&mut self) -> Result<(), ResultsError> {
-        self.analysis.finish()?;
+        let finished = self.analysis.finish();
+        self.tell_peaks()?;
+        self.release();
         self.write()?;
+        finished?;
         if self.stresses.is_some() {
             self.write_table(ENVELOPE_FILE, ENVELOPE_HEADER, |out| {
                 let worst = self.analysis.envelope();

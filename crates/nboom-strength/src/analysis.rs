@@ -1,10 +1,8 @@
-use std::io;
-
 use nboom_loads::LoadEquations;
 use nboom_model::{HingeLabel, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
-use nboom_sections::{AtStation, PointStress, Section};
-use nboom_sim::{Detail, Event, InstantMotion, MotionAt, Recorder, Snapshot, StepMotion};
+use nboom_sections::{AtStation, Section};
+use nboom_sim::{Detail, InstantMotion, MotionAt, Snapshot, StepMotion};
 
 use crate::envelope::driver;
 use crate::finder::LoadFinder;
@@ -14,7 +12,11 @@ use crate::piece::{search_pulses, search_step};
 use crate::pulse::Pulses;
 use crate::record::{Record, Records};
 use crate::search::Search;
-use crate::{HingeQuantity, LatchImpulses, Settings, Slip, StrengthError, Worst, WorstHingeLoad};
+use crate::station::{StationPlace, set_stresses};
+use crate::{
+    HingeQuantity, LatchImpulses, LockUpPeaks, Settings, Slip, StationStress, StrengthError, Worst,
+    WorstHingeLoad,
+};
 
 /// Share of the largest stress below which that of a station is rounding.
 const ROUNDING: f64 = 1e-13;
@@ -37,36 +39,16 @@ pub struct StressAnalysis {
     reached: f64,
     /// The worst of the run.
     worst: Records,
-    /// The worst that the pulses make which were known at the last lock-up.
+    /// What pulses have made on the sides of lock-ups since the last of them.
     at_lock_up: Records,
+    /// The last lock-up, while pulses go on.
+    pending: Option<f64>,
+    settled: Vec<LockUpPeaks>,
     /// Loads of the motion at one time.
     row: Vec<f64>,
     stresses: Vec<StationStress>,
     hinge_loads: Vec<Wrench<f64>>,
     latch_impulses: Vec<LatchImpulses>,
-}
-
-/// Which station a gauge is for.
-#[derive(Clone, Debug)]
-struct StationPlace {
-    segment: usize,
-    station: usize,
-}
-
-/// Load and stresses of one station at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StationStress {
-    /// The segment, as its hinge is numbered in the scene.
-    pub segment: usize,
-    /// The station, from 0, outboard ones first.
-    pub station: usize,
-    /// Force and moment on the part outboard of the station, about the point on the η axis,
-    /// segment axes.
-    pub load: Wrench<f64>,
-    /// At 0, 90, 180 and 270 degrees; a section that is not convex may lack some.
-    pub axis_points: [Option<PointStress>; 4],
-    /// Where the von Mises stress is largest.
-    pub severest: PointStress,
 }
 
 impl StressAnalysis {
@@ -131,6 +113,8 @@ impl StressAnalysis {
             reached: f64::NEG_INFINITY,
             worst: records.clone(),
             at_lock_up: records,
+            pending: None,
+            settled: Vec::new(),
             row: vec![0.0; loads.count()],
             search: Search::new(gauges, loads.count()),
             finder,
@@ -173,7 +157,10 @@ impl StressAnalysis {
     ) -> Result<&[StationStress], StrengthError> {
         self.finder.write(&MotionAt::of(snapshot, detail), &mut self.row)?;
         if self.reached == f64::NEG_INFINITY {
-            self.worst.look(&self.search.gauges, (&self.pulses, snapshot.time), &self.row);
+            let acting = self.pulses.acting(snapshot.time);
+            acting.for_each(|acting| {
+                self.worst.look(&self.search.gauges, (acting, snapshot.time), &self.row);
+            });
         }
         let Self { search, stations, row, stresses, hinge_loads, labels, .. } = self;
         let of_row = |gauge: &Gauge| (gauge.load(row), gauge.numbers(row));
@@ -189,46 +176,65 @@ impl StressAnalysis {
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
     pub fn step(&mut self, step: &mut dyn StepMotion) -> Result<(), StrengthError> {
-        let Self { search, finder, pulses, worst, .. } = self;
+        let Self { search, finder, pulses, worst, at_lock_up, .. } = self;
         search_step(search, step, finder, pulses, worst)?;
-        let [_, end] = step.span();
-        self.reached = end;
-        if !self.pulses.is_empty() {
-            self.pulses.forget_until(end - self.pulses.since);
+        let span = step.span();
+        self.reached = span[1];
+        if self.pending.is_some() {
+            let span = span.map(|time| time - pulses.since);
+            search_pulses(search, span, pulses, at_lock_up)?;
+            pulses.forget_until(span[1]);
+            if self.pulses.is_empty() {
+                self.settle();
+            }
         }
         Ok(())
     }
 
-    /// Both sides of an instant with events, for the envelope. Where hinges lock whose pulse constants
-    /// are known, the largest stresses are returned that their pulses and those which still go on make
-    /// on either side, as if nothing locked later, eqs. (10.7) to (10.14).
+    /// Both sides of an instant with events, for the envelope; where hinges lock whose pulse constants
+    /// are known, their pulses start, eqs. (10.7) to (10.14).
     ///
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
-    pub fn instant(&mut self, instant: &InstantMotion) -> Result<&[StationStress], StrengthError> {
+    pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), StrengthError> {
         let InstantMotion { before, jumps, after } = instant;
         self.finder.jump();
         self.reached = after.time;
-        self.forget_instant();
+        self.latch_impulses.clear();
         let mut sides = Vec::new();
         for side in before.iter().chain([after]) {
             let Some(detail) = &side.detail else { continue };
-            self.finder.write(&MotionAt::of(side, detail), &mut self.row)?;
-            if !jumps.is_empty() {
-                sides.push(self.row.clone());
-            }
+            let mut row = vec![0.0; self.row.len()];
+            self.finder.write(&MotionAt::of(side, detail), &mut row)?;
             let u = side.time - self.pulses.since;
-            self.pulses.add_to(&mut self.row, u, u);
-            self.worst.look(&self.search.gauges, (&self.pulses, u), &self.row);
+            for acting in self.pulses.acting(u) {
+                self.row.copy_from_slice(&row);
+                acting.add_to(&mut self.row, u);
+                self.worst.look(&self.search.gauges, (acting, u), &self.row);
+            }
+            sides.push(row);
         }
         if jumps.is_empty() {
-            return Ok(&self.stresses);
+            return Ok(());
         }
         self.latch_impulses.extend(jumps.iter().map(|jump| LatchImpulses {
             latch: jump.hinge,
             hinges: self.finder.impulses(&after.beta, jump),
         }));
-        let Some(constants) = &self.pulse_constants else { return Ok(&self.stresses) };
+        if self.pulse_constants.is_none() {
+            return Ok(());
+        }
+        self.settle();
+        self.pending = Some(after.time);
+        self.start_pulses(instant, sides)
+    }
+
+    fn start_pulses(
+        &mut self,
+        InstantMotion { jumps, after, .. }: &InstantMotion,
+        sides: Vec<Vec<f64>>,
+    ) -> Result<(), StrengthError> {
+        let Some(constants) = &self.pulse_constants else { return Ok(()) };
         self.pulses.start_at(after.time);
         let mut longest: f64 = 0.0;
         for jump in jumps {
@@ -240,27 +246,33 @@ impl StressAnalysis {
             longest = longest.max(self.pulses.add(jump.hinge, constant, peak));
         }
         sides.into_iter().for_each(|loads| self.pulses.add_side(longest, loads));
-        self.look_ahead()
+        Ok(())
     }
 
-    fn forget_instant(&mut self) {
-        self.stresses.clear();
-        self.hinge_loads.clear();
-        self.latch_impulses.clear();
-    }
-
-    /// What the pulses that are known make, for the tables.
-    fn look_ahead(&mut self) -> Result<&[StationStress], StrengthError> {
-        let Self { search, pulses, at_lock_up, stations, stresses, hinge_loads, .. } = self;
-        at_lock_up.forget();
-        search_pulses(search, [0.0, pulses.end()], pulses, at_lock_up)?;
+    /// Tells the peaks of the last lock-up, if they are not told yet.
+    fn settle(&mut self) {
+        let Some(time) = self.pending.take() else { return };
+        let Self { search, at_lock_up, stations, worst, .. } = self;
+        worst.merge(at_lock_up);
         let none = (Wrench::zero(), [0.0; 6]);
         let of_record = |g| at_lock_up.get(g).map_or(none, |found| (found.load, found.numbers));
-        set_stresses(stresses, stations, &search.gauges, of_record);
+        let mut stresses = Vec::new();
+        set_stresses(&mut stresses, stations, &search.gauges, of_record);
         let moments = (stations.len()..search.gauges.len())
             .filter(|&g| matches!(search.gauges[g].measure, Measure::Moment));
-        hinge_loads.extend(moments.map(|g| of_record(g).0));
-        Ok(stresses)
+        let hinge_loads = moments.map(|g| of_record(g).0).collect();
+        at_lock_up.forget();
+        self.settled.push(LockUpPeaks { time, stresses, hinge_loads });
+    }
+
+    /// Whether the peaks of a lock-up are still to come.
+    pub fn awaits_peaks(&self) -> bool {
+        self.pending.is_some()
+    }
+
+    /// The peaks of lock-ups that have become known since this was asked last.
+    pub fn settled(&mut self) -> Vec<LockUpPeaks> {
+        std::mem::take(&mut self.settled)
     }
 
     /// Lets the pulses that still go on come to their ends, after the last step of a run.
@@ -268,22 +280,21 @@ impl StressAnalysis {
     /// # Errors
     /// None are to be expected.
     pub fn finish(&mut self) -> Result<(), StrengthError> {
-        let Self { search, pulses, worst, reached, .. } = self;
+        let Self { search, pulses, at_lock_up, reached, .. } = self;
         let end = pulses.end();
-        search_pulses(search, [*reached - pulses.since, end], pulses, worst)?;
+        search_pulses(search, [*reached - pulses.since, end], pulses, at_lock_up)?;
         pulses.forget_until(end);
+        self.settle();
         Ok(())
     }
 
-    /// Load and stresses of every station at the last output time or lock-up; none after an instant in
-    /// which no hinge locks.
+    /// Load and stresses of every station at the last output time.
     pub fn stresses(&self) -> &[StationStress] {
         &self.stresses
     }
 
     /// Force and moment that each hinge exerts on its outboard body, about the hinge point, segment
-    /// axes, at the last output time; at a lock-up when the moment is largest; none after an instant
-    /// in which no hinge of known pulse constant locks.
+    /// axes, at the last output time.
     pub fn hinge_loads(&self) -> &[Wrench<f64>] {
         &self.hinge_loads
     }
@@ -332,52 +343,4 @@ impl StressAnalysis {
 
 fn pulse_constants(structure: &Structure) -> Vec<f64> {
     structure.segments().iter().map(|segment| segment.pulse_constant).collect()
-}
-
-/// The stresses of all stations under the load and numbers of each gauge.
-fn set_stresses(
-    stresses: &mut Vec<StationStress>,
-    stations: &[StationPlace],
-    gauges: &[Gauge],
-    of: impl Fn(usize) -> (Wrench<f64>, [f64; 6]),
-) {
-    stresses.clear();
-    for (g, (at, gauge)) in stations.iter().zip(gauges).enumerate() {
-        let Measure::Stress(formulas) = &gauge.measure else { continue };
-        let (load, numbers) = of(g);
-        let axis_points = formulas.stresses(&load, numbers).axis_points();
-        let (segment, station, severest) = (at.segment, at.station, formulas.severest_of(numbers));
-        stresses.push(StationStress { segment, station, load, axis_points, severest });
-    }
-}
-
-/// Sees the whole of a run and needs no output times.
-impl Recorder for StressAnalysis {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn needs_instants(&self) -> bool {
-        true
-    }
-
-    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
-        self.instant(instant).map(|_| ()).map_err(io::Error::other)
-    }
-
-    fn needs_steps(&self) -> bool {
-        true
-    }
-
-    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
-        self.step(step).map_err(io::Error::other)
-    }
 }

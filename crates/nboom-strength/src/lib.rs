@@ -17,13 +17,16 @@ mod peak;
 mod piece;
 mod pulse;
 mod record;
+mod recorder;
 mod search;
 mod settings;
 mod slip;
+mod station;
 
-pub use analysis::{StationStress, StressAnalysis};
+pub use analysis::StressAnalysis;
 pub use envelope::{Cause, Component, HingeQuantity, LatchImpulses, Worst, WorstHingeLoad};
 pub use error::StrengthError;
 pub use pulse::PulseShape;
 pub use settings::Settings;
 pub use slip::{Slip, Slips};
+pub use station::{LockUpPeaks, StationStress};

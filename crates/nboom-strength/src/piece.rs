@@ -5,7 +5,7 @@ use nboom_sim::StepMotion;
 use crate::StrengthError;
 use crate::finder::LoadFinder;
 use crate::gauge::Gauge;
-use crate::pulse::Pulses;
+use crate::pulse::{Acting, Pulses};
 use crate::record::Records;
 use crate::search::{Loaded, Search};
 
@@ -21,8 +21,7 @@ pub(crate) enum OfMotion<'a> {
 /// times since the last instant in which a hinge locked.
 struct Piece<'a> {
     motion: OfMotion<'a>,
-    from: f64,
-    pulses: &'a Pulses,
+    acting: Acting<'a>,
     records: &'a mut Records,
 }
 
@@ -32,11 +31,11 @@ impl Loaded for Piece<'_> {
             OfMotion::Standing(loads) => row.copy_from_slice(loads),
             OfMotion::Step(step, finder) => {
                 let [start, end] = step.span();
-                let time = (self.pulses.since + u).clamp(start, end);
+                let time = self.acting.time(u).clamp(start, end);
                 finder.write_within(*step, time, row)?;
             }
         }
-        self.pulses.add_to(row, self.from, u);
+        self.acting.add_to(row, u);
         Ok(())
     }
 
@@ -49,11 +48,11 @@ impl Loaded for Piece<'_> {
     }
 
     fn keep(&mut self, g: usize, gauge: &Gauge, value: f64, u: f64, row: &[f64]) {
-        self.records.keep((g, gauge), value, (self.pulses, self.from, u), row);
+        self.records.keep((g, gauge), value, (self.acting, u), row);
     }
 }
 
-/// Looks for the largest loads of a step, and of what stands for its motion while pulses go on.
+/// Looks for the largest loads of motion and pulses in a step.
 ///
 /// # Errors
 /// When the loads contradict the motion, or are no numbers.
@@ -66,9 +65,10 @@ pub(crate) fn search_step(
 ) -> Result<(), StrengthError> {
     let span = step.span().map(|time| time - pulses.since);
     for_each_piece(pulses, span, |from, to| {
-        let motion = OfMotion::Step(&mut *step, &mut *finder);
-        search.over([from, to], &mut Piece { motion, from, pulses, records })?;
-        search_sides(search, [from, to], pulses, records)
+        pulses.acting(from).try_for_each(|acting| {
+            let motion = OfMotion::Step(&mut *step, &mut *finder);
+            search.over([from, to], &mut Piece { motion, acting, records })
+        })
     })
 }
 
@@ -82,20 +82,14 @@ pub(crate) fn search_pulses(
     pulses: &Pulses,
     records: &mut Records,
 ) -> Result<(), StrengthError> {
-    for_each_piece(pulses, span, |from, to| search_sides(search, [from, to], pulses, records))
-}
-
-fn search_sides(
-    search: &mut Search,
-    [from, to]: [f64; 2],
-    pulses: &Pulses,
-    records: &mut Records,
-) -> Result<(), StrengthError> {
-    for side in pulses.sides(from) {
-        let motion = OfMotion::Standing(&side.loads);
-        search.over([from, to], &mut Piece { motion, from, pulses, records })?;
-    }
-    Ok(())
+    for_each_piece(pulses, span, |from, to| {
+        pulses.sides(from).try_for_each(|side| {
+            pulses.acting(from).try_for_each(|acting| {
+                let motion = OfMotion::Standing(&side.loads);
+                search.over([from, to], &mut Piece { motion, acting, records })
+            })
+        })
+    })
 }
 
 fn for_each_piece(

@@ -10,7 +10,8 @@ pub enum PulseShape {
     /// Half a sine, which lasts π c/2.
     #[default]
     HalfSine,
-    /// The peak as long as a half-sine would last: whatever acts together peaks together.
+    /// Anything from nothing to the peak as long as a half-sine would last: whatever acts together may
+    /// peak together, and each may as well not act yet or not act any more, whichever is worst.
     AllAtOnce,
 }
 
@@ -125,28 +126,24 @@ impl Pulses {
         self.sides.push(Side { course: Course { age: 0.0, duration }, loads });
     }
 
-    /// Those that go on from `u` on, and how much of each.
-    pub fn going_on(&self, u: f64) -> impl Iterator<Item = &Pulse> {
-        self.active.iter().filter(move |pulse| pulse.course.end() > u)
+    /// What may act together over an interval from `from` on in which no pulse starts, peaks or ends.
+    ///
+    /// Norms are convex: of pulses between nothing and their peaks the worst are all or nothing.
+    pub fn acting(&self, from: f64) -> impl Iterator<Item = Acting<'_>> {
+        let apart = match self.shape {
+            PulseShape::HalfSine => 0,
+            PulseShape::AllAtOnce => self.going_on(from).count().min(MOST_APART),
+        };
+        (0..1 << apart).map(move |left_out| Acting { pulses: self, from, left_out })
     }
 
-    /// Share of its peak that a pulse has at `u`.
-    pub fn share(&self, pulse: &Pulse, u: f64) -> f64 {
-        let Course { age, duration } = pulse.course;
-        self.shape.at((age + u) / duration)
+    fn going_on(&self, u: f64) -> impl Iterator<Item = &Pulse> {
+        self.active.iter().filter(move |pulse| pulse.course.end() > u)
     }
 
     /// The sides that stand for the motion from `u` on.
     pub fn sides(&self, u: f64) -> impl Iterator<Item = &Side> {
         self.sides.iter().filter(move |side| side.course.end() > u)
-    }
-
-    /// Adds to `row` what those that go on from `from` on make at `u`.
-    pub fn add_to(&self, row: &mut [f64], from: f64, u: f64) {
-        for pulse in self.going_on(from) {
-            let share = self.share(pulse, u);
-            row.iter_mut().zip(&pulse.peak).for_each(|(sum, part)| *sum += share * part);
-        }
     }
 
     /// When the last of them ends.
@@ -159,5 +156,47 @@ impl Pulses {
         let courses = self.active.iter().map(|pulse| pulse.course);
         let peaks_and_ends = courses.flat_map(|c| [0.5 * c.duration - c.age, c.end()]);
         peaks_and_ends.filter(|next| *next > u).min_by(f64::total_cmp)
+    }
+}
+
+/// Pulses beyond these act together or not at all when it is tried which of them act.
+const MOST_APART: usize = 10;
+
+/// Pulses that act together over an interval.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Acting<'a> {
+    pulses: &'a Pulses,
+    /// Where the interval starts.
+    from: f64,
+    /// A bit for each pulse that goes on and does not act.
+    left_out: u32,
+}
+
+impl<'a> Acting<'a> {
+    /// The time that `u` is.
+    pub fn time(&self, u: f64) -> f64 {
+        self.pulses.since + u
+    }
+
+    /// Those that act.
+    pub fn pulses(&self) -> impl Iterator<Item = &'a Pulse> + use<'a> {
+        let left_out = self.left_out;
+        let acts = move |i: usize| (left_out >> i.min(MOST_APART - 1)) & 1 == 0;
+        let going_on = self.pulses.going_on(self.from).enumerate();
+        going_on.filter(move |(i, _)| acts(*i)).map(|(_, pulse)| pulse)
+    }
+
+    /// Share of its peak that a pulse has at `u`.
+    pub fn share(&self, pulse: &Pulse, u: f64) -> f64 {
+        let Course { age, duration } = pulse.course;
+        self.pulses.shape.at((age + u) / duration)
+    }
+
+    /// Adds to `row` what they make at `u`.
+    pub fn add_to(&self, row: &mut [f64], u: f64) {
+        for pulse in self.pulses() {
+            let share = self.share(pulse, u);
+            row.iter_mut().zip(&pulse.peak).for_each(|(sum, part)| *sum += share * part);
+        }
     }
 }

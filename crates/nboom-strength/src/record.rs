@@ -4,7 +4,7 @@ use nboom_scalar::Wrench;
 
 use crate::Cause;
 use crate::gauge::{Gauge, Measure};
-use crate::pulse::Pulses;
+use crate::pulse::Acting;
 
 /// The largest value of one gauge, and how it came about.
 #[derive(Clone, Copy, Debug)]
@@ -73,34 +73,43 @@ impl Records {
         self.largest_of_kind[self.kinds[g]]
     }
 
-    /// Keeps the value of gauge `g`, which is `gauge`, at `u` under the loads in `row`, which pulses
-    /// that go on from `from` on are part of.
+    /// Keeps the value of gauge `g`, which is `gauge`, at `u` under the loads in `row`, which those of
+    /// pulses are part of.
     pub fn keep(
         &mut self,
         (g, gauge): (usize, &Gauge),
         value: f64,
-        (pulses, from, u): (&Pulses, f64, f64),
+        (acting, u): (Acting<'_>, f64),
         row: &[f64],
     ) {
-        self.all[g] = Record {
-            value,
-            time: pulses.since + u,
-            cause: cause(gauge, row, (pulses, from, u)),
-            load: gauge.load(row),
-            numbers: gauge.numbers(row),
-        };
-        let largest = &mut self.largest_of_kind[self.kinds[g]];
-        *largest = largest.max(value);
+        let (time, cause) = (acting.time(u), cause(gauge, row, (acting, u)));
+        let (load, numbers) = (gauge.load(row), gauge.numbers(row));
+        self.set(g, Record { value, time, cause, load, numbers });
     }
 
-    /// Keeps what is larger than it has been under the loads in `row`.
-    pub fn look(&mut self, gauges: &[Gauge], (pulses, u): (&Pulses, f64), row: &[f64]) {
+    fn set(&mut self, g: usize, record: Record) {
+        let largest = &mut self.largest_of_kind[self.kinds[g]];
+        *largest = largest.max(record.value);
+        self.all[g] = record;
+    }
+
+    /// Keeps what is larger in `other`.
+    pub fn merge(&mut self, other: &Self) {
+        for (g, record) in other.all.iter().enumerate() {
+            if record.value > self.largest(g) {
+                self.set(g, *record);
+            }
+        }
+    }
+
+    /// Keeps what is larger than it has been at `u` under the loads in `row`.
+    pub fn look(&mut self, gauges: &[Gauge], (acting, u): (Acting<'_>, f64), row: &[f64]) {
         for (g, gauge) in gauges.iter().enumerate() {
             let numbers = gauge.numbers(row);
             if gauge.bound(&numbers) > self.largest(g) {
                 let value = gauge.value(&numbers);
                 if value > self.largest(g) {
-                    self.keep((g, gauge), value, (pulses, u, u), row);
+                    self.keep((g, gauge), value, (acting, u), row);
                 }
             }
         }
@@ -108,13 +117,13 @@ impl Records {
 }
 
 /// The pulse that has the largest share in a value, if any adds to it.
-fn cause(gauge: &Gauge, row: &[f64], (pulses, from, u): (&Pulses, f64, f64)) -> Cause {
-    if pulses.is_empty() {
+fn cause(gauge: &Gauge, row: &[f64], (acting, u): (Acting<'_>, f64)) -> Cause {
+    if acting.pulses().next().is_none() {
         return Cause::Motion;
     }
-    let shares = gauge.shares(row, pulses.going_on(from).map(|pulse| &pulse.peak[..]));
-    let parts = pulses.going_on(from).zip(shares);
-    let of_hinges = parts.map(|(pulse, share)| (pulse.hinge, share * pulses.share(pulse, u)));
+    let shares = gauge.shares(row, acting.pulses().map(|pulse| &pulse.peak[..]));
+    let parts = acting.pulses().zip(shares);
+    let of_hinges = parts.map(|(pulse, share)| (pulse.hinge, share * acting.share(pulse, u)));
     match of_hinges.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((hinge, share)) if share > 0.0 => Cause::LockUp { hinge, share },
         _ => Cause::Motion,
