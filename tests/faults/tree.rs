@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::results::Outcome;
 
 /// A suite that has not ended after so long has no end.
-const PATIENCE: Duration = Duration::from_secs(1200);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The working tree.
 pub fn root() -> PathBuf {

@@ -91,3 +91,26 @@ fn work_is_counted_through_changes_of_method() {
     // Fifteen steps of twelve evaluations come before the change.
     assert!(evaluations > 15 * 12, "{evaluations}");
 }
+
+#[test]
+fn a_step_that_errs_too_much_is_not_taken_and_the_next_one_grows_no_further() {
+    // The motion becomes fast so suddenly that steps have to be taken back.
+    let mut system = Drawn { fast: (2.0, 2.1), evaluations: 0 };
+    let mut stepper = RungeKutta::dopri5(tolerance(1e-8));
+    stepper.start(&mut system, 0.0, &[1.0], 1);
+    let mut rejected = 0;
+    while stepper.window().time < 3.0 {
+        stepper.step(&mut system, 3.0).expect("a bounded motion");
+        let window = stepper.window();
+        // Told per unit of time, in units of the tolerance.
+        let error = stepper.error_of(0) * window.length();
+        assert!(error <= 1.0 + 1e-9, "{error} at {}", window.time);
+        if window.counts.rejected > rejected {
+            let growth = window.next_step / window.length();
+            assert!(growth <= 1.0 + 1e-9, "{growth} at {}", window.time);
+        }
+        rejected = window.counts.rejected;
+        stepper.advance();
+    }
+    assert!(rejected > 5, "{rejected}");
+}
