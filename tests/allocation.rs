@@ -207,7 +207,7 @@ fn looking_for_the_worst_of_a_step_allocates_nothing() {
     let analysis = StressAnalysis::new(&scene, &structure(&scene), Settings::default());
     let mut counted =
         Counted { analysis: analysis.expect("tubes are sections"), steps: 0, allocations: 0 };
-    let options = Options { samples: 1, ..Options::default() };
+    let options = Options { samples: 1, rtol: 1e-13, atol: 1e-15, ..Options::default() };
     simulate(&scene, &options, &mut counted).expect("an ordinary motion");
     assert!(counted.steps > 5, "{} steps", counted.steps);
     assert_eq!(counted.allocations, 0, "in {} steps", counted.steps);
