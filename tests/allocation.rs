@@ -14,6 +14,8 @@ use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom::model::{HingeState, Mode, Scene, SectionShape, SegmentStructure, Station, Structure};
 use nboom::ode::{Method, System, Tolerance};
 use nboom::scalar::{Real, Vec3};
+use nboom::sim::{Event, Options, Recorder, Snapshot, StepMotion, simulate};
+use nboom::strength::{Settings, StressAnalysis};
 use nboom_expr::{Expr, Graph};
 use nboom_series::Series;
 
@@ -118,9 +120,8 @@ fn evaluations_allocate_nothing() {
     assert!(lengths[0] > 0.0);
 }
 
-#[test]
-fn loads_allocate_nothing() {
-    let (scene, mode) = scene_and_mode();
+/// A station at each hinge.
+fn structure(scene: &Scene) -> Structure {
     let segment = |body: &nboom::model::Body| SegmentStructure {
         pulse_constant: 0.1,
         poissons_ratio: 0.3,
@@ -132,7 +133,13 @@ fn loads_allocate_nothing() {
         }],
     };
     let segments = scene.bodies.iter().map(segment).collect();
-    let structure = Structure::new(&scene, segments).expect("each slice is its segment");
+    Structure::new(scene, segments).expect("each slice is its segment")
+}
+
+#[test]
+fn loads_allocate_nothing() {
+    let (scene, mode) = scene_and_mode();
+    let structure = structure(&scene);
     let mut loads = Loads::new(&scene, Some(&structure));
     let mut found = loads.load_set();
     let values = vec![0.3; scene.bodies.len()];
@@ -155,6 +162,56 @@ fn loads_allocate_nothing() {
         0
     );
     assert!(found.hinge(0).force.norm() > 0.0);
+}
+
+/// Counts what an analysis asks for while it looks at steps, and the evaluations of the equations of motion
+/// and of the loads for it.
+struct Counted {
+    analysis: StressAnalysis,
+    steps: usize,
+    /// Of the steps after the first ones.
+    allocations: usize,
+}
+
+impl Recorder for Counted {
+    fn needs_detail(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, _snapshot: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn event(&mut self, _event: &Event, _after: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn needs_steps(&self) -> bool {
+        true
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> std::io::Result<()> {
+        let analysis = &mut self.analysis;
+        let count = allocations(|| analysis.step(step).expect("loads balance"));
+        self.steps += 1;
+        self.allocations += if self.steps > 2 { count } else { 0 };
+        Ok(())
+    }
+}
+
+#[test]
+fn looking_for_the_worst_of_a_step_allocates_nothing() {
+    let (scene, _) = scene_and_mode();
+    // Its dashpots feed energy, later.
+    let scene = scene.ending_at(0.3).expect("a time");
+    let analysis = StressAnalysis::new(&scene, &structure(&scene), Settings::default());
+    let mut counted =
+        Counted { analysis: analysis.expect("tubes are sections"), steps: 0, allocations: 0 };
+    let options = Options { samples: 1, rtol: 1e-13, atol: 1e-15, ..Options::default() };
+    simulate(&scene, &options, &mut counted).expect("an ordinary motion");
+    assert!(counted.steps > 5, "{} steps", counted.steps);
+    assert_eq!(counted.allocations, 0, "in {} steps", counted.steps);
+    assert!(counted.analysis.envelope().iter().all(|worst| worst.driver.is_some()));
 }
 
 /// The rotational motion of a scene: ω, then β, then τ.
