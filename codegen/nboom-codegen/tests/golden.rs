@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, StressRequest, generate, source};
 use nboom_formulation::{Coordinates, Formulation, Layout, Parameters, articulated};
-use nboom_loads::SceneMotion;
+use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
-    Appendage, Hinge, KickOffSpring, MassProperties, Mount, Scene, SceneDescription, SectionShape,
-    Segment, SegmentStructure, Shape, Station, Structure, Topology, Vertex,
+    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
+    SectionShape, Segment, SegmentStructure, Shape, Station, Structure, Topology, Vertex,
 };
 use nboom_scalar::{Kernel, Mat3, Routine, Sym3, Vec3};
 
@@ -203,6 +203,29 @@ fn checked_in_stresses_are_those_of_the_equations() {
         assert_eq!(found, expected, "case {case}");
         kernel.evaluate(&constants, &state, &mut found);
         near(&found, &expected, case);
+    }
+}
+
+#[test]
+fn checked_in_stresses_judge_a_contradiction_as_the_equations_do() {
+    let equations = stresses().equations;
+    let kernels = [Kernel::of::<golden::StressesS1>()];
+    let mut by_equations = Loads::by(equations.clone());
+    let mut by_code = Loads::by(equations).with_kernels(&kernels);
+    assert!(by_code.generated_for().is_some() && by_equations.generated_for().is_none());
+    for case in 0..50 {
+        let state = state::<golden::StressesS1>(case);
+        let motion = SceneMotion::of_numbers(&state, 1);
+        let mut residual = |loads: &mut Loads| {
+            let mut found = loads.load_set();
+            loads.continuous(&motion, &mut found);
+            let residual = loads.largest_torque_residual(&found, &[HingeState::Free], &[0.3]);
+            residual.expect("it is free").1
+        };
+        let [expected, found] = [&mut by_equations, &mut by_code].map(&mut residual);
+        assert!(expected > 1e-3, "case {case}: {expected} is no contradiction");
+        // Fused and regrouped rounding.
+        assert!((found - expected).abs() < 1e-12, "case {case}: {found} {expected}");
     }
 }
 

@@ -1,7 +1,9 @@
 //! The rules of NAMELIST and of the table, one by one, on the small deck.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use nboom_io::{Extent, Group, Numbering, SYMBOLS, Symbol};
-use nboom_model::{HingeState, Release};
+use nboom_model::{Dashpot, HingeState, Release, Spring};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::{errors, lines, read, replaced, warnings, with_cards};
@@ -133,6 +135,26 @@ fn relative_and_absolute_angles() {
     let absolute = replaced("BETAIK=", "ALIK=").replace("IXK=4", "IXK=4,IAB=1");
     // The second body of the chain relative to the first; the paddle's is relative already.
     assert_eq!(angles(&absolute), [10.0, 10.0, 30.0, 40.0]);
+}
+
+#[test]
+fn springs_and_dashpots_of_hinges() {
+    let deck = with_cards(
+        " EKNIK(2,1)=1.5,EKNIK(2,2)=-2.5,THETIK(2)=90.0,
+ QNIK(3,1)=0.1,QNIK(3,2)=0.2,QNIK(3,3)=0.3,QNIK(3,4)=0.4,GAMAIK(3)=-45.0,",
+    );
+    let file = read(&deck);
+    let hinge = |i: usize| file.scene.bodies[i].hinge;
+    let spring = Spring { quadratic: 1.5, linear: -2.5, preload_angle: FRAC_PI_2 };
+    let dashpot = Dashpot {
+        rate_quadratic: 0.1,
+        rate_linear: 0.2,
+        angle_quadratic: 0.3,
+        angle_linear: 0.4,
+        preload_angle: -FRAC_PI_4,
+    };
+    assert_eq!((hinge(1).spring, hinge(1).dashpot), (spring, Dashpot::default()));
+    assert_eq!((hinge(2).spring, hinge(2).dashpot), (Spring::default(), dashpot));
 }
 
 #[test]
