@@ -48,7 +48,7 @@ def ns(value):
 def evaluations(directory):
     times = {}
     for line in (directory / "evaluations.txt").read_text().splitlines():
-        found = re.match(r"(\S+) (\S+) ns_min (\S+) ns_median", line)
+        found = re.match(r"(\S+) +(\S+) ns_min (\S+) ns_median", line)
         if found:
             name, scene, time = found[1], found[2], float(found[3])
             times[name, scene] = min(time, times.get((name, scene), math.inf))

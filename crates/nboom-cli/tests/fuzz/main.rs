@@ -4,7 +4,8 @@
 //! `cargo test -p nboom-cli --test fuzz` tries some hundred inputs. A long run by hand:
 //!
 //! ```sh
-//! NBOOM_FUZZ=100000 NBOOM_FUZZ_SEED=7 cargo test --release -p nboom-cli --test fuzz -- --nocapture
+//! TMPDIR=/dev/shm NBOOM_FUZZ=100000 NBOOM_FUZZ_SEED=7 \
+//!     cargo test --release -p nboom-cli --test fuzz -- --nocapture
 //! ```
 //!
 //! An input follows from the seed and its own number, so that `NBOOM_FUZZ_ONLY=4711` beside the

@@ -114,9 +114,14 @@ impl Place {
         place
     }
 
-    /// Where the program runs: `..` is still inside of what goes away.
+    /// Where the program runs.
     pub fn folder(&self) -> PathBuf {
-        self.whole.path().join("a/b")
+        self.around().join("b")
+    }
+
+    /// What is `..` there, which is still inside of what goes away.
+    pub fn around(&self) -> PathBuf {
+        self.whole.path().join("a")
     }
 
     /// Runs the program; one that takes too long is interrupted.

@@ -22,7 +22,7 @@ const INTERRUPT: i32 = 2;
 pub fn of(input: &Input, place: &Place, ended: &Ended) -> Vec<String> {
     let mut complaints = Vec::new();
     let command = input.words.first().map(|word| word.to_string_lossy()).unwrap_or_default();
-    let files = files(&place.folder());
+    let files = files(&place.around());
     let has_summary = files.iter().any(|path| path.ends_with(SUMMARY));
     match (ended.code(), ended.after_interrupt) {
         (Some(0..=3), _) => {}
