@@ -69,14 +69,15 @@ fn of_messages(ended: &Ended) -> Vec<String> {
     complaints
 }
 
-/// Nothing that was there is lost.
+/// Neither the command's input is lost nor what lies in a folder of results. Any other file may be named
+/// as the one to write.
 fn inputs_kept(input: &Input, place: &Place) -> Vec<String> {
     let folder = place.folder();
-    let held = [
-        (DECK.to_owned(), &input.deck[..]),
-        (SECTIONS.to_owned(), &input.sections),
-        (format!("folder/{FOREIGN}"), NOTES.as_bytes()),
-    ];
+    let read = match input.words.first().is_some_and(|word| word == "section") {
+        true => (SECTIONS.to_owned(), &input.sections[..]),
+        false => (DECK.to_owned(), &input.deck[..]),
+    };
+    let held = [read, (format!("folder/{FOREIGN}"), NOTES.as_bytes())];
     let lost = |(name, bytes): &(String, &[u8])| {
         fs::read(folder.join(name)).ok().as_deref() != Some(*bytes)
     };
