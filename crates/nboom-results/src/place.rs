@@ -74,7 +74,10 @@ impl Place {
     /// # Errors
     /// When something cannot be moved; then the rest is still where it was written.
     pub fn settle(&self) -> Result<&Path, ResultsError> {
-        let new = Earlier::in_directory(&self.partial)?.expect("a run writes a summary first");
+        let summary = self.partial.join(SUMMARY_FILE);
+        // Somebody may have removed the directory while the run went on.
+        let gone = || ResultsError::writing(&summary)(ErrorKind::NotFound.into());
+        let new = Earlier::in_directory(&self.partial)?.ok_or_else(gone)?;
         let old = check(&self.finished)?;
         if !new.complete && old.as_ref().is_some_and(|old| old.complete) {
             return Ok(&self.partial);

@@ -266,6 +266,19 @@ fn rows_do_not_wait_in_memory_for_a_printout_to_fill_the_disk() {
     assert_eq!(lines(&place.path().join("run.partial"), "states.csv").len(), 2);
 }
 
+#[test]
+fn a_directory_that_is_removed_during_a_run_is_an_error_that_names_it() {
+    let place = tempfile::tempdir().expect("a directory");
+    let mut directory = create(&place.path().join("run"), true).expect("writable");
+    directory.sample(&snapshot(0.0)).expect("writable");
+    fs::remove_dir_all(place.path().join("run.partial")).expect("it is there");
+    let kept = directory.finish(&outcome(None));
+    let error = kept.written.expect_err("the files are gone");
+    assert!(error.to_string().contains("run.partial/summary.json"), "{error}");
+    assert!(!error.is_refusal(), "the run has begun");
+    assert!(!place.path().join("run").exists());
+}
+
 /// Stresses of the boom, whose one station is at its hinge.
 fn analysis() -> StressAnalysis {
     let scene = scene();
