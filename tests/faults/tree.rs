@@ -19,6 +19,8 @@ pub fn root() -> PathBuf {
 }
 
 pub struct Tree {
+    /// Locked as long as faults are put in: two at once would be found by each other's tests.
+    _alone: fs::File,
     /// Where results are.
     pub folder: PathBuf,
     /// The copy.
@@ -40,12 +42,15 @@ impl Tree {
     pub fn new() -> Self {
         let folder = root().join("target/faults");
         let tree = folder.join("tree");
+        fs::create_dir_all(&tree).expect("writable");
+        let alone = fs::File::create(folder.join("lock")).expect("writable");
+        alone.try_lock().expect("nobody else tries faults here");
         let files = files();
         for file in &files {
             bring_up_to_date(&root().join(file), &tree.join(file));
         }
         remove_others(&tree, &tree, &files);
-        Self { folder, root: tree, passes: RefCell::default() }
+        Self { _alone: alone, folder, root: tree, passes: RefCell::default() }
     }
 
     /// Puts a fault in, runs its suites until one notices, and takes it out; tells which test did.

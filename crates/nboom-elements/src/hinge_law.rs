@@ -84,6 +84,15 @@ mod tests {
     }
 
     #[test]
+    fn either_part_of_a_dashpot_makes_the_torque_depend_on_the_rate() {
+        let depends = |rate_quadratic, rate_linear| {
+            let dashpot = Dashpot { rate_quadratic, rate_linear, ..DASHPOT };
+            HingeLaw::<f64>::new(&SPRING, &dashpot).depends_on_rate()
+        };
+        assert!(depends(0.05, 0.0) && depends(0.0, -0.6) && !depends(0.0, 0.0));
+    }
+
+    #[test]
     fn work_is_the_loss_of_potential() {
         let law = HingeLaw::<f64>::new(&SPRING, &Dashpot { rate_linear: 0.0, ..DASHPOT });
         let (from, to, parts) = (-1.0, 2.0, 2000);

@@ -1,0 +1,87 @@
+//! What is no scene is refused, each defect by its own words.
+
+use nboom_model::{
+    Appendage, Gravity, Hinge, HingeState, MassProperties, Mount, Release, Scene, SceneDescription,
+    Segment, Thrust,
+};
+use nboom_scalar::{Sym3, Vec3};
+
+/// A hub with a boom of two segments, under gravity and thrust.
+fn sound() -> SceneDescription {
+    let body = MassProperties::new(2.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.5, 1.0));
+    let segment = Segment { length: 1.0, mass_properties: body, hinge: Hinge::free() };
+    let mut scene = SceneDescription::at_rest("sound", body, 1.0);
+    let mount = Mount::at(Vec3::unit_x());
+    scene.attach(&Appendage::Regular { mount, segments: vec![segment.clone(), segment] });
+    scene.gravity = Some(Gravity { acceleration: 9.8, up: Vec3::unit_z() });
+    scene.thrust = Some(Thrust { force: Vec3::unit_x(), point: Vec3::unit_y(), on: 0.2, off: 0.4 });
+    scene
+}
+
+fn told(change: impl Fn(&mut SceneDescription)) -> Vec<String> {
+    let mut scene = sound();
+    change(&mut scene);
+    let errors = Scene::new(scene).err();
+    errors.into_iter().flatten().map(|error| error.to_string()).collect()
+}
+
+#[test]
+fn a_sound_scene_is_one() {
+    assert_eq!(told(|_| {}), [""; 0]);
+}
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    let nan = f64::NAN;
+    let bad = Vec3::new(0.0, nan, 0.0);
+    type Change = fn(&mut SceneDescription, f64, Vec3<f64>);
+    let cases: [(&str, Change); 14] = [
+        ("initial time", |s, nan, _| s.initial.time = nan),
+        ("initial position", |s, _, bad| s.initial.position_inertial = bad),
+        ("initial velocity", |s, _, bad| s.initial.velocity_inertial = bad),
+        ("initial angular rate", |s, _, bad| s.initial.omega_body = bad),
+        ("end time", |s, nan, _| s.end_time = nan),
+        ("gravity", |s, nan, _| s.gravity.as_mut().expect("given").acceleration = nan),
+        ("thrust", |s, _, bad| s.thrust.as_mut().expect("given").force = bad),
+        ("thrust", |s, _, bad| s.thrust.as_mut().expect("given").point = bad),
+        ("thrust time", |s, nan, _| s.thrust.as_mut().expect("given").on = nan),
+        ("hinge point", |s, _, bad| s.bodies[1].mount.point = bad),
+        ("hinge spring", |s, nan, _| s.bodies[1].hinge.spring.linear = nan),
+        ("hinge dashpot", |s, nan, _| s.bodies[1].hinge.dashpot.rate_quadratic = nan),
+        ("lock angle", |s, nan, _| s.bodies[1].hinge.lock_angle = Some(nan)),
+        ("release", |s, nan, _| s.bodies[1].hinge.release = Release::Time(nan)),
+    ];
+    for (quantity, change) in cases {
+        let found = told(|scene| change(scene, nan, bad));
+        let is_told = |error: &String| error.contains(quantity) && error.ends_with("is not finite");
+        assert!(found.len() == 1 && is_told(&found[0]), "{quantity}: {found:?}");
+    }
+}
+
+#[test]
+fn what_contradicts_itself_is_refused() {
+    let waits_for = |hinge: usize| {
+        move |scene: &mut SceneDescription| {
+            scene.bodies[1].hinge.start.state = HingeState::Unreleased;
+            scene.bodies[1].hinge.release = Release::Angle { hinge, angle: 0.1 };
+        }
+    };
+    assert_eq!(told(waits_for(0)), [""; 0]);
+    for (found, words) in [
+        (told(waits_for(1)), "release by hinge number 2 found, another of the 2 hinges"),
+        (told(waits_for(2)), "release by hinge number 3 found, another of the 2 hinges"),
+        (told(|s| s.end_time = -1.0), "end time -1 found, a time not before the initial time 0"),
+        (told(|s| s.thrust.as_mut().expect("given").off = 0.1), "thrust from 0.2 to 0.1 found"),
+        (told(|s| s.gravity.as_mut().expect("given").up = Vec3::unit_z() * 1.1), "of length 1.1"),
+        (told(|s| s.bodies[0].axis = Vec3::unit_x() * 2.0), "hinge axis of length 2 found"),
+        (told(|s| s.bodies[0].inboard = Some(1)), "inboard body 1 found, an earlier body"),
+        (told(|s| s.main_body.mass = -1.0), "main body: mass -1 found"),
+        (told(|s| s.bodies[1].hinge.start = held_at_rate(0.5)), "rate 0.5 found, zero expected"),
+    ] {
+        assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:?}");
+    }
+}
+
+fn held_at_rate(rate: f64) -> nboom_model::HingeStart {
+    nboom_model::HingeStart { angle: 0.0, rate, state: HingeState::Locked }
+}
