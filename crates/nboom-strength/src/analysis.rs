@@ -23,8 +23,8 @@ const ROUNDING: f64 = 1e-13;
 
 /// Follows the loads of a run, and its stresses where sections are known.
 ///
-/// As a [`Recorder`] it sees all that the envelope is made of; [`finish`](Self::finish) ends it. It can
-/// be asked for loads at output times beside that.
+/// As a [`Recorder`](nboom_sim::Recorder) it sees all that the envelope is made of;
+/// [`finish`](Self::finish) ends it. It can be asked for loads at output times beside that.
 #[derive(Clone, Debug)]
 pub struct StressAnalysis {
     settings: Settings,
