@@ -142,6 +142,15 @@ impl SectionStresses<'_> {
         }
     }
 
+    /// What the von Mises stress does not exceed anywhere; found with less work than
+    /// [`severest`](Self::severest).
+    pub fn bound(&self) -> f64 {
+        match self {
+            Self::Tube(stresses) => stresses.bound(),
+            Self::Polygon(stresses) => stresses.bound(),
+        }
+    }
+
     /// The stress at a point of the section which other stresses were found at.
     pub fn at(&self, point: &PointStress) -> Stress {
         match self {

@@ -26,6 +26,14 @@ pub(crate) fn severest(walls: impl Iterator<Item = WallStress> + Clone) -> (usiz
     (worst.wall, worst.x)
 }
 
+/// What the von Mises stress does not exceed anywhere on a wall: the root of the largest coefficient in
+/// Bernstein's basis of its square.
+pub(crate) fn bound(wall: &WallStress) -> f64 {
+    let unit = wall.largest_coefficient().max(f64::MIN_POSITIVE);
+    let square = Square::of(wall, 1.0 / unit);
+    unit * square.at(0.0).max(square.at(1.0)).max(square.bound_inside()).sqrt()
+}
+
 struct Worst {
     square: f64,
     wall: usize,
@@ -131,6 +139,8 @@ mod tests {
             let square = Square::of(&walls[0], 1.0);
             let bound = square.bound_inside().max(square.at(0.0)).max(square.at(1.0));
             prop_assert!(square.at(x) <= bound * (1.0 + 1e-14));
+            // The same as a stress, in a unit of its own.
+            prop_assert!((super::bound(&walls[0]) / bound.sqrt() - 1.0).abs() < 1e-14);
         }
     }
 

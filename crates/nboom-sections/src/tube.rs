@@ -147,6 +147,12 @@ impl TubeStresses {
         PointStress { place, wall: None, stress }
     }
 
+    /// What the von Mises stress does not exceed anywhere; found with less work than the severest place.
+    pub fn bound(&self) -> f64 {
+        let most = |[a, b, c]: [f64; 3]| a.abs() + b.hypot(c);
+        most(self.normal).hypot(3.0_f64.sqrt() * most(self.shear))
+    }
+
     /// The θ at which the von Mises stress is largest, from 0 to 2π.
     pub fn severest(&self) -> f64 {
         let coefficients = self.normal.iter().chain(&self.shear);

@@ -75,9 +75,34 @@ impl Gauge {
         }
     }
 
-    /// What the quantity does not exceed for these numbers, for less work.
-    pub fn bound(&self, numbers: &[f64; 6]) -> f64 {
+    /// What the quantity does not exceed for these numbers, for little work.
+    pub fn rough_bound(&self, numbers: &[f64; 6]) -> f64 {
         self.gains.iter().zip(numbers).map(|(gain, number)| gain * number.abs()).sum()
+    }
+
+    /// What the quantity does not exceed for these numbers, for less work than its value.
+    pub fn close_bound(&self, numbers: &[f64; 6]) -> f64 {
+        match &self.measure {
+            Measure::Stress(formulas) => formulas.bound(*numbers),
+            Measure::Force | Measure::Moment => self.value(numbers),
+        }
+    }
+
+    /// Whether the quantity for these numbers is at most `level`, with no more work than that takes.
+    pub fn is_at_most(&self, level: f64, numbers: &[f64; 6]) -> bool {
+        self.is_bounded_by(level, numbers) || self.value(numbers) <= level
+    }
+
+    /// The quantity for these numbers if it is above `level`, with no more work than that takes.
+    pub fn above(&self, level: f64, numbers: &[f64; 6]) -> Option<f64> {
+        if self.is_bounded_by(level, numbers) {
+            return None;
+        }
+        Some(self.value(numbers)).filter(|value| *value > level)
+    }
+
+    fn is_bounded_by(&self, level: f64, numbers: &[f64; 6]) -> bool {
+        self.rough_bound(numbers) <= level || self.close_bound(numbers) <= level
     }
 
     /// What each of `parts` of a load contributes to the quantity under the whole load, as a share of

@@ -86,7 +86,13 @@ pub(crate) fn search_pulses(
         pulses.sides(from).try_for_each(|side| {
             pulses.acting(from).try_for_each(|acting| {
                 let motion = OfMotion::Standing(&side.loads);
-                search.over([from, to], &mut Piece { motion, acting, records })
+                let mut piece = Piece { motion, acting, records };
+                // Along a line a norm is largest at an end.
+                if acting.share_a_course() {
+                    search.at_ends([from, to], &mut piece)
+                } else {
+                    search.over([from, to], &mut piece)
+                }
             })
         })
     })

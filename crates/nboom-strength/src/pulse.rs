@@ -50,7 +50,7 @@ impl PulseShape {
 const LONGEST: f64 = f64::MAX / 4.0;
 
 /// What began at a lock-up and lasts for some time.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Course {
     /// Time that it had been going on at the last instant in which a hinge locked.
     age: f64,
@@ -184,6 +184,14 @@ impl<'a> Acting<'a> {
         let acts = move |i: usize| (left_out >> i.min(MOST_APART - 1)) & 1 == 0;
         let going_on = self.pulses.going_on(self.from).enumerate();
         going_on.filter(move |(i, _)| acts(*i)).map(|(_, pulse)| pulse)
+    }
+
+    /// Whether they rise and fall alike, so that what they make together is a multiple of one load,
+    /// and grows or shrinks all over the interval.
+    pub fn share_a_course(&self) -> bool {
+        let mut courses = self.pulses().map(|pulse| pulse.course);
+        let first = courses.next();
+        self.pulses.shape == PulseShape::AllAtOnce || courses.all(|course| Some(course) == first)
     }
 
     /// Share of its peak that a pulse has at `u`.

@@ -105,12 +105,8 @@ impl Records {
     /// Keeps what is larger than it has been at `u` under the loads in `row`.
     pub fn look(&mut self, gauges: &[Gauge], (acting, u): (Acting<'_>, f64), row: &[f64]) {
         for (g, gauge) in gauges.iter().enumerate() {
-            let numbers = gauge.numbers(row);
-            if gauge.bound(&numbers) > self.largest(g) {
-                let value = gauge.value(&numbers);
-                if value > self.largest(g) {
-                    self.keep((g, gauge), value, (acting, u), row);
-                }
+            if let Some(value) = gauge.above(self.largest(g), &gauge.numbers(row)) {
+                self.keep((g, gauge), value, (acting, u), row);
             }
         }
     }

@@ -95,6 +95,26 @@ impl Search {
         self.at_level(0, span, loaded)
     }
 
+    /// Keeps what is larger at one of two times than it has been; the later one is looked at first.
+    ///
+    /// # Errors
+    /// Those of `loaded`.
+    pub fn at_ends(
+        &mut self,
+        [from, to]: [f64; 2],
+        loaded: &mut dyn Loaded,
+    ) -> Result<(), StrengthError> {
+        for u in [to, from] {
+            loaded.write(u, &mut self.between)?;
+            for (g, gauge) in self.gauges.iter().enumerate() {
+                if let Some(value) = gauge.above(loaded.largest(g), &gauge.numbers(&self.between)) {
+                    loaded.keep(g, gauge, value, u, &self.between);
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn at_level(
         &mut self,
         level: usize,
@@ -107,10 +127,13 @@ impl Search {
             for k in (0..FINE).step_by(STRIDE) {
                 loaded.write(time(k, &self.places), row_mut(&mut self.rows, self.width, k))?;
             }
-            for &g in &open {
-                self.keep_largest(g, (0..FINE).step_by(STRIDE), [from, to], loaded);
-            }
-            open.retain(|&g| !self.is_below(g, loaded));
+            open.retain(|&g| {
+                if self.is_below(g, loaded) {
+                    return false;
+                }
+                let is_raised = self.keep_largest(g, (0..FINE).step_by(STRIDE), [from, to], loaded);
+                !(is_raised && self.is_below(g, loaded))
+            });
             if open.is_empty() {
                 return Ok(());
             }
@@ -140,23 +163,19 @@ impl Search {
         &self.rows[k * self.width..(k + 1) * self.width]
     }
 
-    /// Keeps the largest value of gauge `g` at some of the points, if it is larger than it has been.
+    /// Keeps the largest value of gauge `g` at some of the points, if it is larger than it has been;
+    /// tells whether it is.
     fn keep_largest(
         &self,
         g: usize,
         points: impl Iterator<Item = usize>,
         [from, to]: [f64; 2],
         loaded: &mut dyn Loaded,
-    ) {
+    ) -> bool {
         let gauge = &self.gauges[g];
         let (mut largest, mut at) = (loaded.largest(g), None);
         for k in points {
-            let numbers = gauge.numbers(self.row(k));
-            if gauge.bound(&numbers) <= largest {
-                continue;
-            }
-            let value = gauge.value(&numbers);
-            if value > largest {
+            if let Some(value) = gauge.above(largest, &gauge.numbers(self.row(k))) {
                 (largest, at) = (value, Some(k));
             }
         }
@@ -164,6 +183,7 @@ impl Search {
             let u = from + (to - from) * self.places[k];
             loaded.keep(g, gauge, largest, u, self.row(k));
         }
+        at.is_some()
     }
 
     /// What a gauge need not be searched for.
@@ -189,7 +209,7 @@ impl Search {
         if stays_below(gauge, &coefficients, &tails, enough) {
             return Verdict::Done;
         }
-        let left_out: f64 = tails.iter().map(|tail| gauge.value(tail)).sum();
+        let left_out: f64 = tails.iter().map(|tail| gauge.close_bound(tail)).sum();
         if left_out > enough - loaded.largest(g) {
             return Verdict::TooLong;
         }
@@ -216,11 +236,12 @@ fn row_mut(rows: &mut [f64], width: usize, k: usize) -> &mut [f64] {
 /// Whether a gauge is at most `level` for polynomials with these coefficients, and what they leave
 /// out, over all of their interval.
 fn stays_below(gauge: &Gauge, coefficients: &[[f64; 6]], tails: &[[f64; 6]], level: f64) -> bool {
-    let at_most = |of: fn(&Gauge, &[f64; 6]) -> f64| {
-        let left_out: f64 = tails.iter().map(|tail| of(gauge, tail)).sum();
-        coefficients.iter().all(|coefficient| of(gauge, coefficient) + left_out <= level)
-    };
-    at_most(Gauge::bound) || at_most(Gauge::value)
+    let rough_level = level - tails.iter().map(|tail| gauge.rough_bound(tail)).sum::<f64>();
+    if coefficients.iter().all(|coefficient| gauge.rough_bound(coefficient) <= rough_level) {
+        return true;
+    }
+    let level = level - tails.iter().map(|tail| gauge.close_bound(tail)).sum::<f64>();
+    coefficients.iter().all(|coefficient| gauge.is_at_most(level, coefficient))
 }
 
 /// A gauge of polynomials in time.
