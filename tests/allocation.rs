@@ -14,7 +14,7 @@ use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom::model::{HingeState, Mode, Scene, SectionShape, SegmentStructure, Station, Structure};
 use nboom::ode::{Method, System, Tolerance};
 use nboom::scalar::{Real, Vec3};
-use nboom::sim::{Event, Options, Recorder, Snapshot, StepMotion, simulate};
+use nboom::sim::{Options, Recorder, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
 use nboom_expr::{Expr, Graph};
 use nboom_series::Series;
@@ -174,18 +174,6 @@ struct Counted {
 }
 
 impl Recorder for Counted {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _snapshot: &Snapshot) -> std::io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _event: &Event, _after: &Snapshot) -> std::io::Result<()> {
-        Ok(())
-    }
-
     fn needs_steps(&self) -> bool {
         true
     }

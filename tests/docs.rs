@@ -309,12 +309,6 @@ mod readme_example {
     struct Latches;
 
     impl Recorder for Latches {
-        fn needs_detail(&self) -> bool {
-            false
-        }
-        fn sample(&mut self, _: &Snapshot) -> std::io::Result<()> {
-            Ok(())
-        }
         fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
             if let (Some(hinge), Some(impulse)) = (event.hinge, event.impulse) {
                 println!("{:.6} hinge {hinge}: {impulse:.3}, {:?}", event.time, after.omega_body);

@@ -11,7 +11,7 @@ use std::io;
 
 use nboom::model::{HingeState, Scene, SceneDescription};
 use nboom::scalar::Vec3;
-use nboom::sim::{Event, Options, Recorder, Snapshot, StepMotion, simulate};
+use nboom::sim::{Options, Recorder, StepMotion, simulate};
 
 use crate::collect::run;
 use crate::sampled::Happening;
@@ -31,18 +31,6 @@ struct Start {
 struct Steps(Vec<Start>);
 
 impl Recorder for Steps {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn needs_steps(&self) -> bool {
         true
     }

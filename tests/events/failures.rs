@@ -10,7 +10,7 @@ use nboom::model::{
     MassProperties, Mount, Release, Scene, Segment, Spring,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
-use nboom::sim::{Event, Feeds, Options, Recorder, SimError, Snapshot, simulate};
+use nboom::sim::{Feeds, Options, Recorder, SimError, Snapshot, simulate};
 
 use crate::collect::{Collected, tight, try_run};
 use crate::rotors::{description, free, oscillating, scene};
@@ -175,17 +175,9 @@ fn too_many_steps_are_too_many() {
 struct Full(usize);
 
 impl Recorder for Full {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
     fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
         self.0 -= 1;
         if self.0 == 0 { Err(io::Error::from(io::ErrorKind::StorageFull)) } else { Ok(()) }
-    }
-
-    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
-        Ok(())
     }
 }
 

@@ -5,8 +5,8 @@ use std::io;
 
 use nboom::formulation::Formulation;
 use nboom::sim::{
-    Event, Form, Options, Path, Recorder, Reference, SimError, Snapshot, Witness, check_start,
-    simulate, trust,
+    Form, Options, Path, Recorder, Reference, SimError, Snapshot, Witness, check_start, simulate,
+    trust,
 };
 
 use crate::collect::tight;
@@ -25,16 +25,8 @@ impl Impatient {
 }
 
 impl Recorder for Impatient {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         self.times.push(snapshot.time);
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
         Ok(())
     }
 

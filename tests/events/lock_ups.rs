@@ -8,7 +8,7 @@ use nboom::model::{
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::EventKind::{LockUp, Release as Released};
-use nboom::sim::{Event, InstantMotion, Jump, Recorder, Snapshot, simulate};
+use nboom::sim::{InstantMotion, Jump, Recorder, simulate};
 
 use crate::collect::{run, tight};
 use crate::rotors::{
@@ -260,18 +260,6 @@ fn a_joint_lock_up_is_one_lock_up_after_the_other_with_latches_kept() {
 struct Shares(Vec<Jump>);
 
 impl Recorder for Shares {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _: &Snapshot) -> std::io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event, _: &Snapshot) -> std::io::Result<()> {
-        Ok(())
-    }
-
     fn needs_instants(&self) -> bool {
         true
     }

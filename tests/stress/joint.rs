@@ -73,10 +73,6 @@ impl Recorder for Follow {
         true
     }
 
-    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
         self.analysis.instant(instant).map_err(io::Error::other)?;
         Ok(())

@@ -242,21 +242,12 @@ fn a_pulse_may_be_shorter_than_times_are_apart() {
 fn impulses_are_told_apart_from_the_motions_loads() {
     use std::io;
 
-    use nboom::sim::{Event, InstantMotion, Recorder, Snapshot};
+    use nboom::sim::{InstantMotion, Recorder};
 
     /// Keeps the impulses of the carrier's hinge.
     struct Impulses(StressAnalysis, Vec<(usize, f64, f64)>);
 
     impl Recorder for Impulses {
-        fn needs_detail(&self) -> bool {
-            false
-        }
-        fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
-            Ok(())
-        }
-        fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
-            Ok(())
-        }
         fn needs_instants(&self) -> bool {
             true
         }

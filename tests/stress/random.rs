@@ -5,9 +5,7 @@ use std::io;
 use nboom::loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom::model::{Dashpot, Scene, SectionShape, SegmentStructure, Station, Structure, Vertex};
 use nboom::sections::Section;
-use nboom::sim::{
-    Event, InstantMotion, Jump, MotionAt, Options, Recorder, Snapshot, StepMotion, simulate,
-};
+use nboom::sim::{InstantMotion, Jump, MotionAt, Options, Recorder, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
 
 use crate::random_scene::{Dice, description};
@@ -238,18 +236,6 @@ impl BruteForce {
 }
 
 impl Recorder for BruteForce {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn needs_instants(&self) -> bool {
         true
     }

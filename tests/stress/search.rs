@@ -3,9 +3,7 @@
 use std::io;
 
 use nboom::model::Scene;
-use nboom::sim::{
-    Event, InstantMotion, Method, MotionAt, Options, Recorder, Snapshot, StepMotion, simulate,
-};
+use nboom::sim::{InstantMotion, Method, MotionAt, Options, Recorder, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
 
 use crate::random::{BruteForce, Satellite, envelope};
@@ -69,18 +67,6 @@ impl Until {
 }
 
 impl Recorder for Until {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn needs_instants(&self) -> bool {
         true
     }

@@ -100,12 +100,6 @@ fn topologies_are_names_numbers_or_strings() {
 struct Latches(Vec<f64>);
 
 impl Recorder for Latches {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-    fn sample(&mut self, _: &Snapshot) -> std::io::Result<()> {
-        Ok(())
-    }
     fn event(&mut self, event: &Event, _: &Snapshot) -> std::io::Result<()> {
         self.0.extend(Some(event.time).filter(|_| event.kind == EventKind::LockUp));
         Ok(())
@@ -163,9 +157,6 @@ impl Recorder for Stressed {
     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
         let detail = snapshot.detail.as_ref().expect("it was asked for");
         self.0.motion(snapshot, detail).map(drop).map_err(std::io::Error::other)
-    }
-    fn event(&mut self, _: &Event, _: &Snapshot) -> std::io::Result<()> {
-        Ok(())
     }
     fn instant(&mut self, instant: &InstantMotion) -> std::io::Result<()> {
         self.0.instant(instant).map(drop).map_err(std::io::Error::other)

@@ -4,9 +4,7 @@ use std::io;
 
 use nboom_model::Scene;
 use nboom_results::{Kept, PeakDigits, WorstLoads, peak_digits};
-use nboom_sim::{
-    Event, InstantMotion, Options, Recorder, Reference, Snapshot, StepMotion, Trust, Witness, trust,
-};
+use nboom_sim::{InstantMotion, Options, Recorder, Reference, StepMotion, Trust, Witness, trust};
 use nboom_strength::StressAnalysis;
 
 use crate::CliError;
@@ -53,18 +51,6 @@ impl Certifier {
 }
 
 impl Recorder for Certifier {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn interrupted(&self) -> bool {
         self.interrupt.came()
     }

@@ -1,30 +1,16 @@
 //! What can be said against a run before its first step.
 
-use std::io;
-
 use nboom_model::Scene;
 
 use crate::error::{Failure, SimError};
 use crate::options::Options;
-use crate::record::{Event, Recorder, Snapshot};
+use crate::record::Recorder;
 use crate::run::simulate;
 
 /// Ends a run before its first step.
 struct Reluctant;
 
 impl Recorder for Reluctant {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn interrupted(&self) -> bool {
         true
     }

@@ -11,18 +11,12 @@
 //! ```
 //! use nboom_model::{MassProperties, Scene, SceneDescription};
 //! use nboom_scalar::{Sym3, Vec3};
-//! use nboom_sim::{Event, Options, Recorder, Snapshot, simulate};
+//! use nboom_sim::{Options, Recorder, Snapshot, simulate};
 //!
 //! struct LastRate(Vec3<f64>);
 //! impl Recorder for LastRate {
-//!     fn needs_detail(&self) -> bool {
-//!         false
-//!     }
 //!     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
 //!         self.0 = snapshot.omega_body;
-//!         Ok(())
-//!     }
-//!     fn event(&mut self, _event: &Event, _after: &Snapshot) -> std::io::Result<()> {
 //!         Ok(())
 //!     }
 //! }

@@ -15,19 +15,25 @@ use crate::verdict::Verdict;
 pub trait Recorder {
     /// Whether snapshots are wanted with [`Snapshot::detail`], which costs one more evaluation
     /// of the equations of motion each.
-    fn needs_detail(&self) -> bool;
+    fn needs_detail(&self) -> bool {
+        false
+    }
 
     /// The motion at an output time; an event at that time is already over.
     ///
     /// # Errors
     /// When it cannot be kept, for example on a full disk.
-    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()>;
+    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
 
     /// An event, and the motion after all events of its instant.
     ///
     /// # Errors
     /// When it cannot be kept.
-    fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()>;
+    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
+        Ok(())
+    }
 
     /// Whether the run shall end where it is, with [`SimError::Interrupted`](crate::SimError);
     /// asked at every step and output time.
@@ -69,19 +75,7 @@ pub trait Recorder {
 #[derive(Clone, Copy, Debug)]
 pub struct Nobody;
 
-impl Recorder for Nobody {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _: &Event, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-}
+impl Recorder for Nobody {}
 
 /// Both sides of an instant in which something happens: what jumps are accelerations, and where hinges
 /// lock velocities too.

@@ -50,10 +50,6 @@ impl Witness {
 }
 
 impl Recorder for Witness {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         self.largest.saw(snapshot);
         self.last = Some(snapshot.clone());

@@ -1,23 +1,11 @@
 use std::io;
 
-use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion};
+use nboom_sim::{InstantMotion, Recorder, StepMotion};
 
 use crate::StressAnalysis;
 
 /// Sees the whole of a run and needs no output times.
 impl Recorder for StressAnalysis {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _snapshot: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _event: &Event, _after: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn needs_instants(&self) -> bool {
         true
     }

@@ -74,14 +74,6 @@ struct Change {
 struct Changes(Vec<Change>);
 
 impl Recorder for Changes {
-    fn needs_detail(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, _: &Snapshot) -> io::Result<()> {
-        Ok(())
-    }
-
     fn event(&mut self, event: &Event, _: &Snapshot) -> io::Result<()> {
         let &Event { time, kind, hinge, .. } = event;
         if let (EventKind::Release | EventKind::LockUp, Some(hinge)) = (kind, hinge) {
