@@ -60,6 +60,12 @@ impl SceneDescription {
         }
     }
 
+    /// The piece of each force law that has several before anything acts: for each kick-off spring, by
+    /// hinge, 1, which it is in beyond its limit length and does not push.
+    pub fn pieces_at_rest(&self) -> Vec<usize> {
+        self.bodies.iter().filter_map(|body| body.hinge.kick_off).map(|_| 1).collect()
+    }
+
     /// Adds the bodies of one more appendage.
     pub fn attach(&mut self, appendage: &Appendage) {
         self.bodies.extend(appendage.bodies(self.bodies.len()));
