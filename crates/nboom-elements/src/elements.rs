@@ -1,6 +1,6 @@
 //! The one place that lists the force elements.
 
-use nboom_model::{Mode, Scene, WeldedTree};
+use nboom_model::{Hinge, Mode, Scene, WeldedTree};
 use nboom_scalar::Real;
 
 use crate::{Coordinate, Line, Names, Placed, Switched};
@@ -9,12 +9,14 @@ mod gravity;
 mod hinge_law;
 mod kick_off;
 mod thrust;
+mod torque_table;
 mod untransmitted;
 
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
 pub use kick_off::KickOffLaw;
 pub use thrust::{ThrustForce, thrust_acts, thrust_change};
+use torque_table::TablePiece;
 use untransmitted::Untransmitted;
 
 /// The kinds of elements that are told apart in messages and files.
@@ -22,16 +24,19 @@ use untransmitted::Untransmitted;
 pub enum Kind {
     /// A spring that pushes a body off the main body until it has reached its limit length.
     KickOff,
+    /// A torque about a hinge, tabulated over its angle.
+    TorqueTable,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 1] = [Self::KickOff];
+    pub const ALL: [Self; 2] = [Self::KickOff, Self::TorqueTable];
 
     /// What it is called.
     pub fn names(self) -> &'static Names {
         match self {
             Self::KickOff => &kick_off::NAMES,
+            Self::TorqueTable => &torque_table::NAMES,
         }
     }
 }
@@ -44,7 +49,60 @@ pub(crate) fn switched(scene: &Scene) -> Vec<(Kind, usize, Coordinate, Vec<f64>)
     let of_spring = springs.map(|(line, (hinge, spring))| {
         (Kind::KickOff, hinge, Coordinate::Length(line), vec![spring.limit_length])
     });
-    of_spring.collect()
+    let of_table = scene.torque_tables.iter().map(|table| {
+        let angles = table.points.iter().map(|point| point[0]).collect();
+        (Kind::TorqueTable, table.hinge, Coordinate::Angle(table.hinge), angles)
+    });
+    of_spring.chain(of_table).collect()
+}
+
+/// The torque about one hinge: of its spring and dashpot, and of its table where it has one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HingeTorque<R> {
+    law: HingeLaw<R>,
+    table: Option<TablePiece<R>>,
+}
+
+impl<R: Real> HingeTorque<R> {
+    /// That of each hinge of `scene` in `mode`.
+    fn all(scene: &Scene, mode: &Mode) -> Vec<Self> {
+        let hinges = scene.bodies.iter().map(|body| &body.hinge);
+        let law = |hinge: &Hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot);
+        let mut torques: Vec<Self> =
+            hinges.map(|hinge| Self { law: law(hinge), table: None }).collect();
+        // Tables come last among the elements of a mode.
+        let first = mode.pieces.len() - scene.torque_tables.len();
+        for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
+            torques[table.hinge].table = Some(TablePiece::new(table, piece));
+        }
+        torques
+    }
+
+    /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
+    #[inline]
+    pub fn torque(&self, beta: R, tau: R) -> R {
+        let torque = self.law.torque(beta, tau);
+        self.table.as_ref().map_or(torque, |table| torque + table.torque(beta))
+    }
+
+    /// The part of the torque that depends on the rate, and does work no potential accounts for.
+    #[inline]
+    pub fn rate_torque(&self, tau: R) -> R {
+        self.law.rate_torque(tau)
+    }
+
+    /// Potential energy of the part that depends on the angle.
+    pub fn potential(&self, beta: R) -> R {
+        let potential = self.law.potential(beta);
+        self.table.as_ref().map_or(potential, |table| potential + table.potential(beta))
+    }
+}
+
+impl HingeTorque<f64> {
+    /// Whether the torque depends on the rate.
+    pub fn depends_on_rate(&self) -> bool {
+        self.law.depends_on_rate()
+    }
 }
 
 /// The force elements of a scene as they act in one mode, by what they act on: torques about
@@ -53,7 +111,7 @@ pub(crate) fn switched(scene: &Scene) -> Vec<(Kind, usize, Coordinate, Vec<f64>)
 /// Evaluations allocate nothing.
 #[derive(Clone, Debug)]
 pub struct Elements<R> {
-    torques: Vec<HingeLaw<R>>,
+    torques: Vec<HingeTorque<R>>,
     lines: Vec<Line<R>>,
     untransmitted: Vec<Untransmitted<R>>,
     thrust: Option<ThrustForce<R>>,
@@ -63,10 +121,9 @@ pub struct Elements<R> {
 impl<R: Real> Elements<R> {
     /// Those of `scene` in `mode`, whose links are those of `tree`.
     pub fn new(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Self {
-        let hinges = scene.bodies.iter().map(|body| &body.hinge);
         let lines = Line::all(scene, mode, tree);
         Self {
-            torques: hinges.map(|hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot)).collect(),
+            torques: HingeTorque::all(scene, mode),
             untransmitted: Untransmitted::all(scene, mode, tree, &lines),
             lines,
             thrust: scene.thrust.filter(|_| mode.thrust).map(|thrust| ThrustForce::new(&thrust)),
@@ -75,7 +132,7 @@ impl<R: Real> Elements<R> {
     }
 
     /// The law of the torque about each hinge of the scene, whether it is held or free.
-    pub fn torques(&self) -> &[HingeLaw<R>] {
+    pub fn torques(&self) -> &[HingeTorque<R>] {
         &self.torques
     }
 
@@ -128,7 +185,8 @@ impl<R: Real> Elements<R> {
 /// its magnitude.
 pub fn stored(scene: &Scene) -> f64 {
     let hinges = scene.bodies.iter().map(|body| &body.hinge);
-    hinges.map(|hinge| hinge_law::stored(hinge) + kick_off::stored(hinge)).sum()
+    let springs: f64 = hinges.map(|hinge| hinge_law::stored(hinge) + kick_off::stored(hinge)).sum();
+    springs + scene.torque_tables.iter().map(torque_table::stored).sum::<f64>()
 }
 
 #[cfg(test)]
