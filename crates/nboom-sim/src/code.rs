@@ -5,12 +5,17 @@ use nboom_formulation::Formulation;
 use nboom_model::Scene;
 use nboom_ode::Method;
 
-use crate::closed_form::{ClosedForm, NotCovered};
+use crate::code::closed_form::{ClosedForm, NotCovered};
+use crate::code::fit::Repertoire;
+use crate::code::generated::{Generated, NoRoutine};
+use crate::code::selection::Selection;
 use crate::error::SimError;
-use crate::fit::Repertoire;
-use crate::generated::{Generated, NoRoutine};
-use crate::options::{Form, Options, Path};
-use crate::selection::Selection;
+use crate::run::options::{Form, Options, Path};
+
+pub(crate) mod closed_form;
+pub(crate) mod fit;
+pub(crate) mod generated;
+pub(crate) mod selection;
 
 /// Code that computes the accelerations of one mode.
 #[derive(Clone, Debug)]
@@ -55,7 +60,7 @@ impl Code {
         Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }))
     }
 
-    /// The equations that [`series::graph`](crate::series::graph) records, for what is told beside.
+    /// The equations that [`series::graph`](crate::equations::series::graph) records, for what is told beside.
     pub fn recorded(scene: &Scene, dynamics: &Recursive<f64>) -> Self {
         let (tree, external) = (dynamics.tree(), dynamics.external());
         let form = ClosedForm::fit(scene, tree, external, Formulation::Articulated);

@@ -6,18 +6,26 @@ use nboom_scalar::Vec3;
 use nboom_series::Series;
 
 use crate::code::Code;
+use crate::code::fit::Repertoire;
+use crate::code::selection::Selection;
+use crate::equations::jacobian::Jacobian;
+use crate::equations::layout::Layout;
+use crate::equations::rates::Rates;
+use crate::equations::sizes::Sizes;
+use crate::equations::state::State;
+use crate::equations::variables::{Variables, motion};
 use crate::error::SimError;
-use crate::fit::Repertoire;
-use crate::jacobian::Jacobian;
-use crate::layout::Layout;
-use crate::ledger::totals;
-use crate::options::Options;
-use crate::rates::Rates;
-use crate::selection::Selection;
-use crate::series;
-use crate::sizes::Sizes;
-use crate::state::State;
-use crate::variables::{Variables, motion};
+use crate::run::ledger::totals;
+use crate::run::options::Options;
+
+pub(crate) mod attitude_norm;
+pub(crate) mod jacobian;
+pub(crate) mod layout;
+pub(crate) mod rates;
+pub(crate) mod series;
+pub(crate) mod sizes;
+pub(crate) mod state;
+pub(crate) mod variables;
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {

@@ -32,54 +32,28 @@
 //! # Ok::<(), nboom_sim::Failure>(())
 //! ```
 
-mod attitude_norm;
-mod beforehand;
-mod closed_form;
+mod certify;
 mod code;
-mod conservation;
 mod equations;
 mod error;
-mod expansion;
-mod finite;
-mod fit;
-mod generated;
-mod guard;
-mod instant;
-mod jacobian;
-mod layout;
-mod ledger;
-mod options;
-mod rates;
-mod record;
-mod replay;
+mod events;
 mod run;
-mod scales;
-mod selection;
-mod series;
-mod sizes;
-mod snapshot;
-mod start;
-mod state;
-mod step_motion;
-mod trust;
-mod variables;
-mod verdict;
 
-pub use beforehand::check_start;
-pub use closed_form::NotCovered;
-pub use conservation::{Conservation, PoorConservation};
+pub use certify::scales::{Scales, natural};
+pub use certify::trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};
+pub use code::closed_form::NotCovered;
+pub use code::fit::{Fit, Repertoire};
+pub use code::generated::{NoRoutine, Unmet};
+pub use code::selection::{CodeOfRun, Selection};
 pub use error::{Failure, Feeds, OptionError, SimError};
-pub use fit::{Fit, Repertoire};
-pub use generated::{NoRoutine, Unmet};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
-pub use options::{Form, Options, Path};
-pub use record::{
+pub use run::beforehand::check_start;
+pub use run::conservation::{Conservation, PoorConservation};
+pub use run::options::{Form, Options, Path};
+pub use run::record::{
     Detail, Event, EventKind, InstantMotion, Integration, Jump, Nobody, Recorder, Snapshot,
     Summary, Totals,
 };
 pub use run::simulate;
-pub use scales::{Scales, natural};
-pub use selection::{CodeOfRun, Selection};
-pub use step_motion::{MotionAt, StepMotion};
-pub use trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};
-pub use verdict::{HingeVerdict, LockUpImpulse, Verdict};
+pub use run::step_motion::{MotionAt, StepMotion};
+pub use run::verdict::{HingeVerdict, LockUpImpulse, Verdict};

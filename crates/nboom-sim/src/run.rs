@@ -1,21 +1,30 @@
 use nboom_model::{Mode, Scene};
 use nboom_ode::Stepper;
 
-use crate::attitude_norm::AttitudeNorm;
+use crate::code::selection::Selection;
 use crate::equations::Equations;
+use crate::equations::attitude_norm::AttitudeNorm;
+use crate::equations::layout::Layout;
+use crate::equations::state::State;
 use crate::error::{Failure, SimError};
-use crate::finite;
-use crate::guard::{GuardKind, Guards, read};
-use crate::instant::{self, Arrivals};
-use crate::layout::Layout;
-use crate::ledger::{Ledger, totals};
-use crate::options::Options;
-use crate::record::{Event, EventKind, Integration, Recorder, Summary};
-use crate::selection::Selection;
-use crate::start::Start;
-use crate::state::State;
-use crate::step_motion::Room;
-use crate::verdict::Verdict;
+use crate::events::guard::{GuardKind, Guards, read};
+use crate::events::instant::{self, Arrivals};
+use crate::events::start::Start;
+use crate::run::ledger::{Ledger, totals};
+use crate::run::options::Options;
+use crate::run::record::{Event, EventKind, Integration, Recorder, Summary};
+use crate::run::step_motion::Room;
+use crate::run::verdict::Verdict;
+
+pub(crate) mod beforehand;
+pub(crate) mod conservation;
+pub(crate) mod finite;
+pub(crate) mod ledger;
+pub(crate) mod options;
+pub(crate) mod record;
+pub(crate) mod snapshot;
+pub(crate) mod step_motion;
+pub(crate) mod verdict;
 
 mod giving_up;
 mod runaway;

@@ -4,9 +4,9 @@ use nboom_model::HingeLabel;
 use nboom_ode::StepError;
 
 use super::Run;
+use crate::equations::variables::motion;
 use crate::error::SimError;
-use crate::record::Event;
-use crate::variables::motion;
+use crate::run::record::Event;
 
 /// A torque whose square is no number any more.
 const BOUND: f64 = 1e154;

@@ -5,8 +5,8 @@ use nboom_model::Scene;
 
 use super::Run;
 use crate::equations::Equations;
+use crate::equations::state::State;
 use crate::error::{Feeds, SimError};
-use crate::state::State;
 
 /// Kinetic energy beyond this many times what the scene has is fed without end: rates have grown a
 /// hundredfold.

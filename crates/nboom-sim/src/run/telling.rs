@@ -1,13 +1,13 @@
 //! What a run tells its recorder, and when.
 
 use super::Run;
+use crate::equations::state::State;
 use crate::error::SimError;
-use crate::finite;
-use crate::instant::Arrivals;
-use crate::record::{Event, InstantMotion, Jump, Snapshot};
-use crate::snapshot;
-use crate::state::State;
-use crate::step_motion::DenseStep;
+use crate::events::instant::Arrivals;
+use crate::run::finite;
+use crate::run::record::{Event, InstantMotion, Jump, Snapshot};
+use crate::run::snapshot;
+use crate::run::step_motion::DenseStep;
 
 impl Run<'_> {
     pub(super) fn sample_time(&self) -> f64 {

@@ -5,9 +5,9 @@ use nboom_ode::{Bernstein, Interpolation, Stepper};
 use nboom_scalar::{Number, Real};
 
 use crate::equations::Equations;
-use crate::instant;
-use crate::record::EventKind;
-use crate::state::State;
+use crate::equations::state::State;
+use crate::events::instant;
+use crate::run::record::EventKind;
 
 /// A quantity whose change of sign is an event.
 #[derive(Clone, Debug)]

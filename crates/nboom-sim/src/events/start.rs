@@ -3,7 +3,7 @@ use nboom_elements::{Switched, thrust_acts};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Number, Vec3};
 
-use crate::state::{MassCenter, State};
+use crate::equations::state::{MassCenter, State};
 
 /// How a scene begins.
 #[derive(Clone, Debug)]

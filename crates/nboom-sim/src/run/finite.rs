@@ -4,7 +4,7 @@ use nboom_model::Scene;
 use nboom_scalar::Vec3;
 
 use crate::error::SimError;
-use crate::record::{Detail, Event, Jump, Snapshot, Totals};
+use crate::run::record::{Detail, Event, Jump, Snapshot, Totals};
 
 /// Refuses a snapshot that has a number beyond all numbers, by name and hinge.
 pub(crate) fn check_snapshot(scene: &Scene, snapshot: &Snapshot) -> Result<(), SimError> {

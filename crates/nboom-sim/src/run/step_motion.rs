@@ -7,8 +7,8 @@ use nboom_ode::Stepper;
 use nboom_scalar::Vec3;
 
 use crate::equations::Equations;
-use crate::record::{Detail, Snapshot};
-use crate::variables::motion;
+use crate::equations::variables::motion;
+use crate::run::record::{Detail, Snapshot};
 
 /// A step of the motion, from its start to its end or to the instant that cuts it off; in between
 /// everything is smooth.

@@ -5,10 +5,10 @@ use nboom_formulation::Formulation;
 use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{Real, Vec3};
 
-use crate::closed_form::ClosedForm;
-use crate::layout::Layout;
-use crate::rates::Rates;
-use crate::variables::{Variables, motion};
+use crate::code::closed_form::ClosedForm;
+use crate::equations::layout::Layout;
+use crate::equations::rates::Rates;
+use crate::equations::variables::{Variables, motion};
 
 /// What the equations of a mode compute: its variables and the time in, their rates out. They do
 /// not branch, so that one recording holds for the whole mode.

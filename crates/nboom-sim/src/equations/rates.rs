@@ -3,8 +3,8 @@ use nboom_elements::ThrustForce;
 use nboom_model::Scene;
 use nboom_scalar::{Real, Vec3};
 
-use crate::layout::Layout;
-use crate::variables::attitude;
+use crate::equations::layout::Layout;
+use crate::equations::variables::attitude;
 
 /// The rates of change of all variables of a mode, over any scalar, once accelerations are known.
 pub(crate) struct Rates<R> {

@@ -4,18 +4,18 @@ use nboom_dynamics::Recursive;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{DoubleDouble, Real};
 
+use crate::certify::expansion::{Accuracy, Expansion};
+use crate::equations::layout::Layout;
+use crate::equations::series::exact_graph;
+use crate::equations::sizes::Sizes;
+use crate::equations::state::State;
+use crate::equations::variables::Variables;
 use crate::error::SimError;
-use crate::expansion::{Accuracy, Expansion};
-use crate::guard::{GuardKind, Guards, Reading, read};
-use crate::instant::{self, Arrivals};
-use crate::layout::Layout;
-use crate::record::{Event, Snapshot};
-use crate::series::exact_graph;
-use crate::sizes::Sizes;
-use crate::snapshot;
-use crate::start::Start;
-use crate::state::State;
-use crate::variables::Variables;
+use crate::events::guard::{GuardKind, Guards, Reading, read};
+use crate::events::instant::{self, Arrivals};
+use crate::events::start::Start;
+use crate::run::record::{Event, Snapshot};
+use crate::run::snapshot;
 
 /// Corrections after which an event's time is as good as it gets.
 const CORRECTIONS: usize = 20;

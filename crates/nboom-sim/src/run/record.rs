@@ -5,10 +5,10 @@ use nboom_model::HingeState;
 use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3};
 
-use crate::conservation::Conservation;
-use crate::selection::{CodeOfRun, Selection};
-use crate::step_motion::StepMotion;
-use crate::verdict::Verdict;
+use crate::code::selection::{CodeOfRun, Selection};
+use crate::run::conservation::Conservation;
+use crate::run::step_motion::StepMotion;
+use crate::run::verdict::Verdict;
 
 /// What a run tells while it goes on: a snapshot at every output time, and every event.
 ///

@@ -3,7 +3,7 @@
 
 use nboom_model::{MassProperties, Scene};
 
-use crate::record::Snapshot;
+use crate::run::record::Snapshot;
 
 /// Share of the motion below which a quantity is none: far above what rounding grows to, far below
 /// what anybody asks about.

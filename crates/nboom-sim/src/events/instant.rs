@@ -3,11 +3,11 @@ use nboom_elements::{thrust_acts, thrust_change};
 use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
+use crate::equations::state::State;
 use crate::error::SimError;
-use crate::guard::{Bound, GuardKind, Guards, read};
-use crate::ledger::totals;
-use crate::record::{Event, EventKind, Jump, Totals};
-use crate::state::State;
+use crate::events::guard::{Bound, GuardKind, Guards, read};
+use crate::run::ledger::totals;
+use crate::run::record::{Event, EventKind, Jump, Totals};
 
 /// Angle \[rad\] through which the fastest hinge that arrives turns in one instant; of a line, the
 /// share of the length at which it arrives by which it changes.

@@ -3,13 +3,13 @@ use nboom_elements::gravity_potential;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Vec3};
 
-use crate::conservation::Conservation;
+use crate::certify::scales::reach;
 use crate::equations::Equations;
+use crate::equations::state::State;
 use crate::error::SimError;
-use crate::finite::Check;
-use crate::record::Totals;
-use crate::scales::reach;
-use crate::state::State;
+use crate::run::conservation::Conservation;
+use crate::run::finite::Check;
+use crate::run::record::Totals;
 
 /// Share of the momentum that the energy could make, below which bodies' own momenta are rounding.
 const ROUNDING: f64 = 1e-7;

@@ -6,10 +6,10 @@ use nboom_model::{
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::*;
-use crate::options::Options;
-use crate::record::EventKind;
+use crate::certify::trust::Witness;
+use crate::run::options::Options;
+use crate::run::record::EventKind;
 use crate::run::simulate;
-use crate::trust::Witness;
 
 /// Two booms of two segments on springs, which unfold in a spin and lock; one hinge is released on
 /// the way. Nothing acts from outside. All that the scene states is exact on `f64`, matrices of

@@ -6,14 +6,14 @@ use nboom_model::Scene;
 use nboom_ode::Method;
 use nboom_scalar::Vec3;
 
+use crate::certify::expansion::Accuracy;
+use crate::certify::replay::Replay;
+use crate::certify::scales::{Largest, Scales, natural};
 use crate::error::Failure;
-use crate::expansion::Accuracy;
-use crate::options::Options;
-use crate::record::{Event, EventKind, InstantMotion, Recorder, Snapshot, Summary};
-use crate::replay::Replay;
+use crate::run::options::Options;
+use crate::run::record::{Event, EventKind, InstantMotion, Recorder, Snapshot, Summary};
 use crate::run::simulate;
-use crate::scales::{Largest, Scales, natural};
-use crate::step_motion::StepMotion;
+use crate::run::step_motion::StepMotion;
 
 /// The reference's tolerances are this many times tighter, as far as rounding allows.
 const TIGHTER: f64 = 1e-3;

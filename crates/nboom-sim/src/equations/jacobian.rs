@@ -2,9 +2,9 @@ use nboom_dynamics::{Accelerations, Recursive};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Dual, Real, Vec3};
 
-use crate::layout::Layout;
-use crate::rates::Rates;
-use crate::variables::motion;
+use crate::equations::layout::Layout;
+use crate::equations::rates::Rates;
+use crate::equations::variables::motion;
 
 /// Derivatives of the equations of one mode with respect to its variables: the recursion over
 /// dual numbers, one variable at a time.
@@ -67,8 +67,8 @@ impl Jacobian {
 mod tests {
     use super::*;
     use crate::equations::Equations;
-    use crate::options::Options;
-    use crate::state::State;
+    use crate::equations::state::State;
+    use crate::run::options::Options;
     use nboom_model::HingeState;
     use nboom_ode::System;
 

@@ -3,10 +3,10 @@ use nboom_model::{Mode, Scene};
 use nboom_scalar::{Number, Quaternion};
 
 use crate::equations::Equations;
-use crate::ledger::totals;
-use crate::record::{Detail, Snapshot};
-use crate::state::State;
-use crate::step_motion::Forces;
+use crate::equations::state::State;
+use crate::run::ledger::totals;
+use crate::run::record::{Detail, Snapshot};
+use crate::run::step_motion::Forces;
 
 /// What a recorder that needs no detail sees of `state`; `dynamics` is in `mode`.
 pub(crate) fn take<R: Number>(

@@ -3,8 +3,8 @@
 use nboom_model::Scene;
 
 use crate::error::{Failure, SimError};
-use crate::options::Options;
-use crate::record::Recorder;
+use crate::run::options::Options;
+use crate::run::record::Recorder;
 use crate::run::simulate;
 
 /// Ends a run before its first step.

@@ -3,8 +3,8 @@ use nboom_elements::gravity;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Quaternion, Real, Vec3};
 
-use crate::layout::Layout;
-use crate::state::{MassCenter, State};
+use crate::equations::layout::Layout;
+use crate::equations::state::{MassCenter, State};
 
 /// The way between the variables of a mode and states.
 #[derive(Clone, Debug)]

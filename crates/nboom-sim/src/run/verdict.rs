@@ -1,6 +1,6 @@
 use nboom_model::HingeState;
 
-use crate::record::{Event, EventKind};
+use crate::run::record::{Event, EventKind};
 
 /// What became of the hinges of a scene.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,8 @@ use nboom_formulation::{Layout, Recognised, recognise};
 use nboom_model::{HingeLabel, Scene};
 use nboom_scalar::{Kernel, Vec3};
 
-use crate::fit::{Fit, Repertoire};
-use crate::options::{Form, Options};
+use crate::code::fit::{Fit, Repertoire};
+use crate::run::options::{Form, Options};
 
 /// A generated routine fitted to a scene in one mode.
 #[derive(Clone, Debug)]

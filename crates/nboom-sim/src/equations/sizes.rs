@@ -1,8 +1,8 @@
 use nboom_model::Scene;
 use nboom_scalar::Vec3;
 
-use crate::layout::Layout;
-use crate::scales::reach;
+use crate::certify::scales::reach;
+use crate::equations::layout::Layout;
 
 /// Natural sizes of the variables: one for attitude and angles, a rate for rates, a length for the way
 /// that the thrust displaces the mass centre. They follow the scene's units, so that no step depends

@@ -1,0 +1,5 @@
+//! Instants in which something happens: when they come, and what they change.
+
+pub(crate) mod guard;
+pub(crate) mod instant;
+pub(crate) mod start;
