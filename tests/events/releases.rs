@@ -1,6 +1,6 @@
 //! When an unreleased hinge becomes free, against closed forms.
 
-use nboom::model::{Hinge, HingeLabel, HingeStart, HingeState, ModelWarning, Release};
+use nboom::model::{Hinge, HingeLabel, HingeStart, HingeState, ModelWarning, Release, SAME_ANGLE};
 use nboom::sim::EventKind::{LockUp, Release as Released};
 
 use crate::collect::{run, tight};
@@ -88,6 +88,20 @@ fn the_lock_angle_of_the_trigger_counts_as_reached() {
     let waits = waiting(Release::Angle { hinge: 1, angle });
     let (found, _) = run(&scene(&[waits, trigger], 2.0), &tight(1));
     let [(LockUp, Some(1), lock), (Released, Some(0), release)] = found.happenings()[..] else {
+        panic!("a lock-up, then a release: {:?}", found.happenings())
+    };
+    assert_eq!(lock, release);
+}
+
+/// The angle that releases lies beyond the lock angle by less than two angles differ, and the trigger is so
+/// slow that it would not come there within the instant.
+#[test]
+fn a_slow_trigger_that_locks_has_reached_its_angle() {
+    let (angle, rate) = (0.7, 1e-7);
+    let trigger = locking_at(free(angle - 5e-9, rate), angle);
+    let waits = waiting(Release::Angle { hinge: 0, angle: angle + 0.9 * SAME_ANGLE });
+    let (found, _) = run(&scene(&[trigger, waits], 1.0), &tight(1));
+    let [(LockUp, Some(0), lock), (Released, Some(1), release)] = found.happenings()[..] else {
         panic!("a lock-up, then a release: {:?}", found.happenings())
     };
     assert_eq!(lock, release);

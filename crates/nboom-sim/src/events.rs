@@ -2,4 +2,4 @@
 
 pub(crate) mod guard;
 pub(crate) mod instant;
-pub(crate) mod start;
+pub(crate) mod situation;

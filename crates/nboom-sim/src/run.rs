@@ -1,4 +1,4 @@
-use nboom_model::{Mode, Scene};
+use nboom_model::Scene;
 use nboom_ode::Stepper;
 
 use crate::code::selection::Selection;
@@ -7,9 +7,9 @@ use crate::equations::attitude_norm::AttitudeNorm;
 use crate::equations::layout::Layout;
 use crate::equations::state::State;
 use crate::error::{Failure, SimError};
-use crate::events::guard::{GuardKind, Guards, read};
+use crate::events::guard::{GuardKind, read};
 use crate::events::instant::{self, Arrivals};
-use crate::events::start::Start;
+use crate::events::situation::Situation;
 use crate::run::ledger::{Ledger, totals};
 use crate::run::options::Options;
 use crate::run::record::{Event, EventKind, Integration, Recorder, Summary};
@@ -53,16 +53,12 @@ pub fn simulate(
 const CORRECTIONS: usize = 8;
 
 struct Run<'a> {
-    scene: &'a Scene,
     options: Options,
     recorder: &'a mut dyn Recorder,
-    mode: Mode,
-    state: State,
+    situation: Situation<'a, f64>,
     scratch: State,
     equations: Equations,
     stepper: Box<dyn Stepper>,
-    guards: Guards,
-    lock_sides: Vec<f64>,
     ledger: Ledger,
     variables: Vec<f64>,
     next_sample: usize,
@@ -81,25 +77,22 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(scene: &'a Scene, options: Options, recorder: &'a mut dyn Recorder) -> Self {
-        let Start { state, mode, lock_sides } = Start::of(scene);
-        let mut equations = Equations::new(scene, &state, &options);
+        let situation = Situation::at_start(scene);
+        let Situation { state, mode, .. } = &situation;
+        let mut equations = Equations::new(scene, state, &options);
         let mut variables = Vec::new();
-        equations.enter(scene, &mode, &state, &mut variables);
+        equations.enter(scene, mode, state, &mut variables);
         let room = Room::new(scene, equations.dynamics.elements());
         Self {
-            scene,
             options,
             recorder,
-            lock_sides,
-            ledger: Ledger::new(scene, &mut equations, &state),
-            resources: Resources::of(scene, &mut equations, &state),
+            ledger: Ledger::new(scene, &mut equations, state),
+            resources: Resources::of(scene, &mut equations, state),
             scratch: state.clone(),
             verdict: Verdict::of(&mode.hinges, &state.beta),
-            mode,
-            state,
+            situation,
             equations,
             stepper: options.stepper(),
-            guards: Guards::new(),
             variables,
             next_sample: 0,
             events: 0,
@@ -113,58 +106,37 @@ impl<'a> Run<'a> {
     }
 
     fn complete(&mut self) -> Result<(), SimError> {
-        self.options.check_span(self.scene.end_time - self.scene.initial.time)?;
-        let Self { scene, mode, state, equations, guards, lock_sides, .. } = self;
-        guards.set(scene, mode, &mut equations.dynamics, state, lock_sides, &[]);
-        let mut arrivals = Arrivals::at_start(scene, guards, &mut equations.dynamics, state);
+        self.options
+            .check_span(self.situation.scene.end_time - self.situation.scene.initial.time)?;
+        let dynamics = &mut self.equations.dynamics;
+        self.situation.watch(dynamics, &[]);
+        let mut arrivals = self.situation.arrivals_at_start(dynamics);
         loop {
             self.pass_instant(&arrivals)?;
             self.sample_here()?;
-            if self.state.time >= self.scene.end_time {
+            if self.situation.is_at_end() {
                 return self.finish();
             }
             let located = self.integrate_to_next_instant()?;
-            arrivals = Arrivals::find(
-                self.scene,
-                &self.guards,
-                &mut self.equations.dynamics,
-                &self.state,
-                located,
-            );
+            arrivals = self.situation.arrivals(&mut self.equations.dynamics, located);
         }
     }
 
     /// Changes the mode as the instant demands and starts integration anew.
     fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<(), SimError> {
-        for i in 0..self.lock_sides.len() {
-            self.lock_sides[i] = self.guards.lock_side(i).unwrap_or(self.lock_sides[i]);
-        }
         let before = self.before_instant(arrivals)?;
-        let outcome = instant::pass(
-            self.scene,
-            &mut self.equations.dynamics,
-            arrivals,
-            &mut self.state,
-            &mut self.mode,
-            &mut self.lock_sides,
-        )?;
-        self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
+        let outcome = self.situation.pass(&mut self.equations.dynamics, arrivals)?;
+        let Situation { scene, state, mode, .. } = &self.situation;
+        let (scene, time) = (*scene, state.time);
+        self.equations.enter(scene, mode, state, &mut self.variables);
         self.check_regular()?;
         self.check_lines()?;
         self.select()?;
         let controlled = self.equations.variables.layout.controlled();
-        let time = self.state.time;
         self.attitude_norm.put_back();
         self.stepper.start(&mut self.equations, time, &self.variables, controlled);
-        self.guards.set(
-            self.scene,
-            &self.mode,
-            &mut self.equations.dynamics,
-            &self.state,
-            &self.lock_sides,
-            &outcome.crossed,
-        );
-        finite::check_instant(self.scene, time, &outcome.events, &outcome.jumps)?;
+        self.situation.watch(&mut self.equations.dynamics, &outcome.crossed);
+        finite::check_instant(scene, time, &outcome.events, &outcome.jumps)?;
         if !outcome.events.is_empty() {
             self.tell_instant(before, outcome.jumps)?;
         }
@@ -172,18 +144,18 @@ impl<'a> Run<'a> {
         self.check_chatter(&outcome.events)
     }
 
-    /// Integrates until a guard changes sign, something is scheduled, or the end; leaves
-    /// `state` there. Returns the guard.
+    /// Integrates until a guard changes sign, something is scheduled, or the end, and leaves the
+    /// situation there. Returns the guard.
     fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
-        let scheduled = instant::next_scheduled(self.scene, &self.mode, self.state.time);
-        let limit = scheduled.min(self.scene.end_time);
+        let limit = self.situation.limit();
         loop {
             self.step(limit)?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
-            if sample_due || self.recorder.needs_steps() || !self.guards.list.is_empty() {
+            let guards = &self.situation.guards;
+            if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
                 self.stepper.prepare_dense(&mut self.equations);
             }
-            let change = self.guards.first_change(self.scene, &mut self.equations, &*self.stepper);
+            let change = guards.first_change(&mut self.equations, &*self.stepper);
             if let Some((kind, fraction)) = change {
                 let full = self.stepper.window().length();
                 self.locate(kind, fraction * full, full);
@@ -196,15 +168,16 @@ impl<'a> Run<'a> {
             self.sample_within(full, self.stepper.window().end_time)?;
             self.tell_step(full)?;
             self.accept();
-            self.guards.settle(self.scene, &mut self.equations.dynamics, &self.state);
-            if self.state.time >= limit {
+            let Situation { state, guards, .. } = &mut self.situation;
+            guards.settle(&mut self.equations.dynamics, state);
+            if state.time >= limit {
                 return Ok(None);
             }
         }
     }
 
     fn step(&mut self, limit: f64) -> Result<(), SimError> {
-        self.check_interrupt(self.state.time)?;
+        self.check_interrupt(self.situation.state.time)?;
         self.check_progress()?;
         self.check_growth()?;
         let taken = self.stepper.step(&mut self.equations, limit);
@@ -231,7 +204,7 @@ impl<'a> Run<'a> {
             let window = self.stepper.window();
             let time = window.end_time;
             self.equations.read(time, &window.end_state, &mut self.scratch);
-            let reading = read(kind, self.scene, &mut self.equations.dynamics, &self.scratch);
+            let reading = read(kind, &mut self.equations.dynamics, &self.scratch);
             let correction = -reading.value / reading.rate;
             let better = correction.abs() < 0.5 * last_correction;
             let matters = self.stepper.window().time + (step + correction) != time;
@@ -256,18 +229,21 @@ impl<'a> Run<'a> {
             self.attitude_norm.put_back();
         }
         let window = self.stepper.window();
-        self.equations.read(window.time, &window.state, &mut self.state);
+        self.equations.read(window.time, &window.state, &mut self.situation.state);
     }
 
     /// Whether `time` is before `other` and not in its instant, which the fastest motion of all makes.
     fn is_before(&self, time: f64, other: f64) -> bool {
-        time < other - instant::duration(self.scene, time, self.equations.fastest())
+        time < other - instant::duration(self.situation.scene, time, self.equations.fastest())
     }
 
     fn finish(&mut self) -> Result<(), SimError> {
-        let now = totals(&self.state, &self.state.invariants(&mut self.equations.dynamics));
+        let now = totals(
+            &self.situation.state,
+            &self.situation.state.invariants(&mut self.equations.dynamics),
+        );
         let end = Event {
-            time: self.state.time,
+            time: self.situation.state.time,
             kind: EventKind::End,
             hinge: None,
             impulse: None,
@@ -279,7 +255,7 @@ impl<'a> Run<'a> {
 
     /// Chooses the code for the mode, and notes when that is a change.
     fn select(&mut self) -> Result<(), SimError> {
-        let selection = self.equations.select(self.scene, &self.options)?;
+        let selection = self.equations.select(self.situation.scene, &self.options)?;
         self.selections = self.counted_selections();
         let same = |last: &Selection| {
             let Selection { since, evaluations, .. } = *last;
@@ -304,7 +280,7 @@ impl<'a> Run<'a> {
     fn summary(&self) -> Summary {
         let counts = self.stepper.window().counts;
         Summary {
-            end_time: self.state.time,
+            end_time: self.situation.state.time,
             steps_accepted: counts.accepted,
             steps_rejected: counts.rejected,
             evaluations: counts.evaluations,
@@ -315,7 +291,9 @@ impl<'a> Run<'a> {
             integrator: self.options.integrator.name(),
             integrations: self.integrations.clone(),
             selections: self.counted_selections(),
-            verdict: self.verdict.ending_with(&self.mode.hinges, &self.state.beta),
+            verdict: self
+                .verdict
+                .ending_with(&self.situation.mode.hinges, &self.situation.state.beta),
             attitude_drift: self.attitude_norm.largest_drift,
         }
     }

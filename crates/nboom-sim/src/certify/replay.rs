@@ -1,7 +1,7 @@
 //! A run in double-double that follows the events of a run on `f64`.
 
 use nboom_dynamics::Recursive;
-use nboom_model::{Mode, Scene};
+use nboom_model::Scene;
 use nboom_scalar::{DoubleDouble, Real};
 
 use crate::certify::expansion::{Accuracy, Expansion};
@@ -11,9 +11,9 @@ use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
 use crate::equations::variables::Variables;
 use crate::error::SimError;
-use crate::events::guard::{GuardKind, Guards, Reading, read};
+use crate::events::guard::{GuardKind, Reading, read};
 use crate::events::instant::{self, Arrivals};
-use crate::events::start::Start;
+use crate::events::situation::Situation;
 use crate::run::record::{Event, Snapshot};
 use crate::run::snapshot;
 
@@ -30,18 +30,14 @@ const LOCATED: f64 = 1e-20;
 /// method, and all others must not have changed sign at the end of any step. Equations, guards
 /// and what an instant does are those of every run.
 pub(crate) struct Replay<'a> {
-    scene: &'a Scene,
     guide: &'a [Event],
     accuracy: Accuracy,
     most_steps: usize,
     interrupted: &'a dyn Fn() -> bool,
     steps: usize,
     dynamics: Recursive<DoubleDouble>,
-    pub mode: Mode,
-    pub state: State<DoubleDouble>,
+    pub situation: Situation<'a, DoubleDouble>,
     scratch: State<DoubleDouble>,
-    lock_sides: Vec<f64>,
-    guards: Guards,
     sizes: Sizes,
     /// What has happened so far.
     pub events: Vec<Event>,
@@ -74,9 +70,8 @@ impl<'a> Replay<'a> {
         most_steps: usize,
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
-        let Start { state, mode, lock_sides } = Start::of(scene);
+        let situation = Situation::at_start(scene);
         Self {
-            scene,
             guide,
             accuracy,
             most_steps,
@@ -84,11 +79,8 @@ impl<'a> Replay<'a> {
             steps: 0,
             dynamics: Recursive::new(scene),
             sizes: Sizes::of(scene),
-            mode,
-            scratch: state.clone(),
-            state,
-            lock_sides,
-            guards: Guards::new(),
+            scratch: situation.state.clone(),
+            situation,
             events: Vec::new(),
         }
     }
@@ -98,10 +90,10 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// When the motion cannot be followed or an event not be located.
     pub fn complete(&mut self) -> Result<bool, SimError> {
-        let Self { scene, mode, guards, dynamics, state, lock_sides, .. } = self;
-        dynamics.set_mode(mode, &state.beta);
-        guards.set(scene, mode, dynamics, state, lock_sides, &[]);
-        let mut arrivals = Arrivals::at_start(scene, guards, dynamics, state);
+        let Self { situation, dynamics, .. } = self;
+        dynamics.set_mode(&situation.mode, &situation.state.beta);
+        situation.watch(dynamics, &[]);
+        let mut arrivals = situation.arrivals_at_start(dynamics);
         loop {
             let crossed = self.pass_instant(&arrivals)?;
             let kinds = |events: &[Event]| -> Vec<_> {
@@ -110,7 +102,7 @@ impl<'a> Replay<'a> {
             if !kinds(self.guide).starts_with(&kinds(&self.events)) {
                 return Ok(false);
             }
-            if self.state.time.to_f64() >= self.scene.end_time {
+            if self.situation.is_at_end() {
                 return Ok(self.events.len() == self.guide.len());
             }
             let course = self.enter(&crossed);
@@ -119,32 +111,33 @@ impl<'a> Replay<'a> {
                 Ending::Schedule => None,
                 Ending::Astray => return Ok(false),
             };
-            let Self { scene, guards, dynamics, state, .. } = self;
-            arrivals = Arrivals::find(scene, guards, dynamics, state, located);
+            arrivals = self.situation.arrivals(&mut self.dynamics, located);
         }
     }
 
     /// What a recorder sees of the present state.
     pub fn snapshot(&mut self) -> Snapshot {
-        snapshot::take(self.scene, &self.mode, &mut self.dynamics, &self.state)
+        snapshot::take(
+            self.situation.scene,
+            &self.situation.mode,
+            &mut self.dynamics,
+            &self.situation.state,
+        )
     }
 
     /// Changes the mode as the instant demands; returns the elements that have passed a bound.
     fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<Vec<(usize, usize)>, SimError> {
-        for (i, side) in self.lock_sides.iter_mut().enumerate() {
-            *side = self.guards.lock_side(i).unwrap_or(*side);
-        }
-        let Self { scene, dynamics, state, mode, lock_sides, .. } = self;
-        let outcome = instant::pass(scene, dynamics, arrivals, state, mode, lock_sides)?;
-        dynamics.set_mode(mode, &state.beta);
+        let Self { situation, dynamics, .. } = self;
+        let outcome = situation.pass(dynamics, arrivals)?;
+        dynamics.set_mode(&situation.mode, &situation.state.beta);
         self.events.extend(outcome.events);
         Ok(outcome.crossed)
     }
 
     /// Takes up the mode at the present state.
     fn enter(&mut self, crossed: &[(usize, usize)]) -> Course {
-        let Self { scene, mode, dynamics, state, lock_sides, .. } = self;
-        self.guards.set(scene, mode, dynamics, state, lock_sides, crossed);
+        self.situation.watch(&mut self.dynamics, crossed);
+        let (dynamics, Situation { scene, state, mode, .. }) = (&self.dynamics, &self.situation);
         let thrust = dynamics.elements().thrust().is_some();
         let free = dynamics.free_hinges().len();
         let (momentum, dashpots) = (None, false);
@@ -166,15 +159,14 @@ impl<'a> Replay<'a> {
 
     /// Goes on until the guide's next event, something scheduled, or the end.
     fn follow(&mut self, mut course: Course) -> Result<Ending, SimError> {
-        let scheduled = instant::next_scheduled(self.scene, &self.mode, self.state.time.to_f64());
-        let limit = scheduled.min(self.scene.end_time);
+        let limit = self.situation.limit();
         let (expected, awaited) = self.awaited();
         loop {
-            let since_start = self.state.time - course.variables.origin.time;
+            let since_start = self.situation.state.time - course.variables.origin.time;
             let reach = course.expansion.expand(since_start, &course.now);
             self.check_step(reach)?;
-            let remaining = exact(limit) - self.state.time;
-            let guess = expected - self.state.time.to_f64();
+            let remaining = exact(limit) - self.situation.state.time;
+            let guess = expected - self.situation.state.time.to_f64();
             let is_near = guess <= reach;
             let first =
                 if is_near { self.first(&awaited, guess, reach, &mut course)? } else { None };
@@ -193,7 +185,7 @@ impl<'a> Replay<'a> {
             if let Some(ending) = ending {
                 return Ok(ending);
             }
-            self.guards.settle(self.scene, &mut self.dynamics, &self.state);
+            self.situation.guards.settle(&mut self.dynamics, &self.situation.state);
         }
     }
 
@@ -203,7 +195,7 @@ impl<'a> Replay<'a> {
         let expected = next.first().map_or(f64::INFINITY, |event| event.time);
         let tells = |event: &&Event| event.time == expected;
         let events: Vec<&Event> = next.iter().take_while(tells).collect();
-        let kinds = self.guards.list.iter().map(|guard| guard.kind);
+        let kinds = self.situation.guards.list.iter().map(|guard| guard.kind);
         let is_told = |kind: &GuardKind| {
             let tells =
                 |event: &&Event| event.kind == kind.event() && event.hinge == Some(kind.hinge());
@@ -232,9 +224,9 @@ impl<'a> Replay<'a> {
 
     /// How long an instant would last that a guard makes as fast as it is now.
     fn instant_of(&mut self, kind: GuardKind) -> f64 {
-        let reading = read(kind, self.scene, &mut self.dynamics, &self.state);
+        let reading = read(kind, &mut self.dynamics, &self.situation.state);
         let pace = kind.pace(self.dynamics.elements(), reading);
-        instant::duration(self.scene, self.state.time.to_f64(), pace)
+        instant::duration(self.situation.scene, self.situation.state.time.to_f64(), pace)
     }
 
     /// When a guard is zero, as time since the present, by Newton's method.
@@ -248,7 +240,7 @@ impl<'a> Replay<'a> {
         let (mut since, mut last) = (exact(guess), f64::INFINITY);
         for _ in 0..CORRECTIONS {
             self.look(since, course);
-            let Reading { value, rate } = read(kind, self.scene, &mut self.dynamics, &self.scratch);
+            let Reading { value, rate } = read(kind, &mut self.dynamics, &self.scratch);
             let correction = value / rate;
             let size = correction.to_f64().abs();
             let better = size < 0.5 * last;
@@ -258,17 +250,20 @@ impl<'a> Replay<'a> {
             since -= correction;
             last = size;
         }
-        if last <= LOCATED * reach.min(self.scene.end_time - self.scene.initial.time) {
+        if last
+            <= LOCATED
+                * reach.min(self.situation.scene.end_time - self.situation.scene.initial.time)
+        {
             return Ok(since);
         }
-        let hinge = self.scene.label(kind.hinge());
+        let hinge = self.situation.scene.label(kind.hinge());
         Err(SimError::NotLocated { time: self.scratch.time.to_f64(), hinge })
     }
 
     /// Sets `scratch` to the state `since` after the present one.
     fn look(&mut self, since: DoubleDouble, course: &mut Course) {
         course.expansion.evaluate(since, &mut course.then);
-        let time = self.state.time + since;
+        let time = self.situation.state.time + since;
         course.variables.read(&mut self.dynamics, time, &course.then, &mut self.scratch);
     }
 
@@ -281,21 +276,26 @@ impl<'a> Replay<'a> {
         course: &mut Course,
     ) -> bool {
         self.look(since, course);
-        std::mem::swap(&mut self.state, &mut self.scratch);
+        std::mem::swap(&mut self.situation.state, &mut self.scratch);
         std::mem::swap(&mut course.now, &mut course.then);
-        !self.guards.missed(self.scene, &mut self.dynamics, &self.state, awaited)
+        !self.situation.guards.missed(
+            self.situation.scene,
+            &mut self.dynamics,
+            &self.situation.state,
+            awaited,
+        )
     }
 
     /// Refuses a step that leads nowhere.
     fn check_step(&mut self, reach: f64) -> Result<(), SimError> {
-        let time = self.state.time.to_f64();
+        let time = self.situation.state.time.to_f64();
         if (self.interrupted)() {
             return Err(SimError::Interrupted { time });
         }
         if reach.is_nan() {
             return Err(SimError::NotFinite { time, hinge: None });
         }
-        if self.state.time + exact(reach) == self.state.time {
+        if self.situation.state.time + exact(reach) == self.situation.state.time {
             return Err(SimError::StepUnderflow { time, step: reach, hinge: None });
         }
         self.steps += 1;

@@ -310,11 +310,44 @@ fn of_list(quantity: &'static str, run: &[f64], truth: &[f64], size: f64) -> Dig
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::record::Totals;
 
     #[test]
     fn digits_are_counted_down_from_sixteen() {
         let count = |difference| Digits { quantity: "x", difference }.count();
         assert_eq!([0.0, 1e-20, 2e-10, 0.99e-9, 0.5, 1.0, 7.0].map(count), [16, 16, 9, 9, 0, 0, 0]);
         assert_eq!(count(f64::NAN), 0);
+    }
+
+    #[test]
+    fn impulses_differ_in_shares_of_their_size() {
+        let none = Totals {
+            kinetic_energy: 1.0,
+            linear_momentum_inertial: Vec3::zero(),
+            angular_momentum_inertial: Vec3::zero(),
+        };
+        let lock_up = |impulse| Event {
+            time: 1.0,
+            kind: EventKind::LockUp,
+            hinge: Some(0),
+            impulse: Some(impulse),
+            before: none,
+            after: none,
+        };
+        let of_one = Scales {
+            time: 1.0,
+            omega: 1.0,
+            beta: 1.0,
+            tau: 1.0,
+            rho: 1.0,
+            v: 1.0,
+            impulse: 1.0,
+            force: 1.0,
+            moment: 1.0,
+        };
+        let found = compare(0.0, &lock_up(-4003.0), &lock_up(-4000.0), &of_one);
+        let impulse = found.impulse.expect("both have one");
+        // 3 of 4000, and a rounding.
+        assert!((impulse.difference - 7.5e-4).abs() < 1e-18, "{}", impulse.difference);
     }
 }

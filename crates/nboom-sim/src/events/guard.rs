@@ -16,12 +16,12 @@ pub(crate) struct Guard {
     side: Side,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum GuardKind {
     /// β of the hinge less its lock angle.
-    Lock { hinge: usize },
+    Lock { hinge: usize, angle: f64 },
     /// β of `trigger` less the angle at which it releases `hinge`.
-    Trigger { hinge: usize, trigger: usize },
+    Trigger { hinge: usize, trigger: usize, angle: f64 },
     /// The length or angle of an element less a bound of its law.
     Bound(Bound),
 }
@@ -51,7 +51,7 @@ impl GuardKind {
     /// The hinge to which something happens when it changes sign.
     pub fn hinge(self) -> usize {
         match self {
-            Self::Lock { hinge } | Self::Trigger { hinge, .. } => hinge,
+            Self::Lock { hinge, .. } | Self::Trigger { hinge, .. } => hinge,
             Self::Bound(bound) => bound.element.hinge,
         }
     }
@@ -81,6 +81,37 @@ impl GuardKind {
         match self {
             Self::Lock { .. } | Self::Trigger { .. } => 0.0,
             Self::Bound(bound) => bound.scale(elements),
+        }
+    }
+}
+
+/// On which side of its lock angle a hinge is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LockSide {
+    Below,
+    Above,
+}
+
+impl LockSide {
+    /// That of `hinge` at the angle `beta`; none where it has no lock angle or is on it.
+    pub fn of<R: Number>(scene: &Scene, hinge: usize, beta: R) -> Option<Self> {
+        let angle = scene.bodies[hinge].hinge.lock_angle?;
+        Self::of_sign((beta - R::constant(angle)).to_f64())
+    }
+
+    fn of_sign(from_lock: f64) -> Option<Self> {
+        match from_lock {
+            below if below < 0.0 => Some(Self::Below),
+            above if above > 0.0 => Some(Self::Above),
+            _ => None,
+        }
+    }
+
+    /// The sign of the angle less the lock angle.
+    fn sign(self) -> f64 {
+        match self {
+            Self::Below => -1.0,
+            Self::Above => 1.0,
         }
     }
 }
@@ -137,38 +168,37 @@ impl Guards {
         Self { list: Vec::new(), interpolation: Interpolation::new() }
     }
 
-    /// Sets the guards of `mode` at `state`. `lock_sides` has the sign of β − β_lock when each
-    /// hinge became free, zero for one that was on its lock angle and has not left it;
-    /// `crossed` has the elements that are at a bound just now, and which.
+    /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
+    /// hinge is on, none for one that was on it when it became free and has not left it; `crossed`
+    /// has the elements that are at a bound just now, and which.
     pub fn set<R: Number>(
         &mut self,
         scene: &Scene,
         mode: &Mode,
         dynamics: &mut Recursive<R>,
         state: &State<R>,
-        lock_sides: &[f64],
+        lock_sides: &[Option<LockSide>],
         crossed: &[(usize, usize)],
     ) {
         self.list.clear();
         for (i, body) in scene.bodies.iter().enumerate() {
-            if mode.is_free(i) && body.hinge.lock_angle.is_some() {
-                let side = match lock_sides[i] {
-                    0.0 => Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() },
-                    sign => Side::Known(sign),
-                };
-                self.list.push(Guard { kind: GuardKind::Lock { hinge: i }, side });
+            if let Some(angle) = body.hinge.lock_angle.filter(|_| mode.is_free(i)) {
+                let leaving = Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() };
+                let side = lock_sides[i].map_or(leaving, |side| Side::Known(side.sign()));
+                self.list.push(Guard { kind: GuardKind::Lock { hinge: i, angle }, side });
             }
             if let Release::Angle { hinge: trigger, angle } = body.hinge.release
                 && mode.hinges[i] == HingeState::Unreleased
                 && mode.is_free(trigger)
             {
                 let side = Side::Known((state.beta[trigger].to_f64() - angle).signum());
-                self.list.push(Guard { kind: GuardKind::Trigger { hinge: i, trigger }, side });
+                let kind = GuardKind::Trigger { hinge: i, trigger, angle };
+                self.list.push(Guard { kind, side });
             }
         }
         for bound in bounds(dynamics, mode) {
             let (kind, sign) = (GuardKind::Bound(bound), if bound.rises { -1.0 } else { 1.0 });
-            let Reading { value, rate } = read(kind, scene, dynamics, state);
+            let Reading { value, rate } = read(kind, dynamics, state);
             let at_bound = crossed.contains(&(bound.element.index, bound.number))
                 || value.to_f64().abs() <= AT_BOUND * bound.scale(dynamics.elements());
             let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == R::zero() };
@@ -181,13 +211,12 @@ impl Guards {
     /// and at which fraction of it.
     pub fn first_change(
         &self,
-        scene: &Scene,
         equations: &mut Equations,
         stepper: &dyn Stepper,
     ) -> Option<(GuardKind, f64)> {
         let mut first: Option<(GuardKind, f64)> = None;
         for guard in &self.list {
-            let change = match watched(guard.kind, scene, equations.dynamics.elements()) {
+            let change = match watched(guard.kind, equations.dynamics.elements()) {
                 (Coordinate::Length(line), limit) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)
                 }
@@ -203,15 +232,10 @@ impl Guards {
     }
 
     /// Notes on which side of zero each guard that had been leaving it is at `state`.
-    pub fn settle<R: Number>(
-        &mut self,
-        scene: &Scene,
-        dynamics: &mut Recursive<R>,
-        state: &State<R>,
-    ) {
+    pub fn settle<R: Number>(&mut self, dynamics: &mut Recursive<R>, state: &State<R>) {
         for guard in &mut self.list {
             if let Side::Leaving { .. } = guard.side {
-                let value = read(guard.kind, scene, dynamics, state).value.to_f64();
+                let value = read(guard.kind, dynamics, state).value.to_f64();
                 let scale = guard.kind.scale(dynamics.elements());
                 if value.abs() > BEYOND_ROUNDING * scale {
                     guard.side = Side::Known(value.signum());
@@ -230,12 +254,12 @@ impl Guards {
         located: Option<GuardKind>,
     ) -> bool {
         let of_located = located.map_or(0.0, |kind| {
-            let reading = read(kind, scene, dynamics, state);
+            let reading = read(kind, dynamics, state);
             kind.pace(dynamics.elements(), reading)
         });
         let mut others = self.list.iter().filter(|guard| Some(guard.kind) != located);
         others.any(|guard| {
-            let reading = read(guard.kind, scene, dynamics, state);
+            let reading = read(guard.kind, dynamics, state);
             let value = reading.value.to_f64();
             let has_left = match guard.side {
                 Side::Known(sign) => value * sign < 0.0,
@@ -250,13 +274,13 @@ impl Guards {
     }
 
     /// The side that a lock guard of `hinge` is known to be on.
-    pub fn lock_side(&self, hinge: usize) -> Option<f64> {
-        self.list.iter().find(|guard| guard.kind == GuardKind::Lock { hinge }).and_then(|guard| {
-            match guard.side {
-                Side::Known(sign) => Some(sign),
-                Side::Leaving { .. } => None,
-            }
-        })
+    pub fn lock_side(&self, hinge: usize) -> Option<LockSide> {
+        let locks =
+            |guard: &&Guard| matches!(guard.kind, GuardKind::Lock { hinge: of, .. } if of == hinge);
+        match self.list.iter().find(locks)?.side {
+            Side::Known(sign) => LockSide::of_sign(sign),
+            Side::Leaving { .. } => None,
+        }
     }
 
     /// Follows a line's length in pieces, each so short that a polynomial represents it.
@@ -324,11 +348,10 @@ impl Side {
 /// Value and rate of a guard at `state`.
 pub(crate) fn read<R: Number>(
     kind: GuardKind,
-    scene: &Scene,
     dynamics: &mut Recursive<R>,
     state: &State<R>,
 ) -> Reading<R> {
-    let (coordinate, bound) = watched(kind, scene, dynamics.elements());
+    let (coordinate, bound) = watched(kind, dynamics.elements());
     let [value, rate] = state.coordinate(dynamics, coordinate);
     Reading { value: value - R::constant(bound), rate }
 }
@@ -351,18 +374,10 @@ fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> Vec<Bound> {
 }
 
 /// What a guard watches, and the value that it waits for.
-fn watched<R: Real>(kind: GuardKind, scene: &Scene, elements: &Elements<R>) -> (Coordinate, f64) {
+fn watched<R: Real>(kind: GuardKind, elements: &Elements<R>) -> (Coordinate, f64) {
     match kind {
-        GuardKind::Lock { hinge } => {
-            let angle = scene.bodies[hinge].hinge.lock_angle;
-            (Coordinate::Angle(hinge), angle.unwrap_or(f64::INFINITY))
-        }
-        GuardKind::Trigger { hinge, trigger } => {
-            let angle = match scene.bodies[hinge].hinge.release {
-                Release::Angle { angle, .. } => angle,
-                _ => f64::INFINITY,
-            };
-            (Coordinate::Angle(trigger), angle)
+        GuardKind::Lock { hinge, angle } | GuardKind::Trigger { trigger: hinge, angle, .. } => {
+            (Coordinate::Angle(hinge), angle)
         }
         GuardKind::Bound(bound) => {
             let element = &elements.switched()[bound.element.index];

@@ -93,7 +93,7 @@ impl Arrivals {
         let time = state.time.to_f64();
         let mut coming: Vec<(f64, f64, GuardKind)> = Vec::new();
         for guard in &guards.list {
-            let reading = read(guard.kind, scene, dynamics, state);
+            let reading = read(guard.kind, dynamics, state);
             let away = if here(guard.kind) { Some(0.0) } else { guard.time_away(reading) };
             let pace = guard.kind.pace(dynamics.elements(), reading);
             coming.extend(away.map(|away| (away, pace, guard.kind)));
@@ -112,7 +112,7 @@ impl Arrivals {
         for kind in guards.list.iter().map(|guard| guard.kind).filter(|kind| arrived.contains(kind))
         {
             match kind {
-                GuardKind::Lock { hinge } => arrivals.locks.push(hinge),
+                GuardKind::Lock { hinge, .. } => arrivals.locks.push(hinge),
                 GuardKind::Trigger { hinge, .. } => arrivals.triggered.push(hinge),
                 GuardKind::Bound(bound) => arrivals.bounds.push(bound),
             }
@@ -133,18 +133,18 @@ pub(crate) struct Outcome {
     pub crossed: Vec<(usize, usize)>,
     /// What each hinge that locks changes.
     pub jumps: Vec<Jump>,
+    /// The hinges that become free.
+    pub released: Vec<usize>,
 }
 
 /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force laws
-/// and thrust. `lock_sides` is kept for the hinges that become free. `dynamics` is in the
-/// mode before and is left there.
+/// and thrust. `dynamics` is in the mode before and is left there.
 pub(crate) fn pass<R: Number>(
     scene: &Scene,
     dynamics: &mut Recursive<R>,
     arrivals: &Arrivals,
     state: &mut State<R>,
     mode: &mut Mode,
-    lock_sides: &mut [f64],
 ) -> Result<Outcome, SimError> {
     let before = totals(state, &state.invariants(dynamics));
     let mut events = Vec::new();
@@ -156,12 +156,9 @@ pub(crate) fn pass<R: Number>(
     for (jump, impulse) in &locked {
         events.push(event(EventKind::LockUp, Some(jump.hinge), Some(*impulse), before));
     }
-    for i in released(scene, mode, arrivals, time) {
+    let released = released(scene, mode, arrivals, time);
+    for &i in &released {
         mode.hinges[i] = HingeState::Free;
-        let lock_angle = scene.bodies[i].hinge.lock_angle;
-        let from_lock =
-            lock_angle.map_or(0.0, |angle| (state.beta[i] - R::constant(angle)).to_f64());
-        lock_sides[i] = if from_lock == 0.0 { 0.0 } else { from_lock.signum() };
         events.push(event(EventKind::Release, Some(i), None, after));
     }
     let mut crossed = Vec::new();
@@ -178,7 +175,7 @@ pub(crate) fn pass<R: Number>(
         events.push(event(kind, None, None, after));
     }
     let jumps = locked.into_iter().map(|(jump, _)| jump).collect();
-    Ok(Outcome { events, crossed, jumps })
+    Ok(Outcome { events, crossed, jumps, released })
 }
 
 /// Locks hinges with the exact change of all velocities; returns what each hinge contributes, and

@@ -6,6 +6,7 @@ use nboom_ode::StepError;
 use super::Run;
 use crate::equations::variables::motion;
 use crate::error::SimError;
+use crate::events::situation::Situation;
 use crate::run::record::Event;
 
 /// A torque whose square is no number any more.
@@ -35,7 +36,7 @@ impl Run<'_> {
     pub(super) fn check_progress(&mut self) -> Result<(), SimError> {
         let counts = self.stepper.window().counts;
         let (time, steps) = (self.stepper.window().time, counts.accepted + counts.rejected);
-        let span = self.scene.end_time - self.scene.initial.time;
+        let span = self.situation.scene.end_time - self.situation.scene.initial.time;
         let (since, steps_then) = self.pace;
         let crawls = steps - steps_then >= PACE_STEPS && time - since < PACE_SPAN * span;
         let used_up = steps >= self.options.max_steps;
@@ -69,7 +70,7 @@ impl Run<'_> {
         let error_of = |position: usize| self.stepper.error_of(start + position);
         let free = self.equations.dynamics.free_hinges();
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
-        largest.map(|position| self.scene.label(free[position]))
+        largest.map(|position| self.situation.scene.label(free[position]))
     }
 
     /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
@@ -90,24 +91,24 @@ impl Run<'_> {
             StepError::NotFinite { .. } | StepError::NoSeries { .. } => f64::INFINITY,
         };
         let counts = largest.filter(|&position| error_of(position) >= COUNTS * of_all);
-        without_bound.or(counts).map(|position| self.scene.label(free[position]))
+        without_bound.or(counts).map(|position| self.situation.scene.label(free[position]))
     }
 
     /// Refuses a mode in which a link has no inertia about its hinge.
     pub(super) fn check_regular(&mut self) -> Result<(), SimError> {
-        let [beta, _] = self.state.of_free(&self.equations.dynamics);
+        let [beta, _] = self.situation.state.of_free(&self.equations.dynamics);
         match self.equations.dynamics.singular_hinge(&beta) {
             None => Ok(()),
             Some(hinge) => Err(SimError::SingularMassMatrix {
-                time: self.state.time,
-                hinge: hinge.map(|i| self.scene.label(i)),
+                time: self.situation.state.time,
+                hinge: hinge.map(|i| self.situation.scene.label(i)),
             }),
         }
     }
 
     /// Refuses a mode in which a force acts along a line that moves and has no length.
     pub(super) fn check_lines(&mut self) -> Result<(), SimError> {
-        let Self { scene, state, equations, .. } = self;
+        let Self { situation: Situation { scene, state, .. }, equations, .. } = self;
         for line in 0..equations.dynamics.elements().lines().len() {
             let [length, _] = state.line_length(&mut equations.dynamics, line);
             let line = &equations.dynamics.elements().lines()[line];
@@ -122,19 +123,20 @@ impl Run<'_> {
     /// Gives up a run whose events follow one another without the time getting on, or are too
     /// many in all.
     pub(super) fn check_chatter(&mut self, events: &[Event]) -> Result<(), SimError> {
-        let (start, time) = (self.scene.initial.time, self.state.time);
+        let (start, time) = (self.situation.scene.initial.time, self.situation.state.time);
         let (since, count) = self.burst;
-        let goes_on = time - since > CHATTER_SPAN * (self.scene.end_time - start);
+        let goes_on = time - since > CHATTER_SPAN * (self.situation.scene.end_time - start);
         self.burst =
             if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
         let (since, events_since) = self.burst;
-        let too_many = if events_since >= CHATTER_EVENTS + self.scene.bodies.len() {
+        let too_many = if events_since >= CHATTER_EVENTS + self.situation.scene.bodies.len() {
             Some((since, events_since))
         } else {
             (self.events >= self.options.max_events).then_some((start, self.events))
         };
         let Some((since, count)) = too_many else { return Ok(()) };
-        let hinge = events.last().and_then(|event| event.hinge).map(|i| self.scene.label(i));
+        let hinge =
+            events.last().and_then(|event| event.hinge).map(|i| self.situation.scene.label(i));
         Err(SimError::Chatter { time, hinge, events: count, within: time - since })
     }
 }

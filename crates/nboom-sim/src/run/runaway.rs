@@ -7,6 +7,7 @@ use super::Run;
 use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::error::{Feeds, SimError};
+use crate::events::situation::Situation;
 
 /// Kinetic energy beyond this many times what the scene has is fed without end: rates have grown a
 /// hundredfold.
@@ -49,7 +50,7 @@ impl Run<'_> {
             return Ok(());
         }
         self.resources.looked_at = steps;
-        let is_far = self.scene.end_time - window.time > TOO_FAR * window.next_step;
+        let is_far = self.situation.scene.end_time - window.time > TOO_FAR * window.next_step;
         match self.runaway().filter(|_| is_far) {
             Some(runaway) => Err(runaway),
             None => Ok(()),
@@ -58,7 +59,7 @@ impl Run<'_> {
 
     /// That the motion runs away, if it does, and what feeds it most.
     pub(super) fn runaway(&mut self) -> Option<SimError> {
-        let Self { scene, equations, state, .. } = self;
+        let Self { situation: Situation { scene, state, .. }, equations, .. } = self;
         let growth =
             turning(scene, equations, state) / (self.resources.energy + state.work.thrust.abs());
         if growth.is_nan() || growth <= GROWTH {

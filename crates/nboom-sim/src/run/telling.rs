@@ -4,6 +4,7 @@ use super::Run;
 use crate::equations::state::State;
 use crate::error::SimError;
 use crate::events::instant::Arrivals;
+use crate::events::situation::Situation;
 use crate::run::finite;
 use crate::run::record::{Event, InstantMotion, Jump, Snapshot};
 use crate::run::snapshot;
@@ -11,7 +12,7 @@ use crate::run::step_motion::DenseStep;
 
 impl Run<'_> {
     pub(super) fn sample_time(&self) -> f64 {
-        let (start, end) = (self.scene.initial.time, self.scene.end_time);
+        let (start, end) = (self.situation.scene.initial.time, self.situation.scene.end_time);
         let share = self.next_sample as f64 / self.options.samples as f64;
         match self.next_sample {
             n if n > self.options.samples => f64::INFINITY,
@@ -40,7 +41,8 @@ impl Run<'_> {
         if !self.recorder.needs_steps() {
             return Ok(());
         }
-        let Self { mode, equations, stepper, room, recorder, .. } = self;
+        let Self { situation, equations, stepper, room, recorder, .. } = self;
+        let mode = &situation.mode;
         let time = stepper.window().end_time;
         let mut step = DenseStep::new(&mode.hinges, equations, &**stepper, full, room);
         recorder.step(&mut step).map_err(|source| SimError::Record { time, source })
@@ -48,8 +50,8 @@ impl Run<'_> {
 
     /// Records the output time that the present instant coincides with, if there is one.
     pub(super) fn sample_here(&mut self) -> Result<(), SimError> {
-        while !self.is_before(self.state.time, self.sample_time()) {
-            let state = State { time: self.sample_time(), ..self.state.clone() };
+        while !self.is_before(self.situation.state.time, self.sample_time()) {
+            let state = State { time: self.sample_time(), ..self.situation.state.clone() };
             self.sample(&state)?;
         }
         Ok(())
@@ -58,7 +60,7 @@ impl Run<'_> {
     fn sample(&mut self, state: &State) -> Result<(), SimError> {
         self.check_interrupt(state.time)?;
         self.next_sample += 1;
-        self.ledger.check(self.scene, &mut self.equations, state)?;
+        self.ledger.check(self.situation.scene, &mut self.equations, state)?;
         let snapshot = self.snapshot(state)?;
         let kept = self.recorder.sample(&snapshot);
         kept.map_err(|source| SimError::Record { time: state.time, source })
@@ -70,7 +72,7 @@ impl Run<'_> {
     }
 
     fn snapshot_with(&mut self, state: &State, needs_detail: bool) -> Result<Snapshot, SimError> {
-        let Self { scene, mode, equations, .. } = self;
+        let Self { situation: Situation { scene, mode, .. }, equations, .. } = self;
         let seen = snapshot::take(scene, mode, &mut equations.dynamics, state);
         let detail = needs_detail.then(|| snapshot::detail(scene, equations, state));
         let (steps, next_step) =
@@ -86,11 +88,12 @@ impl Run<'_> {
         &mut self,
         arrivals: &Arrivals,
     ) -> Result<Option<Snapshot>, SimError> {
-        let has_moved = self.state.time > self.scene.initial.time || arrivals.lock();
+        let has_moved =
+            self.situation.state.time > self.situation.scene.initial.time || arrivals.lock();
         if !(has_moved && self.recorder.needs_instants()) {
             return Ok(None);
         }
-        let state = self.state.clone();
+        let state = self.situation.state.clone();
         self.snapshot_with(&state, true).map(Some)
     }
 
@@ -102,7 +105,7 @@ impl Run<'_> {
         if !self.recorder.needs_instants() {
             return Ok(());
         }
-        let state = self.state.clone();
+        let state = self.situation.state.clone();
         let after = self.snapshot_with(&state, true)?;
         let kept = self.recorder.instant(&InstantMotion { before, jumps, after });
         kept.map_err(|source| SimError::Record { time: state.time, source })
@@ -112,8 +115,8 @@ impl Run<'_> {
         if events.is_empty() {
             return Ok(());
         }
-        let state = self.state.clone();
-        self.ledger.check(self.scene, &mut self.equations, &state)?;
+        let state = self.situation.state.clone();
+        self.ledger.check(self.situation.scene, &mut self.equations, &state)?;
         let after = self.snapshot(&state)?;
         for event in events {
             self.events += 1;

@@ -61,7 +61,7 @@ fn lock_ups(events: &[Event]) -> usize {
 
 /// Energy with what lock-ups have taken away, and the angular momentum along inertial axes.
 fn conserved(replay: &mut Replay<'_>) -> [DoubleDouble; 4] {
-    let Replay { scene, dynamics, state, .. } = replay;
+    let Replay { situation: Situation { scene, state, .. }, dynamics, .. } = replay;
     let found = state.invariants(dynamics);
     let laws = scene.bodies.iter().map(|b| HingeLaw::new(&b.hinge.spring, &b.hinge.dashpot));
     let potentials = laws.zip(&state.beta).map(|(law, &beta)| law.potential(beta));
@@ -97,7 +97,7 @@ fn neither_the_order_nor_the_tolerance_matters() {
     let end = |order, relative| {
         let accuracy = Accuracy { order, relative, absolute: 1e-3 * relative };
         let State { time, attitude, omega_body, beta, tau, .. } =
-            replay(&scene, &guide, accuracy).state;
+            replay(&scene, &guide, accuracy).situation.state;
         let mut all = vec![time, attitude.scalar];
         [attitude.vector, omega_body].iter().for_each(|v| all.extend(v.to_array()));
         [beta, tau].iter().for_each(|list| all.extend(list));
