@@ -103,7 +103,7 @@ pub(crate) fn turn_inertias<R: Real>(tree: &WeldedTree<R>, beta: &[R], poses: &m
     for (link, pose) in tree.links.iter().zip(&mut *poses) {
         pose.inertia = link.inertia.rotated(&pose.rot);
     }
-    for (link, misturned) in &tree.misturned {
-        poses[*link].inertia.about_origin += misturned.inertia(beta);
+    for (link, turned) in &tree.turned {
+        poses[*link].inertia.about_origin += turned.inertia(beta);
     }
 }

@@ -10,14 +10,14 @@ mod hinge_law;
 mod kick_off;
 mod thrust;
 mod torque_table;
-mod untransmitted;
+mod withheld;
 
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
 pub use kick_off::KickOffLaw;
 pub use thrust::{ThrustForce, thrust_acts, thrust_change};
 use torque_table::TablePiece;
-use untransmitted::Untransmitted;
+use withheld::WithheldMoment;
 
 /// The kinds of elements that are told apart in messages and files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -113,7 +113,7 @@ impl HingeTorque<f64> {
 pub struct Elements<R> {
     torques: Vec<HingeTorque<R>>,
     lines: Vec<Line<R>>,
-    untransmitted: Vec<Untransmitted<R>>,
+    withheld: Vec<WithheldMoment<R>>,
     thrust: Option<ThrustForce<R>>,
     switched: Vec<Switched>,
 }
@@ -124,7 +124,7 @@ impl<R: Real> Elements<R> {
         let lines = Line::all(scene, mode, tree);
         Self {
             torques: HingeTorque::all(scene, mode),
-            untransmitted: Untransmitted::all(scene, mode, tree, &lines),
+            withheld: WithheldMoment::all(scene, mode, tree, &lines),
             lines,
             thrust: scene.thrust.filter(|_| mode.thrust).map(|thrust| ThrustForce::new(&thrust)),
             switched: Switched::all(scene),
@@ -168,7 +168,7 @@ impl<R: Real> Elements<R> {
     /// Takes off the torques about the hinges of `links` what lines do not transmit.
     #[inline]
     pub fn withhold<P: Placed<R>>(&self, links: &[P], torques: &mut [R]) {
-        for moment in &self.untransmitted {
+        for moment in &self.withheld {
             torques[moment.link] -= moment.torque(links);
         }
     }

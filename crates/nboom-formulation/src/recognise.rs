@@ -47,7 +47,7 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
 /// # Errors
 /// The first link that is not.
 pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), usize> {
-    tree.misturned.first().map_or(Ok(()), |&(link, _)| Err(link))
+    tree.turned.first().map_or(Ok(()), |&(link, _)| Err(link))
 }
 
 /// One appendage: its shape, constants and links.

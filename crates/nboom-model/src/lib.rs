@@ -25,17 +25,16 @@
 //! ```
 
 mod appendage;
+mod departures;
 mod environment;
 mod error;
 mod facts;
 mod hinge;
 mod label;
 mod mass;
-mod misturned;
 mod mode;
 mod posture;
 mod scene;
-mod slips;
 mod structure;
 mod structure_error;
 mod topology;
@@ -43,6 +42,7 @@ mod warning;
 mod welded;
 
 pub use appendage::{Appendage, Segment};
+pub use departures::{Departures, TurnOrder, TurnedInertia, Withheld};
 pub use environment::{Gravity, InitialMotion, Thrust};
 pub use error::{BodyName, ModelError};
 pub use facts::Facts;
@@ -51,11 +51,9 @@ pub use hinge::{
 };
 pub use label::HingeLabel;
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
-pub use misturned::Misturned;
 pub use mode::Mode;
 pub use posture::{HingePlace, Posture};
 pub use scene::*;
-pub use slips::MotionSlips;
 pub use structure::{SLICE_TOLERANCE, SectionShape, SegmentStructure, Station, Structure, Vertex};
 pub use structure_error::{StructureDefect, StructureError, StructurePlace};
 pub use topology::{Shape, Topology, TopologyError};

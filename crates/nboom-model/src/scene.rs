@@ -3,8 +3,8 @@ use std::ops::Deref;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Appendage, Gravity, Hinge, HingeLabel, InitialMotion, MassProperties, ModelError, ModelWarning,
-    MotionSlips, Mount, Thrust, error, warning,
+    Appendage, Departures, Gravity, Hinge, HingeLabel, InitialMotion, MassProperties, ModelError,
+    ModelWarning, Mount, Thrust, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -98,7 +98,7 @@ impl SceneDescription {
 pub struct Scene {
     description: SceneDescription,
     labels: Vec<HingeLabel>,
-    slips: MotionSlips,
+    departures: Departures,
 }
 
 impl Scene {
@@ -114,8 +114,8 @@ impl Scene {
         }
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
-        let slips = MotionSlips::default();
-        if errors.is_empty() { Ok(Self { description, labels, slips }) } else { Err(errors) }
+        let departures = Departures::default();
+        if errors.is_empty() { Ok(Self { description, labels, departures }) } else { Err(errors) }
     }
 
     /// The scene with another end of the run.
@@ -124,31 +124,23 @@ impl Scene {
     /// When that time is not finite or before the initial one.
     pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
         let scene = Self::new(SceneDescription { end_time, ..self.description.clone() })?;
-        Ok(Self { slips: self.slips, ..scene })
+        Ok(scene.with_departures(self.departures.clone()))
     }
 
-    /// The scene with these slips of the program of 1970 in its motion. Springs that do not act are
-    /// left out.
+    /// The scene with these departures in its motion instead of those that it has.
+    ///
+    /// # Panics
+    /// When they name a body or hinge that it has not.
     #[must_use]
-    pub fn with_slips(mut self, slips: MotionSlips) -> Self {
-        self.slips = slips;
-        if slips.paddle_kick_off {
-            let hinges = 0..self.bodies.len();
-            let with_paddle: Vec<usize> = hinges
-                .clone()
-                .filter(|&i| self.arm_of_paddle(i).is_some())
-                .map(|i| self.label(i).appendage)
-                .collect();
-            for i in hinges.filter(|&i| with_paddle.contains(&self.labels[i].appendage)) {
-                self.description.bodies[i].hinge.kick_off = None;
-            }
-        }
-        self
+    pub fn with_departures(self, departures: Departures) -> Self {
+        let count = self.bodies.len();
+        assert!(departures.named().all(|i| i < count), "departures are of the scene");
+        Self { departures, ..self }
     }
 
-    /// The slips that the motion repeats.
-    pub fn slips(&self) -> MotionSlips {
-        self.slips
+    /// What of the motion departs from that of rigid bodies under the scene's forces.
+    pub fn departures(&self) -> &Departures {
+        &self.departures
     }
 
     /// What is allowed but probably not meant.

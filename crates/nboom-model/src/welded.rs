@@ -1,6 +1,6 @@
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Vec3};
 
-use crate::{MassProperties, Misturned, Mode, Scene};
+use crate::{MassProperties, Mode, Scene, TurnOrder, TurnedInertia};
 
 /// The tree with every held hinge welded: one link for each free hinge, and the main link.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,9 +11,9 @@ pub struct WeldedTree<R> {
     pub links: Vec<Link<R>>,
     /// For each body of the scene, where it sits in its link.
     pub members: Vec<Member<R>>,
-    /// Links with a paddle whose inertia about its mass centre is not in theirs, and that inertia;
-    /// none unless the scene repeats a slip of 1970.
-    pub misturned: Vec<(usize, Misturned<R>)>,
+    /// Links with a body whose inertia about its mass centre is not in theirs, and that inertia; none
+    /// without [`Departures`](crate::Departures).
+    pub turned: Vec<(usize, TurnedInertia<R>)>,
 }
 
 /// A body outboard of a free hinge and all that is welded to it. Its origin is on its hinge.
@@ -51,13 +51,12 @@ impl<R: Real> WeldedTree<R> {
             main: rigid(&scene.main_body),
             links: Vec::new(),
             members: Vec::with_capacity(scene.bodies.len()),
-            misturned: Vec::new(),
+            turned: Vec::new(),
         };
         for i in 0..scene.bodies.len() {
             tree.place(scene, mode.is_free(i), i, beta[i]);
-            let arm = scene.arm_of_paddle(i).filter(|_| scene.slips().paddle_inertia);
-            if let Some(arm) = arm {
-                tree.misturn([i, arm], scene, mode, beta);
+            for order in scene.departures().turned.iter().filter(|order| order.body == i) {
+                tree.turn_otherwise(order, scene, mode, beta);
             }
         }
         tree
@@ -101,22 +100,20 @@ impl<R: Real> WeldedTree<R> {
         }
     }
 
-    /// Turns the inertia about its mass centre of a paddle that has been placed otherwise than the
-    /// paddle.
-    fn misturn(&mut self, paddle_and_arm: [usize; 2], scene: &Scene, mode: &Mode, beta: &[R]) {
+    /// Turns the inertia about its mass centre of a body that has been placed otherwise than the body.
+    fn turn_otherwise(&mut self, order: &TurnOrder, scene: &Scene, mode: &Mode, beta: &[R]) {
         let link = |i: usize| self.members[i].link.filter(|_| mode.is_free(i));
-        let misturned = Misturned::new(scene, paddle_and_arm, beta, link);
-        let [paddle, _] = paddle_and_arm;
-        let member = self.members[paddle];
-        let inertia = Sym3::constant(scene.bodies[paddle].mass_properties.inertia);
+        let turned = TurnedInertia::new(scene, order, beta, link);
+        let member = self.members[order.body];
+        let inertia = Sym3::constant(scene.bodies[order.body].mass_properties.inertia);
         let right = inertia.rotated(&member.rot_link_from_body);
         match member.link {
             Some(link) => {
                 let of_link = &mut self.links[link].inertia.about_origin;
                 *of_link = *of_link - right;
-                self.misturned.push((link, misturned));
+                self.turned.push((link, turned));
             }
-            None => self.main.about_origin += misturned.inertia(&[]) - right,
+            None => self.main.about_origin += turned.inertia(&[]) - right,
         }
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom_model::{
     Appendage, Dashpot, Hinge, HingeLabel, HingeState, KickOffSpring, MassProperties, ModelWarning,
-    Mount, Posture, Release, Scene, SceneDescription, Segment, Spring,
+    Mount, Posture, Release, Scene, SceneDescription, Segment, Spring, TorqueTable,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -224,4 +224,15 @@ fn places_of_hinges_axes_and_outer_ends() {
     check(&locked, 1, x * 5.0, z, x * 5.0 + y);
     check(&stowed, 3, x * 3.0 + y * 2.0, y, x * 3.0 + y * 7.0);
     check(&locked, 3, x * 5.0, x, x * 10.0);
+}
+
+#[test]
+fn what_a_table_adds_to_is_not_judged_alone() {
+    let hinge = Hinge { spring: spring(0.0, 3.0, 0.0), ..Hinge::free() };
+    let scene = chain(&[(hinge, 1.0), (hinge, 1.0)]);
+    let mut description = SceneDescription::clone(&scene);
+    let table = TorqueTable { hinge: 0, points: vec![[-1.0, 9.0], [1.0, -9.0]] };
+    description.torque_tables.push(table);
+    let with_table = Scene::new(description).expect("a scene");
+    assert_eq!((scene.warnings().len(), with_table.warnings().len()), (2, 1));
 }

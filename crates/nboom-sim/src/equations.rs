@@ -70,7 +70,7 @@ impl Equations {
             sizes: Sizes::of(scene),
             evaluations: 0,
             momentum_for_rate: options.integrator.keeps_invariants()
-                && !scene.slips().paddle_inertia,
+                && scene.departures().turned.is_empty(),
         }
     }
 

@@ -46,7 +46,7 @@ impl LoadFinder {
             labels,
             hands_on_as_in_1970,
             largest_residual: 0.0,
-            most_residual: if scene.slips().obey_newton() { BALANCE } else { f64::INFINITY },
+            most_residual: if scene.departures().is_empty() { BALANCE } else { f64::INFINITY },
             end: None,
         }
     }

@@ -1,5 +1,7 @@
-use nboom_model::{MotionSlips, Scene};
+use nboom_model::{Departures, Scene};
 use nboom_sections::report::SectionSlips;
+
+mod motion;
 
 /// A slip of the program of 1970 that can be asked for; `docs/the-1970-program.md` has the evidence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,11 +109,15 @@ impl Slips {
 
     /// The scene that the original moved instead of `scene`.
     pub fn scene(self, scene: Scene) -> Scene {
-        scene.with_slips(MotionSlips {
-            chain_kick_off: self.contains(Slip::ChainKickOff),
-            paddle_kick_off: self.contains(Slip::PaddleKickOff),
-            paddle_inertia: self.contains(Slip::PaddleInertia),
-        })
+        let idle = self.contains(Slip::PaddleKickOff);
+        let scene = if idle { motion::without_springs_on_paddles(&scene) } else { scene };
+        let (chains, paddles) =
+            (self.contains(Slip::ChainKickOff), self.contains(Slip::PaddleInertia));
+        let departures = Departures {
+            withheld: if chains { motion::withheld(&scene) } else { Vec::new() },
+            turned: if paddles { motion::turned(&scene) } else { Vec::new() },
+        };
+        scene.with_departures(departures)
     }
 }
 

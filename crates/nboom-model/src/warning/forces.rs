@@ -26,6 +26,19 @@ fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
         })
         .into_iter()
         .collect::<Vec<_>>();
+    if scene.torque_tables.iter().all(|table| table.hinge != i) {
+        found.extend(spring(scene, posture, i));
+    }
+    if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
+        found.push(ModelWarning::KickOffPulls { hinge: label, force, length });
+    }
+    found
+}
+
+/// Of the spring and the dashpot's terms in the angle, where no table adds to their torque.
+fn spring(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
+    let (hinge, label) = (&scene.bodies[i].hinge, scene.label(i));
+    let mut found = Vec::new();
     let torque = AngleTorque::of(hinge);
     let start = hinge.start.angle;
     if let Some((stiffness, away_from)) = torque.without_rest() {
@@ -39,9 +52,6 @@ fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
         if by_spring < 0.0 && by_spring + kick_off_torque(scene, posture, i) * towards_lock < 0.0 {
             found.push(ModelWarning::DrivenFromLock { hinge: label, start, lock });
         }
-    }
-    if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
-        found.push(ModelWarning::KickOffPulls { hinge: label, force, length });
     }
     found
 }

@@ -1,0 +1,38 @@
+//! What of the slips concerns the motion; `docs/the-1970-program.md` has the evidence.
+
+use nboom_model::{Scene, SceneDescription, TurnOrder, Withheld};
+
+/// The moments about each hinge of a chain that its kick-off springs do not hand on to the hinge
+/// inboard of it: what lies between the force that belongs to α, eq. (6.17) as printed, and that of β.
+pub(super) fn withheld(scene: &Scene) -> Vec<Withheld> {
+    let springs = (0..scene.bodies.len()).filter(|&i| scene.bodies[i].hinge.kick_off.is_some());
+    let of_spring = |line: usize| {
+        let inward = std::iter::successors(Some(line), |&i| scene.bodies[i].inboard);
+        let in_chain = inward.filter(|&i| scene.adds_to_inboard_angle(i));
+        in_chain.filter_map(move |outboard| {
+            let inboard = scene.bodies[outboard].inboard?;
+            Some(Withheld { line, outboard, inboard })
+        })
+    };
+    springs.flat_map(of_spring).collect()
+}
+
+/// The inertia of each paddle turned by R_y(α₂) R_x(α₁), while the paddle itself turns by
+/// R_x(α₁) R_y(α₂).
+pub(super) fn turned(scene: &Scene) -> Vec<TurnOrder> {
+    let paddles = (0..scene.bodies.len()).filter_map(|i| Some((i, scene.arm_of_paddle(i)?)));
+    let order = |(paddle, arm)| TurnOrder { body: paddle, mount: arm, hinges: vec![paddle, arm] };
+    paddles.map(order).collect()
+}
+
+/// The scene without the kick-off springs of appendages that have a paddle.
+pub(super) fn without_springs_on_paddles(scene: &Scene) -> Scene {
+    let mut description = SceneDescription::clone(scene);
+    let hinges = 0..scene.bodies.len();
+    let paddles = hinges.clone().filter(|&i| scene.arm_of_paddle(i).is_some());
+    let with_paddle: Vec<usize> = paddles.map(|i| scene.label(i).appendage).collect();
+    for i in hinges.filter(|&i| with_paddle.contains(&scene.label(i).appendage)) {
+        description.bodies[i].hinge.kick_off = None;
+    }
+    Scene::new(description).expect("a scene is one without some of its springs")
+}
