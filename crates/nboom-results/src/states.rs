@@ -69,7 +69,7 @@ impl<W: Write> StatesWriter<W> {
         write!(out, ",{}", snapshot.hinges[i].code())
     }
 
-    /// Hands everything written so far on to the system.
+    /// Passes everything written so far on to the system.
     ///
     /// # Errors
     /// When `out` refuses it.

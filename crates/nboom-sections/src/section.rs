@@ -29,7 +29,8 @@ pub struct AtStation<T> {
 impl Section {
     /// The sections of all stations, segment by segment.
     ///
-    /// # Errors The first defect of the first wrong section.
+    /// # Errors
+    /// The first defect of the first wrong section.
     pub fn all(structure: &Structure) -> Result<Vec<AtStation<Self>>, AtStation<SectionError>> {
         let mut all = Vec::new();
         for (segment, description) in structure.segments().iter().enumerate() {

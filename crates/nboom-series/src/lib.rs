@@ -39,7 +39,8 @@ impl<R: Real> Series<R> {
     /// The series up to the power `order`. The graph's inputs are y, then t, then the numbers in
     /// `fixed`, which do not change; its outputs are ẏ.
     ///
-    /// # Panics When the graph has another number of inputs.
+    /// # Panics
+    /// When the graph has another number of inputs.
     pub fn new(graph: &Graph, fixed: &[R], order: usize) -> Self {
         let expected = graph.outputs().len() + 1 + fixed.len();
         assert_eq!(graph.inputs(), expected, "y, t and what is fixed in, the rates of y out");
