@@ -70,8 +70,7 @@ fn scene_and_mode() -> (Scene, Mode) {
     let scene = Scene::new(scene).expect("a physical scene");
     let mut hinges = vec![HingeState::Free; 9];
     hinges[4] = HingeState::Locked;
-    let kick_off = scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect();
-    let mode = Mode { hinges, kick_off, thrust: true };
+    let mode = random_scene::all_acting(&scene, hinges);
     (scene, mode)
 }
 
@@ -95,9 +94,7 @@ fn evaluations_allocate_nothing() {
     let mut found = Accelerations::for_hinges(free);
     let mut matrix = vec![0.0; (6 + free) * (6 + free)];
     let mut forcing = vec![0.0; 6 + free];
-    let mut lengths = [0.0];
-    let springs = scene.bodies.iter().position(|body| body.hinge.kick_off.is_some());
-    let springs = [springs.expect("the scene was chosen for it")];
+    let mut lengths = vec![0.0; dynamics.elements().lines().len()];
     // Not even the first evaluation in a mode does.
     assert_eq!(allocations(|| dynamics.accelerations(&motion, &mut found)), 0);
     assert_eq!(allocations(|| dynamics.mass_matrix(&beta, &mut matrix)), 0);
@@ -110,11 +107,11 @@ fn evaluations_allocate_nothing() {
     );
     assert_eq!(
         allocations(|| {
-            std::hint::black_box(dynamics.spring_length(&motion, springs[0]));
+            std::hint::black_box(dynamics.line_length(&motion, 0));
         }),
         0
     );
-    let guarded = || dynamics.spring_lengths_squared(&beta, &springs, &mut lengths);
+    let guarded = || dynamics.line_lengths_squared(&beta, &mut lengths);
     assert_eq!(allocations(guarded), 0);
     assert!(found.tau_dot.iter().chain(&matrix).chain(&forcing).all(|x| x.is_finite()));
     assert!(lengths[0] > 0.0);

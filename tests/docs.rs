@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use nboom::formulation::Formulation;
 use nboom::io::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
+use nboom::ode::{Method, Tolerance};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -218,15 +220,45 @@ fn nothing_names_a_place_on_some_machine() {
 
 #[test]
 fn the_table_of_deck_symbols_is_that_of_the_reader() {
-    const BEGIN: &str = "<!-- symbols -->\n";
-    const END: &str = "<!-- end of symbols -->";
-    let document = read("docs/decks.md");
-    let (before, rest) = document.split_once(BEGIN).expect("the table has a begin mark");
-    let (found, after) = rest.split_once(END).expect("the table has an end mark");
-    let expected = symbol_table();
+    assert_table("docs/decks.md", "symbols", &symbol_table());
+}
+
+#[test]
+fn the_table_of_integrators_is_that_of_the_code() {
+    let tolerance = |relative| Tolerance { relative, absolute: relative };
+    let mut table = "| name | what, and what for | order | dense output |\n".to_owned();
+    table.push_str("| --- | --- | --- | --- |\n");
+    for method in Method::ALL {
+        let orders = |order: fn(Method, Tolerance) -> u32| {
+            let of = |relative| order(method, tolerance(relative));
+            let (loose, tight) = (of(1e-3), of(1e-14));
+            if loose == tight { loose.to_string() } else { format!("{loose} to {tight}") }
+        };
+        let (order, dense) = (orders(Method::order), orders(Method::dense_order));
+        table.push_str(&format!("| `{method}` | {} | {order} | {dense} |\n", method.about()));
+    }
+    assert_table("docs/integrators.md", "integrators", &table);
+}
+
+#[test]
+fn every_formulation_has_a_row_in_the_document() {
+    let document = read("docs/formulations.md");
+    for formulation in Formulation::ALL {
+        let rows = document.matches(&format!("\n| `{formulation}` | ")).count();
+        assert!(rows > 0, "{formulation} is not in a table");
+    }
+}
+
+/// Holds what stands in a document between the marks of a table against the table, or with
+/// `NBOOM_BLESS=1` puts it there.
+fn assert_table(document: &str, name: &str, expected: &str) {
+    let (begin, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
+    let text = read(document);
+    let (before, rest) = text.split_once(&begin).expect("the table has a begin mark");
+    let (found, after) = rest.split_once(&end).expect("the table has an end mark");
     if std::env::var_os("NBOOM_BLESS").is_some_and(|bless| bless == "1") {
-        let text = format!("{before}{BEGIN}{expected}{END}{after}");
-        fs::write(root().join("docs/decks.md"), text).expect("docs/decks.md can be written");
+        let text = format!("{before}{begin}{expected}{end}{after}");
+        fs::write(root().join(document), text).expect("documents can be written");
     } else {
         assert_eq!(found, expected, "NBOOM_BLESS=1 cargo test --test docs rewrites it");
     }

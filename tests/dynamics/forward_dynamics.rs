@@ -6,6 +6,7 @@ use nboom::model::{HingeState, Mode, Scene};
 use nboom::scalar::{Quaternion, Vec3};
 use serde_json::Value;
 
+use crate::random_scene::spring;
 use crate::support::json_scene::{bodies, vector};
 use crate::support::{data, number, numbers, relative_error};
 
@@ -39,7 +40,9 @@ fn case(value: &Value) -> Case {
     mode.thrust = value["thrust_on"] == true;
     let lengths = numbers(&value["expected"]["kick_extension"]);
     for (i, body) in scene.bodies.iter().enumerate() {
-        mode.kick_off[i] = body.hinge.kick_off.is_some_and(|k| lengths[i] <= k.limit_length);
+        if let Some(kick_off) = body.hinge.kick_off {
+            mode.pieces[spring(&scene.bodies, i)] = usize::from(lengths[i] > kick_off.limit_length);
+        }
     }
     let q = numbers(&state["quat_wxyz"]);
     let attitude = Quaternion { scalar: q[0], vector: Vec3::new(q[1], q[2], q[3]) };

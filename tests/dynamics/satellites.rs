@@ -180,7 +180,8 @@ fn of_kind(seed: u64, kind: Kind) -> Moment {
         if dice.chance(0.25) { HingeState::Locked } else { HingeState::Free }
     };
     let hinges: Vec<HingeState> = scene.bodies.iter().map(|_| held(dice)).collect();
-    let mode = Mode { kick_off: vec![false; hinges.len()], thrust: scene.thrust.is_some(), hinges };
+    let thrust = scene.thrust.is_some();
+    let mode = Mode { thrust, hinges, ..Mode::at_start(&scene) };
     let beta = scene.bodies.iter().map(|_| dice.between(-3.0, 3.0)).collect();
     let mut rate = |i: usize| {
         let rate = dice.between(-2.0, 2.0);

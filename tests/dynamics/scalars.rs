@@ -181,8 +181,8 @@ fn turned_by_hinges(case: &Case) -> Case {
         .expect("a valid scene with more hinges");
     let mut mode = Mode::at_start(&scene);
     mode.thrust = case.mode.thrust;
-    let pushes = |(_, i): &(_, Option<usize>)| i.is_some_and(|i| case.mode.kick_off[i]);
-    mode.kick_off = all.iter().map(pushes).collect();
+    // What turns has no springs.
+    mode.pieces.clone_from(&case.mode.pieces);
     let held = |body: &Body| body.hinge.start.angle;
     let beta = all.iter().map(|(body, i)| i.map_or(held(body), |i| case.beta[i])).collect();
     let tau = all.iter().map(|(_, i)| i.map_or(0.0, |i| case.tau[i])).collect();

@@ -110,7 +110,7 @@ fn a_kick_off_spring_without_length_is_named() {
         let waits = Hinge { start, release: Release::Time(0.25), ..starts_free };
         for (hinge, when) in [(starts_free, 0.0), (waits, 0.25)] {
             let (_, error) = failure(&scene(&[free(0.0, 1.0), hinge], 1.0), &tight(1));
-            let SimError::SpringWithoutLength { time, hinge } = error else { panic!("{error}") };
+            let SimError::NoDirection { time, hinge, .. } = error else { panic!("{error}") };
             assert_eq!((time, hinge), (when, SECOND));
             assert!(error.to_string().contains("hinge 2,1: its kick-off spring"), "{error}");
         }

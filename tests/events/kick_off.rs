@@ -7,9 +7,9 @@ use nboom::model::{
     Segment,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::EventKind::{self, KickOffDisengage, KickOffEngage};
+use nboom::sim::EventKind;
 
-use crate::collect::{detail, run, tight};
+use crate::collect::{DISENGAGES, ENGAGES, detail, run, tight};
 use crate::rotors::{HUB, REDUCED, ROUNDING, ball, description, free, scene};
 
 const A: f64 = 1.0;
@@ -53,8 +53,8 @@ fn a_boom_that_keeps_turning_lets_go_and_engages_in_every_turn() {
             .flat_map(|turn| {
                 let start = f64::from(turn) * TAU;
                 [
-                    (KickOffDisengage, (start + limit_angle()) / rate.abs()),
-                    (KickOffEngage, (start + TAU - limit_angle()) / rate.abs()),
+                    (DISENGAGES, (start + limit_angle()) / rate.abs()),
+                    (ENGAGES, (start + TAU - limit_angle()) / rate.abs()),
                 ]
             })
             .collect();
@@ -77,7 +77,7 @@ fn what_the_spring_pushes_is_its_energy() {
     let hinge = with_spring(free(0.3, 0.0), coefficients);
     let (found, _) = run(&scene(&[hinge], 2.0), &tight(50));
     let (event, after) = &found.events[0];
-    assert_eq!((event.kind, event.hinge), (KickOffDisengage, Some(0)));
+    assert_eq!((event.kind, event.hinge), (DISENGAGES, Some(0)));
     assert!((after.beta[0] - limit_angle()).abs() < 1e-14);
     let integral = |x: f64| {
         let [a0, a1, a2, a3] = coefficients;
@@ -86,12 +86,12 @@ fn what_the_spring_pushes_is_its_energy() {
     let rate = (2.0 / REDUCED * (integral(LIMIT) - integral(length(0.3)))).sqrt();
     // At the tolerance of 1e-12.
     assert!((after.tau[0] - rate).abs() < 1e-11, "{}, {rate}", after.tau[0]);
-    assert_eq!(detail(after).kick_off_force, [0.0], "it lets go beyond its limit");
+    assert_eq!(detail(after).lines[0].force, 0.0, "it lets go beyond its limit");
     for sample in &found.samples {
-        let detail = detail(sample);
-        assert!((detail.kick_off_length[0] - length(sample.beta[0])).abs() < 1e-14);
-        let pushes = detail.kick_off_length[0] <= LIMIT;
-        assert_eq!(detail.kick_off_force[0] > 0.0, pushes, "at {}", sample.time);
+        let spring = detail(sample).lines[0];
+        assert!((spring.length - length(sample.beta[0])).abs() < 1e-14);
+        assert_eq!(spring.acts, spring.length <= LIMIT, "at {}", sample.time);
+        assert_eq!(spring.force > 0.0, spring.acts, "at {}", sample.time);
     }
 }
 
@@ -106,7 +106,7 @@ fn without_coefficients_there_is_no_spring() {
 fn a_spring_that_starts_beyond_its_limit_has_no_event_until_it_engages() {
     let start = 3.0;
     let (found, _) = run(&scene(&[with_spring(free(start, -1.0), FEEBLE)], 2.2), &tight(1));
-    let [(KickOffEngage, Some(0), time)] = found.happenings()[..] else { panic!("one event") };
+    let [(ENGAGES, Some(0), time)] = found.happenings()[..] else { panic!("one event") };
     assert!((time - (start - limit_angle())).abs() < ROUNDING, "{time}");
 }
 
@@ -118,8 +118,8 @@ fn a_length_that_only_just_passes_its_limit_is_seen() {
     let angle = |limit: f64| ((A * A + B * B - limit * limit) / (2.0 * A * B)).acos();
     let (shortest, longest) = (A - B + hair, A + B - hair);
     for (limit, kinds, times) in [
-        (shortest, [KickOffEngage, KickOffDisengage], [-angle(shortest), angle(shortest)]),
-        (longest, [KickOffDisengage, KickOffEngage], [angle(longest), TAU - angle(longest)]),
+        (shortest, [ENGAGES, DISENGAGES], [-angle(shortest), angle(shortest)]),
+        (longest, [DISENGAGES, ENGAGES], [angle(longest), TAU - angle(longest)]),
     ] {
         let hinge = with_limit(free(-1.0, 1.0), FEEBLE, limit);
         let found = run(&scene(&[hinge], 6.0), &tight(1)).0.happenings();
@@ -162,7 +162,7 @@ fn with_held_segment(limit_length: f64) -> Scene {
 #[test]
 fn the_spring_of_a_held_hinge_has_events_as_its_length_changes() {
     let (found, _) = run(&with_held_segment(LIMIT), &tight(1));
-    let [(KickOffDisengage, Some(1), time)] = found.happenings()[..] else { panic!("one event") };
+    let [(DISENGAGES, Some(1), time)] = found.happenings()[..] else { panic!("one event") };
     assert!((time - limit_angle()).abs() < ROUNDING, "{time}");
     assert_eq!(run(&with_held_segment(5.0), &tight(1)).0.happenings(), []);
 }
@@ -188,7 +188,7 @@ fn passings(start: f64, rate: f64, initial: f64, turns: f64) -> [Vec<(EventKind,
     let turn = |n: i32| f64::from(n) * TAU;
     let first = (start / TAU).floor() as i32 - 1;
     let expected = (first..=first + turns as i32 + 2).flat_map(|n| {
-        [(KickOffDisengage, turn(n) + limit_angle()), (KickOffEngage, turn(n + 1) - limit_angle())]
+        [(DISENGAGES, turn(n) + limit_angle()), (ENGAGES, turn(n + 1) - limit_angle())]
     });
     let within = expected.filter(|(_, angle)| (from..to).contains(angle));
     let expected = within.map(|(kind, angle)| (kind, initial + (angle - start) / rate));

@@ -9,7 +9,7 @@ use nboom::sim::Options;
 
 use crate::collect::run;
 use crate::error_bound::largest_share;
-use crate::random_scene::{Dice, description};
+use crate::random_scene::{Dice, description, spring};
 use crate::sampled::{Happening, Sampled};
 
 /// Steps of the comparison at least, so that its own error is below that of the run.
@@ -69,7 +69,10 @@ fn spring_lengths(description: &SceneDescription) -> Vec<f64> {
     let tau = vec![0.0; beta.len()];
     let motion = Motion { omega_body: scene.initial.omega_body, beta: &beta, tau: &tau };
     let mut dynamics = Recursive::new(&scene);
-    let length = |i| dynamics.spring_length(&motion, i).map_or(0.0, |found| found.squared.sqrt());
+    let length = |i: usize| {
+        let line = scene.bodies[i].hinge.kick_off.map(|_| spring(&scene.bodies, i));
+        line.map_or(0.0, |line| dynamics.line_length(&motion, line).squared.sqrt())
+    };
     (0..scene.bodies.len()).map(length).collect()
 }
 

@@ -7,6 +7,9 @@ use nboom::model::{Hinge, HingeState, Mode, Release, Scene};
 use nboom::scalar::Vec3;
 use nboom::sim::EventKind;
 
+use crate::collect::{DISENGAGES, ENGAGES};
+use crate::random_scene::spring;
+
 /// Crossings closer than this are one instant; angles closer than 1e-12 are one angle.
 const ONE_INSTANT: f64 = 1e-11;
 
@@ -53,8 +56,10 @@ impl<'a> Sampled<'a> {
         found.mode.thrust = found.thrust();
         found.enter(&[]);
         for i in 0..scene.bodies.len() {
-            found.mode.kick_off[i] = scene.bodies[i].hinge.kick_off.is_some()
-                && found.value(Guard::Spring(i), &found.variables()) <= 0.0;
+            if scene.bodies[i].hinge.kick_off.is_some() {
+                let acts = found.value(Guard::Spring(i), &found.variables()) <= 0.0;
+                found.mode.pieces[spring(&scene.bodies, i)] = usize::from(!acts);
+            }
         }
         found.release(&[], &[]);
         found.enter(&[]);
@@ -139,8 +144,8 @@ impl<'a> Sampled<'a> {
             Guard::Trigger { trigger, angle, .. } => beta(trigger) - angle,
             Guard::Spring(hinge) => {
                 let limit = self.scene.bodies[hinge].hinge.kick_off.map_or(0.0, |k| k.limit_length);
-                let length = self.dynamics.spring_length(&motion, hinge);
-                length.map_or(-limit, |length| length.squared.sqrt() - limit)
+                let line = spring(&self.scene.bodies, hinge);
+                self.dynamics.line_length(&motion, line).squared.sqrt() - limit
             }
         }
     }
@@ -165,9 +170,9 @@ impl<'a> Sampled<'a> {
         self.lock(&locks);
         let released = self.release(crossed, &locks);
         for &i in &springs {
-            self.mode.kick_off[i] = !self.mode.kick_off[i];
-            let acts = self.mode.kick_off[i];
-            let kind = if acts { EventKind::KickOffEngage } else { EventKind::KickOffDisengage };
+            let piece = &mut self.mode.pieces[spring(&self.scene.bodies, i)];
+            *piece = 1 - *piece;
+            let kind = if *piece == 0 { ENGAGES } else { DISENGAGES };
             self.events.push((kind, Some(i), self.time));
         }
         let thrust = self.thrust();
@@ -261,7 +266,7 @@ impl<'a> Sampled<'a> {
             }
             if hinge.kick_off.is_some() {
                 let side = if toggled.contains(&i) {
-                    if self.mode.kick_off[i] { -1.0 } else { 1.0 }
+                    if self.mode.pieces[spring(&self.scene.bodies, i)] == 0 { -1.0 } else { 1.0 }
                 } else {
                     sign(self.value(Guard::Spring(i), &state))
                 };

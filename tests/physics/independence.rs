@@ -3,12 +3,13 @@
 //! kind of event.
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
-use nboom::model::{HingeState, Mode, Release, Scene, SceneDescription};
+use nboom::model::{HingeState, Release, Scene, SceneDescription};
 use nboom::scalar::{Mat3, Vec3};
 use nboom::sim::{EventKind, Snapshot};
 
+use super::collect::{DISENGAGES, ENGAGES};
 use super::log::{Log, options, run};
-use super::random_scene::{Dice, description};
+use super::random_scene::{Dice, all_acting, description};
 use super::transforms::{
     Variant, View, in_units, other_angle, other_body_axes, other_inertial_axes,
     other_main_body_axes, renumbered,
@@ -83,11 +84,7 @@ fn evaluated(description: &SceneDescription) -> View {
     let mut dynamics = Recursive::new(&scene);
     let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
     let tau: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.rate).collect();
-    let mode = Mode {
-        hinges: vec![HingeState::Free; beta.len()],
-        kick_off: scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect(),
-        thrust: scene.thrust.is_some(),
-    };
+    let mode = all_acting(&scene, vec![HingeState::Free; beta.len()]);
     dynamics.set_mode(&mode, &beta);
     let initial = &scene.initial;
     let motion = Motion { omega_body: initial.omega_body, beta: &beta, tau: &tau };
@@ -177,8 +174,8 @@ fn whole_runs_with_events() {
     for kind in [
         EventKind::Release,
         EventKind::LockUp,
-        EventKind::KickOffDisengage,
-        EventKind::KickOffEngage,
+        DISENGAGES,
+        ENGAGES,
         EventKind::ThrustOn,
         EventKind::ThrustOff,
     ] {

@@ -17,6 +17,7 @@ mod latch;
 mod oscillators;
 mod thrust;
 mod torque_free;
+mod torque_table;
 mod transforms;
 mod weld;
 mod wings;

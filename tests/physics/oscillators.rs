@@ -24,7 +24,13 @@ fn inertia_about(along: Vec3<f64>, j: f64) -> Sym3<f64> {
 }
 
 /// Two bodies whose common axis points anywhere, turning about it together as well.
-fn scene(spring: Spring, dashpot: Dashpot, angle: f64, rate: f64, end: f64) -> SceneDescription {
+pub fn scene(
+    spring: Spring,
+    dashpot: Dashpot,
+    angle: f64,
+    rate: f64,
+    end: f64,
+) -> SceneDescription {
     let dice = &mut Dice::new(11);
     let along = dice.direction();
     let off = dice.vector(1.0);

@@ -99,7 +99,8 @@ fn placed(moment: &Moment) -> Vec<Placed> {
 
 fn force_densities(moment: &Moment) -> Vec<f64> {
     let density = |(i, placed): (usize, Placed)| {
-        let spring = moment.scene.bodies[i].hinge.kick_off.filter(|_| moment.mode.kick_off[i]);
+        // In a moment all springs push.
+        let spring = moment.scene.bodies[i].hinge.kick_off;
         spring.map_or(0.0, |spring| {
             let end = placed.origin + placed.rot * vector(spring.body_point);
             let length = (end - vector(spring.main_body_point)).norm();

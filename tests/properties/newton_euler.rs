@@ -152,6 +152,7 @@ pub fn loads(
         power: 0.0,
         outside: none,
     };
+    let mut pieces = mode.pieces.iter();
     for (i, body) in scene.bodies.iter().enumerate() {
         let (spring, dashpot) = (body.hinge.spring, body.hinge.dashpot);
         let (x, y) = (beta[i] + spring.preload_angle, beta[i] + dashpot.preload_angle);
@@ -167,7 +168,7 @@ pub fn loads(
             loads.forces[i + 1].1 += placed[i + 1].axis * torque;
             loads.forces[inboard_of(body)].1 -= placed[i + 1].axis * torque;
         }
-        if let Some(spring) = body.hinge.kick_off.filter(|_| mode.kick_off[i]) {
+        if let Some(spring) = body.hinge.kick_off.filter(|_| pieces.next() == Some(&0)) {
             let to = placed[i + 1].origin + placed[i + 1].rot * vector(spring.body_point);
             let from = vector(spring.main_body_point);
             let x = (to - from).norm();

@@ -3,7 +3,7 @@
 use nboom::model::HingeState::{Free, Unreleased};
 use nboom::sim::{EventKind, Snapshot};
 
-use crate::collect::{Collected, run, tight};
+use crate::collect::{Collected, DISENGAGES, run, tight};
 use crate::sample_run::scene;
 use crate::support::{data, number};
 
@@ -32,7 +32,7 @@ fn events_are_the_true_ones() {
         let kind_there = match expected["kind"].as_str() {
             Some("release") => EventKind::Release,
             Some("lock") => EventKind::LockUp,
-            Some("kick_off") => EventKind::KickOffDisengage,
+            Some("kick_off") => DISENGAGES,
             other => panic!("{other:?} does not occur in the sample run"),
         };
         assert_eq!((*kind, *hinge), (kind_there, Some(number(expected, "segment") as usize)));

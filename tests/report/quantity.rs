@@ -3,7 +3,7 @@
 use nboom::scalar::Mat3;
 use nboom::sim::Snapshot;
 
-use crate::collect::detail;
+use crate::collect::{detail, forces_and_lengths};
 
 /// The quantity that `data/printed_output.json` calls `name`, as the printout shows it.
 pub fn value(name: &str, at: &Snapshot) -> f64 {
@@ -22,8 +22,8 @@ pub fn value(name: &str, at: &Snapshot) -> f64 {
         // The printout adds the two accelerations of a paddle, whose axes are not parallel.
         "add_cum" => (detail.beta_ddot[i - 1] + detail.beta_ddot[i]).to_degrees(),
         "torque" => detail.hinge_torque[i],
-        "kick_force" => detail.kick_off_force[i],
-        "kick_ext" => detail.kick_off_length[i],
+        "kick_force" => forces_and_lengths(&detail.lines, at.beta.len())[0][i],
+        "kick_ext" => forces_and_lengths(&detail.lines, at.beta.len())[1][i],
         "omega" => at.omega_body.to_array()[i],
         "omega_dot" => detail.omega_dot_body.to_array()[i],
         "S" => detail.mass_center_body.to_array()[i],

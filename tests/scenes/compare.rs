@@ -7,7 +7,7 @@ use nboom::sim::{EventKind, Snapshot};
 use serde_json::Value;
 
 use crate::catalog::Reference;
-use crate::collect::{Collected, detail};
+use crate::collect::{Collected, DISENGAGES, ENGAGES, detail, forces_and_lengths};
 use crate::support::{number, numbers};
 
 /// The largest differences, each relative to what the limits of the tests refer to.
@@ -54,9 +54,13 @@ const SERIES: [(&str, OfSnapshot); 21] = [
     ("S_body", |s| detail(s).mass_center_body.to_array().into()),
     ("cm_inertial", |s| detail(s).mass_center_inertial.to_array().into()),
     ("hinge_torque_free_formula", |s| detail(s).hinge_torque.clone()),
-    ("kick_extension", |s| detail(s).kick_off_length.clone()),
-    ("kick_force", |s| detail(s).kick_off_force.clone()),
+    ("kick_extension", |s| of_lines(s)[1].clone()),
+    ("kick_force", |s| of_lines(s)[0].clone()),
 ];
+
+fn of_lines(snapshot: &Snapshot) -> [Vec<f64>; 2] {
+    forces_and_lengths(&detail(snapshot).lines, snapshot.beta.len())
+}
 
 /// The nine entries of the matrix of an attitude, in which its sign plays no part.
 fn entries(attitude: Quaternion<f64>) -> Vec<f64> {
@@ -164,8 +168,8 @@ pub fn kind_of(event: &Value) -> EventKind {
     match event["kind"].as_str() {
         Some("release") => EventKind::Release,
         Some("lock") => EventKind::LockUp,
-        Some("kick_off") => EventKind::KickOffDisengage,
-        Some("kick_on") => EventKind::KickOffEngage,
+        Some("kick_off") => DISENGAGES,
+        Some("kick_on") => ENGAGES,
         Some("thrust_on") => EventKind::ThrustOn,
         Some("thrust_off") => EventKind::ThrustOff,
         _ => panic!("{event} has no known kind"),

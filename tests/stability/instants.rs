@@ -4,10 +4,10 @@ use nboom::model::{
     Appendage, Dashpot, Hinge, KickOffSpring, Mount, SceneDescription, Segment, Spring,
 };
 use nboom::scalar::Vec3;
-use nboom::sim::EventKind::{KickOffDisengage, KickOffEngage, LockUp};
+use nboom::sim::EventKind::LockUp;
 use nboom::sim::{Options, SimError};
 
-use crate::collect::{run, try_run};
+use crate::collect::{DISENGAGES, ENGAGES, run, try_run};
 use crate::stress::{ball, both, chain, checked, conserving, error, free, options};
 
 const HUB: f64 = 4.0;
@@ -135,7 +135,7 @@ fn a_spring_that_engages_again_gives_back_what_it_took() {
         let happened = found.happenings();
         println!("{} events", happened.len());
         assert!(happened.len() > 10, "{happened:?}");
-        let alternate = [KickOffDisengage, KickOffEngage];
+        let alternate = [DISENGAGES, ENGAGES];
         assert!(happened.iter().zip(alternate.iter().cycle()).all(|(h, &kind)| h.0 == kind));
         let (off, same_events) = error(&scene, &options);
         // Some thousand steps, and errors of phase grow no faster than time.

@@ -8,6 +8,7 @@ use nboom::sections::Section;
 use nboom::sim::{InstantMotion, Jump, MotionAt, Options, Recorder, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
 
+use crate::collect::forces_and_lengths;
 use crate::random_scene::{Dice, description};
 
 /// A satellite with stations.
@@ -146,9 +147,9 @@ impl BruteForce {
     }
 
     fn of_motion(&mut self, motion: &MotionAt<'_>) -> LoadSet {
-        let lengths = motion.kick_off_force.iter().zip(motion.kick_off_length);
-        let densities: Vec<f64> =
-            lengths.map(|(f, l)| if *f == 0.0 { 0.0 } else { f / l }).collect();
+        let [forces, lengths] = forces_and_lengths(motion.lines, motion.beta.len());
+        let density = |(f, l): (f64, f64)| if f == 0.0 { 0.0 } else { f / l };
+        let densities: Vec<f64> = forces.into_iter().zip(lengths).map(density).collect();
         let motion = SceneMotion {
             omega_body: motion.omega_body,
             beta: motion.beta,

@@ -3,10 +3,26 @@
 
 use std::io;
 
+use nboom::elements::{Kind, LineReading};
 use nboom::model::Scene;
 use nboom::sim::{
     Detail, Event, EventKind, Failure, Options, Recorder, Snapshot, Summary, simulate,
 };
+
+/// A kick-off spring becomes shorter than its limit length.
+pub const ENGAGES: EventKind = EventKind::Fall(Kind::KickOff);
+
+/// A kick-off spring grows beyond its limit length.
+pub const DISENGAGES: EventKind = EventKind::Rise(Kind::KickOff);
+
+/// Force and length of the line at each of so many hinges; zero where there is none.
+pub fn forces_and_lengths(lines: &[LineReading], hinges: usize) -> [Vec<f64>; 2] {
+    let mut found = [vec![0.0; hinges], vec![0.0; hinges]];
+    for line in lines {
+        (found[0][line.hinge], found[1][line.hinge]) = (line.force, line.length);
+    }
+    found
+}
 
 /// Everything a run has told.
 #[derive(Default)]

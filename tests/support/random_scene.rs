@@ -169,6 +169,17 @@ pub struct Moment {
     pub velocity_body: Vec3<f64>,
 }
 
+/// The mode with these hinges in which every spring pushes and the thrust, if there is one, is on.
+pub fn all_acting(scene: &Scene, hinges: Vec<HingeState>) -> Mode {
+    let pieces = vec![0; Mode::at_start(scene).pieces.len()];
+    Mode { hinges, pieces, thrust: scene.thrust.is_some() }
+}
+
+/// The place of the kick-off spring of body `i` among the lines of a scene.
+pub fn spring(bodies: &[Body], i: usize) -> usize {
+    bodies[..i].iter().filter(|body| body.hinge.kick_off.is_some()).count()
+}
+
 /// A random tree in a random mode; each hinge is held with probability `held`.
 pub fn moment(bodies: usize, seed: u64, held: f64) -> Moment {
     let scene = Scene::new(description(bodies, seed)).expect("random bodies are physical");
@@ -179,9 +190,7 @@ pub fn moment(bodies: usize, seed: u64, held: f64) -> Moment {
         false => HingeState::Free,
     });
     let hinges: Vec<HingeState> = hinges.collect();
-    let kick_off = scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect();
-    let thrust = scene.thrust.is_some();
-    let mode = Mode { hinges, kick_off, thrust };
+    let mode = all_acting(&scene, hinges);
     let beta = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
     let rate = |i: usize| if mode.is_free(i) { scene.bodies[i].hinge.start.rate } else { 0.0 };
     let tau = (0..bodies).map(rate).collect();

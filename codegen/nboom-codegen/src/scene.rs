@@ -127,8 +127,8 @@ pub fn held(scene: &Scene, free: &[bool], angle: f64) -> WeldedTree<f64> {
     let state = |&free: &bool| if free { HingeState::Free } else { HingeState::Locked };
     let mode = Mode {
         hinges: free.iter().map(state).collect(),
-        kick_off: vec![false; free.len()],
         thrust: scene.thrust.is_some(),
+        ..Mode::at_start(scene)
     };
     let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
     WeldedTree::new(scene, &mode, &beta)

@@ -29,11 +29,7 @@ fn sample() -> Scene {
 fn parameters() -> Parameters<f64> {
     let scene = sample();
     let hinges = scene.bodies.len();
-    let mode = Mode {
-        hinges: vec![HingeState::Free; hinges],
-        kick_off: vec![false; hinges],
-        thrust: false,
-    };
+    let mode = Mode { hinges: vec![HingeState::Free; hinges], ..Mode::at_start(&scene) };
     let tree = WeldedTree::new(&scene, &mode, &vec![0.0; hinges]);
     recognise(&tree).expect("a chain and a paddle").parameters
 }

@@ -1,4 +1,3 @@
-use nboom_model::Member;
 use nboom_scalar::{Real, RigidInertia, Sym3, Twist, Vec3};
 
 use crate::pose;
@@ -23,9 +22,9 @@ pub struct Invariants<R> {
     pub angular_momentum_scale: R,
 }
 
-/// Length of a kick-off spring, and how it changes.
+/// Length of a line, and how it changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpringLength<R> {
+pub struct LineLength<R> {
     /// |x̄|².
     pub squared: R,
     /// Rate of |x̄|².
@@ -80,43 +79,50 @@ impl<R: Real> Recursive<R> {
         about_center.solve(momentum_body - of_hinges.angular_momentum)
     }
 
-    /// Length and rate of the kick-off spring of hinge `hinge`; `None` without a spring.
-    pub fn spring_length(
-        &mut self,
-        motion: &Motion<'_, R>,
-        hinge: usize,
-    ) -> Option<SpringLength<R>> {
+    /// Length and rate of a line, by its place among [`Elements::lines`](nboom_elements::Elements).
+    ///
+    /// # Panics
+    /// When there are not so many lines.
+    pub fn line_length(&mut self, motion: &Motion<'_, R>, line: usize) -> LineLength<R> {
         pose::place(&self.tree, &self.constants, motion.beta, &mut self.poses);
-        let (along, end, link) = self.spring_vector(hinge)?;
+        let line = self.elements.lines()[line];
+        let (end, along) = line.end_and_span(&self.poses);
         let mut velocity = Vec3::zero();
-        for j in self.path_inward(link) {
+        for j in self.path_inward(line.link) {
             let turning = self.poses[j].axis * motion.tau[j];
             velocity += turning.cross(end - self.poses[j].position);
         }
         let rate = along.dot(velocity);
-        Some(SpringLength { squared: along.norm_squared(), squared_rate: rate + rate })
+        LineLength { squared: along.norm_squared(), squared_rate: rate + rate }
     }
 
-    /// |x̄|² of the kick-off springs of `hinges` at the angles `beta` of the free hinges.
-    ///
-    /// # Panics
-    /// When one of the hinges has no kick-off spring.
-    pub fn spring_lengths_squared(&mut self, beta: &[R], hinges: &[usize], out: &mut [R]) {
+    /// |x̄|² of all lines at the angles `beta` of the free hinges.
+    pub fn line_lengths_squared(&mut self, beta: &[R], out: &mut [R]) {
         pose::place(&self.tree, &self.constants, beta, &mut self.poses);
-        for (length, &hinge) in out.iter_mut().zip(hinges) {
-            let spring = self.spring_vector(hinge).expect("only hinges with springs are asked for");
-            *length = spring.0.norm_squared();
+        for (length, line) in out.iter_mut().zip(self.elements.lines()) {
+            *length = line.end_and_span(&self.poses).1.norm_squared();
         }
     }
 
-    /// For the kick-off spring of `hinge`, each free hinge that moves its end (a position in
-    /// [`Recursive::free_hinges`]) with the largest distance the end can have from it.
-    pub fn spring_reach(&self, hinge: usize) -> Vec<(usize, R)> {
-        let Some(spring) = self.scene.bodies[hinge].hinge.kick_off else { return Vec::new() };
-        let Member { link, point, rot_link_from_body: rot } = self.tree.members[hinge];
-        let mut reach = (point + rot * Vec3::constant(spring.body_point)).norm();
+    /// |x̄|² of one line at the angles `beta` of the free hinges.
+    ///
+    /// # Panics
+    /// When there are not so many lines.
+    pub fn line_length_squared(&mut self, beta: &[R], line: usize) -> R {
+        pose::place(&self.tree, &self.constants, beta, &mut self.poses);
+        self.elements.lines()[line].end_and_span(&self.poses).1.norm_squared()
+    }
+
+    /// For a line, each free hinge that moves its end (a position in [`Recursive::free_hinges`]) with
+    /// the largest distance the end can have from it.
+    ///
+    /// # Panics
+    /// When there are not so many lines.
+    pub fn line_reach(&self, line: usize) -> Vec<(usize, R)> {
+        let line = &self.elements.lines()[line];
+        let mut reach = line.point.norm();
         let mut reaches = Vec::new();
-        for j in self.path_inward(link) {
+        for j in self.path_inward(line.link) {
             reaches.push((j, reach));
             reach += self.tree.links[j].point.norm();
         }
@@ -125,15 +131,6 @@ impl<R: Real> Recursive<R> {
 
     fn path_inward(&self, from: Option<usize>) -> impl Iterator<Item = usize> {
         std::iter::successors(from, |&j| self.tree.links[j].inboard)
-    }
-
-    /// x̄, the position of its end on the body from O, and the link of that body.
-    fn spring_vector(&self, hinge: usize) -> Option<(Vec3<R>, Vec3<R>, Option<usize>)> {
-        let spring = self.scene.bodies[hinge].hinge.kick_off?;
-        let Member { link, point, rot_link_from_body: rot } = self.tree.members[hinge];
-        let in_link = point + rot * Vec3::constant(spring.body_point);
-        let end = link.map_or(in_link, |j| self.poses[j].position + self.poses[j].rot * in_link);
-        Some((end - Vec3::constant(spring.main_body_point), end, link))
     }
 
     fn total_mass(&self) -> R {

@@ -35,10 +35,8 @@ mod composite_body;
 mod impulse;
 mod invariants;
 mod pose;
-mod pushing;
 mod recursive;
-mod untransmitted;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};
-pub use invariants::{Invariants, SpringLength};
+pub use invariants::{Invariants, LineLength};
 pub use recursive::{Accelerations, Motion, Recursive};

@@ -1,5 +1,5 @@
-use nboom_elements::HingeLaw;
-use nboom_model::{Link, Scene, WeldedTree};
+use nboom_elements::Placed;
+use nboom_model::{Link, WeldedTree};
 use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
 
 /// Constants of one link that follow from the tree.
@@ -11,21 +11,17 @@ pub(crate) struct LinkConstants<R> {
     still: Mat3<R>,
     along_cos: Mat3<R>,
     along_sin: Mat3<R>,
-    /// Spring and dashpot about the hinge.
-    pub law: HingeLaw<R>,
 }
 
 impl<R: Real> LinkConstants<R> {
-    pub fn new(scene: &Scene, link: &Link<R>) -> Self {
+    pub fn new(link: &Link<R>) -> Self {
         let (rot, axis) = (link.rot_inboard_at_zero, link.axis);
         let along = axis.outer(axis);
-        let hinge = &scene.bodies[link.hinge].hinge;
         Self {
             axis_inboard: rot * axis,
             still: rot * along,
             along_cos: rot * (Mat3::identity() - along),
             along_sin: rot * Mat3::skew(axis),
-            law: HingeLaw::new(&hinge.spring, &hinge.dashpot),
         }
     }
 }
@@ -54,6 +50,23 @@ impl<R: Real> LinkPose<R> {
             axis: Vec3::zero(),
             inertia: RigidInertia::zero(),
         }
+    }
+}
+
+impl<R: Real> Placed<R> for LinkPose<R> {
+    #[inline]
+    fn rot(&self) -> &Mat3<R> {
+        &self.rot
+    }
+
+    #[inline]
+    fn position(&self) -> Vec3<R> {
+        self.position
+    }
+
+    #[inline]
+    fn axis(&self) -> Vec3<R> {
+        self.axis
     }
 }
 

@@ -1,3 +1,4 @@
+use nboom_elements::Elements;
 use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
@@ -5,8 +6,6 @@ use crate::articulated_body::{self, HingeFactor, Load};
 use crate::base::BaseFactor;
 use crate::composite_body;
 use crate::pose::{self, LinkConstants, LinkPose};
-use crate::pushing::PushingSpring;
-use crate::untransmitted::Untransmitted;
 
 /// Rates of the main body and angles and rates of the free hinges, in the order of
 /// [`Recursive::free_hinges`].
@@ -50,10 +49,8 @@ pub struct Recursive<R> {
     pub(crate) scene: Scene,
     pub(crate) tree: WeldedTree<R>,
     pub(crate) constants: Vec<LinkConstants<R>>,
-    pushing: Vec<PushingSpring<R>>,
-    untransmitted: Vec<Untransmitted<R>>,
+    pub(crate) elements: Elements<R>,
     free: Vec<usize>,
-    thrust: Option<Wrench<R>>,
     pub(crate) poses: Vec<LinkPose<R>>,
     pub(crate) hinges: Vec<HingeFactor<R>>,
     pub(crate) base: BaseFactor<R>,
@@ -70,14 +67,13 @@ impl<R: Real> Recursive<R> {
         let mode = Mode::at_start(scene);
         let beta: Vec<R> =
             scene.bodies.iter().map(|body| R::constant(body.hinge.start.angle)).collect();
+        let tree = WeldedTree::new(scene, &mode, &beta);
         let mut recursive = Self {
             scene: scene.clone(),
-            tree: WeldedTree::new(scene, &mode, &beta),
+            elements: Elements::new(scene, &mode, &tree),
+            tree,
             constants: Vec::new(),
-            pushing: Vec::new(),
-            untransmitted: Vec::new(),
             free: Vec::new(),
-            thrust: None,
             poses: Vec::new(),
             hinges: Vec::new(),
             base: BaseFactor::unset(),
@@ -95,15 +91,9 @@ impl<R: Real> Recursive<R> {
     /// those of the held ones are built in.
     pub fn set_mode(&mut self, mode: &Mode, beta: &[R]) {
         self.tree = WeldedTree::new(&self.scene, mode, beta);
-        let constants = |link| LinkConstants::new(&self.scene, link);
-        self.constants = self.tree.links.iter().map(constants).collect();
-        self.pushing = PushingSpring::all(&self.scene, mode, &self.tree);
-        self.untransmitted = Untransmitted::all(&self.scene, mode, &self.tree);
+        self.constants = self.tree.links.iter().map(LinkConstants::new).collect();
+        self.elements = Elements::new(&self.scene, mode, &self.tree);
         self.free = self.tree.links.iter().map(|link| link.hinge).collect();
-        self.thrust = self.scene.thrust.filter(|_| mode.thrust).map(|thrust| {
-            let (point, force) = (Vec3::constant(thrust.point), Vec3::constant(thrust.force));
-            Wrench::of_force(point, force)
-        });
         let links = self.tree.links.len();
         self.poses = vec![LinkPose::unset(); links];
         self.hinges = vec![HingeFactor::unset(); links];
@@ -124,9 +114,14 @@ impl<R: Real> Recursive<R> {
         &self.tree
     }
 
+    /// The force elements as they act in this mode.
+    pub fn elements(&self) -> &Elements<R> {
+        &self.elements
+    }
+
     /// The external wrench on the main body about O, main-body axes, when there is one.
     pub fn external(&self) -> Option<Wrench<R>> {
-        self.thrust
+        self.elements.thrust().map(|thrust| thrust.wrench)
     }
 
     /// Accelerations by articulated bodies: ω̇, a_O without gravity, τ̇.
@@ -156,35 +151,26 @@ impl<R: Real> Recursive<R> {
         of_base.copy_from_slice(&[f.x, f.y, f.z, m.x, m.y, m.z]);
     }
 
-    /// Generalised forces conjugate to the free hinges' angles: springs, dashpots and pushing
-    /// kick-off springs, eqs. (6.1) and (6.17), corrected: note 5.
+    /// Generalised forces conjugate to the free hinges' angles: torques about hinges and forces along
+    /// lines, eqs. (6.1) and (6.17), corrected: note 5.
     ///
-    /// A kick-off spring's reaction on the main body leaves no resultant, so nothing else of it
-    /// enters the equations.
+    /// The reaction of a line on the main body leaves no resultant, so nothing else of it enters the
+    /// equations.
     pub fn hinge_forces(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
-        for (j, constants) in self.constants.iter().enumerate() {
-            out[j] = constants.law.torque(motion.beta[j], motion.tau[j]);
-        }
-        if self.pushing.is_empty() {
+        let Self { elements, free, tree, constants, poses, .. } = self;
+        elements.set_torques(free, [motion.beta, motion.tau], out);
+        if elements.pushing().next().is_none() {
             return;
         }
-        pose::place(&self.tree, &self.constants, motion.beta, &mut self.poses);
-        for spring in &self.pushing {
-            let (end, force) = spring.end_and_force(&self.poses);
-            let inward = std::iter::successors(Some(spring.link), |&j| self.tree.links[j].inboard);
-            for j in inward {
-                let pose = &self.poses[j];
+        pose::place(tree, constants, motion.beta, poses);
+        for (link, line) in elements.pushing() {
+            let (end, force) = line.end_and_force(poses);
+            for j in std::iter::successors(Some(link), |&j| tree.links[j].inboard) {
+                let pose = &poses[j];
                 out[j] += pose.axis.dot((end - pose.position).cross(force));
             }
         }
-        self.withhold(out);
-    }
-
-    /// Takes off the torques what kick-off springs do not transmit; everything must be placed.
-    fn withhold(&self, torques: &mut [R]) {
-        for moment in &self.untransmitted {
-            torques[moment.link] -= moment.torque(&self.poses);
-        }
+        elements.withhold(poses, out);
     }
 
     pub(crate) fn place(&mut self, beta: &[R]) {
@@ -214,18 +200,17 @@ impl<R: Real> Recursive<R> {
             &mut self.twists,
             &mut self.wrenches,
         );
-        for (j, constants) in self.constants.iter().enumerate() {
-            torques[j] = constants.law.torque(motion.beta[j], motion.tau[j]);
+        let Self { elements, free, poses, wrenches, .. } = self;
+        elements.set_torques(free, [motion.beta, motion.tau], torques);
+        for (link, line) in elements.pushing() {
+            let (end, force) = line.end_and_force(poses);
+            let arm = end - poses[link].position;
+            wrenches[link].subtract(Wrench::of_force(arm, force));
+            main.add(Wrench::of_force(line.main_body_point, force));
         }
-        for spring in &self.pushing {
-            let (end, force) = spring.end_and_force(&self.poses);
-            let arm = end - self.poses[spring.link].position;
-            self.wrenches[spring.link].subtract(Wrench::of_force(arm, force));
-            main.add(Wrench::of_force(spring.main_body_point, force));
-        }
-        self.withhold(torques);
-        if let Some(thrust) = self.thrust {
-            main.subtract(thrust);
+        elements.withhold(poses, torques);
+        if let Some(thrust) = elements.thrust() {
+            main.subtract(thrust.wrench);
         }
         main
     }

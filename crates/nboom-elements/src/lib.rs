@@ -1,7 +1,12 @@
-//! Force laws of Section 6, one file each, over any scalar.
+//! The forces of Section 6: force elements, one file each, over any scalar.
 //!
-//! A law turns positions and rates into a force or torque and, where it is conservative, into
-//! a potential energy. Whether it acts is a bit of [`nboom_model::Mode`], never an `if` here.
+//! An element turns positions and rates into a torque about a hinge, a force along a line between
+//! two bodies ([`Line`]) or a wrench on the main body, and where it is conservative into a potential
+//! energy. [`Elements`] has all that act in one mode; whoever computes a motion, its energy or its
+//! loads goes through these by what they act on and knows none by name.
+//!
+//! No law branches on a value: where it has several pieces ([`Switched`]), the one that holds is in
+//! [`nboom_model::Mode`], and an element tells where it ends and what that is called ([`Kind`]).
 //!
 //! ```
 //! use nboom_elements::HingeLaw;
@@ -11,8 +16,12 @@
 //! assert!((law.torque(1.57, 0.0) - -0.4 * (1.57 - 0.35)).abs() < 1e-15);
 //! ```
 
-mod hinge_law;
-mod kick_off;
+mod elements;
+mod line;
+mod names;
+mod switched;
 
-pub use hinge_law::HingeLaw;
-pub use kick_off::KickOffLaw;
+pub use elements::*;
+pub use line::{Ends, Line, LineReading, Placed};
+pub use names::{EventName, LineNames, Names};
+pub use switched::{Coordinate, ElementId, Switched};

@@ -6,8 +6,25 @@ use nboom_scalar::{ArticulatedInertia, Mat3, Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::base::AtOrigin;
 use crate::chain::{self, Eliminated, Outward, Shown, Spin, Turned};
+use crate::formulation::ClosedForm;
 use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
+
+/// The row of [`Formulation`](crate::Formulation)'s table.
+pub(crate) struct Articulated;
+
+impl ClosedForm for Articulated {
+    const NAME: &'static str = "articulated";
+    const ABOUT: &'static str = "O(n) elimination over (ω̇, a_O, τ̇), hinge by hinge from the tips";
+
+    fn solve<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Solution<R> {
+        solve(topology, parameters, coordinates)
+    }
+}
 
 /// Accelerations of a satellite.
 pub fn solve<R: Real>(

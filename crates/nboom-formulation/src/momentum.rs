@@ -9,8 +9,26 @@ use nboom_model::{Shape, Topology};
 use nboom_scalar::{Dual, Real, Twist, Vec3, Wrench};
 
 use crate::articulated;
+use crate::formulation::ClosedForm;
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
 use crate::pose::{self, Posed, each};
+
+/// The row of [`Formulation`](crate::Formulation)'s table.
+pub(crate) struct Momentum;
+
+impl ClosedForm for Momentum {
+    const NAME: &'static str = "momentum";
+    const ABOUT: &'static str =
+        "O(n) elimination on momenta (Π, P, π): velocities, no accelerations";
+
+    fn solve<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Solution<R> {
+        solve(topology, parameters, coordinates)
+    }
+}
 
 /// Momenta of a satellite, or their rates of change.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,9 +5,36 @@
 use nboom_model::{Shape, Topology};
 use nboom_scalar::Real;
 
+use crate::formulation::ClosedForm;
 use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::report;
 use crate::section5::{self, Equations, Place};
+
+/// The row of [`Formulation`](crate::Formulation)'s table.
+pub(crate) struct Relative;
+
+impl ClosedForm for Relative {
+    const NAME: &'static str = "relative";
+    const ABOUT: &'static str = "the report's matrix B = A a over (v̇, ω̇, τ̇)";
+
+    const HAS_EQUATIONS: bool = true;
+
+    fn equations<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Option<Equations<R>> {
+        Some(equations(topology, parameters, coordinates, &Place::origin()))
+    }
+
+    fn solve<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Solution<R> {
+        solve(topology, parameters, coordinates, &Place::origin())
+    }
+}
 
 /// B and u over (v̇, ω̇, τ̇), hinges appendage by appendage, without gravity.
 ///

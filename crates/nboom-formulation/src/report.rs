@@ -8,11 +8,38 @@
 use nboom_model::Topology;
 use nboom_scalar::{Real, Twist, Vec3};
 
+use crate::formulation::ClosedForm;
 use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::pose;
 use crate::section5;
 
 pub use crate::section5::{Equations, Place};
+
+/// The row of [`Formulation`](crate::Formulation)'s table.
+pub(crate) struct Report;
+
+impl ClosedForm for Report {
+    const NAME: &'static str = "report";
+    const ABOUT: &'static str = "the report's Section 5: unsymmetric matrix A over (v̇, ω̇, σ̇)";
+
+    const HAS_EQUATIONS: bool = true;
+
+    fn equations<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Option<Equations<R>> {
+        Some(equations(topology, parameters, coordinates, &Place::origin()))
+    }
+
+    fn solve<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Solution<R> {
+        solve(topology, parameters, coordinates, &Place::origin())
+    }
+}
 
 /// A and u over (v̇, ω̇, σ̇), hinges appendage by appendage, without gravity.
 pub fn equations<R: Real>(

@@ -8,15 +8,52 @@
 mod appendage;
 mod tree;
 
-use nboom_model::Topology;
+use nboom_model::{Topology, WeldedTree};
 use nboom_scalar::{Real, Twist};
 
 use crate::arrow::Arrow;
 use crate::base::AtOrigin;
+use crate::formulation::ClosedForm;
 use crate::parameters::{Branch, Coordinates, Parameters, Solution};
 use crate::pose;
+use crate::recognise::rigid;
+use crate::section5::Equations;
 
 pub use tree::{forcing as tree_forcing, mass_matrix as tree_mass_matrix, solve as solve_tree};
+
+/// The row of [`Formulation`](crate::Formulation)'s table.
+pub(crate) struct Symmetric;
+
+impl ClosedForm for Symmetric {
+    const NAME: &'static str = "symmetric";
+    const ABOUT: &'static str =
+        "kinetic-energy matrix over (a_O, ω̇, τ̇), appendages eliminated first; any tree";
+
+    const HAS_EQUATIONS: bool = true;
+
+    fn covers(tree: &WeldedTree<f64>) -> Result<(), usize> {
+        rigid(tree)
+    }
+
+    fn equations<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Option<Equations<R>> {
+        Some(Equations {
+            matrix: mass_matrix(topology, parameters, coordinates),
+            forcing: forcing(topology, parameters, coordinates),
+        })
+    }
+
+    fn solve<R: Real>(
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        coordinates: &Coordinates<R>,
+    ) -> Solution<R> {
+        solve(topology, parameters, coordinates)
+    }
+}
 
 /// Accelerations of a satellite.
 pub fn solve<R: Real>(

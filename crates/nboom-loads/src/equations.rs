@@ -199,7 +199,7 @@ fn gather<R: Real>(
         }
     }
     for (i, (segment, place)) in segments.iter().zip(places).enumerate().rev() {
-        push(segment, place, force_densities[i], i, out);
+        push_apart(segment, place, force_densities[i], i, out);
         for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
             *load = load.seen_from(-cut.point);
         }
@@ -212,21 +212,21 @@ fn gather<R: Real>(
     }
 }
 
-/// Takes the force of the kick-off spring of segment `i` off its loads.
-fn push<R: Real>(
+/// Takes the force along the line from the main body to segment `i` off its loads.
+fn push_apart<R: Real>(
     segment: &Segment<R>,
     place: &Place<R>,
     force_density: R,
     i: usize,
     out: &mut LoadSet<R>,
 ) {
-    let Some(spring) = segment.kick_off else { return };
-    let end = place.origin + place.rot_main_from_body * spring.body_point;
-    let along = end - spring.main_body_point;
+    let Some(push) = segment.push else { return };
+    let end = place.origin + place.rot_main_from_body * push.body_point;
+    let along = end - push.main_body_point;
     let force = place.rot_main_from_body.transpose_mul(along * force_density);
-    carry(i, spring.carried_from, Wrench::of_force(spring.body_point, -force), out);
+    carry(i, push.carried_from, Wrench::of_force(push.body_point, -force), out);
     let size = force.norm();
-    out.sizes[i].add(Size { moment: spring.body_point.norm() * size, force: size });
+    out.sizes[i].add(Size { moment: push.body_point.norm() * size, force: size });
 }
 
 /// Adds a wrench about the hinge point of segment `i` to its hinge and the stations that carry it.

@@ -80,7 +80,7 @@ impl Loads {
         self.code.equations.load_set()
     }
 
-    /// Loads by the motion and the kick-off springs: eqs. (10.4) to (10.6), corrected: note 24.
+    /// Loads by the motion and the forces along lines: eqs. (10.4) to (10.6), corrected: note 24.
     pub fn continuous(&mut self, motion: &SceneMotion<'_>, out: &mut LoadSet) {
         self.code.evaluate(motion, out);
     }

@@ -23,8 +23,8 @@ pub struct SceneMotion<'a, R = f64> {
     pub tau: &'a [R],
     /// Accelerations.
     pub acceleration: VelocityChange<'a, R>,
-    /// Force of the kick-off spring of each hinge over its length, its force density; zero where
-    /// none pushes \[F/L\].
+    /// Force along the line from the main body to the body of each hinge over its length, its force
+    /// density; zero where none acts \[F/L\].
     pub force_densities: &'a [R],
 }
 

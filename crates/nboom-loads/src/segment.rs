@@ -1,3 +1,4 @@
+use nboom_elements::Ends;
 use nboom_model::{MassProperties, Scene, SegmentStructure, Station, Structure};
 use nboom_scalar::{Mat3, RigidInertia, Vec3};
 
@@ -18,7 +19,7 @@ pub(crate) struct Segment<R> {
     /// The outermost station of the inboard body that carries this one.
     pub carried_from: usize,
     pub stations: Vec<Cut<R>>,
-    pub kick_off: Option<KickOff<R>>,
+    pub push: Option<Push<R>>,
 }
 
 /// A station and what of its segment is outboard of it.
@@ -35,9 +36,9 @@ pub(crate) struct Cut<R> {
 /// for each number.
 pub type Influence<R = f64> = [[R; 6]; 6];
 
-/// A kick-off spring, between a segment and the main body.
+/// A force along a line between a segment and the main body.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct KickOff<R> {
+pub(crate) struct Push<R> {
     pub body_point: Vec3<R>,
     /// From O, main-body axes.
     pub main_body_point: Vec3<R>,
@@ -56,17 +57,17 @@ impl<R: Copy> Segment<R> {
             inertia: self.inertia.map(&mut f),
             carried_from: self.carried_from,
             stations: self.stations.iter().map(|cut| cut.map(&mut f)).collect(),
-            kick_off: self.kick_off.map(|spring| spring.map(&mut f)),
+            push: self.push.map(|push| push.map(&mut f)),
         }
     }
 
     /// How it is attached, as numbers that no other arrangement has.
     pub fn arrangement(&self) -> [f64; 5] {
         let counted = |place: Option<usize>| place.map_or(0, |place| place + 1);
-        let spring = self.kick_off.as_ref().map(|spring| spring.carried_from);
+        let push = self.push.as_ref().map(|push| push.carried_from);
         let sections = self.stations.iter().filter(|cut| cut.influence.is_some()).count();
         let stations = self.stations.len();
-        [counted(self.inboard), self.carried_from, stations, sections, counted(spring)]
+        [counted(self.inboard), self.carried_from, stations, sections, counted(push)]
             .map(|count| count as f64)
     }
 }
@@ -81,9 +82,9 @@ impl<R: Copy> Cut<R> {
     }
 }
 
-impl<R: Copy> KickOff<R> {
-    fn map<S>(&self, mut f: impl FnMut(R) -> S) -> KickOff<S> {
-        KickOff {
+impl<R: Copy> Push<R> {
+    fn map<S>(&self, mut f: impl FnMut(R) -> S) -> Push<S> {
+        Push {
             body_point: self.body_point.map(&mut f),
             main_body_point: self.main_body_point.map(f),
             carried_from: self.carried_from,
@@ -101,10 +102,10 @@ impl Segment<f64> {
         let of = |i: usize| structure.map(|structure| &structure.segments()[i]);
         let stations_of = |i| of(i).map_or(&[][..], |segment| &segment.stations);
         let inboard_stations = body.inboard.map_or(&[][..], stations_of);
-        let kick_off = body.hinge.kick_off.map(|spring| KickOff {
-            body_point: spring.body_point,
-            main_body_point: spring.main_body_point,
-            carried_from: carried_from(stations_of(i), spring.body_point),
+        let push = Ends::of(scene, i).map(|ends| Push {
+            body_point: ends.body_point,
+            main_body_point: ends.main_body_point,
+            carried_from: carried_from(stations_of(i), ends.body_point),
         });
         Self {
             inboard: body.inboard,
@@ -114,7 +115,7 @@ impl Segment<f64> {
             inertia: about_hinge(&body.mass_properties),
             carried_from: carried_from(inboard_stations, body.mount.point),
             stations: of(i).map(cuts).unwrap_or_default(),
-            kick_off,
+            push,
         }
     }
 }

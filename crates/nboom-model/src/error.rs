@@ -3,7 +3,7 @@ use std::fmt;
 use nboom_scalar::Vec3;
 
 use crate::mass::MassDefect;
-use crate::{Body, HingeLabel, HingeState, Release, SceneDescription};
+use crate::{Body, HingeLabel, HingeState, Release, SAME_ANGLE, SceneDescription};
 
 /// Which body a message is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,6 +107,28 @@ pub enum ModelError {
         /// End time.
         end: f64,
     },
+    /// A torque table is of no hinge, or of one that has a table already.
+    #[error(
+        "torque table {table}: hinge number {hinge} found, one of the {count} hinges without another table expected"
+    )]
+    TableHinge {
+        /// Number of the table, from 1.
+        table: usize,
+        /// Number of the hinge, from 1.
+        hinge: usize,
+        /// How many hinges there are.
+        count: usize,
+    },
+    /// A torque table does not have two points with finite numbers, or its angles do not ascend.
+    #[error(
+        "torque table {table}: {defect} found, two or more points of finite numbers at ascending angles expected"
+    )]
+    TablePoints {
+        /// Number of the table, from 1.
+        table: usize,
+        /// What was found.
+        defect: String,
+    },
     /// The thrust stops before it starts.
     #[error("thrust from {on} to {off} found, an end not before its start expected")]
     ThrustTimes {
@@ -130,7 +152,27 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
         find_in_tree(scene, labels, i, &mut errors);
         find_in_hinge(body, labels[i], labels.len(), i, &mut errors);
     }
+    find_in_tables(scene, &mut errors);
     errors
+}
+
+fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
+    let (tables, count) = (&scene.torque_tables, scene.bodies.len());
+    for (i, table) in tables.iter().enumerate() {
+        let hinge = table.hinge;
+        if hinge >= count || tables[..i].iter().any(|other| other.hinge == hinge) {
+            errors.push(ModelError::TableHinge { table: i + 1, hinge: hinge + 1, count });
+        }
+        let defect = match &table.points[..] {
+            few @ ([] | [_]) => Some(format!("{} points", few.len())),
+            points => points.iter().enumerate().find_map(|(k, &[angle, torque])| {
+                let is_finite = angle.is_finite() && torque.is_finite();
+                let ascends = k == 0 || angle > points[k - 1][0] + SAME_ANGLE;
+                (!(is_finite && ascends)).then(|| format!("point {} at {angle}, {torque}", k + 1))
+            }),
+        };
+        errors.extend(defect.map(|defect| ModelError::TablePoints { table: i + 1, defect }));
+    }
 }
 
 fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {

@@ -54,7 +54,7 @@ pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use misturned::Misturned;
 pub use mode::Mode;
 pub use posture::{HingePlace, Posture};
-pub use scene::{Body, Scene, SceneDescription};
+pub use scene::*;
 pub use slips::MotionSlips;
 pub use structure::{SLICE_TOLERANCE, SectionShape, SegmentStructure, Station, Structure, Vertex};
 pub use structure_error::{StructureDefect, StructureError, StructurePlace};

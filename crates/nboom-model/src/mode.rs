@@ -7,8 +7,9 @@ use crate::{HingeState, Scene};
 pub struct Mode {
     /// State of each hinge.
     pub hinges: Vec<HingeState>,
-    /// Whether the kick-off spring of each hinge pushes.
-    pub kick_off: Vec<bool>,
+    /// The piece that holds of each force law that has several, counted from 0, in the order of
+    /// [`SceneDescription::pieces_at_rest`](crate::SceneDescription::pieces_at_rest).
+    pub pieces: Vec<usize>,
     /// Whether the thrust is on.
     pub thrust: bool,
 }
@@ -18,7 +19,7 @@ impl Mode {
     pub fn at_start(scene: &Scene) -> Self {
         Self {
             hinges: scene.bodies.iter().map(|body| body.hinge.start.state).collect(),
-            kick_off: vec![false; scene.bodies.len()],
+            pieces: scene.pieces_at_rest(),
             thrust: false,
         }
     }

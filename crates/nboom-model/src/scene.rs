@@ -27,6 +27,17 @@ pub struct Body {
     pub hinge: Hinge,
 }
 
+/// A torque about a hinge over its angle, given at points; what lies between is said in
+/// `docs/equations.md`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueTable {
+    /// Index of the hinge, from 0.
+    pub hinge: usize,
+    /// Angles \[rad\], ascending, each with its torque, positive when it increases the angle; at
+    /// least two.
+    pub points: Vec<[f64; 2]>,
+}
+
 /// A scene as written, not yet checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneDescription {
@@ -36,6 +47,8 @@ pub struct SceneDescription {
     pub main_body: MassProperties,
     /// The hinged bodies, branch by branch, inboard before outboard.
     pub bodies: Vec<Body>,
+    /// Torques over an angle, beside those of spring and dashpot; at most one about a hinge.
+    pub torque_tables: Vec<TorqueTable>,
     /// Uniform gravity.
     pub gravity: Option<Gravity>,
     /// The thrust pulse.
@@ -53,11 +66,24 @@ impl SceneDescription {
             name: name.to_owned(),
             main_body,
             bodies: Vec::new(),
+            torque_tables: Vec::new(),
             gravity: None,
             thrust: None,
             initial: InitialMotion::at_rest(),
             end_time,
         }
+    }
+
+    /// The piece of each force law that has several before anything acts: for each kick-off spring, by
+    /// hinge, 1, which it is in beyond its limit length and does not push; then for each torque table
+    /// how many of its points are below the angle at which its hinge starts.
+    pub fn pieces_at_rest(&self) -> Vec<usize> {
+        let springs = self.bodies.iter().filter_map(|body| body.hinge.kick_off).map(|_| 1);
+        let tables = self.torque_tables.iter().map(|table| {
+            let start = self.bodies.get(table.hinge).map_or(0.0, |body| body.hinge.start.angle);
+            table.points.iter().filter(|[angle, _]| *angle < start).count()
+        });
+        springs.chain(tables).collect()
     }
 
     /// Adds the bodies of one more appendage.

@@ -2,7 +2,7 @@
 
 use nboom_model::{
     Appendage, Gravity, Hinge, HingeState, MassProperties, Mount, Release, Scene, SceneDescription,
-    Segment, Thrust,
+    Segment, Thrust, TorqueTable,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -77,6 +77,30 @@ fn what_contradicts_itself_is_refused() {
         (told(|s| s.bodies[0].inboard = Some(1)), "inboard body 1 found, an earlier body"),
         (told(|s| s.main_body.mass = -1.0), "main body: mass -1 found"),
         (told(|s| s.bodies[1].hinge.start = held_at_rate(0.5)), "rate 0.5 found, zero expected"),
+    ] {
+        assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:?}");
+    }
+}
+
+#[test]
+fn tables_that_give_no_torque_are_refused() {
+    let with = |hinges: &[usize], points: &[[f64; 2]]| {
+        let points = points.to_vec();
+        let table = |&hinge: &usize| TorqueTable { hinge, points: points.clone() };
+        let tables: Vec<TorqueTable> = hinges.iter().map(table).collect();
+        told(|scene| scene.torque_tables.clone_from(&tables))
+    };
+    let fine = [[-1.0, 2.0], [0.5, -3.0]];
+    assert_eq!(with(&[0, 1], &fine), [""; 0]);
+    for (found, words) in [
+        (with(&[2], &fine), "torque table 1: hinge number 3 found, one of the 2 hinges"),
+        (with(&[1, 1], &fine), "torque table 2: hinge number 2 found, one of the 2 hinges without"),
+        (with(&[0], &[]), "torque table 1: 0 points found, two or more"),
+        (with(&[0], &fine[..1]), "torque table 1: 1 points found, two or more"),
+        (with(&[0], &[fine[0], [0.5, f64::NAN]]), "point 2 at 0.5, NaN found"),
+        (with(&[0], &[[f64::INFINITY, 1.0], fine[1]]), "point 1 at inf, 1 found"),
+        (with(&[0], &[fine[1], fine[0]]), "point 2 at -1, 2 found, two or more points of finite"),
+        (with(&[0], &[fine[0], fine[0]]), "point 2 at -1, 2 found"),
     ] {
         assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:?}");
     }

@@ -1,7 +1,18 @@
 use std::ops::Range;
 
+use crate::method::Description;
 use crate::{
     Bernstein, Choice, Method, Radau, RungeKutta, StepError, Stepper, System, Tolerance, Window,
+};
+
+/// The row of [`Method`]'s table.
+pub(crate) const DESCRIPTION: Description = Description {
+    name: "auto",
+    about: "dopri5, dop853 or radau5, by tolerance and stiffness",
+    order: |tolerance| Automatic::explicit(tolerance).order(tolerance),
+    dense_order: |tolerance| Automatic::explicit(tolerance).dense_order(tolerance),
+    keeps_invariants: false,
+    stepper: |tolerance| Box::new(Automatic::new(tolerance)),
 };
 
 /// Takes the explicit method that suits the tolerance, and Radau's implicit one while stability

@@ -3,10 +3,21 @@ use std::ops::Range;
 use coefficients::{Coefficients, Matrix, STAGES, dot};
 use plan::Plan;
 
+use crate::method::Description;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod coefficients;
 mod plan;
+
+/// The row of [`Method`]'s table.
+pub(crate) const DESCRIPTION: Description = Description {
+    name: "gauss",
+    about: "implicit Runge-Kutta 16, symmetric, for long free spin",
+    order: |_| 16,
+    dense_order: |_| 8,
+    keeps_invariants: true,
+    stepper: |tolerance| Box::new(Gauss::new(tolerance)),
+};
 
 /// Gauss's collocation method with eight stages, of order 16, for motions to be followed long.
 ///

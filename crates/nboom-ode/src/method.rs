@@ -1,51 +1,68 @@
 use std::fmt;
 
-use crate::{
-    Automatic, Bound, Gauss, Radau, Rkam, RkamSettings, RungeKutta, Stepper, Taylor, Tolerance,
-};
+use crate::{Stepper, Tolerance, automatic, gauss, radau, rkam, tableau, taylor};
 
-/// A method of integration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Method {
+/// What a method tells about itself, beside its steps.
+pub(crate) struct Description {
+    /// The name in commands and files.
+    pub name: &'static str,
+    /// What it is and is for, in one line.
+    pub about: &'static str,
+    /// Order of the error at the end of a fixed time, under a tolerance and while the motion is not
+    /// stiff.
+    pub order: fn(Tolerance) -> u32,
+    /// Order of dense output, under a tolerance.
+    pub dense_order: fn(Tolerance) -> u32,
+    /// Whether invariants stay where they are for as long as a run goes on: quadratic ones to
+    /// rounding, energies without a trend.
+    pub keeps_invariants: bool,
+    /// A stepper without a problem.
+    pub stepper: fn(Tolerance) -> Box<dyn Stepper>,
+}
+
+/// Makes [`Method`] of a table with one row for each method: its name in the code and its description.
+macro_rules! methods {
+    ($($(#[$doc:meta])* $method:ident = $description:expr,)*) => {
+        /// A method of integration.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Method {
+            $($(#[$doc])* $method,)*
+        }
+
+        impl Method {
+            /// All: the one that chooses, explicit ones from low to high order, the implicit ones.
+            pub const ALL: [Self; [$(Self::$method),*].len()] = [$(Self::$method),*];
+
+            fn description(self) -> &'static Description {
+                match self {
+                    $(Self::$method => &$description,)*
+                }
+            }
+        }
+    };
+}
+
+methods! {
     /// An explicit method for the tolerance, or the implicit one while the motion is stiff.
-    Auto,
+    Auto = automatic::DESCRIPTION,
     /// The predictor and corrector of the 1970 program, of order 4.
-    Rkam,
+    Rkam = rkam::DESCRIPTION,
     /// Dormand and Prince's explicit Runge-Kutta method of order 5.
-    Dopri5,
+    Dopri5 = tableau::dopri5::DESCRIPTION,
     /// Dormand and Prince's explicit Runge-Kutta method of order 8.
-    Dop853,
+    Dop853 = tableau::dop853::DESCRIPTION,
     /// The Taylor series method, of an order that follows from the tolerance.
-    Taylor,
+    Taylor = taylor::DESCRIPTION,
     /// Radau's implicit Runge-Kutta method of order 5.
-    Radau5,
+    Radau5 = radau::DESCRIPTION,
     /// Gauss's implicit Runge-Kutta method of order 16 with constant steps.
-    Gauss,
+    Gauss = gauss::DESCRIPTION,
 }
 
 impl Method {
-    /// All: the one that chooses, explicit ones from low to high order, the implicit ones.
-    pub const ALL: [Self; 7] = [
-        Self::Auto,
-        Self::Rkam,
-        Self::Dopri5,
-        Self::Dop853,
-        Self::Taylor,
-        Self::Radau5,
-        Self::Gauss,
-    ];
-
     /// The name in commands and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Rkam => "rkam",
-            Self::Dopri5 => "dopri5",
-            Self::Dop853 => "dop853",
-            Self::Taylor => "taylor",
-            Self::Radau5 => "radau5",
-            Self::Gauss => "gauss",
-        }
+        self.description().name
     }
 
     /// The method with this name.
@@ -53,62 +70,31 @@ impl Method {
         Self::ALL.into_iter().find(|method| method.name() == name)
     }
 
-    /// What it is for, in one line.
+    /// What it is and is for, in one line.
     pub fn about(self) -> &'static str {
-        match self {
-            Self::Auto => "dopri5, dop853 or radau5, by tolerance and stiffness",
-            Self::Rkam => "Adams-Moulton 4 as in 1970, to see what the original saw",
-            Self::Dopri5 => "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
-            Self::Dop853 => "explicit Runge-Kutta 8(5,3), for smaller ones",
-            Self::Taylor => "Taylor series of an order that fits the tolerance, down to rounding",
-            Self::Radau5 => "implicit Runge-Kutta 5(3), for stiff hinges and latches",
-            Self::Gauss => "implicit Runge-Kutta 16, symmetric, for long free spin",
-        }
+        self.description().about
     }
 
     /// Order of the error at the end of a fixed time, under this tolerance and while the motion is
     /// not stiff.
     pub fn order(self, tolerance: Tolerance) -> u32 {
-        match self {
-            Self::Taylor => Taylor::order(tolerance) as u32,
-            Self::Rkam => 4,
-            Self::Auto => Automatic::explicit(tolerance).order(tolerance),
-            Self::Dopri5 => 5,
-            Self::Dop853 => 8,
-            Self::Radau5 => 5,
-            Self::Gauss => 16,
-        }
+        (self.description().order)(tolerance)
     }
 
     /// Order of dense output, under this tolerance.
     pub fn dense_order(self, tolerance: Tolerance) -> u32 {
-        match self {
-            Self::Taylor => Taylor::order(tolerance) as u32,
-            Self::Auto => Automatic::explicit(tolerance).dense_order(tolerance),
-            Self::Rkam | Self::Dopri5 => 4,
-            Self::Dop853 => 7,
-            Self::Radau5 => 3,
-            Self::Gauss => 8,
-        }
+        (self.description().dense_order)(tolerance)
     }
 
     /// Whether invariants stay where they are for as long as a run goes on: quadratic ones to
     /// rounding, energies without a trend.
     pub fn keeps_invariants(self) -> bool {
-        self == Self::Gauss
+        self.description().keeps_invariants
     }
 
     /// A stepper without a problem.
     pub fn stepper(self, tolerance: Tolerance) -> Box<dyn Stepper> {
-        match self {
-            Self::Auto => Box::new(Automatic::new(tolerance)),
-            Self::Rkam => Box::new(Rkam::new(RkamSettings::meeting(Bound::Within(tolerance)))),
-            Self::Dopri5 => Box::new(RungeKutta::dopri5(tolerance)),
-            Self::Dop853 => Box::new(RungeKutta::dop853(tolerance)),
-            Self::Taylor => Box::new(Taylor::new(tolerance)),
-            Self::Radau5 => Box::new(Radau::new(tolerance)),
-            Self::Gauss => Box::new(Gauss::new(tolerance)),
-        }
+        (self.description().stepper)(tolerance)
     }
 }
 

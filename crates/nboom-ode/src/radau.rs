@@ -12,6 +12,8 @@ mod collocation;
 mod iteration_matrix;
 mod newton;
 
+pub(crate) use coefficients::DESCRIPTION;
+
 /// The implicit method of Radau IIA of order 5 for stiff systems, after RADAU5: simplified
 /// Newton iteration, error estimate of order 3, Gustafsson's step control; the collocation
 /// polynomial is the dense output (Hairer and Wanner, Solving Ordinary Differential Equations

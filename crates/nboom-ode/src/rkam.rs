@@ -1,10 +1,21 @@
 use std::ops::Range;
 
+use crate::method::Description;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod history;
 
 use history::{FOR_DOUBLING, History};
+
+/// The row of [`Method`]'s table.
+pub(crate) const DESCRIPTION: Description = Description {
+    name: "rkam",
+    about: "Adams-Moulton 4 as in 1970, to see what the original saw",
+    order: |_| 4,
+    dense_order: |_| 4,
+    keeps_invariants: false,
+    stepper: |tolerance| Box::new(Rkam::new(RkamSettings::meeting(Bound::Within(tolerance)))),
+};
 
 /// What steers [`Rkam`].
 #[derive(Clone, Copy, Debug, PartialEq)]

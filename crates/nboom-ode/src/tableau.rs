@@ -2,8 +2,8 @@
 
 use crate::Method;
 
-mod dop853;
-mod dopri5;
+pub(crate) mod dop853;
+pub(crate) mod dopri5;
 
 pub(crate) use dop853::DOP853;
 pub(crate) use dopri5::DOPRI5;

@@ -1,6 +1,17 @@
 use std::ops::Range;
 
+use crate::method::Description;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
+
+/// The row of [`Method`]'s table.
+pub(crate) const DESCRIPTION: Description = Description {
+    name: "taylor",
+    about: "Taylor series of an order that fits the tolerance, down to rounding",
+    order: |tolerance| Taylor::order(tolerance) as u32,
+    dense_order: |tolerance| Taylor::order(tolerance) as u32,
+    keeps_invariants: false,
+    stepper: |tolerance| Box::new(Taylor::new(tolerance)),
+};
 
 /// The Taylor series method: the solution's power series about the start of each step, which is
 /// also the dense output.

@@ -22,10 +22,7 @@ fn rank(kind: EventKind) -> u8 {
     match kind {
         EventKind::LockUp => 0,
         EventKind::Release => 1,
-        EventKind::KickOffDisengage
-        | EventKind::KickOffEngage
-        | EventKind::ThrustOn
-        | EventKind::ThrustOff => 2,
+        EventKind::Rise(_) | EventKind::Fall(_) | EventKind::ThrustOn | EventKind::ThrustOff => 2,
         EventKind::End => 3,
     }
 }
@@ -81,6 +78,7 @@ impl<W: Write> EventsWriter<W> {
 mod tests {
     use super::*;
     use crate::fixture::{self, event};
+    use nboom_elements::Kind;
 
     fn table(instants: &[&[Event]]) -> String {
         let mut bytes = Vec::new();
@@ -93,10 +91,10 @@ mod tests {
 
     #[test]
     fn rows_of_an_instant_are_sorted_by_what_happens_and_then_by_hinge() {
-        use EventKind::{End, KickOffDisengage, LockUp, Release, ThrustOff};
+        use EventKind::{End, LockUp, Release, Rise, ThrustOff};
         let text = table(&[&[
             event(1.5, End, None),
-            event(1.5, KickOffDisengage, Some(1)),
+            event(1.5, Rise(Kind::KickOff), Some(1)),
             event(1.5, ThrustOff, None),
             event(1.5, Release, Some(1)),
             event(1.5, LockUp, Some(2)),

@@ -1,5 +1,6 @@
 //! Hand-made motions for the tests of the writers.
 
+use nboom_elements::{Kind, LineReading};
 use nboom_model::{HingeLabel, HingeState};
 use nboom_scalar::{Quaternion, Vec3};
 use nboom_sim::{Detail, Event, EventKind, Snapshot, Totals};
@@ -32,15 +33,15 @@ pub(crate) fn snapshot(time: f64) -> Snapshot {
 }
 
 fn detail() -> Detail {
+    let kind = Kind::KickOff;
+    let spring = LineReading { kind, hinge: 0, acts: true, force: 8.5, length: 8.01 };
     Detail {
         omega_dot_body: Vec3::new(0.31, 0.32, 0.33),
         origin_acceleration_body: Vec3::new(0.41, 0.42, 0.43),
         beta_ddot: vec![0.0, std::f64::consts::TAU, 0.0],
         alpha_ddot: vec![0.0, 1.5, 0.0],
         hinge_torque: vec![-0.4, -0.5, -0.6],
-        kick_off_pushes: vec![true, false, false],
-        kick_off_force: vec![8.5, 0.0, 0.0],
-        kick_off_length: vec![8.01, 0.0, 0.0],
+        lines: vec![spring],
         mass_center_body: Vec3::new(1.1, 1.2, 1.3),
         mass_center_inertial: Vec3::new(2.1, 2.2, 2.3),
         mass_center_velocity_inertial: Vec3::new(2.4, 2.5, 2.6),

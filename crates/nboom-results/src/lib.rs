@@ -31,6 +31,7 @@ mod names;
 mod number;
 mod peaks;
 mod place;
+mod quantities;
 mod row_text;
 mod rows;
 mod signs;
@@ -57,6 +58,7 @@ pub use names::{
     LISTING_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 pub use peaks::{PeakDigits, peak_digits};
+pub use quantities::{AFTER_HINGES, BEFORE_HINGES, OF_A_HINGE, Quantity};
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;

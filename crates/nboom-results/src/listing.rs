@@ -1,5 +1,6 @@
 use std::io::{self, Write};
 
+use nboom_elements::Kind;
 use nboom_model::HingeLabel;
 use nboom_scalar::Vec3;
 use nboom_sim::{Detail, Event, EventKind, Snapshot};
@@ -159,21 +160,25 @@ impl<W: Write> ListingWriter<W> {
         detail: &Detail,
         units: &Units,
     ) -> io::Result<()> {
-        let columns = [
+        let mut columns = vec![
             ("RELEASE LOCK-UP STATE VECTOR", ""),
             ("SPRING DASHPOT TORQUE", units.torque.as_str()),
-            ("KICKOFF SPRING FORCE", &units.force),
-            ("EXTENSION OF KICKOFF SPRING", &units.length),
         ];
+        let lines = || Kind::ALL.into_iter().filter_map(|kind| Some((kind, kind.names().line?)));
+        for (_, names) in lines() {
+            let force = (names.force_column, units.force.as_str());
+            columns.extend([force, (names.length_column, &units.length)]);
+        }
         writeln!(self.out)?;
         HINGE_FORCES.heading(&mut self.out, "APP SEG", &columns)?;
         for (i, label) in self.hinges.iter().enumerate() {
-            let cells = [
-                snapshot.hinges[i].code().to_string(),
-                number(detail.hinge_torque[i]),
-                number(detail.kick_off_force[i]),
-                number(detail.kick_off_length[i]),
-            ];
+            let mut cells =
+                vec![snapshot.hinges[i].code().to_string(), number(detail.hinge_torque[i])];
+            for (kind, _) in lines() {
+                let line = detail.lines.iter().find(|line| (line.hinge, line.kind) == (i, kind));
+                let [force, length] = line.map_or([0.0; 2], |line| [line.force, line.length]);
+                cells.extend([force, length].map(number));
+            }
             HINGE_FORCES.row(&mut self.out, &row_name(*label), &cells)?;
         }
         Ok(())
@@ -252,8 +257,8 @@ fn title(kind: EventKind) -> &'static str {
     match kind {
         EventKind::LockUp => "LOCK-UP OF HINGE",
         EventKind::Release => "RELEASE OF HINGE",
-        EventKind::KickOffDisengage => "KICKOFF SPRING DISENGAGES AT HINGE",
-        EventKind::KickOffEngage => "KICKOFF SPRING ENGAGES AT HINGE",
+        EventKind::Rise(kind) => kind.names().rise.in_listing,
+        EventKind::Fall(kind) => kind.names().fall.in_listing,
         EventKind::ThrustOn => "THRUST ON",
         EventKind::ThrustOff => "THRUST OFF",
         EventKind::End => "END OF RUN",

@@ -4,13 +4,7 @@ use nboom_model::HingeLabel;
 use nboom_sim::Snapshot;
 
 use crate::number::{field, number, vector_fields};
-
-const BEFORE_HINGES: &str = "t,rho_x,rho_y,rho_z,v_x,v_y,v_z,chi,kappa_x,kappa_y,kappa_z,\
-                             omega_x,omega_y,omega_z";
-const OF_A_HINGE: [&str; 5] = ["beta", "tau", "alpha", "sigma", "state"];
-const AFTER_HINGES: &str = ",kinetic_energy,linear_momentum_x,linear_momentum_y,\
-                            linear_momentum_z,angular_momentum_x,angular_momentum_y,\
-                            angular_momentum_z,nutation";
+use crate::quantities::{AFTER_HINGES, BEFORE_HINGES, OF_A_HINGE, Quantity, Value};
 
 /// Writes the table of states, one row for each output time.
 ///
@@ -27,12 +21,15 @@ impl<W: Write> StatesWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn new(mut out: W, hinges: &[HingeLabel]) -> io::Result<Self> {
-        out.write_all(BEFORE_HINGES.as_bytes())?;
+        let columns = |of: &'static [Quantity]| of.iter().flat_map(|quantity| quantity.columns);
+        write!(out, "t")?;
+        columns(&BEFORE_HINGES).try_for_each(|name| write!(out, ",{name}"))?;
         for label in hinges {
             let (k, i) = (label.appendage + 1, label.segment + 1);
-            OF_A_HINGE.iter().try_for_each(|name| write!(out, ",{name}_{k}_{i}"))?;
+            columns(&OF_A_HINGE).try_for_each(|name| write!(out, ",{name}_{k}_{i}"))?;
         }
-        writeln!(out, "{AFTER_HINGES}")?;
+        columns(&AFTER_HINGES).try_for_each(|name| write!(out, ",{name}"))?;
+        writeln!(out)?;
         Ok(Self { out })
     }
 
@@ -41,32 +38,22 @@ impl<W: Write> StatesWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn write(&mut self, snapshot: &Snapshot) -> io::Result<()> {
-        self.write_main_body(snapshot)?;
-        (0..snapshot.hinges.len()).try_for_each(|i| self.write_hinge(snapshot, i))?;
-        let out = &mut self.out;
-        field(out, snapshot.kinetic_energy)?;
-        vector_fields(out, snapshot.linear_momentum_inertial)?;
-        vector_fields(out, snapshot.angular_momentum_inertial)?;
-        field(out, snapshot.nutation)?;
-        writeln!(out)
-    }
-
-    fn write_main_body(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+        let of_hinges =
+            (0..snapshot.hinges.len()).flat_map(|i| OF_A_HINGE.iter().map(move |q| (q, i)));
+        let of_satellite = |quantities: &'static [Quantity]| quantities.iter().map(|q| (q, 0));
+        let quantities =
+            of_satellite(&BEFORE_HINGES).chain(of_hinges).chain(of_satellite(&AFTER_HINGES));
         let out = &mut self.out;
         number(out, snapshot.time)?;
-        vector_fields(out, snapshot.position_inertial)?;
-        vector_fields(out, snapshot.velocity_inertial)?;
-        field(out, snapshot.attitude.scalar)?;
-        vector_fields(out, snapshot.attitude.vector)?;
-        vector_fields(out, snapshot.omega_body)
-    }
-
-    fn write_hinge(&mut self, snapshot: &Snapshot, i: usize) -> io::Result<()> {
-        let out = &mut self.out;
-        for value in [snapshot.beta[i], snapshot.tau[i], snapshot.alpha[i], snapshot.sigma[i]] {
-            field(out, value)?;
+        for (quantity, hinge) in quantities {
+            match quantity.value {
+                Value::Number(value) => field(out, value(snapshot))?,
+                Value::Vector(value) => vector_fields(out, value(snapshot))?,
+                Value::OfHinge(value) => field(out, value(snapshot, hinge))?,
+                Value::CodeOfHinge(value) => write!(out, ",{}", value(snapshot, hinge))?,
+            }
         }
-        write!(out, ",{}", snapshot.hinges[i].code())
+        writeln!(out)
     }
 
     /// Passes everything written so far on to the system.

@@ -1,6 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_elements::HingeLaw;
-use nboom_model::{Mode, Scene, Thrust};
+use nboom_elements::gravity;
+use nboom_model::{Mode, Scene};
 use nboom_ode::System;
 use nboom_scalar::Vec3;
 use nboom_series::Series;
@@ -17,8 +17,7 @@ use crate::selection::Selection;
 use crate::series;
 use crate::sizes::Sizes;
 use crate::state::State;
-use crate::step_motion::HingeForces;
-use crate::variables::{Variables, gravity, motion};
+use crate::variables::{Variables, motion};
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
@@ -29,10 +28,8 @@ pub(crate) struct Equations {
     code: Code,
     repertoire: Repertoire,
     pub variables: Variables<f64>,
-    thrust: Option<Thrust>,
     gravity: Vec3<f64>,
     total_mass: f64,
-    laws: Vec<HingeLaw<f64>>,
     accelerations: Accelerations<f64>,
     rates: Rates<f64>,
     /// Made when an integrator asks for it in the mode.
@@ -48,11 +45,6 @@ pub(crate) struct Equations {
 
 impl Equations {
     pub fn new(scene: &Scene, state: &State, options: &Options) -> Self {
-        let laws: Vec<HingeLaw<f64>> = scene
-            .bodies
-            .iter()
-            .map(|body| HingeLaw::new(&body.hinge.spring, &body.hinge.dashpot))
-            .collect();
         let layout = Layout { momentum: None, free: 0, thrust: false, dashpots: false };
         Self {
             scene: scene.clone(),
@@ -61,12 +53,10 @@ impl Equations {
             code: Code::Recursion,
             repertoire: Repertoire::new(options),
             variables: Variables::new(scene, layout, state),
-            thrust: None,
             gravity: gravity(scene),
             total_mass: scene.total_mass(),
-            laws,
             accelerations: Accelerations::for_hinges(0),
-            rates: Rates::new(scene, layout, &[], None),
+            rates: Rates::new(scene, layout),
             jacobian: None,
             series: None,
             sizes: Sizes::of(scene),
@@ -80,23 +70,21 @@ impl Equations {
     pub fn enter(&mut self, scene: &Scene, mode: &Mode, state: &State, y: &mut Vec<f64>) {
         self.mode.clone_from(mode);
         self.dynamics.set_mode(mode, &state.beta);
-        self.thrust = scene.thrust.filter(|_| mode.thrust);
+        let elements = self.dynamics.elements();
+        let (thrust, torques) = (elements.thrust().is_some(), elements.torques());
+        let free = self.dynamics.free_hinges();
+        let dashpots = free.iter().any(|&i| torques[i].depends_on_rate());
+        let free = free.len();
         // Springs, dashpots and uniform gravity exert no moment about the mass centre.
-        let momentum = (self.momentum_for_rate && self.thrust.is_none()).then(|| {
+        let momentum = (self.momentum_for_rate && !thrust).then(|| {
             totals(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
         });
-        let free = self.dynamics.free_hinges();
-        let layout = Layout {
-            momentum,
-            free: free.len(),
-            thrust: self.thrust.is_some(),
-            dashpots: free.iter().any(|&i| self.laws[i].depends_on_rate()),
-        };
-        self.accelerations = Accelerations::for_hinges(free.len());
-        self.rates = Rates::new(scene, layout, free, self.thrust);
+        let layout = Layout { momentum, free, thrust, dashpots };
+        self.accelerations = Accelerations::for_hinges(free);
+        self.rates = Rates::new(scene, layout);
         (self.jacobian, self.series) = (None, None);
         self.variables = Variables::new(scene, layout, state);
-        self.variables.write(free, y);
+        self.variables.write(self.dynamics.free_hinges(), y);
         self.size_up(state);
     }
 
@@ -109,7 +97,8 @@ impl Equations {
         self.dynamics.accelerations(&motion, &mut self.accelerations);
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
         let angular = omega_dot_body.to_array().into_iter().chain(tau_dot.iter().copied());
-        let force = self.thrust.map_or(Vec3::zero(), |thrust| thrust.force);
+        let thrust = self.dynamics.elements().thrust();
+        let force = thrust.map_or(Vec3::zero(), |thrust| thrust.force);
         self.sizes.saw_accelerations(angular, force * (1.0 / self.total_mass));
     }
 
@@ -150,17 +139,9 @@ impl Equations {
         }
     }
 
-    /// Sets `out` to the forces of springs and dashpots in the mode that was entered; β and τ of all
-    /// hinges, and β of the free ones.
-    pub fn set_hinge_forces(&mut self, all: [&[f64]; 2], free: &[f64], out: &mut HingeForces) {
-        let Self { scene, mode, dynamics, laws, .. } = self;
-        out.set_torques(laws, all);
-        out.set_springs(scene, mode, dynamics, free);
-    }
-
     /// The acceleration of the mass centre, inertial axes.
     pub fn center_acceleration(&self, state: &State) -> Vec3<f64> {
-        let thrust = self.thrust.map_or(Vec3::zero(), |thrust| {
+        let thrust = self.dynamics.elements().thrust().map_or(Vec3::zero(), |thrust| {
             state.attitude.to_matrix() * thrust.force * (1.0 / self.total_mass)
         });
         self.gravity + thrust
@@ -174,11 +155,6 @@ impl Equations {
     /// Evaluations of accelerations, and series of them, that integration has asked for.
     pub fn evaluations(&self) -> usize {
         self.evaluations
-    }
-
-    /// The spring and dashpot law of each hinge.
-    pub fn laws(&self) -> &[HingeLaw<f64>] {
-        &self.laws
     }
 
     /// Uniform gravity as an acceleration, inertial axes.
@@ -207,8 +183,8 @@ impl System for Equations {
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
         let free_fall = self.variables.free_fall(t).velocity;
-        let Self { scene, mode, variables: Variables { layout, origin, .. }, thrust, .. } = self;
-        let of_mode = || Jacobian::new(scene, mode, &origin.beta, *layout, *thrust);
+        let Self { scene, mode, variables: Variables { layout, origin, .. }, .. } = self;
+        let of_mode = || Jacobian::new(scene, mode, &origin.beta, *layout);
         self.jacobian.get_or_insert_with(of_mode).write(free_fall, y, out);
         true
     }
@@ -216,8 +192,8 @@ impl System for Equations {
     fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
         self.evaluations += 1;
         self.series.take_if(|series| series.order() != order);
-        let Self { scene, mode, variables, thrust, .. } = self;
-        let of_mode = || Series::new(&series::graph(scene, mode, variables, *thrust), &[], order);
+        let Self { scene, mode, variables, .. } = self;
+        let of_mode = || Series::new(&series::graph(scene, mode, variables), &[], order);
         self.series.get_or_insert_with(of_mode).write(t, y, out);
         true
     }

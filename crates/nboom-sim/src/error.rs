@@ -49,14 +49,16 @@ pub enum SimError {
         /// The hinge; `None` is the main body.
         hinge: Option<HingeLabel>,
     },
-    /// The ends of a kick-off spring that pushes are at one point.
-    #[error("at time {}, hinge {hinge}: its kick-off spring has no length, so that its force has \
+    /// The ends of a line along which a force acts are at one point.
+    #[error("at time {}, hinge {hinge}: its {element} has no length, so that its force has \
              no direction", moment(.time))]
-    SpringWithoutLength {
+    NoDirection {
         /// Time reached.
         time: f64,
-        /// The hinge of the spring.
+        /// The hinge of the body on which the force acts.
         hinge: HingeLabel,
+        /// What exerts the force.
+        element: &'static str,
     },
     /// A generated routine was demanded and none fits.
     #[error("at time {time}: {source}; routines can be generated, or the generic path used")]

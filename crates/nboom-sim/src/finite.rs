@@ -110,9 +110,12 @@ impl Check<'_> {
             ("acceleration", &detail.beta_ddot),
             ("summed acceleration", &detail.alpha_ddot),
             ("torque", &detail.hinge_torque),
-            ("kick-off force", &detail.kick_off_force),
-            ("kick-off length", &detail.kick_off_length),
         ])?;
+        for line in &detail.lines {
+            let Some(names) = line.kind.names().line else { continue };
+            self.of(Some(line.hinge), names.force, line.force.is_finite())?;
+            self.of(Some(line.hinge), names.length, line.length.is_finite())?;
+        }
         self.vectors(&[
             ("angular acceleration", detail.omega_dot_body),
             ("acceleration", detail.origin_acceleration_body),

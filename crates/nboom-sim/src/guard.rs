@@ -1,10 +1,12 @@
 use nboom_dynamics::Recursive;
+use nboom_elements::{Coordinate, ElementId, Elements, Switched};
 use nboom_model::{HingeState, Mode, Release, Scene};
 use nboom_ode::{Bernstein, Interpolation, Stepper};
-use nboom_scalar::Number;
+use nboom_scalar::{Number, Real};
 
 use crate::equations::Equations;
 use crate::instant;
+use crate::record::EventKind;
 use crate::state::State;
 
 /// A quantity whose change of sign is an event.
@@ -20,24 +22,65 @@ pub(crate) enum GuardKind {
     Lock { hinge: usize },
     /// β of `trigger` less the angle at which it releases `hinge`.
     Trigger { hinge: usize, trigger: usize },
-    /// |x̄| of the hinge's kick-off spring less its limit length.
-    KickOff { hinge: usize },
+    /// The length or angle of an element less a bound of its law.
+    Bound(Bound),
+}
+
+/// A bound at which the piece of a law that holds ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Bound {
+    pub element: ElementId,
+    /// Which of the element's bounds.
+    pub number: usize,
+    /// Whether the piece ends above it and not below.
+    pub rises: bool,
+}
+
+impl Bound {
+    /// The piece that holds beyond it.
+    pub fn next_piece(self) -> usize {
+        self.number + usize::from(self.rises)
+    }
+
+    fn scale<R: Real>(self, elements: &Elements<R>) -> f64 {
+        elements.switched()[self.element.index].scale(self.number)
+    }
 }
 
 impl GuardKind {
     /// The hinge to which something happens when it changes sign.
     pub fn hinge(self) -> usize {
         match self {
-            Self::Lock { hinge } | Self::Trigger { hinge, .. } | Self::KickOff { hinge } => hinge,
+            Self::Lock { hinge } | Self::Trigger { hinge, .. } => hinge,
+            Self::Bound(bound) => bound.element.hinge,
         }
     }
 
-    /// How fast it goes, in radians or limit lengths per time unit.
-    pub fn pace<R: Number>(self, scene: &Scene, reading: Reading<R>) -> f64 {
+    /// What happens to the hinge when it changes sign.
+    pub fn event(self) -> EventKind {
+        match self {
+            Self::Lock { .. } => EventKind::LockUp,
+            Self::Trigger { .. } => EventKind::Release,
+            Self::Bound(Bound { element, rises: true, .. }) => EventKind::Rise(element.kind),
+            Self::Bound(Bound { element, rises: false, .. }) => EventKind::Fall(element.kind),
+        }
+    }
+
+    /// How fast it goes, in radians or lengths at the bound per time unit.
+    pub fn pace<R: Number>(self, elements: &Elements<R>, reading: Reading<R>) -> f64 {
         let rate = reading.rate.to_f64().abs();
         match self {
             Self::Lock { .. } | Self::Trigger { .. } => rate,
-            Self::KickOff { hinge } => rate / limit_length(scene, hinge),
+            Self::Bound(bound) => rate / bound.scale(elements),
+        }
+    }
+
+    /// The size by which a difference from a bound is told from rounding; zero for other guards,
+    /// which are exact.
+    fn scale<R: Real>(self, elements: &Elements<R>) -> f64 {
+        match self {
+            Self::Lock { .. } | Self::Trigger { .. } => 0.0,
+            Self::Bound(bound) => bound.scale(elements),
         }
     }
 }
@@ -70,14 +113,14 @@ pub(crate) struct Reading<R> {
     pub rate: R,
 }
 
-/// The largest hinge motion over which a spring's length is represented by one polynomial.
+/// The largest hinge motion over which a line's length is represented by one polynomial.
 const PIECE: f64 = 0.5;
 
-/// Share of its limit length by which a spring's length may miss it and count as being there.
-const AT_LIMIT: f64 = 1e-13;
+/// Share of its scale by which a length or angle may miss a bound and count as being there.
+const AT_BOUND: f64 = 1e-13;
 
-/// Share of its limit length by which a spring that leaves it must have moved before the way it
-/// moves is told from rounding.
+/// Share of its scale by which a length or angle that leaves a bound must have moved before the way
+/// it moves is told from rounding.
 const BEYOND_ROUNDING: f64 = 1e-12;
 
 /// Share of the largest coefficient below which a first rate counts as zero.
@@ -96,7 +139,7 @@ impl Guards {
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the sign of β − β_lock when each
     /// hinge became free, zero for one that was on its lock angle and has not left it;
-    /// `toggled` names the hinges whose kick-off spring is at its limit length just now.
+    /// `crossed` has the elements that are at a bound just now, and which.
     pub fn set<R: Number>(
         &mut self,
         scene: &Scene,
@@ -104,7 +147,7 @@ impl Guards {
         dynamics: &mut Recursive<R>,
         state: &State<R>,
         lock_sides: &[f64],
-        toggled: &[usize],
+        crossed: &[(usize, usize)],
     ) {
         self.list.clear();
         for (i, body) in scene.bodies.iter().enumerate() {
@@ -122,16 +165,15 @@ impl Guards {
                 let side = Side::Known((state.beta[trigger].to_f64() - angle).signum());
                 self.list.push(Guard { kind: GuardKind::Trigger { hinge: i, trigger }, side });
             }
-            if body.hinge.kick_off.is_some() && !dynamics.spring_reach(i).is_empty() {
-                let sign = if mode.kick_off[i] { -1.0 } else { 1.0 };
-                let kind = GuardKind::KickOff { hinge: i };
-                let Reading { value, rate } = read(kind, scene, dynamics, state);
-                let at_limit = toggled.contains(&i)
-                    || value.to_f64().abs() <= AT_LIMIT * limit_length(scene, i);
-                let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == R::zero() };
-                let side = if at_limit { leaving } else { Side::Known(sign) };
-                self.list.push(Guard { kind, side });
-            }
+        }
+        for bound in bounds(dynamics, mode) {
+            let (kind, sign) = (GuardKind::Bound(bound), if bound.rises { -1.0 } else { 1.0 });
+            let Reading { value, rate } = read(kind, scene, dynamics, state);
+            let at_bound = crossed.contains(&(bound.element.index, bound.number))
+                || value.to_f64().abs() <= AT_BOUND * bound.scale(dynamics.elements());
+            let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == R::zero() };
+            let side = if at_bound { leaving } else { Side::Known(sign) };
+            self.list.push(Guard { kind, side });
         }
     }
 
@@ -145,11 +187,13 @@ impl Guards {
     ) -> Option<(GuardKind, f64)> {
         let mut first: Option<(GuardKind, f64)> = None;
         for guard in &self.list {
-            let change = match guard.kind {
-                GuardKind::KickOff { hinge } => {
-                    self.spring_change(scene, equations, stepper, hinge, guard.side)
+            let change = match watched(guard.kind, scene, equations.dynamics.elements()) {
+                (Coordinate::Length(line), limit) => {
+                    self.length_change(equations, stepper, (line, limit), guard.side)
                 }
-                _ => guard.side.change(&angle_polynomial(guard.kind, scene, equations, stepper)),
+                (Coordinate::Angle(hinge), angle) => {
+                    guard.side.change(&angle_polynomial(hinge, angle, equations, stepper))
+                }
             };
             if let Some(fraction) = change.filter(|&f| first.is_none_or(|(_, g)| f < g)) {
                 first = Some((guard.kind, fraction));
@@ -168,11 +212,8 @@ impl Guards {
         for guard in &mut self.list {
             if let Side::Leaving { .. } = guard.side {
                 let value = read(guard.kind, scene, dynamics, state).value.to_f64();
-                let limit = match guard.kind {
-                    GuardKind::KickOff { hinge } => limit_length(scene, hinge),
-                    _ => 0.0,
-                };
-                if value.abs() > BEYOND_ROUNDING * limit {
+                let scale = guard.kind.scale(dynamics.elements());
+                if value.abs() > BEYOND_ROUNDING * scale {
                     guard.side = Side::Known(value.signum());
                 }
             }
@@ -188,8 +229,10 @@ impl Guards {
         state: &State<R>,
         located: Option<GuardKind>,
     ) -> bool {
-        let mut pace = |kind: GuardKind| kind.pace(scene, read(kind, scene, dynamics, state));
-        let of_located = located.map_or(0.0, &mut pace);
+        let of_located = located.map_or(0.0, |kind| {
+            let reading = read(kind, scene, dynamics, state);
+            kind.pace(dynamics.elements(), reading)
+        });
         let mut others = self.list.iter().filter(|guard| Some(guard.kind) != located);
         others.any(|guard| {
             let reading = read(guard.kind, scene, dynamics, state);
@@ -197,10 +240,10 @@ impl Guards {
             let has_left = match guard.side {
                 Side::Known(sign) => value * sign < 0.0,
                 Side::Leaving { sign, .. } => sign.is_some_and(|s| {
-                    value * s < -BEYOND_ROUNDING * limit_length(scene, guard.kind.hinge())
+                    value * s < -BEYOND_ROUNDING * guard.kind.scale(dynamics.elements())
                 }),
             };
-            let pace = guard.kind.pace(scene, reading).max(of_located);
+            let pace = guard.kind.pace(dynamics.elements(), reading).max(of_located);
             let instant = instant::duration(scene, state.time.to_f64(), pace);
             has_left && guard.time_away(reading).is_none_or(|away| away > instant)
         })
@@ -216,28 +259,25 @@ impl Guards {
         })
     }
 
-    /// Follows a spring's length in pieces, each so short that a polynomial represents it.
-    fn spring_change(
+    /// Follows a line's length in pieces, each so short that a polynomial represents it.
+    fn length_change(
         &self,
-        scene: &Scene,
         equations: &mut Equations,
         stepper: &dyn Stepper,
-        hinge: usize,
+        (line, limit): (usize, f64),
         side: Side,
     ) -> Option<f64> {
-        let limit = limit_length(scene, hinge);
         let layout = equations.variables.layout;
         let mut turned = 0.0;
         let mut displaced = 0.0;
-        for (j, reach) in equations.dynamics.spring_reach(hinge) {
+        for (j, reach) in equations.dynamics.line_reach(line) {
             let excursion = stepper.polynomial(layout.beta().start + j).excursion();
             turned += excursion;
             displaced += excursion * reach;
         }
-        let mut length_squared = [0.0];
         let start = &stepper.window().state[layout.beta()];
-        equations.dynamics.spring_lengths_squared(start, &[hinge], &mut length_squared);
-        let clearance = (length_squared[0].sqrt() - limit).abs();
+        let length_squared = equations.dynamics.line_length_squared(start, line);
+        let clearance = (length_squared.sqrt() - limit).abs();
         if matches!(side, Side::Known(_)) && clearance > displaced {
             return None;
         }
@@ -249,8 +289,7 @@ impl Guards {
                 let fraction = (piece as f64 + Interpolation::point(i)) / pieces as f64;
                 stepper.interpolate(fraction, &mut variables);
                 let beta = &variables[layout.beta()];
-                equations.dynamics.spring_lengths_squared(beta, &[hinge], &mut length_squared);
-                length_squared[0] - limit * limit
+                equations.dynamics.line_length_squared(beta, line) - limit * limit
             });
             let polynomial = self.interpolation.through(&values);
             let has_left = polynomial.excursion() > BEYOND_ROUNDING * limit * limit;
@@ -289,43 +328,55 @@ pub(crate) fn read<R: Number>(
     dynamics: &mut Recursive<R>,
     state: &State<R>,
 ) -> Reading<R> {
-    match kind {
-        GuardKind::KickOff { hinge } => {
-            let [length, rate] = state.spring_length(dynamics, hinge);
-            Reading { value: length - R::constant(limit_length(scene, hinge)), rate }
-        }
-        _ => {
-            let (hinge, angle) = watched(kind, scene);
-            Reading { value: state.beta[hinge] - R::constant(angle), rate: state.tau[hinge] }
-        }
-    }
+    let (coordinate, bound) = watched(kind, scene, dynamics.elements());
+    let [value, rate] = state.coordinate(dynamics, coordinate);
+    Reading { value: value - R::constant(bound), rate }
 }
 
-/// The limit length of a hinge's kick-off spring.
-fn limit_length(scene: &Scene, hinge: usize) -> f64 {
-    scene.bodies[hinge].hinge.kick_off.map_or(0.0, |spring| spring.limit_length)
+/// The bounds of the pieces that hold in `mode` of all elements that can come to one.
+fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> Vec<Bound> {
+    let can_move = |coordinate| match coordinate {
+        Coordinate::Length(line) => dynamics.elements().lines()[line].link.is_some(),
+        Coordinate::Angle(hinge) => mode.is_free(hinge),
+    };
+    let moving = dynamics.elements().switched().iter().filter(|e| can_move(e.coordinate));
+    let of_element = |element: &Switched| {
+        let (id, piece) = (element.id, mode.pieces[element.id.index]);
+        let below = piece.checked_sub(1).map(|number| (number, false));
+        let above = (piece < element.bounds.len()).then_some((piece, true));
+        let ends = below.into_iter().chain(above);
+        ends.map(move |(number, rises)| Bound { element: id, number, rises })
+    };
+    moving.flat_map(of_element).collect()
 }
 
-/// The hinge whose angle a lock or trigger guard watches, and the angle it waits for.
-fn watched(kind: GuardKind, scene: &Scene) -> (usize, f64) {
+/// What a guard watches, and the value that it waits for.
+fn watched<R: Real>(kind: GuardKind, scene: &Scene, elements: &Elements<R>) -> (Coordinate, f64) {
     match kind {
-        GuardKind::Lock { hinge } | GuardKind::KickOff { hinge } => {
-            (hinge, scene.bodies[hinge].hinge.lock_angle.unwrap_or(f64::INFINITY))
+        GuardKind::Lock { hinge } => {
+            let angle = scene.bodies[hinge].hinge.lock_angle;
+            (Coordinate::Angle(hinge), angle.unwrap_or(f64::INFINITY))
         }
-        GuardKind::Trigger { hinge, trigger } => match scene.bodies[hinge].hinge.release {
-            Release::Angle { angle, .. } => (trigger, angle),
-            _ => (trigger, f64::INFINITY),
-        },
+        GuardKind::Trigger { hinge, trigger } => {
+            let angle = match scene.bodies[hinge].hinge.release {
+                Release::Angle { angle, .. } => angle,
+                _ => f64::INFINITY,
+            };
+            (Coordinate::Angle(trigger), angle)
+        }
+        GuardKind::Bound(bound) => {
+            let element = &elements.switched()[bound.element.index];
+            (element.coordinate, element.bounds[bound.number])
+        }
     }
 }
 
 fn angle_polynomial(
-    kind: GuardKind,
-    scene: &Scene,
+    hinge: usize,
+    angle: f64,
     equations: &Equations,
     stepper: &dyn Stepper,
 ) -> Bernstein {
-    let (hinge, angle) = watched(kind, scene);
     let position = equations.dynamics.free_hinges().binary_search(&hinge);
     let position = position.expect("guards watch only free hinges");
     stepper.polynomial(equations.variables.layout.beta().start + position).minus(angle)

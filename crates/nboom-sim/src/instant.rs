@@ -1,15 +1,16 @@
 use nboom_dynamics::{Recursive, VelocityJump};
+use nboom_elements::{thrust_acts, thrust_change};
 use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
 use crate::error::SimError;
-use crate::guard::{GuardKind, Guards, read};
+use crate::guard::{Bound, GuardKind, Guards, read};
 use crate::ledger::totals;
 use crate::record::{Event, EventKind, Jump, Totals};
 use crate::state::State;
 
-/// Angle \[rad\] through which the fastest hinge that arrives turns in one instant; of a kick-off
-/// spring, the share of its limit length by which it changes.
+/// Angle \[rad\] through which the fastest hinge that arrives turns in one instant; of a line, the
+/// share of the length at which it arrives by which it changes.
 const ONE_INSTANT: f64 = 1e-11;
 
 /// Spacings of `f64` that an instant lasts at least.
@@ -19,7 +20,7 @@ const SPACINGS: f64 = 4.0;
 const LONGEST: f64 = 1e-6;
 
 /// How long after the first arrival at `time` an instant lasts, when the fastest to arrive goes at
-/// `pace`, radians or limit lengths per time unit; zero where nothing moves.
+/// `pace`, radians or lengths at a bound per time unit; zero where nothing moves.
 pub(crate) fn duration(scene: &Scene, time: f64, pace: f64) -> f64 {
     let spacings = SPACINGS * (time.abs().next_up() - time.abs());
     if pace == 0.0 {
@@ -34,7 +35,8 @@ pub(crate) fn duration(scene: &Scene, time: f64, pace: f64) -> f64 {
 pub(crate) struct Arrivals {
     locks: Vec<usize>,
     triggered: Vec<usize>,
-    springs: Vec<usize>,
+    /// Bounds of force laws.
+    bounds: Vec<Bound>,
     /// What is scheduled until this long after belongs to the instant, too.
     duration: f64,
 }
@@ -93,7 +95,7 @@ impl Arrivals {
         for guard in &guards.list {
             let reading = read(guard.kind, scene, dynamics, state);
             let away = if here(guard.kind) { Some(0.0) } else { guard.time_away(reading) };
-            let pace = guard.kind.pace(scene, reading);
+            let pace = guard.kind.pace(dynamics.elements(), reading);
             coming.extend(away.map(|away| (away, pace, guard.kind)));
         }
         coming.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -112,7 +114,7 @@ impl Arrivals {
             match kind {
                 GuardKind::Lock { hinge } => arrivals.locks.push(hinge),
                 GuardKind::Trigger { hinge, .. } => arrivals.triggered.push(hinge),
-                GuardKind::KickOff { hinge } => arrivals.springs.push(hinge),
+                GuardKind::Bound(bound) => arrivals.bounds.push(bound),
             }
         }
         arrivals
@@ -124,16 +126,16 @@ impl Arrivals {
     }
 }
 
-/// The result of an instant: events in the order in which they are reported, and the hinges
-/// whose kick-off spring has just passed its limit length.
+/// The result of an instant: events in the order in which they are reported, and the elements that
+/// have just passed a bound of their law, with the bound.
 pub(crate) struct Outcome {
     pub events: Vec<Event>,
-    pub toggled: Vec<usize>,
+    pub crossed: Vec<(usize, usize)>,
     /// What each hinge that locks changes.
     pub jumps: Vec<Jump>,
 }
 
-/// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then springs
+/// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force laws
 /// and thrust. `lock_sides` is kept for the hinges that become free. `dynamics` is in the
 /// mode before and is left there.
 pub(crate) fn pass<R: Number>(
@@ -162,19 +164,21 @@ pub(crate) fn pass<R: Number>(
         lock_sides[i] = if from_lock == 0.0 { 0.0 } else { from_lock.signum() };
         events.push(event(EventKind::Release, Some(i), None, after));
     }
-    for &i in &arrivals.springs {
-        mode.kick_off[i] = !mode.kick_off[i];
-        let acts = mode.kick_off[i];
-        let kind = if acts { EventKind::KickOffEngage } else { EventKind::KickOffDisengage };
-        events.push(event(kind, Some(i), None, after));
+    let mut crossed = Vec::new();
+    for &bound in &arrivals.bounds {
+        let index = bound.element.index;
+        mode.pieces[index] = bound.next_piece();
+        crossed.push((index, bound.number));
+        let kind = GuardKind::Bound(bound);
+        events.push(event(kind.event(), Some(kind.hinge()), None, after));
     }
-    if let Some(thrust) = thrust_change(scene, mode, time + arrivals.duration) {
+    if let Some(thrust) = thrust_switch(scene, mode, time + arrivals.duration) {
         mode.thrust = thrust;
         let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
         events.push(event(kind, None, None, after));
     }
     let jumps = locked.into_iter().map(|(jump, _)| jump).collect();
-    Ok(Outcome { events, toggled: arrivals.springs.clone(), jumps })
+    Ok(Outcome { events, crossed, jumps })
 }
 
 /// Locks hinges with the exact change of all velocities; returns what each hinge contributes, and
@@ -242,9 +246,8 @@ fn released(scene: &Scene, mode: &Mode, arrivals: &Arrivals, time: f64) -> Vec<u
 }
 
 /// Whether the thrust is on from the end of an instant on, if that is a change.
-fn thrust_change(scene: &Scene, mode: &Mode, end: f64) -> Option<bool> {
-    let thrust = scene.thrust?;
-    let on = thrust.on <= end && end < thrust.off;
+fn thrust_switch(scene: &Scene, mode: &Mode, end: f64) -> Option<bool> {
+    let on = thrust_acts(&scene.thrust?, end);
     (on != mode.thrust).then_some(on)
 }
 
@@ -255,6 +258,6 @@ pub(crate) fn next_scheduled(scene: &Scene, mode: &Mode, time: f64) -> f64 {
         _ => f64::INFINITY,
     };
     let releases = mode.hinges.iter().enumerate().map(release);
-    let thrust = scene.thrust.map(|thrust| if mode.thrust { thrust.off } else { thrust.on });
+    let thrust = scene.thrust.map(|thrust| thrust_change(&thrust, mode.thrust));
     releases.chain(thrust).filter(|&at| at > time).fold(f64::INFINITY, f64::min)
 }

@@ -1,5 +1,5 @@
 use nboom_dynamics::{Accelerations, Recursive};
-use nboom_model::{Mode, Scene, Thrust};
+use nboom_model::{Mode, Scene};
 use nboom_scalar::{Dual, Real, Vec3};
 
 use crate::layout::Layout;
@@ -20,21 +20,15 @@ pub(crate) struct Jacobian {
 }
 
 impl Jacobian {
-    /// Of `mode`, in which held hinges have their angles in `beta` (all hinges) and `thrust` acts.
-    pub fn new(
-        scene: &Scene,
-        mode: &Mode,
-        beta: &[f64],
-        layout: Layout,
-        thrust: Option<Thrust>,
-    ) -> Self {
+    /// Of `mode`, in which held hinges have their angles in `beta` (all hinges).
+    pub fn new(scene: &Scene, mode: &Mode, beta: &[f64], layout: Layout) -> Self {
         let mut dynamics = Recursive::new(scene);
         let beta: Vec<Dual<f64>> = beta.iter().map(|&angle| Dual::constant(angle)).collect();
         dynamics.set_mode(mode, &beta);
         Self {
             layout,
             accelerations: Accelerations::for_hinges(layout.free),
-            rates: Rates::new(scene, layout, dynamics.free_hinges(), thrust),
+            rates: Rates::new(scene, layout),
             dynamics,
             variables: vec![Dual::zero(); layout.len()],
             derivatives: vec![Dual::zero(); layout.len()],
@@ -91,7 +85,7 @@ mod tests {
         state.omega_body += Vec3::new(0.3, -0.2, 0.5);
         let mode = Mode {
             hinges: vec![HingeState::Free; scene.bodies.len()],
-            kick_off: scene.bodies.iter().map(|body| body.hinge.kick_off.is_some()).collect(),
+            pieces: vec![0; Mode::at_start(&scene).pieces.len()],
             thrust: scene.thrust.is_some(),
         };
         let (mut equations, mut y) =

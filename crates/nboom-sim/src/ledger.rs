@@ -1,5 +1,5 @@
 use nboom_dynamics::Invariants;
-use nboom_elements::KickOffLaw;
+use nboom_elements::gravity_potential;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Vec3};
 
@@ -110,7 +110,7 @@ pub(crate) fn totals<R: Number>(state: &State<R>, found: &Invariants<R>) -> Tota
     }
 }
 
-/// Potential energy of springs and gravity.
+/// Potential energy of all elements.
 struct Potential {
     sum: f64,
     /// Sum of the magnitudes of the parts.
@@ -129,17 +129,17 @@ impl Potential {
 
 fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> Potential {
     let mut found = Potential { sum: 0.0, scale: 0.0, beyond: None };
-    for (i, (law, &beta)) in equations.laws().iter().zip(&state.beta).enumerate() {
+    let laws = equations.dynamics.elements().torques();
+    for (i, (law, &beta)) in laws.iter().zip(&state.beta).enumerate() {
         found.add(law.potential(beta), Some(i));
     }
     if equations.gravity() != Vec3::zero() {
-        let height = equations.gravity().dot(state.center.position);
-        found.add(-scene.total_mass() * height, None);
+        found.add(gravity_potential(scene, state.center.position), None);
     }
-    for (i, body) in scene.bodies.iter().enumerate() {
-        let Some(spring) = body.hinge.kick_off else { continue };
-        let length = state.spring_length(&mut equations.dynamics, i)[0].min(spring.limit_length);
-        found.add(KickOffLaw::new(spring.coefficients).potential(length), Some(i));
+    for line in 0..equations.dynamics.elements().lines().len() {
+        let [length, _] = state.line_length(&mut equations.dynamics, line);
+        let line = &equations.dynamics.elements().lines()[line];
+        found.add(line.potential(length), Some(line.hinge));
     }
     found
 }

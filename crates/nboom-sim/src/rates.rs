@@ -1,6 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_elements::HingeLaw;
-use nboom_model::{Scene, Thrust};
+use nboom_elements::ThrustForce;
+use nboom_model::Scene;
 use nboom_scalar::{Real, Vec3};
 
 use crate::layout::Layout;
@@ -9,21 +9,13 @@ use crate::variables::attitude;
 /// The rates of change of all variables of a mode, over any scalar, once accelerations are known.
 pub(crate) struct Rates<R> {
     layout: Layout,
-    /// Of the free hinges.
-    laws: Vec<HingeLaw<R>>,
-    thrust: Option<Thrust>,
     total_mass: R,
 }
 
 impl<R: Real> Rates<R> {
-    /// Of the mode in which the hinges `free` turn and `thrust` acts.
-    pub fn new(scene: &Scene, layout: Layout, free: &[usize], thrust: Option<Thrust>) -> Self {
-        let law = |&i: &usize| {
-            let hinge = &scene.bodies[i].hinge;
-            HingeLaw::new(&hinge.spring, &hinge.dashpot)
-        };
-        let total_mass = R::constant(scene.total_mass());
-        Self { layout, laws: free.iter().map(law).collect(), thrust, total_mass }
+    /// Of a mode whose variables stand as in `layout`.
+    pub fn new(scene: &Scene, layout: Layout) -> Self {
+        Self { layout, total_mass: R::constant(scene.total_mass()) }
     }
 
     /// Writes ẏ at `y`, which stands for `motion`, to `dy`; `dynamics` is in the same mode, and the
@@ -46,11 +38,9 @@ impl<R: Real> Rates<R> {
         dy[layout.beta()].copy_from_slice(motion.tau);
         dy[layout.tau()].copy_from_slice(&accelerations.tau_dot);
         if let [work] = &mut dy[layout.dashpot_work()] {
-            let hinges = self.laws.iter().zip(motion.tau);
-            let power = hinges.map(|(law, &tau)| law.rate_torque(tau) * tau);
-            *work = power.fold(R::zero(), |sum, of_hinge| sum + of_hinge);
+            *work = dynamics.elements().rate_power(dynamics.free_hinges(), motion.tau);
         }
-        if let Some(thrust) = &self.thrust {
+        if let Some(&thrust) = dynamics.elements().thrust() {
             self.write_thrust(dynamics, thrust, motion, free_fall, y, dy);
         }
     }
@@ -58,14 +48,14 @@ impl<R: Real> Rates<R> {
     fn write_thrust(
         &self,
         dynamics: &mut Recursive<R>,
-        thrust: &Thrust,
+        thrust: ThrustForce<R>,
         motion: &Motion<'_, R>,
         free_fall: Vec3<R>,
         y: &[R],
         dy: &mut [R],
     ) {
         let layout = &self.layout;
-        let (point, force_body) = (Vec3::constant(thrust.point), Vec3::constant(thrust.force));
+        let ThrustForce { point, force: force_body, .. } = thrust;
         let to_inertial = attitude(y).normalized().to_matrix();
         let force = to_inertial * force_body;
         let (displacement, work) = (layout.thrust_motion().start, layout.thrust_work().start);

@@ -1,5 +1,6 @@
 use std::io;
 
+use nboom_elements::{Kind, LineReading};
 use nboom_model::HingeState;
 use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3};
@@ -154,12 +155,8 @@ pub struct Detail {
     pub alpha_ddot: Vec<f64>,
     /// Spring and dashpot torque by the law of eq. (6.1), whether or not the hinge is held.
     pub hinge_torque: Vec<f64>,
-    /// Whether each hinge's kick-off spring pushes.
-    pub kick_off_pushes: Vec<bool>,
-    /// Force of each kick-off spring; zero where there is none.
-    pub kick_off_force: Vec<f64>,
-    /// Length of each kick-off spring; zero where there is none.
-    pub kick_off_length: Vec<f64>,
+    /// The forces along lines, by hinge.
+    pub lines: Vec<LineReading>,
     /// S̄: system mass centre from O, main-body axes.
     pub mass_center_body: Vec3<f64>,
     /// System mass centre, inertial axes.
@@ -177,10 +174,10 @@ pub enum EventKind {
     LockUp,
     /// An unreleased hinge becomes free.
     Release,
-    /// A kick-off spring grows beyond its limit length.
-    KickOffDisengage,
-    /// A kick-off spring becomes shorter than its limit length again.
-    KickOffEngage,
+    /// A length or angle rises beyond a bound, at which the law of a force element goes on otherwise.
+    Rise(Kind),
+    /// It falls below such a bound.
+    Fall(Kind),
     /// The thrust starts.
     ThrustOn,
     /// The thrust stops.
@@ -195,8 +192,8 @@ impl EventKind {
         match self {
             Self::LockUp => "lock_up",
             Self::Release => "release",
-            Self::KickOffDisengage => "kick_off_disengage",
-            Self::KickOffEngage => "kick_off_engage",
+            Self::Rise(kind) => kind.names().rise.in_files,
+            Self::Fall(kind) => kind.names().fall.in_files,
             Self::ThrustOn => "thrust_on",
             Self::ThrustOff => "thrust_off",
             Self::End => "end",

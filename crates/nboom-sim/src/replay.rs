@@ -9,7 +9,7 @@ use crate::expansion::{Accuracy, Expansion};
 use crate::guard::{GuardKind, Guards, Reading, read};
 use crate::instant::{self, Arrivals};
 use crate::layout::Layout;
-use crate::record::{Event, EventKind, Snapshot};
+use crate::record::{Event, Snapshot};
 use crate::series::exact_graph;
 use crate::sizes::Sizes;
 use crate::snapshot;
@@ -103,7 +103,7 @@ impl<'a> Replay<'a> {
         guards.set(scene, mode, dynamics, state, lock_sides, &[]);
         let mut arrivals = Arrivals::at_start(scene, guards, dynamics, state);
         loop {
-            let toggled = self.pass_instant(&arrivals)?;
+            let crossed = self.pass_instant(&arrivals)?;
             let kinds = |events: &[Event]| -> Vec<_> {
                 events.iter().map(|event| (event.kind, event.hinge)).collect()
             };
@@ -113,7 +113,7 @@ impl<'a> Replay<'a> {
             if self.state.time.to_f64() >= self.scene.end_time {
                 return Ok(self.events.len() == self.guide.len());
             }
-            let course = self.enter(&toggled);
+            let course = self.enter(&crossed);
             let located = match self.follow(course)? {
                 Ending::Guard(kind) => Some(kind),
                 Ending::Schedule => None,
@@ -129,8 +129,8 @@ impl<'a> Replay<'a> {
         snapshot::take(self.scene, &self.mode, &mut self.dynamics, &self.state)
     }
 
-    /// Changes the mode as the instant demands; returns the hinges whose springs have toggled.
-    fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<Vec<usize>, SimError> {
+    /// Changes the mode as the instant demands; returns the elements that have passed a bound.
+    fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<Vec<(usize, usize)>, SimError> {
         for (i, side) in self.lock_sides.iter_mut().enumerate() {
             *side = self.guards.lock_side(i).unwrap_or(*side);
         }
@@ -138,18 +138,18 @@ impl<'a> Replay<'a> {
         let outcome = instant::pass(scene, dynamics, arrivals, state, mode, lock_sides)?;
         dynamics.set_mode(mode, &state.beta);
         self.events.extend(outcome.events);
-        Ok(outcome.toggled)
+        Ok(outcome.crossed)
     }
 
     /// Takes up the mode at the present state.
-    fn enter(&mut self, toggled: &[usize]) -> Course {
+    fn enter(&mut self, crossed: &[(usize, usize)]) -> Course {
         let Self { scene, mode, dynamics, state, lock_sides, .. } = self;
-        self.guards.set(scene, mode, dynamics, state, lock_sides, toggled);
-        let thrust = scene.thrust.filter(|_| mode.thrust);
+        self.guards.set(scene, mode, dynamics, state, lock_sides, crossed);
+        let thrust = dynamics.elements().thrust().is_some();
         let free = dynamics.free_hinges().len();
         let (momentum, dashpots) = (None, false);
-        let layout = Layout { momentum, free, thrust: thrust.is_some(), dashpots };
-        let graph = exact_graph(scene, mode, layout, thrust);
+        let layout = Layout { momentum, free, thrust, dashpots };
+        let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
         fixed.extend(state.center.velocity.to_array());
         let rates = state.omega_body.to_array().into_iter().chain(state.tau.iter().copied());
@@ -204,7 +204,11 @@ impl<'a> Replay<'a> {
         let tells = |event: &&Event| event.time == expected;
         let events: Vec<&Event> = next.iter().take_while(tells).collect();
         let kinds = self.guards.list.iter().map(|guard| guard.kind);
-        let is_told = |kind: &GuardKind| events.iter().any(|event| belongs(event, *kind));
+        let is_told = |kind: &GuardKind| {
+            let tells =
+                |event: &&Event| event.kind == kind.event() && event.hinge == Some(kind.hinge());
+            events.iter().any(tells)
+        };
         (expected, kinds.filter(is_told).collect())
     }
 
@@ -229,7 +233,8 @@ impl<'a> Replay<'a> {
     /// How long an instant would last that a guard makes as fast as it is now.
     fn instant_of(&mut self, kind: GuardKind) -> f64 {
         let reading = read(kind, self.scene, &mut self.dynamics, &self.state);
-        instant::duration(self.scene, self.state.time.to_f64(), kind.pace(self.scene, reading))
+        let pace = kind.pace(self.dynamics.elements(), reading);
+        instant::duration(self.scene, self.state.time.to_f64(), pace)
     }
 
     /// When a guard is zero, as time since the present, by Newton's method.
@@ -303,18 +308,6 @@ impl<'a> Replay<'a> {
 
 fn exact(value: f64) -> DoubleDouble {
     DoubleDouble::constant(value)
-}
-
-/// Whether an event is a change of sign of this guard.
-fn belongs(event: &Event, kind: GuardKind) -> bool {
-    let of_kind = match kind {
-        GuardKind::Lock { .. } => event.kind == EventKind::LockUp,
-        GuardKind::Trigger { .. } => event.kind == EventKind::Release,
-        GuardKind::KickOff { .. } => {
-            matches!(event.kind, EventKind::KickOffEngage | EventKind::KickOffDisengage)
-        }
-    };
-    of_kind && event.hinge == Some(kind.hinge())
 }
 
 #[cfg(test)]

@@ -76,6 +76,7 @@ impl<'a> Run<'a> {
         let mut equations = Equations::new(scene, &state, &options);
         let mut variables = Vec::new();
         equations.enter(scene, &mode, &state, &mut variables);
+        let room = Room::new(scene, equations.dynamics.elements());
         Self {
             scene,
             options,
@@ -98,7 +99,7 @@ impl<'a> Run<'a> {
             selections: Vec::new(),
             integrations: Vec::new(),
             attitude_norm: AttitudeNorm::new(),
-            room: Room::new(scene),
+            room,
         }
     }
 
@@ -140,7 +141,7 @@ impl<'a> Run<'a> {
         )?;
         self.equations.enter(self.scene, &self.mode, &self.state, &mut self.variables);
         self.check_regular()?;
-        self.check_springs()?;
+        self.check_lines()?;
         self.select()?;
         let controlled = self.equations.variables.layout.controlled();
         let time = self.state.time;
@@ -152,7 +153,7 @@ impl<'a> Run<'a> {
             &mut self.equations.dynamics,
             &self.state,
             &self.lock_sides,
-            &outcome.toggled,
+            &outcome.crossed,
         );
         finite::check_instant(self.scene, time, &outcome.events, &outcome.jumps)?;
         if !outcome.events.is_empty() {

@@ -1,25 +1,21 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_elements::gravity;
 use nboom_expr::{Expr, Graph};
 use nboom_formulation::Formulation;
-use nboom_model::{Mode, Scene, Thrust, WeldedTree};
+use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{Real, Vec3};
 
 use crate::closed_form::ClosedForm;
 use crate::layout::Layout;
 use crate::rates::Rates;
-use crate::variables::{Variables, gravity, motion};
+use crate::variables::{Variables, motion};
 
 /// What the equations of a mode compute: its variables and the time in, their rates out. They do
 /// not branch, so that one recording holds for the whole mode.
 ///
 /// Of all code for the accelerations, the articulated closed form has the smallest graph; where
 /// it does not cover the mode, the recursion is recorded. All compute the same ones.
-pub(crate) fn graph(
-    scene: &Scene,
-    mode: &Mode,
-    variables: &Variables<f64>,
-    thrust: Option<Thrust>,
-) -> Graph {
+pub(crate) fn graph(scene: &Scene, mode: &Mode, variables: &Variables<f64>) -> Graph {
     let Variables { layout, origin, .. } = variables;
     Graph::trace(layout.len() + 1, |inputs| {
         let (y, t) = (&inputs[..layout.len()], inputs[layout.len()]);
@@ -31,11 +27,9 @@ pub(crate) fn graph(
         let center_velocity = Vec3::constant(origin.center.velocity);
         let since = t - Expr::constant(origin.time);
         let free_fall = center_velocity + gravity(scene) * since;
-        rates(scene, (*layout, thrust), &mut dynamics, y, free_fall, |dynamics, motion, out| {
-            match form {
-                Ok(mut form) => form.accelerations(dynamics, motion, out),
-                Err(_) => dynamics.accelerations(motion, out),
-            }
+        rates(scene, *layout, &mut dynamics, y, free_fall, |dynamics, motion, out| match form {
+            Ok(mut form) => form.accelerations(dynamics, motion, out),
+            Err(_) => dynamics.accelerations(motion, out),
         })
     })
 }
@@ -43,12 +37,7 @@ pub(crate) fn graph(
 /// The same by the recursion and without rounding, as it holds for any state that the mode begins
 /// in. Further inputs: the time counts from there, and the angle of every hinge and the velocity
 /// of the mass centre there follow it.
-pub(crate) fn exact_graph(
-    scene: &Scene,
-    mode: &Mode,
-    layout: Layout,
-    thrust: Option<Thrust>,
-) -> Graph {
+pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: Layout) -> Graph {
     let hinges = scene.bodies.len();
     Graph::trace_exactly(layout.len() + 1 + hinges + 3, |inputs| {
         let (y, rest) = inputs.split_at(layout.len());
@@ -56,7 +45,7 @@ pub(crate) fn exact_graph(
         let mut dynamics = Recursive::new(scene);
         dynamics.set_mode(mode, beta);
         let free_fall = Vec3::new(v[0], v[1], v[2]) + gravity(scene) * since;
-        rates(scene, (layout, thrust), &mut dynamics, y, free_fall, |dynamics, motion, out| {
+        rates(scene, layout, &mut dynamics, y, free_fall, |dynamics, motion, out| {
             dynamics.accelerations(motion, out);
         })
     })
@@ -65,7 +54,7 @@ pub(crate) fn exact_graph(
 /// The rates of the variables `y`, where `accelerate` computes the accelerations.
 fn rates(
     scene: &Scene,
-    (layout, thrust): (Layout, Option<Thrust>),
+    layout: Layout,
     dynamics: &mut Recursive<Expr>,
     y: &[Expr],
     free_fall: Vec3<Expr>,
@@ -75,7 +64,7 @@ fn rates(
     let motion = motion(&layout, dynamics, y);
     accelerate(dynamics, &motion, &mut accelerations);
     let mut rates = vec![Expr::zero(); layout.len()];
-    let of_mode = Rates::new(scene, layout, dynamics.free_hinges(), thrust);
+    let of_mode = Rates::new(scene, layout);
     of_mode.write(dynamics, (&motion, &accelerations), free_fall, y, &mut rates);
     rates
 }

@@ -6,7 +6,7 @@ use crate::equations::Equations;
 use crate::ledger::totals;
 use crate::record::{Detail, Snapshot};
 use crate::state::State;
-use crate::step_motion::HingeForces;
+use crate::step_motion::Forces;
 
 /// What a recorder that needs no detail sees of `state`; `dynamics` is in `mode`.
 pub(crate) fn take<R: Number>(
@@ -47,12 +47,7 @@ pub(crate) fn take<R: Number>(
 }
 
 /// Accelerations and forces of `state` in the mode that `equations` are in.
-pub(crate) fn detail(
-    scene: &Scene,
-    mode: &Mode,
-    equations: &mut Equations,
-    state: &State,
-) -> Detail {
+pub(crate) fn detail(scene: &Scene, equations: &mut Equations, state: &State) -> Detail {
     let mass_center_body = state.invariants(&mut equations.dynamics).mass_center;
     let [free_beta, free_tau] = state.of_free(&equations.dynamics);
     let motion = Motion { omega_body: state.omega_body, beta: &free_beta, tau: &free_tau };
@@ -64,17 +59,15 @@ pub(crate) fn detail(
     equations.spread(&motion, [&mut beta, &mut tau, &mut beta_ddot]);
     let mut alpha_ddot = beta_ddot.clone();
     scene.accumulate_along_appendages(&mut alpha_ddot);
-    let mut forces = HingeForces::new(scene);
-    equations.set_hinge_forces([&beta, &tau], &free_beta, &mut forces);
+    let mut forces = Forces::new(equations.dynamics.elements());
+    forces.set(&mut equations.dynamics, [&beta, &tau], &free_beta);
     Detail {
         omega_dot_body,
         origin_acceleration_body,
         beta_ddot,
         alpha_ddot,
         hinge_torque: forces.torque,
-        kick_off_pushes: mode.kick_off.clone(),
-        kick_off_force: forces.kick_off_force,
-        kick_off_length: forces.kick_off_length,
+        lines: forces.lines,
         mass_center_body,
         mass_center_inertial: state.center.position,
         mass_center_velocity_inertial: state.center.velocity,

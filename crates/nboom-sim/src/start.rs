@@ -1,4 +1,5 @@
 use nboom_dynamics::Recursive;
+use nboom_elements::{Switched, thrust_acts};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Number, Vec3};
 
@@ -18,13 +19,11 @@ impl<R: Number> Start<R> {
         let (mut state, mut mode) = (State::initial(scene), Mode::at_start(scene));
         let mut dynamics = Recursive::new(scene);
         put_mass_center(&mut dynamics, &mut state);
-        for (i, body) in scene.bodies.iter().enumerate() {
-            let [length, _] = state.spring_length(&mut dynamics, i);
-            let pushes = |limit: f64| R::to_f64(length - R::constant(limit)) <= 0.0;
-            mode.kick_off[i] = body.hinge.kick_off.is_some_and(|k| pushes(k.limit_length));
+        for (piece, element) in mode.pieces.iter_mut().zip(Switched::all(scene)) {
+            let [value, _] = state.coordinate(&mut dynamics, element.coordinate);
+            *piece = element.piece_at(value);
         }
-        let time = scene.initial.time;
-        mode.thrust = scene.thrust.is_some_and(|f| f.on <= time && time < f.off);
+        mode.thrust = scene.thrust.is_some_and(|f| thrust_acts(&f, scene.initial.time));
         let lock_sides = scene.bodies.iter().map(|body| {
             let angle = body.hinge.lock_angle.unwrap_or(f64::NEG_INFINITY);
             let from_lock = body.hinge.start.angle - angle;

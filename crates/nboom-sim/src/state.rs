@@ -1,4 +1,5 @@
 use nboom_dynamics::{Invariants, Motion, Recursive};
+use nboom_elements::Coordinate;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Quaternion, Vec3};
 
@@ -81,13 +82,21 @@ impl<R: Number> State<R> {
         dynamics.invariants(&motion, to_inertial.transpose() * self.center.velocity)
     }
 
-    /// Length of the kick-off spring of hinge `i` and its rate; zero without one.
-    pub fn spring_length(&self, dynamics: &mut Recursive<R>, i: usize) -> [R; 2] {
+    /// Length of a line and its rate.
+    pub fn line_length(&self, dynamics: &mut Recursive<R>, line: usize) -> [R; 2] {
         let [beta, tau] = self.of_free(dynamics);
         let motion = Motion { omega_body: self.omega_body, beta: &beta, tau: &tau };
-        let Some(found) = dynamics.spring_length(&motion, i) else { return [R::zero(); 2] };
+        let found = dynamics.line_length(&motion, line);
         let length = found.squared.sqrt();
         [length, found.squared_rate / (length + length)]
+    }
+
+    /// What the law of an element is a function of, and its rate.
+    pub fn coordinate(&self, dynamics: &mut Recursive<R>, coordinate: Coordinate) -> [R; 2] {
+        match coordinate {
+            Coordinate::Length(line) => self.line_length(dynamics, line),
+            Coordinate::Angle(hinge) => [self.beta[hinge], self.tau[hinge]],
+        }
     }
 
     /// β and τ of the free hinges.

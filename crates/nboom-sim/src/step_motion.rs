@@ -1,8 +1,8 @@
 //! Steps as recorders see them that look for the worst within each.
 
 use nboom_dynamics::Recursive;
-use nboom_elements::{HingeLaw, KickOffLaw};
-use nboom_model::{HingeState, Mode, Scene};
+use nboom_elements::{Elements, LineReading};
+use nboom_model::{HingeState, Scene};
 use nboom_ode::Stepper;
 use nboom_scalar::Vec3;
 
@@ -42,10 +42,8 @@ pub struct MotionAt<'a> {
     pub beta_ddot: &'a [f64],
     /// Spring and dashpot torque by the law of eq. (6.1), whether or not the hinge is held.
     pub hinge_torque: &'a [f64],
-    /// Force of each kick-off spring; zero where there is none.
-    pub kick_off_force: &'a [f64],
-    /// Length of each kick-off spring; zero where there is none.
-    pub kick_off_length: &'a [f64],
+    /// The forces along lines, by hinge; one entry for each of them.
+    pub lines: &'a [LineReading],
 }
 
 impl<'a> MotionAt<'a> {
@@ -61,63 +59,48 @@ impl<'a> MotionAt<'a> {
             origin_acceleration_body: detail.origin_acceleration_body,
             beta_ddot: &detail.beta_ddot,
             hinge_torque: &detail.hinge_torque,
-            kick_off_force: &detail.kick_off_force,
-            kick_off_length: &detail.kick_off_length,
+            lines: &detail.lines,
         }
     }
 }
 
-/// Torques of springs and dashpots, and forces and lengths of kick-off springs, hinge by hinge.
+/// Torques about all hinges, and forces along lines.
 #[derive(Clone, Debug)]
-pub(crate) struct HingeForces {
+pub(crate) struct Forces {
     pub torque: Vec<f64>,
-    pub kick_off_force: Vec<f64>,
-    pub kick_off_length: Vec<f64>,
-    /// The hinges with kick-off springs, and the squares of their lengths.
-    springs: Vec<usize>,
-    squared: Vec<f64>,
+    pub lines: Vec<LineReading>,
+    lengths_squared: Vec<f64>,
 }
 
-impl HingeForces {
-    pub fn new(scene: &Scene) -> Self {
-        let has_spring = |&i: &usize| scene.bodies[i].hinge.kick_off.is_some();
-        let springs: Vec<usize> = (0..scene.bodies.len()).filter(has_spring).collect();
-        let none = vec![0.0; scene.bodies.len()];
+impl Forces {
+    /// Room for those of a scene.
+    pub fn new(elements: &Elements<f64>) -> Self {
+        let lines = elements.lines();
         Self {
-            torque: none.clone(),
-            kick_off_force: none.clone(),
-            kick_off_length: none,
-            squared: vec![0.0; springs.len()],
-            springs,
+            torque: vec![0.0; elements.torques().len()],
+            lines: lines.iter().map(|line| line.reading(0.0)).collect(),
+            lengths_squared: vec![0.0; lines.len()],
         }
     }
 
-    /// Torques by the law of each hinge at its angle and rate.
-    pub fn set_torques(&mut self, laws: &[HingeLaw<f64>], [beta, tau]: [&[f64]; 2]) {
-        let rates = laws.iter().zip(beta.iter().zip(tau));
-        for (torque, (law, (&b, &t))) in self.torque.iter_mut().zip(rates) {
-            *torque = law.torque(b, t);
-        }
-    }
-
-    /// Kick-off springs at the angles of the free hinges of `dynamics`, which is in `mode`.
-    pub fn set_springs(
+    /// Sets them at β and τ of all hinges, and β of those that are free, in the mode of `dynamics`.
+    pub fn set(
         &mut self,
-        scene: &Scene,
-        mode: &Mode,
         dynamics: &mut Recursive<f64>,
+        [beta, tau]: [&[f64]; 2],
         free_beta: &[f64],
     ) {
-        if self.springs.is_empty() {
+        let laws = dynamics.elements().torques().iter().zip(beta.iter().zip(tau));
+        for (torque, (law, (&b, &t))) in self.torque.iter_mut().zip(laws) {
+            *torque = law.torque(b, t);
+        }
+        if self.lines.is_empty() {
             return;
         }
-        dynamics.spring_lengths_squared(free_beta, &self.springs, &mut self.squared);
-        for (&i, squared) in self.springs.iter().zip(&self.squared) {
-            let length = squared.sqrt();
-            let acting = scene.bodies[i].hinge.kick_off.filter(|_| mode.kick_off[i]);
-            self.kick_off_length[i] = length;
-            self.kick_off_force[i] =
-                acting.map_or(0.0, |spring| KickOffLaw::new(spring.coefficients).force(length));
+        dynamics.line_lengths_squared(free_beta, &mut self.lengths_squared);
+        let lines = dynamics.elements().lines().iter().zip(&self.lengths_squared);
+        for (reading, (line, squared)) in self.lines.iter_mut().zip(lines) {
+            *reading = line.reading(squared.sqrt());
         }
     }
 }
@@ -129,19 +112,18 @@ pub(crate) struct Room {
     beta: Vec<f64>,
     tau: Vec<f64>,
     beta_ddot: Vec<f64>,
-    forces: HingeForces,
+    forces: Forces,
 }
 
 impl Room {
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Scene, elements: &Elements<f64>) -> Self {
         let none = vec![0.0; scene.bodies.len()];
-        let forces = HingeForces::new(scene);
         Self {
             variables: Vec::new(),
             beta: none.clone(),
             tau: none.clone(),
             beta_ddot: none,
-            forces,
+            forces: Forces::new(elements),
         }
     }
 }
@@ -190,7 +172,7 @@ impl StepMotion for DenseStep<'_> {
         let found = equations.accelerations(&motion);
         let (omega_dot_body, origin_acceleration_body) = (found.omega_dot_body, found.origin_body);
         equations.spread(&motion, [beta, tau, beta_ddot]);
-        equations.set_hinge_forces([beta, tau], motion.beta, forces);
+        forces.set(&mut equations.dynamics, [beta, tau], motion.beta);
         MotionAt {
             time,
             hinges,
@@ -201,8 +183,7 @@ impl StepMotion for DenseStep<'_> {
             origin_acceleration_body,
             beta_ddot,
             hinge_torque: &forces.torque,
-            kick_off_force: &forces.kick_off_force,
-            kick_off_length: &forces.kick_off_length,
+            lines: &forces.lines,
         }
     }
 }

@@ -1,4 +1,5 @@
 use nboom_dynamics::{Motion, Recursive};
+use nboom_elements::gravity;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Quaternion, Real, Vec3};
 
@@ -76,13 +77,6 @@ impl<R: Number> Variables<R> {
     pub fn free_fall(&self, t: R) -> MassCenter<R> {
         self.origin.center.after(t - self.origin.time, self.gravity)
     }
-}
-
-/// Uniform gravity as an acceleration, inertial axes.
-pub(crate) fn gravity<R: Real>(scene: &Scene) -> Vec3<R> {
-    scene.gravity.map_or(Vec3::zero(), |gravity| {
-        Vec3::constant(gravity.up) * R::constant(-gravity.acceleration)
-    })
 }
 
 /// The motion that the variables stand for; `dynamics` is in their mode.

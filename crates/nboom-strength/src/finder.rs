@@ -67,9 +67,8 @@ impl LoadFinder {
     /// # Errors
     /// When they contradict the motion, or are no numbers.
     pub fn write(&mut self, motion: &MotionAt<'_>, row: &mut [f64]) -> Result<(), StrengthError> {
-        let springs = motion.kick_off_force.iter().zip(motion.kick_off_length);
-        for (density, (&force, &length)) in self.force_densities.iter_mut().zip(springs) {
-            *density = if force == 0.0 { 0.0 } else { force / length };
+        for line in motion.lines {
+            self.force_densities[line.hinge] = line.density();
         }
         let scene_motion = SceneMotion {
             omega_body: motion.omega_body,

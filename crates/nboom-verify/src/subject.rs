@@ -50,7 +50,7 @@ pub struct NotCovered {
     pub why: String,
 }
 
-/// A scene with its thrust on and its kick-off springs disengaged, all hinges free or some held,
+/// A scene with its thrust on and no force along a line, all hinges free or some held,
 /// and random states of it.
 #[derive(Clone, Debug)]
 pub struct Subject {
@@ -297,8 +297,8 @@ fn recursive<R: Real>(scene: &Scene, held: &[Option<f64>]) -> Recursive<R> {
     };
     let mode = Mode {
         hinges: held.iter().map(state).collect(),
-        kick_off: vec![false; held.len()],
         thrust: scene.thrust.is_some(),
+        ..Mode::at_start(scene)
     };
     let beta: Vec<R> = held.iter().map(|angle| R::constant(angle.unwrap_or(0.0))).collect();
     let mut dynamics = Recursive::new(scene);

@@ -102,7 +102,7 @@ fn welded(dice: &mut Dice) -> (Topology, usize, Vec<f64>) {
         .map(|_| if dice.chance(share) { HingeState::Locked } else { HingeState::Free })
         .collect();
     let held = states.iter().filter(|state| **state == HingeState::Locked).count();
-    let mode = Mode { kick_off: vec![false; states.len()], thrust: false, hinges: states };
+    let mode = Mode { hinges: states, ..Mode::at_start(&scene) };
     let beta: Vec<f64> = scene.bodies.iter().map(|_| dice.between(-3.0, 3.0)).collect();
     let tree = WeldedTree::new(&scene, &mode, &beta);
     let Recognised { topology, parameters, .. } = recognise(&tree).expect("chains and paddles");

@@ -1,7 +1,19 @@
 //! Coefficients of the method of Radau IIA with three stages: Hairer and Wanner, Solving
 //! Ordinary Differential Equations II, 2nd ed., Section IV.8; decimals from their RADAU5.
 
+use crate::Radau;
 use crate::linear::Complex;
+use crate::method::Description;
+
+/// The row of [`Method`](crate::Method)'s table.
+pub(crate) const DESCRIPTION: Description = Description {
+    name: "radau5",
+    about: "implicit Runge-Kutta 5(3), for stiff hinges and latches",
+    order: |_| 5,
+    dense_order: |_| 3,
+    keeps_invariants: false,
+    stepper: |tolerance| Box::new(Radau::new(tolerance)),
+};
 
 const SQRT_6: f64 = 2.449_489_742_783_178;
 

@@ -3,9 +3,20 @@
 //!
 //! Rows list (stage, coefficient) where the coefficient is not zero.
 
-use crate::Method;
+use crate::method::Description;
+use crate::{Method, RungeKutta};
 
 use super::{Control, Row, Tableau};
+
+/// The row of [`Method`]'s table.
+pub(crate) const DESCRIPTION: Description = Description {
+    name: "dop853",
+    about: "explicit Runge-Kutta 8(5,3), for smaller ones",
+    order: |_| 8,
+    dense_order: |_| 7,
+    keeps_invariants: false,
+    stepper: |tolerance| Box::new(RungeKutta::dop853(tolerance)),
+};
 
 /// The method of Dormand and Prince of order 8 with estimates of order 5 and 3.
 pub(crate) const DOP853: Tableau = Tableau {

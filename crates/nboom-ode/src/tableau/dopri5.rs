@@ -2,9 +2,20 @@
 //! J. Comput. Appl. Math. 6 (1980); dense output by Shampine, as in Hairer, Nørsett, Wanner,
 //! Solving Ordinary Differential Equations I, 2nd ed., Section II.6.
 
-use crate::Method;
+use crate::method::Description;
+use crate::{Method, RungeKutta};
 
 use super::{Control, Row, Tableau};
+
+/// The row of [`Method`]'s table.
+pub(crate) const DESCRIPTION: Description = Description {
+    name: "dopri5",
+    about: "explicit Runge-Kutta 5(4), for relative errors down to about 1e-5",
+    order: |_| 5,
+    dense_order: |_| 4,
+    keeps_invariants: false,
+    stepper: |tolerance| Box::new(RungeKutta::dopri5(tolerance)),
+};
 
 /// The method of Dormand and Prince of order 5 with an estimate of order 4.
 pub(crate) const DOPRI5: Tableau = Tableau {

@@ -1,4 +1,4 @@
-use nboom_elements::HingeLaw;
+use nboom_elements::{HingeLaw, Kind};
 use nboom_model::{
     Appendage, Hinge, HingeStart, HingeState, KickOffSpring, MassProperties, Mount, Release,
     SceneDescription, Segment, Spring,
@@ -7,6 +7,7 @@ use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::*;
 use crate::options::Options;
+use crate::record::EventKind;
 use crate::run::simulate;
 use crate::trust::Witness;
 
@@ -178,7 +179,7 @@ fn a_kick_off_spring_that_nobody_told_of_is_noticed() {
         assert!(whole.len() >= least, "{whole:?}");
         assert!(whole.iter().all(|event| matches!(
             event.kind,
-            EventKind::KickOffEngage | EventKind::KickOffDisengage
+            EventKind::Rise(Kind::KickOff) | EventKind::Fall(Kind::KickOff)
         )));
         replay(&scene, &whole, Accuracy::REFERENCE);
         for left_out in 0..whole.len() {

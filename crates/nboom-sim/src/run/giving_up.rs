@@ -14,7 +14,7 @@ const BOUND: f64 = 1e154;
 /// Share of the largest error from which on a hinge's own error counts.
 const COUNTS: f64 = 0.01;
 
-/// Share of its attachments' distances below which a spring's length is rounding.
+/// Share of its ends' distances below which a line's length is rounding.
 const NO_LENGTH: f64 = 1e-14;
 
 /// Steps that must take a run by [`PACE_SPAN`] of the whole span, or it is given up.
@@ -105,18 +105,15 @@ impl Run<'_> {
         }
     }
 
-    /// Refuses a mode in which a spring that pushes and moves has no length.
-    pub(super) fn check_springs(&mut self) -> Result<(), SimError> {
-        for (i, body) in self.scene.bodies.iter().enumerate() {
-            let Some(spring) = body.hinge.kick_off.filter(|_| self.mode.kick_off[i]) else {
-                continue;
-            };
-            let moves = !self.equations.dynamics.spring_reach(i).is_empty();
-            let size = spring.main_body_point.norm() + spring.body_point.norm();
-            let [length, _] = self.state.spring_length(&mut self.equations.dynamics, i);
-            if moves && length <= NO_LENGTH * size {
-                let (time, hinge) = (self.state.time, self.scene.label(i));
-                return Err(SimError::SpringWithoutLength { time, hinge });
+    /// Refuses a mode in which a force acts along a line that moves and has no length.
+    pub(super) fn check_lines(&mut self) -> Result<(), SimError> {
+        let Self { scene, state, equations, .. } = self;
+        for line in 0..equations.dynamics.elements().lines().len() {
+            let [length, _] = state.line_length(&mut equations.dynamics, line);
+            let line = &equations.dynamics.elements().lines()[line];
+            if line.acts && line.link.is_some() && length <= NO_LENGTH * line.size {
+                let (time, hinge) = (state.time, scene.label(line.hinge));
+                return Err(SimError::NoDirection { time, hinge, element: line.kind.names().name });
             }
         }
         Ok(())

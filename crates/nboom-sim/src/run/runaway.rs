@@ -1,7 +1,7 @@
 //! When a motion runs away: its energy grows beyond all that the scene has, and its end is out of reach.
 
-use nboom_elements::KickOffLaw;
-use nboom_model::{Hinge, Scene};
+use nboom_elements::stored;
+use nboom_model::Scene;
 
 use super::Run;
 use crate::equations::Equations;
@@ -29,28 +29,9 @@ pub(super) struct Resources {
 
 impl Resources {
     pub fn of(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
-        let stored = scene.bodies.iter().map(|body| stored_about(&body.hinge));
-        let energy = stored.sum::<f64>() + turning(scene, equations, state);
+        let energy = stored(scene) + turning(scene, equations, state);
         Self { energy, looked_at: 0 }
     }
-}
-
-/// Energy of the springs of a hinge over all angles between start, lock angle and preload angle and a
-/// radian beyond, every term taken by its magnitude.
-fn stored_about(hinge: &Hinge) -> f64 {
-    let over = |quadratic: f64, linear: f64, preload: f64| {
-        let from = |angle: f64| (angle + preload).abs() + 1.0;
-        let reach = from(hinge.start.angle).max(hinge.lock_angle.map_or(0.0, from));
-        (quadratic.abs() * reach / 3.0 + linear.abs() / 2.0) * reach * reach
-    };
-    let (spring, dashpot) = (hinge.spring, hinge.dashpot);
-    let of_kick_off = hinge.kick_off.map_or(0.0, |kick_off| {
-        let magnitudes = kick_off.coefficients.map(f64::abs);
-        KickOffLaw::<f64>::new(magnitudes).potential(kick_off.limit_length).abs()
-    });
-    over(spring.quadratic, spring.linear, spring.preload_angle)
-        + over(dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle)
-        + of_kick_off
 }
 
 /// Kinetic energy about the mass centre.
@@ -83,7 +64,8 @@ impl Run<'_> {
         if growth.is_nan() || growth <= GROWTH {
             return None;
         }
-        let laws = || equations.laws().iter().zip(&scene.bodies).enumerate();
+        let elements = equations.dynamics.elements();
+        let laws = || elements.torques().iter().zip(&scene.bodies).enumerate();
         let from_spring = laws().map(|(i, (law, body))| {
             (i, law.potential(body.hinge.start.angle) - law.potential(state.beta[i]))
         });

@@ -72,7 +72,7 @@ impl Run<'_> {
     fn snapshot_with(&mut self, state: &State, needs_detail: bool) -> Result<Snapshot, SimError> {
         let Self { scene, mode, equations, .. } = self;
         let seen = snapshot::take(scene, mode, &mut equations.dynamics, state);
-        let detail = needs_detail.then(|| snapshot::detail(scene, mode, equations, state));
+        let detail = needs_detail.then(|| snapshot::detail(scene, equations, state));
         let (steps, next_step) =
             (self.stepper.window().counts.accepted, self.stepper.window().next_step);
         let next_step = next_step.min(scene.end_time - scene.initial.time);

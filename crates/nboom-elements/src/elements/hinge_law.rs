@@ -1,4 +1,4 @@
-use nboom_model::{Dashpot, Spring};
+use nboom_model::{Dashpot, Hinge, Spring};
 use nboom_scalar::Real;
 
 /// Torque of spring and dashpot about a hinge axis, eq. (6.1), with its powers of β collected:
@@ -55,6 +55,19 @@ impl HingeLaw<f64> {
     pub fn depends_on_rate(&self) -> bool {
         self.q1 != 0.0 || self.q2 != 0.0
     }
+}
+
+/// Energy of the springs of a hinge over all angles between start, lock angle and preload angle and a
+/// radian beyond, every term taken by its magnitude.
+pub(crate) fn stored(hinge: &Hinge) -> f64 {
+    let over = |quadratic: f64, linear: f64, preload: f64| {
+        let from = |angle: f64| (angle + preload).abs() + 1.0;
+        let reach = from(hinge.start.angle).max(hinge.lock_angle.map_or(0.0, from));
+        (quadratic.abs() * reach / 3.0 + linear.abs() / 2.0) * reach * reach
+    };
+    let (spring, dashpot) = (hinge.spring, hinge.dashpot);
+    over(spring.quadratic, spring.linear, spring.preload_angle)
+        + over(dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle)
 }
 
 #[cfg(test)]

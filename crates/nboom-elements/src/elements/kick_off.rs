@@ -1,4 +1,23 @@
+use nboom_model::Hinge;
 use nboom_scalar::Real;
+
+use crate::{EventName, LineNames, Names};
+
+/// What kick-off springs are called.
+pub(crate) const NAMES: Names = Names {
+    name: "kick-off spring",
+    rise: EventName {
+        in_files: "kick_off_disengage",
+        in_listing: "KICKOFF SPRING DISENGAGES AT HINGE",
+    },
+    fall: EventName { in_files: "kick_off_engage", in_listing: "KICKOFF SPRING ENGAGES AT HINGE" },
+    line: Some(LineNames {
+        force: "kick-off force",
+        length: "kick-off length",
+        force_column: "KICKOFF SPRING FORCE",
+        length_column: "EXTENSION OF KICKOFF SPRING",
+    }),
+};
 
 /// Force of a kick-off spring by its length, eq. (6.10): F = a₀ + a₁x + a₂x² + a₃x³, positive
 /// when it pushes its ends apart.
@@ -28,6 +47,14 @@ impl<R: Real> KickOffLaw<R> {
         let sum = ((part(a3, 4.0) * length + part(a2, 3.0)) * length + part(a1, 2.0)) * length;
         -((sum + a0) * length)
     }
+}
+
+/// The most energy that the spring of a hinge can store, every term taken by its magnitude.
+pub(crate) fn stored(hinge: &Hinge) -> f64 {
+    hinge.kick_off.map_or(0.0, |spring| {
+        let magnitudes = spring.coefficients.map(f64::abs);
+        KickOffLaw::<f64>::new(magnitudes).potential(spring.limit_length).abs()
+    })
 }
 
 #[cfg(test)]

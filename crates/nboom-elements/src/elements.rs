@@ -1,0 +1,231 @@
+//! The one place that lists the force elements.
+
+use nboom_model::{Hinge, Mode, Scene, WeldedTree};
+use nboom_scalar::Real;
+
+use crate::{Coordinate, Line, Names, Placed, Switched};
+
+mod gravity;
+mod hinge_law;
+mod kick_off;
+mod thrust;
+mod torque_table;
+mod untransmitted;
+
+pub use gravity::{gravity, gravity_potential};
+pub use hinge_law::HingeLaw;
+pub use kick_off::KickOffLaw;
+pub use thrust::{ThrustForce, thrust_acts, thrust_change};
+use torque_table::TablePiece;
+use untransmitted::Untransmitted;
+
+/// The kinds of elements that are told apart in messages and files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// A spring that pushes a body off the main body until it has reached its limit length.
+    KickOff,
+    /// A torque about a hinge, tabulated over its angle.
+    TorqueTable,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::KickOff, Self::TorqueTable];
+
+    /// What it is called.
+    pub fn names(self) -> &'static Names {
+        match self {
+            Self::KickOff => &kick_off::NAMES,
+            Self::TorqueTable => &torque_table::NAMES,
+        }
+    }
+}
+
+/// Kind, hinge, coordinate and bounds of each element whose law has several pieces, in the order of
+/// [`SceneDescription::pieces_at_rest`](nboom_model::SceneDescription): lines first.
+pub(crate) fn switched(scene: &Scene) -> Vec<(Kind, usize, Coordinate, Vec<f64>)> {
+    let spring = |i: usize| Some((i, scene.bodies[i].hinge.kick_off?));
+    let springs = (0..scene.bodies.len()).filter_map(spring).enumerate();
+    let of_spring = springs.map(|(line, (hinge, spring))| {
+        (Kind::KickOff, hinge, Coordinate::Length(line), vec![spring.limit_length])
+    });
+    let of_table = scene.torque_tables.iter().map(|table| {
+        let angles = table.points.iter().map(|point| point[0]).collect();
+        (Kind::TorqueTable, table.hinge, Coordinate::Angle(table.hinge), angles)
+    });
+    of_spring.chain(of_table).collect()
+}
+
+/// The torque about one hinge: of its spring and dashpot, and of its table where it has one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HingeTorque<R> {
+    law: HingeLaw<R>,
+    table: Option<TablePiece<R>>,
+}
+
+impl<R: Real> HingeTorque<R> {
+    /// That of each hinge of `scene` in `mode`.
+    fn all(scene: &Scene, mode: &Mode) -> Vec<Self> {
+        let hinges = scene.bodies.iter().map(|body| &body.hinge);
+        let law = |hinge: &Hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot);
+        let mut torques: Vec<Self> =
+            hinges.map(|hinge| Self { law: law(hinge), table: None }).collect();
+        // Tables come last among the elements of a mode.
+        let first = mode.pieces.len() - scene.torque_tables.len();
+        for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
+            torques[table.hinge].table = Some(TablePiece::new(table, piece));
+        }
+        torques
+    }
+
+    /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
+    #[inline]
+    pub fn torque(&self, beta: R, tau: R) -> R {
+        let torque = self.law.torque(beta, tau);
+        self.table.as_ref().map_or(torque, |table| torque + table.torque(beta))
+    }
+
+    /// The part of the torque that depends on the rate, and does work no potential accounts for.
+    #[inline]
+    pub fn rate_torque(&self, tau: R) -> R {
+        self.law.rate_torque(tau)
+    }
+
+    /// Potential energy of the part that depends on the angle.
+    pub fn potential(&self, beta: R) -> R {
+        let potential = self.law.potential(beta);
+        self.table.as_ref().map_or(potential, |table| potential + table.potential(beta))
+    }
+}
+
+impl HingeTorque<f64> {
+    /// Whether the torque depends on the rate.
+    pub fn depends_on_rate(&self) -> bool {
+        self.law.depends_on_rate()
+    }
+}
+
+/// The force elements of a scene as they act in one mode, by what they act on: torques about
+/// hinges, forces along lines between two bodies, and a wrench on the main body.
+///
+/// Evaluations allocate nothing.
+#[derive(Clone, Debug)]
+pub struct Elements<R> {
+    torques: Vec<HingeTorque<R>>,
+    lines: Vec<Line<R>>,
+    untransmitted: Vec<Untransmitted<R>>,
+    thrust: Option<ThrustForce<R>>,
+    switched: Vec<Switched>,
+}
+
+impl<R: Real> Elements<R> {
+    /// Those of `scene` in `mode`, whose links are those of `tree`.
+    pub fn new(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Self {
+        let lines = Line::all(scene, mode, tree);
+        Self {
+            torques: HingeTorque::all(scene, mode),
+            untransmitted: Untransmitted::all(scene, mode, tree, &lines),
+            lines,
+            thrust: scene.thrust.filter(|_| mode.thrust).map(|thrust| ThrustForce::new(&thrust)),
+            switched: Switched::all(scene),
+        }
+    }
+
+    /// The law of the torque about each hinge of the scene, whether it is held or free.
+    pub fn torques(&self) -> &[HingeTorque<R>] {
+        &self.torques
+    }
+
+    /// The forces along lines, by hinge.
+    pub fn lines(&self) -> &[Line<R>] {
+        &self.lines
+    }
+
+    /// The lines that act on links, each with its link.
+    #[inline]
+    pub fn pushing(&self) -> impl Iterator<Item = (usize, &Line<R>)> {
+        self.lines.iter().filter(|line| line.acts).filter_map(|line| Some((line.link?, line)))
+    }
+
+    /// The thrust, while it is on.
+    pub fn thrust(&self) -> Option<&ThrustForce<R>> {
+        self.thrust.as_ref()
+    }
+
+    /// The elements with several pieces to their law.
+    pub fn switched(&self) -> &[Switched] {
+        &self.switched
+    }
+
+    /// Sets `out` to the torques about the hinges `free` at their angles and rates.
+    #[inline]
+    pub fn set_torques(&self, free: &[usize], [beta, tau]: [&[R]; 2], out: &mut [R]) {
+        for (j, &hinge) in free.iter().enumerate() {
+            out[j] = self.torques[hinge].torque(beta[j], tau[j]);
+        }
+    }
+
+    /// Takes off the torques about the hinges of `links` what lines do not transmit.
+    #[inline]
+    pub fn withhold<P: Placed<R>>(&self, links: &[P], torques: &mut [R]) {
+        for moment in &self.untransmitted {
+            torques[moment.link] -= moment.torque(links);
+        }
+    }
+
+    /// Power of the parts of the torques about the hinges `free` that depend on their rates `tau`.
+    pub fn rate_power(&self, free: &[usize], tau: &[R]) -> R {
+        let hinges = free.iter().map(|&hinge| &self.torques[hinge]).zip(tau);
+        let power = hinges.map(|(law, &tau)| law.rate_torque(tau) * tau);
+        power.fold(R::zero(), |sum, of_hinge| sum + of_hinge)
+    }
+}
+
+/// Energy that the elements about hinges and along lines can store on their way, every term taken by
+/// its magnitude.
+pub fn stored(scene: &Scene) -> f64 {
+    let hinges = scene.bodies.iter().map(|body| &body.hinge);
+    let springs: f64 = hinges.map(|hinge| hinge_law::stored(hinge) + kick_off::stored(hinge)).sum();
+    springs + scene.torque_tables.iter().map(torque_table::stored).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nboom_model::{
+        Appendage, Hinge, KickOffSpring, MassProperties, Mount, SceneDescription, Segment,
+    };
+    use nboom_scalar::{Sym3, Vec3};
+
+    #[test]
+    fn a_mode_has_a_place_for_each_element_with_several_pieces() {
+        let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+        let spring = KickOffSpring {
+            main_body_point: Vec3::zero(),
+            body_point: Vec3::unit_y(),
+            coefficients: [1.0, 0.0, 0.0, 0.0],
+            limit_length: 2.0,
+        };
+        let hinges = [None, Some(spring), None, Some(spring)];
+        let segment = |kick_off| Segment {
+            length: 1.0,
+            mass_properties: body,
+            hinge: Hinge { kick_off, ..Hinge::free() },
+        };
+        let mut description = SceneDescription::at_rest("springs", body, 1.0);
+        let segments = hinges.map(segment).to_vec();
+        description.attach(&Appendage::Regular { mount: Mount::at(Vec3::zero()), segments });
+        let scene = Scene::new(description).expect("physical bodies");
+        let mode = Mode::at_start(&scene);
+        let elements =
+            Elements::<f64>::new(&scene, &mode, &WeldedTree::new(&scene, &mode, &[0.0; 4]));
+        let switched = elements.switched();
+        assert_eq!(switched.iter().map(|e| e.id.hinge).collect::<Vec<_>>(), [1, 3]);
+        assert_eq!(switched.len(), mode.pieces.len());
+        for (index, element) in switched.iter().enumerate() {
+            assert_eq!(element.id.index, index);
+            assert!(mode.pieces[index] <= element.bounds.len());
+        }
+        assert_eq!(elements.pushing().count(), 0);
+    }
+}

@@ -1,0 +1,198 @@
+use nboom_model::TorqueTable;
+use nboom_scalar::Real;
+
+use crate::{EventName, Names};
+
+/// What torque tables are called.
+pub(crate) const NAMES: Names = Names {
+    name: "torque table",
+    rise: EventName {
+        in_files: "torque_table_up",
+        in_listing: "POINT OF TORQUE TABLE PASSED UPWARD AT HINGE",
+    },
+    fall: EventName {
+        in_files: "torque_table_down",
+        in_listing: "POINT OF TORQUE TABLE PASSED DOWNWARD AT HINGE",
+    },
+    line: None,
+};
+
+/// One piece of the torque that a table gives: between two of its points the cubic that has their
+/// torques and slopes, before the first and beyond the last the tangent there.
+///
+/// Slopes are those of Fritsch and Butland, so that the torque between two points lies between those
+/// of the points. It and its slope are continuous.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TablePiece<R> {
+    /// The angle from which the piece is written.
+    from: R,
+    /// Torque by powers of the angle from there.
+    coefficients: [R; 4],
+    /// Potential energy there.
+    stored: R,
+}
+
+impl<R: Real> TablePiece<R> {
+    /// Piece number `piece` of a table: 0 lies before the first point.
+    ///
+    /// # Panics
+    /// When the table has fewer points than pieces before this one.
+    pub fn new(table: &TorqueTable, piece: usize) -> Self {
+        let (points, slopes) = (&table.points, slopes(&table.points));
+        let start = piece.saturating_sub(1);
+        let stored = (0..start).fold(0.0, |sum, k| {
+            let (_, coefficients) = cubic(points, &slopes, k);
+            sum - integral(coefficients, points[k + 1][0] - points[k][0])
+        });
+        let (from, coefficients) = if (1..points.len()).contains(&piece) {
+            cubic(points, &slopes, start)
+        } else {
+            (points[start][0], [points[start][1], slopes[start], 0.0, 0.0])
+        };
+        Self {
+            from: R::constant(from),
+            coefficients: coefficients.map(R::constant),
+            stored: R::constant(stored),
+        }
+    }
+
+    /// Torque at angle `beta` \[rad\]; positive when it increases β.
+    #[inline]
+    pub fn torque(&self, beta: R) -> R {
+        let ([c0, c1, c2, c3], s) = (self.coefficients, beta - self.from);
+        ((c3 * s + c2) * s + c1) * s + c0
+    }
+
+    /// Potential energy; zero at the table's first point.
+    pub fn potential(&self, beta: R) -> R {
+        self.stored - integral(self.coefficients, beta - self.from)
+    }
+}
+
+/// The most energy that a table can store between its points, every torque taken by its magnitude.
+pub(crate) fn stored(table: &TorqueTable) -> f64 {
+    let pairs = table.points.windows(2);
+    pairs.map(|pair| (pair[1][0] - pair[0][0]) * pair[0][1].abs().max(pair[1][1].abs())).sum()
+}
+
+/// The integral of a polynomial from zero to `s`.
+fn integral<R: Real>([c0, c1, c2, c3]: [R; 4], s: R) -> R {
+    let part = |c: R, power: f64| c * R::constant(1.0 / power);
+    (((part(c3, 4.0) * s + part(c2, 3.0)) * s + part(c1, 2.0)) * s + c0) * s
+}
+
+/// The cubic from point `k` to the next one: the angle it starts from, and its coefficients.
+fn cubic(points: &[[f64; 2]], slopes: &[f64], k: usize) -> (f64, [f64; 4]) {
+    let ([from, torque], [to, next]) = (points[k], points[k + 1]);
+    let (h, d0, d1) = (to - from, slopes[k], slopes[k + 1]);
+    let secant = (next - torque) / h;
+    let (c2, c3) = ((3.0 * secant - 2.0 * d0 - d1) / h, (d0 + d1 - 2.0 * secant) / (h * h));
+    (from, [torque, d0, c2, c3])
+}
+
+/// The slope at each point: zero at a turn, else between those of the two secants.
+fn slopes(points: &[[f64; 2]]) -> Vec<f64> {
+    let secant = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+    let secants: Vec<f64> = points.windows(2).map(secant).collect();
+    let widths: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
+    let last = secants.len() - 1;
+    if last == 0 {
+        return vec![secants[0]; 2];
+    }
+    let inner = (0..last).map(|k| {
+        let ([a, b], [h, g]) = ([secants[k], secants[k + 1]], [widths[k], widths[k + 1]]);
+        let (of_a, of_b) = (2.0 * g + h, g + 2.0 * h);
+        if a * b <= 0.0 { 0.0 } else { (of_a + of_b) / (of_a / a + of_b / b) }
+    });
+    let mut slopes = vec![end_slope([secants[0], secants[1]], [widths[0], widths[1]])];
+    slopes.extend(inner);
+    let inward = |values: &[f64]| [values[last], values[last - 1]];
+    slopes.push(end_slope(inward(&secants), inward(&widths)));
+    slopes
+}
+
+/// The slope at an end by the parabola through three points, held to where the cubic is monotone;
+/// secants and widths from the end inward.
+fn end_slope([a, b]: [f64; 2], [h, g]: [f64; 2]) -> f64 {
+    let slope = ((2.0 * h + g) * a - h * b) / (h + g);
+    if slope * a <= 0.0 {
+        0.0
+    } else if a * b <= 0.0 && slope.abs() > 3.0 * a.abs() {
+        3.0 * a
+    } else {
+        slope
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Uneven, with a turn, a level part and a step.
+    fn table() -> TorqueTable {
+        let points = [[-1.0, 2.0], [-0.4, -0.5], [0.1, -0.5], [0.2, 3.0], [1.5, 3.5], [2.0, -1.0]];
+        TorqueTable { hinge: 0, points: points.to_vec() }
+    }
+
+    fn piece_at(table: &TorqueTable, beta: f64) -> TablePiece<f64> {
+        let piece = table.points.iter().filter(|point| beta > point[0]).count();
+        TablePiece::new(table, piece)
+    }
+
+    #[test]
+    fn it_has_the_torques_of_its_points_and_between_them_no_others() {
+        let table = table();
+        for (k, pair) in table.points.windows(2).enumerate() {
+            let ([from, start], [to, end]) = (pair[0], pair[1]);
+            let piece = TablePiece::<f64>::new(&table, k + 1);
+            // Roundings of a polynomial whose coefficients reach 1e3.
+            assert!((piece.torque(from) - start).abs() < 1e-13);
+            assert!((piece.torque(to) - end).abs() < 1e-12);
+            for i in 0..=100 {
+                let torque = piece.torque(from + (to - from) * f64::from(i) / 100.0);
+                let (low, high) = (start.min(end), start.max(end));
+                assert!(torque > low - 1e-12 && torque < high + 1e-12, "{k}: {torque}");
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_meet_with_their_slopes_and_potentials() {
+        let table = table();
+        for (k, &[at, _]) in table.points.iter().enumerate() {
+            let pieces = [k, k + 1].map(|piece| TablePiece::<f64>::new(&table, piece));
+            let slope = |p: &TablePiece<f64>| (p.torque(at + 1e-5) - p.torque(at - 1e-5)) / 2e-5;
+            let differences = [
+                pieces[0].torque(at) - pieces[1].torque(at),
+                pieces[0].potential(at) - pieces[1].potential(at),
+            ];
+            assert!(differences.iter().all(|d| d.abs() < 1e-12), "{k}: {differences:?}");
+            // Central differences err by h² times a third derivative below 1e5.
+            assert!((slope(&pieces[0]) - slope(&pieces[1])).abs() < 1e-5, "{k}");
+        }
+    }
+
+    #[test]
+    fn torque_is_the_slope_of_the_potential_downwards() {
+        let (table, h) = (table(), 1e-4);
+        for beta in [-3.0, -0.9, -0.2, 0.13, 0.18, 0.7, 1.9, 4.0] {
+            let piece = piece_at(&table, beta);
+            let slope = (piece.potential(beta + h) - piece.potential(beta - h)) / (2.0 * h);
+            // They err by h² M''/6, with M'' below 1e4.
+            assert!((slope + piece.torque(beta)).abs() < 2e-5, "{beta}");
+        }
+    }
+
+    #[test]
+    fn points_on_a_line_give_the_line() {
+        for angles in [vec![-1.0, 2.0], vec![-1.0, -0.7, 0.4, 2.0]] {
+            let points = angles.iter().map(|&angle| [angle, 0.3 - 1.7 * angle]).collect();
+            let table = TorqueTable { hinge: 0, points };
+            for beta in [-4.0, -0.8, 0.0, 1.1, 5.0] {
+                let torque = piece_at(&table, beta).torque(beta);
+                // Some roundings of numbers below 10.
+                assert!((torque - (0.3 - 1.7 * beta)).abs() < 2e-14, "{beta}: {torque}");
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+use nboom_model::Scene;
+use nboom_scalar::Number;
+
+use crate::{Kind, elements};
+
+/// Which of the elements with several pieces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ElementId {
+    /// Its place in [`Mode::pieces`](nboom_model::Mode).
+    pub index: usize,
+    /// What it is.
+    pub kind: Kind,
+    /// The hinge, or the hinge of the body, on which it acts.
+    pub hinge: usize,
+}
+
+/// A force element whose law has several pieces, each of them smooth, one after another along a
+/// length or an angle; which of them holds is in [`Mode::pieces`](nboom_model::Mode).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Switched {
+    /// Which one it is.
+    pub id: ElementId,
+    /// What its law is a function of.
+    pub coordinate: Coordinate,
+    /// Where one piece ends and the next begins, ascending: piece p reaches from bound p − 1 to
+    /// bound p \[L or rad\].
+    pub bounds: Vec<f64>,
+}
+
+/// What the law of an element is a function of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// The length of a [`Line`](crate::Line), by its place among [`Elements::lines`](crate::Elements).
+    Length(usize),
+    /// The angle of a hinge.
+    Angle(usize),
+}
+
+impl Switched {
+    /// All of a scene, in the order of [`Mode::pieces`](nboom_model::Mode).
+    pub fn all(scene: &Scene) -> Vec<Self> {
+        let of_index = |(index, (kind, hinge, coordinate, bounds))| Self {
+            id: ElementId { index, kind, hinge },
+            coordinate,
+            bounds,
+        };
+        elements::switched(scene).into_iter().enumerate().map(of_index).collect()
+    }
+
+    /// The piece that holds at `value` of the coordinate; at a bound, the one below.
+    pub fn piece_at<R: Number>(&self, value: R) -> usize {
+        let is_beyond = |&&bound: &&f64| R::to_f64(value - R::constant(bound)) > 0.0;
+        self.bounds.iter().take_while(is_beyond).count()
+    }
+
+    /// The size by which differences from a bound are judged: the bound's own of a length, a
+    /// radian of an angle.
+    pub fn scale(&self, bound: usize) -> f64 {
+        match self.coordinate {
+            Coordinate::Length(_) => self.bounds[bound],
+            Coordinate::Angle(_) => 1.0,
+        }
+    }
+}
