@@ -21,10 +21,10 @@ impl Harmonics {
 
     /// The angle from 0 to 2π at which it is largest; the first one where there are two.
     ///
-    /// With φ from the axis of the second harmonic and (x, y) = (cos φ, sin φ) it is d x² + 2 (g x
-    /// + h y) plus a constant, d ≥ 0: a quadratic form on the unit circle. Its maximum is where μ x
-    /// = g and (μ + d) y = h with μ ≥ 0 (Moré and Sorensen, Computing a trust region step, 1983),
-    /// and no other stationary point has such a μ.
+    /// With φ from the axis of the second harmonic and (x, y) = (cos φ, sin φ) it is
+    /// d x² + 2 (g x + h y) plus a constant, d ≥ 0: a quadratic form on the unit circle. Its
+    /// maximum is where μ x = g and (μ + d) y = h with μ ≥ 0 (Moré and Sorensen, Computing a trust
+    /// region step, 1983), and no other stationary point has such a μ.
     pub(crate) fn largest(self) -> f64 {
         let Self([_, c1, s1, c2, s2]) = self;
         let axis = 0.5 * s2.atan2(c2);
