@@ -30,10 +30,10 @@ pub struct Cli {
 pub enum Command {
     /// Simulate a scene and write what happens.
     ///
-    /// Writes states.csv, events.csv and summary.json, and prints a short account. The files are
-    /// written in DIR.partial and take DIR's place when the run is complete; docs/results.md says
-    /// what becomes of them otherwise. The first Ctrl-C or SIGTERM ends the run in good order, the
-    /// second at once.
+    /// Writes states.csv, events.csv and summary.json, and prints a short summary. The files are
+    /// written in DIR.partial and moved to DIR when the run is complete; docs/results.md says what
+    /// happens to them otherwise. The first Ctrl-C or SIGTERM ends the run in order, the second at
+    /// once.
     Run(RunArgs),
     /// Read and validate a scene, and say what it contains.
     ///
@@ -42,39 +42,41 @@ pub enum Command {
     Check(CheckArgs),
     /// Compare all code that computes accelerations, on random states.
     ///
-    /// In half of the states all hinges are free; in the others random ones, at least one, are held
+    /// In half of the states all hinges are free; in the others one or more random hinges are held
     /// at random angles. The thrust is on and kick-off springs are disengaged. Closed forms and
-    /// generated routines, also one of a larger topology if a run takes it, are compared with the
-    /// recursion in f64, and all of them with the recursion in double-double, which has 32 digits. Deviations of accelerations are relative
-    /// to the largest one. Where the mass matrix, scaled to diagonal 1, has a condition above 1e4,
-    /// they are divided by its ratio to 1e4, since it magnifies rounding as much. Mass matrix and
-    /// forcing are compared where a formulation has them, O at the inertial origin, with those of
-    /// the recursion for the formulation's unknowns: an entry of the matrix relative to the root
-    /// of the product of its diagonal entries in the matrix of kinetic energy, the forcing relative
-    /// to its largest entry. Exits with 1 where a deviation is above the tolerance, with the file
-    /// written all the same.
+    /// generated routines, including one of a larger topology if a run takes it, are compared with
+    /// the recursion in f64. All code is compared with the recursion in double-double, which has 32
+    /// digits. Deviations of accelerations are relative to the largest one. Where the mass matrix,
+    /// scaled to diagonal 1, has a condition above 1e4, they are divided by its ratio to 1e4, since
+    /// it magnifies rounding as much. If a formulation has a mass matrix and forcing, they are
+    /// compared with those of the recursion for its unknowns, with O at the inertial origin.
+    /// Deviations of an entry of the matrix are relative to the root of the product of its diagonal
+    /// entries in the matrix of kinetic energy, those of the forcing to its largest entry. The exit
+    /// code is 1 if a deviation is above the tolerance; the file is written even then.
     Verify(VerifyArgs),
     /// Time all code that computes accelerations.
     ///
-    /// Nanoseconds per evaluation, in samples of 64 random states with all hinges free: the
-    /// shortest and the median sample. Of code that takes eight states at once, an eighth of that. The recursion's time includes the hinges' springs and
-    /// dashpots; the others are given their torques.
+    /// Prints nanoseconds per evaluation, in samples of 64 random states with all hinges free: the
+    /// shortest and the median sample. For code that takes eight states at once it is an eighth of
+    /// the time. The time of the recursion includes the springs and dashpots of the hinges; other
+    /// code gets their torques as input.
     Bench(BenchArgs),
     /// Compute properties and stresses of cross sections.
     ///
     /// FILE is JSON with a list `cases`. A section has an id, and kind "circular" with R and t, or
-    /// "polygon" with vertices and thickness, lists of pairs [xi, zeta] and of numbers, wall l being
-    /// from vertex l to the next. With P, Q or both, force and moment on the outboard part about the
-    /// point on the eta axis, there are stresses too. The answer is the same list with an object
-    /// `expect` in each section. Compression is positive there, as in the report.
+    /// "polygon" with vertices, a list of pairs [xi, zeta], and thickness, a list of numbers; wall
+    /// l is from vertex l to the next. P and Q, force and moment on the outboard part about the
+    /// point on the eta axis, are optional; with one of them the answer has stresses. The answer is
+    /// the list with an object `expect` added to each section. Compression is positive in it, as in
+    /// the report.
     Section(SectionArgs),
     /// Write a crate with routines specialised for the scene.
     ///
-    /// The crate needs nothing but Rust: what its code uses is a module of it. CERTIFICATE.json says
-    /// how far the formulation of each routine is from the recursion on random states, and the
+    /// The crate needs only Rust: all that its code uses is in a module of it. CERTIFICATE.json
+    /// says how far the formulation of each routine is from the recursion on random states, and the
     /// crate's tests compare the compiled code with the recursion in double-double and print its
-    /// largest deviation. An up-to-date crate is left alone; a file that was changed, or written by
-    /// somebody else, is not overwritten.
+    /// largest deviation. An up-to-date crate is left alone; a file that was changed, or not
+    /// written by this command, is not overwritten.
     #[cfg(feature = "generator")]
     Generate(GenerateArgs),
     /// Build a stand-alone simulator around the scene's routines.
@@ -97,7 +99,7 @@ pub struct RunArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Directory for the results, made if need be; without it out/ and the scene's name.
+    /// Directory for the results, created if needed; by default out/ and the scene's name.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
 
@@ -107,7 +109,7 @@ pub struct RunArgs {
     pub samples: usize,
 
     /// Form of the equations of motion: report, relative, symmetric, articulated, momentum or
-    /// recursive; without it articulated in generated code, recursive in library code.
+    /// recursive; by default articulated in generated code, recursive in library code.
     #[arg(long, value_name = "NAME", value_parser = choice::formulation)]
     pub formulation: Option<Form>,
 
@@ -128,17 +130,17 @@ pub struct RunArgs {
           allow_negative_numbers = true)]
     pub atol: f64,
 
-    /// Longest step; without it steps are as long as the errors allow.
+    /// Longest step; by default steps are as long as the errors allow.
     #[arg(long, value_name = "H", value_parser = choice::positive, allow_negative_numbers = true)]
     pub max_step: Option<f64>,
 
-    /// Events after which the run is given up, as a spring at its limit length may chatter.
+    /// Events after which the run is given up, since a spring at its limit length may chatter.
     #[arg(long, value_name = "N", default_value = "20000", value_parser = events_parser(),
           allow_negative_numbers = true)]
     pub max_events: usize,
 
-    /// Which code computes the accelerations; auto takes generated code where there is some, and
-    /// recursive where the formulation does not cover the scene.
+    /// Which code computes the accelerations; auto takes generated code if there is any, and
+    /// recursive if the formulation does not cover the scene.
     #[arg(long, value_name = "PATH", value_enum, default_value = "auto")]
     pub path: PathChoice,
 
@@ -169,12 +171,12 @@ pub struct RunArgs {
     #[command(flatten)]
     pub stresses: StressArgs,
 
-    /// Ignored, and said so: this build writes no report.html.
+    /// Ignored, with a note: this build writes no report.html.
     #[arg(long)]
     pub no_report: bool,
 
-    /// Print no account, no progress and no warnings about the scene; errors, and warnings that the
-    /// results are poor or a part fails, are printed all the same.
+    /// Print no summary, no progress and no warnings about the scene; errors, and warnings that the
+    /// results are poor or a part fails, are still printed.
     #[arg(long)]
     pub quiet: bool,
 }
@@ -195,7 +197,7 @@ pub struct GenerateArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Directory of the crate, made if need be.
+    /// Directory of the crate, created if needed.
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
 
@@ -227,7 +229,7 @@ pub struct GenerateArgs {
     #[arg(long)]
     pub stresses: bool,
 
-    /// Write nothing; exit with 1 unless the crate is what would be written.
+    /// Write nothing; exit with 1 if the crate differs from what would be written.
     #[arg(long)]
     pub check: bool,
 }
@@ -254,11 +256,11 @@ pub struct CompileArgs {
     #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
     pub level: Level,
 
-    /// Folder to build in; without it nboom in $XDG_CACHE_HOME or in ~/.cache.
+    /// Folder to build in; by default nboom in $XDG_CACHE_HOME or in ~/.cache.
     #[arg(long, value_name = "DIR")]
     pub work: Option<PathBuf>,
 
-    /// Build with what cargo has at hand, without network.
+    /// Build with the crates that cargo has already downloaded, without network.
     #[arg(long)]
     pub offline: bool,
 }
@@ -270,13 +272,13 @@ pub struct VerifyArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// File for the deviations, in JSON, its folder made if need be; without it verify.json in
+    /// File for the deviations, in JSON, its folder created if needed; by default verify.json in
     /// out/ and the scene's name.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
-    /// Random states: angles of any size, rates as large as the scene's initial angular rate,
-    /// or of order 1 where it has none.
+    /// Number of random states: angles of any size, rates as large as the scene's initial angular
+    /// rate, or of order 1 if that is zero.
     #[arg(long, value_name = "N", default_value = "100", value_parser = states_parser(),
           allow_negative_numbers = true)]
     pub states: usize,
@@ -311,7 +313,7 @@ pub struct BenchArgs {
     #[arg(long, conflicts_with_all = ["json", "harness"])]
     pub work_precision: bool,
 
-    /// Directory for these files; without it out/ and the scene's name.
+    /// Directory for these files; by default out/ and the scene's name.
     #[arg(short, long, value_name = "DIR", requires = "work_precision")]
     pub output: Option<PathBuf>,
 
@@ -324,11 +326,11 @@ pub struct BenchArgs {
 /// Options of `nboom section`.
 #[derive(Args, Debug)]
 pub struct SectionArgs {
-    /// Sections, a file in JSON.
+    /// JSON file of sections.
     #[arg(value_name = "FILE")]
     pub sections: PathBuf,
 
-    /// File for the answer, in JSON, its folder made if need be; without it standard output.
+    /// File for the answer, in JSON, its folder created if needed; by default standard output.
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
 }

@@ -11,13 +11,13 @@ use crate::run::default_directory;
 use crate::work_precision::work_precision;
 use crate::{BenchArgs, CliError, Routines, check};
 
-/// Different states, so that nothing can be learnt from one.
+/// Different states, so that the processor cannot learn one.
 const STATES: usize = 64;
 
-/// The states are always the same ones, so that figures can be compared.
+/// The states are always these, so that figures can be compared.
 const SEED: u64 = 1970;
 
-/// Samples taken however long they take.
+/// Fewest samples, however long they take.
 const FEWEST_SAMPLES: usize = 3;
 
 /// Nanoseconds of an evaluation.
@@ -30,7 +30,7 @@ struct Times {
 /// States that a batch takes at once.
 const LANES: usize = 8;
 
-/// What was found about one code.
+/// The measurements of one code.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     label: Label,
@@ -41,7 +41,7 @@ struct Row {
     of_recursive: f64,
 }
 
-/// Times all code that computes accelerations and returns the account for standard output.
+/// Times all code that computes accelerations, and returns the text for standard output.
 pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
     if args.work_precision {
@@ -93,7 +93,7 @@ fn is_of(batch: &Batch, label: &Label) -> bool {
         == (label.topology, label.formulation, label.facts)
 }
 
-/// The same satellite in eight states at once; times are those of one of them.
+/// Times a batch of eight states of this satellite at once; times are those of one state.
 fn time_of_batch(batch: &Batch, parameters: &[Eight], states: &[Vec<f64>], seconds: f64) -> Times {
     let mut constants = vec![Eight::default(); batch.constants];
     batch.prepare(parameters, &mut constants);
@@ -111,7 +111,7 @@ fn time_of_batch(batch: &Batch, parameters: &[Eight], states: &[Vec<f64>], secon
     })
 }
 
-/// What varies from call to call and what comes out are hidden from the compiler.
+/// Inputs that vary from call to call, and outputs, are hidden from the compiler.
 fn time_of(code: &mut Code<'_>, seconds: f64) -> Times {
     match code {
         Code::Recursion { dynamics, states, found } => time(seconds, |i| {
@@ -187,7 +187,7 @@ fn json(rows: &[Row]) -> String {
     format!("[\n{}\n]\n", rows.iter().map(object).collect::<Vec<_>>().join(",\n"))
 }
 
-/// A line for each name: of routines with the same one, that which a run takes.
+/// A line for each name: of routines with one name, the one that a run takes.
 fn harness(scene: &str, rows: &[Row]) -> String {
     let scene: String = scene.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect();
     let is_taken = |row: &&Row| {
@@ -208,8 +208,8 @@ fn name(row: &Row) -> String {
     format!("nboom_{path}_{formulation}{baked}{lanes}")
 }
 
-/// Larger for what a run takes rather: a routine of a larger topology, which is there only if a run
-/// takes it, then the more specialised one.
+/// Larger for the routine that a run prefers: one of a larger topology, which is there only if a
+/// run takes it, then the more specialised one.
 fn precedence(label: &Label) -> (bool, bool) {
     (label.virtual_links > 0, label.facts != "general")
 }

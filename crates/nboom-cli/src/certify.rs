@@ -1,4 +1,4 @@
-//! A run again, more accurately.
+//! Repeats a run more accurately.
 
 use std::io;
 
@@ -10,23 +10,23 @@ use nboom_strength::StressAnalysis;
 use crate::CliError;
 use crate::interrupt::Interrupt;
 
-/// What a reference run has shown.
+/// The result of a reference run.
 #[derive(Clone, Debug)]
 pub(crate) struct Certified {
     pub(crate) trust: Trust,
-    /// Of the largest stresses and hinge loads, if any were computed.
+    /// Digits of the largest stresses and hinge loads, if any were computed.
     pub(crate) peaks: Vec<PeakDigits>,
 }
 
-/// Looks at a reference run.
+/// Observes a reference run.
 pub(crate) struct Certifier {
     pub(crate) interrupt: Interrupt,
-    /// Finds the loads, if those of the run were found.
+    /// Computes the loads, if the run did.
     pub(crate) analysis: Option<StressAnalysis>,
 }
 
 impl Certifier {
-    /// Runs again, and writes how far the results, `worst` among them, are from that.
+    /// Runs again, and writes how far the results, `worst` included, are from that run.
     pub(crate) fn certify(
         mut self,
         scene: &Scene,

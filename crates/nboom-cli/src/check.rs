@@ -19,22 +19,22 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     Ok(format!("{text}{ignored}{generated}{code}\n"))
 }
 
-/// What every command but `run`, which may be quiet, begins with: reads a scene, in which all is
-/// checked that a run would refuse, and says its warnings.
+/// Reads a scene, checks all that a run would refuse, and prints its warnings. Every command begins
+/// with this except `run`, which may be quiet.
 pub(crate) fn scene(args: &SceneArgs) -> Result<SceneFile, CliError> {
     let file = args.read()?;
     warnings(&file).iter().for_each(|warning| say("warning", warning));
     Ok(file)
 }
 
-/// What reading the file and looking at the scene warn of.
+/// All warnings, of the file and of the scene.
 pub(crate) fn warnings(file: &SceneFile) -> Vec<String> {
     let of_file = file.warnings.iter().map(ToString::to_string);
     let of_scene = file.scene.warnings();
     of_file.chain(of_scene.iter().map(ToString::to_string)).collect()
 }
 
-/// The topology with all hinges free, and what code generated for the scene takes for granted.
+/// The topology with all hinges free, and the assumptions of code generated for the scene.
 #[cfg(feature = "generator")]
 fn generated_code(scene: &Scene) -> String {
     use nboom_codegen::{Level, Numbers, Request, granted};
@@ -47,7 +47,7 @@ fn generated_code(scene: &Scene) -> String {
     format!("topology: {}\ngenerated code takes for granted: {phrases}\n", request.topology)
 }
 
-/// The code that a run begins with, and why: that of a run that ends where it starts.
+/// The code that a run begins with, and why, found by a run that ends where it starts.
 fn code_at_start(scene: &Scene, routines: &Routines) -> String {
     let options = Options { kernels: routines.accelerations, ..Options::default() };
     let instant = scene.ending_at(scene.initial.time);

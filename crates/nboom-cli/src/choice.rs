@@ -17,7 +17,7 @@ pub enum ChoiceError {
     /// Nothing has this name.
     #[error("unknown name, {} expected", .available.join(", "))]
     Unknown {
-        /// What there is.
+        /// The names that there are.
         available: Vec<&'static str>,
     },
     /// The text is not a number.
@@ -32,7 +32,7 @@ pub enum ChoiceError {
     /// The number is below 1 or above 2.
     #[error("a number from 1 to 2 expected")]
     NotAnAmplification,
-    /// No run can have this.
+    /// No run accepts this value.
     #[error(transparent)]
     Option(#[from] OptionError),
 }
@@ -91,7 +91,7 @@ pub(crate) fn positive(text: &str) -> Result<f64, ChoiceError> {
     if value > 0.0 { Ok(value) } else { Err(ChoiceError::NotPositive) }
 }
 
-/// Slow pulses are not amplified, and none by more than 2.
+/// Slow pulses are not amplified, and no pulse is amplified by more than 2.
 pub(crate) fn amplification(text: &str) -> Result<f64, ChoiceError> {
     let value = finite(text)?;
     if (1.0..=2.0).contains(&value) { Ok(value) } else { Err(ChoiceError::NotAnAmplification) }

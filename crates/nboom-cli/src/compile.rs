@@ -7,7 +7,7 @@ use nboom_package::{Build, Built, Progress, compile as build};
 use crate::format::{count, short};
 use crate::{CliError, CompileArgs, check, say};
 
-/// Builds a simulator around the scene's routines and returns an account.
+/// Builds a simulator around the scene's routines, and returns the text for standard output.
 pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
     let started = Instant::now();
     let file = check::scene(&args.scene)?;
@@ -30,8 +30,8 @@ pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
     ))
 }
 
-/// How far a build has come and how long it has taken: on a terminal a line that changes, elsewhere a
-/// line for each step. How long it will take nobody knows.
+/// How far a build has come and how long it has taken: on a terminal a line that changes, elsewhere
+/// a line for each step. The remaining time is unknown.
 struct Shown {
     line: ProgressBar,
 }

@@ -12,17 +12,17 @@ use nboom_verify::VerifyError;
 
 use crate::SectionFileError;
 
-/// Why a command did not do what it was asked.
+/// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CliError {
     /// The scene cannot be read, or is wrong.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// Standard input is to be read, and nothing says as what.
+    /// Standard input is the scene, but no format is given.
     #[error("-: --format nml expected, which says what standard input is")]
     NoFormat,
-    /// A format is given for what is a file.
+    /// A format is given, but the scene is a file.
     #[error(
         "--format {format}: found the file {}, expected - for standard input; a file's format is its \
          name's ending", path.display()
@@ -41,22 +41,22 @@ pub enum CliError {
         "--path generated --formulation recursive: the recursion is library code, which --path generic runs"
     )]
     GeneratedRecursion,
-    /// The choice of code is asked of a method that makes its own.
+    /// An option chooses code for a method that records its own.
     #[error(
         "{option} with --integrator taylor: it is made of power series of the equations of motion, \
          for which there is no other code"
     )]
     NotWithTaylor {
-        /// The option that would do nothing.
+        /// The option, which would have no effect.
         option: &'static str,
     },
-    /// Something about stresses is asked of a run that is to compute none.
+    /// An option about stresses is given for a run that computes none.
     #[error("{option} with --no-stresses: there is nothing for it to act on")]
     NoStresses {
         /// The option.
         option: &'static str,
     },
-    /// Something about stresses is asked of a scene that has no stations.
+    /// An option about stresses is given for a scene without stations.
     #[error("{option}: scene {scene} has no stations, stress groups with INSTR > 0 expected")]
     NoStations {
         /// The option.
@@ -67,13 +67,13 @@ pub enum CliError {
     /// No run can begin with these options.
     #[error(transparent)]
     Start(SimError),
-    /// The motion cannot be computed, or its results not be kept.
+    /// The motion cannot be computed, or its results cannot be written.
     #[error("{error}")]
     Simulation {
         /// What stopped it.
         #[source]
         error: SimError,
-        /// Where the results up to then are, if there are any.
+        /// The directory of the results up to then, if there are any.
         directory: Option<PathBuf>,
     },
     /// The run that a certificate needs for comparison cannot be finished.
@@ -103,22 +103,22 @@ pub enum CliError {
     /// The results cannot be written.
     #[error(transparent)]
     Results(#[from] ResultsError),
-    /// Two ways to the same accelerations differ too much.
+    /// Two codes for accelerations differ too much.
     #[error("{code} deviates by {deviation:.1e} in state {state}, above the tolerance {tol:e}")]
     Deviation {
-        /// What deviates most from the recursion.
+        /// The code that deviates most from the recursion.
         code: String,
         /// By how much.
         deviation: f64,
         /// In which state, from 1.
         state: usize,
-        /// What is allowed.
+        /// The largest deviation allowed.
         tol: f64,
     },
     /// There is nothing to compare, or the outcome cannot be written.
     #[error(transparent)]
     Verify(#[from] VerifyError),
-    /// A crate or a simulator is not what it should be, or cannot be made.
+    /// A crate or a simulator is out of date, or cannot be made.
     #[cfg(feature = "generator")]
     #[error(transparent)]
     Package(#[from] PackageError),
@@ -128,7 +128,7 @@ pub enum CliError {
     /// Stresses cannot be computed.
     #[error(transparent)]
     Stresses(#[from] StrengthError),
-    /// Standard output takes no more.
+    /// Standard output cannot be written.
     #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),
 }
@@ -174,7 +174,7 @@ impl CliError {
         }
     }
 
-    /// What to tell the user, a line for each thing that is wrong.
+    /// The message for the user, one line for each error.
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::Input(error @ InputError::Deck(_)) => {

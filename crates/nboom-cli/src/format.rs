@@ -1,15 +1,15 @@
-//! Numbers for people.
+//! Numbers and columns for people to read.
 
 use nboom_scalar::Vec3;
 use nboom_verify::{Label, NotCovered};
 
-/// A number with at most `digits` significant digits, without needless zeros; with an exponent
-/// where it is very small or large.
+/// A number with at most `digits` significant digits, without trailing zeros, and with an exponent
+/// if it is very small or large.
 pub(crate) fn short(value: f64, digits: usize) -> String {
     let scientific = format!("{value:.*e}", digits.saturating_sub(1));
     let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
     let places = exponent.parse::<i32>().ok().map(|e| digits as i32 - 1 - e);
-    // Fewer places than none would print digits that are not known.
+    // A negative number of places would print digits that are not known.
     match places.filter(|p| (0..digits as i32 + 4).contains(p)) {
         Some(places) => trimmed(&format!("{value:.*}", places as usize)),
         None => format!("{}e{exponent}", trimmed(mantissa)),
@@ -29,7 +29,7 @@ pub(crate) fn vector(v: Vec3<f64>) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// An angle in degrees, with their name.
+/// An angle in degrees, with the unit.
 pub(crate) fn degrees(radians: f64) -> String {
     format!("{} deg", short(radians.to_degrees(), 6))
 }

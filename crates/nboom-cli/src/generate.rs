@@ -2,7 +2,8 @@ use nboom_package::{Choices, Numbers, Written, generate as write, is_current};
 
 use crate::{CliError, GenerateArgs, check};
 
-/// Writes a crate with the scene's routines, or compares one, and returns an account.
+/// Writes a crate with the scene's routines, or compares one, and returns the text for standard
+/// output.
 pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
     let GenerateArgs { formulation, level, equations, lock_states, .. } = *args;

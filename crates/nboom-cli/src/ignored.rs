@@ -1,5 +1,5 @@
-//! What would do nothing in a run: options that are refused, and what is accepted but said to be
-//! ignored, so that nobody waits for it.
+//! Settings without effect in a run: options that are refused, and settings that are accepted but
+//! reported as ignored.
 
 use nboom_io::{LegacySettings, SceneFile};
 use nboom_sim::{Method, Options};
@@ -7,7 +7,7 @@ use nboom_strength::PulseShape;
 
 use crate::{CliError, PathChoice, RunArgs};
 
-/// Refuses options of a run to which others, or the scene, leave nothing to do.
+/// Refuses options that have no effect because of other options or of the scene.
 pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliError> {
     let taylor = args.integrator == Method::Taylor;
     let has_path = args.path != PathChoice::Auto;
@@ -32,9 +32,8 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
     }
 }
 
-/// What a run by default, if there is no command line to say otherwise, takes no notice of: words of
-/// the deck and options, each with its reason, in one line. `None` when there is nothing of the kind.
-/// `file` has the scene as it is without slips.
+/// What a run ignores, by default or under these options: words of the deck and options, each with
+/// its reason, in one line. `None` if there is nothing. `file` has the scene without slips.
 pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String> {
     let by_rkam = args.is_some_and(|args| args.integrator == Method::Rkam);
     let listing = args.is_some_and(|args| args.listing);
@@ -59,7 +58,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     (!phrases.is_empty()).then(|| format!("ignored: {}", phrases.join("; ")))
 }
 
-/// Those that differ from what they are when nobody gives them.
+/// Those that differ from their defaults.
 fn given_tolerances(args: &RunArgs) -> Vec<&'static str> {
     let defaults = Options::default();
     let given = [("--rtol", args.rtol != defaults.rtol), ("--atol", args.atol != defaults.atol)];

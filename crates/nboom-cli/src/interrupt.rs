@@ -9,27 +9,27 @@ use signal_hook::flag;
 
 use crate::{CliError, say};
 
-/// How often the program looks whether a signal has come.
+/// Interval at which the program checks for a signal.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// How long a run may take to end in good order; a step of a thousand hinges may take longer.
+/// Time in which a run may end in order; a step of a thousand hinges may take longer.
 const PATIENCE: Duration = Duration::from_millis(700);
 
 /// Whether the user or the system has asked the program to end, by Ctrl-C or SIGTERM.
 #[derive(Clone, Debug)]
 pub(crate) struct Interrupt {
     came: Arc<AtomicBool>,
-    /// Held by what must come to its end.
+    /// Held by work that must not be broken off.
     shield: Arc<Mutex<()>>,
 }
 
 impl Interrupt {
-    /// From now on the first such signal is only noted, and a program that does not heed it within
-    /// a second ends all the same; the second signal ends it at once.
+    /// From now on the first such signal is only noted. The program ends if it does not react
+    /// within a second; the second signal ends it at once.
     pub(crate) fn watch() -> Result<Self, CliError> {
         let interrupt = Self { came: Arc::default(), shield: Arc::default() };
         for signal in [SIGINT, SIGTERM] {
-            // In this order: the first signal finds that none has come.
+            // The order matters: the first signal must find that none has come.
             flag::register_conditional_default(signal, interrupt.came.clone())
                 .and_then(|_| flag::register(signal, interrupt.came.clone()))
                 .map_err(CliError::Signals)?;
@@ -43,7 +43,7 @@ impl Interrupt {
         self.came.load(Ordering::Relaxed)
     }
 
-    /// Does what must not be broken off.
+    /// Runs work that must not be broken off.
     pub(crate) fn shielded<T>(&self, work: impl FnOnce() -> T) -> T {
         let _held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
         work()

@@ -1,8 +1,8 @@
-//! The command line of nboom: reads arguments, runs what they ask for and prints the outcome.
+//! The command line of nboom: reads arguments, runs the command and prints the outcome.
 //!
-//! Results go to standard output, everything else to standard error. Options are defined once,
-//! in [`Cli`]; the help texts and `docs/cli.md` are made from them. Nothing is read, simulated
-//! or written to files here; the crates below do that.
+//! Results go to standard output, everything else to standard error. Options are defined once, in
+//! [`Cli`]; the help texts and `docs/cli.md` are made from them. The crates below read, simulate
+//! and write files.
 //!
 //! ```
 //! use clap::Parser;
@@ -76,9 +76,8 @@ pub struct Routines {
     pub batches: &'static [Batch],
 }
 
-/// Does what the command line asks for and tells how it went by the exit code: 0 done, 1 a
-/// comparison failed, 2 the input is wrong, 3 the computation or the writing failed or was
-/// interrupted.
+/// Runs the command and returns its exit code: 0 done, 1 a comparison failed, 2 the input is wrong,
+/// 3 the computation or the writing failed or was interrupted.
 #[cfg(feature = "generator")]
 pub fn execute(cli: &Cli) -> ExitCode {
     let (accelerations, equations) = (nboom_routines::all(), nboom_routines::equations());
@@ -86,7 +85,7 @@ pub fn execute(cli: &Cli) -> ExitCode {
     execute_with(cli, &Routines { accelerations, equations, batches })
 }
 
-/// The same with other routines than the stock ones.
+/// Runs the command like `execute`, with other routines than the stock ones.
 pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
     let printed = match &cli.command {
         Command::Run(args) => run::run(args, routines),

@@ -7,7 +7,7 @@ use nboom_results::write_file;
 
 use crate::CliError;
 
-/// Refuses an output that is the command's own input.
+/// Refuses an output that is also the command's input.
 pub(crate) fn check(output: &Path, input: &Path) -> Result<(), CliError> {
     let found = |path: &Path| fs::canonicalize(path).ok();
     match found(output) {
@@ -18,7 +18,7 @@ pub(crate) fn check(output: &Path, input: &Path) -> Result<(), CliError> {
     }
 }
 
-/// Writes a file, which is not the command's own input.
+/// Writes a file, unless it is also the command's input.
 pub(crate) fn write(output: &Path, input: &Path, text: &str) -> Result<(), CliError> {
     check(output, input)?;
     Ok(write_file(output, text)?)

@@ -9,19 +9,19 @@ use crate::certify::Certified;
 use crate::format::{count, short};
 use crate::verdict;
 
-/// Events beyond these are only in the file.
+/// Most events that are printed; the file has all.
 pub(crate) const EVENTS_SHOWN: usize = 100;
 
-/// What a run tells on standard output when it is done.
+/// The text of a completed run for standard output.
 pub(crate) struct Account<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) run: &'a RunDescription,
     pub(crate) outcome: &'a Outcome,
-    /// The first events, the end left out.
+    /// The first events, without the end.
     pub(crate) events: Vec<Event>,
     /// The worst stresses and hinge loads, if any were computed.
     pub(crate) worst: WorstLoads,
-    /// What a reference run has shown, if there was one.
+    /// The result of a reference run, if there was one.
     pub(crate) certified: Option<Certified>,
 }
 
@@ -56,7 +56,7 @@ impl Account<'_> {
         )
     }
 
-    /// The methods that took the steps, in the order in which they first did.
+    /// The methods that took the steps, in the order of their first steps.
     fn methods(&self) -> String {
         let mut names: Vec<&str> = Vec::new();
         for integration in &self.outcome.summary.integrations {
@@ -208,7 +208,7 @@ fn change(event: &Event, of: impl Fn(&Totals) -> f64) -> String {
     format!("{} -> {}", short(of(&event.before), 8), short(of(&event.after), 8))
 }
 
-/// Rows with their cells under one another, two spaces apart.
+/// Rows with aligned cells, two spaces apart.
 fn aligned(rows: &[Vec<String>]) -> Vec<String> {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width_of = |j: usize| {

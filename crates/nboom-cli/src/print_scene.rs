@@ -6,7 +6,7 @@ use nboom_scalar::Vec3;
 
 use crate::format::{count, degrees, short, vector};
 
-/// What a scene contains, for people; numbers to six digits.
+/// The content of a scene, for people to read; numbers to six digits.
 pub(crate) fn text(scene: &Scene) -> String {
     let mut lines = vec![heading(scene)];
     lines.push(format!("main body: {}", mass_properties(&scene.main_body)));
@@ -83,7 +83,7 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
     lines
 }
 
-/// What the places of hinges are.
+/// Explains the places of hinges.
 const PLACES: &str = "places: main-body axes, from O; locked: with all lock angles reached, hinges \
                       without one as at the start";
 
@@ -92,8 +92,8 @@ fn place(hinge: &HingePlace) -> String {
     format!("hinge at {point}, axis {}, outer end at {tip}", vector(without_rounding(hinge.axis)))
 }
 
-/// Components that are nothing but rounding beside the largest one, or beside 1 in a direction, are
-/// zero.
+/// Components that are only rounding compared with the largest one, or with 1 in a direction,
+/// become zero.
 fn without_rounding(v: Vec3<f64>) -> Vec3<f64> {
     let largest = v.to_array().iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     v.map(|x| if x.abs() <= 1e-12 * largest { 0.0 } else { x })

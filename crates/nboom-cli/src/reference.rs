@@ -32,7 +32,7 @@ fn section(command: &mut Command) -> String {
 
 fn row(arg: &Arg) -> String {
     let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-    // Outside of code marks Markdown takes <NAME> for a tag of HTML.
+    // Outside code marks Markdown takes <NAME> for an HTML tag.
     let help = help.trim_end_matches('.').replace('<', "\\<");
     format!("| `{}` | {help}{} | {} |\n", name(arg), choices(arg), default(arg))
 }
@@ -45,7 +45,7 @@ fn name(arg: &Arg) -> String {
 }
 
 fn default(arg: &Arg) -> String {
-    // Flags have a default too, which nobody ever writes.
+    // Flags have a default too, which is never written.
     if !arg.get_action().takes_values() {
         return String::new();
     }

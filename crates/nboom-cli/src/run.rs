@@ -16,7 +16,7 @@ use crate::progress::Progress;
 use crate::watch::Watch;
 use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say, verdict};
 
-/// Simulates a scene, writes its files and returns the account of it for standard output.
+/// Simulates a scene, writes its files and returns the text for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
     let slips = args.slips.as_1970.unwrap_or_default();
     let file = args.scene.read()?;
@@ -55,7 +55,7 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
     }
 }
 
-/// What a deck that means never by a time cannot know: that this run lasts longer.
+/// A warning if the run lasts beyond the release times that mean never in a deck.
 fn never_released(scene: &Scene, end_time: Option<f64>) -> Option<String> {
     let end_time = end_time.filter(|&time| time >= NEVER)?;
     let waits = |hinge: &Hinge| {
@@ -103,7 +103,7 @@ fn options(
     Ok(options)
 }
 
-/// What a deck says to `rkam`; where it says nothing, the tolerance does.
+/// Settings of a deck for `rkam`; the tolerance replaces missing ones.
 fn rkam(legacy: &LegacySettings, tolerance: Tolerance) -> RkamSettings {
     let upper = legacy.upper_error.map_or(Bound::Within(tolerance), Bound::Number);
     let from_upper = RkamSettings::meeting(upper);
@@ -157,12 +157,12 @@ fn simulate_into_files(
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_loads();
     let kept = interrupt.shielded(|| watch.files.finish(&outcome));
-    // Not for --quiet to hide: the results are not what they seem.
+    // Printed even with --quiet, since the results are not what they seem.
     let poor = outcome.summary.conservation.poor(options.rtol);
     poor.for_each(|law| say("warning", &law.to_string()));
     let negative = worst.weakest().and_then(verdict::negative_margin);
     negative.iter().for_each(|warning| say("warning", warning));
-    // What stopped the run says more than what then could not be written.
+    // The error that stopped the run says more than one in writing the files afterwards.
     if let Some(error) = failed {
         return Err(CliError::Simulation { error, directory: Some(kept.directory) });
     }
@@ -178,7 +178,7 @@ fn simulate_into_files(
     Ok(account.text(&directory))
 }
 
-/// `out/` and the scene's name, with what a file name cannot hold replaced.
+/// `out/` and the scene's name, with characters replaced that a file name cannot have.
 pub(crate) fn default_directory(scene: &str) -> PathBuf {
     let safe = |c: char| if c.is_control() || matches!(c, '/' | '\\') { '_' } else { c };
     let name: String = scene.trim().chars().map(safe).collect();

@@ -31,7 +31,7 @@ impl SceneFormat {
     /// Every format.
     pub const ALL: [Self; 1] = [Self::Nml];
 
-    /// The name in the command line.
+    /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Nml => "nml",
@@ -39,7 +39,7 @@ impl SceneFormat {
     }
 }
 
-/// What stands for standard input.
+/// The argument for standard input.
 const STANDARD_INPUT: &str = "-";
 
 impl SceneArgs {

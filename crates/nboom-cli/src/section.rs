@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::section_file::{Case, read};
 use crate::{CliError, SectionArgs, output, say, section_answer};
 
-/// Computes the sections of a file and returns the answer, or where it is, for standard output.
+/// Computes the sections of a file and returns the answer, or its path, for standard output.
 pub(crate) fn section(args: &SectionArgs) -> Result<String, CliError> {
     let cases = read(&args.sections)?;
     warnings(&args.sections, &cases);
@@ -28,7 +28,7 @@ fn warnings(path: &Path, cases: &[Case]) {
     }
 }
 
-/// The section as it was given, and what is computed of it.
+/// The section as given, and its results.
 fn answer(case: Case) -> Value {
     let found = section_answer::of(&case.section, case.load.as_ref());
     let mut given = case.given;

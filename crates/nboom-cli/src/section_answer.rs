@@ -1,4 +1,4 @@
-//! What `nboom section` answers: the keys of `expect` in `tests/data/section_cases.json`, in its
+//! The answer of `nboom section`: the keys of `expect` in `tests/data/section_cases.json`, in its
 //! sign convention.
 
 use nboom_scalar::Wrench;
@@ -7,7 +7,7 @@ use nboom_sections::{
 };
 use serde_json::{Value, json};
 
-/// What the numbers mean, said in the file.
+/// The meaning of the numbers, for the file.
 pub(crate) const CONVENTION: &str = "axes (xi, eta, zeta); P and Q act on the outboard part about \
     the point on the eta axis; compression and the traction on the outboard part are positive, \
     shear flow along the numbering; I_* count the walls' own thickness, *_centreline do not; angles \
@@ -167,7 +167,7 @@ fn axis_point(
 ) -> Value {
     let (found, traction) = (stresses.at(wall, x), Traction::at(stresses, wall, x));
     let [q_xi, q_zeta] = report::static_moments(polygon, found.place);
-    // In the report q_t counts against the numbering.
+    // In the report q_t is positive against the numbering.
     let torsion = -stresses.torsion_flow() / polygon.walls()[wall].thickness();
     let direction = stresses.wall(wall).direction;
     json!({

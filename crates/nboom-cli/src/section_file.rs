@@ -10,13 +10,13 @@ use serde_json::{Map, Value};
 /// The longest file that is read \[bytes\].
 const LARGEST_FILE: u64 = 4 << 20;
 
-/// How much of a wrong value a message shows \[characters\].
+/// Most of a wrong value that a message shows \[characters\].
 const MOST_SHOWN: usize = 40;
 
-/// How many defects a message shows.
+/// Most defects that a message shows.
 const MOST_DEFECTS: usize = 50;
 
-/// What a section may have: its description, a load, and what is only handed on.
+/// The keys that a section may have: its description, a load, and keys that are only passed on.
 const KEYS: [&str; 11] =
     ["id", "kind", "R", "t", "vertices", "thickness", "P", "Q", "name", "tags", "expect"];
 
@@ -63,32 +63,32 @@ pub struct SectionDefect {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Defect {
-    /// A value is absent or of another kind.
+    /// A value is missing or of the wrong kind.
     #[error("{place}: found {found}, expected {expected}")]
     Value {
         /// The key, and the place in a list, from 1.
         place: String,
-        /// What stands there.
+        /// What was found.
         found: String,
-        /// What should.
+        /// What was expected.
         expected: &'static str,
     },
-    /// The key says nothing here.
+    /// The key has no meaning here.
     #[error("{key}: found a key without meaning, expected one of {}", KEYS.join(", "))]
     Key {
         /// The key.
         key: String,
     },
-    /// It is no section of the kinds that there are.
+    /// It is not a section of a known kind.
     #[error(
         "kind: found {found}, expected \"circular\" or \"polygon\"; solid and open sections and \
          those with several cells are not covered"
     )]
     Kind {
-        /// What it is said to be.
+        /// The kind that it claims.
         found: String,
     },
-    /// It is no thin-walled section with one cell.
+    /// It is not a thin-walled section with one cell.
     #[error(transparent)]
     Section(SectionError),
     /// Stresses under the load are infinite.
@@ -108,7 +108,7 @@ fn listing(defects: &[SectionDefect]) -> String {
 
 /// A section of a file.
 pub(crate) struct Case {
-    /// What stands in the file.
+    /// The text in the file.
     pub(crate) given: Map<String, Value>,
     pub(crate) section: Section,
     pub(crate) load: Option<Wrench<f64>>,
@@ -154,7 +154,7 @@ fn case(value: Value) -> Result<Case, Vec<Defect>> {
     Ok(Case { given, section, load })
 }
 
-/// The keys of one section, and what is wrong with those that were looked at.
+/// The keys of one section, and the defects of those read so far.
 struct Fields<'a> {
     given: &'a Map<String, Value>,
     defects: Vec<Defect>,
@@ -169,7 +169,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Nothing if a defect was found.
+    /// `None` if a defect was found.
     fn section(&mut self) -> Option<Section> {
         match self.value("kind").as_str() {
             Some("circular") => {
@@ -190,7 +190,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Nothing if there is no load; what is absent of a load is zero.
+    /// `None` if there is no load; missing parts of a load are zero.
     fn load(&mut self) -> Option<Wrench<f64>> {
         let [force, moment] = ["P", "Q"].map(|key| {
             let components = self.given.contains_key(key).then(|| self.numbers(key))??;
@@ -266,7 +266,7 @@ impl Defect {
     }
 }
 
-/// A value in a message: in one line, and not longer than one.
+/// A value for a message, on one line and shortened to it.
 fn shown(value: &Value) -> String {
     if value.is_null() {
         return "nothing".to_owned();

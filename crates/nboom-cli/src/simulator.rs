@@ -8,7 +8,7 @@ use nboom_scalar::Kernel;
 use crate::{Cli, Routines, execute_with, refuse};
 
 /// The command line of a stand-alone simulator with routines of its own: `run` may be left out.
-/// `about` is what its help begins with.
+/// `about` begins its help.
 pub fn simulator(
     words: impl IntoIterator<Item = OsString>,
     about: &'static str,

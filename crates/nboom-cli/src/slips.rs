@@ -9,11 +9,10 @@ use crate::choice::ChoiceError;
 /// Options of `nboom run` that concern slips of the original program.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct SlipArgs {
-    /// Repeat slips of the original program, so that what it printed can be followed: all, or names
-    /// with commas between them, from chain-kick-off, paddle-kick-off, paddle-inertia, load-transfer,
-    /// tube-inertia, tube-shear, product-of-inertia, bending-signs, torsion-arm, closing-wall,
-    /// level-shear and vertex-before.
-    /// docs/the-1970-program.md says what each is. The results are wrong on purpose.
+    /// Repeat slips of the original program, to follow its printout: all, or names separated by
+    /// commas, from chain-kick-off, paddle-kick-off, paddle-inertia, load-transfer, tube-inertia,
+    /// tube-shear, product-of-inertia, bending-signs, torsion-arm, closing-wall, level-shear and
+    /// vertex-before. docs/the-1970-program.md explains each. The results are wrong on purpose.
     #[arg(long = "as-1970", value_name = "SLIPS", num_args = 0..=1, require_equals = true,
           default_missing_value = ALL, value_parser = slips)]
     pub as_1970: Option<Slips>,

@@ -25,8 +25,8 @@ pub struct StressArgs {
           allow_negative_numbers = true, requires = "yield_stress")]
     pub safety_factor: f64,
 
-    /// Peak of a segment's response over the peak of a lock-up pulse: 1 for slow pulses, and without
-    /// it; at most 2.
+    /// Peak of a segment's response over the peak of a lock-up pulse: 1 for slow pulses and by
+    /// default; at most 2.
     #[arg(long, value_name = "D", value_parser = choice::amplification,
           allow_negative_numbers = true)]
     pub amplification: Option<f64>,
@@ -37,8 +37,8 @@ pub struct StressArgs {
           value_parser = choice::pulse_shape)]
     pub pulses: PulseShape,
 
-    /// Write the loads of hinges, of any scene: hinge_loads.csv and its companions. With stresses they
-    /// are written anyway.
+    /// Write the loads of hinges, for any scene: hinge_loads.csv and its companions. With stresses
+    /// they are always written.
     #[arg(long)]
     pub hinge_loads: bool,
 

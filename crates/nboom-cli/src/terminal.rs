@@ -1,4 +1,4 @@
-//! What a terminal is given: text, and no orders to it that came in a name.
+//! Output for a terminal: text, without control characters that came in a name.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use crate::CliError;
 
-/// Writes to standard output; a reader who has left, as `head` does, has seen enough.
+/// Writes to standard output. It is no error if the reader has left, as `head` does.
 pub(crate) fn print(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
     match out.write_all(shown(text).as_bytes()).and_then(|()| out.flush()) {
@@ -15,12 +15,12 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
     }
 }
 
-/// Says something beside the results. When nobody can hear it there is nobody to tell.
+/// Prints to standard error. An error in that cannot be reported, and is ignored.
 pub(crate) fn say(kind: &str, line: &str) {
     let _ = writeln!(io::stderr(), "{kind}: {}", shown(line));
 }
 
-/// Says what is wrong with the command line, or what it asks to be told of it, and ends.
+/// Prints the error of the command line, or the help that it asks for, and ends.
 pub fn refuse(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     match shown(&text) {
@@ -33,8 +33,7 @@ pub fn refuse(error: &clap::Error) -> ExitCode {
     }
 }
 
-/// Text in which characters that a terminal obeys are written out, in the form in which JSON has
-/// them; lines stay lines.
+/// Text with the characters that a terminal obeys written as JSON escapes; line ends stay.
 fn shown(text: &str) -> Cow<'_, str> {
     let is_order = |c: char| (c.is_control() && c != '\n') || turns_text_around(c);
     if !text.contains(is_order) {

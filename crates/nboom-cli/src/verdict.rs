@@ -1,4 +1,4 @@
-//! What became of the hinges, in words.
+//! The final states of the hinges, in words.
 
 use nboom_model::{HingeState, Scene};
 use nboom_sim::{HingeVerdict, Verdict};
@@ -9,8 +9,8 @@ use crate::format::{degrees, short};
 /// Hinges beyond these are only counted.
 const SHOWN: usize = 12;
 
-/// A line with the hinges that are locked and since when, and one with the others and how far they
-/// came; nothing of a scene without hinges.
+/// A line with the locked hinges and the times of their lock-ups, and one with the others and their
+/// angles; nothing for a scene without hinges.
 pub(crate) fn lines(scene: &Scene, verdict: &Verdict) -> Vec<String> {
     let each = || verdict.hinges.iter().enumerate();
     let is_locked = |hinge: &HingeVerdict| hinge.state == HingeState::Locked;
@@ -55,7 +55,7 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     }
 }
 
-/// What is said of a part that fails.
+/// The message about a part that fails.
 pub(crate) fn negative_margin(worst: &Worst) -> Option<String> {
     let margin = worst.margin.filter(|margin| *margin < 0.0)?;
     let (segment, station, margin) = (worst.segment, worst.station + 1, short(margin, 3));

@@ -6,15 +6,15 @@ use nboom_sim::{Event, EventKind, InstantMotion, Recorder, Snapshot, StepMotion,
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 
-/// Passes everything on to the files and keeps what the terminal shows: the progress, and the
-/// first events.
+/// Passes everything on to the files, shows the progress on the terminal, and keeps the first
+/// events for it.
 pub(crate) struct Watch {
     pub(crate) files: RunDirectory,
     pub(crate) progress: Progress,
     pub(crate) events: Vec<Event>,
     pub(crate) events_to_keep: usize,
     pub(crate) interrupt: Interrupt,
-    /// What a reference run is compared with, if there is to be one.
+    /// The results to compare with a reference run, if there will be one.
     pub(crate) witness: Option<Witness>,
 }
 

@@ -3,7 +3,7 @@ use std::fmt;
 /// Reading stops when a deck has this many errors; warnings beyond this many are dropped.
 pub(crate) const MOST_KEPT: usize = 1000;
 
-/// One thing wrong, or remarkable, at one place of an input file.
+/// One error or warning at one place of an input file.
 ///
 /// Shown as `file:line:column: SYMBOL: found X, expected Y`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub struct Diagnostic {
     pub symbol: String,
     /// What the file says.
     pub found: String,
-    /// What would have been right; in a warning, also what was made of it.
+    /// What would have been right; in a warning, also how the value is taken.
     pub expected: String,
 }
 
@@ -75,7 +75,7 @@ impl<'f> Report<'f> {
         push_bounded(&mut self.warnings, diagnostic);
     }
 
-    /// Whether it is no use to read on.
+    /// Whether reading on is of no use.
     pub fn is_full(&self) -> bool {
         self.errors.len() >= MOST_KEPT
     }
@@ -103,8 +103,8 @@ fn push_bounded(list: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
     }
 }
 
-/// A piece of the input in quotes, cut short when it is long; control characters, which would
-/// reach the terminal, are replaced.
+/// A piece of the input in quotes, shortened if it is long, with control characters replaced, which
+/// would reach the terminal.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 40;
     let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use crate::Diagnostic;
 use crate::diagnostic::MOST_KEPT;
 
-/// How many errors of a deck the message shows.
+/// Most errors of a deck that the message shows.
 const MOST_SHOWN: usize = 50;
 
 /// Why a file is not a scene.

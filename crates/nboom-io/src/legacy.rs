@@ -1,6 +1,7 @@
-/// What a deck says to the original's integrator and printer (group &ROCK and flags), Table 16.1.
+/// Settings of a deck for the original's integrator and printer (group &ROCK and flags), Table
+/// 16.1.
 ///
-/// Nothing here changes a scene. `None`: not given (or zero, where zero cannot be meant).
+/// Nothing here changes a scene. `None`: not given (or zero, where zero makes no sense).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LegacySettings {
     /// `HZO`: first step of the `rkam` integrator \[T\], positive.

@@ -1,10 +1,10 @@
 //! Reads the input of the 1970 program, its NAMELIST decks, into a checked [`Scene`].
 //!
 //! A deck is text in the five groups of Table 16.1; [`SYMBOLS`] lists what may stand in them.
-//! Everything is checked before a scene is made, and everything that is wrong is said at once,
-//! each with file, line, column and the deck's own symbol. Degrees end here: a scene has
-//! radians. This crate does not simulate, does not write results, and computes no stresses; the
-//! stress groups are read into a [`Structure`].
+//! Everything is checked before a scene is made, and all errors are reported at once, each with
+//! file, line, column and the deck's own symbol. Degrees end here: a scene has radians. This crate
+//! does not simulate, does not write results, and computes no stresses; the stress groups are read
+//! into a [`Structure`].
 //!
 //! ```
 //! let deck = "
@@ -58,9 +58,9 @@ pub use source::read_text;
 pub struct SceneFile {
     /// The scene, checked.
     pub scene: Scene,
-    /// What was accepted but is worth a word, in the order of the lines.
+    /// Warnings, in the order of the lines.
     pub warnings: Vec<Diagnostic>,
-    /// What steers the original's printing and integration.
+    /// Settings of the original's printing and integration.
     pub legacy: LegacySettings,
     /// What the stress groups say, when the deck asks for stresses (`INSTR` above zero) and has
     /// the groups.
@@ -70,7 +70,7 @@ pub struct SceneFile {
 }
 
 /// Reads a scene from a deck `NAME.nml`; the scene is named NAME, with U+FFFD for control
-/// characters, which would give orders to a terminal.
+/// characters, which a terminal would obey.
 ///
 /// Files of at most 16 MiB are read; bytes that are not UTF-8 may occur in comments only.
 ///
@@ -84,8 +84,8 @@ pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
     Ok(SceneFile { sha256, ..parse_deck(&path.display().to_string(), &text, &name)? })
 }
 
-/// Reads a scene from a deck that is no file; `name` is the scene's and stands for the file in
-/// messages. As much is read as of a file.
+/// Reads a scene from a deck that is not a file; `name` is the scene's and stands for the file in
+/// messages. The limit of length is that of files.
 ///
 /// # Errors
 /// Those of [`read_scene`] but for the name.

@@ -16,8 +16,7 @@ pub(crate) fn read_deck(path: &Path) -> Result<(String, String), InputError> {
     hashed(path, read_bytes(path, LARGEST_DECK)?)
 }
 
-/// The text of a deck that comes from somewhere, and the hash of its bytes; `path` stands for it in
-/// messages.
+/// The text of a deck from any reader, and the hash of its bytes; `path` stands for it in messages.
 pub(crate) fn read_stream(path: &Path, reader: impl Read) -> Result<(String, String), InputError> {
     hashed(path, read_limited(path, reader, LARGEST_DECK)?)
 }
@@ -57,7 +56,7 @@ fn read_limited(path: &Path, reader: impl Read, limit: u64) -> Result<Vec<u8>, I
     Ok(bytes)
 }
 
-/// The length of a file that is one, not a pipe that nobody writes to.
+/// The length of a regular file; a pipe might block.
 fn check_file(path: &Path) -> Result<u64, InputError> {
     let io = |source| InputError::Io { path: path.to_owned(), source };
     let metadata = fs::metadata(path).map_err(io)?;

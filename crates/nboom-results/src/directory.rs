@@ -15,7 +15,7 @@ use crate::{
     SummaryFile, TRUST_FILE, WorstLoads, trust, with_causes,
 };
 
-/// What of the disk is kept for the summary, in which a full disk is told \[bytes\].
+/// Space on disk reserved for the summary, which must be able to report a full disk \[bytes\].
 const ROOM: usize = 1 << 14;
 
 /// The directory of one run: creates its files, writes tables while the run goes on, and the
@@ -34,11 +34,11 @@ pub struct RunDirectory {
     listing: Option<ListingWriter<Output>>,
     stresses: Option<StressWriter>,
     with_trust: bool,
-    /// Events whose instant may not be over, and the motion after them.
+    /// Events whose instant may still last, and the motion after them.
     instant: Option<(Vec<Event>, Snapshot)>,
 }
 
-/// What a run that has ended leaves; nobody else can write there as long as this lives.
+/// The results of a run that has ended; no other run can write there while this value lives.
 #[derive(Debug)]
 pub struct Kept {
     place: Place,
@@ -107,8 +107,8 @@ impl RunDirectory {
         })
     }
 
-    /// Whether results of an earlier run that was killed in the last moment were put into their
-    /// place first.
+    /// Whether complete results of an earlier run, killed before they took their place, have now
+    /// been put there.
     pub fn has_put_right(&self) -> bool {
         self.place.has_put_right
     }
@@ -142,15 +142,15 @@ impl RunDirectory {
     /// The worst stresses and hinge loads when the run is over; nothing where none are computed.
     pub fn worst_loads(&mut self) -> WorstLoads {
         let Some(stresses) = &mut self.stresses else { return WorstLoads::default() };
-        // Whatever is wrong, `finish` comes upon it again.
+        // `finish` meets any error again.
         match stresses.analysis.finish() {
             Ok(()) => WorstLoads::of(&stresses.analysis),
             Err(_) => WorstLoads::default(),
         }
     }
 
-    /// Writes what is left and the summary, and lets the results take their place: complete ones
-    /// that of earlier ones, others only where there is no finished result.
+    /// Writes what is left and the summary, and moves the results to their place. Complete ones
+    /// replace earlier ones; others move only where there is no finished result.
     ///
     /// The summary says that the run is complete only when `outcome` has no error and every
     /// table could be written to its end.
@@ -217,7 +217,7 @@ impl RunDirectory {
             self.write_stresses()?;
         }
         let Some(listing) = &mut self.listing else { return Ok(()) };
-        // A printout that fills the disk must not take the room of rows that wait in memory.
+        // A printout that fills the disk must not take the space of rows that wait in memory.
         let flushed = self.states.flush();
         let listed = listing.write(snapshot);
         flushed.map_err(self.writing(STATES_FILE))?;
@@ -228,7 +228,7 @@ impl RunDirectory {
         if !self.stresses.as_ref().is_some_and(StressWriter::is_full) {
             return Ok(());
         }
-        // Long tables that fill the disk must not take the room of rows that wait in memory.
+        // Long tables that fill the disk must not take the space of rows that wait in memory.
         self.states.flush().map_err(self.writing(STATES_FILE))?;
         self.stresses.as_mut().map_or(Ok(()), StressWriter::write)
     }
@@ -304,7 +304,7 @@ fn open_listing(
     })
 }
 
-/// Writes a summary that says that the run is not complete, and keeps room for another.
+/// Writes a summary that says that the run is not complete, and reserves space for another.
 fn announce(place: &Place, run: &RunDescription) -> Result<Draft, ResultsError> {
     let path = place.partial().join(SUMMARY_FILE);
     let first = place.draft()?.publish(&path, &SummaryFile::unfinished(run).text());

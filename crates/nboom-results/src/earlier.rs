@@ -10,7 +10,7 @@ use crate::{FILES, ResultsError, SUMMARY_FILE};
 /// The longest summary that is read \[bytes\]; a run with a million changes of code is shorter.
 const LONGEST: u64 = 1 << 28;
 
-/// What a run has left in a directory, by its summary.
+/// The results of an earlier run in a directory, by its summary.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Earlier {
     /// The summary.
@@ -22,7 +22,7 @@ pub(crate) struct Earlier {
 }
 
 impl Earlier {
-    /// What the summary in `directory` says; nothing where there is none.
+    /// Reads the summary in `directory`; `None` if there is none.
     ///
     /// # Errors
     /// [`ResultsError::Foreign`] where the file of that name is no summary of a run.

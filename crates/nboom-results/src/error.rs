@@ -35,7 +35,7 @@ pub enum ResultsError {
         /// Who holds it.
         holder: Holder,
     },
-    /// Something that no run has written has the name of a file of a run.
+    /// Something that was not written by a run has the name of a file of a run.
     #[error(
         "{}: found {found} that no run has written, expected a file of a run or nothing; move or \
          delete it, or name another directory",
@@ -47,7 +47,7 @@ pub enum ResultsError {
         /// What is there.
         found: Kind,
     },
-    /// Results cannot go into something that is no directory.
+    /// Results cannot go into something that is not a directory.
     #[error("{}: found {found}, expected a directory or nothing", path.display())]
     NotADirectory {
         /// The path.
@@ -55,7 +55,7 @@ pub enum ResultsError {
         /// What is there.
         found: Kind,
     },
-    /// A directory for results has no name that `.partial` can be added to, or has it already.
+    /// `.partial` cannot be added to the name of a directory for results, or is there already.
     #[error(
         "{}: found a directory that results cannot go into, expected a name that does not end in \
          .partial, as unfinished results have",
@@ -65,7 +65,7 @@ pub enum ResultsError {
         /// The path.
         path: PathBuf,
     },
-    /// A directory for results is a volume of its own, so that nothing beside it can be moved in.
+    /// A directory for results is the root of a volume, so nothing beside it can be moved in.
     #[error(
         "{}: found a volume of its own, expected a directory of one; name one within it",
         path.display()
@@ -94,7 +94,7 @@ pub enum ResultsError {
 }
 
 impl ResultsError {
-    /// Whether a place for results was refused, before anything was written.
+    /// Whether the place for the results was refused before anything was written.
     pub fn is_refusal(&self) -> bool {
         use ResultsError::{Foreign, InUse, Mounted, Name, NotADirectory};
         matches!(
@@ -108,7 +108,7 @@ impl ResultsError {
         move |source| Self::Write { path, source }
     }
 
-    /// The same error for callers who know only of [`io::Error`]; its kind is kept.
+    /// This error as an [`io::Error`] of the same kind.
     pub(crate) fn into_io(self) -> io::Error {
         let kind = match &self {
             Self::Directory { source, .. } | Self::Write { source, .. } => source.kind(),
@@ -121,7 +121,7 @@ impl ResultsError {
 
 /// An error and its causes in one line, `what: why: why`.
 ///
-/// A cause that the error already quotes is not said twice.
+/// A cause that the error already quotes is not repeated.
 pub fn with_causes(error: &dyn Error) -> String {
     let mut text = error.to_string();
     let mut cause = error.source();

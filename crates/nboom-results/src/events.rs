@@ -27,7 +27,7 @@ fn rank(kind: EventKind) -> u8 {
     }
 }
 
-/// Writes the table of events; what is written is handed to the system at once.
+/// Writes the table of events, and passes every row to the system at once.
 #[derive(Debug)]
 pub struct EventsWriter<W> {
     out: W,

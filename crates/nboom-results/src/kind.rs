@@ -22,7 +22,7 @@ impl Kind {
     /// What stands at `path`.
     ///
     /// # Errors
-    /// When the system does not tell.
+    /// When the system does not say.
     pub(crate) fn of(path: &Path) -> io::Result<Self> {
         let metadata = match fs::symlink_metadata(path) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Self::Nothing),

@@ -57,7 +57,7 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
-/// A table whose first column says what a row is about and whose others share one width.
+/// A table whose first column names the row and whose other columns have one width.
 pub(crate) struct Columns {
     pub(crate) first: usize,
     pub(crate) others: usize,

@@ -25,11 +25,11 @@ pub struct ListingWriter<W> {
     printed: Option<f64>,
     /// Output times so far.
     samples: usize,
-    /// Of those after the first ones every so many are printed.
+    /// After the first ones, one in this many output times is printed.
     interval: usize,
 }
 
-/// Output times that are printed in any case.
+/// Output times that are always printed.
 const FIRST: usize = 20;
 
 impl<W: Write> ListingWriter<W> {
@@ -47,8 +47,8 @@ impl<W: Write> ListingWriter<W> {
         Ok(Self { out, hinges, units, printed: None, samples: 0, interval: 1 })
     }
 
-    /// The same with no more than every `interval`th of the output times after the twentieth, as
-    /// the original printed its steps; instants with events are all there.
+    /// Prints only every `interval`th output time after the twentieth, as the original printed its
+    /// steps; all instants with events are printed.
     #[must_use]
     pub fn thinned(self, interval: usize) -> Self {
         Self { interval: interval.max(1), ..self }
@@ -83,7 +83,7 @@ impl<W: Write> ListingWriter<W> {
         if is_new { self.write_block(after) } else { Ok(()) }
     }
 
-    /// Hands everything written so far on to the system.
+    /// Passes everything written so far on to the system.
     ///
     /// # Errors
     /// When `out` refuses it.

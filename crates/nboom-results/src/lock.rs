@@ -7,11 +7,11 @@ use std::time::{Duration, SystemTime};
 use crate::ResultsError;
 use crate::kind::Kind;
 
-/// Name of the locked file in a directory in which a run is going on; it says who holds it.
+/// Name of the locked file in the directory of a current run; it says who holds the lock.
 pub(crate) const LOCK_FILE: &str = "run.pid";
 
-/// The right to write into a directory, which the system takes back from a process that ends,
-/// however it does.
+/// The right to write into a directory, which the system takes back when the process ends, in
+/// whatever way.
 #[derive(Debug)]
 pub(crate) struct Lock {
     path: PathBuf,
@@ -32,7 +32,7 @@ impl Lock {
         loop {
             make(directory)?;
             let (mut file, was_left) = match open(&path) {
-                // Another run has ended just now and taken the directory with it.
+                // Another run has just ended and removed the directory.
                 Err(error) if error.kind() == ErrorKind::NotFound => continue,
                 opened => opened.map_err(ResultsError::writing(&path))?,
             };
@@ -50,7 +50,7 @@ impl Lock {
             let told = held.to_string();
             let written = file.set_len(0).and_then(|()| file.write_all(told.as_bytes()));
             written.map_err(ResultsError::writing(&path))?;
-            // The file may have been that of a run that has just ended, and be gone.
+            // The file may have been of a run that has just ended, and be gone.
             if fs::read_to_string(&path).is_ok_and(|text| text == told) {
                 return Ok(Self { path, _file: file, was_left });
             }
@@ -60,7 +60,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Nobody is there to tell; a file that is left does not keep anybody out.
+        // Nobody could be told; a file that is left blocks nobody.
         let _ = fs::remove_file(&self.path);
         if let Some(directory) = self.path.parent() {
             // Unless results stay in it.
@@ -77,7 +77,7 @@ fn make(directory: &Path) -> Result<(), ResultsError> {
         _ => {}
     }
     match Kind::of(directory).map_err(failed)? {
-        // Another run may have taken it away again.
+        // Another run may have removed it again.
         Kind::Directory | Kind::Nothing => Ok(()),
         found => Err(ResultsError::NotADirectory { path: directory.to_owned(), found }),
     }
@@ -90,14 +90,14 @@ fn open(path: &Path) -> io::Result<(File, bool)> {
     match options.clone().create_new(true).open(path) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => match Kind::of(path)? {
             Kind::File | Kind::Nothing => Ok((options.open(path)?, true)),
-            // A pipe would wait for somebody to read from it.
+            // Opening a pipe would wait for a reader.
             found => Err(io::Error::new(ErrorKind::AlreadyExists, format!("found {found}"))),
         },
         opened => Ok((opened?, false)),
     }
 }
 
-/// Who holds a lock, as far as its file tells.
+/// Who holds a lock, as far as its file says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Holder {
     /// The process and how long after 1970 it began, if that could be read.

@@ -18,10 +18,10 @@ pub const HINGE_ENVELOPE_FILE: &str = "hinge_load_envelope.csv";
 pub const ENVELOPE_FILE: &str = "stress_envelope.csv";
 /// Name of the printout within a run's directory.
 pub const LISTING_FILE: &str = "listing.txt";
-/// The file of a run that tells how many of its digits can be trusted.
+/// Name of the certificate, which says how many digits of the run can be trusted.
 pub const TRUST_FILE: &str = "certificate.json";
 
-/// All names that a run may write; what has another name in its directory is not its own.
+/// All names that a run may write; files of other names in its directory are not its own.
 pub const FILES: [&str; 10] = [
     STATES_FILE,
     EVENTS_FILE,

@@ -2,13 +2,13 @@ use std::io::{self, Write};
 
 use nboom_scalar::Vec3;
 
-/// A table would hold what is no number.
+/// A value for a table is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{0} found, a finite number expected; the results or their units are beyond all numbers")]
 pub(crate) struct NotFinite(f64);
 
-/// Writes the shortest decimal that reads back to the same `f64`, with an exponent where digits
-/// would become many.
+/// Writes the shortest decimal that reads back to the same `f64`, with an exponent where it would
+/// have many digits.
 ///
 /// # Errors
 /// When the number is not finite, or `out` refuses it.

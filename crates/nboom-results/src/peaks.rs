@@ -9,20 +9,20 @@ use crate::WorstLoads;
 pub struct PeakDigits {
     /// The hinge, or that of the station's segment.
     pub hinge: HingeLabel,
-    /// The station, from 0, outboard ones first; none of a hinge.
+    /// The station, from 0, outboard ones first; `None` for a hinge.
     pub station: Option<usize>,
     /// `von_mises`, `force` or `moment`.
     pub digits: Digits,
 }
 
-/// Differences of the largest stresses and hinge loads of a run from those of its reference, each
-/// relative to itself, or where it is nothing beside the largest of its kind, to that; and where the
-/// motion loads nothing, to what it could.
+/// Differences of the largest stresses and hinge loads of a run from those of its reference. Each
+/// is relative to itself, or to the largest of its kind if it is negligible beside that, or to the
+/// natural size of loads if the motion loads nothing.
 pub fn peak_digits(run: &WorstLoads, truth: &WorstLoads, scales: &Scales) -> Vec<PeakDigits> {
     let largest = |quantity| truth.hinge(quantity).map_or(0.0, |worst| worst.magnitude());
     let [force, moment] = [HingeQuantity::Force, HingeQuantity::Moment].map(largest);
     let (of_forces, of_moments) = (natural(force, scales.force), natural(moment, scales.moment));
-    // Stresses follow from loads, and are none where these are.
+    // Stresses follow from loads, and vanish where these do.
     let loaded = (force / of_forces).max(moment / of_moments);
     let von_mises = truth.station().map_or(0.0, |worst| worst.severest.stress.von_mises());
     let stations = run.stations.iter().zip(&truth.stations).map(|(run, truth)| {

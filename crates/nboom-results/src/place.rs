@@ -1,8 +1,8 @@
-//! Where a run writes, and how what it wrote takes the place of an earlier result.
+//! Where a run writes, and how its files replace an earlier result.
 //!
-//! A run writes into `DIR.partial`, which it holds locked. When it is complete its files are moved
-//! to DIR one by one, from the moment on in which the summary in `DIR.partial` says complete: a run
-//! that is killed then has taken its place as soon as the next one begins.
+//! A run writes into `DIR.partial` and holds a lock on it. Once the summary in `DIR.partial` says
+//! complete, its files are moved to DIR one by one. If the run is killed after that, the next run
+//! finishes the move before it begins.
 
 use std::ffi::OsString;
 use std::fs;
@@ -15,29 +15,29 @@ use crate::lock::Lock;
 use crate::whole::Draft;
 use crate::{FILES, ResultsError, SUMMARY_FILE};
 
-/// What the name of a directory gets while results in it are not finished.
+/// Suffix of the directory in which results are not finished.
 const PARTIAL: &str = ".partial";
 
-/// Name of a summary that will take the place of another, within `DIR.partial`.
+/// Name of a summary that will replace another, within `DIR.partial`.
 const DRAFT_FILE: &str = "summary.json.new";
 
-/// A directory for the results of a run, and the locked one that they are written into.
+/// A directory for the results of a run, and the locked one in which they are written.
 #[derive(Debug)]
 pub(crate) struct Place {
     finished: PathBuf,
     partial: PathBuf,
     lock: Lock,
-    /// Whether an earlier run was complete and had not been put into its place.
+    /// Whether an earlier run was complete but had not yet been moved to its place.
     pub has_put_right: bool,
 }
 
 impl Place {
-    /// Locks the place of the results `directory`, puts right what a run left that was killed, and
-    /// leaves nothing of an unfinished run.
+    /// Locks the place of the results `directory`, finishes the move of a run that was killed, and
+    /// removes the files of an unfinished run.
     ///
     /// # Errors
-    /// When it is held by another run, when a file of a run's name was not written by a run, and
-    /// when the system refuses. What is in `directory` is not touched then.
+    /// When another run holds it, when a file with a name of a run was not written by one,
+    /// and when the system refuses. Nothing in `directory` is touched then.
     pub fn take(directory: &Path) -> Result<Self, ResultsError> {
         let (parent, name) = parted(directory)?;
         let finished = parent.join(&name);
@@ -51,7 +51,7 @@ impl Place {
         Ok(place)
     }
 
-    /// The directory that is written into.
+    /// The directory to write into.
     pub fn partial(&self) -> &Path {
         &self.partial
     }
@@ -68,8 +68,8 @@ impl Place {
         FILES.into_iter().filter(is_there)
     }
 
-    /// Moves what was written to the finished directory, unless it is incomplete and that one has a
-    /// finished result. Returns where it is then.
+    /// Moves what was written to the final directory, unless it is incomplete and that one has a
+    /// finished result. Returns where it then is.
     ///
     /// # Errors
     /// When something cannot be moved; then the rest is still where it was written.
@@ -125,7 +125,7 @@ impl Place {
         ResultsError::Misplaced { from, to, source }
     }
 
-    /// Lets a complete run that was killed before it took its place do so.
+    /// Moves a complete run that was killed before it took its place.
     fn put_right(&mut self) -> Result<(), ResultsError> {
         self.require_ours()?;
         if Earlier::in_directory(&self.partial)?.is_some_and(|left| left.complete) {
@@ -135,7 +135,8 @@ impl Place {
         Ok(())
     }
 
-    /// Refuses files of a run's name that no run has written. Whatever a run holds is its own.
+    /// Refuses files with names of a run that no run has written. Whatever is in the directory of a
+    /// current run is its own.
     fn require_ours(&self) -> Result<(), ResultsError> {
         if self.lock.was_left { Ok(()) } else { check(&self.partial).map(|_| ()) }
     }
@@ -151,7 +152,7 @@ impl Place {
 /// what is there.
 #[derive(Clone, Debug, PartialEq)]
 enum Step {
-    /// Say that the place is being taken, and whose all these files are.
+    /// Say that the result is being replaced, and which run has which files.
     Mark(Vec<String>),
     /// Remove a file that the new results do not have.
     Remove(&'static str),
@@ -161,7 +162,7 @@ enum Step {
 
 /// The steps by which `new` results take the place of `old` ones.
 ///
-/// Complete results say so last. Of incomplete ones the summary, which says that, comes first.
+/// The summary of complete results comes last, that of incomplete ones first.
 fn steps(new: &Earlier, old: Option<&Earlier>) -> Vec<Step> {
     let is_new = |name: &&str| new.files.iter().any(|file| file == name);
     let is_old = |name: &str| old.is_some_and(|old| old.files.iter().any(|file| file == name));
@@ -189,7 +190,7 @@ fn parted(directory: &Path) -> Result<(PathBuf, OsString), ResultsError> {
     let unnamed = || ResultsError::Name { path: directory.to_owned() };
     let named = match directory.file_name() {
         Some(_) => directory.to_owned(),
-        // `.` and `..` have names of their own.
+        // `.` and `..` stand for directories that have names.
         None => fs::canonicalize(directory).map_err(|_| unnamed())?,
     };
     let name = named.file_name().ok_or_else(unnamed)?.to_owned();
@@ -199,7 +200,7 @@ fn parted(directory: &Path) -> Result<(PathBuf, OsString), ResultsError> {
     Ok((named.parent().map(Path::to_owned).unwrap_or_default(), name))
 }
 
-/// What a run has left in a directory, in which no file of a run's name is anybody else's.
+/// The results of a run in a directory, after a check that no file with a name of a run is foreign.
 fn check(directory: &Path) -> Result<Option<Earlier>, ResultsError> {
     let failed = |source| ResultsError::Directory { path: directory.to_owned(), source };
     match Kind::of(directory).map_err(failed)? {
@@ -220,7 +221,7 @@ fn check(directory: &Path) -> Result<Option<Earlier>, ResultsError> {
     Ok(earlier)
 }
 
-/// Refuses a directory that files beside it cannot be moved into.
+/// Refuses a directory into which files beside it cannot be moved.
 #[cfg(unix)]
 fn same_volume(finished: &Path, partial: &Path) -> Result<(), ResultsError> {
     use std::os::unix::fs::MetadataExt;

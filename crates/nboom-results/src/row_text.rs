@@ -11,7 +11,7 @@ use crate::signs::StressSigns;
 /// Names of the four axis points in `stress.csv`.
 const AXIS_POINTS: [&str; 4] = ["0", "90", "180", "270"];
 
-/// Parts of rows that several rows share, so that they are turned into text once.
+/// Parts that several rows share, kept as text so that they are formatted once.
 #[derive(Debug, Default)]
 pub(crate) struct RowText {
     /// Of stresses.
@@ -93,7 +93,7 @@ impl RowText {
         Ok(())
     }
 
-    /// The head of a row, which is the one of the time before unless its place has moved.
+    /// The head of a row, which is that of the previous time unless the place has moved.
     fn head(
         &mut self,
         row: usize,

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::{FILES, ResultsError};
 
-/// What of a table waits in memory \[bytes\].
+/// How much of a table waits in memory \[bytes\].
 const SHORT: usize = 1 << 13;
 
-/// A table that is handed to the system in whole lines only.
+/// A table that is passed to the system only in whole lines.
 #[derive(Debug)]
 pub(crate) struct Output {
     file: WholeLines,
@@ -34,7 +34,7 @@ impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.file.check()?;
         self.waiting.extend_from_slice(bytes);
-        // Numbers come one by one; only a line's end can make a whole line of what waits.
+        // Numbers come one by one; only the end of a line completes what waits.
         if self.waiting.len() >= SHORT && bytes.contains(&b'\n') {
             self.hand_on()?;
         }
@@ -46,10 +46,10 @@ impl Write for Output {
     }
 }
 
-/// What of a long table waits in memory \[bytes\].
+/// How much of a long table waits in memory \[bytes\].
 const LONG: usize = 1 << 16;
 
-/// A file of lines that wait in memory until they are written on purpose.
+/// A file of lines that wait in memory until a call writes them.
 #[derive(Debug)]
 pub(crate) struct LongTable {
     path: PathBuf,
@@ -64,7 +64,7 @@ impl LongTable {
     pub(crate) fn create(directory: &Path, name: &str, header: &str) -> Result<Self, ResultsError> {
         let path = directory.join(name);
         let file = WholeLines::create(directory, name).map_err(ResultsError::writing(&path))?;
-        // The lines of one time come on top of what is not yet long.
+        // Room for the lines of one time beyond the limit.
         let mut lines = Vec::with_capacity(LONG + LONG / 4);
         lines.extend([header.as_bytes(), b"\n"].concat());
         Ok(Self { path, file, lines })
@@ -75,7 +75,7 @@ impl LongTable {
         self.lines.len() >= LONG
     }
 
-    /// Hands the lines on to the system.
+    /// Passes the lines on to the system.
     pub(crate) fn write(&mut self) -> Result<(), ResultsError> {
         self.file.append(&self.lines).map_err(ResultsError::writing(&self.path))?;
         self.lines.clear();
@@ -83,28 +83,28 @@ impl LongTable {
     }
 }
 
-/// What the system takes from a process in one piece \[bytes\]: a process that is killed while it
+/// Size of the pieces in which the system takes data \[bytes\]: a process that is killed while it
 /// writes has written up to a multiple of this in the file.
 const PAGE: usize = 1 << 12;
 
 /// A file that ends with a whole line even when the disk is full, because half a number reads
 /// as another number.
 ///
-/// A kill cannot leave half a line either, but where a line lies across the end of a page and the
-/// kill comes between its two parts.
+/// A kill leaves half a line only if the line lies across the end of a page and the kill comes
+/// between its two parts.
 #[derive(Debug)]
 pub(crate) struct WholeLines {
     file: File,
     /// Length of the file, which ends with a whole line.
     length: u64,
-    /// Why the file was cut back, after which nothing can be added.
+    /// The error for which the file was cut back; nothing can be added after it.
     torn: Option<io::Error>,
 }
 
 impl WholeLines {
     fn create(directory: &Path, name: &str) -> io::Result<Self> {
         assert!(FILES.contains(&name), "{name} is in the table of names");
-        // What has that name already is not ours, and may be a link or a pipe.
+        // Something that already has that name is not ours, and may be a link or a pipe.
         let file = OpenOptions::new().write(true).create_new(true).open(directory.join(name))?;
         Ok(Self { file, length: 0, torn: None })
     }
@@ -160,7 +160,7 @@ mod tests {
         let place = tempfile::tempdir().expect("a directory");
         let mut out = create(place.path(), STATES_FILE).expect("writable");
         out.file.append(b"1,2\n3,4\n").expect("writable");
-        // As much of the next as the disk takes.
+        // As much of the next line as fits on the disk.
         out.file.file.write_all(b"5,").expect("writable");
         out.file.cut(io::ErrorKind::StorageFull.into());
         let refused = out.write_all(b"5,6\n").expect_err("nothing can follow");

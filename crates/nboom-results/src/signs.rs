@@ -27,7 +27,7 @@ impl StressSigns {
         }
     }
 
-    /// The largest and the smallest principal stress, which are roots of what the components make.
+    /// The largest and the smallest principal stress.
     pub(crate) fn principal(self, stress: Stress) -> [f64; 2] {
         let [normal, shear_xi, shear_zeta] = self.components(stress);
         Stress { normal, shear_xi, shear_zeta }.principal()

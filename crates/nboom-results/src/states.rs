@@ -56,7 +56,7 @@ impl<W: Write> StatesWriter<W> {
         writeln!(out)
     }
 
-    /// Hands everything written so far on to the system.
+    /// Passes everything written so far on to the system.
     ///
     /// # Errors
     /// When `out` refuses it.

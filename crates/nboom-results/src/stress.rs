@@ -25,7 +25,7 @@ const ENVELOPE_HEADER: &str = "appendage,segment,station,t,event,event_appendage
 const HINGE_ENVELOPE_HEADER: &str = "appendage,segment,quantity,t,event,event_appendage,\
      event_segment,magnitude,share,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
 
-/// What stands for the driver of a station that carries nothing.
+/// The driver of a station that carries no load.
 const UNLOADED: &str = "unloaded";
 
 /// How stresses are written.
@@ -37,13 +37,13 @@ pub struct StressTables {
     pub signs: StressSigns,
 }
 
-/// Writes `hinge_loads.csv` and `latch_impulses.csv`, and where there are stations `stress.csv`, while a
-/// run goes on, and the envelopes at its end.
+/// Writes `hinge_loads.csv`, `latch_impulses.csv` and, if there are stations, `stress.csv` during a
+/// run, and the envelopes at its end.
 ///
 /// Forces and moments act on what is outboard of a station or hinge, in segment axes, moments about
-/// the point of the station on the η axis or about the hinge point. A row with the event `lock_up` has
-/// peaks: what the motion makes, and the pulses. They are known when the pulses are over; until then rows
-/// of later output times wait.
+/// the point of the station on the η axis or about the hinge point. A row with the event `lock_up`
+/// has peaks, the sum over the motion and the pulses. They are known when the pulses are over;
+/// until then rows of later output times wait.
 #[derive(Debug)]
 pub(crate) struct StressWriter {
     directory: PathBuf,
@@ -56,12 +56,12 @@ pub(crate) struct StressWriter {
     stresses: Option<LongTable>,
     hinge_loads: LongTable,
     latch_impulses: LongTable,
-    /// Rows of stresses and of hinge loads that are later than a lock-up whose peaks are to come.
+    /// Rows of stresses and of hinge loads after a lock-up whose peaks are still to come.
     held: [Vec<u8>; 2],
     text: RowText,
 }
 
-/// Rows that are held \[bytes\]; when there are more they do not wait for peaks.
+/// Most rows that are held \[bytes\]; more do not wait for peaks.
 const MOST_HELD: usize = 1 << 20;
 
 impl StressWriter {
@@ -87,7 +87,7 @@ impl StressWriter {
         })
     }
 
-    /// Whether the coming output time is one of those that loads are written at.
+    /// Whether loads are written at the coming output time.
     pub fn is_due(&self) -> bool {
         self.samples.is_multiple_of(self.every)
     }
@@ -155,7 +155,7 @@ impl StressWriter {
         Ok(())
     }
 
-    /// Lets rows that are held go on to wait with the others.
+    /// Moves rows that were held to the others that wait.
     fn release(&mut self) {
         let Self { stresses, hinge_loads, held: [of_stresses, of_loads], .. } = self;
         if let Some(stresses) = stresses {
@@ -164,7 +164,7 @@ impl StressWriter {
         hinge_loads.lines.append(of_loads);
     }
 
-    /// Whether so much waits in memory that it is time to write.
+    /// Whether enough waits in memory to write it.
     pub fn is_full(&self) -> bool {
         let tables = self.stresses.iter().chain([&self.hinge_loads, &self.latch_impulses]);
         tables.into_iter().any(LongTable::is_long)
@@ -177,8 +177,8 @@ impl StressWriter {
         tables.try_for_each(LongTable::write)
     }
 
-    /// Lets the last pulses come to their ends, and writes what waits in memory and the worst of each
-    /// station and hinge.
+    /// Continues the last pulses to their ends, and writes what waits in memory and the worst of
+    /// each station and hinge.
     pub fn finish(&mut self) -> Result<(), ResultsError> {
         let finished = self.analysis.finish();
         self.tell_peaks()?;
@@ -241,7 +241,7 @@ impl StressWriter {
         writeln!(out)
     }
 
-    /// The event that made a load, and its hinge.
+    /// The event that caused a load, and its hinge.
     fn event_fields(&self, out: &mut Output, cause: Cause) -> io::Result<()> {
         match cause {
             Cause::Motion => write!(out, ",,,"),

@@ -11,7 +11,7 @@ use crate::{StressSigns, UnitSystem};
 pub struct RunDescription {
     /// Name of the scene.
     pub scene: String,
-    /// Six and one for each hinge.
+    /// Six, plus one for each hinge.
     pub degrees_of_freedom: usize,
     /// Name of the integrator.
     pub integrator: &'static str,
@@ -25,13 +25,14 @@ pub struct RunDescription {
     pub units: UnitSystem,
     /// How stresses are found and written.
     pub stresses: Option<StressDescription>,
-    /// Of output times after the twentieth, the printout has every so many: `IAX` of a deck.
+    /// After the twentieth output time, the printout has one in this many: `IAX` of a deck.
     pub print_interval: usize,
-    /// What the scene does not pay for.
+    /// What is not computed since the scene lacks it.
     pub skipped: Vec<String>,
-    /// What is allowed about the scene but probably not meant.
+    /// What is allowed in the scene but probably a mistake.
     pub warnings: Vec<String>,
-    /// SHA-256 of the scene's file, in hexadecimal digits; none of a scene that was made in memory.
+    /// SHA-256 of the scene's file, in hexadecimal digits; `None` for a scene that was made in
+    /// memory.
     pub input_sha256: Option<String>,
     /// Labels of the scene's hinges.
     pub hinges: Vec<HingeLabel>,
@@ -95,7 +96,7 @@ pub struct SummaryFile<'a> {
     attitude_drift: f64,
     skipped: &'a [String],
     warnings: Vec<String>,
-    /// Names of the run's files; while they are not known all that a run may write are its own.
+    /// Names of the run's files; without them, all names that a run may write are its own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<&'static str>,
 }
@@ -140,7 +141,7 @@ pub struct StressDescription {
     pub generated_for: Option<&'static str>,
 }
 
-/// What stresses do not have in them.
+/// What the stresses leave out.
 const LEFT_OUT: &str = "stresses are those of thin walls: concentrations at corners, holes, welds and \
      fittings are not in them, nor is buckling";
 
@@ -180,7 +181,7 @@ impl From<Conservation> for ConservationKeys {
 }
 
 impl<'a> SummaryFile<'a> {
-    /// What holds from before the first step until the run says otherwise: not complete.
+    /// The state from before the first step until the run ends: not complete.
     pub fn unfinished(run: &'a RunDescription) -> Self {
         Self {
             scene: &run.scene,
@@ -217,7 +218,7 @@ impl<'a> SummaryFile<'a> {
         }
     }
 
-    /// The summary of a run of which nothing is known but that it failed, and why.
+    /// The summary of a run of which only the error is known.
     pub fn failed(run: &'a RunDescription, error: &'a str, files: Vec<&'static str>) -> Self {
         Self { error: Some(error), files, ..Self::unfinished(run) }
     }

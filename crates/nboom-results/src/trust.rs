@@ -21,7 +21,7 @@ struct TrustKeys<'a> {
 struct PeakKeys {
     appendage: usize,
     segment: usize,
-    /// `null` of a hinge.
+    /// `null` for a hinge.
     station: Option<usize>,
     #[serde(flatten)]
     digits: DigitKeys,

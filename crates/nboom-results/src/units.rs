@@ -1,7 +1,7 @@
 /// A consistent set of units, for labels only: no number is ever converted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitSystem {
-    /// Not said; the labels are the letters L, T and F.
+    /// Unknown units; the labels are the letters L, T and F.
     #[default]
     None,
     /// Metre, second, newton.

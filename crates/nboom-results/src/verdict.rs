@@ -13,7 +13,7 @@ pub struct WorstLoads {
 }
 
 impl WorstLoads {
-    /// What an analysis has found so far.
+    /// The results of an analysis so far.
     pub fn of(analysis: &StressAnalysis) -> Self {
         Self { stations: analysis.envelope(), hinges: analysis.hinge_envelope() }
     }
@@ -38,7 +38,7 @@ impl WorstLoads {
     }
 }
 
-/// What `summary.json` says under `verdict`. Where a number is the largest or smallest of many, the key
+/// The key `verdict` of `summary.json`. Where a number is the largest or smallest of many, the key
 /// with `_at` says where it is.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct VerdictKeys {

@@ -1,4 +1,4 @@
-//! Files that are replaced whole: they hold what they held or what they shall, and nothing else.
+//! Files that are replaced whole: they always have either the old content or the new one.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Seek, Write};
@@ -10,8 +10,8 @@ use crate::kind::Kind;
 /// Writes a file at `path`, into a folder that is made if need be; an older file is replaced.
 ///
 /// # Errors
-/// [`ResultsError::Foreign`] where something else than a file is there, a link too; otherwise
-/// when it cannot be written, and then an older file stays.
+/// [`ResultsError::Foreign`] where something other than a file is there, such as a link;
+/// another error when it cannot be written. An older file then stays.
 pub fn write_file(path: &Path, text: &str) -> Result<(), ResultsError> {
     match Kind::of(path).map_err(ResultsError::writing(path))? {
         Kind::File | Kind::Nothing => {}
@@ -31,7 +31,7 @@ pub fn write_file(path: &Path, text: &str) -> Result<(), ResultsError> {
     draft.publish(path, text.as_bytes()).map_err(ResultsError::writing(path))
 }
 
-/// A file that will take the place of another; where it does not, it goes.
+/// A file that will replace another, and is removed if it does not.
 #[derive(Debug)]
 pub(crate) struct Draft {
     path: PathBuf,
@@ -42,34 +42,35 @@ pub(crate) struct Draft {
 impl Drop for Draft {
     fn drop(&mut self) {
         if !self.published {
-            // What is left over then matters less than why.
+            // The error matters more than a file that is left over.
             let _ = fs::remove_file(&self.path);
         }
     }
 }
 
 impl Draft {
-    /// Makes the file at `path`, where nothing is.
+    /// Makes the file at `path`, where nothing may be.
     pub fn create(path: PathBuf) -> io::Result<Self> {
         let file = OpenOptions::new().write(true).create_new(true).open(&path)?;
         Ok(Self { path, file, published: false })
     }
 
-    /// Keeps so many bytes of the disk for this file.
+    /// Reserves this many bytes of the disk for this file.
     pub fn reserve(&mut self, bytes: usize) -> io::Result<()> {
         self.file.write_all(&vec![b' '; bytes])
     }
 
-    /// Makes the file hold a text and puts it at `target`.
+    /// Writes a text into the file and moves it to `target`.
     pub fn publish(mut self, target: &Path, text: &[u8]) -> io::Result<()> {
         self.write(text)?;
         self.put(target)
     }
 
-    /// The same; where there is no room for the text, with one that says why.
+    /// Writes a text into the file and moves it to `target`; if there is no space for the text,
+    /// writes one that says so.
     ///
     /// # Errors
-    /// When it is not the text that is there now.
+    /// When the text itself could not be written.
     pub fn publish_or(
         mut self,
         target: &Path,
@@ -79,7 +80,7 @@ impl Draft {
         match self.write(text) {
             Ok(()) => self.put(target),
             Err(error) => {
-                // The first reason says most.
+                // The first error says most.
                 let _ = self.publish(target, &instead(&error));
                 Err(error)
             }
@@ -92,7 +93,7 @@ impl Draft {
         Ok(())
     }
 
-    /// Makes the file hold a text and nothing else.
+    /// Replaces the content of the file by a text.
     fn write(&mut self, text: &[u8]) -> io::Result<()> {
         self.file.rewind()?;
         self.file.write_all(text)?;

@@ -12,7 +12,7 @@ pub enum SectionError {
         /// How many there are.
         found: usize,
     },
-    /// There are more vertices than a section is checked for.
+    /// There are more vertices than a section may have.
     #[error("{found} vertices found, at most {most} expected")]
     TooManyVertices {
         /// How many there are.
@@ -28,7 +28,7 @@ pub enum SectionError {
         /// How many vertices there are.
         expected: usize,
     },
-    /// A vertex is nowhere.
+    /// A coordinate of a vertex is not finite.
     #[error("vertex {}: coordinates {xi} and {zeta} found, finite numbers expected", vertex + 1)]
     Vertex {
         /// The vertex.
@@ -57,7 +57,7 @@ pub enum SectionError {
         /// The vertex that it ends at.
         next: usize,
     },
-    /// The outline meets itself; the first wall that this one meets is told.
+    /// The outline meets itself; the error names the first wall that this one meets.
     #[error("walls {} and {} that cross or touch found, one cell expected", wall + 1, other + 1)]
     Crossing {
         /// The wall with the lower number.
@@ -68,7 +68,7 @@ pub enum SectionError {
     /// The walls enclose nothing, as those of an open section.
     #[error("enclosed area {area} found, a closed cell expected")]
     NoEnclosedArea {
-        /// The area inside of the outline.
+        /// The area inside the outline.
         area: f64,
     },
     /// A tube has no radius.
@@ -77,7 +77,7 @@ pub enum SectionError {
         /// The given radius.
         radius: f64,
     },
-    /// A tube has no wall, or one that is not thin by any measure.
+    /// A tube has no wall, or one thicker than its radius.
     #[error("thickness {thickness} found, above 0 and at most the radius {radius} expected")]
     TubeThickness {
         /// The given thickness.
@@ -85,23 +85,23 @@ pub enum SectionError {
         /// The radius.
         radius: f64,
     },
-    /// Numbers are finite, but properties made of them are not, or vanish.
+    /// Numbers are finite, but properties computed from them are not, or vanish.
     #[error("properties beyond the range of numbers found, lengths in other units expected")]
     Range,
 }
 
-/// A section that can be computed, though by a theory that may not hold for it.
+/// A section that can be computed, but for which thin-wall theory may not hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SectionWarning {
-    /// A wall of a polygon is thick beside its length.
+    /// A wall of a polygon is thick compared with its length.
     ThickWall {
         /// The wall, from 0.
         wall: usize,
         /// Thickness over length.
         ratio: f64,
     },
-    /// The wall of a tube is thick beside the radius.
+    /// The wall of a tube is thick compared with the radius.
     ThickTube {
         /// Thickness over radius.
         ratio: f64,

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul};
 
 use crate::polynomial::{Polynomial, SignChanges};
 
-/// More steps than Newton's method takes from a start that is of the right size; about six.
+/// More steps than Newton's method needs from a start of the right size, about six.
 const MOST_STEPS: usize = 100;
 
 /// Coefficients of 1, cos θ, sin θ, cos 2θ and sin 2θ.
@@ -22,9 +22,9 @@ impl Harmonics {
     /// The angle from 0 to 2π at which it is largest; the first one where there are two.
     ///
     /// With φ from the axis of the second harmonic and (x, y) = (cos φ, sin φ) it is
-    /// d x² + 2 (g x + h y) and a constant, d ≥ 0: a quadratic form on the unit circle. Its maximum is
-    /// where μ x = g and (μ + d) y = h with μ ≥ 0 (Moré and Sorensen, Computing a trust region step,
-    /// 1983), and no other stationary point has such a μ.
+    /// d x² + 2 (g x + h y) plus a constant, d ≥ 0: a quadratic form on the unit circle. Its
+    /// maximum is where μ x = g and (μ + d) y = h with μ ≥ 0 (Moré and Sorensen, Computing a trust
+    /// region step, 1983), and no other stationary point has such a μ.
     pub(crate) fn largest(self) -> f64 {
         let Self([_, c1, s1, c2, s2]) = self;
         let axis = 0.5 * s2.atan2(c2);
@@ -79,8 +79,8 @@ impl Mul<f64> for Harmonics {
 
 /// The μ ≥ 0 with (g/μ)² + (h/(μ + d))² = 1, or zero where none is as large.
 ///
-/// Both terms are at most 1 at the first guess and one of them is 1, so that it is no larger than the
-/// solution; the reciprocal of the sum's root is concave in μ, so that Newton's method on it stays
+/// At the first guess both terms are at most 1 and one of them is 1, so it is no larger than the
+/// solution. The reciprocal of the sum's root is concave in μ, so Newton's method on it stays
 /// below.
 fn multiplier(d: f64, g: f64, h: f64) -> f64 {
     let mut mu = g.abs().max(h.abs() - d);

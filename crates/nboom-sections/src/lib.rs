@@ -1,4 +1,4 @@
-//! Thin-walled closed cross sections: their properties, and the stresses that a load makes in them.
+//! Thin-walled closed cross sections: their properties, and their stresses under a load.
 //!
 //! A [`Section`] is a circular [`Tube`] or a [`Polygon`] with one cell. From a load, a
 //! [`Wrench`](nboom_scalar::Wrench) on the part outboard of the section, follow the normal and shear

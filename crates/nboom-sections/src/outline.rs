@@ -1,8 +1,8 @@
-//! Whether walls are the outline of one cell.
+//! Checks whether walls are the outline of one cell.
 
 use crate::{Point, SectionError, Wall};
 
-/// Distances below this part of the outline's length are none.
+/// Distances below this share of the outline's length count as zero.
 const COINCIDENCE: f64 = 1e-12;
 
 /// Every wall is compared with every other one.
@@ -43,13 +43,13 @@ pub(crate) fn walls(vertices: &[Point], thickness: &[f64]) -> Result<Vec<Wall>, 
     if errors.is_empty() { Ok(walls) } else { Err(errors) }
 }
 
-/// The length below which there is none.
+/// The length below which lengths count as zero.
 pub(crate) fn coincidence(walls: &[Wall]) -> f64 {
     COINCIDENCE * walls.iter().map(Wall::length).sum::<f64>()
 }
 
-/// Area inside of the outline, positive where it is numbered from ξ towards ζ; eq. (12.9),
-/// corrected: note 23.
+/// Area inside the outline, positive where it is numbered from ξ towards ζ; eq. (12.9), corrected:
+/// note 23.
 pub(crate) fn signed_area(walls: &[Wall]) -> f64 {
     let from = walls[0].start();
     0.5 * walls.iter().map(|wall| (wall.start() - from).cross(wall.along())).sum::<f64>()
@@ -91,7 +91,7 @@ fn crossings(walls: &[Wall], none: f64) -> Vec<SectionError> {
     (0..walls.len()).filter_map(first_met).collect()
 }
 
-/// Whether two walls have a point in common that is not the vertex which they share.
+/// Whether two walls meet at a point other than their common vertex.
 fn meet(walls: &[Wall], wall: usize, other: usize, none: f64) -> bool {
     let (a, b) = (&walls[wall], &walls[other]);
     let is_next = other == wall + 1;

@@ -1,6 +1,6 @@
 use std::ops::{Add, Mul, Sub};
 
-/// A point in the plane of a section, or the way from one to another, along ξ and ζ.
+/// A point in the plane of a section, or the vector from one to another, along ξ and ζ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Along ξ.

@@ -54,7 +54,7 @@ impl Polygon {
         &self.walls
     }
 
-    /// What it is, apart from any load.
+    /// Its properties.
     pub fn properties(&self) -> &Properties {
         &self.properties
     }
@@ -82,7 +82,7 @@ impl Polygon {
     pub fn stresses(&self, load: &Wrench<f64>) -> PolygonStresses<'_> {
         let Wrench { force, moment } = self.about_centroid(load);
         let Properties { area, inertia, .. } = self.properties;
-        // The face that points outboard is that of the inboard part: it bears the reaction.
+        // The face that points outboard belongs to the inboard part, so it bears the reaction.
         PolygonStresses {
             polygon: self,
             mean: -force.y / area,
@@ -130,7 +130,7 @@ fn axis_point(walls: &[Wall], centroid: Point, ray: Point) -> Option<(usize, f64
     crossings.max_by(|a, b| a.2.total_cmp(&b.2)).map(|(i, x, _)| (i, x))
 }
 
-/// Relative to the first vertex, so that a far η axis costs no digits.
+/// Relative to the first vertex, so that a distant η axis costs no digits.
 fn centroid(walls: &[Wall]) -> Point {
     let from = walls[0].start();
     let moment = |wall: &Wall| (wall.at(0.5) - from) * wall.area();
@@ -151,8 +151,8 @@ pub struct PolygonStresses<'a> {
 }
 
 impl PolygonStresses<'_> {
-    /// What they follow from, linear in the load: the normal stress at the centroid, its gradient,
-    /// shear force and torsion moment on the inboard part.
+    /// The numbers that determine them, linear in the load: the normal stress at the centroid, its
+    /// gradient, shear force and torsion moment on the inboard part.
     pub fn numbers(&self) -> [f64; 6] {
         let Self { mean, gradient, shear, torsion, .. } = *self;
         [mean, gradient.xi, gradient.zeta, shear.xi, shear.zeta, torsion]
@@ -178,7 +178,7 @@ impl PolygonStresses<'_> {
         }
     }
 
-    /// Normal stress anywhere in the walls, also beside their middle line.
+    /// Normal stress anywhere in the walls, also off their middle line.
     pub fn normal_at(&self, place: Point) -> f64 {
         self.mean + self.gradient.dot(place - self.polygon.properties.centroid)
     }
@@ -193,7 +193,7 @@ impl PolygonStresses<'_> {
         severest((0..self.polygon.walls.len()).map(|wall| self.wall(wall)))
     }
 
-    /// What the von Mises stress does not exceed anywhere; found with less work than the severest place.
+    /// An upper bound of the von Mises stress, cheaper than the severest place.
     pub fn bound(&self) -> f64 {
         let walls = 0..self.polygon.walls.len();
         walls.map(|wall| bound(&self.wall(wall))).fold(0.0, f64::max)

@@ -6,7 +6,7 @@ const DEGREE: usize = 4;
 /// Width of an interval that counts as a point; intervals are about 1 long.
 const RESOLUTION: f64 = 1e-16;
 
-/// More halvings than a double has digits; Newton's method needs about six steps.
+/// More halvings than an `f64` has bits; Newton's method needs about six steps.
 const MOST_STEPS: usize = 100;
 
 /// Coefficients, the constant first.
@@ -22,8 +22,8 @@ pub(crate) struct SignChanges {
 impl SignChanges {
     /// All of them in `from..to`.
     ///
-    /// A polynomial has no more of them than its Bernstein coefficients change sign, and as many or
-    /// fewer by an even number (Descartes' rule): so none or one is known at once.
+    /// Their number is that of the sign changes of the Bernstein coefficients, or fewer by an even
+    /// number (Descartes' rule), so none or one is known at once.
     pub(crate) fn of(polynomial: &Polynomial, from: f64, to: f64) -> Self {
         match signs(&bernstein(polynomial, from, to)) {
             Signs::Alike => Self { knots: [from; DEGREE + 2], count: 1 },
@@ -40,9 +40,9 @@ impl SignChanges {
     /// All of them in `from..to`, whatever the polynomial.
     ///
     /// Between neighbouring sign changes of its derivative a polynomial is monotone, so it changes
-    /// sign there at most once, and does if its ends say so. Starting with the third derivative,
-    /// which is linear, none is missed on the way to the polynomial itself but what rounding hides:
-    /// two changes between which it differs from zero by no more than the error of its values.
+    /// sign there at most once, which its values at the ends show. Starting with the third
+    /// derivative, which is linear, the search misses only what rounding hides: two changes between
+    /// which the polynomial differs from zero by no more than the error of its values.
     fn by_derivatives(polynomial: &Polynomial, from: f64, to: f64) -> Self {
         let mut found = Self { knots: [from; DEGREE + 2], count: 1 };
         for order in (0..DEGREE).rev() {
@@ -66,7 +66,7 @@ impl SignChanges {
     }
 }
 
-/// What the signs of Bernstein coefficients tell.
+/// What the signs of Bernstein coefficients show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Signs {
     /// None is negative, or none is positive.
@@ -97,7 +97,7 @@ fn signs(coefficients: &Polynomial) -> Signs {
 /// Coefficients in Bernstein's basis of the interval.
 fn bernstein(polynomial: &Polynomial, from: f64, to: f64) -> Polynomial {
     let mut powers = *polynomial;
-    // In powers of x − from, by Horner's scheme again and again, then of that over the length.
+    // In powers of x − from, by repeated Horner schemes, then of that over the length.
     for done in 0..DEGREE {
         for power in (done..DEGREE).rev() {
             powers[power] += from * powers[power + 1];
@@ -108,7 +108,7 @@ fn bernstein(polynomial: &Polynomial, from: f64, to: f64) -> Polynomial {
         *power *= scale / over;
         scale *= to - from;
     }
-    // b_j = Σ_i binomial(j, i) a_i / binomial(4, i): sums of neighbours again and again.
+    // b_j = Σ_i binomial(j, i) a_i / binomial(4, i): repeated sums of neighbours.
     for done in 1..=DEGREE {
         for j in (done..=DEGREE).rev() {
             powers[j] += powers[j - 1];

@@ -1,27 +1,27 @@
 use crate::{Point, Wall};
 
-/// What a section is, apart from any load.
+/// Properties of a section, independent of the load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties {
     /// Area of the walls \[L²\], eqs. (12.1) and (12.2).
     pub area: f64,
     /// Their centroid, from the η axis, eq. (12.3).
     pub centroid: Point,
-    /// Second moments of area about the centroid \[L⁴\]; of a polygon with the walls' own thickness
-    /// counted.
+    /// Second moments of area about the centroid \[L⁴\]; for a polygon including the thickness of
+    /// its walls.
     pub inertia: SecondMoments,
-    /// The same with all area on the middle line of the walls.
+    /// Centre-line moments: second moments of area with all area on the middle line of the walls.
     pub centreline_inertia: SecondMoments,
-    /// Area inside of the middle line \[L²\], not negative; eq. (12.9), corrected: note 23.
+    /// Area inside the middle line \[L²\], not negative; eq. (12.9), corrected: note 23.
     pub enclosed_area: f64,
     /// Torsion constant J of Bredt's second formula, 4 A² / ∮ ds/t \[L⁴\].
     pub torsion_constant: f64,
-    /// The point through which a shear force twists nothing, from the η axis.
+    /// Shear centre, the point through which a shear force causes no twist, from the η axis.
     pub shear_centre: Point,
 }
 
 impl Properties {
-    /// Whether all of them can be computed with.
+    /// Whether all are finite, and those that must be are positive.
     pub(crate) fn are_regular(&self) -> bool {
         let positive = |value: f64| value > 0.0 && value.is_finite();
         positive(self.area)
@@ -51,7 +51,7 @@ impl SecondMoments {
         [mean + radius, mean - radius]
     }
 
-    /// The axis of the largest one, as an angle from ξ towards ζ between −π/2 and π/2; of no meaning
+    /// The axis of the largest one, as an angle from ξ towards ζ between −π/2 and π/2; meaningless
     /// where both are equal.
     pub fn principal_angle(self) -> f64 {
         0.5 * (-2.0 * self.xi_zeta).atan2(self.xi_xi - self.zeta_zeta)
@@ -61,8 +61,7 @@ impl SecondMoments {
         self.xi_xi * self.zeta_zeta - self.xi_zeta * self.xi_zeta
     }
 
-    /// Those of a wall about `centroid`, eqs. (12.4) to (12.6), with `own` times its thickness
-    /// counted.
+    /// Those of a wall about `centroid`, eqs. (12.4) to (12.6), with `own` times its thickness.
     pub(crate) fn of_wall(wall: &Wall, centroid: Point, own: f64) -> Self {
         let (area, way, t) = (wall.area(), wall.along(), own * wall.thickness());
         let middle = wall.at(0.5) - centroid;
@@ -91,8 +90,7 @@ impl SecondMoments {
         })
     }
 
-    /// The moments of a linear stress a ξ′ + b ζ′, solved for (a, b): what it exerts along ξ′ and
-    /// ζ′ is given.
+    /// The (a, b) of the linear stress a ξ′ + b ζ′ with these first moments along ξ′ and ζ′.
     pub(crate) fn solve(self, of_xi: f64, of_zeta: f64) -> Point {
         let determinant = self.determinant();
         Point {

@@ -15,7 +15,7 @@ pub enum Section {
     Polygon(Polygon),
 }
 
-/// What belongs to a station.
+/// Something that belongs to a station.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtStation<T> {
     /// The segment, as its hinge is numbered in the scene.
@@ -30,7 +30,7 @@ impl Section {
     /// The sections of all stations, segment by segment.
     ///
     /// # Errors
-    /// The first thing that is wrong with the first that is none.
+    /// The first defect of the first wrong section.
     pub fn all(structure: &Structure) -> Result<Vec<AtStation<Self>>, AtStation<SectionError>> {
         let mut all = Vec::new();
         for (segment, description) in structure.segments().iter().enumerate() {
@@ -65,7 +65,7 @@ impl Section {
         }
     }
 
-    /// What it is, apart from any load.
+    /// Its properties.
     pub fn properties(&self) -> Properties {
         match self {
             Self::Tube(tube) => tube.properties(),
@@ -98,8 +98,8 @@ impl Section {
         }
     }
 
-    /// What P_ξ, P_η, P_ζ, Q_ξ, Q_η and Q_ζ of a load, each of one unit, contribute to the numbers
-    /// that describe stresses; a row for each number.
+    /// The contributions of P_ξ, P_η, P_ζ, Q_ξ, Q_η and Q_ζ of a load, one unit each, to the
+    /// numbers that describe stresses; one row for each number.
     pub fn influence(&self) -> [[f64; 6]; 6] {
         let unit = |i: usize, at: usize| if i == at { 1.0 } else { 0.0 };
         let vector = |i: usize, at: usize| Vec3::new(unit(i, at), unit(i, at + 1), unit(i, at + 2));
@@ -121,9 +121,9 @@ pub enum SectionStresses<'a> {
 }
 
 impl SectionStresses<'_> {
-    /// Six numbers that describe them together with the section, linear in the load: of a tube the
-    /// coefficients of normal and shear stress, of a polygon the normal stress at the centroid, its
-    /// gradient, shear force and torsion moment.
+    /// Six numbers, linear in the load, that describe them together with the section: for a tube
+    /// the coefficients of normal and shear stress, for a polygon the normal stress at the
+    /// centroid, its gradient, shear force and torsion moment.
     pub fn numbers(&self) -> [f64; 6] {
         match self {
             Self::Tube(stresses) => stresses.numbers(),
@@ -142,8 +142,7 @@ impl SectionStresses<'_> {
         }
     }
 
-    /// What the von Mises stress does not exceed anywhere; found with less work than
-    /// [`severest`](Self::severest).
+    /// An upper bound of the von Mises stress, cheaper than [`severest`](Self::severest).
     pub fn bound(&self) -> f64 {
         match self {
             Self::Tube(stresses) => stresses.bound(),
@@ -151,7 +150,7 @@ impl SectionStresses<'_> {
         }
     }
 
-    /// The stress at a point of the section which other stresses were found at.
+    /// The stress at a point of the section that was found for another load.
     pub fn at(&self, point: &PointStress) -> Stress {
         match self {
             Self::Tube(stresses) => stresses.at(point.place.zeta.atan2(point.place.xi)).stress,

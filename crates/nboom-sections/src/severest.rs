@@ -3,12 +3,12 @@
 use crate::WallStress;
 use crate::polynomial::{Polynomial, SignChanges};
 
-/// The wall, as counted by `walls`, and the place on it where the von Mises stress is largest.
+/// The wall, by its number in `walls`, and the place on it with the largest von Mises stress.
 ///
-/// Its square is a polynomial of degree four along a wall, largest at an end or where the derivative
-/// changes sign. All ends are looked at first; what is between those of a wall then need not be if
-/// [`Square::bound_inside`] says that it is no larger. Ends come before places between them, the first
-/// of equal ones counts.
+/// Its square is a polynomial of degree four along a wall, largest at an end or where the
+/// derivative changes sign. The search begins with all ends. It skips the inside of a wall if
+/// [`Square::bound_inside`] shows that it has no larger value. Ends come before places between
+/// them; of equal places the first counts.
 pub(crate) fn severest(walls: impl Iterator<Item = WallStress> + Clone) -> (usize, f64) {
     let unit = walls.clone().map(|wall| wall.largest_coefficient()).fold(0.0, f64::max);
     let scale = 1.0 / unit.max(f64::MIN_POSITIVE);
@@ -26,7 +26,7 @@ pub(crate) fn severest(walls: impl Iterator<Item = WallStress> + Clone) -> (usiz
     (worst.wall, worst.x)
 }
 
-/// What the von Mises stress does not exceed anywhere on a wall: the root of the largest coefficient in
+/// An upper bound of the von Mises stress on a wall: the root of the largest coefficient in
 /// Bernstein's basis of its square.
 pub(crate) fn bound(wall: &WallStress) -> f64 {
     let unit = wall.largest_coefficient().max(f64::MIN_POSITIVE);
@@ -68,7 +68,7 @@ impl Square {
         normal * normal + 3.0 * shear * shear
     }
 
-    /// What it cannot exceed between the ends unless it does at one.
+    /// An upper bound between the ends, unless an end has a larger value.
     ///
     /// On 0..1 a polynomial is a mean of its coefficients in Bernstein's basis, of which the first and
     /// the last are the values at the ends; this is the largest of the others.
@@ -139,7 +139,7 @@ mod tests {
             let square = Square::of(&walls[0], 1.0);
             let bound = square.bound_inside().max(square.at(0.0)).max(square.at(1.0));
             prop_assert!(square.at(x) <= bound * (1.0 + 1e-14));
-            // The same as a stress, in a unit of its own.
+            // The result as a stress, in another unit.
             prop_assert!((super::bound(&walls[0]) / bound.sqrt() - 1.0).abs() < 1e-14);
         }
     }

@@ -43,7 +43,7 @@ pub(crate) fn solve(
     centre
 }
 
-/// The flow with this gradient of normal stress that exerts no moment about the centroid.
+/// The flow of this gradient of normal stress that has no moment about the centroid.
 fn torque_free_flow(
     walls: &[Wall],
     centroid: Point,
@@ -56,7 +56,7 @@ fn torque_free_flow(
         let arm = wall.start() - centroid;
         let slope = -wall.area() * gradient.dot(arm);
         let bend = -0.5 * wall.area() * gradient.dot(wall.along());
-        // ζ′ dξ − ξ′ dζ is the same all along a wall.
+        // ζ′ dξ − ξ′ dζ is constant along a wall.
         moment -= arm.cross(wall.along()) * (start + slope / 2.0 + bend / 3.0);
         flow.push([start, slope, bend]);
         start += slope + bend;
@@ -66,7 +66,7 @@ fn torque_free_flow(
     flow
 }
 
-/// The moment about the centroid of the circulating flow that undoes the twist ∮ q/t ds of a
+/// The moment about the centroid of the circulating flow that cancels the twist ∮ q/t ds of a
 /// torque-free one.
 fn twistless_moment(walls: &[Wall], flow: &[[f64; 3]], signed_area: f64) -> f64 {
     let flexibility = |wall: &Wall| wall.length() / wall.thickness();

@@ -34,8 +34,8 @@ impl Stress {
     }
 
     /// The report's components (σ₂₂, σ₂₁, σ₂₃): the traction on the outboard part along η, ξ and ζ,
-    /// for which compression is positive. Here and in [`Stress::of_report_signs`] are the only
-    /// changes of sign between the two conventions.
+    /// for which compression is positive. Only this and [`Stress::of_report_signs`] change signs
+    /// between the two conventions.
     pub fn in_report_signs(self) -> [f64; 3] {
         [-self.normal, -self.shear_xi, -self.shear_zeta]
     }
@@ -46,7 +46,7 @@ impl Stress {
     }
 }
 
-/// Sums of squares in which none has lost a digit that matters; `f64::hypot` is slow.
+/// Range in which sums of squares lose no digit that matters; `f64::hypot` is slow.
 const SAFE_SQUARES: std::ops::Range<f64> = 1e-270..1e300;
 
 /// √(a² + b² + …), also where squares overflow or vanish.

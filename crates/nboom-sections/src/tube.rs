@@ -12,7 +12,7 @@ pub struct Tube {
     thickness: f64,
 }
 
-/// The same tube without taking its wall for thin.
+/// Exact properties of a tube, whose wall need not be thin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Annulus {
     /// Area.
@@ -54,7 +54,7 @@ impl Tube {
         self.thickness
     }
 
-    /// What it is, apart from any load, with all area on the middle line; eq. (12.1).
+    /// Its properties, with all area on the middle line; eq. (12.1).
     pub fn properties(&self) -> Properties {
         let (r, t) = (self.radius, self.thickness);
         let moment = PI * r * r * r * t;
@@ -70,12 +70,12 @@ impl Tube {
         }
     }
 
-    /// S = 2πR²t: the moment about η for a unit of shear stress.
+    /// S = 2πR²t: the moment about η that causes unit shear stress.
     pub fn torsion_modulus(&self) -> f64 {
         2.0 * PI * self.radius * self.radius * self.thickness
     }
 
-    /// The same tube without taking its wall for thin.
+    /// Its exact properties, without thin-wall theory.
     pub fn annulus(&self) -> Annulus {
         let (r, t) = (self.radius, self.thickness);
         let area = 2.0 * PI * r * t;
@@ -99,7 +99,7 @@ impl Tube {
         let Wrench { force, moment } = *load;
         let Properties { area, inertia, .. } = self.properties();
         let (bending, shear) = (self.radius / inertia.xi_xi, 2.0 / area);
-        // The face that points outboard is that of the inboard part: it bears the reaction.
+        // The face that points outboard belongs to the inboard part, so it bears the reaction.
         TubeStresses {
             radius: self.radius,
             normal: [-force.y / area, -moment.z * bending, moment.x * bending],
@@ -115,8 +115,8 @@ pub struct TubeStresses {
     radius: f64,
     /// Normal stress: coefficients of 1, cos θ and sin θ; eq. (11.3), corrected: note 21.
     pub normal: [f64; 3],
-    /// Shear stress along increasing θ: the same coefficients. It is tangential all around, unlike
-    /// that of eqs. (11.1), (11.2) and (11.4), note 21.
+    /// Shear stress along increasing θ: coefficients of 1, cos θ and sin θ. It is tangential all
+    /// around, unlike that of eqs. (11.1), (11.2) and (11.4), note 21.
     pub shear: [f64; 3],
 }
 
@@ -147,7 +147,7 @@ impl TubeStresses {
         PointStress { place, wall: None, stress }
     }
 
-    /// What the von Mises stress does not exceed anywhere; found with less work than the severest place.
+    /// An upper bound of the von Mises stress, cheaper than the severest place.
     pub fn bound(&self) -> f64 {
         let most = |[a, b, c]: [f64; 3]| a.abs() + b.hypot(c);
         most(self.normal).hypot(3.0_f64.sqrt() * most(self.shear))

@@ -25,7 +25,7 @@ impl Wall {
         self.start
     }
 
-    /// The way from its start to its end.
+    /// The vector from its start to its end.
     pub fn along(&self) -> Point {
         self.along
     }

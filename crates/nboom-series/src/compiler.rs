@@ -3,7 +3,7 @@ use nboom_scalar::Real;
 
 use crate::schedule::Task;
 
-/// What an instruction does for one power of time.
+/// The action of an instruction for one power of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// Values `a` and `b`.
@@ -50,13 +50,13 @@ pub(crate) struct Compiler<R> {
     pub tasks: Vec<Task<Kind, Instruction>>,
     /// How many values there are.
     pub values: usize,
-    /// Constants, with their places among values.
+    /// Constants, with their indices among values.
     pub constants: Vec<(usize, R)>,
     pub factors: Vec<R>,
-    /// Inputs, with their places among values.
+    /// Inputs, with their indices among values.
     pub inputs: Vec<(usize, usize)>,
     pub histories: usize,
-    /// The numbers among the inputs that do not change, behind those that do.
+    /// The inputs that do not change; they follow those that do.
     fixed_inputs: Vec<R>,
     fixed: Vec<R>,
     /// The task that computes each node's value.
@@ -145,8 +145,8 @@ impl<R: Real> Compiler<R> {
         self.push_value(Kind::Scale, at, self.after(a).into_iter().collect());
     }
 
-    /// One instruction serves both; the one that the graph has no node for goes to a value of its
-    /// own.
+    /// One instruction computes both sine and cosine; the one without a node in the graph gets a
+    /// value of its own.
     fn sine_or_cosine(&mut self, node: usize, angle: Id, sine: bool) {
         let task = self.angles[angle.index()].unwrap_or_else(|| {
             let history = self.new_histories(3);
@@ -183,7 +183,7 @@ impl<R: Real> Compiler<R> {
         first
     }
 
-    /// The task to wait for before a node's value is there.
+    /// The task that must be done before a node's value is there.
     fn after(&self, node: Id) -> Option<usize> {
         self.value_tasks[node.index()]
     }

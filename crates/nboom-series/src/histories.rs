@@ -3,12 +3,12 @@ use nboom_scalar::Real;
 /// Products that are summed side by side, so that the compiler makes vector code of them.
 pub(crate) const LANES: usize = 4;
 
-/// Stands for a number of chunks that the compiler does not know.
+/// A number of chunks that the compiler does not know.
 pub(crate) const ANY: usize = usize::MAX;
 
-/// Coefficients up to the present power, of everything that products, quotients, roots and sines
-/// go back to: in ascending order, and the same in descending order, so that a Cauchy product
-/// runs forward through both. A history is known by where it begins.
+/// Coefficients up to the current power of all operands of products, quotients, roots and sines.
+/// They are kept in ascending and in descending order, so that a Cauchy product runs forward
+/// through both. The index at which a history begins identifies it.
 pub(crate) struct Histories<'a, R> {
     pub power: usize,
     pub order: usize,
@@ -17,7 +17,7 @@ pub(crate) struct Histories<'a, R> {
 }
 
 impl<R: Real> Histories<'_, R> {
-    /// Appends the coefficient of the present power.
+    /// Appends the coefficient of the current power.
     #[inline(always)]
     pub fn keep(&mut self, history: usize, value: R) {
         self.put(history, self.power, value);
@@ -26,15 +26,15 @@ impl<R: Real> Histories<'_, R> {
     #[inline(always)]
     fn put(&mut self, history: usize, power: usize, value: R) {
         if power.is_multiple_of(LANES) {
-            // Sums of whole chunks look ahead.
+            // Sums of whole chunks read beyond the last coefficient.
             self.ascending[history + power..][..LANES].fill(R::zero());
         }
         self.ascending[history + power] = value;
         self.descending[history + self.order - power] = value;
     }
 
-    /// Σ a_j b_(power − j), in chunks of [`LANES`]. Behind the end of a descending history there
-    /// are zeros.
+    /// Σ a_j b_(power − j), in chunks of [`LANES`]. After the end of a descending history there are
+    /// zeros.
     #[inline(always)]
     pub fn product<const CHUNKS: usize>(&self, a: usize, b: usize, power: usize) -> R {
         let chunks = if CHUNKS == ANY { (power + 1).div_ceil(LANES) } else { CHUNKS };

@@ -1,10 +1,10 @@
 //! Power series in time of the solution of a differential equation, from the graph of its right
 //! side.
 //!
-//! Each node's coefficients follow from those of its operands by the classical recurrences
-//! (Hairer, Nørsett, Wanner, Section I.8): sums term by term, products by Cauchy, quotients,
-//! roots, sines and cosines by comparing coefficients in the equations that define them. Order p
-//! costs about p²/2 multiplications for each product; what is linear costs p.
+//! Each node's coefficients follow from those of its operands by the classical recurrences (Hairer,
+//! Nørsett, Wanner, Section I.8): sums term by term, products by Cauchy, quotients, roots, sines
+//! and cosines by comparing coefficients in the equations that define them. Order p costs about
+//! p²/2 multiplications for each product, and p for a linear operation.
 //!
 //! This crate knows no bodies.
 
@@ -36,11 +36,11 @@ pub struct Series<R> {
 }
 
 impl<R: Real> Series<R> {
-    /// Up to the power `order`. The graph's inputs are y, then t, then numbers that do not change
-    /// and are `fixed`; its outputs are ẏ.
+    /// The series up to the power `order`. The graph's inputs are y, then t, then the numbers in
+    /// `fixed`, which do not change; its outputs are ẏ.
     ///
     /// # Panics
-    /// When the graph does not have as many inputs.
+    /// When the graph has another number of inputs.
     pub fn new(graph: &Graph, fixed: &[R], order: usize) -> Self {
         let expected = graph.outputs().len() + 1 + fixed.len();
         assert_eq!(graph.inputs(), expected, "y, t and what is fixed in, the rates of y out");
@@ -53,8 +53,8 @@ impl<R: Real> Series<R> {
     }
 
     /// Writes the coefficients of the solution through `y` at `t` to `out`: those of power 0 for
-    /// all variables, then those of power 1, and so on, (order + 1) times the number of
-    /// variables. Allocates nothing.
+    /// all variables, then those of power 1, and so on, (order + 1) times the number of variables
+    /// in all. Allocates nothing.
     ///
     /// # Panics
     /// When `out` is shorter than that.

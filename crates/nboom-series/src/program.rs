@@ -5,11 +5,10 @@ use crate::compiler::{Compiler, Instruction, Kind};
 use crate::histories::{ANY, Histories, LANES};
 use crate::schedule::{Run, schedule};
 
-/// A graph as a list of instructions that is gone through once for each power of time.
+/// A graph as a list of instructions that runs once for each power of time.
 ///
-/// A value is a node's coefficient of the present power. Only what products, quotients, roots
-/// and sines go back to has a history: all coefficients so far in ascending order, and the same
-/// in descending order, so that a Cauchy product runs forward through both.
+/// A value is a node's coefficient of the current power. Only operands of products, quotients,
+/// roots and sines have a history, all coefficients so far in ascending and in descending order.
 #[derive(Clone, Debug)]
 pub(crate) struct Program<R> {
     order: usize,
@@ -72,8 +71,8 @@ impl<R: Real> Program<R> {
         let Self { order, runs, values: x, factors, ascending, descending, .. } = self;
         let mut histories = Histories { power, order: *order, ascending, descending };
         for Run { kind, places } in runs.iter() {
-            // A loop for each kind, and no closures: only what is inlined gets the processor's
-            // vector instructions.
+            // A loop for each kind, and no closures: only inlined code gets the processor's vector
+            // instructions.
             macro_rules! each {
                 ($to:ident, $a:ident, $b:ident, $history:ident => $act:expr) => {
                     for at in &self.instructions[places.clone()] {
@@ -104,14 +103,14 @@ impl<R: Real> Program<R> {
     }
 }
 
-/// Goes through a program for one power.
+/// Runs a program for one power.
 struct Pass<'a, R> {
     program: &'a mut Program<R>,
     power: usize,
 }
 
 impl<R: Real> Work for Pass<'_, R> {
-    /// Most sums are short, so that it pays when the compiler knows how short.
+    /// Most sums are short, so it pays that the compiler knows how short.
     #[inline(always)]
     fn carry_out(self) {
         let Self { program, power } = self;

@@ -18,9 +18,9 @@ pub(crate) struct Run<K> {
     pub places: Range<usize>,
 }
 
-/// Puts every task behind those it waits for, in long runs of one kind, so that what a kind asks
-/// for is decided once in a run: of the tasks that need not wait, all of the most frequent kind
-/// are next, and those that these set free.
+/// Puts every task after those it waits for, in long runs of one kind, so that the kind is decided
+/// once in a run. Of the tasks that need not wait, all of the most frequent kind come next, with
+/// those that they set free.
 ///
 /// Tasks wait for earlier ones only.
 pub(crate) fn schedule<K: Copy + Ord, I: Copy>(tasks: &[Task<K, I>]) -> (Vec<I>, Vec<Run<K>>) {

@@ -23,25 +23,25 @@ const ROUNDING: f64 = 1e-13;
 
 /// Follows the loads of a run, and its stresses where sections are known.
 ///
-/// As a [`Recorder`](nboom_sim::Recorder) it sees all that the envelope is made of;
-/// [`finish`](Self::finish) ends it. It can be asked for loads at output times beside that.
+/// As a [`Recorder`](nboom_sim::Recorder) it sees the whole run, from which it makes the envelope;
+/// [`finish`](Self::finish) ends it. It also computes loads at output times on request.
 #[derive(Clone, Debug)]
 pub struct StressAnalysis {
     settings: Settings,
     labels: Vec<HingeLabel>,
-    /// None where no structure says them.
+    /// `None` without a structure.
     pulse_constants: Option<Vec<f64>>,
     finder: LoadFinder,
     stations: Vec<StationPlace>,
     search: Search,
     pulses: Pulses,
-    /// When the last step or instant was over.
+    /// End of the last step or instant.
     reached: f64,
     /// The worst of the run.
     worst: Records,
-    /// What pulses have made on the sides of lock-ups since the last of them.
+    /// Loads of pulses just before and just after lock-ups, since the last one.
     at_lock_up: Records,
-    /// The last lock-up, while pulses go on.
+    /// The last lock-up, while its pulses last.
     pending: Option<f64>,
     settled: Vec<LockUpPeaks>,
     /// Loads of the motion at one time.
@@ -69,8 +69,8 @@ impl StressAnalysis {
         Self::of(scene, equations, sections, Some(pulse_constants(structure)), settings)
     }
 
-    /// The analysis of the hinges of any scene, without stresses. Pulse constants belong to a structure:
-    /// without one, what latches add is known as impulses alone.
+    /// The analysis of the hinges of any scene, without stresses. Pulse constants belong to a
+    /// structure; without one, latches appear only as impulses.
     ///
     /// # Errors
     /// When a setting is not one.
@@ -124,8 +124,8 @@ impl StressAnalysis {
         })
     }
 
-    /// The same with the code among `kernels`, if there is any, that was generated for this scene
-    /// and structure.
+    /// This analysis with the code among `kernels`, if any, that was generated for this scene and
+    /// structure.
     pub fn with_kernels(self, kernels: &[Kernel]) -> Self {
         Self { finder: self.finder.with_kernels(kernels), ..self }
     }
@@ -145,8 +145,9 @@ impl StressAnalysis {
         self.finder.loads.generated_for()
     }
 
-    /// Loads and stresses of the motion at an output time. They are part of a step or instant, and only
-    /// a run of no length has its one output time in the envelope from here.
+    /// Loads and stresses of the motion at an output time. Output times are within a step or
+    /// instant, which the envelope covers; only a run of no length adds its one output time to the
+    /// envelope here.
     ///
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
@@ -191,8 +192,8 @@ impl StressAnalysis {
         Ok(())
     }
 
-    /// Both sides of an instant with events, for the envelope; where hinges lock whose pulse constants
-    /// are known, their pulses start, eqs. (10.7) to (10.14).
+    /// Both sides of an instant with events, for the envelope. The pulses of hinges that lock start
+    /// here if their constants are known, eqs. (10.7) to (10.14).
     ///
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
@@ -249,7 +250,7 @@ impl StressAnalysis {
         Ok(())
     }
 
-    /// Tells the peaks of the last lock-up, if they are not told yet.
+    /// Reports the peaks of the last lock-up, unless they were reported before.
     fn settle(&mut self) {
         let Some(time) = self.pending.take() else { return };
         let Self { search, at_lock_up, stations, worst, .. } = self;
@@ -270,12 +271,12 @@ impl StressAnalysis {
         self.pending.is_some()
     }
 
-    /// The peaks of lock-ups that have become known since this was asked last.
+    /// The peaks of lock-ups that have become known since the last call.
     pub fn settled(&mut self) -> Vec<LockUpPeaks> {
         std::mem::take(&mut self.settled)
     }
 
-    /// Lets the pulses that still go on come to their ends, after the last step of a run.
+    /// Continues the pulses that still last to their ends, after the last step of a run.
     ///
     /// # Errors
     /// None are to be expected.
@@ -334,8 +335,8 @@ impl StressAnalysis {
         self.labels.iter().enumerate().flat_map(of_hinge).collect()
     }
 
-    /// The largest difference so far between the load about a free hinge's axis and its torque, in
-    /// shares of what the load is made of.
+    /// The largest difference so far between the load about a free hinge's axis and its torque,
+    /// relative to the sum of the magnitudes of the load's terms.
     pub fn largest_residual(&self) -> f64 {
         self.finder.largest_residual
     }

@@ -6,17 +6,17 @@ use nboom_sections::PointStress;
 
 use crate::formulas::Formulas;
 
-/// What made a load.
+/// What causes a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
     /// The motion alone.
     Motion,
-    /// Latches, beside the motion.
+    /// Latches, in addition to the motion.
     LockUp {
         /// The hinge whose pulse has the largest share, as numbered in the scene.
         hinge: usize,
-        /// Its share: the part of the stress or load that its pulse makes, along the whole, over the
-        /// whole. Those of all pulses and of the motion add up to 1.
+        /// Its share: the component along the total of the stress or load of its pulse, over the
+        /// total. The shares of all pulses and of the motion add up to 1.
         share: f64,
     },
 }
@@ -82,7 +82,7 @@ impl fmt::Display for Component {
     }
 }
 
-/// The worst that a station has seen.
+/// The worst stress of a station.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst {
     /// The segment.
@@ -93,24 +93,24 @@ pub struct Worst {
     pub time: f64,
     /// Why.
     pub cause: Cause,
-    /// Force and moment on the part outboard of the station, about the point on the η axis,
-    /// segment axes; while pulses go on the sum of what the motion and the pulses make.
+    /// Force and moment on the part outboard of the station, about the point on the η axis, segment
+    /// axes; while pulses last the sum over the motion and the pulses.
     pub load: Wrench<f64>,
     /// Where the von Mises stress is largest, and the stress there.
     pub severest: PointStress,
-    /// The component of the load that alone makes the largest von Mises stress at that point; none of a
-    /// station without load: its stress is no more than the rounding of the worst one.
+    /// The component of the load that alone makes the largest von Mises stress at that point;
+    /// `None` for a station without load, whose stress is at most the rounding of the worst one.
     pub driver: Option<Component>,
     /// Share of the strength that is left there, if a yield stress is known and there is a load.
     pub margin: Option<f64>,
 }
 
-/// The largest force or moment that a hinge has seen.
+/// The largest force or moment of a hinge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstHingeLoad {
     /// The hinge.
     pub hinge: HingeLabel,
-    /// Of which the magnitude is largest.
+    /// The quantity whose magnitude is largest.
     pub quantity: HingeQuantity,
     /// When.
     pub time: f64,
@@ -131,7 +131,7 @@ impl WorstHingeLoad {
     }
 }
 
-/// What of a hinge's load is meant.
+/// Force or moment of a hinge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HingeQuantity {
     /// P.

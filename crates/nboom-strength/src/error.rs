@@ -5,7 +5,7 @@ use nboom_sections::SectionError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StrengthError {
-    /// A section is not one.
+    /// A section is wrong.
     #[error("segment {segment}, station {}: {source}", station + 1)]
     Section {
         /// The segment.
@@ -23,8 +23,8 @@ pub enum StrengthError {
         /// Its value.
         found: f64,
     },
-    /// The loads contradict the motion: about a free hinge's axis there is another moment than that
-    /// of its spring and dashpot.
+    /// The loads contradict the motion: the moment about a free hinge's axis is not that of its
+    /// spring and dashpot.
     #[error(
         "at time {time} the load about the axis of hinge {hinge} differs from its torque by \
          {residual:e} of what it is made of, at most {most:e} expected"
@@ -36,10 +36,10 @@ pub enum StrengthError {
         hinge: HingeLabel,
         /// The difference.
         residual: f64,
-        /// What rounding may make of it.
+        /// The difference that rounding explains.
         most: f64,
     },
-    /// A load is too large for a number, or none.
+    /// A load is infinite or not a number.
     #[error("at time {time} the loads are no finite numbers")]
     NotFinite {
         /// When.

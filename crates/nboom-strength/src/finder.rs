@@ -7,20 +7,21 @@ use nboom_sim::{Jump, MotionAt, StepMotion};
 
 use crate::StrengthError;
 
-/// Largest difference between the load about a free hinge's axis and its torque, in shares of what
-/// the load is made of. Both follow from accelerations that are good to 1e-11 of their size, of
-/// which a light boom on a heavy chain takes a small difference. A motion that repeats a slip by
-/// which forces and accelerations contradict each other is not held to it.
+/// Largest difference between the load about a free hinge's axis and its torque, relative to the
+/// sum of the magnitudes of the load's terms. Both follow from accelerations that are good to 1e-11
+/// of their size, of which a light boom on a heavy chain takes a small difference. The limit does
+/// not apply to a motion that repeats a slip by which forces and accelerations contradict each
+/// other.
 const BALANCE: f64 = 1e-7;
 
-/// Finds the loads of motions and of lock-ups, and holds them against the torques of free hinges.
+/// Finds the loads of motions and of lock-ups, and checks them against the torques of free hinges.
 #[derive(Clone, Debug)]
 pub(crate) struct LoadFinder {
     pub loads: Loads,
     found: LoadSet,
     force_densities: Vec<f64>,
     labels: Vec<HingeLabel>,
-    /// Whether loads are handed on from segment to segment as they were in 1970.
+    /// Whether loads pass from segment to segment as in 1970.
     hands_on_as_in_1970: bool,
     pub largest_residual: f64,
     most_residual: f64,
@@ -51,7 +52,7 @@ impl LoadFinder {
         }
     }
 
-    /// The same with the code among `kernels`, if there is any, that was generated for it.
+    /// This finder with the code among `kernels`, if any, that was generated for it.
     pub fn with_kernels(self, kernels: &[Kernel]) -> Self {
         Self { loads: self.loads.with_kernels(kernels), ..self }
     }
@@ -116,7 +117,7 @@ impl LoadFinder {
         Ok(())
     }
 
-    /// Takes note of an instant, at which loads jump.
+    /// Notes an instant, at which loads jump.
     pub fn jump(&mut self) {
         self.end = None;
     }

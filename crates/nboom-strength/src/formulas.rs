@@ -29,20 +29,20 @@ impl Formulas {
         }
     }
 
-    /// Whether they are formulas of 1970, which take loads in place of numbers.
+    /// Whether these are formulas of 1970, which take loads in place of numbers.
     pub fn are_of_1970(&self) -> bool {
         matches!(self, Self::Of1970(_))
     }
 
-    /// Where the von Mises stress is largest under P and Q, of formulas of 1970, or with the stresses
-    /// that the numbers describe.
+    /// Where the von Mises stress is largest: under P and Q by formulas of 1970, otherwise for the
+    /// stresses that the numbers describe.
     pub fn severest_of(&self, [a, b, c, d, e, f]: [f64; 6]) -> PointStress {
         let load = Wrench { force: Vec3::new(a, b, c), moment: Vec3::new(d, e, f) };
         self.stresses(&load, [a, b, c, d, e, f]).severest()
     }
 
-    /// What the von Mises stress under these numbers does not exceed; found with less work than
-    /// [`severest_of`](Self::severest_of), which it is for formulas of 1970.
+    /// An upper bound of the von Mises stress under these numbers, cheaper than
+    /// [`severest_of`](Self::severest_of), which it equals for formulas of 1970.
     pub fn bound(&self, numbers: [f64; 6]) -> f64 {
         match self {
             Self::Right(section) => section.described_by(numbers).bound(),
@@ -50,7 +50,7 @@ impl Formulas {
         }
     }
 
-    /// The stress that a load makes at a point which other stresses were found at.
+    /// The stress of a load at a point that was found for another load.
     pub fn at(&self, point: &PointStress, load: &Wrench<f64>) -> Stress {
         match self {
             Self::Right(section) => section.stresses(load).at(point),

@@ -1,4 +1,4 @@
-//! Quantities whose largest values are looked for.
+//! Quantities whose largest values are searched.
 
 use nboom_loads::LoadSet;
 use nboom_scalar::{Vec3, Wrench};
@@ -20,8 +20,8 @@ pub(crate) enum Measure {
 /// One quantity: a norm of six of the numbers in a row of loads, see [`LoadSet::numbers`].
 ///
 /// The von Mises stress at one point is the length of a vector that is linear in the load, and the
-/// largest of such lengths is a norm again: it is convex, and no larger than the sum of what the
-/// numbers make one by one.
+/// largest of such lengths is again a norm: it is convex, and at most the sum of the values for
+/// each number alone.
 #[derive(Clone, Debug)]
 pub(crate) struct Gauge {
     pub measure: Measure,
@@ -29,7 +29,7 @@ pub(crate) struct Gauge {
     load: usize,
     /// Where its numbers start in the row; those of the load unless a section has its own.
     numbers: usize,
-    /// What one unit of each number alone makes.
+    /// Its value for one unit of each number alone.
     gains: [f64; 6],
 }
 
@@ -75,12 +75,12 @@ impl Gauge {
         }
     }
 
-    /// What the quantity does not exceed for these numbers, for little work.
+    /// A cheap upper bound of the quantity for these numbers.
     pub fn rough_bound(&self, numbers: &[f64; 6]) -> f64 {
         self.gains.iter().zip(numbers).map(|(gain, number)| gain * number.abs()).sum()
     }
 
-    /// What the quantity does not exceed for these numbers, for less work than its value.
+    /// An upper bound of the quantity for these numbers, cheaper than its value.
     pub fn close_bound(&self, numbers: &[f64; 6]) -> f64 {
         match &self.measure {
             Measure::Stress(formulas) => formulas.bound(*numbers),
@@ -88,12 +88,13 @@ impl Gauge {
         }
     }
 
-    /// Whether the quantity for these numbers is at most `level`, with no more work than that takes.
+    /// Whether the quantity for these numbers is at most `level`; stops as soon as that is known.
     pub fn is_at_most(&self, level: f64, numbers: &[f64; 6]) -> bool {
         self.is_bounded_by(level, numbers) || self.value(numbers) <= level
     }
 
-    /// The quantity for these numbers if it is above `level`, with no more work than that takes.
+    /// The quantity for these numbers if it is above `level`; stops as soon as it is known not to
+    /// be.
     pub fn above(&self, level: f64, numbers: &[f64; 6]) -> Option<f64> {
         if self.is_bounded_by(level, numbers) {
             return None;
@@ -105,8 +106,8 @@ impl Gauge {
         self.rough_bound(numbers) <= level || self.close_bound(numbers) <= level
     }
 
-    /// What each of `parts` of a load contributes to the quantity under the whole load, as a share of
-    /// it: along the vector whose length the quantity is.
+    /// The contribution of each of `parts` of a load to the quantity under the whole load, as a
+    /// share of it: its component along the vector whose length is the quantity.
     pub fn shares<'a>(
         &'a self,
         row: &'a [f64],

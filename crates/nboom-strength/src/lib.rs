@@ -1,10 +1,10 @@
 //! Loads and stresses of a run: the largest of every section and hinge, with margins.
 //!
-//! A [`StressAnalysis`] is a [`nboom_sim::Recorder`] that sees every step and instant of a run, finds
-//! the loads of every station and hinge and the stresses that they make, and keeps for each the worst
-//! of the motion: when, why, by which component of the load, and how far from yield. It is searched
-//! within every step, so that it depends neither on output times nor on how long the run goes on. It
-//! changes nothing in the run, and a run without one does not know of it.
+//! A [`StressAnalysis`] is a [`nboom_sim::Recorder`] that sees every step and instant of a run,
+//! finds the loads of every station and hinge and their stresses, and keeps for each the worst of
+//! the motion: when, why, by which component of the load, and how far from yield. The search covers
+//! the inside of every step, so the result depends neither on output times nor on the length of the
+//! run. The analysis changes nothing in the run, and a run without it costs nothing.
 
 mod analysis;
 mod envelope;

@@ -1,10 +1,10 @@
-//! Polynomials on [0, 1] through values at Chebyshev's points, which are dense towards both ends.
+//! Polynomials on [0, 1] through values at Chebyshev points, which are dense towards both ends.
 
 use std::f64::consts::PI;
 
-/// Points of a first look, those with even numbers among [`FINE`].
+/// Points of the first pass, those with even numbers among [`FINE`].
 pub(crate) const COARSE: usize = 5;
-/// Points of a second look.
+/// Points of the second pass.
 pub(crate) const FINE: usize = 9;
 
 /// Where the fine points are, from 0 to 1.
@@ -17,12 +17,12 @@ fn place<const N: usize>(k: usize) -> f64 {
     half.sin().powi(2)
 }
 
-/// What polynomials through `N` values are made of.
+/// Matrices from `N` values to the coefficients of the polynomials through them.
 #[derive(Clone, Debug)]
 pub(crate) struct Basis<const N: usize> {
-    /// Row i has what each value contributes to coefficient i in Bernstein's basis.
+    /// Row i has the contribution of each value to coefficient i in Bernstein's basis.
     pub bernstein: [[f64; N]; N],
-    /// What each value contributes to the last two coefficients in Chebyshev's basis.
+    /// The contribution of each value to the last two coefficients in Chebyshev's basis.
     pub tail: [[f64; N]; 2],
 }
 
@@ -61,8 +61,8 @@ impl<const N: usize> Basis<N> {
     }
 }
 
-/// Weights that make of the values at the fine points the value at `x` of the polynomial through
-/// them (barycentric).
+/// Barycentric weights: their sum with the values at the fine points is the value at `x` of the
+/// polynomial through these.
 pub(crate) fn weights(places: &[f64; FINE], x: f64) -> [f64; FINE] {
     if let Some(here) = places.iter().position(|place| *place == x) {
         return std::array::from_fn(|k| if k == here { 1.0 } else { 0.0 });

@@ -5,7 +5,7 @@ use crate::nodes::{FINE, halves};
 /// Share by which the largest value may be missed.
 const TOLERANCE: f64 = 1e-10;
 
-/// How often an interval is halved.
+/// Most times that an interval is halved.
 const MOST_CUTS: usize = 40;
 
 /// Where on [0, 1] the polynomial with these Bernstein coefficients is largest, if it exceeds `level`,
@@ -16,8 +16,8 @@ pub(crate) fn peak(coefficients: &[f64; FINE], level: f64) -> Option<f64> {
     found.1
 }
 
-/// Between Bernstein coefficients lies the polynomial, of which the first and last are its values at
-/// the ends.
+/// The polynomial lies between its Bernstein coefficients, the first and last of which are its
+/// values at the ends.
 fn climb(
     coefficients: &[[f64; 1]; FINE],
     [from, to]: [f64; 2],

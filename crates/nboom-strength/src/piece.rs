@@ -9,9 +9,9 @@ use crate::pulse::{Acting, Pulses};
 use crate::record::Records;
 use crate::search::{Loaded, Search};
 
-/// What the motion alone makes.
+/// Loads of the motion alone.
 pub(crate) enum OfMotion<'a> {
-    /// That of a step.
+    /// Those of a step.
     Step(&'a mut dyn StepMotion, &'a mut LoadFinder),
     /// Always the same.
     Standing(&'a [f64]),
@@ -52,7 +52,7 @@ impl Loaded for Piece<'_> {
     }
 }
 
-/// Looks for the largest loads of motion and pulses in a step.
+/// Searches the largest loads of motion and pulses in a step.
 ///
 /// # Errors
 /// When the loads contradict the motion, or are no numbers.
@@ -72,7 +72,7 @@ pub(crate) fn search_step(
     })
 }
 
-/// Looks for the largest loads of pulses on what stands for the motion, between two times.
+/// Searches the largest loads of pulses between two times, on the loads that represent the motion.
 ///
 /// # Errors
 /// None are to be expected.

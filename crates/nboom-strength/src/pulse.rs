@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// How the pulses of latches are taken to run, eq. (10.13).
+/// The assumed shape of latch pulses over time, eq. (10.13).
 ///
 /// A pulse starts when its hinge locks, and its peak is the impulse over the pulse constant c.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,8 +10,8 @@ pub enum PulseShape {
     /// Half a sine, which lasts π c/2.
     #[default]
     HalfSine,
-    /// Anything from nothing to the peak as long as a half-sine would last: whatever acts together may
-    /// peak together, and each may as well not act yet or not act any more, whichever is worst.
+    /// Anything from zero to the peak while a half-sine would last: pulses that overlap may peak
+    /// together, and each may be zero, whichever is worst.
     AllAtOnce,
 }
 
@@ -46,13 +46,13 @@ impl PulseShape {
     }
 }
 
-/// What no pulse outlasts, so that sums of times are numbers.
+/// An upper bound of all durations, so that sums of times are finite.
 const LONGEST: f64 = f64::MAX / 4.0;
 
-/// What began at a lock-up and lasts for some time.
+/// Something that began at a lock-up and lasts for some time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Course {
-    /// Time that it had been going on at the last instant in which a hinge locked.
+    /// Its age at the last instant in which a hinge locked.
     age: f64,
     duration: f64,
 }
@@ -63,7 +63,7 @@ impl Course {
     }
 }
 
-/// What a latch adds to all loads at its peak.
+/// What a latch adds to all loads at the peak of its pulse.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulse {
     pub hinge: usize,
@@ -71,15 +71,15 @@ pub(crate) struct Pulse {
     pub peak: Vec<f64>,
 }
 
-/// Loads of the motion on one side of a lock-up, which stand for those during its pulses.
+/// Loads of the motion on one side of a lock-up, which represent those during its pulses.
 #[derive(Clone, Debug)]
 pub(crate) struct Side {
     course: Course,
     pub loads: Vec<f64>,
 }
 
-/// Pulses that go on, in times since the last instant in which a hinge locked: a pulse may be shorter
-/// than the spacing of times.
+/// Current pulses, in times since the last instant in which a hinge locked, since a pulse may be
+/// shorter than the spacing of times.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulses {
     shape: PulseShape,
@@ -108,7 +108,7 @@ impl Pulses {
         self.forget_until(0.0);
     }
 
-    /// Forgets what is over at `u`.
+    /// Drops what is over at `u`.
     pub fn forget_until(&mut self, u: f64) {
         self.active.retain(|pulse| pulse.course.end() > u);
         self.sides.retain(|side| side.course.end() > u);
@@ -121,14 +121,16 @@ impl Pulses {
         duration
     }
 
-    /// Lets the loads on one side of this instant stand for those during pulses of this duration.
+    /// Lets the loads on one side of this instant represent those during pulses of this duration.
     pub fn add_side(&mut self, duration: f64, loads: Vec<f64>) {
         self.sides.push(Side { course: Course { age: 0.0, duration }, loads });
     }
 
-    /// What may act together over an interval from `from` on in which no pulse starts, peaks or ends.
+    /// The pulses that may act together over an interval from `from` on in which no pulse starts,
+    /// peaks or ends.
     ///
-    /// Norms are convex: of pulses between nothing and their peaks the worst are all or nothing.
+    /// Norms are convex, so with pulses between zero and their peaks the worst case has each at
+    /// zero or at its peak.
     pub fn acting(&self, from: f64) -> impl Iterator<Item = Acting<'_>> {
         let apart = match self.shape {
             PulseShape::HalfSine => 0,
@@ -141,7 +143,7 @@ impl Pulses {
         self.active.iter().filter(move |pulse| pulse.course.end() > u)
     }
 
-    /// The sides that stand for the motion from `u` on.
+    /// The sides that represent the motion from `u` on.
     pub fn sides(&self, u: f64) -> impl Iterator<Item = &Side> {
         self.sides.iter().filter(move |side| side.course.end() > u)
     }
@@ -159,7 +161,7 @@ impl Pulses {
     }
 }
 
-/// Pulses beyond these act together or not at all when it is tried which of them act.
+/// Beyond this number, pulses act together or not at all in the search for the worst combination.
 const MOST_APART: usize = 10;
 
 /// Pulses that act together over an interval.
@@ -168,12 +170,12 @@ pub(crate) struct Acting<'a> {
     pulses: &'a Pulses,
     /// Where the interval starts.
     from: f64,
-    /// A bit for each pulse that goes on and does not act.
+    /// A bit for each current pulse that does not act.
     left_out: u32,
 }
 
 impl<'a> Acting<'a> {
-    /// The time that `u` is.
+    /// The time at `u`.
     pub fn time(&self, u: f64) -> f64 {
         self.pulses.since + u
     }
@@ -186,8 +188,8 @@ impl<'a> Acting<'a> {
         going_on.filter(move |(i, _)| acts(*i)).map(|(_, pulse)| pulse)
     }
 
-    /// Whether they rise and fall alike, so that what they make together is a multiple of one load,
-    /// and grows or shrinks all over the interval.
+    /// Whether they rise and fall alike, so that together they are a multiple of one load, which
+    /// only grows or only shrinks over the interval.
     pub fn share_a_course(&self) -> bool {
         let mut courses = self.pulses().map(|pulse| pulse.course);
         let first = courses.next();
@@ -200,7 +202,7 @@ impl<'a> Acting<'a> {
         self.pulses.shape.at((age + u) / duration)
     }
 
-    /// Adds to `row` what they make at `u`.
+    /// Adds their loads at `u` to `row`.
     pub fn add_to(&self, row: &mut [f64], u: f64) {
         for pulse in self.pulses() {
             let share = self.share(pulse, u);

@@ -6,10 +6,10 @@ use crate::Cause;
 use crate::gauge::{Gauge, Measure};
 use crate::pulse::Acting;
 
-/// The largest value of one gauge, and how it came about.
+/// The largest value of one gauge, and its cause.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Record {
-    /// Below anything before the first look.
+    /// Below every value before the first one.
     pub value: f64,
     pub time: f64,
     pub cause: Cause,
@@ -44,7 +44,7 @@ impl Records {
         records
     }
 
-    /// Nothing seen any more.
+    /// Clears all values.
     pub fn forget(&mut self) {
         let none = Record {
             value: f64::NEG_INFINITY,
@@ -58,12 +58,12 @@ impl Records {
         self.largest_of_kind = [0.0; 3];
     }
 
-    /// The record of gauge `g`; none before the first look.
+    /// The record of gauge `g`; `None` before the first value.
     pub fn get(&self, g: usize) -> Option<&Record> {
         Some(&self.all[g]).filter(|record| record.value >= 0.0)
     }
 
-    /// The largest value of gauge `g`; below anything before the first look.
+    /// The largest value of gauge `g`; below every value before the first one.
     pub fn largest(&self, g: usize) -> f64 {
         self.all[g].value
     }
@@ -73,8 +73,8 @@ impl Records {
         self.largest_of_kind[self.kinds[g]]
     }
 
-    /// Keeps the value of gauge `g`, which is `gauge`, at `u` under the loads in `row`, which those of
-    /// pulses are part of.
+    /// Keeps the value of gauge `g`, which is `gauge`, at `u` under the loads in `row`, those of
+    /// pulses included.
     pub fn keep(
         &mut self,
         (g, gauge): (usize, &Gauge),
@@ -102,7 +102,7 @@ impl Records {
         }
     }
 
-    /// Keeps what is larger than it has been at `u` under the loads in `row`.
+    /// Keeps each value at `u` under the loads in `row` that is larger than before.
     pub fn look(&mut self, gauges: &[Gauge], (acting, u): (Acting<'_>, f64), row: &[f64]) {
         for (g, gauge) in gauges.iter().enumerate() {
             if let Some(value) = gauge.above(self.largest(g), &gauge.numbers(row)) {

@@ -4,7 +4,7 @@ use nboom_sim::{InstantMotion, Recorder, StepMotion};
 
 use crate::StressAnalysis;
 
-/// Sees the whole of a run and needs no output times.
+/// Sees the whole run and needs no output times.
 impl Recorder for StressAnalysis {
     fn needs_instants(&self) -> bool {
         true

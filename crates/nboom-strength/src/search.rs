@@ -1,11 +1,11 @@
 //! Largest values of gauges over an interval of time in which all loads are smooth.
 //!
-//! Loads are looked at in a few points, and polynomials through those stand for them: five points
-//! where their bound says that nothing becomes larger than it has been, nine otherwise, and halves of
-//! the interval where nine are not enough. A gauge is a norm, hence convex, and a polynomial is a mean
-//! of its Bernstein coefficients: over an interval the gauge of the polynomial is at most that of its
-//! largest coefficient. What the polynomial leaves out is judged by its last two coefficients in
-//! Chebyshev's basis.
+//! Loads are computed at a few points, and polynomials through these represent them: five points
+//! where their bound shows that nothing becomes larger than before, nine otherwise, and halves of
+//! the interval where nine are not enough. A gauge is a norm, hence convex, and a polynomial is a
+//! mean of its Bernstein coefficients: over an interval the gauge of the polynomial is at most that
+//! of its largest coefficient. The last two coefficients in Chebyshev's basis estimate what the
+//! polynomial leaves out.
 
 use crate::StrengthError;
 use crate::gauge::Gauge;
@@ -21,14 +21,14 @@ const TOLERANCE: f64 = 1e-8;
 /// Share of the largest value among gauges of one kind below which values are rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// How often an interval is halved; the loads of a step that its integrator took need that far less.
+/// Most times that an interval is halved; the loads of a step need far fewer.
 const MOST_HALVINGS: usize = 12;
 
-/// How often the polynomials of an interval are halved, where the place in a section that is stressed
-/// most jumps.
+/// Most times that the polynomials of an interval are halved, where the place of the largest stress
+/// in a section jumps.
 const MOST_CUTS: usize = 24;
 
-/// Where rows of loads come from, and what becomes of the largest.
+/// The source of rows of loads, and the place where the largest are kept.
 pub(crate) trait Loaded {
     /// Writes the loads at `u`.
     ///
@@ -46,7 +46,7 @@ pub(crate) trait Loaded {
     fn keep(&mut self, g: usize, gauge: &Gauge, value: f64, u: f64, row: &[f64]);
 }
 
-/// Looks for largest values; allocates nothing after it is made.
+/// Searches largest values; allocates nothing after it is made.
 #[derive(Clone, Debug)]
 pub(crate) struct Search {
     pub gauges: Vec<Gauge>,
@@ -85,7 +85,7 @@ impl Search {
         }
     }
 
-    /// Keeps what is larger anywhere between two times than it has been.
+    /// Keeps every value between two times that is larger than before.
     ///
     /// # Errors
     /// Those of `loaded`.
@@ -95,7 +95,7 @@ impl Search {
         self.at_level(0, span, loaded)
     }
 
-    /// Keeps what is larger at one of two times than it has been; the later one is looked at first.
+    /// Keeps every value at two times that is larger than before; the later time comes first.
     ///
     /// # Errors
     /// Those of `loaded`.
@@ -163,8 +163,8 @@ impl Search {
         &self.rows[k * self.width..(k + 1) * self.width]
     }
 
-    /// Keeps the largest value of gauge `g` at some of the points, if it is larger than it has been;
-    /// tells whether it is.
+    /// Keeps the largest value of gauge `g` at some of the points, if it is larger than before, and
+    /// returns whether it is.
     fn keep_largest(
         &self,
         g: usize,
@@ -186,12 +186,12 @@ impl Search {
         at.is_some()
     }
 
-    /// What a gauge need not be searched for.
+    /// The level below which a gauge need not be searched.
     fn enough(g: usize, loaded: &dyn Loaded) -> f64 {
         loaded.largest(g) * (1.0 + TOLERANCE) + loaded.largest_of_kind(g) * ROUNDING
     }
 
-    /// Whether five points show that gauge `g` stays below what it has been.
+    /// Whether five points show that gauge `g` stays below its largest value so far.
     fn is_below(&self, g: usize, loaded: &dyn Loaded) -> bool {
         let gauge = &self.gauges[g];
         let values: [[f64; 6]; COARSE] =
@@ -200,7 +200,8 @@ impl Search {
         stays_below(gauge, &coefficients, &tails, Self::enough(g, loaded))
     }
 
-    /// Keeps what of gauge `g` nine points show to be larger than it has been, if they are enough.
+    /// Keeps the largest value of gauge `g` by nine points, if they are enough and it is larger
+    /// than before.
     fn climb(&mut self, g: usize, [from, to]: [f64; 2], loaded: &mut dyn Loaded) -> Verdict {
         let gauge = &self.gauges[g];
         let values: [[f64; 6]; FINE] = std::array::from_fn(|k| gauge.numbers(self.row(k)));
@@ -252,12 +253,13 @@ struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// Raises `largest`, and says where, by what the gauge is over a part of the interval.
+    /// Raises `largest`, and sets its place, to the largest value of the gauge over a part of the
+    /// interval.
     ///
-    /// The square of a gauge is smooth wherever the place that is stressed most does not jump, and
-    /// then the largest of its own polynomial is the one that is looked for. Where the place jumps it has
-    /// a corner, with a minimum if any, which halves come ever closer to until nothing is left beside
-    /// the ends.
+    /// The square of a gauge is smooth wherever the place of the largest stress does not jump; the
+    /// largest value of a polynomial through it is then the result. Where the place jumps the
+    /// square has a corner, which may be a minimum but no maximum. Halving closes in on it until
+    /// only the ends are left.
     fn climb(
         &self,
         coefficients: &[[f64; 6]; FINE],

@@ -3,10 +3,11 @@ use crate::{PulseShape, Slips, StrengthError};
 /// How stresses are judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Peak of the structure's response over the peak of a lock-up pulse. 1 is a pulse that is slow
-    /// against the first bending mode; a half-sine makes it at most 1.77, a rectangle at most 2.
+    /// Peak of the structure's response over the peak of a lock-up pulse. It is 1 for a pulse that
+    /// is slow against the first bending mode, at most 1.77 for a half-sine and at most 2 for a
+    /// rectangle.
     pub amplification: f64,
-    /// How pulses run, which says how those of several latches add up.
+    /// Shape of pulses over time, which determines how those of several latches add up.
     pub pulses: PulseShape,
     /// Stress at which the material yields \[F/L²\]; without it there are no margins.
     pub yield_stress: Option<f64>,

@@ -28,8 +28,8 @@ pub struct StationStress {
     pub severest: PointStress,
 }
 
-/// The largest loads on either side of a lock-up, by its pulses and those that still went on, until they
-/// had come to their ends or the next hinge locked.
+/// The largest loads on either side of a lock-up, by its pulses and those that still lasted, until
+/// they ended or the next hinge locked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LockUpPeaks {
     /// When the hinge or hinges locked.

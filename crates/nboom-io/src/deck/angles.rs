@@ -2,7 +2,7 @@ use nboom_scalar::{Mat3, Vec3};
 
 /// The rotation R_x(ψ) R_y(θ) R_x(φ) of eqs. (9.6) and (9.7), angles in degrees.
 ///
-/// Quarter turns, which most decks consist of, give exact zeros and ones.
+/// Quarter turns, most common in decks, give exact zeros and ones.
 pub(crate) fn rotation_from_degrees(psi: f64, theta: f64, phi: f64) -> Mat3<f64> {
     about_x(psi) * about_y(theta) * about_x(phi)
 }
@@ -52,7 +52,8 @@ mod tests {
         assert_eq!(rot.column(2), Vec3::new(1.0, 0.0, 0.0));
     }
 
-    /// The same turns by radians; those of up to two and a half turns are rounded by up to 2e-15.
+    /// These rotations from radians; angles of up to two and a half turns are rounded by up to
+    /// 2e-15.
     fn agree_with_radians(psi: f64, theta: f64, phi: f64) {
         let found = rotation_from_degrees(psi, theta, phi);
         let expected = Mat3::from_euler_121(psi.to_radians(), theta.to_radians(), phi.to_radians());

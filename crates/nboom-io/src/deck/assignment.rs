@@ -11,13 +11,13 @@ use crate::diagnostic::{Position, Report, quoted};
 /// Stations of a segment, at most.
 pub(crate) const MOST_STATIONS: usize = 5;
 
-/// Elements that a deck may assign in all; twenty times what the largest deck can use.
+/// Most elements that a deck may assign in all; twenty times what the largest deck can use.
 const MOST_ASSIGNED: usize = 4_000_000;
 
 /// Something is wrong and has been reported.
 struct Reported;
 
-/// What is assigned to.
+/// The target of an assignment.
 struct Target {
     symbol: &'static Symbol,
     key: Key,
@@ -31,7 +31,7 @@ impl Target {
     }
 }
 
-/// `count` times a value, or nothing.
+/// `count` times a value, or a null.
 struct Item {
     count: u64,
     value: Option<f64>,
@@ -211,7 +211,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    /// Values are separated by commas; a new card or, with a warning, a blank will do.
+    /// Values are separated by commas, by new cards or, with a warning, by blanks.
     fn check_separator(
         &mut self,
         target: &Target,
@@ -267,8 +267,8 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    /// The number a word stands for. Of a word that only looks like a number, that is said, and
-    /// the element is left out; a word of letters ends the assignment.
+    /// The number that a word stands for. A word that only looks like a number is reported, and its
+    /// element left out; a word of letters ends the assignment.
     fn value(
         &mut self,
         target: &Target,
@@ -314,7 +314,7 @@ impl Reader<'_, '_, '_> {
         item: &Item,
     ) -> Result<usize, Reported> {
         let room = (range.end - next) as u64;
-        // Beyond the end there is nothing that a null could leave as it is.
+        // A null beyond the end has no element to leave as it is.
         let Some(value) = item.value else { return Ok(next + item.count.min(room) as usize) };
         if item.count > room {
             return Err(self.report_excess(target, range, item.at));
@@ -334,7 +334,7 @@ impl Reader<'_, '_, '_> {
         Ok(end)
     }
 
-    /// A short text can assign thousands of elements again and again; that ends here.
+    /// A short text could assign thousands of elements over and over; this limit ends it.
     fn spend(&mut self, target: &Target, count: usize, at: Position) -> Result<(), Reported> {
         self.assigned += count;
         if self.assigned <= MOST_ASSIGNED {
@@ -357,8 +357,8 @@ impl Reader<'_, '_, '_> {
     }
 }
 
-/// From the element with these subscripts to the end of the array; where the array's stride is
-/// not known, to the end of the column.
+/// From the element with these subscripts to the end of the array; or, if the array's stride is not
+/// known, to the end of the column.
 fn range_from(target: &Target, subscripts: &[usize]) -> Range<usize> {
     let (mut start, mut stride) = (0, 1);
     for (subscript, extent) in subscripts.iter().zip(&target.extents) {

@@ -10,17 +10,17 @@ use crate::diagnostic::Report;
 /// Share of an inertia's largest entry by which it may fail to be symmetric.
 const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
-/// Departure from length 1 that is taken for rounding in the deck.
+/// Deviation from length 1 that counts as rounding in the deck.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
 /// Makes the parts of a scene from a deck's values.
 ///
-/// A part that is wrong is reported and replaced by one that no further check objects to.
+/// A wrong part is reported and replaced by one that passes all further checks.
 pub(crate) struct Builder<'v, 'r, 'f> {
     pub values: &'v Values,
     pub sizes: Sizes,
     pub report: &'r mut Report<'f>,
-    /// Of each segment, where the stress groups are read.
+    /// Those of each segment, if the stress groups are read.
     pub structures: Option<Vec<SegmentStructure>>,
 }
 
@@ -96,7 +96,7 @@ impl Builder<'_, '_, '_> {
         Sym3 { xx, yy, zz, xy, xz, yz }
     }
 
-    /// A vector that must have length 1, made so exactly.
+    /// A vector that must have length 1, scaled to it exactly.
     pub fn unit_vector(&mut self, name: &'static str) -> Option<Vec3<f64>> {
         super::required::require(name, self.values, self.report);
         let vector = self.values.vector(name, 0);

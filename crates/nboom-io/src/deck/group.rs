@@ -5,7 +5,7 @@ use super::symbols::Group;
 use super::values::{LARGEST_COUNT, Sizes, Values, plain};
 use crate::diagnostic::{Position, Report, quoted};
 
-/// Stands for a symbol where a message is about the deck as a whole.
+/// The symbol in messages about the deck as a whole.
 const DECK: &str = "deck";
 
 /// Reads groups and assignments into [`Values`], one token ahead.
@@ -18,7 +18,7 @@ pub(crate) struct Reader<'t, 'r, 'f> {
     pub assigned: usize,
 }
 
-/// All that a deck says; what cannot be read is reported and left out.
+/// All that a deck says; unreadable parts are reported and left out.
 pub(crate) fn read(text: &str, report: &mut Report<'_>) -> Values {
     let mut lexer = Lexer::new(text);
     let token = lexer.next_token();
@@ -38,19 +38,19 @@ impl<'t> Reader<'t, '_, '_> {
         std::mem::replace(&mut self.token, next)
     }
 
-    /// Whether there is nothing more to read, or no more use in it.
+    /// Whether there is nothing more to read, or no use in reading on.
     fn is_done(&self) -> bool {
         self.token.kind == Kind::End || self.report.is_full()
     }
 
-    /// Leaves out everything up to the next assignment or group mark.
+    /// Skips everything up to the next assignment or group mark.
     pub fn skip_to_name(&mut self) {
         while !matches!(self.token.kind, Kind::Name | Kind::Mark | Kind::End) {
             self.advance();
         }
     }
 
-    /// Goes to the next group mark; the original passed over cards between the groups.
+    /// Goes to the next group mark; the original skipped cards between the groups.
     fn find_mark(&mut self) -> bool {
         let first = self.token;
         let mut assignment = None;

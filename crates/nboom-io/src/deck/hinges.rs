@@ -111,7 +111,7 @@ impl Builder<'_, '_, '_> {
         }
     }
 
-    /// A time that means never ought not to lie within the run.
+    /// A time that means never should not lie within the run.
     fn check_never(&mut self, i: usize, time: f64) {
         let (from, to) = (self.values.real("TZO", 0), self.values.real("TF", 0));
         if time <= to {

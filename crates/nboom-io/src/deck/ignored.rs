@@ -1,4 +1,4 @@
-//! Elements of a deck that are given and have no effect, since others are not.
+//! Elements of a deck that have no effect since others are missing.
 
 use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
@@ -7,7 +7,7 @@ use super::shown;
 use super::values::{Key, plain};
 
 impl Builder<'_, '_, '_> {
-    /// Warns of what is given for springs and releases that are not there.
+    /// Warns of values for springs and releases that are not there.
     pub fn warn_ignored_of_hinges(&mut self) {
         let n = self.sizes.segments;
         for i in 0..n {
@@ -50,7 +50,7 @@ impl Builder<'_, '_, '_> {
         }
     }
 
-    /// Warns of what is given for stations that segment `i` does not have.
+    /// Warns of values for stations that segment `i` does not have.
     pub fn warn_ignored_of_stations(&mut self, i: usize, stations: usize) {
         let of_station = |j: usize| {
             let flat = MOST_STATIONS * i + j;

@@ -15,8 +15,8 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// The segment whose absolute angle that of segment `i` includes; a paddle's
-    /// second body turns about another axis.
+    /// The segment whose absolute angle is part of that of segment `i`; a paddle's second body
+    /// turns about another axis.
     pub fn summed_inboard(&self, i: usize) -> Option<usize> {
         (!self.is_paddle && i > self.segments.start).then(|| i - 1)
     }

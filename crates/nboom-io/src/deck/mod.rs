@@ -33,8 +33,8 @@ pub use values::LARGEST_COUNT;
 
 /// Reads the text of a deck, Table 16.1 and Section 17.
 ///
-/// `file` is the file's name for messages, `name` becomes the name of the scene. The symbols
-/// and what their absence means are in [`SYMBOLS`]; angles become radians.
+/// `file` is the file's name for messages, `name` becomes the name of the scene. [`SYMBOLS`] has
+/// the symbols, and what their absence means; angles become radians.
 ///
 /// # Errors
 /// [`InputError::Deck`] with everything that is wrong, in the order of the lines.
@@ -55,7 +55,7 @@ pub fn parse_deck(file: &str, text: &str, name: &str) -> Result<SceneFile, Input
 
 type Parts = (Scene, crate::LegacySettings, Option<Structure>);
 
-/// The parts of a scene; what is wrong is reported, and stand-ins let the rest be checked.
+/// The parts of a scene. Wrong parts are reported; stand-ins allow checks of the rest.
 fn assemble(name: &str, values: &Values, sizes: Sizes, report: &mut Report<'_>) -> Option<Parts> {
     let mut builder = Builder { values, sizes, report, structures: None };
     let legacy = builder.settings();

@@ -4,7 +4,7 @@ use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
 use super::values::plain;
 
-/// Says of each error of the scene which assignment of the deck is responsible.
+/// Finds the assignment of the deck that is responsible for an error of the scene.
 pub(crate) fn report(errors: &[ModelError], builder: &mut Builder<'_, '_, '_>) {
     for error in errors {
         let (name, index) = responsible(error, builder);
@@ -90,12 +90,12 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
         ModelError::NotUnit { quantity: "direction of gravity", .. } => ("GHAT", 0),
         ModelError::NotUnit { .. } => (builder.orientation_name(), 0),
         ModelError::ThrustTimes { .. } => ("TFIN", 0),
-        // The end of the run, and what later versions of the model may add about a whole scene.
+        // Errors of the end of the run, and of the whole scene in later versions of the model.
         _ => ("TF", 0),
     }
 }
 
-/// Numbers of a deck are finite; these are overflows of what is computed from them.
+/// Numbers of a deck are finite; these are overflows in numbers computed from them.
 fn not_finite(quantity: &str, i: usize, builder: &Builder<'_, '_, '_>) -> (&'static str, usize) {
     match quantity {
         "initial position" => ("RHO", 0),

@@ -5,7 +5,7 @@ use super::builder::Builder;
 use super::values::plain;
 use super::{angles, shown};
 
-/// Departure from a rotation, or from length 1, that is taken for rounding in the deck.
+/// Deviation from a rotation, or from length 1, that counts as rounding in the deck.
 const ROTATION_TOLERANCE: f64 = 1e-6;
 
 impl Builder<'_, '_, '_> {
@@ -100,7 +100,7 @@ impl Builder<'_, '_, '_> {
         Some(Thrust { force: direction * magnitude, point, on, off })
     }
 
-    /// A magnitude that says by zero that there is nothing.
+    /// A magnitude, of which zero means that there is none.
     fn positive_magnitude(&mut self, name: &'static str) -> Option<f64> {
         let magnitude = self.values.real(name, 0);
         if magnitude < 0.0 {

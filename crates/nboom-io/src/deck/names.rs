@@ -57,7 +57,7 @@ fn find_numbered(upper: &str) -> Option<Name> {
     })
 }
 
-/// A known name that differs little from this unknown one.
+/// The known name that is nearest to this unknown one, if it is near.
 pub(crate) fn suggestion(word: &str) -> Option<&'static str> {
     let upper = bounded_upper(word)?;
     let allowed = if upper.chars().count() < 5 { 1 } else { 2 };

@@ -36,7 +36,7 @@ fn check_symbol(symbol: &'static Symbol, values: &Values, report: &mut Report<'_
     let counted = symbol.shape.iter().all(|extent| matches!(extent, Extent::Fixed(_)));
     let sizes = match values.sizes {
         Some(sizes) => sizes,
-        // How many elements there should be is then not known; one extent is as good as another.
+        // The number of elements is then not known; any extent will do.
         None if counted => Sizes::LARGEST,
         None => return,
     };
@@ -67,13 +67,13 @@ fn check_symbol(symbol: &'static Symbol, values: &Values, report: &mut Report<'_
     }
 }
 
-/// Products of inertia, which most decks have as zero, and what slices say.
+/// Products of inertia, zero in most decks, and elements that slices replace.
 fn may_be_left_out(symbol: &Symbol, index: usize, values: &Values) -> bool {
     let is_product = matches!(symbol.name, "HM" | "HIIK") && !matches!(index % 9, 0 | 4 | 8);
     is_product || segment_of_mass(symbol, index).is_some_and(|i| values.is_by_slices(i))
 }
 
-/// The segment, from 0, whose mass or inertia an element is.
+/// The segment, from 0, to whose mass or inertia an element belongs.
 fn segment_of_mass(symbol: &Symbol, index: usize) -> Option<usize> {
     match symbol.name {
         "EMIK" => Some(index),

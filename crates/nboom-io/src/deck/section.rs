@@ -9,7 +9,7 @@ use super::values::{Key, plain};
 /// Vertices of a section, at most.
 pub(super) const MOST_VERTICES: usize = 6;
 
-/// Where in the stress groups a section stands: segment and station, from 0.
+/// The place of a section in the stress groups: segment and station, from 0.
 #[derive(Clone, Copy)]
 struct Place {
     segment: usize,
@@ -17,13 +17,13 @@ struct Place {
 }
 
 impl Builder<'_, '_, '_> {
-    /// The section of station `j` of segment `i`, both from 0. What is wrong with it is reported, and
-    /// walls for which thin-wall theory may not hold are worth a warning.
+    /// The section of station `j` of segment `i`, both from 0. Its errors are reported, and walls
+    /// for which thin-wall theory may not hold give a warning.
     pub fn section(&mut self, i: usize, j: usize) -> SectionShape {
         let place = Place { segment: i, station: j };
         let reported = self.report.errors.len();
         let shape = self.shape(place);
-        // Numbers that are missing have stand-ins, which enclose nothing in particular.
+        // Missing numbers have stand-ins, whose outline means nothing.
         if self.report.errors.len() > reported {
             return shape;
         }

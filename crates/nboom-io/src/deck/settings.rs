@@ -4,7 +4,7 @@ use super::values::plain;
 use crate::LegacySettings;
 
 impl Builder<'_, '_, '_> {
-    /// What steers the original's integrator and printer.
+    /// Settings of the original's integrator and printer.
     pub fn settings(&mut self) -> LegacySettings {
         self.warn_order("HMIN", "HMAX");
         self.warn_order("EL1", "EU1");
@@ -21,7 +21,7 @@ impl Builder<'_, '_, '_> {
         }
     }
 
-    /// Limits in the wrong order, which matter to `rkam` alone.
+    /// Limits in the wrong order, which matter only to `rkam`.
     fn warn_order(&mut self, least: &'static str, most: &'static str) {
         let (low, high) = (self.values.real(least, 0), self.values.real(most, 0));
         if high > 0.0 && low > high {

@@ -11,12 +11,12 @@ use super::shown;
 use super::symbols::Group;
 use super::values::{Key, plain};
 
-/// What is expected of most numbers of the stress groups.
+/// What messages expect of most numbers of the stress groups.
 const POSITIVE: &str = "a positive value";
 
 impl Builder<'_, '_, '_> {
-    /// The stress groups, Table 16.1, if stresses are asked for and the groups are there; what is
-    /// wrong with them is reported.
+    /// The stress groups, Table 16.1, if stresses are asked for and the groups are there; their
+    /// errors are reported.
     pub fn stress(&mut self) -> Option<Vec<SegmentStructure>> {
         if self.values.has_slices() {
             return Some((0..self.sizes.segments).map(|i| self.stress_segment(i)).collect());
@@ -42,8 +42,8 @@ impl Builder<'_, '_, '_> {
         None
     }
 
-    /// The structure of `scene`, whose motion goes by the segments; slices that differ from them
-    /// are worth a warning.
+    /// The structure of `scene`. The motion follows the segments; slices that differ from them give
+    /// a warning.
     pub fn structure(&mut self, scene: &Scene) -> Option<Structure> {
         let checked = Structure::with_differing_slices(scene, self.structures.take()?);
         // Errors have been reported segment by segment.
@@ -67,7 +67,7 @@ impl Builder<'_, '_, '_> {
         segment
     }
 
-    /// Says of an error in the structure which assignment of the deck is responsible.
+    /// Finds the assignment of the deck that is responsible for an error in the structure.
     fn report_structure(
         &mut self,
         error: &StructureError,

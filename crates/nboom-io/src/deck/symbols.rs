@@ -65,7 +65,7 @@ pub enum Numbering {
     SegmentAndStation,
 }
 
-/// What it means when a symbol is not given.
+/// The meaning of a symbol that is not given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Absent {
     /// The deck is wrong.
@@ -96,7 +96,7 @@ pub struct Symbol {
     pub kind: NumberKind,
     /// Unit in the original's letters: D degrees, R radians, F force, L length, T time.
     pub unit: &'static str,
-    /// What holds when it is not given.
+    /// The meaning if it is not given.
     pub absent: Absent,
     /// Meaning in one phrase.
     pub meaning: &'static str,

@@ -17,7 +17,7 @@ pub(crate) struct Sizes {
 }
 
 impl Sizes {
-    /// What arrays are measured against when &DIM does not say it.
+    /// Lengths of arrays when &DIM does not say them.
     pub const LARGEST: Self = Self { segments: LARGEST_COUNT, appendages: LARGEST_COUNT };
 
     pub fn extents(self, symbol: &Symbol) -> Vec<usize> {
@@ -49,7 +49,7 @@ pub(crate) struct Array {
     pub cells: Vec<Option<Cell>>,
     /// Where the symbol is first assigned to.
     pub at: Position,
-    /// Something is wrong with its values, and has been reported.
+    /// Its values have an error, which has been reported.
     pub damaged: bool,
 }
 
@@ -122,7 +122,7 @@ impl Values {
         self.wants_stresses() && self.groups.contains_key(&Group::Dynsta)
     }
 
-    /// Whether nothing but its slices says how much mass segment `i`, from 0, has and where.
+    /// Whether only its slices say how much mass segment `i`, from 0, has and where.
     pub fn is_by_slices(&self, i: usize) -> bool {
         let segments = self.sizes.map_or(0, |sizes| sizes.segments);
         let is_silent =
@@ -133,7 +133,7 @@ impl Values {
             && is_silent("HIIK", 9 * i..9 * (i + 1))
     }
 
-    /// Where an element is given; failing that its symbol, its group, the deck.
+    /// The place of an element, or else of its symbol, of its group, or of the deck.
     pub fn position(&self, key: Key, index: usize) -> Position {
         let array = self.arrays.get(&key);
         let group = SYMBOLS.iter().find(|symbol| symbol.name == key.0).map(|symbol| symbol.group);

@@ -1,5 +1,5 @@
-//! What only the report computes: intermediate quantities of its bending formula, static moments,
-//! its shear stress in tubes, and all that its program of 1970 made of them.
+//! Quantities that only the report has: intermediate ones of its bending formula, static moments,
+//! its shear stress in tubes, and their errors in its program of 1970.
 
 mod original;
 

@@ -3,11 +3,11 @@ use nboom_scalar::{Vec3, Wrench};
 use super::{bending_constants, severest_of_tube, static_moments, tube_stress};
 use crate::{Point, PointStress, Polygon, Section, Stress, Tube, TubeStresses, outline};
 
-/// Walls of a section whose last one the original closed; of more walls it did not.
+/// Most walls of a section whose last wall the original closed.
 const CLOSED_WALLS: usize = 3;
 
-/// What of the program of 1970 is put in place of the right formulas for sections; by default
-/// nothing. `docs/the-1970-program.md` has the evidence for each.
+/// Which slips of the program of 1970 replace the right formulas for sections; by default none.
+/// `docs/the-1970-program.md` has the evidence for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SectionSlips {
     /// Tubes bend with half of their second moment of area.
@@ -40,7 +40,7 @@ impl SectionSlips {
     }
 }
 
-/// A section as the program of 1970 computed it, as far as its slips are asked for.
+/// A section as the program of 1970 computed it, with those of its slips that are selected.
 ///
 /// Points and loads are those of [`Section`]. The maximum of a polygon is searched at the starts of
 /// walls, since all that Section 18 prints are vertices.
@@ -73,7 +73,7 @@ impl Original {
         }
     }
 
-    /// The point at which the von Mises stress is largest; of a polygon, the vertex.
+    /// The point with the largest von Mises stress; for a polygon, the vertex.
     pub fn severest(&self, load: &Wrench<f64>) -> PointStress {
         match &self.section {
             Section::Tube(tube) => {
@@ -97,7 +97,7 @@ impl Original {
         }
     }
 
-    /// The stress that a load makes at a point which [`Original::severest`] found for another one.
+    /// The stress of a load at a point that [`Original::severest`] found for another load.
     pub fn at(&self, point: &PointStress, load: &Wrench<f64>) -> Stress {
         match &self.section {
             Section::Tube(tube) => {
