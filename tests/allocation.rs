@@ -293,3 +293,31 @@ fn steps_of_a_method_allocate_nothing(method: Method) {
     });
     assert_eq!(polynomial, 0);
 }
+
+/// Heat along a rod.
+struct Rod;
+
+impl System for Rod {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        let at = |i: usize| y.get(i).copied().unwrap_or(0.0);
+        for (i, rate) in dy.iter_mut().enumerate() {
+            *rate = 1e4 * (at(i.wrapping_sub(1)) - 2.0 * y[i] + at(i + 1));
+        }
+    }
+}
+
+#[test]
+fn implicit_steps_of_many_variables_allocate_nothing() {
+    // So many that a library for large matrices multiplies them block by block.
+    let y = vec![1.0; 200];
+    let mut stepper = Method::Radau5.stepper(Tolerance { relative: 1e-6, absolute: 1e-9 });
+    stepper.start(&mut Rod, 0.0, &y, y.len());
+    let count = allocations(|| {
+        while stepper.window().time < 1.0 {
+            stepper.step(&mut Rod, 1.0).expect("heat spreads");
+            stepper.advance();
+        }
+    });
+    assert!(stepper.window().counts.factorizations > 3);
+    assert_eq!(count, 0);
+}

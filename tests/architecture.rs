@@ -113,6 +113,31 @@ fn what_must_be_independent_is() {
     }
 }
 
+/// What generates code, and what it generates, builds quickly: it needs no library for large matrices.
+#[test]
+fn nothing_that_generates_depends_on_faer() {
+    let tree = |package: &str| {
+        let output = Command::new(env!("CARGO"))
+            .args(["tree", "--offline", "--prefix", "none", "-e", "normal,build", "-p", package])
+            .current_dir(root())
+            .output()
+            .expect("cargo runs this test, so it can be run");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("names of packages are text")
+    };
+    let has_faer = |package: &str| tree(package).lines().any(|line| line.starts_with("faer "));
+    assert!(has_faer("nboom-ode"), "the tree is read");
+    let packages = packages();
+    let generators = packages.iter().filter(|package| {
+        Path::new(text(&package["manifest_path"])).starts_with(root().join("codegen"))
+    });
+    let names: Vec<&str> = generators.map(|package| text(&package["name"])).collect();
+    assert!(names.contains(&"nboom-codegen"), "{names:?}");
+    for name in names {
+        assert!(!has_faer(name), "{name}");
+    }
+}
+
 /// Every file of ours under `folder` that ends with `ending`.
 fn files(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
     let Ok(entries) = fs::read_dir(folder) else { return };

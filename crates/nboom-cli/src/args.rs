@@ -43,8 +43,8 @@ pub enum Command {
     /// Compare all code that computes accelerations, on random states.
     ///
     /// In half of the states all hinges are free; in the others one or more random hinges are held
-    /// at random angles. The thrust is on and kick-off springs are disengaged. Closed forms and
-    /// generated routines, including one of a larger topology if a run takes it, are compared with
+    /// at random angles. The thrust is on and kick-off springs are disengaged. The whole mass
+    /// matrix, factored by Cholesky's method (dense), closed forms and generated routines, including one of a larger topology if a run takes it, are compared with
     /// the recursion in f64. All code is compared with the recursion in double-double, which has 32
     /// digits. Deviations of accelerations are relative to the largest one. Where the mass matrix,
     /// scaled to diagonal 1, has a condition above 1e4, they are divided by its ratio to 1e4, since

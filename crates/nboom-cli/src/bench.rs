@@ -117,6 +117,9 @@ fn time_of(code: &mut Code<'_>, seconds: f64) -> Times {
         Code::Recursion { dynamics, states, found } => time(seconds, |i| {
             dynamics.accelerations(black_box(&states[i].motion()), black_box(found));
         }),
+        Code::Dense { dense, states } => time(seconds, |i| {
+            black_box(dense.accelerations(black_box(&states[i].motion())));
+        }),
         Code::ClosedForm { formulation, recognised, states } => {
             let Recognised { topology, parameters, .. } = recognised;
             time(seconds, |i| {

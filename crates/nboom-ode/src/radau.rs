@@ -171,7 +171,7 @@ impl Radau {
         let goal = rounding.max(self.tolerance.relative.sqrt().min(0.03));
         let outcome = self.stages.iterate(
             system,
-            &self.matrix,
+            &mut self.matrix,
             (&mut self.window, step),
             (&self.scales, goal),
         );
@@ -353,7 +353,7 @@ impl Stepper for Radau {
             let rounding = f64::EPSILON / self.tolerance.relative;
             self.stages.settle(
                 system,
-                &self.matrix,
+                &mut self.matrix,
                 (&mut self.window, step),
                 (&self.scales, rounding),
             );

@@ -4,6 +4,7 @@ use nboom_model::WeldedTree;
 use nboom_scalar::{Twist, Vec3};
 use nboom_sim::Fit;
 
+use crate::dense::Dense;
 use crate::subject::State;
 
 /// Code that computes accelerations, with the states of a subject as it takes them.
@@ -19,6 +20,13 @@ pub enum Code<'a> {
         states: &'a [State],
         /// Where accelerations go.
         found: Accelerations<f64>,
+    },
+    /// The whole mass matrix, factored; hinge forces included.
+    Dense {
+        /// The matrix in the subject's mode.
+        dense: Box<Dense>,
+        /// The states.
+        states: &'a [State],
     },
     /// A closed form for chains and paddles.
     ClosedForm {
@@ -79,6 +87,10 @@ impl<'a> Code<'a> {
                 let Accelerations { omega_dot_body, origin_body, tau_dot } = found;
                 let main = Twist { angular: *omega_dot_body, linear: *origin_body };
                 flat(main, tau_dot, 0..tau_dot.len())
+            }
+            Self::Dense { dense, states } => {
+                let found = dense.accelerations(&states[i].motion());
+                [&found[3..6], &found[..3], &found[6..]].concat()
             }
             Self::ClosedForm { formulation, recognised, states } => {
                 let Recognised { topology, parameters, links } = recognised;

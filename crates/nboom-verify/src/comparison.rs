@@ -159,8 +159,8 @@ impl Comparison {
     }
 }
 
-/// Takes all code that covers a subject through its states: the recursion, the closed forms, and
-/// the routines that fit among `kernels`, which compute accelerations, and `of_equations`, which
+/// Takes all code that covers a subject through its states: the recursion, the factored mass matrix, the
+/// closed forms, and the routines that fit among `kernels`, which compute accelerations, and `of_equations`, which
 /// compute a formulation's matrix row by row and then its right side, hinges appendage by
 /// appendage. First the subject `free`, all of whose hinges are free, then those of `held`.
 ///

@@ -34,6 +34,9 @@ impl Label {
         virtual_links: 0,
     };
 
+    /// The whole mass matrix by composite bodies, factored by Cholesky's method.
+    pub const DENSE: Self = Self { formulation: "dense", ..Self::RECURSION };
+
     /// A closed form of the library, which takes any facts.
     pub fn generic(formulation: &'static str) -> Self {
         Self { formulation, ..Self::RECURSION }

@@ -1,8 +1,8 @@
 //! Compares and certifies code that computes accelerations, and times whole runs with it.
 //!
 //! A [`Subject`] is a scene with all hinges free or some held, and random states of it. [`compare`]
-//! takes all code that covers it, the recursion, the closed forms and generated routines, through
-//! these states; [`certify`] does so with any one code. Both measure twice: against the recursion in
+//! takes all code that covers it, the recursion, the factored mass matrix, the closed forms and
+//! generated routines, through these states; [`certify`] does so with any one code. Both measure twice: against the recursion in
 //! `f64`, and against the recursion in double-double, which has 32 digits and stands for the
 //! truth. The latter tells the error of the recursion itself too.
 //!
@@ -39,6 +39,7 @@ mod certificate;
 mod code;
 mod comparison;
 mod condition;
+mod dense;
 mod equations;
 mod error;
 mod label;
@@ -51,6 +52,7 @@ mod work_precision;
 pub use certificate::{Certificate, certify, truth};
 pub use code::Code;
 pub use comparison::{Comparison, Row, compare};
+pub use dense::Dense;
 pub use error::VerifyError;
 pub use label::{Hinges, Label, Quantity};
 pub use subject::{NotCovered, State, Subject};

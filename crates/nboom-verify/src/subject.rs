@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::VerifyError;
 use crate::code::Code;
+use crate::dense::Dense;
 use crate::label::Label;
 use crate::random::Dice;
 
@@ -176,15 +177,17 @@ impl Subject {
         Code::recursion(&self.dynamics, &self.states)
     }
 
-    /// All code that covers the subject: the recursion first, then closed forms, then those of
-    /// `kernels` that compute accelerations of its topology and accept its parameters, and the one
+    /// All code that covers the subject: the recursion first, then the whole mass matrix, factored,
+    /// then closed forms, then those of `kernels` that compute accelerations of its topology and accept its parameters, and the one
     /// that a run takes where that is of a larger topology.
     ///
     /// # Errors
     /// [`VerifyError::Sizes`] where one of these is wrong about its sizes.
     pub fn codes(&self, kernels: &'static [Kernel]) -> Result<Vec<(Label, Code<'_>)>, VerifyError> {
         let states: Vec<_> = self.coordinates().collect();
-        let mut codes = vec![(Label::RECURSION, self.recursion())];
+        let dense =
+            Code::Dense { dense: Box::new(Dense::new(&self.dynamics)), states: &self.states };
+        let mut codes = vec![(Label::RECURSION, self.recursion()), (Label::DENSE, dense)];
         let Some(recognised) = self.recognised() else {
             let code = Code::Tree { tree: self.dynamics.tree(), states };
             codes.push((Label::generic(Formulation::Symmetric.name()), code));

@@ -75,7 +75,7 @@ fn labels_say_what_is_taken_for_granted() {
 fn routines_for_other_scenes_are_left_out() {
     let subject = s2_p();
     let other = vec![Kernel::of::<Facts<0>>()].leak();
-    assert_eq!(subject.codes(other).expect("none fits").len(), 6);
+    assert_eq!(subject.codes(other).expect("none fits").len(), 7);
     assert_eq!(subject.not_covered(other)[0].why, "no routine for topology S2_P");
 }
 

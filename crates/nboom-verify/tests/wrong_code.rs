@@ -117,7 +117,7 @@ fn right_code_passes() {
     assert!(comparison.passed() && caught(&comparison).is_empty(), "{comparison:?}");
     assert_eq!(comparison.topology.as_deref(), Some("S2_P"));
     let count = |quantity| comparison.rows.iter().filter(|row| row.quantity == quantity).count();
-    assert_eq!(count(Quantity::Accelerations), 7);
+    assert_eq!(count(Quantity::Accelerations), 8);
     assert_eq!(count(Quantity::MassMatrix), 6);
     assert_eq!(count(Quantity::Forcing), 6);
     assert!(comparison.rows.iter().all(|row| row.from_double_double > 0.0), "{comparison:?}");
@@ -220,10 +220,11 @@ fn a_tree_is_compared_as_a_tree() {
     assert_eq!(comparison.topology, None);
     let labels: Vec<_> = comparison.rows.iter().map(|row| (row.quantity, row.label)).collect();
     let symmetric = Label::generic("symmetric");
-    let expected = [Quantity::Accelerations, Quantity::MassMatrix, Quantity::Forcing]
-        .into_iter()
-        .flat_map(|quantity| [(quantity, Label::RECURSION), (quantity, symmetric)]);
-    assert_eq!(labels, expected.collect::<Vec<_>>());
+    let of_accelerations = [Label::RECURSION, Label::DENSE, symmetric];
+    let of_accelerations = of_accelerations.map(|label| (Quantity::Accelerations, label));
+    let of_equations = [Quantity::MassMatrix, Quantity::Forcing]
+        .map(|quantity| [(quantity, Label::RECURSION), (quantity, symmetric)]);
+    assert_eq!(labels, [&of_accelerations[..], of_equations.as_flattened()].concat());
     assert_eq!(comparison.not_covered.len(), 5);
     assert!(comparison.not_covered.iter().all(|code| code.why.starts_with("hinge 1,")));
 }
@@ -243,8 +244,9 @@ fn code_is_compared_while_hinges_are_held() {
     }
     let generated = with_held().filter(|row| row.label.path == "generated").collect::<Vec<_>>();
     assert!(matches!(generated[..], [row] if row.label.virtual_links > 1), "{generated:?}");
-    // Five formulations and the recursion, three of them with equations, and the routine.
-    assert_eq!(with_held().count(), 7 + 2 * 4);
+    // Five formulations and the recursion, three of them with equations, the factored mass matrix,
+    // and the routine.
+    assert_eq!(with_held().count(), 8 + 2 * 4);
 
     // Compared with nothing but held hinges, so that these alone can tell.
     let free = Subject::new(free.scene().clone(), 0, 1970).expect("finite");

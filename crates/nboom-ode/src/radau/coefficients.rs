@@ -1,8 +1,9 @@
 //! Coefficients of the method of Radau IIA with three stages: Hairer and Wanner, Solving
 //! Ordinary Differential Equations II, 2nd ed., Section IV.8; decimals from their RADAU5.
 
+use faer::c64;
+
 use crate::Radau;
-use crate::linear::Complex;
 use crate::method::Description;
 
 /// The row of [`Method`](crate::Method)'s table.
@@ -24,8 +25,7 @@ pub(super) const C: [f64; 3] = [(4.0 - SQRT_6) / 10.0, (4.0 + SQRT_6) / 10.0, 1.
 pub(super) const REAL: f64 = 3.637_834_252_744_496;
 
 /// One of the complex eigenvalues of A⁻¹.
-pub(super) const COMPLEX: Complex =
-    Complex { re: 2.681_082_873_627_752_3, im: 3.050_430_199_247_410_5 };
+pub(super) const COMPLEX: c64 = c64::new(2.681_082_873_627_752_3, 3.050_430_199_247_410_5);
 
 /// From the variables in which A⁻¹ is block diagonal to stages.
 pub(super) const T: [[f64; 3]; 3] = [

@@ -1,5 +1,7 @@
+use faer::c64;
+
 use super::coefficients::{COMPLEX, REAL};
-use crate::linear::{Complex, Lu};
+use crate::linear::Lu;
 use crate::{Counts, System};
 
 /// The matrices λI − hJ of the simplified Newton iteration, one real and one complex.
@@ -9,7 +11,7 @@ pub(super) struct IterationMatrix {
     /// J, row by row.
     jacobian: Vec<f64>,
     pub real: Lu<f64>,
-    pub complex: Lu<Complex>,
+    pub complex: Lu<c64>,
     /// h of the factors.
     factored: Option<f64>,
     shifted: Vec<f64>,
@@ -112,10 +114,7 @@ impl IterationMatrix {
         let (n, jacobian) = (self.size, &self.jacobian);
         let diagonal = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
         let real = |i, j| REAL * diagonal(i, j) - step * jacobian[i * n + j];
-        let complex = |i, j| Complex {
-            re: COMPLEX.re * diagonal(i, j) - step * jacobian[i * n + j],
-            im: COMPLEX.im * diagonal(i, j),
-        };
+        let complex = |i, j| COMPLEX * diagonal(i, j) - step * jacobian[i * n + j];
         let regular = self.real.factor(real) && self.complex.factor(complex);
         self.factored = regular.then_some(step);
         regular

@@ -1,6 +1,7 @@
+use faer::c64;
+
 use super::coefficients::{C, COMPLEX, REAL, T, T_INVERSE, times};
 use super::iteration_matrix::IterationMatrix;
-use crate::linear::Complex;
 use crate::{System, Window};
 
 /// Iterations after which a step is tried shorter.
@@ -33,7 +34,7 @@ pub(super) struct Stages {
     /// Where the derivative was evaluated last.
     pub argument: Vec<f64>,
     of_real: Vec<f64>,
-    of_complex: Vec<Complex>,
+    of_complex: Vec<c64>,
     /// Ratio of the last two corrections.
     pub contraction: f64,
     /// Sum of all further corrections relative to the last one, as the contraction has it.
@@ -53,7 +54,7 @@ impl Stages {
             buffer.resize(size, 0.0);
         }
         self.of_complex.clear();
-        self.of_complex.resize(size, Complex::default());
+        self.of_complex.resize(size, c64::default());
         (self.contraction, self.tail) = (0.0, 1.0);
     }
 
@@ -69,7 +70,7 @@ impl Stages {
     pub fn iterate(
         &mut self,
         system: &mut dyn System,
-        matrix: &IterationMatrix,
+        matrix: &mut IterationMatrix,
         (window, step): (&mut Window, f64),
         (scales, goal): (&[f64], f64),
     ) -> Outcome {
@@ -109,7 +110,7 @@ impl Stages {
     pub fn settle(
         &mut self,
         system: &mut dyn System,
-        matrix: &IterationMatrix,
+        matrix: &mut IterationMatrix,
         (window, step): (&mut Window, f64),
         (scales, rounding): (&[f64], f64),
     ) {
@@ -134,7 +135,7 @@ impl Stages {
     fn correction(
         &mut self,
         system: &mut dyn System,
-        matrix: &IterationMatrix,
+        matrix: &mut IterationMatrix,
         window: &mut Window,
         step: f64,
         scales: &[f64],
@@ -144,15 +145,13 @@ impl Stages {
         for (i, w) in self.w.iter().enumerate() {
             let f = times(&T_INVERSE, [first[i], second[i], third[i]]);
             self.of_real[i] = step * f[0] - REAL * w[0];
-            self.of_complex[i] = Complex { re: step * f[1], im: step * f[2] }
-                - COMPLEX * Complex { re: w[1], im: w[2] };
+            self.of_complex[i] = step * c64::new(f[1], f[2]) - COMPLEX * c64::new(w[1], w[2]);
         }
         matrix.real.solve(&mut self.of_real);
         matrix.complex.solve(&mut self.of_complex);
         let corrections = self.of_real.iter().zip(&self.of_complex).zip(scales);
-        let square = |((a, b), scale): ((&f64, &Complex), &f64)| {
-            (a * a + b.re * b.re + b.im * b.im) / (scale * scale)
-        };
+        let square =
+            |((a, b), scale): ((&f64, &c64), &f64)| (a * a + b.norm_sqr()) / (scale * scale);
         let sum: f64 = corrections.map(square).sum();
         (sum / (3 * scales.len()).max(1) as f64).sqrt()
     }
