@@ -1,40 +1,81 @@
 use nboom_formulation::Layout;
+use nboom_loads::{RESULT, SceneMotion};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::Request;
+use crate::emit::expression::number;
+use crate::request::{Request, StressRequest};
 
 /// What a routine says of itself.
 pub(crate) struct Signature {
     /// Name of the type.
     pub name: String,
+    /// Path of the crate `nboom_scalar`.
+    pub scalar: syn::Path,
     pub result: &'static str,
     pub topology: String,
     pub formulation: &'static str,
     pub external: bool,
-    /// Parameters taken for granted; `None` stays a runtime value.
-    pub pinned: Vec<Option<f64>>,
+    /// Values of parameters; `None` stays a runtime value.
+    pub assumptions: Vec<Option<f64>>,
     pub coordinates: usize,
     pub outputs: usize,
 }
 
 impl Signature {
-    pub fn of(request: &Request) -> Self {
-        let Request { name, topology, formulation, output, pinned, external, .. } = request;
+    pub fn of(request: &Request, scalar: syn::Path) -> Self {
+        let Request { name, topology, formulation, output, assumptions, external, .. } = request;
         Self {
             name: name.clone(),
+            scalar,
             result: output.name(),
             topology: topology.to_string(),
             formulation: formulation.name(),
             external: *external,
-            pinned: pinned.clone(),
+            assumptions: assumptions.clone(),
             coordinates: Layout::coordinates(topology),
             outputs: output.size(topology),
         }
     }
+
+    pub fn of_stresses(request: &StressRequest, scalar: syn::Path) -> Self {
+        let equations = &request.equations;
+        Self {
+            name: request.name.clone(),
+            scalar,
+            result: RESULT,
+            topology: match equations.hinges() {
+                1 => "1 hinge".to_owned(),
+                hinges => format!("{hinges} hinges"),
+            },
+            formulation: "",
+            external: true,
+            assumptions: request.assumptions(),
+            coordinates: SceneMotion::<f64>::count(equations.hinges()),
+            outputs: equations.load_set().count(),
+        }
+    }
+
+    /// Places and values of what is assumed.
+    fn assumed(&self) -> TokenStream {
+        let assumed = self.assumptions.iter().enumerate();
+        let (places, values): (Vec<usize>, Vec<f64>) =
+            assumed.filter_map(|(i, value)| Some((i, (*value)?))).unzip();
+        let Some(first) = values.first() else { return quote!(&[]) };
+        let (scalar, count) = (&self.scalar, Literal::usize_unsuffixed(places.len()));
+        let places = places.into_iter().map(Literal::usize_unsuffixed);
+        let values = if values.iter().all(|value| value.to_bits() == first.to_bits()) {
+            let value = number(*first);
+            quote!([#value; #count])
+        } else {
+            let values = values.into_iter().map(number);
+            quote!([#(#values),*])
+        };
+        quote!(&#scalar::assumed([#(#places),*], #values))
+    }
 }
 
-/// The implementation of `Routine` for the type that the signature names.
+/// The type that a signature names and its implementation of `Routine`.
 pub(crate) struct Item<'a> {
     pub signature: &'a Signature,
     /// How many constants are prepared.
@@ -45,21 +86,16 @@ pub(crate) struct Item<'a> {
     pub evaluate: TokenStream,
     /// Body of `evaluate_packed` on the packs of `I`.
     pub evaluate_packed: TokenStream,
-    /// Functions of the type itself.
-    pub functions: TokenStream,
 }
 
 impl Item<'_> {
     pub fn tokens(&self) -> TokenStream {
-        let Self { signature, prepare, evaluate, evaluate_packed, functions, .. } = self;
-        let Signature { name, result, topology, formulation, external, pinned, .. } = signature;
+        let Self { signature, prepare, evaluate, evaluate_packed, .. } = self;
+        let Signature { name, result, topology, formulation, external, .. } = signature;
         let name = format_ident!("{name}");
-        let granted = pinned.iter().enumerate().filter_map(|(i, value)| {
-            let (i, value) = (Literal::usize_unsuffixed(i), (*value)?);
-            Some(quote!((#i, #value)))
-        });
+        let assumed = signature.assumed();
         let [parameters, constants, coordinates, outputs] =
-            [pinned.len(), self.constants, signature.coordinates, signature.outputs]
+            [signature.assumptions.len(), self.constants, signature.coordinates, signature.outputs]
                 .map(Literal::usize_unsuffixed);
         quote! {
             pub struct #name;
@@ -67,7 +103,7 @@ impl Item<'_> {
                 const RESULT: &'static str = #result;
                 const TOPOLOGY: &'static str = #topology;
                 const FORMULATION: &'static str = #formulation;
-                const PINNED: &'static [(usize, f64)] = &[#(#granted),*];
+                const PINNED: &'static [(usize, f64)] = #assumed;
                 const EXTERNAL: bool = #external;
                 const PARAMETERS: usize = #parameters;
                 const CONSTANTS: usize = #constants;
@@ -80,20 +116,13 @@ impl Item<'_> {
                 }
                 #[inline(always)]
                 fn evaluate<R: Real>(k: &[R], x: &[R], out: &mut [R]) {
-                    let k: &[R; #constants] = k.try_into().expect("one value for each constant");
-                    let x: &[R; #coordinates] = x.try_into().expect("one value for each coordinate");
-                    let out: &mut [R; #outputs] = out.try_into().expect("room for each output");
                     #evaluate
                 }
                 #[inline(always)]
                 fn evaluate_packed<I: Isa>(k: &[f64], x: &[f64], out: &mut [f64]) {
-                    let k: &[f64; #constants] = k.try_into().expect("one value for each constant");
-                    let x: &[f64; #coordinates] = x.try_into().expect("one value for each coordinate");
-                    let out: &mut [f64; #outputs] = out.try_into().expect("room for each output");
                     #evaluate_packed
                 }
             }
-            impl #name { #functions }
         }
     }
 }
