@@ -8,7 +8,7 @@ mod stresses;
 
 use nboom_formulation::Formulation;
 
-pub(crate) use rolled::{Equal, Placed, Rolled, Steps};
+pub(crate) use rolled::{Chain, Equal, Paddle, Placed, Rolled, Steps};
 pub use routine::trace;
 pub(crate) use split::Split;
 pub(crate) use stage::{Masked, Traced};

@@ -1,6 +1,6 @@
 //! Generated code against the closed form it was traced from: bit for bit at level `exact`, to
-//! rounding at level `fast`, in this processor's instruction set; and what a routine takes for
-//! is never read.
+//! rounding at level `fast`, in this processor's instruction set; and what a routine assumes is
+//! never read.
 
 use nboom_formulation::{Coordinates, Equations, Formulation, Layout, Parameters};
 use nboom_model::Topology;

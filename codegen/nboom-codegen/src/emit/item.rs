@@ -56,6 +56,17 @@ impl Signature {
         }
     }
 
+    /// Makes arrays of known sizes of the slices that an evaluation on the numbers `of` is given.
+    pub fn sized(&self, constants: usize, of: &TokenStream) -> TokenStream {
+        let [constants, coordinates, outputs] =
+            [constants, self.coordinates, self.outputs].map(Literal::usize_unsuffixed);
+        quote! {
+            let k: &[#of; #constants] = k.try_into().expect("one value for each constant");
+            let x: &[#of; #coordinates] = x.try_into().expect("one value for each coordinate");
+            let out: &mut [#of; #outputs] = out.try_into().expect("room for each output");
+        }
+    }
+
     /// Places and values of what is assumed.
     fn assumed(&self) -> TokenStream {
         let assumed = self.assumptions.iter().enumerate();

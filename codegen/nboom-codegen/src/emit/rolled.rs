@@ -11,7 +11,7 @@ use crate::emit::places::{place, repeated};
 use crate::emit::stage::Step;
 use crate::emit::sweeps::Sweeps;
 use crate::request::Level;
-use crate::trace::{Equal, Placed, Rolled, Steps};
+use crate::trace::{Chain, Equal, Paddle, Placed, Rolled, Steps};
 
 /// The routine's items.
 pub(crate) fn items(rolled: &Rolled, level: Level, signature: &Signature) -> TokenStream {
@@ -25,12 +25,15 @@ pub(crate) fn items(rolled: &Rolled, level: Level, signature: &Signature) -> Tok
     let of_groups = rolled.groups.iter().map(|(group, steps)| prepare(group, steps, level));
     let of_main = quote!(let main: [R; 10] = R::gather_all(p, 0, 1););
     let base = store(&rolled.base, &format_ident!("main"), 1, &[], level);
+    let (on_any, in_packs) = (driver.on_any_scalar(), driver.in_packs());
+    let [sized, sized_for_packs] =
+        [quote!(R), quote!(f64)].map(|of| signature.sized(rolled.constants, &of));
     let item = Item {
         signature,
         constants: rolled.constants,
         prepare: quote!(#(#of_groups)* #of_main #base),
-        evaluate: driver.on_any_scalar(),
-        evaluate_packed: driver.in_packs(),
+        evaluate: quote!(#sized #on_any),
+        evaluate_packed: quote!(#sized_for_packs #in_packs),
     };
     let item = item.tokens();
     let steps = rolled.steps().into_iter().map(|placed| {
@@ -58,7 +61,8 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
         };
         let branch = array("branch", Layout::BRANCH, place(group.parameter, &[(stride, a)]));
         match steps {
-            Steps::Chain { start, outward, inward, root, first, .. } => {
+            Steps::Chain(chain) => {
+                let Chain { start, outward, inward, root, first, .. } = chain.as_ref();
                 let of_branch = [start, root, first].map(|step| store(step, "branch", None));
                 let links = repeated("i", group.shape.hinges(), false, |i| {
                     let at = group.parameter + Layout::BRANCH;
@@ -69,7 +73,8 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
                 });
                 quote!(#branch #(#of_branch)* #links)
             }
-            Steps::Paddle { inward, first, .. } => {
+            Steps::Paddle(paddle) => {
+                let Paddle { inward, first, .. } = paddle.as_ref();
                 let at = place(group.parameter, &[(stride, a)]);
                 let whole = array("whole", stride, at);
                 let of_whole = store(inward, "whole", None);

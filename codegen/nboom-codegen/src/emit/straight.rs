@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nboom_expr::Id;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::emit::inputs::{Inputs, Reading, used};
@@ -26,9 +26,7 @@ pub(crate) fn items(
     signature: &Signature,
     names: &Names,
 ) -> TokenStream {
-    let [constants, coordinates, outputs] =
-        [split.constants.len(), signature.coordinates, signature.outputs]
-            .map(Literal::usize_unsuffixed);
+    let sized = signature.sized(split.constants.len(), &quote!(S));
     let statements = evaluate(split, level, names);
     let item = Item {
         signature,
@@ -43,9 +41,7 @@ pub(crate) fn items(
         /// The evaluation on scalars or packs `R` of numbers `S`.
         #[inline(always)]
         fn evaluate_on<S: Copy, R: Pack<S>>(k: &[S], x: &[S], out: &mut [S]) {
-            let k: &[S; #constants] = k.try_into().expect("one value for each constant");
-            let x: &[S; #coordinates] = x.try_into().expect("one value for each coordinate");
-            let out: &mut [S; #outputs] = out.try_into().expect("room for each output");
+            #sized
             #statements
         }
     }

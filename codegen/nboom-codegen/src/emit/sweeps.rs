@@ -8,7 +8,7 @@ use quote::{format_ident, quote};
 use crate::emit::comment::comment;
 use crate::emit::driver::{Call, saved};
 use crate::emit::places::{place, repeated, slot};
-use crate::trace::{Equal, Placed, Steps};
+use crate::trace::{Chain, Equal, Paddle, Placed, Steps};
 
 /// The sweeps of a group of equal appendages.
 pub(crate) struct Sweeps<'a> {
@@ -26,11 +26,11 @@ impl<'a> Sweeps<'a> {
     /// How an evaluation calls them.
     pub fn call(&self) -> Call {
         let saved = match self.steps {
-            Steps::Chain { inward, .. } => {
-                vec![(inward.traced.size(ELIMINATED), Some(self.group.shape.hinges()))]
+            Steps::Chain(chain) => {
+                vec![(chain.inward.traced.size(ELIMINATED), Some(self.group.shape.hinges()))]
             }
-            Steps::Paddle { inward, .. } => {
-                [ELIMINATED, PADDLE].map(|group| (inward.traced.size(group), None)).to_vec()
+            Steps::Paddle(paddle) => {
+                [ELIMINATED, PADDLE].map(|group| (paddle.inward.traced.size(group), None)).to_vec()
             }
         };
         Call { prefix: self.group.prefix(), count: self.group.count, saved }
@@ -39,12 +39,8 @@ impl<'a> Sweeps<'a> {
     /// Both functions.
     pub fn functions(&self) -> TokenStream {
         let (inward, outward) = match self.steps {
-            Steps::Chain { start, outward, inward, root, first, back } => {
-                (self.chain_in(start, outward, inward, root), self.chain_out(first, back))
-            }
-            Steps::Paddle { inward, first, back } => {
-                (self.paddle_in(inward), self.paddle_out(first, back))
-            }
+            Steps::Chain(chain) => (self.chain_in(chain), self.chain_out(chain)),
+            Steps::Paddle(paddle) => (self.paddle_in(paddle), self.paddle_out(paddle)),
         };
         let (saved, prefix) = (saved(&self.call().saved, &quote!(P)), self.group.prefix());
         let (in_name, out_name) = (format_ident!("{prefix}_in"), format_ident!("{prefix}_out"));
@@ -105,13 +101,8 @@ impl<'a> Sweeps<'a> {
         quote!(P::gather(x, #at))
     }
 
-    fn chain_in(
-        &self,
-        start: &Placed,
-        outward: &Placed,
-        inward: &Placed,
-        root: &Placed,
-    ) -> TokenStream {
+    fn chain_in(&self, chain: &Chain) -> TokenStream {
+        let Chain { start, outward, inward, root, .. } = chain;
         let (angles, outward) = (self.angles(), self.links_outward(outward));
         let (inward, add) = (self.links_inward(inward), self.add(root));
         let (start_, root_) = (name(start), name(root));
@@ -187,7 +178,8 @@ impl<'a> Sweeps<'a> {
         }
     }
 
-    fn chain_out(&self, first: &Placed, back: &Placed) -> TokenStream {
+    fn chain_out(&self, chain: &Chain) -> TokenStream {
+        let Chain { first, back, .. } = chain;
         let (first_, back_, k_first) = (name(first), name(back), self.argument(first));
         let (a, count) = (format_ident!("a"), self.group.count);
         let output = Layout::OUTPUT + self.group.hinge;
@@ -205,7 +197,8 @@ impl<'a> Sweeps<'a> {
         }
     }
 
-    fn paddle_in(&self, inward: &Placed) -> TokenStream {
+    fn paddle_in(&self, paddle: &Paddle) -> TokenStream {
+        let Paddle { inward, .. } = paddle;
         let (inward_, k_inward) = (name(inward), self.argument(inward));
         let start = Layout::STATE + Layout::HINGE * self.group.hinge;
         let at = place(start, &[(1, Some(&format_ident!("a")))]);
@@ -219,7 +212,8 @@ impl<'a> Sweeps<'a> {
         }
     }
 
-    fn paddle_out(&self, first: &Placed, back: &Placed) -> TokenStream {
+    fn paddle_out(&self, paddle: &Paddle) -> TokenStream {
+        let Paddle { first, back, .. } = paddle;
         let (first_, back_, k_first) = (name(first), name(back), self.argument(first));
         let output = Layout::OUTPUT + self.group.hinge;
         let at = place(output, &[(1, Some(&format_ident!("a")))]);

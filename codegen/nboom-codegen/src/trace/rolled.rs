@@ -34,21 +34,27 @@ pub(crate) struct Equal {
     pub hinge: usize,
 }
 
-/// The steps of an appendage, in the order in which their constants stand.
+/// The steps of an appendage.
 pub(crate) enum Steps {
-    Chain {
-        start: Placed,
-        outward: Placed,
-        inward: Placed,
-        root: Placed,
-        first: Placed,
-        back: Placed,
-    },
-    Paddle {
-        inward: Placed,
-        first: Placed,
-        back: Placed,
-    },
+    Chain(Box<Chain>),
+    Paddle(Box<Paddle>),
+}
+
+/// The steps of a chain, in the order in which their constants stand.
+pub(crate) struct Chain {
+    pub start: Placed,
+    pub outward: Placed,
+    pub inward: Placed,
+    pub root: Placed,
+    pub first: Placed,
+    pub back: Placed,
+}
+
+/// The steps of a paddle, in the order in which their constants stand.
+pub(crate) struct Paddle {
+    pub inward: Placed,
+    pub first: Placed,
+    pub back: Placed,
 }
 
 /// A traced step and where its constants stand.
@@ -100,18 +106,18 @@ impl Equal {
 impl Steps {
     fn all(&self) -> Vec<&Placed> {
         match self {
-            Self::Chain { start, outward, inward, root, first, back } => {
-                vec![start, outward, inward, root, first, back]
+            Self::Chain(of) => {
+                vec![&of.start, &of.outward, &of.inward, &of.root, &of.first, &of.back]
             }
-            Self::Paddle { inward, first, back } => vec![inward, first, back],
+            Self::Paddle(of) => vec![&of.inward, &of.first, &of.back],
         }
     }
 
     /// Which numbers at O an appendage shows.
     pub fn at_origin(&self) -> &[bool] {
         match self {
-            Self::Chain { root, .. } => root.traced.live(AT_ORIGIN),
-            Self::Paddle { inward, .. } => inward.traced.live(AT_ORIGIN),
+            Self::Chain(of) => of.root.traced.live(AT_ORIGIN),
+            Self::Paddle(of) => of.inward.traced.live(AT_ORIGIN),
         }
     }
 }
@@ -126,8 +132,10 @@ impl Rolled {
         for (shape, count) in request.topology.groups() {
             let group = Equal { shape, count, parameter, hinge };
             let steps = match shape {
-                Shape::Chain(links) => chain(request, &group, links, &mut places),
-                Shape::Paddle => paddle(request, &group, &mut places),
+                Shape::Chain(links) => {
+                    Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
+                }
+                Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
             };
             for (any, live) in at_origin.iter_mut().zip(steps.at_origin()) {
                 *any |= live;
@@ -157,8 +165,8 @@ impl Rolled {
         let mut operations = self.sum(|traced| traced.split.evaluation());
         // Absolute angles are added up, and their sines taken, between the steps of chains.
         for (_, steps) in &self.groups {
-            if let Steps::Chain { outward, .. } = steps {
-                operations.angles += outward.times;
+            if let Steps::Chain(chain) = steps {
+                operations.angles += chain.outward.times;
             }
         }
         operations
@@ -190,7 +198,7 @@ impl Places {
     }
 }
 
-fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) -> Steps {
+fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) -> Chain {
     let prefix = group.prefix();
     let branch = group.assumptions(request, 0, Layout::BRANCH, 1);
     let link = group.assumptions(request, Layout::BRANCH, Layout::LINK, links);
@@ -210,7 +218,7 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
     masks.insert(ELIMINATED.name, inward.live(ELIMINATED).to_vec());
     let back = trace(&stages::back(), &[], &masks);
     let (once, each) = (group.count, links * group.count);
-    Steps::Chain {
+    Chain {
         start: places.place(start, once),
         outward: places.place(outward, each),
         inward: places.place(inward, each),
@@ -220,7 +228,7 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
     }
 }
 
-fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Steps {
+fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Paddle {
     let prefix = group.prefix();
     let whole = group.assumptions(request, 0, group.parameters(), 1);
     let branch = group.assumptions(request, 0, Layout::BRANCH, 1);
@@ -231,7 +239,7 @@ fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Steps {
         (PADDLE.name, inward.live(PADDLE).to_vec()),
     ]);
     let back = Traced::new(&prefix, &stages::paddle_back(), &[], &masks);
-    Steps::Paddle {
+    Paddle {
         inward: places.place(inward, group.count),
         first: places.place(first, group.count),
         back: places.place(back, group.count),

@@ -46,6 +46,9 @@ pub mod routine_four_s3 {
         }
         #[inline(always)]
         fn evaluate<R: Real>(k: &[R], x: &[R], out: &mut [R]) {
+            let k: &[R; 256] = k.try_into().expect("one value for each constant");
+            let x: &[R; 45] = x.try_into().expect("one value for each coordinate");
+            let out: &mut [R; 18] = out.try_into().expect("room for each output");
             let mut seen = [R::zero(); 27];
             let mut s3_saved = [[[R::zero(); 6]; 3]; 4];
             for a in 0..4 {
@@ -58,6 +61,9 @@ pub mod routine_four_s3 {
         }
         #[inline(always)]
         fn evaluate_packed<I: Isa>(k: &[f64], x: &[f64], out: &mut [f64]) {
+            let k: &[f64; 256] = k.try_into().expect("one value for each constant");
+            let x: &[f64; 45] = x.try_into().expect("one value for each coordinate");
+            let out: &mut [f64; 18] = out.try_into().expect("room for each output");
             let mut seen = [0.0; 27];
             let mut s3_saved_0 = [[I::Four::zero(); 6]; 3];
             s3_in::<f64, I::Four>(k, x, 0, &mut s3_saved_0, &mut seen);
