@@ -1,9 +1,8 @@
 //! Generates the stock routines.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
-use nboom_codegen::{Level, Request, source};
+use nboom_codegen::{Level, Module, Request};
 use nboom_formulation::{Formulation, Layout};
 use nboom_model::Shape::{Chain, Paddle};
 use nboom_model::{Shape, Topology};
@@ -36,11 +35,12 @@ const OTHERS: [Formulation; 4] =
     [Formulation::Report, Formulation::Relative, Formulation::Symmetric, Formulation::Momentum];
 
 fn main() {
-    let routines = [table("stock", &accelerations()), table("of_equations", &equations())];
-    let exact: Vec<String> = exact().iter().map(source_of).collect();
     let directory = std::env::var_os("OUT_DIR").expect("cargo runs build scripts");
     let directory = PathBuf::from(directory);
-    for (file, code) in [("routines.rs", routines.concat()), ("exact.rs", exact.concat())] {
+    let files =
+        [("stock.rs", accelerations()), ("equations.rs", equations()), ("exact.rs", exact())];
+    for (file, requests) in files {
+        let code = Module::from(requests).text().expect("stock topologies can be generated");
         std::fs::write(directory.join(file), code).expect("the output directory can be written");
     }
     println!("cargo::rerun-if-changed=build.rs");
@@ -87,23 +87,23 @@ fn exact() -> Vec<Request> {
     rolled.into_iter().chain([unequal]).chain(general).chain(principal).chain(equations).collect()
 }
 
-/// Takes for granted of some appendages and links what it does not of others, or other numbers.
+/// Assumes of some appendages and links what it does not of others, or other numbers.
 fn unequal(mut request: Request) -> Request {
     let link = |appendage: usize, link: usize| {
         let branch = Layout::MAIN + appendage * (Layout::BRANCH + 2 * Layout::LINK);
         branch + Layout::BRANCH + link * Layout::LINK
     };
-    let mut pin = |at: usize, value: f64| request.pinned[at] = Some(value);
+    let mut assume = |at: usize, value: f64| request.assumptions[at] = Some(value);
     // The first appendage's masses; the last one's hinge point, in front of its links.
-    pin(link(0, 0), 1.25);
-    pin(link(0, 1), 1.5);
-    pin(link(3, 0) - 1, 0.0);
+    assume(link(0, 0), 1.25);
+    assume(link(0, 1), 1.5);
+    assume(link(3, 0) - 1, 0.0);
     for appendage in 0..4 {
         // First moments: of the first link alone, of all links.
-        pin(link(appendage, 0) + 1, 0.0);
-        (0..2).for_each(|i| pin(link(appendage, i) + 3, 0.0));
+        assume(link(appendage, 0) + 1, 0.0);
+        (0..2).for_each(|i| assume(link(appendage, i) + 3, 0.0));
         // A moment of inertia that is another one in each appendage.
-        (0..2).for_each(|i| pin(link(appendage, i) + 5, 1.5 + 0.25 * appendage as f64));
+        (0..2).for_each(|i| assume(link(appendage, i) + 5, 1.5 + 0.25 * appendage as f64));
     }
     request
 }
@@ -113,7 +113,7 @@ fn with_equations(request: impl Fn(Formulation) -> Request) -> Vec<Request> {
     all.filter(|formulation| formulation.has_equations()).map(request).collect()
 }
 
-/// S2_P with external wrench, nothing taken for granted: for example `ReportEquationsS2P`.
+/// S2_P with external wrench, nothing assumed: for example `ReportEquationsS2P`.
 fn s2_p(word: &str, level: Level, formulation: Formulation) -> Request {
     let name = camel_case(formulation) + word + "S2P";
     Request::new(&name, Topology::new([Chain(2), Paddle]), level)
@@ -124,20 +124,6 @@ fn s2_p(word: &str, level: Level, formulation: Formulation) -> Request {
 fn camel_case(formulation: Formulation) -> String {
     let (first, rest) = formulation.name().split_at(1);
     first.to_uppercase() + rest
-}
-
-/// Routines, and a function that lists them.
-fn table(function: &str, requests: &[Request]) -> String {
-    let mut code: String = requests.iter().map(source_of).collect();
-    let row = |request: &Request| format!("        Kernel::of::<{}>(),\n", request.name);
-    let rows: String = requests.iter().map(row).collect();
-    write!(code, "fn {function}() -> Vec<Kernel> {{\n    vec![\n{rows}    ]\n}}\n")
-        .expect("a string takes any text");
-    code
-}
-
-fn source_of(request: &Request) -> String {
-    source(request).expect("stock topologies can be generated")
 }
 
 /// For example `PrincipalS2P` or `General4S3`.

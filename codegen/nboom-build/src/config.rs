@@ -65,7 +65,7 @@ impl Config {
     }
 
     /// Adds a routine for the topology of a scene, numbers at run time; what is zero in the scene
-    /// is taken for granted. Its type is named after the topology: `SatelliteS2P`.
+    /// is assumed. Its type is named after the topology: `SatelliteS2P`.
     pub fn scene(self, path: impl Into<PathBuf>) -> Self {
         self.of_scene(path.into(), Numbers::RunTime)
     }
@@ -104,7 +104,7 @@ impl Config {
         Self { external_wrench: true, ..self }
     }
 
-    /// Routines of topologies take for granted that inertias stand along the segment axes, every
+    /// Routines of topologies assume that inertias stand along the segment axes, every
     /// mass centre and next hinge is on its segment's η axis, and O is at the main body's mass
     /// centre. Only `Kernel::accepts` refuses the numbers of other satellites.
     pub fn with_principal_axes(self) -> Self {

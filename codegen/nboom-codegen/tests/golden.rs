@@ -111,6 +111,20 @@ fn small_satellites_are_straight_lines_and_large_ones_loops() {
     assert!(evaluation.flops() <= nboom_codegen::STRAIGHT_LIMIT);
 }
 
+#[test]
+fn what_is_checked_in_is_formatted_as_rustfmt_does() {
+    let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = ["s1.rs", "four_s3.rs", "stresses.rs"]
+        .map(|name| crate_root.join("tests/golden").join(name));
+    let rustfmt = std::process::Command::new("rustfmt")
+        .args(["--check", "--edition", "2024", "--config-path"])
+        .arg(crate_root.join("../.."))
+        .args(files)
+        .output();
+    let said = rustfmt.expect("the toolchain has rustfmt");
+    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stdout));
+}
+
 /// A satellite with a positive mass matrix, other numbers for each `case`.
 fn parameters<T: Routine>(topology: &Topology, case: usize) -> Vec<f64> {
     let mut count = 0;
@@ -250,9 +264,9 @@ fn names_and_paths_that_are_none_are_refused() {
 
 #[test]
 fn parameters_that_do_not_fit_are_refused() {
-    let (topology, expected) = (s1().topology.to_string(), s1().pinned.len());
+    let (topology, expected) = (s1().topology.to_string(), s1().assumptions.len());
     for found in [0, expected - 1, expected + 1] {
-        let request = Request { pinned: vec![None; found], ..s1() };
+        let request = Request { assumptions: vec![None; found], ..s1() };
         assert_eq!(
             refusal(&request),
             CodegenError::Parameters { topology: topology.clone(), found, expected }
@@ -260,7 +274,7 @@ fn parameters_that_do_not_fit_are_refused() {
     }
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut request = s1();
-        request.pinned[7] = Some(bad);
+        request.assumptions[7] = Some(bad);
         let error = refusal(&request);
         let CodegenError::NotFinite { number, value, .. } = error else {
             panic!("{topology}: {error}");

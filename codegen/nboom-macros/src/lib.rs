@@ -20,11 +20,11 @@ const SCALAR: &str = "::nboom::scalar";
 /// | --- | --- | --- |
 /// | `formulation = NAME` | `report`, `relative`, `symmetric`, `articulated` or `momentum` | `articulated` |
 /// | `level = NAME` | `exact`: values of the closed form; `fast`: fused products and sums | `fast` |
-/// | `facts = principal` | taken for granted: inertias along the segment axes, mass centres and next hinges on the η axis, O at the main body's mass centre | all numbers at run time |
+/// | `assumptions = principal` | inertias along the segment axes, mass centres and next hinges on the η axis, O at the main body's mass centre | all numbers at run time |
 /// | `external` | an external wrench on the main body | none |
 /// | `equations` | the matrix and the right side that the formulation solves | accelerations |
 ///
-/// A routine with `facts = principal` computes something else for other satellites. Only
+/// A routine with `assumptions = principal` computes something else for other satellites. Only
 /// `Kernel::accepts` refuses their numbers; `Kernel::prepare` does not look.
 ///
 /// ```
@@ -53,7 +53,7 @@ pub fn routine(input: TokenStream) -> TokenStream {
 /// The path is relative to the folder of the program's `Cargo.toml`. There is a routine with all
 /// numbers of the scene built in, one that takes them at run time, and routines for states with
 /// held hinges: one for each topology of a scene of up to 10 hinges; with more, those in which all
-/// appendages are held in step; at most 32. One more takes nothing for granted: other states, and
+/// appendages are held in step; at most 32. One more assumes nothing: other states, and
 /// the scene with other numbers, run embedded in it. When the file changes, the program is compiled
 /// again.
 ///

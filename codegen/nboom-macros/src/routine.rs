@@ -99,13 +99,13 @@ fn with(request: Request, option: &Ident, input: ParseStream<'_>) -> Result<Requ
             let level = value(input, &[Level::Exact, Level::Fast], Level::name)?;
             Request { level, ..request }
         }
-        "facts" => {
+        "assumptions" => {
             value(input, &["principal"], |name| name).map(|_| request.with_principal_axes())?
         }
         "external" => request.with_external_wrench(),
         "equations" => request.for_equations(),
         _ => {
-            let all = ["formulation", "level", "facts", "external", "equations"];
+            let all = ["formulation", "level", "assumptions", "external", "equations"];
             return Err(unknown(option, &all));
         }
     })
@@ -165,14 +165,18 @@ mod tests {
 
     #[test]
     fn unknown_options_and_values_are_refused_there() {
-        is_refused("S: S2, speed = fast", "speed", &["`speed` found", "formulation, level, facts"]);
+        is_refused(
+            "S: S2, speed = fast",
+            "speed",
+            &["`speed` found", "formulation, level, assumptions"],
+        );
         is_refused(
             "S: S2, formulation = newton",
             "newton",
             &["`newton` found", "report, relative, symmetric, articulated, momentum expected"],
         );
         is_refused("S: S2, level = quick", "quick", &["`quick` found, one of exact, fast"]);
-        is_refused("S: S2, facts = none", "none", &["one of principal expected"]);
+        is_refused("S: S2, assumptions = none", "none", &["one of principal expected"]);
         is_refused("S: S2, external, external", "external", &["`external` is given twice"]);
     }
 

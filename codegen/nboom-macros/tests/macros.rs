@@ -10,7 +10,8 @@ use nboom::strength::{Settings, StressAnalysis, Worst};
 nboom::routine! { pub Satellite: S2_P }
 nboom::routine! {
     /// In a different order, with every option.
-    Forced: P_S2, equations, external, level = exact, formulation = symmetric, facts = principal,
+    Forced: P_S2, equations, external, level = exact, formulation = symmetric,
+    assumptions = principal,
 }
 nboom::routine! { ByName: "2xS1", level = exact }
 nboom::routine! { OneToken: 4xS1_P }

@@ -13,13 +13,20 @@ use std::sync::OnceLock;
 
 use nboom_scalar::{Batch, Kernel};
 
-include!(concat!(env!("OUT_DIR"), "/routines.rs"));
+mod stock {
+    include!(concat!(env!("OUT_DIR"), "/stock.rs"));
+}
+
+mod of_equations {
+    include!(concat!(env!("OUT_DIR"), "/equations.rs"));
+}
+
+pub use stock::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
 
 /// The stock routines for accelerations: those of `articulated`, the more specialised one of each
 /// topology first, then those of S2_P by the other formulations.
 pub fn all() -> &'static [Kernel] {
-    static ALL: OnceLock<Vec<Kernel>> = OnceLock::new();
-    ALL.get_or_init(stock)
+    stock::kernels()
 }
 
 /// Matrix and right side of S2_P by `report`, `relative` and `symmetric`, hinges appendage by
@@ -30,8 +37,14 @@ pub fn all() -> &'static [Kernel] {
 /// assert!(nboom_routines::equations().iter().all(|kernel| kernel.outputs == size * size + size));
 /// ```
 pub fn equations() -> &'static [Kernel] {
-    static EQUATIONS: OnceLock<Vec<Kernel>> = OnceLock::new();
-    EQUATIONS.get_or_init(of_equations)
+    static EQUATIONS: OnceLock<[Kernel; 3]> = OnceLock::new();
+    EQUATIONS.get_or_init(|| {
+        [
+            Kernel::of::<of_equations::ReportEquationsS2P>(),
+            Kernel::of::<of_equations::RelativeEquationsS2P>(),
+            Kernel::of::<of_equations::SymmetricEquationsS2P>(),
+        ]
+    })
 }
 
 /// Routines on eight states at once, for satellites with principal axes.

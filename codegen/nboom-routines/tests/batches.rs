@@ -117,7 +117,7 @@ fn what_is_not_a_number_stays_in_its_lane() {
 }
 
 #[test]
-fn one_state_that_breaks_what_is_taken_for_granted_is_not_accepted() {
+fn one_state_that_breaks_an_assumption_is_not_accepted() {
     for batch in nboom_routines::batches() {
         let mut parameters = side_by_side(&Satellites::of(batch).parameters);
         assert!(batch.accepts(&parameters));

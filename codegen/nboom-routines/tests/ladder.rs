@@ -1,6 +1,6 @@
 //! Generated code against the closed form it was traced from: bit for bit at level `exact`, to
-//! rounding at level `fast`, in this processor's instruction set; and what a routine takes for
-//! granted is never read.
+//! rounding at level `fast`, in this processor's instruction set; and what a routine assumes is
+//! never read.
 
 use nboom_formulation::{Coordinates, Equations, Formulation, Layout, Parameters};
 use nboom_model::Topology;
@@ -100,7 +100,7 @@ fn exact_code_is_the_closed_form_bit_for_bit() {
 
 /// Appendages and links that go through loops together.
 #[test]
-fn what_is_taken_for_granted_of_one_appendage_or_link_is_not_of_the_others() {
+fn what_is_assumed_of_one_appendage_or_link_is_not_of_the_others() {
     is_the_closed_form::<exact::RolledUnequal>();
     const { assert!(exact::RolledUnequal::PINNED.len() == 3 + 4 * 5) };
 }
@@ -128,8 +128,8 @@ fn lanes_hold_independent_states() {
     }
 }
 
-/// Other numbers in the place of what the routine takes for granted change nothing.
-fn takes_for_granted<T: Routine>() {
+/// Other numbers in the place of what the routine assumes change nothing.
+fn never_reads_assumptions<T: Routine>() {
     let topology = ClosedForm::of::<T>().topology;
     let mut numbers = Numbers(3);
     let mut parameters = parameters(&topology, T::PINNED, &mut numbers);
@@ -146,8 +146,8 @@ fn takes_for_granted<T: Routine>() {
 }
 
 #[test]
-fn what_a_routine_takes_for_granted_is_never_read() {
-    for_each_exact_routine!(takes_for_granted);
+fn what_a_routine_never_reads_assumptions_is_never_read() {
+    for_each_exact_routine!(never_reads_assumptions);
     const { assert!(!exact::MomentumS1P::PINNED.is_empty() && !exact::MomentumS1P::EXTERNAL) };
 }
 
@@ -195,7 +195,7 @@ fn the_stock_has_all_formulations_of_one_topology_and_articulated_before_them() 
 }
 
 #[test]
-fn a_parameter_that_breaks_what_is_taken_for_granted_is_not_accepted() {
+fn a_parameter_that_breaks_an_assumption_is_not_accepted() {
     for kernel in nboom_routines::all().iter().filter(|kernel| !kernel.pinned.is_empty()) {
         let topology = ClosedForm::of_kernel(kernel).topology;
         let mut parameters = parameters(&topology, kernel.pinned, &mut Numbers(5));

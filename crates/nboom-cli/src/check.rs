@@ -37,12 +37,12 @@ pub(crate) fn warnings(file: &SceneFile) -> Vec<String> {
 /// The topology with all hinges free, and the assumptions of code generated for the scene.
 #[cfg(feature = "generator")]
 fn generated_code(scene: &Scene) -> String {
-    use nboom_codegen::{Level, Numbers, Request, granted};
+    use nboom_codegen::{Level, Numbers, Request};
     let request = match Request::of_scene(scene, Numbers::RunTime, Level::Fast) {
         Ok(request) => request,
         Err(error) => return format!("generated code: none, {error}\n"),
     };
-    let phrases = granted(&request.topology, &request.pinned, request.external);
+    let phrases = request.assumptions_in_words();
     let phrases = if phrases.is_empty() { "nothing".to_owned() } else { phrases.join("; ") };
     format!("topology: {}\ngenerated code takes for granted: {phrases}\n", request.topology)
 }

@@ -58,6 +58,11 @@ impl Real for Expr {
         let (sin, cos) = with_builder(|builder| fold::sin_cos(builder, self.0));
         (Self(sin), Self(cos))
     }
+
+    fn remark(words: impl FnOnce() -> String) {
+        let words = words();
+        with_builder(|builder| builder.remark(words));
+    }
 }
 
 impl Add for Expr {

@@ -59,8 +59,17 @@ impl Node {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Graph {
     pub(crate) nodes: Vec<Node>,
+    pub(crate) remarks: Remarks,
     pub(crate) outputs: Vec<Id>,
     pub(crate) inputs: usize,
+}
+
+/// What a computation says of its parts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Remarks {
+    words: Vec<String>,
+    /// For each node how many remarks were made before it.
+    pub(crate) before: Vec<usize>,
 }
 
 /// Nodes under construction, each stored once.
@@ -68,26 +77,43 @@ pub struct Graph {
 pub(crate) struct Builder {
     /// Whether operations on constants stay operations instead of being rounded to `f64`.
     pub exact: bool,
+    /// How many remarks were made before the nodes that are added now.
+    pub remarked: usize,
+    remarks: Remarks,
     nodes: Vec<Node>,
     numbers: HashMap<Node, Id>,
 }
 
 impl Builder {
+    /// No nodes yet, with remarks that are made already.
+    pub fn remarked_as(remarks: &Remarks) -> Self {
+        let remarks = Remarks { words: remarks.words.clone(), before: Vec::new() };
+        Self { remarks, ..Self::default() }
+    }
+
     /// The number of `node`, which is added when it is new.
     pub fn intern(&mut self, node: Node) -> Id {
         *self.numbers.entry(node).or_insert_with(|| {
             let id = Id(u32::try_from(self.nodes.len()).expect("graphs have fewer than 2³² nodes"));
             self.nodes.push(node);
+            self.remarks.before.push(self.remarked);
             id
         })
+    }
+
+    pub fn remark(&mut self, words: String) {
+        self.remarks.words.push(words);
+        self.remarked = self.remarks.words.len();
     }
 
     pub fn node(&self, id: Id) -> Node {
         self.nodes[id.index()]
     }
 
-    pub fn into_nodes(self) -> Vec<Node> {
-        self.nodes
+    /// The graph of the nodes that the results need.
+    pub fn finish(self, inputs: usize, outputs: Vec<Id>) -> Graph {
+        let Self { nodes, remarks, .. } = self;
+        Graph { nodes, remarks, outputs, inputs }.without_dead_nodes()
     }
 }
 
@@ -132,8 +158,7 @@ impl Graph {
                 .collect();
             computation(&inputs)
         });
-        let outputs = outputs.into_iter().map(Expr::id).collect();
-        Self { nodes: builder.nodes, outputs, inputs: pinned.len() }.without_dead_nodes()
+        builder.finish(pinned.len(), outputs.into_iter().map(Expr::id).collect())
     }
 
     /// How many inputs there are, used or not.
@@ -175,7 +200,17 @@ impl Graph {
         uses
     }
 
-    pub(crate) fn without_dead_nodes(self) -> Self {
+    /// Which remark of the computation the node comes under, from 1; 0 before the first.
+    pub fn part(&self, id: Id) -> usize {
+        self.remarks.before[id.index()]
+    }
+
+    /// What the computation said before part `part`.
+    pub fn remark(&self, part: usize) -> Option<&str> {
+        part.checked_sub(1).map(|i| self.remarks.words[i].as_str())
+    }
+
+    fn without_dead_nodes(self) -> Self {
         let mut live = vec![false; self.nodes.len()];
         self.outputs.iter().for_each(|id| live[id.index()] = true);
         for i in (0..self.nodes.len()).rev() {
@@ -194,7 +229,11 @@ impl Graph {
             nodes.push(node.renumbered(|id| new_ids[id.index()].expect("operands are live")));
         }
         let renumber = |id: &Id| new_ids[id.index()].expect("outputs are live");
-        Self { nodes, outputs: self.outputs.iter().map(renumber).collect(), inputs: self.inputs }
+        let outputs = self.outputs.iter().map(renumber).collect();
+        let before = self.remarks.before.iter().zip(live).filter(|(_, live)| **live);
+        let before = before.map(|(&before, _)| before).collect();
+        let remarks = Remarks { words: self.remarks.words.clone(), before };
+        Self { nodes, remarks, outputs, inputs: self.inputs }
     }
 }
 

@@ -28,7 +28,6 @@ struct Term {
 }
 
 /// A graph under construction, and when each of its nodes is ready.
-#[derive(Default)]
 struct Timed {
     builder: Builder,
     ready: Vec<u32>,
@@ -41,9 +40,10 @@ impl Graph {
     /// A sum that is used more than once stays one node. Results differ by rounding.
     pub fn regrouped(&self, varies: &[bool]) -> Self {
         let (uses, inside) = (self.uses(), self.inside_sums(varies));
-        let mut timed = Timed::default();
+        let mut timed = Timed { builder: Builder::remarked_as(&self.remarks), ready: Vec::new() };
         let mut new: Vec<Id> = Vec::with_capacity(self.nodes.len());
         for (i, &node) in self.nodes.iter().enumerate() {
+            timed.builder.remarked = self.remarks.before[i];
             if inside[i] {
                 // Its terms go into the sum that uses it.
                 new.push(Id(u32::MAX));
@@ -67,8 +67,7 @@ impl Graph {
             new.push(id);
         }
         let outputs = self.outputs.iter().map(|id| new[id.index()]).collect();
-        let nodes = timed.builder.into_nodes();
-        Self { nodes, outputs, inputs: self.inputs }.without_dead_nodes()
+        timed.builder.finish(self.inputs, outputs)
     }
 
     /// Sums that one other sum uses and nothing else.

@@ -38,13 +38,17 @@ pub fn solve<R: Real>(
     let mut appendages = Vec::new();
     for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
         let hinges = &coordinates.hinges[first..first + shape.hinges()];
-        let appendage = Appendage::eliminate(shape, branch, omega, hinges);
+        let number = appendages.len() + 1;
+        let appendage = Appendage::eliminate(number, shape, branch, omega, hinges);
+        R::remark(|| format!("Appendage {number}: what it shows at O, main-body axes."));
         seen.add(&appendage.at_origin(branch));
         appendages.push(appendage);
         first += shape.hinges();
     }
+    R::remark(|| "Main body: its own wrench, and all shares at O.".to_owned());
     let mut total = AtOrigin::of_main_body(&parameters.main, omega, &coordinates.external);
     total.add(&seen);
+    R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
     let main = total.accelerations();
     let mut tau_dot = Vec::new();
     for (appendage, branch) in appendages.iter().zip(&parameters.branches) {
@@ -55,6 +59,8 @@ pub fn solve<R: Real>(
 
 /// An appendage whose hinges have been eliminated.
 struct Appendage<R> {
+    /// Among the appendages, from 1.
+    number: usize,
     shown: Shown<R>,
     first_torque: R,
     eliminated: Vec<Eliminated<R>>,
@@ -63,11 +69,13 @@ struct Appendage<R> {
 
 impl<R: Real> Appendage<R> {
     fn eliminate(
+        number: usize,
         shape: Shape,
         branch: &Branch<R>,
         omega: Vec3<R>,
         hinges: &[HingeCoordinates<R>],
     ) -> Self {
+        R::remark(|| format!("Appendage {number}: ω in its axes, and how its first hinge moves."));
         let spin = Spin::new(branch.rot_body_from_appendage.transpose_mul(omega));
         let start = Outward {
             alpha: R::zero(),
@@ -75,12 +83,13 @@ impl<R: Real> Appendage<R> {
             hinge: spin.bias_of_main_point(branch.point),
         };
         match shape {
-            Shape::Chain(_) => Self::eliminate_chain(&spin, branch, start, hinges),
-            Shape::Paddle => Self::eliminate_paddle(&spin, branch, start, hinges),
+            Shape::Chain(_) => Self::eliminate_chain(number, &spin, branch, start, hinges),
+            Shape::Paddle => Self::eliminate_paddle(number, &spin, branch, start, hinges),
         }
     }
 
     fn eliminate_chain(
+        number: usize,
         spin: &Spin<R>,
         branch: &Branch<R>,
         start: Outward<R>,
@@ -88,7 +97,10 @@ impl<R: Real> Appendage<R> {
     ) -> Self {
         let mut reached = start;
         let mut turned: Vec<Turned<R>> = Vec::new();
-        for (link, hinge) in branch.links.iter().zip(hinges) {
+        for (i, (link, hinge)) in branch.links.iter().zip(hinges).enumerate() {
+            R::remark(|| {
+                format!("Link {number},{}, outward: turned by its angle, its bias.", i + 1)
+            });
             let (link, next) = chain::outward(spin, link, hinge.beta, hinge.tau, reached);
             turned.push(link);
             reached = next;
@@ -96,22 +108,25 @@ impl<R: Real> Appendage<R> {
         let mut shown = Shown::nothing();
         let mut eliminated = Vec::new();
         for (i, link) in turned.iter().enumerate().rev() {
+            R::remark(|| format!("Link {number},{}, inward: its hinge eliminated.", i + 1));
             let outer_torque = hinges.get(i + 1).map_or(R::zero(), |hinge| hinge.torque);
             let (next, hinge) = chain::inward(link, hinges[i].torque - outer_torque, &shown);
             shown = next;
             eliminated.push(hinge);
         }
         eliminated.reverse();
-        Self { shown, first_torque: hinges[0].torque, eliminated, paddle: None }
+        Self { number, shown, first_torque: hinges[0].torque, eliminated, paddle: None }
     }
 
     fn eliminate_paddle(
+        number: usize,
         spin: &Spin<R>,
         branch: &Branch<R>,
         start: Outward<R>,
         hinges: &[HingeCoordinates<R>],
     ) -> Self {
         let (of_arm, of_paddle) = (&hinges[0], &hinges[1]);
+        R::remark(|| format!("Arm {number}, outward: turned by its angle, its bias."));
         let (arm, reached) = chain::outward(spin, &branch.links[0], of_arm.beta, of_arm.tau, start);
         let rates = ArmRates {
             arm: reached,
@@ -119,9 +134,12 @@ impl<R: Real> Appendage<R> {
             tau: of_paddle.tau,
             torque: of_paddle.torque,
         };
+        R::remark(|| format!("Paddle {number}: turned by its angles, its hinge eliminated."));
         let (inertia, wrench, paddle) = paddle::eliminate(spin, &branch.links[1].inertia, &rates);
+        R::remark(|| format!("Arm {number}, inward: its hinge eliminated."));
         let (shown, eliminated) = paddle::arm_inward(&arm, of_arm.torque, &inertia, wrench);
         Self {
+            number,
             shown,
             first_torque: of_arm.torque,
             eliminated: vec![eliminated],
@@ -134,14 +152,18 @@ impl<R: Real> Appendage<R> {
     }
 
     fn back(&self, branch: &Branch<R>, main: Twist<R>, tau_dot: &mut Vec<R>) {
+        let number = self.number;
+        R::remark(|| format!("Appendage {number}: accelerations of its first hinge."));
         let (w, mut a) = first_hinge(branch.point, &branch.rot_body_from_appendage, main);
         let mut inboard = w.x;
-        for eliminated in &self.eliminated {
+        for (i, eliminated) in self.eliminated.iter().enumerate() {
+            R::remark(|| format!("Link {number},{}, back: τ̇ of its hinge.", i + 1));
             let (epsilon, next) = chain::back(eliminated, [w.y, w.z], a);
             tau_dot.push(epsilon - inboard);
             (inboard, a) = (epsilon, next);
         }
         if let Some(paddle) = &self.paddle {
+            R::remark(|| format!("Paddle {number}, back: τ̇ of its hinge."));
             let hinge = Twist { angular: Vec3::new(inboard, w.y, w.z), linear: a };
             tau_dot.push(paddle::back(paddle, hinge));
         }

@@ -56,6 +56,7 @@ pub fn momenta<R: Real>(
     beta: &[R],
     velocities: &Velocities<R>,
 ) -> Momenta<R> {
+    R::remark(|| "Momenta of the velocities.".to_owned());
     let mut main = pose::momentum(&parameters.main, velocities.main);
     let mut hinges = Vec::new();
     for appendage in appendages(topology, parameters, beta, velocities) {
@@ -104,6 +105,7 @@ pub fn rates<R: Real>(
     external: Wrench<R>,
     torques: &[R],
 ) -> Momenta<R> {
+    R::remark(|| "Rates of change of the momenta.".to_owned());
     let Twist { angular: omega, linear: velocity } = velocities.main;
     let Wrench { moment, force } = momenta.main;
     let main = Wrench {

@@ -46,6 +46,7 @@ pub struct Equations<R> {
 impl<R: Real> Equations<R> {
     /// The unknowns.
     pub(crate) fn solve(&self) -> Vec<R> {
+        R::remark(|| "The system solved, hinges first.".to_owned());
         dense::solve(&self.matrix, &self.forcing, &dense::hinges_first(self.forcing.len()))
     }
 }
@@ -65,8 +66,10 @@ pub(crate) fn equations<R: Real>(
     let mut total = parameters.main;
     let mut bias = parameters.main.inertia_wrench(omega, Twist::zero());
     let mut first = 6;
-    for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
+    let branches = topology.shapes().iter().zip(&parameters.branches);
+    for (i, (&shape, branch)) in branches.enumerate() {
         let hinges = &coordinates.hinges[first - 6..first - 6 + shape.hinges()];
+        R::remark(|| format!("Appendage {}: rows and columns of its hinges.", i + 1));
         let share = Share::of(shape, branch, omega, hinges, place);
         let rot = &branch.rot_body_from_appendage;
         total.add(share.total.rotated(rot));
@@ -74,6 +77,7 @@ pub(crate) fn equations<R: Real>(
         share.put(rot, first, &mut out);
         first += shape.hinges();
     }
+    R::remark(|| "Main body: its rows and right side.".to_owned());
     put_main_rows(&total, place, &mut out);
     let carried = place.carried(omega);
     let force = coordinates.external.force - bias.force - carried * total.mass;

@@ -16,6 +16,8 @@ use crate::parameters::{Layout, Reader};
 pub struct Stage<R: 'static> {
     /// Name, used in generated code.
     pub name: &'static str,
+    /// What it computes, in one line.
+    pub about: &'static str,
     /// Groups read that are parameters.
     pub parameters: &'static [Group],
     /// Groups read that vary.
@@ -31,65 +33,109 @@ pub struct Stage<R: 'static> {
 pub struct Group {
     /// Name.
     pub name: &'static str,
-    /// How many numbers.
-    pub size: usize,
+    /// What its numbers are called.
+    pub numbers: &'static [&'static str],
 }
 
-const fn group(name: &'static str, size: usize) -> Group {
-    Group { name, size }
+impl Group {
+    const fn new(name: &'static str, numbers: &'static [&'static str]) -> Self {
+        Self { name, numbers }
+    }
+
+    /// How many numbers it has.
+    pub fn size(self) -> usize {
+        self.numbers.len()
+    }
 }
+
+/// Mass, first moment and inertia about a body's own point.
+const BODY: [&str; Layout::MAIN] =
+    ["mass", "cx", "cy", "cz", "jxx", "jyy", "jzz", "jxy", "jxz", "jyz"];
 
 /// ω, main-body axes.
-pub const OMEGA: Group = group("omega", 3);
+pub const OMEGA: Group = Group::new("omega", &["omega_x", "omega_y", "omega_z"]);
 /// ω, appendage axes.
-pub const W: Group = group("w", 3);
+pub const W: Group = Group::new("w", &["wx", "wy", "wz"]);
 /// External moment and force on the main body.
-pub const EXTERNAL: Group = group("external", 6);
-/// Parameters of an appendage before its links.
-pub const BRANCH: Group = group("branch", Layout::BRANCH);
-/// Parameters of a link.
-pub const LINK: Group = group("link", Layout::LINK);
+pub const EXTERNAL: Group =
+    Group::new("external", &["moment_x", "moment_y", "moment_z", "force_x", "force_y", "force_z"]);
+/// Parameters of an appendage before its links: its rotation by rows and its first hinge.
+pub const BRANCH: Group = Group::new(
+    "branch",
+    &["r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33", "dx", "dy", "dz"],
+);
+/// Parameters of a link: its body and the way to the next hinge.
+pub const LINK: Group = Group::new(
+    "link",
+    &["mass", "cx", "cy", "cz", "jxx", "jyy", "jzz", "jxy", "jxz", "jyz", "ly", "lz"],
+);
 /// Parameters of a paddle's second link.
-pub const PADDLE_LINK: Group = group("paddle_link", Layout::LINK);
+pub const PADDLE_LINK: Group = Group::new("paddle_link", LINK.numbers);
 /// Parameters of the main body.
-pub const MAIN: Group = group("main", Layout::MAIN);
+pub const MAIN: Group = Group::new("main", &BODY);
 /// Sine and cosine of a link's absolute angle.
-pub const TURN: Group = group("turn", 2);
+pub const TURN: Group = Group::new("turn", &["sin", "cos"]);
 /// τ of a hinge.
-pub const TAU: Group = group("tau", 1);
+pub const TAU: Group = Group::new("tau", &["tau"]);
 /// β, τ and torque of arm and paddle.
-pub const PADDLE_HINGES: Group = group("hinges", 6);
+pub const PADDLE_HINGES: Group =
+    Group::new("hinges", &["beta_1", "tau_1", "torque_1", "beta_2", "tau_2", "torque_2"]);
 /// Torque of a hinge less that of the next one.
-pub const EXCESS: Group = group("excess", 1);
+pub const EXCESS: Group = Group::new("excess", &["excess"]);
 /// Torque of the first hinge.
-pub const TORQUE: Group = group("torque", 1);
+pub const TORQUE: Group = Group::new("torque", &["torque"]);
 /// How far the outward sweep has come: σ, and the bias acceleration of the next hinge.
-pub const REACHED: Group = group("reached", 4);
-/// A link in appendage axes.
-pub const TURNED: Group = group("turned", 15);
-/// What a link shows its inboard neighbour.
-pub const SHOWN: Group = group("shown", 20);
-/// What an eliminated hinge leaves.
-pub const ELIMINATED: Group = group("eliminated", 9);
-/// What an eliminated paddle hinge leaves.
-pub const PADDLE: Group = group("paddle", 8);
-/// What an appendage shows at O.
-pub const AT_ORIGIN: Group = group("at_origin", 27);
+pub const REACHED: Group = Group::new("reached", &["sigma", "bx", "by", "bz"]);
+/// A link in appendage axes: what varies of first moment, inertia and way to the next hinge, bias
+/// moment and force.
+pub const TURNED: Group = Group::new(
+    "turned",
+    &[
+        "cy", "cz", "jyy", "jzz", "jxy", "jxz", "jyz", "ly", "lz", "nx", "ny", "nz", "fx", "fy",
+        "fz",
+    ],
+);
+/// What a link shows its inboard neighbour: moments 2 and 3 per ω̇₂, ω̇₃ and per a, force per a,
+/// moments 2 and 3, force.
+pub const SHOWN: Group = Group::new(
+    "shown",
+    &[
+        "ayy", "azz", "ayz", "byx", "byy", "byz", "bzx", "bzy", "bzz", "mxx", "myy", "mzz", "mxy",
+        "mxz", "myz", "qy", "qz", "px", "py", "pz",
+    ],
+);
+/// What an eliminated hinge leaves: couplings of ε to ω̇₂, ω̇₃ and a, the inverse pivot, the moment
+/// left for ε, the way to the next hinge.
+pub const ELIMINATED: Group =
+    Group::new("eliminated", &["uy", "uz", "vx", "vy", "vz", "inverse", "left", "ly", "lz"]);
+/// What an eliminated paddle hinge leaves: its column, the inverse pivot, the moment left.
+pub const PADDLE: Group =
+    Group::new("paddle", &["hx", "hy", "hz", "gx", "gy", "gz", "paddle_inverse", "paddle_left"]);
+/// What an appendage shows at O: moment per ω̇ and per a, force per a, moment, force.
+pub const AT_ORIGIN: Group = Group::new(
+    "at_origin",
+    &[
+        "axx", "ayy", "azz", "axy", "axz", "ayz", "bxx", "bxy", "bxz", "byx", "byy", "byz", "bzx",
+        "bzy", "bzz", "mxx", "myy", "mzz", "mxy", "mxz", "myz", "qx", "qy", "qz", "px", "py", "pz",
+    ],
+);
 /// ω̇ and a_O, main-body axes.
-pub const MAIN_RATES: Group = group("main_rates", 6);
+pub const MAIN_RATES: Group =
+    Group::new("main_rates", &["omega_dot_x", "omega_dot_y", "omega_dot_z", "a_x", "a_y", "a_z"]);
 /// ω̇₁ or ε of the inboard link, and ω̇₂, ω̇₃.
-pub const TURNING: Group = group("turning", 3);
+pub const TURNING: Group = Group::new("turning", &["epsilon", "w_dot_y", "w_dot_z"]);
 /// Acceleration of a hinge.
-pub const HINGE_RATES: Group = group("hinge_rates", 3);
+pub const HINGE_RATES: Group = Group::new("hinge_rates", &["a_x", "a_y", "a_z"]);
 /// τ̇ of a hinge.
-pub const TAU_DOT: Group = group("tau_dot", 1);
+pub const TAU_DOT: Group = Group::new("tau_dot", &["tau_dot"]);
 /// τ̇ of arm and paddle.
-pub const PADDLE_TAU_DOT: Group = group("tau_dot", 2);
+pub const PADDLE_TAU_DOT: Group = Group::new("tau_dot", &["tau_dot_1", "tau_dot_2"]);
 
 /// ω in appendage axes and the beginning of the outward sweep.
 pub fn start<R: Real>() -> Stage<R> {
     Stage {
         name: "start",
+        about: "ω in appendage axes, and the bias acceleration of the first hinge.",
         parameters: &[BRANCH],
         inputs: &[OMEGA],
         outputs: &[W, REACHED],
@@ -107,6 +153,7 @@ pub fn start<R: Real>() -> Stage<R> {
 pub fn outward<R: Real>() -> Stage<R> {
     Stage {
         name: "outward",
+        about: "A link turned by its absolute angle, with its bias, and how the next hinge moves.",
         parameters: &[LINK],
         inputs: &[W, TURN, TAU, REACHED],
         outputs: &[TURNED, REACHED],
@@ -127,6 +174,7 @@ pub fn outward<R: Real>() -> Stage<R> {
 pub fn inward<R: Real>() -> Stage<R> {
     Stage {
         name: "inward",
+        about: "A link's hinge eliminated: what it shows inboard, and what is left for the way back.",
         parameters: &[LINK],
         inputs: &[TURNED, EXCESS, SHOWN],
         outputs: &[SHOWN, ELIMINATED],
@@ -146,6 +194,7 @@ pub fn inward<R: Real>() -> Stage<R> {
 pub fn root<R: Real>() -> Stage<R> {
     Stage {
         name: "root",
+        about: "What a chain shows at O, main-body axes.",
         parameters: &[BRANCH],
         inputs: &[SHOWN, TORQUE],
         outputs: &[AT_ORIGIN],
@@ -163,6 +212,7 @@ pub fn root<R: Real>() -> Stage<R> {
 pub fn base<R: Real>() -> Stage<R> {
     Stage {
         name: "base",
+        about: "Accelerations of the main body from the sum of what all appendages show.",
         parameters: &[MAIN],
         inputs: &[OMEGA, EXTERNAL, AT_ORIGIN],
         outputs: &[MAIN_RATES],
@@ -183,6 +233,7 @@ pub fn base<R: Real>() -> Stage<R> {
 pub fn first<R: Real>() -> Stage<R> {
     Stage {
         name: "first",
+        about: "ω̇ and the acceleration of the first hinge in appendage axes.",
         parameters: &[BRANCH],
         inputs: &[MAIN_RATES],
         outputs: &[TURNING, HINGE_RATES],
@@ -200,6 +251,7 @@ pub fn first<R: Real>() -> Stage<R> {
 pub fn back<R: Real>() -> Stage<R> {
     Stage {
         name: "back",
+        about: "τ̇ of a hinge, and the accelerations of the next one.",
         parameters: &[],
         inputs: &[ELIMINATED, TURNING, HINGE_RATES],
         outputs: &[TAU_DOT, TURNING, HINGE_RATES],
@@ -218,6 +270,7 @@ pub fn back<R: Real>() -> Stage<R> {
 pub fn paddle_in<R: Real>() -> Stage<R> {
     Stage {
         name: "paddle_in",
+        about: "Both hinges of a paddle eliminated: what it shows at O, and what they leave.",
         parameters: &[BRANCH, LINK, PADDLE_LINK],
         inputs: &[OMEGA, PADDLE_HINGES],
         outputs: &[AT_ORIGIN, ELIMINATED, PADDLE],
@@ -249,6 +302,7 @@ pub fn paddle_in<R: Real>() -> Stage<R> {
 pub fn paddle_back<R: Real>() -> Stage<R> {
     Stage {
         name: "paddle_back",
+        about: "τ̇ of the two hinges of a paddle.",
         parameters: &[],
         inputs: &[ELIMINATED, PADDLE, TURNING, HINGE_RATES],
         outputs: &[PADDLE_TAU_DOT],

@@ -65,13 +65,16 @@ pub fn solve<R: Real>(
     let mut total = AtOrigin::of_main_body(&parameters.main, *omega, external);
     let mut eliminated = Vec::new();
     for (branch, arrow) in appendages(topology, parameters, coordinates) {
+        R::remark(|| format!("Appendage {}: its hinges eliminated.", eliminated.len() + 1));
         let (seen, left) = arrow.eliminate();
         total.add(&seen.rotated(&branch.rot_body_from_appendage));
         eliminated.push((branch.rot_body_from_appendage, left));
     }
+    R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
     let main = total.accelerations();
     let mut tau_dot = Vec::new();
-    for (&shape, (rot, left)) in topology.shapes().iter().zip(&eliminated) {
+    for (i, (&shape, (rot, left))) in topology.shapes().iter().zip(&eliminated).enumerate() {
+        R::remark(|| format!("Appendage {}, back: τ̇ of its hinges.", i + 1));
         let seen = Twist {
             angular: rot.transpose_mul(main.angular),
             linear: rot.transpose_mul(main.linear),
@@ -107,7 +110,9 @@ fn appendages<'a, R: Real>(
     coordinates: &'a Coordinates<R>,
 ) -> impl Iterator<Item = (&'a Branch<R>, Arrow<R>)> {
     let mut first = 0;
-    topology.shapes().iter().zip(&parameters.branches).map(move |(&shape, branch)| {
+    let branches = topology.shapes().iter().zip(&parameters.branches).enumerate();
+    branches.map(move |(i, (&shape, branch))| {
+        R::remark(|| format!("Appendage {}: its block of the matrix, its right side.", i + 1));
         let hinges = &coordinates.hinges[first..first + shape.hinges()];
         first += shape.hinges();
         (branch, appendage::arrow(shape, branch, coordinates.omega, hinges))

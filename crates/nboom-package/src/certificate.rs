@@ -1,6 +1,6 @@
 //! `CERTIFICATE.json`.
 
-use nboom_codegen::{Request, granted, hash};
+use nboom_codegen::{Request, hash};
 use nboom_expr::Operations;
 use nboom_model::Scene;
 use serde::Serialize;
@@ -93,7 +93,7 @@ impl Row {
             topology,
             output: request.output.name(),
             level: request.level.name(),
-            taken_for_granted: granted(&request.topology, &request.pinned, request.external),
+            taken_for_granted: request.assumptions_in_words(),
             evaluation: (*evaluation).into(),
             preparation: (*preparation).into(),
             formulation: OfFormulation::new(request, certified),

@@ -186,8 +186,8 @@ fn tested(subject: &Subject, request: &Request) -> Result<Vec<Tested>, PackageEr
 fn inputs(subject: &Subject, request: &Request) -> Vec<[Vec<f64>; 2]> {
     let mut parameters = recognised(subject).parameters.write();
     // Welding and taking moments about the mass centre has rounded.
-    for (parameter, pinned) in parameters.iter_mut().zip(&request.pinned) {
-        *parameter = pinned.unwrap_or(*parameter);
+    for (parameter, assumed) in parameters.iter_mut().zip(&request.assumptions) {
+        *parameter = assumed.unwrap_or(*parameter);
     }
     let states = subject.coordinates();
     states.map(|state| [parameters.clone(), state.write(&request.topology)]).collect()
@@ -260,7 +260,8 @@ mod tests {
         let request = Request::of_scene(&scene, Numbers::Baked, Level::Exact);
         let mut request = request.expect("a boom is a chain").by(Formulation::Symmetric);
         request.output = output;
-        let mass = request.pinned[Layout::MAIN + Layout::BRANCH].as_mut().expect("it is built in");
+        let mass =
+            request.assumptions[Layout::MAIN + Layout::BRANCH].as_mut().expect("it is built in");
         assert_eq!(*mass, 3.0);
         *mass *= 1.0 + share;
         Certified::new(&scene, &request, None)

@@ -9,6 +9,7 @@ use crate::manifest::rust_name;
 const COMMON: &str = include_str!("../templates/certificate.rs");
 const ACCELERATIONS: &str = include_str!("../templates/certificate_accelerations.rs");
 const EQUATIONS: &str = include_str!("../templates/certificate_equations.rs");
+const TEST: &str = include_str!("../templates/certificate_test.rs");
 
 /// `tests/certificate.rs` of the crate `name`.
 pub(crate) fn code(name: &str, routines: &[Routine]) -> String {
@@ -29,13 +30,16 @@ fn test(of_crate: &str, routine: &Routine) -> String {
         Output::Accelerations => "off_accelerations",
         Output::Equations => "off_equations",
     };
-    format!(
-        "\n#[test]\n\
-         fn {function}_is_as_certified() {{\n\
-         \x20   let table = include_str!(\"{name}.csv\");\n\
-         \x20   compare::<{of_crate}::{name}>(\"{name}\", table, {tolerance:e}, {off});\n\
-         }}\n"
-    )
+    let values = [
+        ("FUNCTION", function.as_str()),
+        ("CRATE", of_crate),
+        ("NAME", name),
+        ("TOLERANCE", &format!("{tolerance:e}")),
+        ("OFF", off),
+    ];
+    let fill =
+        |text: String, (key, value): (&str, &str)| text.replace(&format!("/*{key}*/"), value);
+    values.into_iter().fold(TEST.to_owned(), fill)
 }
 
 /// Where the table of a routine stands.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use nboom_codegen::{Request, granted};
+use nboom_codegen::Request;
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::Scene;
 
@@ -74,11 +74,11 @@ fn table(requests: &[Request]) -> String {
     let mut rows = String::new();
     for request in requests {
         let Request { name, topology, formulation, output, level, .. } = request;
-        let facts = granted(topology, &request.pinned, request.external).join("; ");
-        let facts = if facts.is_empty() { "nothing".to_owned() } else { facts };
+        let assumptions = request.assumptions_in_words().join("; ");
+        let assumptions = if assumptions.is_empty() { "nothing".to_owned() } else { assumptions };
         writeln!(
             rows,
-            "| `{name}` | {topology} | {} | {formulation} | {} | {facts} |",
+            "| `{name}` | {topology} | {} | {formulation} | {} | {assumptions} |",
             output.name(),
             level.name()
         )

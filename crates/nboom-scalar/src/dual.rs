@@ -68,6 +68,11 @@ impl<R: Real> Real for Dual<R> {
     }
 
     #[inline(always)]
+    fn remark(words: impl FnOnce() -> String) {
+        R::remark(words);
+    }
+
+    #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         let pairs = R::sin_cos_all(angles.map(|angle| angle.value));
         std::array::from_fn(|i| angles[i].turned(pairs[i]))

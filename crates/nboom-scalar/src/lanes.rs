@@ -150,6 +150,14 @@ pub trait Pack<S>: Real {
     /// Writes what [`gather`](Self::gather) would read.
     fn scatter(self, to: &mut [S], at: usize);
 
+    /// Writes what [`gather_all`](Self::gather_all) would read.
+    #[inline(always)]
+    fn scatter_all<const N: usize>(all: [Self; N], to: &mut [S], at: usize, stride: usize) {
+        for i in 0..N {
+            all[i].scatter(to, at + i * stride);
+        }
+    }
+
     /// The sum of the lanes.
     fn sum(self) -> S;
 }

@@ -45,7 +45,7 @@ pub use matrix::Mat3;
 pub use pair::Pair;
 pub use quaternion::Quaternion;
 pub use real::{Number, Real};
-pub use routine::{CONTRACT, Routine};
+pub use routine::{CONTRACT, Routine, assumed};
 pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
 pub use vector::Vec3;

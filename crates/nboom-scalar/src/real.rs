@@ -45,6 +45,11 @@ pub trait Real:
         self * factor + term
     }
 
+    /// Says what the operations that follow compute. Scalars that record write it down; it is
+    /// nothing to all others.
+    #[inline(always)]
+    fn remark(_words: impl FnOnce() -> String) {}
+
     /// The constant zero.
     #[inline(always)]
     fn zero() -> Self {

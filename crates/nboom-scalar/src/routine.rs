@@ -2,7 +2,7 @@ use crate::{Isa, Real};
 
 /// Version of what generated code and its callers agree on; code for another one does not
 /// compile.
-pub const CONTRACT: u32 = 2;
+pub const CONTRACT: u32 = 3;
 
 /// What generated code implements: accelerations of one topology by one formulation, the
 /// equations that the formulation solves for them, or the loads and stresses of one scene.
@@ -47,4 +47,15 @@ pub trait Routine {
     /// # Panics
     /// When a slice does not have the length given above.
     fn evaluate_packed<I: Isa>(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]);
+}
+
+/// Values at places: [`Routine::PINNED`] as generated code writes it.
+pub const fn assumed<const N: usize>(places: [usize; N], values: [f64; N]) -> [(usize, f64); N] {
+    let mut all = [(0, 0.0); N];
+    let mut i = 0;
+    while i < N {
+        all[i] = (places[i], values[i]);
+        i += 1;
+    }
+    all
 }

@@ -2,103 +2,26 @@
 /// Topology 4xS3, accelerations by formulation articulated, level fast.
 /// Evaluation: 1604 add, 1951 mul, 18 div, 12 sin_cos.
 /// Preparation: 12 add, 0 mul, 0 div, 0 sin_cos.
-/// Taken for granted: O at the main body's mass centre; main body along its principal axes; mass centre in the plane square to the hinge axis of 12 of 12 links; no first moment along ζ of 12 of 12 links; inertia along the segment axes of 12 of 12 links; next hinge on the η axis of 12 of 12 links.
-#[allow(
-    clippy::all,
-    clippy::pedantic,
-    dead_code,
-    missing_docs,
-    unused_imports,
-    unused_variables
-)]
+/// Assumptions: O at the main body's mass centre; main body along its principal axes; mass centre in the plane square to the hinge axis of 12 of 12 links; no first moment along ζ of 12 of 12 links; inertia along the segment axes of 12 of 12 links; next hinge on the η axis of 12 of 12 links.
+#[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
 pub mod routine_four_s3 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
-    const _: () = assert!(::nboom_scalar::CONTRACT == 2, "generate this routine again");
+    const _: () = assert!(::nboom_scalar::CONTRACT == 3, "generate this routine again");
     pub struct FourS3;
     impl Routine for FourS3 {
         const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "4xS3";
         const FORMULATION: &'static str = "articulated";
-        const PINNED: &'static [(usize, f64)] = &[
-            (1, 0f64),
-            (2, 0f64),
-            (3, 0f64),
-            (7, 0f64),
-            (8, 0f64),
-            (9, 0f64),
-            (23, 0f64),
-            (25, 0f64),
-            (29, 0f64),
-            (30, 0f64),
-            (31, 0f64),
-            (33, 0f64),
-            (35, 0f64),
-            (37, 0f64),
-            (41, 0f64),
-            (42, 0f64),
-            (43, 0f64),
-            (45, 0f64),
-            (47, 0f64),
-            (49, 0f64),
-            (53, 0f64),
-            (54, 0f64),
-            (55, 0f64),
-            (57, 0f64),
-            (71, 0f64),
-            (73, 0f64),
-            (77, 0f64),
-            (78, 0f64),
-            (79, 0f64),
-            (81, 0f64),
-            (83, 0f64),
-            (85, 0f64),
-            (89, 0f64),
-            (90, 0f64),
-            (91, 0f64),
-            (93, 0f64),
-            (95, 0f64),
-            (97, 0f64),
-            (101, 0f64),
-            (102, 0f64),
-            (103, 0f64),
-            (105, 0f64),
-            (119, 0f64),
-            (121, 0f64),
-            (125, 0f64),
-            (126, 0f64),
-            (127, 0f64),
-            (129, 0f64),
-            (131, 0f64),
-            (133, 0f64),
-            (137, 0f64),
-            (138, 0f64),
-            (139, 0f64),
-            (141, 0f64),
-            (143, 0f64),
-            (145, 0f64),
-            (149, 0f64),
-            (150, 0f64),
-            (151, 0f64),
-            (153, 0f64),
-            (167, 0f64),
-            (169, 0f64),
-            (173, 0f64),
-            (174, 0f64),
-            (175, 0f64),
-            (177, 0f64),
-            (179, 0f64),
-            (181, 0f64),
-            (185, 0f64),
-            (186, 0f64),
-            (187, 0f64),
-            (189, 0f64),
-            (191, 0f64),
-            (193, 0f64),
-            (197, 0f64),
-            (198, 0f64),
-            (199, 0f64),
-            (201, 0f64),
-        ];
+        const PINNED: &'static [(usize, f64)] = &::nboom_scalar::assumed(
+            [
+                1, 2, 3, 7, 8, 9, 23, 25, 29, 30, 31, 33, 35, 37, 41, 42, 43, 45, 47, 49, 53, 54,
+                55, 57, 71, 73, 77, 78, 79, 81, 83, 85, 89, 90, 91, 93, 95, 97, 101, 102, 103, 105,
+                119, 121, 125, 126, 127, 129, 131, 133, 137, 138, 139, 141, 143, 145, 149, 150,
+                151, 153, 167, 169, 173, 174, 175, 177, 179, 181, 185, 186, 187, 189, 191, 193,
+                197, 198, 199, 201,
+            ],
+            [0.0; 78],
+        );
         const EXTERNAL: bool = true;
         const PARAMETERS: usize = 202;
         const CONSTANTS: usize = 256;
@@ -108,59 +31,18 @@ pub mod routine_four_s3 {
             let p: &[R; 202] = p.try_into().expect("one value for each parameter");
             let k: &mut [R; 256] = k.try_into().expect("room for each constant");
             for a in 0..4 {
-                for i in 0..1 {
-                    let at = 10 + a * 48 + i * 12;
-                    let constants = g0_start_constants(&p[at..at + 12]);
-                    for (c, &constant) in constants.iter().enumerate() {
-                        k[0 + (i * 12 + c) * 4 + a] = constant;
-                    }
-                }
-            }
-            for a in 0..4 {
+                let branch: [R; 12] = R::gather_all(p, 10 + 48 * a, 1);
+                R::scatter_all(branch, k, a, 4);
+                R::scatter_all(branch, k, 156 + a, 4);
+                R::scatter_all(branch, k, 204 + a, 4);
                 for i in 0..3 {
-                    let at = 22 + a * 48 + i * 12;
-                    let constants = g0_outward_constants(&p[at..at + 12]);
-                    for (c, &constant) in constants.iter().enumerate() {
-                        k[48 + (i * 7 + c) * 4 + a] = constant;
-                    }
+                    let link: [R; 12] = R::gather_all(p, 22 + 48 * a + 12 * i, 1);
+                    R::scatter_all(s3_outward_constants(link), k, 48 + 28 * i + a, 4);
+                    R::scatter_all([link[0], link[4]], k, 132 + 8 * i + a, 4);
                 }
             }
-            for a in 0..4 {
-                for i in 0..3 {
-                    let at = 22 + a * 48 + i * 12;
-                    let constants = g0_inward_constants(&p[at..at + 12]);
-                    for (c, &constant) in constants.iter().enumerate() {
-                        k[132 + (i * 2 + c) * 4 + a] = constant;
-                    }
-                }
-            }
-            for a in 0..4 {
-                for i in 0..1 {
-                    let at = 10 + a * 48 + i * 12;
-                    let constants = g0_root_constants(&p[at..at + 12]);
-                    for (c, &constant) in constants.iter().enumerate() {
-                        k[156 + (i * 12 + c) * 4 + a] = constant;
-                    }
-                }
-            }
-            for a in 0..4 {
-                for i in 0..1 {
-                    let at = 10 + a * 48 + i * 12;
-                    let constants = g0_first_constants(&p[at..at + 12]);
-                    for (c, &constant) in constants.iter().enumerate() {
-                        k[204 + (i * 12 + c) * 4 + a] = constant;
-                    }
-                }
-            }
-            for a in 0..1 {
-                for i in 0..1 {
-                    let at = 0 + a * 12 + i * 12;
-                    let constants = m_base_constants(&p[at..at + 10]);
-                    for (c, &constant) in constants.iter().enumerate() {
-                        k[252 + (i * 4 + c) * 1 + a] = constant;
-                    }
-                }
-            }
+            let main: [R; 10] = R::gather_all(p, 0, 1);
+            R::scatter_all([main[0], main[4], main[5], main[6]], k, 252, 1);
         }
         #[inline(always)]
         fn evaluate<R: Real>(k: &[R], x: &[R], out: &mut [R]) {
@@ -168,90 +50,13 @@ pub mod routine_four_s3 {
             let x: &[R; 45] = x.try_into().expect("one value for each coordinate");
             let out: &mut [R; 18] = out.try_into().expect("room for each output");
             let mut seen = [R::zero(); 27];
-            let mut saved_0 = [([[R::zero(); 6]; 3],); 4];
+            let mut s3_saved = [[[R::zero(); 6]; 3]; 4];
             for a in 0..4 {
-                let part = g0_in::<R, R>(k, x, a, &mut saved_0[a]);
-                seen[0] += Pack::<R>::sum(part[0]);
-                seen[1] += Pack::<R>::sum(part[1]);
-                seen[2] += Pack::<R>::sum(part[2]);
-                seen[3] += Pack::<R>::sum(part[3]);
-                seen[4] += Pack::<R>::sum(part[4]);
-                seen[5] += Pack::<R>::sum(part[5]);
-                seen[6] += Pack::<R>::sum(part[6]);
-                seen[7] += Pack::<R>::sum(part[7]);
-                seen[8] += Pack::<R>::sum(part[8]);
-                seen[9] += Pack::<R>::sum(part[9]);
-                seen[10] += Pack::<R>::sum(part[10]);
-                seen[11] += Pack::<R>::sum(part[11]);
-                seen[12] += Pack::<R>::sum(part[12]);
-                seen[13] += Pack::<R>::sum(part[13]);
-                seen[14] += Pack::<R>::sum(part[14]);
-                seen[15] += Pack::<R>::sum(part[15]);
-                seen[16] += Pack::<R>::sum(part[16]);
-                seen[17] += Pack::<R>::sum(part[17]);
-                seen[18] += Pack::<R>::sum(part[18]);
-                seen[19] += Pack::<R>::sum(part[19]);
-                seen[20] += Pack::<R>::sum(part[20]);
-                seen[21] += Pack::<R>::sum(part[21]);
-                seen[22] += Pack::<R>::sum(part[22]);
-                seen[23] += Pack::<R>::sum(part[23]);
-                seen[24] += Pack::<R>::sum(part[24]);
-                seen[25] += Pack::<R>::sum(part[25]);
-                seen[26] += Pack::<R>::sum(part[26]);
+                s3_in::<R, R>(k, x, a, &mut s3_saved[a], &mut seen);
             }
-            let omega = [R::spread(x[0]), R::spread(x[1]), R::spread(x[2])];
-            let (main,) = m_base(
-                R::gather_all(k, 252, 1),
-                omega,
-                [
-                    R::spread(x[3]),
-                    R::spread(x[4]),
-                    R::spread(x[5]),
-                    R::spread(x[6]),
-                    R::spread(x[7]),
-                    R::spread(x[8]),
-                ],
-                [
-                    R::spread(seen[0]),
-                    R::spread(seen[1]),
-                    R::spread(seen[2]),
-                    R::spread(seen[3]),
-                    R::spread(seen[4]),
-                    R::spread(seen[5]),
-                    R::spread(seen[6]),
-                    R::spread(seen[7]),
-                    R::spread(seen[8]),
-                    R::spread(seen[9]),
-                    R::spread(seen[10]),
-                    R::spread(seen[11]),
-                    R::spread(seen[12]),
-                    R::spread(seen[13]),
-                    R::spread(seen[14]),
-                    R::spread(seen[15]),
-                    R::spread(seen[16]),
-                    R::spread(seen[17]),
-                    R::spread(seen[18]),
-                    R::spread(seen[19]),
-                    R::spread(seen[20]),
-                    R::spread(seen[21]),
-                    R::spread(seen[22]),
-                    R::spread(seen[23]),
-                    R::spread(seen[24]),
-                    R::spread(seen[25]),
-                    R::spread(seen[26]),
-                ],
-            );
-            let main = [
-                Pack::<R>::sum(main[0]),
-                Pack::<R>::sum(main[1]),
-                Pack::<R>::sum(main[2]),
-                Pack::<R>::sum(main[3]),
-                Pack::<R>::sum(main[4]),
-                Pack::<R>::sum(main[5]),
-            ];
-            out[..6].copy_from_slice(&main);
+            main_body::<R, R>(k, x, seen, out);
             for a in 0..4 {
-                g0_out::<R, R>(k, main, a, &saved_0[a], out);
+                s3_out::<R, R>(k, a, &s3_saved[a], out);
             }
         }
         #[inline(always)]
@@ -260,728 +65,375 @@ pub mod routine_four_s3 {
             let x: &[f64; 45] = x.try_into().expect("one value for each coordinate");
             let out: &mut [f64; 18] = out.try_into().expect("room for each output");
             let mut seen = [0.0; 27];
-            let mut saved_0_0 = ([[<I::Four>::zero(); 6]; 3],);
-            let part = g0_in::<f64, I::Four>(k, x, 0, &mut saved_0_0);
-            seen[0] += Pack::<f64>::sum(part[0]);
-            seen[1] += Pack::<f64>::sum(part[1]);
-            seen[2] += Pack::<f64>::sum(part[2]);
-            seen[3] += Pack::<f64>::sum(part[3]);
-            seen[4] += Pack::<f64>::sum(part[4]);
-            seen[5] += Pack::<f64>::sum(part[5]);
-            seen[6] += Pack::<f64>::sum(part[6]);
-            seen[7] += Pack::<f64>::sum(part[7]);
-            seen[8] += Pack::<f64>::sum(part[8]);
-            seen[9] += Pack::<f64>::sum(part[9]);
-            seen[10] += Pack::<f64>::sum(part[10]);
-            seen[11] += Pack::<f64>::sum(part[11]);
-            seen[12] += Pack::<f64>::sum(part[12]);
-            seen[13] += Pack::<f64>::sum(part[13]);
-            seen[14] += Pack::<f64>::sum(part[14]);
-            seen[15] += Pack::<f64>::sum(part[15]);
-            seen[16] += Pack::<f64>::sum(part[16]);
-            seen[17] += Pack::<f64>::sum(part[17]);
-            seen[18] += Pack::<f64>::sum(part[18]);
-            seen[19] += Pack::<f64>::sum(part[19]);
-            seen[20] += Pack::<f64>::sum(part[20]);
-            seen[21] += Pack::<f64>::sum(part[21]);
-            seen[22] += Pack::<f64>::sum(part[22]);
-            seen[23] += Pack::<f64>::sum(part[23]);
-            seen[24] += Pack::<f64>::sum(part[24]);
-            seen[25] += Pack::<f64>::sum(part[25]);
-            seen[26] += Pack::<f64>::sum(part[26]);
-            let omega = [
-                I::One::spread(x[0]),
-                I::One::spread(x[1]),
-                I::One::spread(x[2]),
-            ];
-            let (main,) = m_base(
-                I::One::gather_all(k, 252, 1),
-                omega,
-                [
-                    I::One::spread(x[3]),
-                    I::One::spread(x[4]),
-                    I::One::spread(x[5]),
-                    I::One::spread(x[6]),
-                    I::One::spread(x[7]),
-                    I::One::spread(x[8]),
-                ],
-                [
-                    I::One::spread(seen[0]),
-                    I::One::spread(seen[1]),
-                    I::One::spread(seen[2]),
-                    I::One::spread(seen[3]),
-                    I::One::spread(seen[4]),
-                    I::One::spread(seen[5]),
-                    I::One::spread(seen[6]),
-                    I::One::spread(seen[7]),
-                    I::One::spread(seen[8]),
-                    I::One::spread(seen[9]),
-                    I::One::spread(seen[10]),
-                    I::One::spread(seen[11]),
-                    I::One::spread(seen[12]),
-                    I::One::spread(seen[13]),
-                    I::One::spread(seen[14]),
-                    I::One::spread(seen[15]),
-                    I::One::spread(seen[16]),
-                    I::One::spread(seen[17]),
-                    I::One::spread(seen[18]),
-                    I::One::spread(seen[19]),
-                    I::One::spread(seen[20]),
-                    I::One::spread(seen[21]),
-                    I::One::spread(seen[22]),
-                    I::One::spread(seen[23]),
-                    I::One::spread(seen[24]),
-                    I::One::spread(seen[25]),
-                    I::One::spread(seen[26]),
-                ],
-            );
-            let main = [
-                Pack::<f64>::sum(main[0]),
-                Pack::<f64>::sum(main[1]),
-                Pack::<f64>::sum(main[2]),
-                Pack::<f64>::sum(main[3]),
-                Pack::<f64>::sum(main[4]),
-                Pack::<f64>::sum(main[5]),
-            ];
-            out[..6].copy_from_slice(&main);
-            g0_out::<f64, I::Four>(k, main, 0, &saved_0_0, out);
+            let mut s3_saved_0 = [[I::Four::zero(); 6]; 3];
+            s3_in::<f64, I::Four>(k, x, 0, &mut s3_saved_0, &mut seen);
+            main_body::<f64, I::One>(k, x, seen, out);
+            s3_out::<f64, I::Four>(k, 0, &s3_saved_0, out);
         }
     }
-    impl FourS3 {}
-    fn g0_start_constants<R: Real>(p: &[R]) -> [R; 12] {
-        let p: &[R; 12] = p.try_into().expect("one value for each parameter");
-        [p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11]]
-    }
+    /// The main body: its accelerations from what all appendages show at O.
     #[inline(always)]
-    fn g0_start<R: Real>(k: [R; 12], omega_0: [R; 3]) -> ([R; 3], [R; 4]) {
-        let t15 = k[0] * omega_0[0];
-        let t16 = k[1] * omega_0[0];
-        let t17 = k[2] * omega_0[0];
-        let t21 = k[3].mul_add(omega_0[1], t15);
-        let t22 = k[4].mul_add(omega_0[1], t16);
-        let t23 = k[5].mul_add(omega_0[1], t17);
-        let t27 = k[6].mul_add(omega_0[2], t21);
-        let t28 = k[7].mul_add(omega_0[2], t22);
-        let t29 = k[8].mul_add(omega_0[2], t23);
-        let t30 = t28 * t28;
-        let t31 = t29 * t29;
-        let t32 = t27 * t28;
-        let t33 = t27 * t29;
-        let t34 = t28 * t29;
-        let t35 = t30 + t31;
-        let t37 = t27 * t27;
-        let t39 = k[10] * t28;
-        let t41 = k[11].mul_add(t29, t39);
-        let t42 = t27 * t41;
-        let t43 = (-k[9]).mul_add(t35, t42);
-        let t44 = k[9] * t32;
-        let t45 = t31 + t37;
-        let t47 = (-k[10]).mul_add(t45, t44);
-        let t49 = k[11].mul_add(t34, t47);
-        let t50 = k[9] * t33;
-        let t52 = k[10].mul_add(t34, t50);
-        let t53 = t30 + t37;
-        let t55 = (-k[11]).mul_add(t53, t52);
-        ([t27, t28, t29], [R::constant(0f64), t43, t49, t55])
+    fn main_body<S: Real, P: Pack<S>>(k: &[S], x: &[S], seen: [S; 27], out: &mut [S]) {
+        let omega = P::spread_all([x[0], x[1], x[2]]);
+        let rates = main_base(
+            P::gather_all(k, 252, 1),
+            omega,
+            P::spread_all([x[3], x[4], x[5], x[6], x[7], x[8]]),
+            P::spread_all(seen),
+        );
+        P::scatter_all(rates, out, 0, 1);
     }
-    fn g0_outward_constants<R: Real>(p: &[R]) -> [R; 7] {
-        let p: &[R; 12] = p.try_into().expect("one value for each parameter");
-        let t23 = p[5] - p[6];
-        [p[0], p[2], p[4], p[5], p[6], p[10], t23]
-    }
+    /// Inward through appendage `a` of 4 S3 and those packed with it; adds to `seen`.
     #[inline(always)]
-    fn g0_outward<R: Real>(
-        k: [R; 7],
-        w_0: [R; 3],
-        turn_1: [R; 2],
-        tau_2: [R; 1],
-        reached_3: [R; 4],
-    ) -> ([R; 13], [R; 4]) {
-        let t17 = w_0[1] * w_0[1];
-        let t18 = w_0[2] * w_0[2];
-        let t19 = w_0[1] * w_0[2];
-        let t20 = tau_2[0] + reached_3[0];
-        let t21 = k[1] * turn_1[1];
-        let t22 = k[1] * turn_1[0];
-        let t24 = turn_1[0] * k[6];
-        let t25 = turn_1[0] * t24;
-        let t26 = k[3] - t25;
-        let t27 = k[4] + t25;
-        let t28 = turn_1[1] * t24;
-        let t29 = k[5] * turn_1[1];
-        let t30 = k[5] * turn_1[0];
-        let t31 = k[0] * reached_3[1];
-        let t34 = w_0[0] + t20;
-        let t35 = t20 + t34;
-        let t36 = t34 * t34;
-        let t37 = w_0[1] * t21;
-        let t39 = w_0[2].mul_add(t22, t37);
-        let t41 = t18 + t36;
-        let t43 = t19 * t22;
-        let t44 = (-t21).mul_add(t41, t43);
-        let t45 = t19 * t21;
-        let t46 = t17 + t36;
-        let t48 = (-t22).mul_add(t46, t45);
-        let t49 = t35.mul_add(t39, t31);
-        let t50 = k[0].mul_add(reached_3[2], t44);
-        let t51 = k[0].mul_add(reached_3[3], t48);
-        let t52 = reached_3[3] * t21;
-        let t54 = (-reached_3[2]).mul_add(t22, t52);
-        let t57 = k[2] * t34;
-        let t58 = w_0[1] * t26;
-        let t60 = w_0[2].mul_add(t28, t58);
-        let t61 = w_0[1] * t28;
-        let t63 = w_0[2].mul_add(t27, t61);
-        let t64 = w_0[2] * t20;
-        let t65 = w_0[1] * t20;
-        let t66 = t17 - t18;
-        let t67 = t28 * t66;
-        let t68 = t27 - t26;
-        let t70 = t19.mul_add(t68, t67);
-        let t71 = t26 * t64;
-        let t73 = (-t28).mul_add(t65, t71);
-        let t75 = w_0[2].mul_add(t57, t73);
-        let t77 = (-t34).mul_add(t63, t75);
-        let t78 = t28 * t64;
-        let t80 = (-t27).mul_add(t65, t78);
-        let t82 = t34.mul_add(t60, t80);
-        let t84 = (-w_0[1]).mul_add(t57, t82);
-        let t85 = t54 + t70;
-        let t86 = reached_3[1].mul_add(t22, t77);
-        let t87 = (-reached_3[1]).mul_add(t21, t84);
-        let t88 = w_0[1] * t29;
-        let t90 = w_0[2].mul_add(t30, t88);
-        let t93 = t19 * t30;
-        let t94 = (-t29).mul_add(t41, t93);
-        let t95 = t19 * t29;
-        let t97 = (-t30).mul_add(t46, t95);
-        let t98 = t35.mul_add(t90, reached_3[1]);
-        let t99 = reached_3[2] + t94;
-        let t100 = reached_3[3] + t97;
-        (
-            [t21, t22, t26, t27, t28, t29, t30, t85, t86, t87, t49, t50, t51],
-            [t20, t98, t99, t100],
-        )
-    }
-    fn g0_inward_constants<R: Real>(p: &[R]) -> [R; 2] {
-        let p: &[R; 12] = p.try_into().expect("one value for each parameter");
-        [p[0], p[4]]
-    }
-    #[inline(always)]
-    fn g0_inward<R: Real>(
-        k: [R; 2],
-        turned_0: [R; 13],
-        excess_1: [R; 1],
-        shown_2: [R; 14],
-    ) -> ([R; 14], [R; 6]) {
-        let t31 = turned_0[5] * shown_2[8];
-        let t33 = (-turned_0[6]).mul_add(shown_2[6], t31);
-        let t34 = turned_0[5] * shown_2[7];
-        let t36 = (-turned_0[6]).mul_add(shown_2[8], t34);
-        let t38 = turned_0[6].mul_add(shown_2[5], shown_2[3]);
-        let t40 = (-turned_0[5]).mul_add(shown_2[5], shown_2[4]);
-        let t41 = turned_0[5] * t36;
-        let t43 = (-turned_0[6]).mul_add(t33, t41);
-        let t44 = k[1] + t43;
-        let t45 = t33 - turned_0[1];
-        let t46 = turned_0[0] + t36;
-        let t48 = R::constant(1f64) / t44;
-        let t49 = excess_1[0] - turned_0[7];
-        let t50 = turned_0[5] * shown_2[13];
-        let t52 = (-turned_0[6]).mul_add(shown_2[12], t50);
-        let t53 = t49 - t52;
-        let t54 = t48 * t53;
-        let t55 = t45 * t48;
-        let t56 = t46 * t48;
-        let t57 = shown_2[3] + t38;
-        let t59 = turned_0[6].mul_add(t57, shown_2[0]);
-        let t60 = turned_0[2] + t59;
-        let t61 = shown_2[4] + t40;
-        let t63 = (-turned_0[5]).mul_add(t61, shown_2[1]);
-        let t64 = turned_0[3] + t63;
-        let t66 = (-turned_0[5]).mul_add(shown_2[3], shown_2[2]);
-        let t68 = turned_0[6].mul_add(t40, t66);
-        let t69 = turned_0[4] + t68;
-        let t70 = turned_0[1] + t38;
-        let t71 = t40 - turned_0[0];
-        let t72 = k[0] + shown_2[5];
-        let t73 = k[0] + shown_2[6];
-        let t75 = (-t45).mul_add(t55, t73);
-        let t76 = k[0] + shown_2[7];
-        let t78 = (-t46).mul_add(t56, t76);
-        let t80 = (-t45).mul_add(t56, shown_2[8]);
-        let t82 = turned_0[6].mul_add(shown_2[11], shown_2[9]);
-        let t83 = turned_0[8] + t82;
-        let t85 = (-turned_0[5]).mul_add(shown_2[11], shown_2[10]);
-        let t86 = turned_0[9] + t85;
-        let t87 = turned_0[10] + shown_2[11];
-        let t88 = turned_0[11] + shown_2[12];
-        let t89 = turned_0[12] + shown_2[13];
-        let t92 = t45.mul_add(t54, t88);
-        let t93 = t46.mul_add(t54, t89);
-        (
-            [t60, t64, t69, t70, t71, t72, t75, t78, t80, t83, t86, t87, t92, t93],
-            [t45, t46, t48, t53, turned_0[5], turned_0[6]],
-        )
-    }
-    fn g0_root_constants<R: Real>(p: &[R]) -> [R; 12] {
-        let p: &[R; 12] = p.try_into().expect("one value for each parameter");
-        [p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11]]
-    }
-    #[inline(always)]
-    fn g0_root<R: Real>(k: [R; 12], shown_0: [R; 14], torque_1: [R; 1]) -> ([R; 27],) {
-        let t27 = k[10] * shown_0[8];
-        let t28 = k[10] * shown_0[7];
-        let t31 = (-k[11]).mul_add(shown_0[6], t27);
-        let t32 = (-k[11]).mul_add(shown_0[8], t28);
-        let t34 = k[9] * shown_0[8];
-        let t35 = k[9] * shown_0[7];
-        let t36 = k[9] * shown_0[6];
-        let t38 = k[11].mul_add(shown_0[5], shown_0[3]);
-        let t39 = (-k[10]).mul_add(shown_0[5], shown_0[4]);
-        let t44 = k[10] * t32;
-        let t45 = k[9] * t32;
-        let t46 = k[9] * t31;
-        let t47 = k[9] * t35;
-        let t49 = k[11].mul_add(t38, t47);
-        let t50 = k[10] * t38;
-        let t52 = k[9].mul_add(t34, t50);
-        let t53 = k[10] * t39;
-        let t55 = (-k[9]).mul_add(t36, t53);
-        let t56 = k[11].mul_add(shown_0[3], t49);
-        let t57 = (-k[11]).mul_add(shown_0[4], t52);
-        let t58 = k[10].mul_add(shown_0[4], t55);
-        let t59 = (-k[11]).mul_add(t31, t44);
-        let t60 = shown_0[0] + t56;
-        let t61 = shown_0[1] - t58;
-        let t62 = shown_0[2] - t57;
-        let t63 = k[10] * shown_0[13];
-        let t65 = (-k[11]).mul_add(shown_0[12], t63);
-        let t66 = k[11] * shown_0[11];
-        let t68 = (-k[9]).mul_add(shown_0[13], t66);
-        let t69 = k[9] * shown_0[12];
-        let t71 = (-k[10]).mul_add(shown_0[11], t69);
-        let t72 = torque_1[0] + t65;
-        let t73 = shown_0[9] + t68;
-        let t74 = shown_0[10] + t71;
-        let t75 = k[0] * t59;
-        let t77 = (-k[1]).mul_add(t45, t75);
-        let t79 = k[2].mul_add(t46, t77);
-        let t81 = k[1] * t60;
-        let t82 = (-k[0]).mul_add(t45, t81);
-        let t84 = k[2].mul_add(t62, t82);
-        let t85 = k[0] * t46;
-        let t87 = k[1].mul_add(t62, t85);
-        let t89 = k[2].mul_add(t61, t87);
-        let t90 = k[3] * t59;
-        let t92 = (-k[4]).mul_add(t45, t90);
-        let t94 = k[5].mul_add(t46, t92);
-        let t96 = k[4] * t60;
-        let t97 = (-k[3]).mul_add(t45, t96);
-        let t99 = k[5].mul_add(t62, t97);
-        let t100 = k[3] * t46;
-        let t102 = k[4].mul_add(t62, t100);
-        let t104 = k[5].mul_add(t61, t102);
-        let t105 = k[6] * t59;
-        let t107 = (-k[7]).mul_add(t45, t105);
-        let t109 = k[8].mul_add(t46, t107);
-        let t111 = k[7] * t60;
-        let t112 = (-k[6]).mul_add(t45, t111);
-        let t114 = k[8].mul_add(t62, t112);
-        let t115 = k[6] * t46;
-        let t117 = k[7].mul_add(t62, t115);
-        let t119 = k[8].mul_add(t61, t117);
-        let t120 = k[0] * t79;
-        let t122 = k[1].mul_add(t84, t120);
-        let t124 = k[2].mul_add(t89, t122);
-        let t125 = k[3] * t94;
-        let t127 = k[4].mul_add(t99, t125);
-        let t129 = k[5].mul_add(t104, t127);
-        let t130 = k[6] * t109;
-        let t132 = k[7].mul_add(t114, t130);
-        let t134 = k[8].mul_add(t119, t132);
-        let t135 = k[0] * t94;
-        let t137 = k[1].mul_add(t99, t135);
-        let t139 = k[2].mul_add(t104, t137);
-        let t140 = k[0] * t109;
-        let t142 = k[1].mul_add(t114, t140);
-        let t144 = k[2].mul_add(t119, t142);
-        let t145 = k[3] * t109;
-        let t147 = k[4].mul_add(t114, t145);
-        let t149 = k[5].mul_add(t119, t147);
-        let t150 = k[0] * t31;
-        let t151 = k[0] * t32;
-        let t152 = k[1] * t38;
-        let t155 = (-k[1]).mul_add(t34, t150);
-        let t156 = (-k[1]).mul_add(t35, t151);
-        let t160 = k[2].mul_add(t39, t152);
-        let t161 = k[2].mul_add(t36, t155);
-        let t162 = k[2].mul_add(t34, t156);
-        let t163 = k[3] * t31;
-        let t164 = k[3] * t32;
-        let t165 = k[4] * t38;
-        let t168 = (-k[4]).mul_add(t34, t163);
-        let t169 = (-k[4]).mul_add(t35, t164);
-        let t173 = k[5].mul_add(t39, t165);
-        let t174 = k[5].mul_add(t36, t168);
-        let t175 = k[5].mul_add(t34, t169);
-        let t176 = k[6] * t31;
-        let t177 = k[6] * t32;
-        let t178 = k[7] * t38;
-        let t181 = (-k[7]).mul_add(t34, t176);
-        let t182 = (-k[7]).mul_add(t35, t177);
-        let t186 = k[8].mul_add(t39, t178);
-        let t187 = k[8].mul_add(t36, t181);
-        let t188 = k[8].mul_add(t34, t182);
-        let t189 = k[0] * t160;
-        let t190 = k[3] * t160;
-        let t191 = k[6] * t160;
-        let t195 = k[1].mul_add(t161, t189);
-        let t196 = k[4].mul_add(t161, t190);
-        let t197 = k[7].mul_add(t161, t191);
-        let t201 = k[2].mul_add(t162, t195);
-        let t202 = k[5].mul_add(t162, t196);
-        let t203 = k[8].mul_add(t162, t197);
-        let t204 = k[0] * t173;
-        let t205 = k[3] * t173;
-        let t206 = k[6] * t173;
-        let t210 = k[1].mul_add(t174, t204);
-        let t211 = k[4].mul_add(t174, t205);
-        let t212 = k[7].mul_add(t174, t206);
-        let t216 = k[2].mul_add(t175, t210);
-        let t217 = k[5].mul_add(t175, t211);
-        let t218 = k[8].mul_add(t175, t212);
-        let t219 = k[0] * t186;
-        let t220 = k[3] * t186;
-        let t221 = k[6] * t186;
-        let t225 = k[1].mul_add(t187, t219);
-        let t226 = k[4].mul_add(t187, t220);
-        let t227 = k[7].mul_add(t187, t221);
-        let t231 = k[2].mul_add(t188, t225);
-        let t232 = k[5].mul_add(t188, t226);
-        let t233 = k[8].mul_add(t188, t227);
-        let t234 = k[0] * shown_0[5];
-        let t235 = k[1] * shown_0[6];
-        let t237 = k[2].mul_add(shown_0[8], t235);
-        let t238 = k[1] * shown_0[8];
-        let t240 = k[2].mul_add(shown_0[7], t238);
-        let t241 = k[3] * shown_0[5];
-        let t242 = k[4] * shown_0[6];
-        let t244 = k[5].mul_add(shown_0[8], t242);
-        let t245 = k[4] * shown_0[8];
-        let t247 = k[5].mul_add(shown_0[7], t245);
-        let t248 = k[6] * shown_0[5];
-        let t249 = k[7] * shown_0[6];
-        let t251 = k[8].mul_add(shown_0[8], t249);
-        let t252 = k[7] * shown_0[8];
-        let t254 = k[8].mul_add(shown_0[7], t252);
-        let t255 = k[0] * t234;
-        let t257 = k[1].mul_add(t237, t255);
-        let t259 = k[2].mul_add(t240, t257);
-        let t260 = k[3] * t241;
-        let t262 = k[4].mul_add(t244, t260);
-        let t264 = k[5].mul_add(t247, t262);
-        let t265 = k[6] * t248;
-        let t267 = k[7].mul_add(t251, t265);
-        let t269 = k[8].mul_add(t254, t267);
-        let t270 = k[0] * t241;
-        let t272 = k[1].mul_add(t244, t270);
-        let t274 = k[2].mul_add(t247, t272);
-        let t275 = k[0] * t248;
-        let t277 = k[1].mul_add(t251, t275);
-        let t279 = k[2].mul_add(t254, t277);
-        let t280 = k[3] * t248;
-        let t282 = k[4].mul_add(t251, t280);
-        let t284 = k[5].mul_add(t254, t282);
-        let t285 = k[0] * t72;
-        let t287 = k[1].mul_add(t73, t285);
-        let t289 = k[2].mul_add(t74, t287);
-        let t290 = k[3] * t72;
-        let t292 = k[4].mul_add(t73, t290);
-        let t294 = k[5].mul_add(t74, t292);
-        let t295 = k[6] * t72;
-        let t297 = k[7].mul_add(t73, t295);
-        let t299 = k[8].mul_add(t74, t297);
-        let t300 = k[0] * shown_0[11];
-        let t302 = k[1].mul_add(shown_0[12], t300);
-        let t304 = k[2].mul_add(shown_0[13], t302);
-        let t305 = k[3] * shown_0[11];
-        let t307 = k[4].mul_add(shown_0[12], t305);
-        let t309 = k[5].mul_add(shown_0[13], t307);
-        let t310 = k[6] * shown_0[11];
-        let t312 = k[7].mul_add(shown_0[12], t310);
-        let t314 = k[8].mul_add(shown_0[13], t312);
-        (
-            [
-                t124,
-                t129,
-                t134,
-                t139,
-                t144,
-                t149,
-                t201,
-                t202,
-                t203,
-                t216,
-                t217,
-                t218,
-                t231,
-                t232,
-                t233,
-                t259,
-                t264,
-                t269,
-                t274,
-                t279,
-                t284,
-                t289,
-                t294,
-                t299,
-                t304,
-                t309,
-                t314,
-            ],
-        )
-    }
-    fn g0_first_constants<R: Real>(p: &[R]) -> [R; 12] {
-        let p: &[R; 12] = p.try_into().expect("one value for each parameter");
-        [p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11]]
-    }
-    #[inline(always)]
-    fn g0_first<R: Real>(k: [R; 12], main_rates_0: [R; 6]) -> ([R; 3], [R; 3]) {
-        let t18 = k[0] * main_rates_0[0];
-        let t19 = k[1] * main_rates_0[0];
-        let t20 = k[2] * main_rates_0[0];
-        let t24 = k[3].mul_add(main_rates_0[1], t18);
-        let t25 = k[4].mul_add(main_rates_0[1], t19);
-        let t26 = k[5].mul_add(main_rates_0[1], t20);
-        let t30 = k[6].mul_add(main_rates_0[2], t24);
-        let t31 = k[7].mul_add(main_rates_0[2], t25);
-        let t32 = k[8].mul_add(main_rates_0[2], t26);
-        let t33 = k[0] * main_rates_0[3];
-        let t34 = k[1] * main_rates_0[3];
-        let t35 = k[2] * main_rates_0[3];
-        let t39 = k[3].mul_add(main_rates_0[4], t33);
-        let t40 = k[4].mul_add(main_rates_0[4], t34);
-        let t41 = k[5].mul_add(main_rates_0[4], t35);
-        let t45 = k[6].mul_add(main_rates_0[5], t39);
-        let t46 = k[7].mul_add(main_rates_0[5], t40);
-        let t47 = k[8].mul_add(main_rates_0[5], t41);
-        let t48 = k[11] * t31;
-        let t50 = (-k[10]).mul_add(t32, t48);
-        let t51 = k[9] * t32;
-        let t53 = (-k[11]).mul_add(t30, t51);
-        let t54 = k[10] * t30;
-        let t56 = (-k[9]).mul_add(t31, t54);
-        let t57 = t45 + t50;
-        let t58 = t46 + t53;
-        let t59 = t47 + t56;
-        ([t30, t31, t32], [t57, t58, t59])
-    }
-    #[inline(always)]
-    fn g0_back<R: Real>(
-        eliminated_0: [R; 6],
-        turning_1: [R; 3],
-        hinge_rates_2: [R; 3],
-    ) -> ([R; 1], [R; 3], [R; 3]) {
-        let t12 = eliminated_0[0] * hinge_rates_2[1];
-        let t14 = eliminated_0[1].mul_add(hinge_rates_2[2], t12);
-        let t15 = eliminated_0[3] - t14;
-        let t16 = eliminated_0[2] * t15;
-        let t18 = eliminated_0[5].mul_add(turning_1[1], hinge_rates_2[0]);
-        let t20 = (-eliminated_0[4]).mul_add(turning_1[2], t18);
-        let t22 = (-eliminated_0[5]).mul_add(t16, hinge_rates_2[1]);
-        let t24 = eliminated_0[4].mul_add(t16, hinge_rates_2[2]);
-        let t25 = t16 - turning_1[0];
-        ([t25], [t16, turning_1[1], turning_1[2]], [t20, t22, t24])
-    }
-    #[inline(always)]
-    fn g0_in<S: Real, P: Pack<S>>(
+    fn s3_in<S: Real, P: Pack<S>>(
         k: &[S],
         x: &[S],
         a: usize,
-        saved: &mut ([[P; 6]; 3],),
-    ) -> [P; 27] {
-        let omega = [P::spread(x[0]), P::spread(x[1]), P::spread(x[2])];
-        let (w, mut reached) = g0_start(P::gather_all(k, 0 + a, 4), omega);
+        saved: &mut [[P; 6]; 3],
+        seen: &mut [S; 27],
+    ) {
+        let omega = P::spread_all([x[0], x[1], x[2]]);
+        let (w, mut reached) = s3_start(P::gather_all(k, a, 4), omega);
+        // Absolute angles, their sines and cosines.
         let mut angles = [P::zero(); 3];
         let mut alpha = P::zero();
         for i in 0..3 {
-            alpha += P::gather(x, 9 + 3 * i * 4 + a);
+            alpha += P::gather(x, 9 + 12 * i + a);
             angles[i] = alpha;
         }
         let turns = P::sin_cos_all(angles);
+        // Outward: links turned, their biases.
         let mut turned = [[P::zero(); 13]; 3];
         for i in 0..3 {
-            let turn = [turns[i].0, turns[i].1];
-            let tau = [P::gather(x, 9 + (3 * i + 1) * 4 + a)];
-            (turned[i], reached) = g0_outward(
-                P::gather_all(k, 48 + i * 7 * 4 + a, 4),
-                w,
-                turn,
-                tau,
-                reached,
-            );
+            let link = P::gather_all(k, 48 + 28 * i + a, 4);
+            let (sin, cos) = turns[i];
+            let tau = P::gather(x, 13 + 12 * i + a);
+            (turned[i], reached) = s3_outward(link, w, [sin, cos], [tau], reached);
         }
+        // Inward: hinges eliminated.
         let mut outer = P::zero();
         let mut shown = [P::zero(); 14];
         for i in (0..3).rev() {
-            let torque = P::gather(x, 9 + (3 * i + 2) * 4 + a);
-            (shown, saved.0[i]) = g0_inward(
-                P::gather_all(k, 132 + i * 2 * 4 + a, 4),
-                turned[i],
-                [torque - outer],
-                shown,
-            );
+            let link = P::gather_all(k, 132 + 8 * i + a, 4);
+            let torque = P::gather(x, 17 + 12 * i + a);
+            (shown, saved[i]) = s3_inward(link, turned[i], [torque - outer], shown);
             outer = torque;
         }
-        let (seen,) = g0_root(P::gather_all(k, 156 + a, 4), shown, [outer]);
-        seen
-    }
-    #[inline(always)]
-    fn g0_out<S: Real, P: Pack<S>>(
-        k: &[S],
-        main: [S; 6],
-        a: usize,
-        saved: &([[P; 6]; 3],),
-        out: &mut [S],
-    ) {
-        let (mut turning, mut hinge) = g0_first(
-            P::gather_all(k, 204 + a, 4),
-            P::spread_all(main),
-        );
-        for i in 0..3 {
-            let tau_dot;
-            (tau_dot, turning, hinge) = g0_back(saved.0[i], turning, hinge);
-            tau_dot[0].scatter(out, 6 + i * 4 + a);
+        let shares = s3_root(P::gather_all(k, 156 + a, 4), shown, [outer]);
+        for i in 0..27 {
+            seen[i] += shares[i].sum();
         }
     }
-    fn m_base_constants<R: Real>(p: &[R]) -> [R; 4] {
-        let p: &[R; 10] = p.try_into().expect("one value for each parameter");
-        [p[0], p[4], p[5], p[6]]
-    }
+    /// Outward through appendage `a` of 4 S3 and those packed with it.
     #[inline(always)]
-    fn m_base<R: Real>(
+    fn s3_out<S: Real, P: Pack<S>>(k: &[S], a: usize, saved: &[[P; 6]; 3], out: &mut [S]) {
+        let main = P::spread_all([out[0], out[1], out[2], out[3], out[4], out[5]]);
+        let (mut turning, mut hinge) = s3_first(P::gather_all(k, 204 + a, 4), main);
+        for i in 0..3 {
+            let tau_dot;
+            ([tau_dot], turning, hinge) = s3_back(saved[i], turning, hinge);
+            tau_dot.scatter(out, 6 + 4 * i + a);
+        }
+    }
+    /// ω in appendage axes, and the bias acceleration of the first hinge.
+    #[inline(always)]
+    fn s3_start<R: Real>(k: [R; 12], omega: [R; 3]) -> ([R; 3], [R; 4]) {
+        let [r11, r12, r13, r21, r22, r23, r31, r32, r33, dx, dy, dz] = k;
+        let [omega_x, omega_y, omega_z] = omega;
+        let t27 = r31.mul_add(omega_z, r21.mul_add(omega_y, r11 * omega_x));
+        let t28 = r32.mul_add(omega_z, r22.mul_add(omega_y, r12 * omega_x));
+        let t29 = r33.mul_add(omega_z, r23.mul_add(omega_y, r13 * omega_x));
+        let t30 = t28 * t28;
+        let t31 = t29 * t29;
+        let t34 = t28 * t29;
+        let t37 = t27 * t27;
+        let t43 = (-dx).mul_add(t30 + t31, t27 * dz.mul_add(t29, dy * t28));
+        let t49 = dz.mul_add(t34, (-dy).mul_add(t31 + t37, dx * (t27 * t28)));
+        let t55 = (-dz).mul_add(t30 + t37, dy.mul_add(t34, dx * (t27 * t29)));
+        ([t27, t28, t29], [R::zero(), t43, t49, t55])
+    }
+    /// Constants of `s3_outward`.
+    fn s3_outward_constants<R: Real>(p: [R; 12]) -> [R; 7] {
+        let [mass, _, cy, _, jxx, jyy, jzz, _, _, _, ly, _] = p;
+        let t23 = jyy - jzz;
+        [mass, cy, jxx, jyy, jzz, ly, t23]
+    }
+    /// A link turned by its absolute angle, with its bias, and how the next hinge moves.
+    #[inline(always)]
+    fn s3_outward<R: Real>(
+        k: [R; 7],
+        w: [R; 3],
+        turn: [R; 2],
+        tau: [R; 1],
+        reached: [R; 4],
+    ) -> ([R; 13], [R; 4]) {
+        let [mass, cy, jxx, jyy, jzz, ly, t23] = k;
+        let [wx, wy, wz] = w;
+        let [sin, cos] = turn;
+        let [tau] = tau;
+        let [sigma, bx, by, bz] = reached;
+        let t17 = wy * wy;
+        let t18 = wz * wz;
+        let t19 = wy * wz;
+        let t20 = tau + sigma;
+        let t21 = cy * cos;
+        let t22 = cy * sin;
+        let t24 = sin * t23;
+        let t25 = sin * t24;
+        let t26 = jyy - t25;
+        let t27 = jzz + t25;
+        let t28 = cos * t24;
+        let t29 = ly * cos;
+        let t30 = ly * sin;
+        let t34 = wx + t20;
+        let t35 = t20 + t34;
+        let t36 = t34 * t34;
+        let t41 = t18 + t36;
+        let t46 = t17 + t36;
+        let t49 = t35.mul_add(wz.mul_add(t22, wy * t21), mass * bx);
+        let t50 = mass.mul_add(by, (-t21).mul_add(t41, t19 * t22));
+        let t51 = mass.mul_add(bz, (-t22).mul_add(t46, t19 * t21));
+        let t57 = jxx * t34;
+        let t64 = wz * t20;
+        let t65 = wy * t20;
+        let t75 = wz.mul_add(t57, (-t28).mul_add(t65, t26 * t64));
+        let t80 = (-t27).mul_add(t65, t28 * t64);
+        let t70 = t19.mul_add(t27 - t26, t28 * (t17 - t18));
+        let t85 = (-by).mul_add(t22, bz * t21) + t70;
+        let t86 = bx.mul_add(t22, (-t34).mul_add(wz.mul_add(t27, wy * t28), t75));
+        let t84 = (-wy).mul_add(t57, t34.mul_add(wz.mul_add(t28, wy * t26), t80));
+        let t87 = (-bx).mul_add(t21, t84);
+        let t98 = t35.mul_add(wz.mul_add(t30, wy * t29), bx);
+        let t99 = by + (-t29).mul_add(t41, t19 * t30);
+        let t100 = bz + (-t30).mul_add(t46, t19 * t29);
+        ([t21, t22, t26, t27, t28, t29, t30, t85, t86, t87, t49, t50, t51], [t20, t98, t99, t100])
+    }
+    /// A link's hinge eliminated: what it shows inboard, and what is left for the way back.
+    #[inline(always)]
+    fn s3_inward<R: Real>(
+        k: [R; 2],
+        turned: [R; 13],
+        excess: [R; 1],
+        shown: [R; 14],
+    ) -> ([R; 14], [R; 6]) {
+        let [mass, jxx] = k;
+        let [cy, cz, jyy, jzz, jyz, ly, lz, nx, ny, nz, fx, fy, fz] = turned;
+        let [excess] = excess;
+        let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = shown;
+        let t33 = (-lz).mul_add(myy, ly * myz);
+        let t36 = (-lz).mul_add(myz, ly * mzz);
+        let t38 = lz.mul_add(mxx, byx);
+        let t40 = (-ly).mul_add(mxx, bzx);
+        let t45 = t33 - cz;
+        let t46 = cy + t36;
+        let t48 = R::one() / (jxx + (-lz).mul_add(t33, ly * t36));
+        let t53 = excess - nx - (-lz).mul_add(py, ly * pz);
+        let t54 = t48 * t53;
+        let t56 = t46 * t48;
+        let t60 = jyy + lz.mul_add(byx + t38, ayy);
+        let t64 = jzz + (-ly).mul_add(bzx + t40, azz);
+        let t69 = jyz + lz.mul_add(t40, (-ly).mul_add(byx, ayz));
+        let t70 = cz + t38;
+        let t71 = t40 - cy;
+        let t72 = mass + mxx;
+        let t75 = (-t45).mul_add(t45 * t48, mass + myy);
+        let t78 = (-t46).mul_add(t56, mass + mzz);
+        let t80 = (-t45).mul_add(t56, myz);
+        let t83 = ny + lz.mul_add(px, qy);
+        let t86 = nz + (-ly).mul_add(px, qz);
+        let t87 = fx + px;
+        let t92 = t45.mul_add(t54, fy + py);
+        let t93 = t46.mul_add(t54, fz + pz);
+        (
+            [t60, t64, t69, t70, t71, t72, t75, t78, t80, t83, t86, t87, t92, t93],
+            [t45, t46, t48, t53, ly, lz],
+        )
+    }
+    /// What a chain shows at O, main-body axes.
+    #[inline(always)]
+    fn s3_root<R: Real>(k: [R; 12], shown: [R; 14], torque: [R; 1]) -> [R; 27] {
+        let [r11, r12, r13, r21, r22, r23, r31, r32, r33, dx, dy, dz] = k;
+        let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = shown;
+        let [torque] = torque;
+        let t31 = (-dz).mul_add(myy, dy * myz);
+        let t32 = (-dz).mul_add(myz, dy * mzz);
+        let t34 = dx * myz;
+        let t35 = dx * mzz;
+        let t36 = dx * myy;
+        let t38 = dz.mul_add(mxx, byx);
+        let t39 = (-dy).mul_add(mxx, bzx);
+        let t45 = dx * t32;
+        let t46 = dx * t31;
+        let t59 = (-dz).mul_add(t31, dy * t32);
+        let t60 = ayy + dz.mul_add(byx, dz.mul_add(t38, dx * t35));
+        let t61 = azz - dy.mul_add(bzx, (-dx).mul_add(t36, dy * t39));
+        let t62 = ayz - (-dz).mul_add(bzx, dx.mul_add(t34, dy * t38));
+        let t72 = torque + (-dz).mul_add(py, dy * pz);
+        let t73 = qy + (-dx).mul_add(pz, dz * px);
+        let t74 = qz + (-dy).mul_add(px, dx * py);
+        let t94 = r23.mul_add(t46, (-r22).mul_add(t45, r21 * t59));
+        let t99 = r23.mul_add(t62, (-r21).mul_add(t45, r22 * t60));
+        let t104 = r23.mul_add(t61, r22.mul_add(t62, r21 * t46));
+        let t109 = r33.mul_add(t46, (-r32).mul_add(t45, r31 * t59));
+        let t114 = r33.mul_add(t62, (-r31).mul_add(t45, r32 * t60));
+        let t119 = r33.mul_add(t61, r32.mul_add(t62, r31 * t46));
+        let t120 = r11 * r13.mul_add(t46, (-r12).mul_add(t45, r11 * t59));
+        let t122 = r12.mul_add(r13.mul_add(t62, (-r11).mul_add(t45, r12 * t60)), t120);
+        let t124 = r13.mul_add(r13.mul_add(t61, r12.mul_add(t62, r11 * t46)), t122);
+        let t129 = r23.mul_add(t104, r22.mul_add(t99, r21 * t94));
+        let t134 = r33.mul_add(t119, r32.mul_add(t114, r31 * t109));
+        let t139 = r13.mul_add(t104, r12.mul_add(t99, r11 * t94));
+        let t144 = r13.mul_add(t119, r12.mul_add(t114, r11 * t109));
+        let t149 = r23.mul_add(t119, r22.mul_add(t114, r21 * t109));
+        let t160 = r13.mul_add(t39, r12 * t38);
+        let t161 = r13.mul_add(t36, (-r12).mul_add(t34, r11 * t31));
+        let t162 = r13.mul_add(t34, (-r12).mul_add(t35, r11 * t32));
+        let t173 = r23.mul_add(t39, r22 * t38);
+        let t174 = r23.mul_add(t36, (-r22).mul_add(t34, r21 * t31));
+        let t175 = r23.mul_add(t34, (-r22).mul_add(t35, r21 * t32));
+        let t186 = r33.mul_add(t39, r32 * t38);
+        let t187 = r33.mul_add(t36, (-r32).mul_add(t34, r31 * t31));
+        let t188 = r33.mul_add(t34, (-r32).mul_add(t35, r31 * t32));
+        let t201 = r13.mul_add(t162, r12.mul_add(t161, r11 * t160));
+        let t202 = r23.mul_add(t162, r22.mul_add(t161, r21 * t160));
+        let t203 = r33.mul_add(t162, r32.mul_add(t161, r31 * t160));
+        let t216 = r13.mul_add(t175, r12.mul_add(t174, r11 * t173));
+        let t217 = r23.mul_add(t175, r22.mul_add(t174, r21 * t173));
+        let t218 = r33.mul_add(t175, r32.mul_add(t174, r31 * t173));
+        let t231 = r13.mul_add(t188, r12.mul_add(t187, r11 * t186));
+        let t232 = r23.mul_add(t188, r22.mul_add(t187, r21 * t186));
+        let t233 = r33.mul_add(t188, r32.mul_add(t187, r31 * t186));
+        let t241 = r21 * mxx;
+        let t244 = r23.mul_add(myz, r22 * myy);
+        let t247 = r23.mul_add(mzz, r22 * myz);
+        let t248 = r31 * mxx;
+        let t251 = r33.mul_add(myz, r32 * myy);
+        let t254 = r33.mul_add(mzz, r32 * myz);
+        let t257 = r12.mul_add(r13.mul_add(myz, r12 * myy), r11 * (r11 * mxx));
+        let t259 = r13.mul_add(r13.mul_add(mzz, r12 * myz), t257);
+        let t264 = r23.mul_add(t247, r22.mul_add(t244, r21 * t241));
+        let t269 = r33.mul_add(t254, r32.mul_add(t251, r31 * t248));
+        let t274 = r13.mul_add(t247, r12.mul_add(t244, r11 * t241));
+        let t279 = r13.mul_add(t254, r12.mul_add(t251, r11 * t248));
+        let t284 = r23.mul_add(t254, r22.mul_add(t251, r21 * t248));
+        let t289 = r13.mul_add(t74, r12.mul_add(t73, r11 * t72));
+        let t294 = r23.mul_add(t74, r22.mul_add(t73, r21 * t72));
+        let t299 = r33.mul_add(t74, r32.mul_add(t73, r31 * t72));
+        let t304 = r13.mul_add(pz, r12.mul_add(py, r11 * px));
+        let t309 = r23.mul_add(pz, r22.mul_add(py, r21 * px));
+        let t314 = r33.mul_add(pz, r32.mul_add(py, r31 * px));
+        [
+            t124, t129, t134, t139, t144, t149, t201, t202, t203, t216, t217, t218, t231, t232,
+            t233, t259, t264, t269, t274, t279, t284, t289, t294, t299, t304, t309, t314,
+        ]
+    }
+    /// ω̇ and the acceleration of the first hinge in appendage axes.
+    #[inline(always)]
+    fn s3_first<R: Real>(k: [R; 12], main_rates: [R; 6]) -> ([R; 3], [R; 3]) {
+        let [r11, r12, r13, r21, r22, r23, r31, r32, r33, dx, dy, dz] = k;
+        let [omega_dot_x, omega_dot_y, omega_dot_z, a_x, a_y, a_z] = main_rates;
+        let t30 = r31.mul_add(omega_dot_z, r21.mul_add(omega_dot_y, r11 * omega_dot_x));
+        let t31 = r32.mul_add(omega_dot_z, r22.mul_add(omega_dot_y, r12 * omega_dot_x));
+        let t32 = r33.mul_add(omega_dot_z, r23.mul_add(omega_dot_y, r13 * omega_dot_x));
+        let t45 = r31.mul_add(a_z, r21.mul_add(a_y, r11 * a_x));
+        let t57 = t45 + (-dy).mul_add(t32, dz * t31);
+        let t46 = r32.mul_add(a_z, r22.mul_add(a_y, r12 * a_x));
+        let t58 = t46 + (-dz).mul_add(t30, dx * t32);
+        let t47 = r33.mul_add(a_z, r23.mul_add(a_y, r13 * a_x));
+        let t59 = t47 + (-dx).mul_add(t31, dy * t30);
+        ([t30, t31, t32], [t57, t58, t59])
+    }
+    /// τ̇ of a hinge, and the accelerations of the next one.
+    #[inline(always)]
+    fn s3_back<R: Real>(
+        eliminated: [R; 6],
+        turning: [R; 3],
+        hinge_rates: [R; 3],
+    ) -> ([R; 1], [R; 3], [R; 3]) {
+        let [vy, vz, inverse, left, ly, lz] = eliminated;
+        let [epsilon, w_dot_y, w_dot_z] = turning;
+        let [a_x, a_y, a_z] = hinge_rates;
+        let t16 = inverse * (left - vz.mul_add(a_z, vy * a_y));
+        let t20 = (-ly).mul_add(w_dot_z, lz.mul_add(w_dot_y, a_x));
+        let t22 = (-lz).mul_add(t16, a_y);
+        let t24 = ly.mul_add(t16, a_z);
+        let t25 = t16 - epsilon;
+        ([t25], [t16, w_dot_y, w_dot_z], [t20, t22, t24])
+    }
+    /// Accelerations of the main body from the sum of what all appendages show.
+    #[inline(always)]
+    fn main_base<R: Real>(
         k: [R; 4],
-        omega_0: [R; 3],
-        external_1: [R; 6],
-        at_origin_2: [R; 27],
-    ) -> ([R; 6],) {
-        let t40 = k[1] * omega_0[0];
-        let t41 = k[2] * omega_0[1];
-        let t42 = k[3] * omega_0[2];
-        let t49 = k[0] + at_origin_2[15];
-        let t50 = at_origin_2[24] - external_1[3];
-        let t52 = R::constant(1f64) / t49;
-        let t53 = at_origin_2[18] * t52;
-        let t54 = at_origin_2[19] * t52;
-        let t56 = k[0] + at_origin_2[16];
-        let t57 = (-at_origin_2[18]).mul_add(t53, t56);
-        let t58 = R::constant(1f64) / t57;
-        let t60 = (-at_origin_2[19]).mul_add(t53, at_origin_2[20]);
+        omega: [R; 3],
+        external: [R; 6],
+        at_origin: [R; 27],
+    ) -> [R; 6] {
+        let [mass, jxx, jyy, jzz] = k;
+        let [omega_x, omega_y, omega_z] = omega;
+        let [moment_x, moment_y, moment_z, force_x, force_y, force_z] = external;
+        let [axx, ayy, azz, axy, axz, ayz, bxx] = R::gather_all(&at_origin, 0, 1);
+        let [bxy, bxz, byx, byy, byz, bzx, bzy] = R::gather_all(&at_origin, 7, 1);
+        let [bzz, mxx, myy, mzz, mxy, mxz, myz] = R::gather_all(&at_origin, 14, 1);
+        let [qx, qy, qz, px, py, pz] = R::gather_all(&at_origin, 21, 1);
+        let t40 = jxx * omega_x;
+        let t41 = jyy * omega_y;
+        let t42 = jzz * omega_z;
+        let t50 = px - force_x;
+        let t52 = R::one() / (mass + mxx);
+        let t53 = mxy * t52;
+        let t54 = mxz * t52;
+        let t58 = R::one() / (-mxy).mul_add(t53, mass + myy);
+        let t60 = (-mxz).mul_add(t53, myz);
         let t61 = t58 * t60;
-        let t64 = k[0] + at_origin_2[17];
-        let t65 = (-at_origin_2[19]).mul_add(t54, t64);
-        let t66 = (-t60).mul_add(t61, t65);
-        let t67 = R::constant(1f64) / t66;
-        let t69 = (-at_origin_2[6]).mul_add(t53, at_origin_2[7]);
-        let t72 = (-at_origin_2[6]).mul_add(t54, at_origin_2[8]);
-        let t73 = (-t61).mul_add(t69, t72);
-        let t75 = (-at_origin_2[9]).mul_add(t53, at_origin_2[10]);
-        let t78 = (-at_origin_2[9]).mul_add(t54, at_origin_2[11]);
-        let t79 = (-t61).mul_add(t75, t78);
-        let t81 = (-at_origin_2[12]).mul_add(t53, at_origin_2[13]);
-        let t84 = (-at_origin_2[12]).mul_add(t54, at_origin_2[14]);
-        let t85 = (-t61).mul_add(t81, t84);
-        let t86 = at_origin_2[6] * t52;
+        let t67 = R::one() / (-t60).mul_add(t61, (-mxz).mul_add(t54, mass + mzz));
+        let t69 = (-bxx).mul_add(t53, bxy);
+        let t73 = (-t61).mul_add(t69, (-bxx).mul_add(t54, bxz));
+        let t75 = (-byx).mul_add(t53, byy);
+        let t79 = (-t61).mul_add(t75, (-byx).mul_add(t54, byz));
+        let t81 = (-bzx).mul_add(t53, bzy);
+        let t85 = (-t61).mul_add(t81, (-bzx).mul_add(t54, bzz));
+        let t86 = bxx * t52;
         let t87 = t58 * t69;
         let t88 = t67 * t73;
-        let t89 = at_origin_2[9] * t52;
+        let t89 = byx * t52;
         let t90 = t58 * t75;
         let t91 = t67 * t79;
-        let t92 = at_origin_2[12] * t52;
+        let t92 = bzx * t52;
         let t93 = t58 * t81;
         let t94 = t67 * t85;
-        let t98 = k[1] + at_origin_2[0];
-        let t99 = (-at_origin_2[6]).mul_add(t86, t98);
-        let t100 = (-t69).mul_add(t87, t99);
-        let t101 = (-t73).mul_add(t88, t100);
-        let t111 = (-at_origin_2[6]).mul_add(t89, at_origin_2[3]);
-        let t112 = (-t69).mul_add(t90, t111);
-        let t113 = (-t73).mul_add(t91, t112);
-        let t117 = (-at_origin_2[6]).mul_add(t92, at_origin_2[4]);
-        let t118 = (-t69).mul_add(t93, t117);
-        let t119 = (-t73).mul_add(t94, t118);
-        let t124 = at_origin_2[25] - external_1[4];
-        let t125 = (-t50).mul_add(t53, t124);
-        let t128 = at_origin_2[26] - external_1[5];
-        let t129 = (-t50).mul_add(t54, t128);
-        let t130 = (-t61).mul_add(t125, t129);
-        let t140 = R::constant(1f64) / t101;
+        let t100 = (-t69).mul_add(t87, (-bxx).mul_add(t86, jxx + axx));
+        let t113 = (-t73).mul_add(t91, (-t69).mul_add(t90, (-bxx).mul_add(t89, axy)));
+        let t119 = (-t73).mul_add(t94, (-t69).mul_add(t93, (-bxx).mul_add(t92, axz)));
+        let t125 = (-t50).mul_add(t53, py - force_y);
+        let t130 = (-t61).mul_add(t125, (-t50).mul_add(t54, pz - force_z));
+        let t140 = R::one() / (-t73).mul_add(t88, t100);
         let t141 = t113 * t140;
         let t142 = t119 * t140;
-        let t144 = k[2] + at_origin_2[1];
-        let t145 = (-at_origin_2[9]).mul_add(t89, t144);
-        let t146 = (-t75).mul_add(t90, t145);
-        let t147 = (-t79).mul_add(t91, t146);
-        let t148 = (-t113).mul_add(t141, t147);
-        let t149 = R::constant(1f64) / t148;
-        let t151 = (-at_origin_2[9]).mul_add(t92, at_origin_2[5]);
-        let t152 = (-t75).mul_add(t93, t151);
-        let t153 = (-t79).mul_add(t94, t152);
+        let t146 = (-t75).mul_add(t90, (-byx).mul_add(t89, jyy + ayy));
+        let t149 = R::one() / (-t113).mul_add(t141, (-t79).mul_add(t91, t146));
+        let t153 = (-t79).mul_add(t94, (-t75).mul_add(t93, (-byx).mul_add(t92, ayz)));
         let t154 = (-t119).mul_add(t141, t153);
         let t155 = t149 * t154;
-        let t158 = k[3] + at_origin_2[2];
-        let t159 = (-at_origin_2[12]).mul_add(t92, t158);
-        let t160 = (-t81).mul_add(t93, t159);
-        let t161 = (-t85).mul_add(t94, t160);
-        let t162 = (-t119).mul_add(t142, t161);
-        let t163 = (-t154).mul_add(t155, t162);
-        let t164 = R::constant(1f64) / t163;
-        let t165 = external_1[0] - at_origin_2[21];
-        let t166 = omega_0[2].mul_add(t41, t165);
-        let t167 = (-omega_0[1]).mul_add(t42, t166);
-        let t168 = t50.mul_add(t86, t167);
-        let t169 = t87.mul_add(t125, t168);
-        let t170 = t88.mul_add(t130, t169);
-        let t172 = external_1[1] - at_origin_2[22];
-        let t173 = omega_0[0].mul_add(t42, t172);
-        let t174 = (-omega_0[2]).mul_add(t40, t173);
-        let t175 = t50.mul_add(t89, t174);
-        let t176 = t90.mul_add(t125, t175);
-        let t177 = t91.mul_add(t130, t176);
+        let t160 = (-t81).mul_add(t93, (-bzx).mul_add(t92, jzz + azz));
+        let t162 = (-t119).mul_add(t142, (-t85).mul_add(t94, t160));
+        let t167 = (-omega_y).mul_add(t42, omega_z.mul_add(t41, moment_x - qx));
+        let t170 = t88.mul_add(t130, t87.mul_add(t125, t50.mul_add(t86, t167)));
+        let t174 = (-omega_z).mul_add(t40, omega_x.mul_add(t42, moment_y - qy));
+        let t177 = t91.mul_add(t130, t90.mul_add(t125, t50.mul_add(t89, t174)));
         let t178 = (-t141).mul_add(t170, t177);
-        let t181 = external_1[2] - at_origin_2[23];
-        let t182 = omega_0[1].mul_add(t40, t181);
-        let t183 = (-omega_0[0]).mul_add(t41, t182);
-        let t184 = t50.mul_add(t92, t183);
-        let t185 = t93.mul_add(t125, t184);
-        let t186 = t94.mul_add(t130, t185);
-        let t187 = (-t142).mul_add(t170, t186);
-        let t188 = (-t155).mul_add(t178, t187);
-        let t189 = t140 * t170;
-        let t190 = t149 * t178;
-        let t191 = t164 * t188;
-        let t193 = (-t155).mul_add(t191, t190);
-        let t196 = (-t142).mul_add(t191, t189);
-        let t197 = (-t141).mul_add(t193, t196);
-        let t204 = t92 * t191;
-        let t205 = t93 * t191;
-        let t206 = t94 * t191;
-        let t210 = t67.mul_add(t130, t206);
-        let t211 = t91.mul_add(t193, t210);
-        let t212 = t88.mul_add(t197, t211);
+        let t183 = (-omega_x).mul_add(t41, omega_y.mul_add(t40, moment_z - qz));
+        let t186 = t94.mul_add(t130, t93.mul_add(t125, t50.mul_add(t92, t183)));
+        let t188 = (-t155).mul_add(t178, (-t142).mul_add(t170, t186));
+        let t191 = R::one() / (-t154).mul_add(t155, t162) * t188;
+        let t193 = (-t155).mul_add(t191, t149 * t178);
+        let t197 = (-t141).mul_add(t193, (-t142).mul_add(t191, t140 * t170));
+        let t212 = t88.mul_add(t197, t91.mul_add(t193, t67.mul_add(t130, t94 * t191)));
         let t213 = -t212;
-        let t215 = t58.mul_add(t125, t205);
-        let t216 = t90.mul_add(t193, t215);
-        let t217 = t87.mul_add(t197, t216);
+        let t217 = t87.mul_add(t197, t90.mul_add(t193, t58.mul_add(t125, t93 * t191)));
         let t218 = t61.mul_add(t212, -t217);
-        let t221 = t50.mul_add(t52, t204);
-        let t222 = t89.mul_add(t193, t221);
-        let t223 = t86.mul_add(t197, t222);
-        let t224 = t54.mul_add(t212, -t223);
-        let t225 = (-t53).mul_add(t218, t224);
-        ([t197, t193, t191, t225, t218, t213],)
+        let t223 = t86.mul_add(t197, t89.mul_add(t193, t50.mul_add(t52, t92 * t191)));
+        let t225 = (-t53).mul_add(t218, t54.mul_add(t212, -t223));
+        [t197, t193, t191, t225, t218, t213]
     }
 }
 pub use routine_four_s3::FourS3;

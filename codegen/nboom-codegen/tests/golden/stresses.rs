@@ -2,159 +2,163 @@
 /// Loads and stresses of 1 hinge, level exact.
 /// Evaluation: 92 add, 121 mul, 0 div, 6 sqrt, 1 sin_cos.
 /// Preparation: 0 add, 0 mul, 0 div, 0 sin_cos.
-/// Taken for granted: all 134 numbers of the scene.
-#[allow(
-    clippy::all,
-    clippy::pedantic,
-    dead_code,
-    missing_docs,
-    unused_imports,
-    unused_variables
-)]
+/// Assumptions: all 134 numbers of the scene.
+#[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
 pub mod routine_stresses_s1 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
-    const _: () = assert!(::nboom_scalar::CONTRACT == 2, "generate this routine again");
+    const _: () = assert!(::nboom_scalar::CONTRACT == 3, "generate this routine again");
     pub struct StressesS1;
     impl Routine for StressesS1 {
         const RESULT: &'static str = "stresses";
         const TOPOLOGY: &'static str = "1 hinge";
         const FORMULATION: &'static str = "";
-        const PINNED: &'static [(usize, f64)] = &[
-            (0, 0f64),
-            (1, 0f64),
-            (2, 2f64),
-            (3, 2f64),
-            (4, 2f64),
-            (5, 0.1f64),
-            (6, 1f64),
-            (7, -0.2f64),
-            (8, 1f64),
-            (9, 0f64),
-            (10, 0f64),
-            (11, 0f64),
-            (12, 1f64),
-            (13, 0f64),
-            (14, 0f64),
-            (15, 0f64),
-            (16, 1f64),
-            (17, 1f64),
-            (18, 0f64),
-            (19, 0f64),
-            (20, 2f64),
-            (21, 0f64),
-            (22, 2f64),
-            (23, 0f64),
-            (24, 3.1f64),
-            (25, 0.20000000000000018f64),
-            (26, 3.1f64),
-            (27, 0f64),
-            (28, 0f64),
-            (29, 0f64),
-            (30, 0f64),
-            (31, 1f64),
-            (32, 0f64),
-            (33, 1f64),
-            (34, 0f64),
-            (35, 1.5f64),
-            (36, 0f64),
-            (37, 2.55f64),
-            (38, 0.10000000000000009f64),
-            (39, 2.55f64),
-            (40, 0f64),
-            (41, 0f64),
-            (42, 0f64),
-            (43, -0f64),
-            (44, -79.57747154594766f64),
-            (45, -0f64),
-            (46, -0f64),
-            (47, -0f64),
-            (48, -0f64),
-            (49, -0f64),
-            (50, -0f64),
-            (51, -0f64),
-            (52, -0f64),
-            (53, -0f64),
-            (54, -795.7747154594766f64),
-            (55, 0f64),
-            (56, 0f64),
-            (57, 0f64),
-            (58, 795.7747154594766f64),
-            (59, 0f64),
-            (60, 0f64),
-            (61, 0f64),
-            (62, 0f64),
-            (63, 0f64),
-            (64, 0f64),
-            (65, 397.8873577297383f64),
-            (66, 0f64),
-            (67, -0f64),
-            (68, -0f64),
-            (69, -159.15494309189532f64),
-            (70, -0f64),
-            (71, -0f64),
-            (72, -0f64),
-            (73, 159.15494309189532f64),
-            (74, 0f64),
-            (75, 0f64),
-            (76, 0f64),
-            (77, 0f64),
-            (78, 0f64),
-            (79, 0f64),
-            (80, 0f64),
-            (81, 0f64),
-            (82, 2f64),
-            (83, 0f64),
-            (84, 2f64),
-            (85, 0f64),
-            (86, 3.1f64),
-            (87, 0.20000000000000018f64),
-            (88, 3.1f64),
-            (89, 0f64),
-            (90, 0f64),
-            (91, 0f64),
-            (92, -0f64),
-            (93, -42.23449305021446f64),
-            (94, -0f64),
-            (95, -0f64),
-            (96, -0f64),
-            (97, -0f64),
-            (98, -0f64),
-            (99, 29.389456942950876f64),
-            (100, -0f64),
-            (101, -28.040453749190558f64),
-            (102, -0f64),
-            (103, -1028.8698667648662f64),
-            (104, 0f64),
-            (105, 7.5550925726384905f64),
-            (106, 0f64),
-            (107, 669.2368467514789f64),
-            (108, 0f64),
-            (109, 28.040453749190558f64),
-            (110, -1f64),
-            (111, -0f64),
-            (112, -0f64),
-            (113, -0f64),
-            (114, -0f64),
-            (115, -0f64),
-            (116, -0f64),
-            (117, -0f64),
-            (118, -1f64),
-            (119, -0f64),
-            (120, -0f64),
-            (121, -0f64),
-            (122, 0.012500230916737964f64),
-            (123, -0f64),
-            (124, -0.028905471965408935f64),
-            (125, -0f64),
-            (126, -1f64),
-            (127, -0f64),
-            (128, 0f64),
-            (129, 0.5f64),
-            (130, 0f64),
-            (131, 0f64),
-            (132, 0.5f64),
-            (133, -1f64),
-        ];
+        const PINNED: &'static [(usize, f64)] = &::nboom_scalar::assumed(
+            [
+                0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22,
+                23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43,
+                44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63, 64,
+                65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85,
+                86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104,
+                105, 106, 107, 108, 109, 110, 111, 112, 113, 114, 115, 116, 117, 118, 119, 120,
+                121, 122, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133,
+            ],
+            [
+                0.0,
+                0.0,
+                2.0,
+                2.0,
+                2.0,
+                0.1,
+                1.0,
+                -0.2,
+                1.0,
+                0.0,
+                0.0,
+                0.0,
+                1.0,
+                0.0,
+                0.0,
+                0.0,
+                1.0,
+                1.0,
+                0.0,
+                0.0,
+                2.0,
+                0.0,
+                2.0,
+                0.0,
+                3.1,
+                0.20000000000000018,
+                3.1,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                1.0,
+                0.0,
+                1.0,
+                0.0,
+                1.5,
+                0.0,
+                2.55,
+                0.10000000000000009,
+                2.55,
+                0.0,
+                0.0,
+                0.0,
+                -0.0,
+                -79.57747154594766,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -795.7747154594766,
+                0.0,
+                0.0,
+                0.0,
+                795.7747154594766,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                397.8873577297383,
+                0.0,
+                -0.0,
+                -0.0,
+                -159.15494309189532,
+                -0.0,
+                -0.0,
+                -0.0,
+                159.15494309189532,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                2.0,
+                0.0,
+                2.0,
+                0.0,
+                3.1,
+                0.20000000000000018,
+                3.1,
+                0.0,
+                0.0,
+                0.0,
+                -0.0,
+                -42.23449305021446,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                29.389456942950876,
+                -0.0,
+                -28.040453749190558,
+                -0.0,
+                -1028.8698667648662,
+                0.0,
+                7.5550925726384905,
+                0.0,
+                669.2368467514789,
+                0.0,
+                28.040453749190558,
+                -1.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                -1.0,
+                -0.0,
+                -0.0,
+                -0.0,
+                0.012500230916737964,
+                -0.0,
+                -0.028905471965408935,
+                -0.0,
+                -1.0,
+                -0.0,
+                0.0,
+                0.5,
+                0.0,
+                0.0,
+                0.5,
+                -1.0,
+            ],
+        );
         const EXTERNAL: bool = true;
         const PARAMETERS: usize = 134;
         const CONSTANTS: usize = 0;
@@ -166,274 +170,112 @@ pub mod routine_stresses_s1 {
         }
         #[inline(always)]
         fn evaluate<R: Real>(k: &[R], x: &[R], out: &mut [R]) {
-            let k: &[R; 0] = k.try_into().expect("one value for each constant");
-            let x: &[R; 13] = x.try_into().expect("one value for each coordinate");
-            let out: &mut [R; 31] = out.try_into().expect("room for each output");
-            Self::evaluate_on::<R, R>(k, x, out);
+            evaluate_on::<R, R>(k, x, out);
         }
         #[inline(always)]
         fn evaluate_packed<I: Isa>(k: &[f64], x: &[f64], out: &mut [f64]) {
-            let k: &[f64; 0] = k.try_into().expect("one value for each constant");
-            let x: &[f64; 13] = x.try_into().expect("one value for each coordinate");
-            let out: &mut [f64; 31] = out.try_into().expect("room for each output");
-            Self::evaluate_on::<f64, I::One>(k, x, out);
+            evaluate_on::<f64, I::One>(k, x, out);
         }
     }
-    impl StressesS1 {
-        #[inline(always)]
-        fn evaluate_on<S: Copy, R: Pack<S>>(k: &[S], x: &[S], out: &mut [S]) {
-            let [(s35, c35)] = R::sin_cos_all([R::gather(x, 9)]);
-            let t39 = R::gather(x, 6) * R::gather(x, 6);
-            let t40 = R::gather(x, 7) * R::gather(x, 7);
-            let t41 = t39 + t40;
-            let t42 = R::gather(x, 8) * R::gather(x, 8);
-            let t43 = t41 + t42;
-            let t44 = t43.sqrt();
-            let t45 = R::gather(x, 3) * R::gather(x, 3);
-            let t46 = R::gather(x, 4) * R::gather(x, 4);
-            let t47 = t45 + t46;
-            let t48 = R::gather(x, 5) * R::gather(x, 5);
-            let t49 = t47 + t48;
-            let t50 = t49.sqrt();
-            let t53 = R::gather(x, 1) * c35;
-            let t54 = R::gather(x, 1) * s35;
-            let t55 = R::gather(x, 2) * s35;
-            let t56 = R::gather(x, 2) * c35;
-            let t57 = t53 + t55;
-            let t58 = t56 - t54;
-            let t59 = R::constant(-0.2f64) * R::gather(x, 7);
-            let t60 = t59 - R::gather(x, 8);
-            let t61 = R::constant(0.1f64) * R::gather(x, 8);
-            let t62 = R::constant(-0.2f64) * R::gather(x, 6);
-            let t63 = t61 - t62;
-            let t64 = R::constant(0.1f64) * R::gather(x, 7);
-            let t65 = R::gather(x, 6) - t64;
-            let t66 = R::gather(x, 3) + t60;
-            let t67 = R::gather(x, 4) + t63;
-            let t68 = R::gather(x, 5) + t65;
-            let t69 = R::constant(-0.2f64) * R::gather(x, 1);
-            let t70 = t69 - R::gather(x, 2);
-            let t71 = R::constant(0.1f64) * R::gather(x, 2);
-            let t72 = R::constant(-0.2f64) * R::gather(x, 0);
-            let t73 = t71 - t72;
-            let t74 = R::constant(0.1f64) * R::gather(x, 1);
-            let t75 = R::gather(x, 0) - t74;
-            let t76 = R::gather(x, 1) * t75;
-            let t77 = R::gather(x, 2) * t73;
-            let t78 = t76 - t77;
-            let t79 = R::gather(x, 2) * t70;
-            let t80 = R::gather(x, 0) * t75;
-            let t81 = t79 - t80;
-            let t82 = R::gather(x, 0) * t73;
-            let t83 = R::gather(x, 1) * t70;
-            let t84 = t82 - t83;
-            let t85 = R::gather(x, 0) * R::gather(x, 0);
-            let t86 = R::gather(x, 1) * R::gather(x, 1);
-            let t87 = t85 + t86;
-            let t88 = R::gather(x, 2) * R::gather(x, 2);
-            let t89 = t87 + t88;
-            let t90 = R::gather(x, 0) + R::gather(x, 10);
-            let t91 = R::gather(x, 7) * c35;
-            let t92 = R::gather(x, 7) * s35;
-            let t93 = R::gather(x, 8) * s35;
-            let t94 = R::gather(x, 8) * c35;
-            let t95 = t91 + t93;
-            let t96 = t94 - t92;
-            let t97 = R::gather(x, 6) + R::gather(x, 11);
-            let t98 = R::gather(x, 10) * t58;
-            let t99 = R::gather(x, 10) * t57;
-            let t100 = t95 + t98;
-            let t101 = t96 - t99;
-            let t102 = t66 + t78;
-            let t103 = t67 + t81;
-            let t104 = t68 + t84;
-            let t105 = c35 * t103;
-            let t106 = s35 * t103;
-            let t107 = s35 * t104;
-            let t108 = c35 * t104;
-            let t109 = t105 + t107;
-            let t110 = t108 - t106;
-            let t111 = R::gather(x, 11) * R::gather(x, 11);
-            let t112 = t111.sqrt();
-            let t113 = t44 + t112;
-            let t114 = t89.sqrt();
-            let t115 = R::gather(x, 10) * R::gather(x, 10);
-            let t116 = t115.sqrt();
-            let t117 = t114 * t116;
-            let t118 = t113 + t117;
-            let t119 = t44 + t89;
-            let t121 = t119 * R::constant(1.02469507659596f64);
-            let t122 = t50 + t121;
-            let t123 = R::constant(2f64) * t110;
-            let t124 = R::constant(2f64) * t102;
-            let t125 = R::constant(3.1f64) * t97;
-            let t126 = R::constant(0.20000000000000018f64) * t100;
-            let t127 = R::constant(3.1f64) * t101;
-            let t128 = t123 + t125;
-            let t129 = t127 - t124;
-            let t130 = R::constant(3.1f64) * t90;
-            let t131 = R::constant(0.20000000000000018f64) * t57;
-            let t132 = R::constant(3.1f64) * t58;
-            let t133 = t57 * t132;
-            let t134 = t58 * t131;
-            let t135 = t133 - t134;
-            let t136 = t58 * t130;
-            let t137 = t90 * t132;
-            let t138 = t136 - t137;
-            let t139 = t90 * t131;
-            let t140 = t57 * t130;
-            let t141 = t139 - t140;
-            let t142 = t128 + t135;
-            let t143 = t126 + t138;
-            let t144 = t129 + t141;
-            let t145 = R::constant(2f64) * t109;
-            let t146 = R::constant(2f64) * t101;
-            let t147 = R::constant(2f64) * t97;
-            let t148 = t124 - t146;
-            let t149 = t123 + t147;
-            let t150 = R::constant(2f64) * t58;
-            let t151 = R::constant(2f64) * t90;
-            let t152 = t57 * t151;
-            let t153 = t58 * t150;
-            let t154 = t90 * t151;
-            let t155 = t153 + t154;
-            let t156 = t57 * t150;
-            let t157 = t148 + t152;
-            let t158 = t145 - t155;
-            let t159 = t149 + t156;
-            let t160 = t90 * t90;
-            let t161 = t57 * t57;
-            let t162 = t160 + t161;
-            let t163 = t58 * t58;
-            let t164 = t162 + t163;
-            let t165 = t118 + t164;
-            let t166 = R::constant(2f64) * t122;
-            let t168 = t165 * R::constant(6.4f64);
-            let t169 = t166 + t168;
-            let t170 = R::constant(1.5f64) * t110;
-            let t171 = R::constant(1.5f64) * t102;
-            let t172 = R::constant(2.55f64) * t97;
-            let t173 = R::constant(0.10000000000000009f64) * t100;
-            let t174 = R::constant(2.55f64) * t101;
-            let t175 = t170 + t172;
-            let t176 = t174 - t171;
-            let t177 = R::constant(2.55f64) * t90;
-            let t178 = R::constant(0.10000000000000009f64) * t57;
-            let t179 = R::constant(2.55f64) * t58;
-            let t180 = t57 * t179;
-            let t181 = t58 * t178;
-            let t182 = t180 - t181;
-            let t183 = t58 * t177;
-            let t184 = t90 * t179;
-            let t185 = t183 - t184;
-            let t186 = t90 * t178;
-            let t187 = t57 * t177;
-            let t188 = t186 - t187;
-            let t189 = t175 + t182;
-            let t190 = t173 + t185;
-            let t191 = t176 + t188;
-            let t192 = R::constant(1.5f64) * t101;
-            let t193 = R::constant(1.5f64) * t97;
-            let t194 = t102 - t192;
-            let t195 = t110 + t193;
-            let t196 = R::constant(1.5f64) * t58;
-            let t197 = R::constant(1.5f64) * t90;
-            let t198 = t57 * t197;
-            let t199 = t58 * t196;
-            let t200 = t90 * t197;
-            let t201 = t199 + t200;
-            let t202 = t57 * t196;
-            let t203 = t194 + t198;
-            let t204 = t109 - t201;
-            let t205 = t195 + t202;
-            let t206 = R::constant(0.5f64) * c35;
-            let t207 = R::constant(0.5f64) * s35;
-            let t208 = R::constant(1f64) + t206;
-            let t209 = R::constant(-0.2f64) + t207;
-            let t210 = t208 - R::constant(0.5f64);
-            let t211 = t209 - R::constant(-1f64);
-            let t212 = R::constant(0.1f64) * R::gather(x, 12);
-            let t213 = R::gather(x, 12) * t210;
-            let t214 = R::gather(x, 12) * t211;
-            let t215 = c35 * t213;
-            let t216 = s35 * t213;
-            let t217 = s35 * t214;
-            let t218 = c35 * t214;
-            let t219 = t215 + t217;
-            let t220 = t218 - t216;
-            let t221 = t216 - t218;
-            let t222 = R::constant(0.5f64) * t221;
-            let t223 = R::constant(0.5f64) * t212;
-            let t224 = t142 + t222;
-            let t225 = t144 + t223;
-            let t226 = t157 - t212;
-            let t227 = t158 - t219;
-            let t228 = t159 + t221;
-            let t229 = t212 * t212;
-            let t230 = t219 * t219;
-            let t231 = t229 + t230;
-            let t232 = t220 * t220;
-            let t233 = t231 + t232;
-            let t234 = t233.sqrt();
-            let t235 = R::constant(0.5f64) * t234;
-            let t236 = t169 + t235;
-            let t237 = t189 - t205;
-            let t238 = t191 + t203;
-            let t239 = R::constant(-79.57747154594766f64) * t204;
-            let t240 = R::constant(-795.7747154594766f64) * t238;
-            let t241 = R::constant(795.7747154594766f64) * t237;
-            let t242 = R::constant(397.8873577297383f64) * t190;
-            let t243 = R::constant(-159.15494309189532f64) * t205;
-            let t244 = R::constant(159.15494309189532f64) * t203;
-            let t245 = R::constant(-42.23449305021446f64) * t227;
-            let t246 = R::constant(29.389456942950876f64) * t227;
-            let t247 = R::constant(-28.040453749190558f64) * t224;
-            let t248 = R::constant(-1028.8698667648662f64) * t225;
-            let t249 = t247 + t248;
-            let t250 = t246 + t249;
-            let t251 = R::constant(7.5550925726384905f64) * t227;
-            let t252 = R::constant(669.2368467514789f64) * t224;
-            let t253 = R::constant(28.040453749190558f64) * t225;
-            let t254 = t252 + t253;
-            let t255 = t251 + t254;
-            let t256 = t212 - t157;
-            let t257 = -t228;
-            let t258 = R::constant(0.012500230916737964f64) * t226;
-            let t259 = R::constant(-0.028905471965408935f64) * t228;
-            let t260 = t258 + t259;
-            let t261 = t260 - t143;
-            R::scatter(t226, out, 0);
-            R::scatter(t227, out, 1);
-            R::scatter(t228, out, 2);
-            R::scatter(t224, out, 3);
-            R::scatter(t143, out, 4);
-            R::scatter(t225, out, 5);
-            R::scatter(t203, out, 6);
-            R::scatter(t204, out, 7);
-            R::scatter(t205, out, 8);
-            R::scatter(t237, out, 9);
-            R::scatter(t190, out, 10);
-            R::scatter(t238, out, 11);
-            R::scatter(t226, out, 12);
-            R::scatter(t227, out, 13);
-            R::scatter(t228, out, 14);
-            R::scatter(t224, out, 15);
-            R::scatter(t143, out, 16);
-            R::scatter(t225, out, 17);
-            R::scatter(t239, out, 18);
-            R::scatter(t240, out, 19);
-            R::scatter(t241, out, 20);
-            R::scatter(t242, out, 21);
-            R::scatter(t243, out, 22);
-            R::scatter(t244, out, 23);
-            R::scatter(t245, out, 24);
-            R::scatter(t250, out, 25);
-            R::scatter(t255, out, 26);
-            R::scatter(t256, out, 27);
-            R::scatter(t257, out, 28);
-            R::scatter(t261, out, 29);
-            R::scatter(t236, out, 30);
-        }
+    /// The evaluation on scalars or packs `R` of numbers `S`.
+    #[inline(always)]
+    fn evaluate_on<S: Copy, R: Pack<S>>(k: &[S], x: &[S], out: &mut [S]) {
+        let k: &[S; 0] = k.try_into().expect("one value for each constant");
+        let x: &[S; 13] = x.try_into().expect("one value for each coordinate");
+        let out: &mut [S; 31] = out.try_into().expect("room for each output");
+        // Sines and cosines of all angles.
+        let beta_1 = R::gather(x, 9);
+        let [(sin_beta_1, cos_beta_1)] = R::sin_cos_all([beta_1]);
+        let [omega_x, omega_y, omega_z, a_x, a_y, a_z] = R::gather_all(x, 0, 1);
+        let [omega_dot_x, omega_dot_y, omega_dot_z] = R::gather_all(x, 6, 1);
+        let [tau_1, tau_dot_1, density_1] = R::gather_all(x, 10, 1);
+        let t41 = omega_dot_x * omega_dot_x + omega_dot_y * omega_dot_y;
+        let t44 = (t41 + omega_dot_z * omega_dot_z).sqrt();
+        let t57 = omega_y * cos_beta_1 + omega_z * sin_beta_1;
+        let t58 = omega_z * cos_beta_1 - omega_y * sin_beta_1;
+        let t63 = R::constant(0.1) * omega_dot_z - R::constant(-0.2) * omega_dot_x;
+        let t70 = R::constant(-0.2) * omega_y - omega_z;
+        let t73 = R::constant(0.1) * omega_z - R::constant(-0.2) * omega_x;
+        let t75 = omega_x - R::constant(0.1) * omega_y;
+        let t89 = omega_x * omega_x + omega_y * omega_y + omega_z * omega_z;
+        let t90 = omega_x + tau_1;
+        let t97 = omega_dot_x + tau_dot_1;
+        let t100 = omega_dot_y * cos_beta_1 + omega_dot_z * sin_beta_1 + tau_1 * t58;
+        let t101 = omega_dot_z * cos_beta_1 - omega_dot_y * sin_beta_1 - tau_1 * t57;
+        let t66 = a_x + (R::constant(-0.2) * omega_dot_y - omega_dot_z);
+        let t102 = t66 + (omega_y * t75 - omega_z * t73);
+        let t103 = a_y + t63 + (omega_z * t70 - omega_x * t75);
+        let t68 = a_z + (omega_dot_x - R::constant(0.1) * omega_dot_y);
+        let t104 = t68 + (omega_x * t73 - omega_y * t70);
+        let t109 = cos_beta_1 * t103 + sin_beta_1 * t104;
+        let t110 = cos_beta_1 * t104 - sin_beta_1 * t103;
+        let t113 = t44 + (tau_dot_1 * tau_dot_1).sqrt();
+        let t121 = (t44 + t89) * R::constant(1.02469507659596);
+        let t123 = R::constant(2.0) * t110;
+        let t124 = R::constant(2.0) * t102;
+        let t130 = R::constant(3.1) * t90;
+        let t131 = R::constant(0.20000000000000018) * t57;
+        let t132 = R::constant(3.1) * t58;
+        let t143 = R::constant(0.20000000000000018) * t100 + (t58 * t130 - t90 * t132);
+        let t150 = R::constant(2.0) * t58;
+        let t151 = R::constant(2.0) * t90;
+        let t157 = t124 - R::constant(2.0) * t101 + t57 * t151;
+        let t118 = t113 + t89.sqrt() * (tau_1 * tau_1).sqrt();
+        let t122 = (a_x * a_x + a_y * a_y + a_z * a_z).sqrt() + t121;
+        let t168 = (t118 + (t90 * t90 + t57 * t57 + t58 * t58)) * R::constant(6.4);
+        let t177 = R::constant(2.55) * t90;
+        let t178 = R::constant(0.10000000000000009) * t57;
+        let t179 = R::constant(2.55) * t58;
+        let t175 = R::constant(1.5) * t110 + R::constant(2.55) * t97;
+        let t190 = R::constant(0.10000000000000009) * t100 + (t58 * t177 - t90 * t179);
+        let t176 = R::constant(2.55) * t101 - R::constant(1.5) * t102;
+        let t196 = R::constant(1.5) * t58;
+        let t197 = R::constant(1.5) * t90;
+        let t203 = t102 - R::constant(1.5) * t101 + t57 * t197;
+        let t204 = t109 - (t58 * t196 + t90 * t197);
+        let t205 = t110 + R::constant(1.5) * t97 + t57 * t196;
+        let t209 = R::constant(-0.2) + R::constant(0.5) * sin_beta_1;
+        let t212 = R::constant(0.1) * density_1;
+        let t210 = R::one() + R::constant(0.5) * cos_beta_1 - R::constant(0.5);
+        let t213 = density_1 * t210;
+        let t214 = density_1 * (t209 - R::constant(-1.0));
+        let t216 = sin_beta_1 * t213;
+        let t218 = cos_beta_1 * t214;
+        let t219 = cos_beta_1 * t213 + sin_beta_1 * t214;
+        let t220 = t218 - t216;
+        let t221 = t216 - t218;
+        let t142 = t123 + R::constant(3.1) * t97 + (t57 * t132 - t58 * t131);
+        let t224 = t142 + R::constant(0.5) * t221;
+        let t144 = R::constant(3.1) * t101 - t124 + (t90 * t131 - t57 * t130);
+        let t225 = t144 + R::constant(0.5) * t212;
+        let t226 = t157 - t212;
+        let t227 = R::constant(2.0) * t109 - (t58 * t150 + t90 * t151) - t219;
+        let t228 = t123 + R::constant(2.0) * t97 + t57 * t150 + t221;
+        let t235 = R::constant(0.5) * (t212 * t212 + t219 * t219 + t220 * t220).sqrt();
+        let t236 = R::constant(2.0) * t122 + t168 + t235;
+        let t237 = t175 + (t57 * t179 - t58 * t178) - t205;
+        let t238 = t176 + (t90 * t178 - t57 * t177) + t203;
+        let t239 = R::constant(-79.57747154594766) * t204;
+        let t240 = R::constant(-795.7747154594766) * t238;
+        let t241 = R::constant(795.7747154594766) * t237;
+        let t242 = R::constant(397.8873577297383) * t190;
+        let t243 = R::constant(-159.15494309189532) * t205;
+        let t244 = R::constant(159.15494309189532) * t203;
+        let t245 = R::constant(-42.23449305021446) * t227;
+        let t248 = R::constant(-1028.8698667648662) * t225;
+        let t249 = R::constant(-28.040453749190558) * t224 + t248;
+        let t250 = R::constant(29.389456942950876) * t227 + t249;
+        let t253 = R::constant(28.040453749190558) * t225;
+        let t254 = R::constant(669.2368467514789) * t224 + t253;
+        let t255 = R::constant(7.5550925726384905) * t227 + t254;
+        let t256 = t212 - t157;
+        let t257 = -t228;
+        let t259 = R::constant(-0.028905471965408935) * t228;
+        let t261 = R::constant(0.012500230916737964) * t226 + t259 - t143;
+        R::scatter_all([t226, t227, t228, t224, t143, t225, t203, t204], out, 0, 1);
+        R::scatter_all([t205, t237, t190, t238, t226, t227, t228, t224], out, 8, 1);
+        R::scatter_all([t143, t225, t239, t240, t241, t242, t243, t244], out, 16, 1);
+        R::scatter_all([t245, t250, t255, t256, t257, t261, t236], out, 24, 1);
     }
 }
 pub use routine_stresses_s1::StressesS1;

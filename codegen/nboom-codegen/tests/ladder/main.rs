@@ -28,13 +28,13 @@ fn closed_form(request: &Request, parameters: &[f64], state: &[f64]) -> Vec<f64>
     }
 }
 
-/// Inputs of the graph, with nothing that can be used where something is taken for granted.
+/// Inputs of the graph, with nothing that can be used where something is assumed.
 fn inputs(request: &Request, parameters: &[f64], state: &[f64]) -> Vec<f64> {
-    let granted = |(&number, pinned): (&f64, &Option<f64>)| match pinned {
+    let assumed = |(&number, value): (&f64, &Option<f64>)| match value {
         Some(_) => f64::NAN,
         None => number,
     };
-    let mut inputs: Vec<f64> = parameters.iter().zip(&request.pinned).map(granted).collect();
+    let mut inputs: Vec<f64> = parameters.iter().zip(&request.assumptions).map(assumed).collect();
     inputs.extend(state);
     if !request.external {
         inputs[parameters.len() + 3..parameters.len() + 9].fill(f64::NAN);
@@ -49,10 +49,10 @@ fn assert_recorded(seed: u64, request: &Request, satellite: &Satellite) {
         let found = graph.evaluate(&inputs(request, &satellite.parameters, state));
         let same = expected.iter().all(|number| number.is_finite()) && found == expected;
         let Request { topology, formulation, output, external, .. } = request;
-        let pinned = request.pinned.iter().flatten().count();
+        let assumptions = request.assumptions.iter().flatten().count();
         assert!(
             same,
-            "satellite {seed}: {topology}, {} by {formulation}, {pinned} pinned, external wrench \
+            "satellite {seed}: {topology}, {} by {formulation}, {assumptions} assumptions, external wrench \
              {external}:\n{found:?} found,\n{expected:?} expected",
             output.name()
         );
@@ -62,9 +62,9 @@ fn assert_recorded(seed: u64, request: &Request, satellite: &Satellite) {
 fn assert_all_recorded(formulation: Formulation) {
     for seed in 0..SATELLITES {
         let satellite = Satellite::random(seed);
-        let Satellite { topology, pinned, external, .. } = satellite.clone();
+        let Satellite { topology, assumptions, external, .. } = satellite.clone();
         let request = Request::new("Random", topology, Level::Exact).by(formulation);
-        let request = Request { pinned, external, ..request };
+        let request = Request { assumptions, external, ..request };
         assert_recorded(seed, &request, &satellite);
         if formulation.has_equations() {
             assert_recorded(seed, &request.for_equations(), &satellite);
@@ -107,10 +107,10 @@ fn the_satellites_are_of_all_kinds() {
     assert!(with(&|s| s.topology.hinges() == 0) > 10);
     for holds in [
         |s: &Satellite| s.external,
-        |s: &Satellite| s.pinned.iter().all(Option::is_none),
-        |s: &Satellite| s.pinned.iter().all(Option::is_some),
-        |s: &Satellite| s.pinned.contains(&None) && s.pinned.contains(&Some(0.0)),
-        |s: &Satellite| s.pinned.iter().flatten().any(|value| value.abs() > 1.5),
+        |s: &Satellite| s.assumptions.iter().all(Option::is_none),
+        |s: &Satellite| s.assumptions.iter().all(Option::is_some),
+        |s: &Satellite| s.assumptions.contains(&None) && s.assumptions.contains(&Some(0.0)),
+        |s: &Satellite| s.assumptions.iter().flatten().any(|value| value.abs() > 1.5),
         |s: &Satellite| s.held > 0 && skew_links(s) > 0,
     ] {
         let count = with(&holds);

@@ -1,5 +1,5 @@
 //! Satellites of any topology from a seed: chains and paddles with hinges held, their parameters,
-//! states, and what a routine may take for granted about them.
+//! states, and what a routine may assume about them.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,7 +21,7 @@ pub struct Satellite {
     pub held: usize,
     pub parameters: Vec<f64>,
     /// Some of the parameters.
-    pub pinned: Vec<Option<f64>>,
+    pub assumptions: Vec<Option<f64>>,
     pub external: bool,
     pub states: Vec<Vec<f64>>,
 }
@@ -30,10 +30,10 @@ impl Satellite {
     pub fn random(seed: u64) -> Self {
         let dice = &mut Dice(seed);
         let (topology, held, mut parameters) = welded(dice);
-        let pinned = pinned(dice, &topology, &mut parameters);
+        let assumptions = assumptions(dice, &topology, &mut parameters);
         let external = dice.chance(0.5);
         let states = (0..STATES).map(|_| state(dice, &topology, external)).collect();
-        Self { topology, held, parameters, pinned, external, states }
+        Self { topology, held, parameters, assumptions, external, states }
     }
 }
 
@@ -143,7 +143,7 @@ fn appendage(dice: &mut Dice, along_axes: bool, most: usize) -> Appendage {
 
 /// Nothing, all zeros and ones, some numbers, or all. Of those that may be zero, some are set to
 /// zero first.
-fn pinned(dice: &mut Dice, topology: &Topology, parameters: &mut [f64]) -> Vec<Option<f64>> {
+fn assumptions(dice: &mut Dice, topology: &Topology, parameters: &mut [f64]) -> Vec<Option<f64>> {
     match dice.below(4) {
         0 => vec![None; parameters.len()],
         1 => {

@@ -1,23 +1,30 @@
-//! What a routine takes for granted, in words.
+//! What a routine assumes, in words.
 
 use nboom_formulation::Layout;
 use nboom_model::{Shape, Topology};
 
-/// One phrase for each thing that a routine of this topology does not compute, given the
-/// parameters it takes for granted and whether it takes an external wrench.
-pub fn granted(topology: &Topology, pinned: &[Option<f64>], external: bool) -> Vec<String> {
+use crate::Request;
+
+impl Request {
+    /// One phrase for each thing that the routine does not compute because of what it assumes.
+    pub fn assumptions_in_words(&self) -> Vec<String> {
+        phrases(&self.topology, &self.assumptions, self.external)
+    }
+}
+
+fn phrases(topology: &Topology, assumptions: &[Option<f64>], external: bool) -> Vec<String> {
     let mut phrases = Vec::new();
     if !external {
         phrases.push("no external wrench on the main body".to_owned());
     }
-    let fixed = pinned.iter().flatten().count();
-    if fixed == pinned.len() {
+    let fixed = assumptions.iter().flatten().count();
+    if fixed == assumptions.len() {
         phrases.push(format!("all {fixed} parameters"));
         return phrases;
     }
-    let zero = |at: usize| pinned[at] == Some(0.0);
+    let zero = |at: usize| assumptions[at] == Some(0.0);
     let all_zero = |first: usize, places: &[usize]| places.iter().all(|at| zero(first + at));
-    let mut said = vec![false; pinned.len()];
+    let mut said = vec![false; assumptions.len()];
     let mut say = |firsts: &[usize], places: &[usize], phrase: String| {
         let all = firsts.iter().flat_map(|first| places.iter().map(move |at| first + at));
         all.for_each(|at| said[at] = true);
@@ -43,12 +50,12 @@ pub fn granted(topology: &Topology, pinned: &[Option<f64>], external: bool) -> V
             say(&found, places, format!("{phrase} of {count} of {of} links"));
         }
     }
-    phrases.extend(rest(topology, pinned, &said));
+    phrases.extend(rest(topology, assumptions, &said));
     phrases
 }
 
 /// What no phrase says: each number by its name, owners with the same ones together.
-fn rest(topology: &Topology, pinned: &[Option<f64>], said: &[bool]) -> Vec<String> {
+fn rest(topology: &Topology, assumptions: &[Option<f64>], said: &[bool]) -> Vec<String> {
     let mut found: Vec<(String, Vec<String>)> = Vec::new();
     let mut at = 0;
     for (owner, names) in owners(topology) {
@@ -56,7 +63,7 @@ fn rest(topology: &Topology, pinned: &[Option<f64>], said: &[bool]) -> Vec<Strin
         at = range.end;
         let named = range.zip(names).filter(|&(at, _)| !said[at]);
         let values: Vec<(f64, &str)> =
-            named.filter_map(|(at, name)| Some((pinned[at]?, *name))).collect();
+            named.filter_map(|(at, name)| Some((assumptions[at]?, *name))).collect();
         if values.is_empty() {
             continue;
         }
@@ -135,10 +142,10 @@ pub(crate) fn links(topology: &Topology) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Level, Request};
+    use crate::Level;
 
     fn phrases(request: &Request) -> Vec<String> {
-        granted(&request.topology, &request.pinned, request.external)
+        request.assumptions_in_words()
     }
 
     #[test]
@@ -162,16 +169,16 @@ mod tests {
         let mut partly = principal;
         // Rows of a rotation first, then the hinge's place; the second link of the paddle is 2,2.
         for first in [Layout::MAIN, Layout::MAIN + Layout::BRANCH + 2 * Layout::LINK] {
-            (partly.pinned[first], partly.pinned[first + 10]) = (Some(1.0), Some(0.0));
+            (partly.assumptions[first], partly.assumptions[first + 10]) = (Some(1.0), Some(0.0));
         }
-        *partly.pinned.last_mut().expect("a link") = None;
-        partly.pinned[7] = None;
+        *partly.assumptions.last_mut().expect("a link") = None;
+        partly.assumptions[7] = None;
         let rest =
             ["J_xz = J_yz = 0 of the main body", "R_11 = 1, d_η = 0 of appendage 1, appendage 2"];
         let found = phrases(&partly);
         assert!(found.contains(&"next hinge on the η axis of 3 of 4 links".to_owned()));
         assert_eq!(found[found.len() - 2..], rest);
-        let parameters = vec![2.0; general.pinned.len()];
+        let parameters = vec![2.0; general.assumptions.len()];
         assert_eq!(phrases(&general.baked(&parameters))[1..], ["all 82 parameters"]);
     }
 }

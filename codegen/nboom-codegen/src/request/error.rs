@@ -16,7 +16,7 @@ pub enum CodegenError {
         /// What was given.
         path: String,
     },
-    /// Parameters taken for granted do not fit the topology.
+    /// Assumed parameters do not fit the topology.
     #[error("topology {topology}: {found} parameters found, {expected} expected")]
     Parameters {
         /// The topology.
@@ -26,7 +26,7 @@ pub enum CodegenError {
         /// How many it has.
         expected: usize,
     },
-    /// A parameter taken for granted is infinite or not a number.
+    /// An assumed parameter is infinite or not a number.
     #[error("topology {topology}: parameter {number} is {value}, a finite number expected")]
     NotFinite {
         /// The topology.

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use nboom_formulation::{Formulation, Layout, Recognised, recognise};
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 
-use crate::{CodegenError, Level, Request};
+use crate::request::{CodegenError, Level, Request};
 
 /// Where a routine of a scene has the satellite's numbers from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Numbers {
-    /// They are handed in; what is zero in the scene is taken for granted.
+    /// They are handed in; what is zero in the scene is assumed.
     RunTime,
     /// They are those of the scene.
     Baked,
@@ -42,14 +42,14 @@ impl Request {
         let request = Self::new(&name(word, &topology), topology.clone(), level);
         let request = if scene.thrust.is_some() { request.with_external_wrench() } else { request };
         Ok(match numbers {
-            Numbers::RunTime => Self { pinned: fixed(&topology, &[parameters]), ..request },
+            Numbers::RunTime => Self { assumptions: fixed(&topology, &[parameters]), ..request },
             Numbers::Baked => request.baked(&parameters),
         })
     }
 
     /// What a simulator for a scene has: code with the scene's numbers, with numbers at run time,
-    /// for [`lock_states`](Self::lock_states), and by `articulated` also code `General` that takes
-    /// nothing for granted, in which other states with held hinges and other numbers can be
+    /// for [`lock_states`](Self::lock_states), and by `articulated` also code `General` that
+    /// assumes nothing, in which other states with held hinges and other numbers can be
     /// embedded.
     ///
     /// # Errors
@@ -92,7 +92,7 @@ impl Request {
         let mut requests: Vec<Self> = found
             .into_iter()
             .map(|(topology, cases)| Self {
-                pinned: fixed(&topology, &cases),
+                assumptions: fixed(&topology, &cases),
                 external: scene.thrust.is_some(),
                 ..Self::new(&name("Satellite", &topology), topology, level)
             })
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_simulator_has_code_that_takes_nothing_for_granted() {
+    fn a_simulator_has_code_that_assumes_nothing() {
         let names = |formulation| -> Vec<String> {
             let all = Request::of_simulator(&booms(1, 2), formulation, Level::Fast);
             all.expect("a chain").into_iter().map(|request| request.name).collect()
@@ -245,23 +245,23 @@ mod tests {
         assert_eq!(articulated, [&special[..], &["GeneralS2"]].concat());
         let all = Request::of_simulator(&booms(1, 2), Formulation::Articulated, Level::Fast);
         let general = all.expect("a chain").pop().expect("it is the last");
-        assert!(general.external && general.pinned.iter().all(Option::is_none));
+        assert!(general.external && general.assumptions.iter().all(Option::is_none));
     }
 
     #[test]
-    fn what_a_held_hinge_makes_other_than_zero_is_not_taken_for_granted() {
+    fn what_a_held_hinge_makes_other_than_zero_is_not_assumed() {
         let scene = booms(1, 2);
         let requests = Request::lock_states(&scene, Level::Fast).expect("chains are covered");
         let link = Layout::MAIN + Layout::BRANCH;
         let (across, along_axis) = (link + 3, link + 1);
         // With the outer hinge held at an angle, the mass centre is off the η axis.
-        assert_eq!(requests[0].pinned[across], None);
-        assert_eq!(requests[0].pinned[along_axis], Some(0.0));
+        assert_eq!(requests[0].assumptions[across], None);
+        assert_eq!(requests[0].assumptions[along_axis], Some(0.0));
         let all_free = Request::of_scene(&scene, Numbers::RunTime, Level::Fast).expect("a chain");
-        assert_eq!(all_free.pinned[across], Some(0.0));
+        assert_eq!(all_free.assumptions[across], Some(0.0));
         assert_eq!(all_free.name, "SatelliteS2");
-        assert!(all_free.pinned[link].is_none(), "a mass is handed in");
+        assert!(all_free.assumptions[link].is_none(), "a mass is handed in");
         let baked = Request::of_scene(&scene, Numbers::Baked, Level::Fast).expect("a chain");
-        assert!(baked.pinned.iter().all(Option::is_some) && baked.name == "BakedS2");
+        assert!(baked.assumptions.iter().all(Option::is_some) && baked.name == "BakedS2");
     }
 }

@@ -7,10 +7,10 @@ use nboom_model::{Scene, Structure};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::{
-    CodegenError, Level, Output, Request, Standing, StressRequest, file, formatted, generate, hash,
-    scalar, source,
-};
+use crate::emit::file::{self, Standing, hash};
+use crate::emit::routine::{generate, scalar, source};
+use crate::emit::text::formatted;
+use crate::request::{CodegenError, Level, Output, Request, StressRequest};
 
 /// Routines that stand together.
 #[derive(Clone, Debug, Default)]

@@ -1,0 +1,65 @@
+//! What the numbers of a satellite are called in generated code.
+
+use nboom_formulation::Layout;
+use nboom_formulation::stages::{BRANCH, EXTERNAL, LINK, MAIN, MAIN_RATES, OMEGA};
+use nboom_model::{Shape, Topology};
+
+use crate::request::Output;
+
+/// Names of all numbers that a routine reads and writes, in the order of [`Layout`].
+pub(crate) struct Names {
+    pub parameters: Vec<String>,
+    pub coordinates: Vec<String>,
+    pub outputs: Vec<String>,
+}
+
+impl Names {
+    /// For example `mass_main`, `dx_1` of the first appendage, `beta_1_2` of its second link;
+    /// equations have no names.
+    pub fn of(topology: &Topology, output: Output) -> Self {
+        let (mut parameters, mut hinges) = (of_owner(MAIN.numbers, "main"), Vec::new());
+        for (appendage, &shape) in topology.shapes().iter().enumerate() {
+            let appendage = appendage + 1;
+            parameters.extend(of_owner(BRANCH.numbers, &appendage.to_string()));
+            for link in 1..=Shape::hinges(shape) {
+                let owner = format!("{appendage}_{link}");
+                parameters.extend(of_owner(LINK.numbers, &owner));
+                hinges.push(owner);
+            }
+        }
+        let mut coordinates = owned(&[OMEGA.numbers, EXTERNAL.numbers]);
+        let mut outputs = owned(&[MAIN_RATES.numbers]);
+        coordinates.resize(Layout::coordinates(topology), String::new());
+        outputs.resize(Layout::outputs(topology), String::new());
+        for (owner, place) in hinges.iter().zip(Layout::places(topology)) {
+            let [beta, tau, torque] = Layout::hinge_in_state(topology, place);
+            coordinates[beta] = format!("beta_{owner}");
+            coordinates[tau] = format!("tau_{owner}");
+            coordinates[torque] = format!("torque_{owner}");
+            outputs[Layout::OUTPUT + place] = format!("tau_dot_{owner}");
+        }
+        if output == Output::Equations {
+            outputs.clear();
+        }
+        Self { parameters, coordinates, outputs }
+    }
+
+    /// Those of a routine for loads and stresses of so many hinges, in the order of
+    /// `nboom_loads::SceneMotion`; numbers of the scene and results have none.
+    pub fn of_motion(hinges: usize) -> Self {
+        let (omega_dot, origin) = MAIN_RATES.numbers.split_at(3);
+        let mut coordinates = owned(&[OMEGA.numbers, origin, omega_dot]);
+        for quantity in ["beta", "tau", "tau_dot", "density"] {
+            coordinates.extend((1..=hinges).map(|hinge| format!("{quantity}_{hinge}")));
+        }
+        Self { parameters: Vec::new(), coordinates, outputs: Vec::new() }
+    }
+}
+
+fn of_owner(names: &[&str], owner: &str) -> Vec<String> {
+    names.iter().map(|name| format!("{name}_{owner}")).collect()
+}
+
+fn owned(names: &[&[&str]]) -> Vec<String> {
+    names.concat().into_iter().map(str::to_owned).collect()
+}

@@ -1,0 +1,187 @@
+use nboom_formulation::{Formulation, Layout};
+use nboom_model::Topology;
+
+use crate::request::CodegenError;
+use crate::request::assumptions::links;
+
+/// The most hinges that `articulated` is generated for, as loops.
+pub const HINGE_LIMIT: usize = 1000;
+
+/// The most hinges that any other formulation is traced for: its code is one straight line.
+pub const STRAIGHT_HINGE_LIMIT: usize = 100;
+
+/// How freely generated code may rearrange arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Level {
+    /// Every value is that of the closed form on the same scalar.
+    Exact,
+    /// Products and sums are fused where the scalar can round once.
+    Fast,
+}
+
+impl Level {
+    /// `exact` or `fast`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Fast => "fast",
+        }
+    }
+}
+
+/// What an evaluation writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    /// ω̇, a_O and τ̇, in the order of [`Layout`].
+    Accelerations,
+    /// The formulation's matrix row by row, then its right side, hinges appendage by appendage
+    /// (`Formulation::equations`).
+    Equations,
+}
+
+impl Output {
+    /// `accelerations` or `equations`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accelerations => "accelerations",
+            Self::Equations => "equations",
+        }
+    }
+
+    /// How many numbers an evaluation writes.
+    pub fn size(self, topology: &Topology) -> usize {
+        match self {
+            Self::Accelerations => Layout::outputs(topology),
+            Self::Equations => {
+                let unknowns = 6 + topology.hinges();
+                unknowns * unknowns + unknowns
+            }
+        }
+    }
+}
+
+/// What to generate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Name of the type that implements the routine, a Rust identifier.
+    pub name: String,
+    /// Path of the crate `nboom_scalar` where the code will stand.
+    pub scalar_path: String,
+    /// The satellite's appendages.
+    pub topology: Topology,
+    /// The closed form that is traced.
+    pub formulation: Formulation,
+    /// What an evaluation writes.
+    pub output: Output,
+    /// Parameters that the code assumes to have these values; `None` stays a runtime value.
+    pub assumptions: Vec<Option<f64>>,
+    /// Whether anything acts on the main body from outside.
+    pub external: bool,
+    /// How freely arithmetic may be rearranged.
+    pub level: Level,
+}
+
+impl Request {
+    /// Code for a topology with all parameters at run time, without external wrench:
+    /// accelerations by `articulated`.
+    pub fn new(name: &str, topology: Topology, level: Level) -> Self {
+        let assumptions = vec![None; Layout::parameters(&topology)];
+        Self {
+            name: name.to_owned(),
+            scalar_path: "::nboom_scalar".to_owned(),
+            topology,
+            formulation: Formulation::Articulated,
+            output: Output::Accelerations,
+            assumptions,
+            external: false,
+            level,
+        }
+    }
+
+    /// Code that also takes an external wrench on the main body.
+    pub fn with_external_wrench(mut self) -> Self {
+        self.external = true;
+        self
+    }
+
+    /// Code by another formulation.
+    pub fn by(mut self, formulation: Formulation) -> Self {
+        self.formulation = formulation;
+        self
+    }
+
+    /// Code for the matrix and the right side that the formulation solves.
+    pub fn for_equations(mut self) -> Self {
+        self.output = Output::Equations;
+        self
+    }
+
+    /// Assumes every parameter: code for one satellite.
+    ///
+    /// `parameters` are the numbers that `nboom_formulation::Parameters::write` gives.
+    pub fn baked(mut self, parameters: &[f64]) -> Self {
+        self.assumptions = parameters.iter().copied().map(Some).collect();
+        self
+    }
+
+    /// Assumes what holds of the report's decks: every mass centre on its segment's
+    /// η axis, every inertia along the segment axes, O at the main body's mass centre.
+    pub fn with_principal_axes(mut self) -> Self {
+        const FIRST_MOMENT_X: usize = 1;
+        const FIRST_MOMENT_Z: usize = 3;
+        const PRODUCTS: [usize; 3] = [7, 8, 9];
+        const NEXT_Z: usize = 11;
+        for at in [1, 2, 3, 7, 8, 9] {
+            self.assumptions[at] = Some(0.0);
+        }
+        for link in links(&self.topology) {
+            for at in [FIRST_MOMENT_X, FIRST_MOMENT_Z, NEXT_Z].into_iter().chain(PRODUCTS) {
+                self.assumptions[link + at] = Some(0.0);
+            }
+        }
+        self
+    }
+
+    /// # Errors
+    /// When this does not describe a routine.
+    pub(crate) fn check(&self) -> Result<(), CodegenError> {
+        let Self { name, topology, formulation, output, assumptions, .. } = self;
+        check_name(name)?;
+        let of_topology = || topology.to_string();
+        let (found, expected) = (assumptions.len(), Layout::parameters(topology));
+        if found != expected {
+            return Err(CodegenError::Parameters { topology: of_topology(), found, expected });
+        }
+        let limit = match formulation {
+            Formulation::Articulated => HINGE_LIMIT,
+            _ => STRAIGHT_HINGE_LIMIT,
+        };
+        let (links, formulation) = (topology.hinges(), *formulation);
+        if links > limit {
+            let topology = of_topology();
+            return Err(CodegenError::TooLarge { topology, formulation, links, limit });
+        }
+        if *output == Output::Equations && !formulation.has_equations() {
+            return Err(CodegenError::NoEquations { topology: of_topology(), formulation });
+        }
+        let bad = |(number, value): (usize, &Option<f64>)| {
+            value.filter(|value| !value.is_finite()).map(|value| (number, value))
+        };
+        match assumptions.iter().enumerate().find_map(bad) {
+            Some((number, value)) => {
+                Err(CodegenError::NotFinite { topology: of_topology(), number, value })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// # Errors
+/// When the type of a routine cannot be named so; a raw identifier cannot be part of a module's
+/// name.
+pub(crate) fn check_name(name: &str) -> Result<(), CodegenError> {
+    if name.starts_with("r#") || syn::parse_str::<syn::Ident>(name).is_err() {
+        return Err(CodegenError::Name(name.to_owned()));
+    }
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! Equations run on recording scalars: what a request asks for, as graphs.
+
+mod rolled;
+mod routine;
+mod split;
+mod stage;
+mod stresses;
+
+use nboom_formulation::Formulation;
+
+pub(crate) use rolled::{Chain, Equal, Paddle, Placed, Rolled, Steps};
+pub use routine::trace;
+pub(crate) use split::Split;
+pub(crate) use stage::{Masked, Traced};
+
+use crate::request::{CodegenError, Request};
+
+/// Operations beyond which an evaluation is emitted as loops: more straight-line code than this
+/// no longer fits the processor's instruction cache.
+pub const STRAIGHT_LIMIT: usize = 2500;
+
+/// The most operations of an evaluation that cannot be emitted as loops: an optimising compiler
+/// takes 17 seconds for that much code in all instruction sets, and 95 for twice as much.
+pub const OPERATION_LIMIT: usize = 20_000;
+
+/// So many equal appendages fill a register, and a loop over it beats a straight line.
+const PACK: usize = 4;
+
+/// Hinges beyond which no straight line is tried: none is shorter than the limit.
+const STRAIGHT_HINGES: usize = 16;
+
+/// The equations of a request, recorded.
+pub(crate) enum Equations {
+    /// Whole, for one straight line.
+    Straight(Split),
+    /// Step by step, for loops over links and equal appendages.
+    Rolled(Rolled),
+}
+
+impl Equations {
+    /// Those of a request that was checked.
+    ///
+    /// # Errors
+    /// When no loops can be made of what is too long for one line.
+    pub fn of(request: &Request) -> Result<Self, CodegenError> {
+        let straight = || Split::new(trace(request), request.assumptions.len()).at(request.level);
+        if request.formulation != Formulation::Articulated {
+            let straight = straight();
+            check_length(request, &straight)?;
+            return Ok(Self::Straight(straight));
+        }
+        let side_by_side = request.topology.groups().iter().any(|&(_, count)| count >= PACK);
+        let straight = (request.topology.hinges() <= STRAIGHT_HINGES && !side_by_side)
+            .then(straight)
+            .filter(|straight| straight.evaluation().flops() <= STRAIGHT_LIMIT);
+        Ok(straight.map_or_else(|| Self::Rolled(Rolled::of(request)), Self::Straight))
+    }
+}
+
+/// # Errors
+/// When an optimising compiler would take too long for it.
+fn check_length(request: &Request, straight: &Split) -> Result<(), CodegenError> {
+    let (operations, limit) = (straight.evaluation().flops(), OPERATION_LIMIT);
+    if operations > limit {
+        let (topology, formulation) = (request.topology.to_string(), request.formulation);
+        return Err(CodegenError::Budget { topology, formulation, operations, limit });
+    }
+    Ok(())
+}

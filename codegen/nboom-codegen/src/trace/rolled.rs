@@ -1,0 +1,264 @@
+//! Sweeps step by step: over links, and over equal appendages side by side.
+
+use nboom_expr::{Expr, Operations};
+use nboom_formulation::Layout;
+use nboom_formulation::stages::{
+    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, PADDLE, REACHED, SHOWN, Stage, TURNED,
+};
+use nboom_model::{Shape, Topology};
+
+use crate::request::Request;
+use crate::trace::Traced;
+use crate::trace::stage::Masks;
+
+/// The steps of all sweeps of a request.
+pub(crate) struct Rolled {
+    /// Equal appendages, and the steps that they take.
+    pub groups: Vec<(Equal, Steps)>,
+    /// From what all appendages show at O to the accelerations of the main body.
+    pub base: Placed,
+    /// Which numbers at O any appendage shows.
+    pub at_origin: Vec<bool>,
+    /// How many constants are prepared.
+    pub constants: usize,
+}
+
+/// Equal appendages.
+#[derive(Clone, Copy)]
+pub(crate) struct Equal {
+    pub shape: Shape,
+    pub count: usize,
+    /// Where the parameters of the first one begin.
+    pub parameter: usize,
+    /// Hinges before.
+    pub hinge: usize,
+}
+
+/// The steps of an appendage.
+pub(crate) enum Steps {
+    Chain(Box<Chain>),
+    Paddle(Box<Paddle>),
+}
+
+/// The steps of a chain, in the order in which their constants stand.
+pub(crate) struct Chain {
+    pub start: Placed,
+    pub outward: Placed,
+    pub inward: Placed,
+    pub root: Placed,
+    pub first: Placed,
+    pub back: Placed,
+}
+
+/// The steps of a paddle, in the order in which their constants stand.
+pub(crate) struct Paddle {
+    pub inward: Placed,
+    pub first: Placed,
+    pub back: Placed,
+}
+
+/// A traced step and where its constants stand.
+pub(crate) struct Placed {
+    pub traced: Traced,
+    pub start: usize,
+    /// How often it is taken in an evaluation.
+    pub times: usize,
+}
+
+impl Equal {
+    /// How many parameters an appendage has.
+    pub fn parameters(&self) -> usize {
+        Layout::BRANCH + Layout::LINK * self.shape.hinges()
+    }
+
+    /// What names of functions begin with: `s3` for chains of three links, `p` for paddles.
+    pub fn prefix(&self) -> String {
+        self.shape_name().to_lowercase()
+    }
+
+    /// What its shape is called in a topology.
+    pub fn shape_name(&self) -> String {
+        Topology::new([self.shape]).to_string()
+    }
+
+    /// What is assumed of every appendage: `size` numbers from `offset` on, and of every one of
+    /// `repeats` repetitions a link apart.
+    fn assumptions(
+        &self,
+        request: &Request,
+        offset: usize,
+        size: usize,
+        repeats: usize,
+    ) -> Vec<Option<f64>> {
+        let at = |appendage: usize, repeat: usize, i: usize| {
+            let start = self.parameter + appendage * self.parameters() + offset;
+            request.assumptions[start + repeat * Layout::LINK + i]
+        };
+        let common = |i: usize| {
+            let first = at(0, 0, i);
+            let same = |appendage| (0..repeats).all(|repeat| at(appendage, repeat, i) == first);
+            first.filter(|_| (0..self.count).all(same))
+        };
+        (0..size).map(common).collect()
+    }
+}
+
+impl Steps {
+    fn all(&self) -> Vec<&Placed> {
+        match self {
+            Self::Chain(of) => {
+                vec![&of.start, &of.outward, &of.inward, &of.root, &of.first, &of.back]
+            }
+            Self::Paddle(of) => vec![&of.inward, &of.first, &of.back],
+        }
+    }
+
+    /// Which numbers at O an appendage shows.
+    pub fn at_origin(&self) -> &[bool] {
+        match self {
+            Self::Chain(of) => of.root.traced.live(AT_ORIGIN),
+            Self::Paddle(of) => of.inward.traced.live(AT_ORIGIN),
+        }
+    }
+}
+
+impl Rolled {
+    /// Traces the steps of a request by `articulated`.
+    pub fn of(request: &Request) -> Self {
+        let mut places = Places::default();
+        let mut groups = Vec::new();
+        let mut at_origin = vec![false; AT_ORIGIN.size()];
+        let (mut parameter, mut hinge) = (Layout::MAIN, 0);
+        for (shape, count) in request.topology.groups() {
+            let group = Equal { shape, count, parameter, hinge };
+            let steps = match shape {
+                Shape::Chain(links) => {
+                    Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
+                }
+                Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
+            };
+            for (any, live) in at_origin.iter_mut().zip(steps.at_origin()) {
+                *any |= live;
+            }
+            parameter += count * group.parameters();
+            hinge += count * shape.hinges();
+            groups.push((group, steps));
+        }
+        let masks = Masks::from([
+            (AT_ORIGIN.name, at_origin.clone()),
+            (EXTERNAL.name, vec![request.external; EXTERNAL.size()]),
+        ]);
+        let main = &request.assumptions[..Layout::MAIN];
+        let base = Traced::new("main", &stages::base(), main, &masks).regrouped(request.level);
+        let base = places.place(base, 1);
+        Self { groups, base, at_origin, constants: places.constants }
+    }
+
+    /// All steps in the order in which their constants stand.
+    pub fn steps(&self) -> Vec<&Placed> {
+        let of_groups = self.groups.iter().flat_map(|(_, steps)| steps.all());
+        of_groups.chain([&self.base]).collect()
+    }
+
+    /// Operations of an evaluation.
+    pub fn evaluation(&self) -> Operations {
+        let mut operations = self.sum(|traced| traced.split.evaluation());
+        // Absolute angles are added up, and their sines taken, between the steps of chains.
+        for (_, steps) in &self.groups {
+            if let Steps::Chain(chain) = steps {
+                operations.angles += chain.outward.times;
+            }
+        }
+        operations
+    }
+
+    /// Operations of a preparation.
+    pub fn preparation(&self) -> Operations {
+        self.sum(|traced| traced.split.preparation())
+    }
+
+    fn sum(&self, of: impl Fn(&Traced) -> Operations) -> Operations {
+        let steps = self.steps().into_iter();
+        let all = steps.flat_map(|step| std::iter::repeat_n(of(&step.traced), step.times));
+        all.fold(Operations::default(), |sum, operations| sum + operations)
+    }
+}
+
+/// Where the constants of the next step stand.
+#[derive(Default)]
+struct Places {
+    constants: usize,
+}
+
+impl Places {
+    fn place(&mut self, traced: Traced, times: usize) -> Placed {
+        let start = self.constants;
+        self.constants += traced.constants() * times;
+        Placed { traced, start, times }
+    }
+}
+
+fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) -> Chain {
+    let prefix = group.prefix();
+    let branch = group.assumptions(request, 0, Layout::BRANCH, 1);
+    let link = group.assumptions(request, Layout::BRANCH, Layout::LINK, links);
+    let trace = |stage: &Stage<Expr>, assumptions: &[Option<f64>], masks: &Masks| {
+        Traced::new(&prefix, stage, assumptions, masks)
+    };
+    let outward = trace(&stages::outward(), &link, &Masks::new());
+    let start =
+        trace(&stages::start(), &branch, &Masks::new()).passing_on(REACHED, outward.live(REACHED));
+    let mut masks = Masks::from([
+        (TURNED.name, outward.live(TURNED).to_vec()),
+        (SHOWN.name, vec![false; SHOWN.size()]),
+    ]);
+    let inward = settled(&mut masks, SHOWN, |masks| trace(&stages::inward(), &link, masks));
+    let root = trace(&stages::root(), &branch, &masks);
+    let first = trace(&stages::first(), &branch, &Masks::new());
+    masks.insert(ELIMINATED.name, inward.live(ELIMINATED).to_vec());
+    let back = trace(&stages::back(), &[], &masks);
+    let (once, each) = (group.count, links * group.count);
+    Chain {
+        start: places.place(start, once),
+        outward: places.place(outward, each),
+        inward: places.place(inward, each),
+        root: places.place(root, once),
+        first: places.place(first, once),
+        back: places.place(back, each),
+    }
+}
+
+fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Paddle {
+    let prefix = group.prefix();
+    let whole = group.assumptions(request, 0, group.parameters(), 1);
+    let branch = group.assumptions(request, 0, Layout::BRANCH, 1);
+    let inward = Traced::new(&prefix, &stages::paddle_in(), &whole, &Masks::new());
+    let first = Traced::new(&prefix, &stages::first(), &branch, &Masks::new());
+    let masks = Masks::from([
+        (ELIMINATED.name, inward.live(ELIMINATED).to_vec()),
+        (PADDLE.name, inward.live(PADDLE).to_vec()),
+    ]);
+    let back = Traced::new(&prefix, &stages::paddle_back(), &[], &masks);
+    Paddle {
+        inward: places.place(inward, group.count),
+        first: places.place(first, group.count),
+        back: places.place(back, group.count),
+    }
+}
+
+/// Traces again and again until the numbers of `group` that can be other than zero stay the
+/// same.
+fn settled(masks: &mut Masks, group: Group, trace: impl Fn(&Masks) -> Traced) -> Traced {
+    loop {
+        let traced = trace(masks);
+        let known = masks.get_mut(group.name).expect("the group has a mask to begin with");
+        let mut grown = false;
+        for (known, live) in known.iter_mut().zip(traced.live(group)) {
+            grown |= *live && !*known;
+            *known |= *live;
+        }
+        if !grown {
+            return traced.passing_on(group, known);
+        }
+    }
+}
