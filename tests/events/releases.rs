@@ -1,5 +1,7 @@
 //! When an unreleased hinge becomes free, against closed forms.
 
+use std::f64::consts::PI;
+
 use nboom::model::{Hinge, HingeLabel, HingeStart, HingeState, ModelWarning, Release, SAME_ANGLE};
 use nboom::sim::EventKind::{LockUp, Release as Released};
 
@@ -105,6 +107,21 @@ fn a_slow_trigger_that_locks_has_reached_its_angle() {
         panic!("a lock-up, then a release: {:?}", found.happenings())
     };
     assert_eq!(lock, release);
+}
+
+/// Its lock angle is where it starts from, not where it comes to: it does not lock as it leaves.
+#[test]
+fn a_hinge_released_on_its_lock_angle_leaves_it_in_either_direction() {
+    let (frequency, at) = (3.0, 0.1);
+    for rest in [0.5, -0.5] {
+        let hinge = oscillating(locking_at(waiting(Release::Time(at)), 0.0), frequency, rest);
+        let end = at + PI / frequency;
+        let (found, _) = run(&scene(&[hinge], end), &tight(1));
+        assert_eq!(found.happenings(), [(Released, Some(0), at)]);
+        // Half a period later it is as far beyond the rest of its spring; the tolerance is 1e-12.
+        let beta = found.samples.last().expect("a sample").beta[0];
+        assert!((beta - 2.0 * rest).abs() < 1e-11, "{beta}");
+    }
 }
 
 #[test]
