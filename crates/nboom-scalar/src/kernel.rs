@@ -1,15 +1,44 @@
-#![allow(unsafe_code, reason = "calls of functions compiled for processors that have more")]
+use crate::compiled::{Compiled, Evaluate, OneState, compiled};
+use crate::{InstructionSet, Routine};
 
-use std::marker::PhantomData;
+/// What a routine runs on: a number of one state, or of several side by side.
+pub trait Numbers: Copy + PartialEq {
+    /// The routine in its forms.
+    type Forms<T: Routine>: Compiled<Number = Self>;
 
-use crate::batch::{Eight, PortableEight};
-use crate::{InstructionSet, Real, Routine};
+    /// The same number in every state.
+    fn splat(value: f64) -> Self;
 
-type Prepare = fn(&[f64], &mut [f64]);
+    /// Whether it is a finite number in every state.
+    fn is_finite(&self) -> bool;
 
-/// A routine on `f64`, in the form that is fastest on this processor.
+    /// [`Routine::prepare`] of every state.
+    fn prepare<T: Routine>(parameters: &[Self], constants: &mut [Self]);
+}
+
+impl Numbers for f64 {
+    type Forms<T: Routine> = OneState<T>;
+
+    fn splat(value: f64) -> Self {
+        value
+    }
+
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+
+    fn prepare<T: Routine>(parameters: &[Self], constants: &mut [Self]) {
+        T::prepare(parameters, constants);
+    }
+}
+
+/// A routine on one state.
+pub type Kernel = RoutineOn<f64>;
+
+/// A routine on numbers `N`, in the form that is fastest on this processor: a [`Kernel`] or a
+/// [`Batch`](crate::Batch).
 #[derive(Clone, Copy, Debug)]
-pub struct Kernel {
+pub struct RoutineOn<N> {
     /// What an evaluation writes: `accelerations`, `equations` or `stresses`.
     pub result: &'static str,
     /// Topology, for example `S2_P`.
@@ -30,11 +59,11 @@ pub struct Kernel {
     pub outputs: usize,
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
-    prepare: Prepare,
-    evaluate: Evaluate<f64>,
+    prepare: fn(&[N], &mut [N]),
+    evaluate: Evaluate<N>,
 }
 
-impl Kernel {
+impl<N: Numbers> RoutineOn<N> {
     /// The routine `T` on this processor.
     pub fn of<T: Routine>() -> Self {
         Self::with::<T>(InstructionSet::of_this_processor())
@@ -54,23 +83,33 @@ impl Kernel {
             coordinates: T::COORDINATES,
             outputs: T::OUTPUTS,
             instructions: instructions.name(),
-            prepare: T::prepare::<f64>,
-            evaluate: compiled::<OneState<T>>(instructions)?,
+            prepare: N::prepare::<T>,
+            evaluate: compiled::<N::Forms<T>>(instructions)?,
         })
     }
 
+    /// What it takes for granted about a satellite: `general` nothing, `principal` some parameters,
+    /// `baked` all of them.
+    pub fn facts(&self) -> &'static str {
+        match self.pinned.len() {
+            0 => "general",
+            pinned if pinned == self.parameters => "baked",
+            _ => "principal",
+        }
+    }
+
     /// Whether these parameters are finite numbers and what the routine takes for granted.
-    pub fn accepts(&self, parameters: &[f64]) -> bool {
+    pub fn accepts(&self, parameters: &[N]) -> bool {
         parameters.len() == self.parameters
             && parameters.iter().all(|parameter| parameter.is_finite())
-            && self.pinned.iter().all(|&(i, value)| parameters[i] == value)
+            && self.pinned.iter().all(|&(i, value)| parameters[i] == N::splat(value))
     }
 
     /// Computes the constants that depend on parameters alone.
     ///
     /// # Panics
     /// When a slice does not have the length given above.
-    pub fn prepare(&self, parameters: &[f64], constants: &mut [f64]) {
+    pub fn prepare(&self, parameters: &[N], constants: &mut [N]) {
         (self.prepare)(parameters, constants);
     }
 
@@ -78,137 +117,7 @@ impl Kernel {
     ///
     /// # Panics
     /// When a slice does not have the length given above.
-    pub fn evaluate(&self, constants: &[f64], coordinates: &[f64], outputs: &mut [f64]) {
+    pub fn evaluate(&self, constants: &[N], coordinates: &[N], outputs: &mut [N]) {
         (self.evaluate)(constants, coordinates, outputs);
     }
-}
-
-/// A routine on one state.
-struct OneState<T>(PhantomData<T>);
-
-impl<T: Routine> Compiled for OneState<T> {
-    type Number = f64;
-
-    #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    fn avx512(k: &[f64], x: &[f64], out: &mut [f64]) {
-        T::evaluate_packed::<crate::Avx512>(k, x, out);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    fn avx2(k: &[f64], x: &[f64], out: &mut [f64]) {
-        T::evaluate_packed::<crate::Avx2>(k, x, out);
-    }
-
-    fn portable(k: &[f64], x: &[f64], out: &mut [f64]) {
-        T::evaluate::<f64>(k, x, out);
-    }
-}
-
-/// An evaluation on constants and coordinates, with what it computes.
-pub(crate) type Evaluate<N> = fn(&[N], &[N], &mut [N]);
-
-/// An evaluation that has a form for each instruction set; to be inlined into a function that is
-/// compiled for it.
-pub(crate) trait Compiled {
-    /// What slices are made of.
-    type Number;
-
-    #[cfg(target_arch = "x86_64")]
-    fn avx512(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
-
-    #[cfg(target_arch = "x86_64")]
-    fn avx2(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
-
-    fn portable(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
-}
-
-/// The evaluation in code for an instruction set, if this processor has it.
-pub(crate) fn compiled<C: Compiled>(instructions: InstructionSet) -> Option<Evaluate<C::Number>> {
-    if instructions > InstructionSet::of_this_processor() {
-        return None;
-    }
-    match instructions {
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => Some(on_avx512::<C>),
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => Some(on_avx2::<C>),
-        _ => Some(C::portable),
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-fn on_avx512<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-        C::avx512(k, x, out);
-    }
-    // SAFETY: `compiled` hands this function out only where the features are there.
-    unsafe { inlined::<C>(k, x, out) }
-}
-
-#[cfg(target_arch = "x86_64")]
-fn on_avx2<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-    #[target_feature(enable = "avx2,fma")]
-    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-        C::avx2(k, x, out);
-    }
-    // SAFETY: `compiled` hands this function out only where the features are there.
-    unsafe { inlined::<C>(k, x, out) }
-}
-
-/// Work that is to be done in code for the vector instructions that the processor has.
-pub trait Work {
-    /// Does it; to be inlined, with all that it calls.
-    fn carry_out(self);
-}
-
-/// Does `work` in code compiled for the vector instructions of this processor, of up to 256
-/// bits, which pay for short loops too. Results are the same with and without.
-pub fn vectorised<W: Work>(work: W) {
-    #[cfg(target_arch = "x86_64")]
-    if InstructionSet::of_this_processor() >= InstructionSet::Avx2 {
-        #[target_feature(enable = "avx2,fma")]
-        fn inlined<W: Work>(work: W) {
-            work.carry_out();
-        }
-        // SAFETY: the processor has the features.
-        return unsafe { inlined(work) };
-    }
-    work.carry_out();
-}
-
-/// Eight `f64` one after the other and nothing else, any of which may be any number.
-///
-/// # Safety
-/// A type of another content or layout would be read from memory that holds [`Eight`].
-pub(crate) unsafe trait EightNumbers: Real {}
-
-// SAFETY: arrays of eight in all but name; pairs are `repr(C)`, registers of one field
-// `repr(transparent)`.
-unsafe impl EightNumbers for PortableEight {}
-#[cfg(target_arch = "x86_64")]
-// SAFETY: as above.
-unsafe impl EightNumbers for crate::Pair<crate::Avx4> {}
-#[cfg(target_arch = "x86_64")]
-// SAFETY: as above.
-unsafe impl EightNumbers for crate::Avx8 {}
-
-/// The same numbers as scalars.
-#[inline(always)]
-pub(crate) fn as_registers<R: EightNumbers>(numbers: &[Eight]) -> &[R] {
-    const { assert!(size_of::<R>() == size_of::<Eight>()) };
-    const { assert!(align_of::<R>() <= align_of::<Eight>()) };
-    // SAFETY: size and alignment are as just asserted, and `R` is eight numbers.
-    unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) }
-}
-
-/// The same places as scalars.
-#[inline(always)]
-pub(crate) fn as_registers_mut<R: EightNumbers>(numbers: &mut [Eight]) -> &mut [R] {
-    const { assert!(size_of::<R>() == size_of::<Eight>()) };
-    const { assert!(align_of::<R>() <= align_of::<Eight>()) };
-    // SAFETY: size and alignment are as just asserted, and `R` is eight numbers.
-    unsafe { std::slice::from_raw_parts_mut(numbers.as_mut_ptr().cast(), numbers.len()) }
 }

@@ -14,6 +14,7 @@
 //! ```
 
 mod batch;
+mod compiled;
 mod double_double;
 mod dual;
 mod instructions;
@@ -33,13 +34,14 @@ mod vector;
 mod wide;
 
 pub use batch::{Batch, Eight};
+pub use compiled::{Work, vectorised};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use instructions::InstructionSet;
 pub use isa::Isa;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use isa::{Avx2, Avx512};
-pub use kernel::{Kernel, Work, vectorised};
+pub use kernel::{Kernel, RoutineOn};
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
 pub use pair::Pair;

@@ -1,20 +1,23 @@
 //! Lanes in vector registers.
 //!
 //! The compiler does not reliably turn long straight lines of array arithmetic into vector
-//! code; held in registers from the start, the same source runs four to six times faster. The
-//! intrinsics need a processor feature: these types may be used only in functions that are
-//! compiled for it, called only where it is there.
+//! code; held in registers from the start, the same source runs four to six times faster.
+//!
+//! The intrinsics need a processor feature. Whoever has a value may use them: all values come from
+//! `constant` and `gather`, or from other values. Code that names these types is in functions of
+//! [`Compiled`](crate::compiled::Compiled) that are unsafe to call where the feature is not there;
+//! builds with assertions establish it once more.
 #![allow(unsafe_code, reason = "vector intrinsics; see above")]
 
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use crate::sine::{COSINE, HALF_PI, SINE, TO_INTEGER, TWO_OVER_PI};
-use crate::{Pack, Real};
+use crate::{InstructionSet, Pack, Real};
 
 macro_rules! wide {
     (
-        $(#[$doc:meta])* $name:ident, $register:ty, $lanes:literal,
+        $(#[$doc:meta])* $name:ident, $set:ident, $register:ty, $lanes:literal,
         $load:ident, $store:ident, $splat:ident,
         $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $fma:ident, $fnma:ident,
         $to_bits:ident, $from_bits:ident, $splat_bits:ident,
@@ -26,6 +29,11 @@ macro_rules! wide {
         pub(crate) struct $name($register);
 
         impl $name {
+            /// Whether the feature is there.
+            fn may_exist() -> bool {
+                InstructionSet::of_this_processor() >= InstructionSet::$set
+            }
+
             #[inline(always)]
             fn to_array(self) -> [f64; $lanes] {
                 let mut lanes = [0.0; $lanes];
@@ -53,7 +61,8 @@ macro_rules! wide {
         impl Real for $name {
             #[inline(always)]
             fn constant(value: f64) -> Self {
-                // SAFETY: values of this type are made only where the feature is there.
+                debug_assert!(Self::may_exist());
+                // SAFETY: this type is named only where the feature is there.
                 Self(unsafe { $splat(value) })
             }
 
@@ -164,7 +173,8 @@ macro_rules! wide {
             #[inline(always)]
             fn gather(from: &[f64], at: usize) -> Self {
                 let lanes = &from[at..at + $lanes];
-                // SAFETY: the slice has as many numbers as there are lanes.
+                debug_assert!(Self::may_exist());
+                // SAFETY: as for `constant`, and the slice has as many numbers as there are lanes.
                 Self(unsafe { $load(lanes.as_ptr()) })
             }
 
@@ -192,7 +202,7 @@ macro_rules! wide {
 
 wide!(
     /// Four lanes in an AVX register.
-    Avx4, __m256d, 4,
+    Avx4, Avx2, __m256d, 4,
     _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd,
     _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
     _mm256_fmadd_pd, _mm256_fnmadd_pd,
@@ -202,7 +212,7 @@ wide!(
 
 wide!(
     /// Eight lanes in an AVX-512 register.
-    Avx8, __m512d, 8,
+    Avx8, Avx512, __m512d, 8,
     _mm512_loadu_pd, _mm512_storeu_pd, _mm512_set1_pd,
     _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
     _mm512_fmadd_pd, _mm512_fnmadd_pd,
@@ -244,14 +254,14 @@ mod tests {
     #[test]
     fn registers_compute_what_arrays_do() {
         let (mut expected, mut found) = ([0.0; 9], [0.0; 9]);
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        if Avx4::may_exist() {
             every_operation::<Lanes<4>>(&numbers(), &mut expected);
             // SAFETY: the features are there.
             unsafe { in_avx4(&numbers(), &mut found) };
             assert_eq!(found[..4], expected[..4]);
             assert!((found[8] - expected[8]).abs() < 1e-14 * expected[8].abs());
         }
-        if is_x86_feature_detected!("avx512f") {
+        if Avx8::may_exist() {
             every_operation::<Lanes<8>>(&numbers(), &mut expected);
             // SAFETY: the feature is there, and AVX2 and FMA with it.
             unsafe { in_avx8(&numbers(), &mut found) };

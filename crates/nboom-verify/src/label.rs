@@ -45,13 +45,8 @@ impl Label {
     /// A routine and how a mode is embedded in its topology.
     pub fn generated(fit: &Fit) -> Self {
         let (kernel, virtual_links) = (&fit.kernel, fit.embedding.virtual_links());
-        let facts = match kernel.pinned.len() {
-            0 => "general",
-            pinned if pinned == kernel.parameters => "baked",
-            _ => "principal",
-        };
         let Kernel { formulation, instructions, topology, .. } = *kernel;
-        let topology = Some(topology);
+        let (facts, topology) = (kernel.facts(), Some(topology));
         Self { path: "generated", formulation, facts, instructions, topology, virtual_links }
     }
 

@@ -1,11 +1,12 @@
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
 /// Random numbers that are the same everywhere for the same seed.
-pub(crate) struct Dice {
-    state: u64,
-}
+pub(crate) struct Dice(SplitMix64);
 
 impl Dice {
     pub fn new(seed: u64) -> Self {
-        Self { state: seed }
+        Self(SplitMix64::seed_from_u64(seed))
     }
 
     /// A number between `low` and `high`.
@@ -25,16 +26,7 @@ impl Dice {
 
     /// A number from 0 to below 1, of 53 random bits.
     fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Steele, Lea and Flood's SplitMix64.
-    fn next(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 
@@ -53,6 +45,6 @@ mod tests {
 
     #[test]
     fn a_seed_gives_the_published_numbers() {
-        assert_eq!(Dice::new(1234567).next(), 6_457_827_717_110_365_317);
+        assert_eq!(Dice::new(1234567).0.next_u64(), 6_457_827_717_110_365_317);
     }
 }

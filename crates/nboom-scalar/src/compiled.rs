@@ -1,0 +1,174 @@
+#![allow(unsafe_code, reason = "calls of functions compiled for processors that have more")]
+
+use std::marker::PhantomData;
+
+use crate::batch::{Eight, PortableEight};
+use crate::{InstructionSet, Real, Routine};
+
+/// An evaluation on constants and coordinates, with what it computes.
+pub(crate) type Evaluate<N> = fn(&[N], &[N], &mut [N]);
+
+/// An evaluation that has a form for each instruction set; to be inlined into a function that is
+/// compiled for it.
+pub trait Compiled {
+    /// What slices are made of.
+    type Number;
+
+    /// The form for AVX-512.
+    ///
+    /// # Safety
+    /// The processor has [`InstructionSet::Avx512`].
+    #[cfg(target_arch = "x86_64")]
+    unsafe fn avx512(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
+
+    /// The form for AVX2.
+    ///
+    /// # Safety
+    /// The processor has [`InstructionSet::Avx2`].
+    #[cfg(target_arch = "x86_64")]
+    unsafe fn avx2(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
+
+    /// The form for any processor.
+    fn portable(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
+}
+
+/// A routine on one state.
+#[derive(Debug)]
+pub struct OneState<T>(PhantomData<T>);
+
+impl<T: Routine> Compiled for OneState<T> {
+    type Number = f64;
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn avx512(k: &[f64], x: &[f64], out: &mut [f64]) {
+        T::evaluate_packed::<crate::Avx512>(k, x, out);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn avx2(k: &[f64], x: &[f64], out: &mut [f64]) {
+        T::evaluate_packed::<crate::Avx2>(k, x, out);
+    }
+
+    fn portable(k: &[f64], x: &[f64], out: &mut [f64]) {
+        T::evaluate::<f64>(k, x, out);
+    }
+}
+
+/// A routine on eight states.
+#[derive(Debug)]
+pub struct EightStates<T>(PhantomData<T>);
+
+impl<T: Routine> Compiled for EightStates<T> {
+    type Number = Eight;
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn avx512(k: &[Eight], x: &[Eight], out: &mut [Eight]) {
+        use crate::Avx8;
+        T::evaluate::<Avx8>(as_registers(k), as_registers(x), as_registers_mut(out));
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn avx2(k: &[Eight], x: &[Eight], out: &mut [Eight]) {
+        use crate::{Avx4, Pair};
+        T::evaluate::<Pair<Avx4>>(as_registers(k), as_registers(x), as_registers_mut(out));
+    }
+
+    fn portable(k: &[Eight], x: &[Eight], out: &mut [Eight]) {
+        T::evaluate::<PortableEight>(as_registers(k), as_registers(x), as_registers_mut(out));
+    }
+}
+
+/// The evaluation in code for an instruction set, if this processor has it.
+pub(crate) fn compiled<C: Compiled>(instructions: InstructionSet) -> Option<Evaluate<C::Number>> {
+    if instructions > InstructionSet::of_this_processor() {
+        return None;
+    }
+    match instructions {
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx512 => Some(on_avx512::<C>),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx2 => Some(on_avx2::<C>),
+        _ => Some(C::portable),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn on_avx512<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+        // SAFETY: this function is compiled for the features, and called only where they are there.
+        unsafe { C::avx512(k, x, out) };
+    }
+    // SAFETY: `compiled` hands this function out only where the features are there.
+    unsafe { inlined::<C>(k, x, out) }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn on_avx2<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+    #[target_feature(enable = "avx2,fma")]
+    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
+        // SAFETY: this function is compiled for the features, and called only where they are there.
+        unsafe { C::avx2(k, x, out) };
+    }
+    // SAFETY: `compiled` hands this function out only where the features are there.
+    unsafe { inlined::<C>(k, x, out) }
+}
+
+/// Work that is to be done in code for the vector instructions that the processor has.
+pub trait Work {
+    /// Does it; to be inlined, with all that it calls.
+    fn carry_out(self);
+}
+
+/// Does `work` in code compiled for the vector instructions of this processor, of up to 256
+/// bits, which pay for short loops too. Results are the same with and without.
+pub fn vectorised<W: Work>(work: W) {
+    #[cfg(target_arch = "x86_64")]
+    if InstructionSet::of_this_processor() >= InstructionSet::Avx2 {
+        #[target_feature(enable = "avx2,fma")]
+        fn inlined<W: Work>(work: W) {
+            work.carry_out();
+        }
+        // SAFETY: the processor has the features.
+        return unsafe { inlined(work) };
+    }
+    work.carry_out();
+}
+
+/// Eight `f64` one after the other and nothing else, any of which may be any number.
+///
+/// # Safety
+/// A type of another content or layout would be read from memory that holds [`Eight`].
+pub(crate) unsafe trait EightNumbers: Real {}
+
+// SAFETY: arrays of eight in all but name; pairs are `repr(C)`, registers of one field
+// `repr(transparent)`.
+unsafe impl EightNumbers for PortableEight {}
+#[cfg(target_arch = "x86_64")]
+// SAFETY: as above.
+unsafe impl EightNumbers for crate::Pair<crate::Avx4> {}
+#[cfg(target_arch = "x86_64")]
+// SAFETY: as above.
+unsafe impl EightNumbers for crate::Avx8 {}
+
+/// The same numbers as scalars.
+#[inline(always)]
+pub(crate) fn as_registers<R: EightNumbers>(numbers: &[Eight]) -> &[R] {
+    const { assert!(size_of::<R>() == size_of::<Eight>()) };
+    const { assert!(align_of::<R>() <= align_of::<Eight>()) };
+    // SAFETY: size and alignment are as just asserted, and `R` is eight numbers.
+    unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) }
+}
+
+/// The same places as scalars.
+#[inline(always)]
+pub(crate) fn as_registers_mut<R: EightNumbers>(numbers: &mut [Eight]) -> &mut [R] {
+    const { assert!(size_of::<R>() == size_of::<Eight>()) };
+    const { assert!(align_of::<R>() <= align_of::<Eight>()) };
+    // SAFETY: size and alignment are as just asserted, and `R` is eight numbers.
+    unsafe { std::slice::from_raw_parts_mut(numbers.as_mut_ptr().cast(), numbers.len()) }
+}
