@@ -1,11 +1,11 @@
 //! How far closed forms on `f64` are from the recursive path in double-double, which shares only
 //! spatial algebra with them.
 
-use nboom::formulation::report::Place;
+use nboom::formulation::report::OriginMotion;
 use nboom::formulation::{Formulation, Recognised, report};
 use nboom::scalar::DoubleDouble;
 
-use crate::random_scene::Dice;
+use crate::random_scene::Rng;
 use crate::satellites::{Satellite, exact, flat, random};
 
 const SATELLITES: u64 = 1000;
@@ -99,10 +99,10 @@ fn errors_away_from_the_origin(faster: f64) -> Vec<f64> {
         let coordinates = satellite.coordinates_of(&recognised);
         let exact = exact(&moment, links);
         let articulated = Formulation::Articulated.solve(topology, parameters, &coordinates);
-        let dice = &mut Dice::new(seed);
+        let dice = &mut Rng::new(seed);
         let (rho, v) = (dice.vector(1.0), dice.vector(1.0));
         let of_report = DISTANCES.map(|distance| {
-            let place = Place { rho: rho * distance, v: v * distance };
+            let place = OriginMotion { rho: rho * distance, v: v * distance };
             report::solve(topology, parameters, &coordinates, &place)
         });
         for (worst, found) in worst.iter_mut().zip([articulated].iter().chain(&of_report)) {

@@ -10,7 +10,7 @@ use nboom::model::{HingeState, Mode, Scene, Shape, Topology, WeldedTree};
 use nboom::scalar::Kernel;
 use nboom::sim::{Fit, Options, Repertoire};
 
-use crate::random_scene::{Dice, Moment};
+use crate::random_scene::{Moment, Rng};
 use crate::satellites::{Satellite, flat, random};
 use crate::support::relative_error;
 
@@ -21,7 +21,7 @@ const RANDOM_SATELLITES: u64 = 3000;
 const ROUNDING: f64 = 1e-15;
 
 /// A topology that holds the inner one: chains up to two links longer, and appendages added.
-fn larger(inner: &Topology, dice: &mut Dice) -> Topology {
+fn larger(inner: &Topology, dice: &mut Rng) -> Topology {
     let mut shapes = Vec::new();
     for &shape in inner.shapes() {
         shapes.push(match shape {
@@ -57,7 +57,7 @@ fn of_real(embedding: &Embedding, outputs: &[f64]) -> Vec<f64> {
 }
 
 /// A number for each parameter, to be taken where nothing depends on it.
-fn any_numbers(count: usize, dice: &mut Dice) -> Vec<(usize, f64)> {
+fn any_numbers(count: usize, dice: &mut Rng) -> Vec<(usize, f64)> {
     (0..count).map(|i| (i, dice.between(-2.0, 2.0))).collect()
 }
 
@@ -70,7 +70,7 @@ fn closed_forms_of_embedded_satellites_give_the_same_accelerations() {
         let Recognised { topology: inner, parameters, links } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
         let own = flat(&articulated::solve(inner, parameters, &coordinates));
-        let dice = &mut Dice::new(seed ^ 0xe1b);
+        let dice = &mut Rng::new(seed ^ 0xe1b);
         let outer = larger(inner, dice);
         let embedding = Embedding::new(inner, &outer).expect("it is larger");
         let state = Coordinates::read(&outer, &embedded(&embedding, &coordinates));
@@ -131,7 +131,7 @@ fn stock_routines_give_the_accelerations_of_satellites_embedded_in_them() {
 /// A scene of the benches in a random state of a random mode; hinges are held at angle zero, those
 /// at the main body never.
 fn with_principal_axes(scene: &Scene, seed: u64) -> Moment {
-    let dice = &mut Dice::new(seed);
+    let dice = &mut Rng::new(seed);
     let at_main_body = |i: usize| scene.bodies[i].inboard.is_none();
     let held = dice.between(0.0, 0.7);
     let hinges: Vec<HingeState> = (0..scene.bodies.len())
@@ -141,7 +141,7 @@ fn with_principal_axes(scene: &Scene, seed: u64) -> Moment {
         })
         .collect();
     let mode = Mode { hinges, ..Mode::at_start(scene) };
-    let of_free = |size: f64, dice: &mut Dice| -> Vec<f64> {
+    let of_free = |size: f64, dice: &mut Rng| -> Vec<f64> {
         let any = |i| if mode.is_free(i) { dice.between(-size, size) } else { 0.0 };
         (0..scene.bodies.len()).map(any).collect()
     };

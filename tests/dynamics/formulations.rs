@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use nboom::formulation::momentum::{self, Momenta, Velocities};
-use nboom::formulation::report::{self, Place};
+use nboom::formulation::report::{self, OriginMotion};
 use nboom::formulation::{
     Coordinates, Formulation, Parameters, Recognised, Solution, articulated, relative, symmetric,
 };
@@ -11,7 +11,7 @@ use nboom::model::{HingeState, Mode, Shape};
 use nboom::scalar::{Dual, Twist, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, cases};
-use crate::random_scene::{Dice, moment};
+use crate::random_scene::{Rng, moment};
 use crate::satellites::{Satellite, extreme, flat, random};
 use crate::support::{numbers, relative_error};
 
@@ -78,8 +78,8 @@ fn the_reports_equations_hold_wherever_the_satellite_is() {
         let recognised = satellite.recognised();
         let coordinates = satellite.coordinates_of(&recognised);
         let expected = satellite.expected(&recognised.links);
-        let dice = &mut Dice::new(seed);
-        let place = Place { rho: dice.vector(10.0), v: dice.vector(10.0) };
+        let dice = &mut Rng::new(seed);
+        let place = OriginMotion { rho: dice.vector(10.0), v: dice.vector(10.0) };
         let Recognised { topology, parameters, .. } = &recognised;
         for (name, found) in [
             ("report", report::solve(topology, parameters, &coordinates, &place)),
@@ -160,8 +160,8 @@ fn a_b_and_the_symmetric_matrix_are_columns_of_each_other() {
         let recognised = satellite.recognised();
         let Recognised { topology, parameters, .. } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
-        let dice = &mut Dice::new(seed);
-        let place = Place { rho: dice.vector(2.0), v: dice.vector(2.0) };
+        let dice = &mut Rng::new(seed);
+        let place = OriginMotion { rho: dice.vector(2.0), v: dice.vector(2.0) };
         let a = report::equations(topology, parameters, &coordinates, &place);
         let b = relative::equations(topology, parameters, &coordinates, &place);
         assert_eq!(a.forcing, b.forcing);
@@ -196,7 +196,8 @@ fn a_b_and_the_symmetric_matrix_are_columns_of_each_other() {
         let error = (&kinetic - &expected).amax() / b_matrix.amax();
         assert!(error < ROUNDING, "seed {seed}, B C = B₀: {error:e}");
 
-        let at_origin = relative::equations(topology, parameters, &coordinates, &Place::origin());
+        let at_origin =
+            relative::equations(topology, parameters, &coordinates, &OriginMotion::origin());
         let forcing = symmetric::forcing(topology, parameters, &coordinates);
         let error = relative_error(&at_origin.forcing, &forcing, 1.0);
         assert!(error < 10.0 * ROUNDING, "seed {seed}, u₀: {error:e}");

@@ -10,7 +10,7 @@ use nboom::model::{
 use nboom::scalar::{DoubleDouble, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, condition};
-use crate::random_scene::{Dice, Moment};
+use crate::random_scene::{Moment, Rng};
 
 /// A satellite in one state with what the recursive path says about it.
 pub struct Satellite {
@@ -154,7 +154,7 @@ struct Kind {
 }
 
 impl Kind {
-    fn mass(self, dice: &mut Dice, (low, high): (f64, f64)) -> f64 {
+    fn mass(self, dice: &mut Rng, (low, high): (f64, f64)) -> f64 {
         let mass = dice.between(low, high);
         if self.decades == 0.0 {
             return mass;
@@ -164,7 +164,7 @@ impl Kind {
 }
 
 fn of_kind(seed: u64, kind: Kind) -> Moment {
-    let dice = &mut Dice::new(seed);
+    let dice = &mut Rng::new(seed);
     let mass = kind.mass(dice, (5.0, 50.0));
     let main_body = dice.mass_properties(mass, 1.5);
     let mut description = SceneDescription::at_rest("chains and paddles", main_body, 1.0);
@@ -176,7 +176,7 @@ fn of_kind(seed: u64, kind: Kind) -> Moment {
         description.thrust = Some(Thrust { force, point, on: 0.0, off: 0.5 });
     }
     let scene = Scene::new(description).expect("random bodies are physical");
-    let held = |dice: &mut Dice| {
+    let held = |dice: &mut Rng| {
         if dice.chance(0.25) { HingeState::Locked } else { HingeState::Free }
     };
     let hinges: Vec<HingeState> = scene.bodies.iter().map(|_| held(dice)).collect();
@@ -192,7 +192,7 @@ fn of_kind(seed: u64, kind: Kind) -> Moment {
     Moment { scene, mode, beta, tau, omega, velocity_body }
 }
 
-fn appendage(dice: &mut Dice, kind: Kind) -> Appendage {
+fn appendage(dice: &mut Rng, kind: Kind) -> Appendage {
     let mount = Mount { point: dice.vector(1.0), rot_inboard_from_hinge: dice.rotation() };
     if dice.chance(0.4) {
         return Appendage::Paddle { mount, arm: segment(dice, kind), paddle: segment(dice, kind) };
@@ -201,7 +201,7 @@ fn appendage(dice: &mut Dice, kind: Kind) -> Appendage {
     Appendage::Regular { mount, segments }
 }
 
-fn segment(dice: &mut Dice, kind: Kind) -> Segment {
+fn segment(dice: &mut Rng, kind: Kind) -> Segment {
     let mass = kind.mass(dice, (0.5, 10.0));
     let mass_properties = dice.mass_properties(mass, 0.8);
     let mut hinge = Hinge::free();

@@ -10,9 +10,9 @@ use crate::rotors::{BOOM, HUB, free, locking_at, scene, waiting};
 const END: f64 = 4.0;
 
 /// Numbers from a fixed seed (Knuth's multiplier, upper half of the bits).
-struct Dice(u64);
+struct Rng(u64);
 
-impl Dice {
+impl Rng {
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (self.0 >> 32) as f64 / 4_294_967_296.0
@@ -24,7 +24,7 @@ impl Dice {
 }
 
 /// Hinges of which some turn, some wait for a time, an angle or a lock angle of an earlier one.
-fn hinges(dice: &mut Dice) -> Vec<Hinge> {
+fn hinges(dice: &mut Rng) -> Vec<Hinge> {
     let mut hinges: Vec<Hinge> = Vec::new();
     for i in 0..6 {
         let hinge = match (i, dice.unit()) {
@@ -144,7 +144,7 @@ impl<'a> Exact<'a> {
 
 #[test]
 fn random_rotors_have_the_events_of_the_closed_form() {
-    let mut dice = Dice(1970);
+    let mut dice = Rng(1970);
     let (mut locks, mut releases, mut joint) = (0, 0, 0);
     for case in 0..400 {
         let hinges = hinges(&mut dice);

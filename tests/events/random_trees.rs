@@ -9,7 +9,7 @@ use nboom::sim::Options;
 
 use crate::collect::run;
 use crate::error_bound::largest_share;
-use crate::random_scene::{Dice, description, spring};
+use crate::random_scene::{Rng, description, spring};
 use crate::sampled::{Happening, Sampled};
 
 /// Steps of the comparison at least, so that its own error is below that of the run.
@@ -18,7 +18,7 @@ const FEWEST: f64 = 2000.0;
 /// A tree of one to six bodies for one time unit: springs, dashpots, kick-off springs and thrust
 /// as in other random scenes, latches, and releases by time and by angles of other hinges.
 fn eventful(seed: u64) -> SceneDescription {
-    let dice = &mut Dice::new(seed ^ 0xe7e7);
+    let dice = &mut Rng::new(seed ^ 0xe7e7);
     let bodies = 1 + dice.below(6);
     let mut scene = description(bodies, seed);
     scene.end_time = 1.0;

@@ -6,13 +6,13 @@ use nboom::scalar::Vec3;
 
 use super::log::{Log, options, run};
 use super::newton_euler::{self, matrix, vector};
-use super::random_scene::{Dice, description};
+use super::random_scene::{Rng, description};
 
 fn scene(seed: u64) -> SceneDescription {
     let mut scene = description(6, seed);
     scene.thrust = None;
     scene.end_time = 1.0;
-    let dice = &mut Dice::new(seed ^ 0xfa11);
+    let dice = &mut Rng::new(seed ^ 0xfa11);
     for body in &mut scene.bodies {
         body.hinge.lock_angle = Some(body.hinge.start.angle + 0.3 * body.hinge.start.rate);
     }

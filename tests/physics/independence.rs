@@ -9,7 +9,7 @@ use nboom::sim::{EventKind, Snapshot};
 
 use super::collect::{DISENGAGES, ENGAGES};
 use super::log::{Log, options, run};
-use super::random_scene::{Dice, all_acting, description};
+use super::random_scene::{Rng, all_acting, description};
 use super::transforms::{
     Variant, View, in_units, other_angle, other_body_axes, other_inertial_axes,
     other_main_body_axes, renumbered,
@@ -21,7 +21,7 @@ const BODIES: usize = 7;
 /// the thrust comes and goes.
 pub fn eventful(seed: u64) -> SceneDescription {
     let mut scene = description(BODIES, seed);
-    let dice = &mut Dice::new(seed ^ 0xe4e17);
+    let dice = &mut Rng::new(seed ^ 0xe4e17);
     scene.end_time = 1.2;
     if let Some(thrust) = &mut scene.thrust {
         (thrust.on, thrust.off) = (0.21, 0.77);
@@ -50,7 +50,7 @@ pub fn eventful(seed: u64) -> SceneDescription {
 }
 
 fn variants(scene: &SceneDescription, seed: u64) -> Vec<Variant> {
-    let dice = &mut Dice::new(seed ^ 0x7e11);
+    let dice = &mut Rng::new(seed ^ 0x7e11);
     vec![
         renumbered(scene),
         other_main_body_axes(scene, dice.attitude(), dice.vector(1.0)),

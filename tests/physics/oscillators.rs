@@ -8,7 +8,7 @@ use nboom::scalar::{Sym3, Vec3};
 
 use super::jacobi::sn_cn_dn;
 use super::log::{options, run};
-use super::random_scene::Dice;
+use super::random_scene::Rng;
 
 const J_MAIN: f64 = 5.0;
 const J_BOOM: f64 = 2.0;
@@ -31,7 +31,7 @@ pub fn scene(
     rate: f64,
     end: f64,
 ) -> SceneDescription {
-    let dice = &mut Dice::new(11);
+    let dice = &mut Rng::new(11);
     let along = dice.direction();
     let off = dice.vector(1.0);
     let main_body = MassProperties::new(7.0, off, inertia_about(along, J_MAIN));

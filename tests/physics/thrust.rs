@@ -5,7 +5,7 @@ use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::EventKind;
 
 use super::log::{options, run};
-use super::random_scene::Dice;
+use super::random_scene::Rng;
 
 const MASS: f64 = 4.0;
 const AXIAL: f64 = 3.0;
@@ -20,7 +20,7 @@ const CLOSE: f64 = 1e-10;
 
 /// A symmetric top spinning about its z axis, with the thrust in a pulse.
 fn scene(force: Vec3<f64>, point: Vec3<f64>) -> SceneDescription {
-    let dice = &mut Dice::new(5);
+    let dice = &mut Rng::new(5);
     let center = Vec3::new(0.0, 0.0, 0.6);
     let body = MassProperties::new(MASS, center, Sym3::diagonal(2.0, 2.0, AXIAL));
     let mut scene = SceneDescription::at_rest("thruster", body, END);

@@ -11,7 +11,7 @@ use nboom::sim::{Method, Options};
 use super::jacobi::{complete, sn_cn_dn};
 use super::log::{Log, options, run};
 use super::newton_euler::{matrix, vector};
-use super::random_scene::Dice;
+use super::random_scene::Rng;
 
 /// Rates about the principal axes, moments in rising or falling order: the middle one is zero
 /// at time zero, the last one never changes sign.
@@ -75,7 +75,7 @@ impl Top {
 
 /// The top with its principal axes along any axes of the main body.
 fn compare(top: &Top, seed: u64) {
-    let dice = &mut Dice::new(seed);
+    let dice = &mut Rng::new(seed);
     let axes = dice.rotation();
     let [i1, i2, i3] = top.moments;
     let inertia = Sym3::diagonal(i1, i2, i3).rotated(&axes);

@@ -8,7 +8,7 @@ use nboom::sim::{EventKind, Snapshot};
 use super::independence::eventful;
 use super::log::{options, run};
 use super::newton_euler::{matrix, vector};
-use super::random_scene::{Dice, description};
+use super::random_scene::{Rng, description};
 use super::transforms::reordered;
 
 fn tensor(i: &Sym3<f64>) -> Matrix3<f64> {
@@ -120,7 +120,7 @@ fn a_hinge_that_starts_locked() {
     for seed in 0..12 {
         let mut scene = description(6, seed);
         scene.end_time = 1.0;
-        let i = Dice::new(seed ^ 0x3e1d).below(6);
+        let i = Rng::new(seed ^ 0x3e1d).below(6);
         let hinge = &mut scene.bodies[i].hinge;
         hinge.kick_off = None;
         hinge.start.rate = 0.0;

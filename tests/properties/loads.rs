@@ -13,7 +13,7 @@ use nboom_codegen::{Level, StressRequest};
 
 use crate::Prepared;
 use crate::newton_euler::{Placed, accelerations, loads, place, vector};
-use crate::random_scene::{Dice, Moment, moment};
+use crate::random_scene::{Moment, Rng, moment};
 
 type V3 = Vector3<f64>;
 
@@ -29,7 +29,7 @@ pub struct Sliced {
     force_densities: Vec<f64>,
 }
 
-fn stations(dice: &mut Dice) -> Vec<Station> {
+fn stations(dice: &mut Rng) -> Vec<Station> {
     let count = dice.below(4);
     let mut distances: Vec<f64> = (0..count).map(|_| dice.between(0.0, 1.2)).collect();
     distances.sort_by(|a, b| b.total_cmp(a));
@@ -45,7 +45,7 @@ fn stations(dice: &mut Dice) -> Vec<Station> {
 impl Sliced {
     fn new(bodies: usize, seed: u64) -> Self {
         let mut moment = moment(bodies, seed, 0.4);
-        let dice = &mut Dice::new(seed ^ 0x10ad);
+        let dice = &mut Rng::new(seed ^ 0x10ad);
         let segment = |_| SegmentStructure {
             pulse_constant: dice.between(0.01, 1.0),
             poissons_ratio: 0.3,

@@ -7,7 +7,7 @@ use nboom::scalar::Vec3;
 use proptest::prelude::*;
 
 use super::newton_euler::{self, Sums, vector};
-use super::random_scene::{Dice, Moment, moment};
+use super::random_scene::{Moment, Rng, moment};
 use super::{Prepared, cases};
 
 fn sums(moment: &Moment) -> Sums {
@@ -48,7 +48,7 @@ fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, LockUp<f64>) {
 
 /// Some of the free hinges, at least one.
 fn choose(moment: &Moment, seed: u64) -> Vec<usize> {
-    let dice = &mut Dice::new(seed ^ 0x10c);
+    let dice = &mut Rng::new(seed ^ 0x10c);
     let free: Vec<usize> =
         (0..moment.mode.hinges.len()).filter(|&i| moment.mode.is_free(i)).collect();
     let chosen: Vec<usize> = free.iter().copied().filter(|_| dice.chance(0.4)).collect();

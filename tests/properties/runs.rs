@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::cases;
 use super::log::{Log, options, run};
 use super::newton_euler::{self, Sums, matrix, vector};
-use super::random_scene::{Dice, conservative};
+use super::random_scene::{Rng, conservative};
 use nboom::model::SceneDescription;
 use nboom::sim::Snapshot;
 
@@ -22,7 +22,7 @@ fn sums(scene: &SceneDescription, seen: &Snapshot) -> Sums {
 /// A tree that moves for half a time unit, some hinges of which may lock on the way.
 fn scene(bodies: usize, seed: u64, locks: bool) -> SceneDescription {
     let mut scene = conservative(bodies, seed);
-    let dice = &mut Dice::new(seed ^ 0xca7c);
+    let dice = &mut Rng::new(seed ^ 0xca7c);
     scene.gravity = None;
     scene.end_time = 0.5;
     for body in &mut scene.bodies {

@@ -9,7 +9,7 @@ use nboom::sim::{InstantMotion, Jump, MotionAt, Options, Recorder, StepMotion, s
 use nboom::strength::{Settings, StressAnalysis};
 
 use crate::collect::forces_and_lengths;
-use crate::random_scene::{Dice, description};
+use crate::random_scene::{Rng, description};
 
 /// A satellite with stations.
 pub struct Satellite {
@@ -20,7 +20,7 @@ pub struct Satellite {
 impl Satellite {
     /// A random tree with tubes, boxes and triangles, of which some hinges lock.
     pub fn new(bodies: usize, seed: u64) -> Self {
-        let dice = &mut Dice::new(seed ^ 0x57ae55);
+        let dice = &mut Rng::new(seed ^ 0x57ae55);
         let mut description = description(bodies, seed);
         let mut segments = Vec::new();
         for body in &mut description.bodies {
@@ -58,7 +58,7 @@ impl Satellite {
     }
 }
 
-fn section(dice: &mut Dice) -> SectionShape {
+fn section(dice: &mut Rng) -> SectionShape {
     let thickness = dice.between(0.001, 0.004);
     let (width, height) = (dice.between(0.05, 0.1), dice.between(0.05, 0.1));
     let vertex = |xi, zeta| Vertex { xi, zeta, thickness };

@@ -9,9 +9,9 @@ use nboom::model::{
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 
 /// A generator of numbers that are the same on every machine (SplitMix64).
-pub struct Dice(u64);
+pub struct Rng(u64);
 
-impl Dice {
+impl Rng {
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -90,7 +90,7 @@ impl Dice {
 
 /// A tree of `bodies` hinged bodies with every kind of force; all hinges start free.
 pub fn description(bodies: usize, seed: u64) -> SceneDescription {
-    let dice = &mut Dice::new(seed);
+    let dice = &mut Rng::new(seed);
     let mass = dice.between(5.0, 50.0);
     let main_body = dice.mass_properties(mass, 1.5);
     let mut scene = SceneDescription::at_rest("random tree", main_body, 1.0);
@@ -118,7 +118,7 @@ pub fn description(bodies: usize, seed: u64) -> SceneDescription {
     scene
 }
 
-fn body(dice: &mut Dice, inboard: Option<usize>) -> Body {
+fn body(dice: &mut Rng, inboard: Option<usize>) -> Body {
     let mass = dice.between(0.5, 10.0);
     let mass_properties = dice.mass_properties(mass, 0.8);
     let mut hinge = Hinge::free();
@@ -183,7 +183,7 @@ pub fn spring(bodies: &[Body], i: usize) -> usize {
 /// A random tree in a random mode; each hinge is held with probability `held`.
 pub fn moment(bodies: usize, seed: u64, held: f64) -> Moment {
     let scene = Scene::new(description(bodies, seed)).expect("random bodies are physical");
-    let dice = &mut Dice::new(seed ^ 0x5eed);
+    let dice = &mut Rng::new(seed ^ 0x5eed);
     let states = [HingeState::Unreleased, HingeState::Locked];
     let hinges = (0..bodies).map(|_| match dice.chance(held) {
         true => states[dice.below(2)],

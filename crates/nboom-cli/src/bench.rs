@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use nboom_formulation::{Recognised, symmetric};
 use nboom_scalar::{Batch, Eight};
-use nboom_verify::{Code, Label, Subject};
+use nboom_verify::{ComparedCode, Label, Subject};
 
 use crate::format::{code_columns, code_head, not_covered, routine_topology};
 use crate::run::default_directory;
@@ -64,7 +64,7 @@ fn rows(subject: &Subject, routines: &Routines, seconds: f64) -> Result<Vec<Row>
     let mut timed: Vec<(Label, usize, Times)> = Vec::new();
     for (label, mut code) in codes {
         timed.push((label, 1, time_of(&mut code, seconds)));
-        if let Code::Routine { fit, states, .. } = &code {
+        if let ComparedCode::Routine { fit, states, .. } = &code {
             let batch = routines.batches.iter().find(|batch| is_of(batch, &label));
             let parameters: Vec<Eight> = fit.parameters.iter().map(|&p| Eight::splat(p)).collect();
             if let Some(batch) = batch.filter(|batch| batch.accepts(&parameters)) {
@@ -112,25 +112,25 @@ fn time_of_batch(batch: &Batch, parameters: &[Eight], states: &[Vec<f64>], secon
 }
 
 /// Inputs that vary from call to call, and outputs, are hidden from the compiler.
-fn time_of(code: &mut Code<'_>, seconds: f64) -> Times {
+fn time_of(code: &mut ComparedCode<'_>, seconds: f64) -> Times {
     match code {
-        Code::Recursion { dynamics, states, found } => time(seconds, |i| {
+        ComparedCode::Recursion { dynamics, states, found } => time(seconds, |i| {
             dynamics.accelerations(black_box(&states[i].motion()), black_box(found));
         }),
-        Code::Dense { dense, states } => time(seconds, |i| {
+        ComparedCode::Dense { dense, states } => time(seconds, |i| {
             black_box(dense.accelerations(black_box(&states[i].motion())));
         }),
-        Code::ClosedForm { formulation, recognised, states } => {
+        ComparedCode::ClosedForm { formulation, recognised, states } => {
             let Recognised { topology, parameters, .. } = recognised;
             time(seconds, |i| {
                 let (parameters, state) = (black_box(parameters), black_box(&states[i]));
                 black_box(formulation.solve(topology, parameters, state));
             })
         }
-        Code::Tree { tree, states } => time(seconds, |i| {
+        ComparedCode::Tree { tree, states } => time(seconds, |i| {
             black_box(symmetric::solve_tree(black_box(tree), black_box(&states[i])));
         }),
-        Code::Routine { fit, constants, states, found, .. } => time(seconds, |i| {
+        ComparedCode::Routine { fit, constants, states, found, .. } => time(seconds, |i| {
             fit.kernel.evaluate(black_box(constants), black_box(&states[i]), black_box(found));
         }),
     }

@@ -8,7 +8,7 @@ use nboom_scalar::Real;
 use crate::formulation::ClosedForm;
 use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::report;
-use crate::section5::{self, Equations, Place};
+use crate::section5::{self, Equations, OriginMotion};
 
 /// The row of [`Formulation`](crate::Formulation)'s table.
 pub(crate) struct Relative;
@@ -24,7 +24,7 @@ impl ClosedForm for Relative {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Option<Equations<R>> {
-        Some(equations(topology, parameters, coordinates, &Place::origin()))
+        Some(equations(topology, parameters, coordinates, &OriginMotion::origin()))
     }
 
     fn solve<R: Real>(
@@ -32,7 +32,7 @@ impl ClosedForm for Relative {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Solution<R> {
-        solve(topology, parameters, coordinates, &Place::origin())
+        solve(topology, parameters, coordinates, &OriginMotion::origin())
     }
 }
 
@@ -43,7 +43,7 @@ pub fn equations<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
-    place: &Place<R>,
+    place: &OriginMotion<R>,
 ) -> Equations<R> {
     let mut equations = section5::equations(topology, parameters, coordinates, place);
     let size = equations.forcing.len();
@@ -67,7 +67,7 @@ pub fn solve<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
-    place: &Place<R>,
+    place: &OriginMotion<R>,
 ) -> Solution<R> {
     let unknowns = equations(topology, parameters, coordinates, place).solve();
     let main = report::main_rates(&unknowns, coordinates.omega, place);

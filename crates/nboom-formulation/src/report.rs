@@ -13,7 +13,7 @@ use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::pose;
 use crate::section5;
 
-pub use crate::section5::{Equations, Place};
+pub use crate::section5::{Equations, OriginMotion};
 
 /// The row of [`Formulation`](crate::Formulation)'s table.
 pub(crate) struct Report;
@@ -29,7 +29,7 @@ impl ClosedForm for Report {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Option<Equations<R>> {
-        Some(equations(topology, parameters, coordinates, &Place::origin()))
+        Some(equations(topology, parameters, coordinates, &OriginMotion::origin()))
     }
 
     fn solve<R: Real>(
@@ -37,7 +37,7 @@ impl ClosedForm for Report {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Solution<R> {
-        solve(topology, parameters, coordinates, &Place::origin())
+        solve(topology, parameters, coordinates, &OriginMotion::origin())
     }
 }
 
@@ -46,7 +46,7 @@ pub fn equations<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
-    place: &Place<R>,
+    place: &OriginMotion<R>,
 ) -> Equations<R> {
     section5::equations(topology, parameters, coordinates, place)
 }
@@ -56,7 +56,7 @@ pub fn solve<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
-    place: &Place<R>,
+    place: &OriginMotion<R>,
 ) -> Solution<R> {
     let unknowns = equations(topology, parameters, coordinates, place).solve();
     let mut tau_dot = Vec::new();
@@ -69,7 +69,11 @@ pub fn solve<R: Real>(
 }
 
 /// ω̇ and a_O = v̇ + ω̇ × ρ̄ + 2 ω × v̄ + ω × (ω × ρ̄) from (v̇, ω̇).
-pub(crate) fn main_rates<R: Real>(unknowns: &[R], omega: Vec3<R>, place: &Place<R>) -> Twist<R> {
+pub(crate) fn main_rates<R: Real>(
+    unknowns: &[R],
+    omega: Vec3<R>,
+    place: &OriginMotion<R>,
+) -> Twist<R> {
     let v_dot = Vec3::new(unknowns[0], unknowns[1], unknowns[2]);
     let angular = Vec3::new(unknowns[3], unknowns[4], unknowns[5]);
     Twist { angular, linear: v_dot + angular.cross(place.rho) + place.carried(omega) }

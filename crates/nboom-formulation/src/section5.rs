@@ -14,14 +14,14 @@ use crate::pose::{self, Posed, each};
 
 /// Where O is and how fast it moves, as the report describes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place<R> {
+pub struct OriginMotion<R> {
     /// ρ̄, O from the inertial origin, main-body axes.
     pub rho: Vec3<R>,
     /// v̄, the rate of change of the components of ρ̄, main-body axes.
     pub v: Vec3<R>,
 }
 
-impl<R: Real> Place<R> {
+impl<R: Real> OriginMotion<R> {
     /// O at rest at the inertial origin, or passing it.
     pub fn origin() -> Self {
         Self { rho: Vec3::zero(), v: Vec3::zero() }
@@ -57,7 +57,7 @@ pub(crate) fn equations<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
-    place: &Place<R>,
+    place: &OriginMotion<R>,
 ) -> Equations<R> {
     let omega = coordinates.omega;
     let size = 6 + topology.hinges();
@@ -88,7 +88,11 @@ pub(crate) fn equations<R: Real>(
 }
 
 /// eqs. (5.4), (5.5), (5.7) and (5.8) over v̇ and ω̇, corrected: note 2.
-fn put_main_rows<R: Real>(total: &RigidInertia<R>, place: &Place<R>, out: &mut Equations<R>) {
+fn put_main_rows<R: Real>(
+    total: &RigidInertia<R>,
+    place: &OriginMotion<R>,
+    out: &mut Equations<R>,
+) {
     let (moments, mass) = (Mat3::skew(total.first_moment), total.mass);
     let a12 = -(Mat3::skew(place.rho) * mass + moments);
     let a22 = total.about_origin.to_matrix() - moments * Mat3::skew(place.rho);
@@ -125,7 +129,7 @@ impl<R: Real> Share<R> {
         branch: &Branch<R>,
         omega: Vec3<R>,
         hinges: &[HingeCoordinates<R>],
-        place: &Place<R>,
+        place: &OriginMotion<R>,
     ) -> Self {
         let rot = &branch.rot_body_from_appendage;
         let w = rot.transpose_mul(omega);

@@ -14,12 +14,12 @@ use crate::segment::{Influence, Segment};
 #[derive(Clone, Debug)]
 pub struct LoadEquations<R = f64> {
     pub(crate) segments: Vec<Segment<R>>,
-    places: Vec<Place<R>>,
+    places: Vec<SegmentMotion<R>>,
 }
 
 /// Where a segment is and how it moves; segment axes unless said otherwise.
 #[derive(Clone, Copy, Debug)]
-struct Place<R> {
+struct SegmentMotion<R> {
     rot_inboard_from_body: Mat3<R>,
     rot_main_from_body: Mat3<R>,
     /// The hinge from O, main-body axes.
@@ -78,7 +78,7 @@ impl LoadEquations {
 
 impl<R: Real> LoadEquations<R> {
     fn of(segments: Vec<Segment<R>>) -> Self {
-        let still = Place {
+        let still = SegmentMotion {
             rot_inboard_from_body: Mat3::identity(),
             rot_main_from_body: Mat3::identity(),
             origin: Vec3::zero(),
@@ -121,8 +121,12 @@ impl<R: Real> LoadEquations<R> {
 
 /// Walks outward: where every segment is and how it moves, eqs. (14.1) to (14.10), corrected:
 /// note 27.
-fn place<R: Real>(segments: &[Segment<R>], places: &mut [Place<R>], motion: &SceneMotion<'_, R>) {
-    let main = Place {
+fn place<R: Real>(
+    segments: &[Segment<R>],
+    places: &mut [SegmentMotion<R>],
+    motion: &SceneMotion<'_, R>,
+) {
+    let main = SegmentMotion {
         rot_inboard_from_body: Mat3::identity(),
         rot_main_from_body: Mat3::identity(),
         origin: Vec3::zero(),
@@ -144,7 +148,7 @@ fn place<R: Real>(segments: &[Segment<R>], places: &mut [Place<R>], motion: &Sce
     }
 }
 
-impl<R: Real> Place<R> {
+impl<R: Real> SegmentMotion<R> {
     /// The place of a segment that is hinged to this one and turned from it by `turn`.
     fn outward(&self, segment: &Segment<R>, turn: &Mat3<R>, tau: R, tau_dot: R) -> Self {
         let rot = segment.rot_inboard_at_zero * *turn;
@@ -187,7 +191,7 @@ impl<R: Real> Place<R> {
 /// eq. (14.13), corrected: note 28.
 fn gather<R: Real>(
     segments: &[Segment<R>],
-    places: &[Place<R>],
+    places: &[SegmentMotion<R>],
     force_densities: &[R],
     out: &mut LoadSet<R>,
 ) {
@@ -215,7 +219,7 @@ fn gather<R: Real>(
 /// Takes the force along the line from the main body to segment `i` off its loads.
 fn push_apart<R: Real>(
     segment: &Segment<R>,
-    place: &Place<R>,
+    place: &SegmentMotion<R>,
     force_density: R,
     i: usize,
     out: &mut LoadSet<R>,

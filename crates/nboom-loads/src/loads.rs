@@ -12,7 +12,7 @@ use crate::motion::{LockUpShare, SceneMotion, VelocityChange};
 /// hinge of the scene.
 #[derive(Clone, Debug)]
 pub struct Loads {
-    code: Code,
+    code: LoadCode,
     /// Of one lock-up.
     impulses: LoadSet,
     /// One zero for each hinge.
@@ -21,12 +21,12 @@ pub struct Loads {
 
 /// The equations, and code in their place.
 #[derive(Clone, Debug)]
-struct Code {
+struct LoadCode {
     equations: LoadEquations,
     generated: Option<Generated>,
 }
 
-impl Code {
+impl LoadCode {
     fn evaluate(&mut self, motion: &SceneMotion<'_>, out: &mut LoadSet) {
         match &mut self.generated {
             Some(generated) => generated.evaluate(motion, out),
@@ -55,7 +55,7 @@ impl Loads {
         Self {
             impulses: equations.load_set(),
             still: vec![0.0; equations.hinges()],
-            code: Code { equations, generated: None },
+            code: LoadCode { equations, generated: None },
         }
     }
 

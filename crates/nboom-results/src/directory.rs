@@ -5,7 +5,7 @@ use nboom_model::{HingeLabel, Scene};
 use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion, Summary, Trust};
 use nboom_strength::StressAnalysis;
 
-use crate::place::Place;
+use crate::destination::Destination;
 use crate::rows::{self, Output};
 use crate::stress::StressWriter;
 use crate::whole::Draft;
@@ -25,7 +25,7 @@ const ROOM: usize = 1 << 14;
 /// incomplete, until [`RunDirectory::finish`]; no other run can write there.
 #[derive(Debug)]
 pub struct RunDirectory {
-    place: Place,
+    place: Destination,
     run: RunDescription,
     /// The summary to come; taken when it is written.
     draft: Option<Draft>,
@@ -41,7 +41,7 @@ pub struct RunDirectory {
 /// The results of a run that has ended; no other run can write there while this value lives.
 #[derive(Debug)]
 pub struct Kept {
-    place: Place,
+    place: Destination,
     /// Where it is.
     pub directory: PathBuf,
     /// Whether all of it could be written.
@@ -87,7 +87,7 @@ impl RunDirectory {
         run: RunDescription,
         listing: bool,
     ) -> Result<Self, ResultsError> {
-        let place = Place::take(directory)?;
+        let place = Destination::take(directory)?;
         let draft = announce(&place, &run)?;
         let path = place.partial();
         let labels: Vec<_> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
@@ -305,7 +305,7 @@ fn open_listing(
 }
 
 /// Writes a summary that says that the run is not complete, and reserves space for another.
-fn announce(place: &Place, run: &RunDescription) -> Result<Draft, ResultsError> {
+fn announce(place: &Destination, run: &RunDescription) -> Result<Draft, ResultsError> {
     let path = place.partial().join(SUMMARY_FILE);
     let first = place.draft()?.publish(&path, &SummaryFile::unfinished(run).text());
     first.map_err(ResultsError::writing(&path))?;

@@ -18,6 +18,7 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
+mod destination;
 mod directory;
 mod earlier;
 mod error;
@@ -30,7 +31,6 @@ mod lock;
 mod names;
 mod number;
 mod peaks;
-mod place;
 mod quantities;
 mod row_text;
 mod rows;

@@ -19,16 +19,16 @@ pub(crate) mod selection;
 
 /// Code that computes the accelerations of one mode.
 #[derive(Clone, Debug)]
-pub(crate) enum Code {
+pub(crate) enum AccelerationCode {
     Recursion,
     ClosedForm(ClosedForm<f64>),
     Generated(Generated),
 }
 
 /// Code, and why that.
-type Chosen = (Code, String);
+type Chosen = (AccelerationCode, String);
 
-impl Code {
+impl AccelerationCode {
     /// What `options`, whose generated routines are in `repertoire`, demand for the mode of `dynamics`, which begins at `since`.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ fn generated(
 ) -> Result<Chosen, NoRoutine> {
     let routine = Generated::fit(scene, dynamics, repertoire, options)?;
     let reason = routine.routine().reason();
-    Ok((Code::Generated(routine), reason))
+    Ok((AccelerationCode::Generated(routine), reason))
 }
 
 fn library(
@@ -110,10 +110,10 @@ fn library(
     reason: String,
 ) -> Result<Chosen, NotCovered> {
     match form {
-        None | Some(Form::Recursive) => Ok((Code::Recursion, reason)),
+        None | Some(Form::Recursive) => Ok((AccelerationCode::Recursion, reason)),
         Some(Form::Closed(formulation)) => {
             let form = ClosedForm::fit(scene, dynamics.tree(), dynamics.external(), formulation)?;
-            Ok((Code::ClosedForm(form), reason))
+            Ok((AccelerationCode::ClosedForm(form), reason))
         }
     }
 }
@@ -127,5 +127,5 @@ fn whatever_fits(
 ) -> Chosen {
     generated(scene, dynamics, repertoire, options)
         .or_else(|none| library(scene, dynamics, options.formulation, none.to_string()))
-        .unwrap_or_else(|not_covered| (Code::Recursion, not_covered.to_string()))
+        .unwrap_or_else(|not_covered| (AccelerationCode::Recursion, not_covered.to_string()))
 }

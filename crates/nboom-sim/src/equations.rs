@@ -5,11 +5,11 @@ use nboom_ode::System;
 use nboom_scalar::Vec3;
 use nboom_series::Series;
 
-use crate::code::Code;
+use crate::code::AccelerationCode;
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
 use crate::equations::jacobian::Jacobian;
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 use crate::equations::rates::Rates;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
@@ -33,7 +33,7 @@ pub(crate) struct Equations {
     mode: Mode,
     pub dynamics: Recursive<f64>,
     /// What computes the accelerations of the mode.
-    code: Code,
+    code: AccelerationCode,
     repertoire: Repertoire,
     pub variables: Variables<f64>,
     gravity: Vec3<f64>,
@@ -53,12 +53,12 @@ pub(crate) struct Equations {
 
 impl Equations {
     pub fn new(scene: &Scene, state: &State, options: &Options) -> Self {
-        let layout = Layout { momentum: None, free: 0, thrust: false, dashpots: false };
+        let layout = VariableLayout { momentum: None, free: 0, thrust: false, dashpots: false };
         Self {
             scene: scene.clone(),
             mode: Mode::at_start(scene),
             dynamics: Recursive::new(scene),
-            code: Code::Recursion,
+            code: AccelerationCode::Recursion,
             repertoire: Repertoire::new(options),
             variables: Variables::new(scene, layout, state),
             gravity: gravity(scene),
@@ -87,7 +87,7 @@ impl Equations {
         let momentum = (self.momentum_for_rate && !thrust).then(|| {
             totals(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
         });
-        let layout = Layout { momentum, free, thrust, dashpots };
+        let layout = VariableLayout { momentum, free, thrust, dashpots };
         self.accelerations = Accelerations::for_hinges(free);
         self.rates = Rates::new(scene, layout);
         (self.jacobian, self.series) = (None, None);
@@ -122,7 +122,8 @@ impl Equations {
     pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, SimError> {
         let Self { dynamics, repertoire, variables, .. } = self;
         let since = variables.origin.time;
-        let (code, selection) = Code::choose(scene, dynamics, repertoire, options, since)?;
+        let (code, selection) =
+            AccelerationCode::choose(scene, dynamics, repertoire, options, since)?;
         self.code = code;
         Ok(selection)
     }

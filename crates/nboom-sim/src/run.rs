@@ -4,7 +4,7 @@ use nboom_ode::Stepper;
 use crate::code::selection::Selection;
 use crate::equations::Equations;
 use crate::equations::attitude_norm::AttitudeNorm;
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 use crate::equations::state::State;
 use crate::error::{Failure, SimError};
 use crate::events::guard::{GuardKind, read};
@@ -221,11 +221,11 @@ impl<'a> Run<'a> {
     /// the method does not keep it there.
     fn accept(&mut self) {
         self.stepper.advance();
-        let attitude = &self.stepper.window().state[Layout::ATTITUDE];
+        let attitude = &self.stepper.window().state[VariableLayout::ATTITUDE];
         let norm = attitude.iter().map(|q| q * q).sum::<f64>().sqrt();
         self.attitude_norm.follow(norm);
         if !self.options.integrator.keeps_invariants() {
-            self.stepper.scale(Layout::ATTITUDE, 1.0 / norm);
+            self.stepper.scale(VariableLayout::ATTITUDE, 1.0 / norm);
             self.attitude_norm.put_back();
         }
         let window = self.stepper.window();

@@ -5,19 +5,19 @@ use nboom_scalar::{Twist, Vec3};
 use nboom_sim::Fit;
 
 use crate::dense::Dense;
-use crate::subject::State;
+use crate::subject::RandomState;
 
 /// Code that computes accelerations, with the states of a subject as it takes them.
 ///
 /// What each variant holds is there for those who time it.
 #[derive(Clone, Debug)]
-pub enum Code<'a> {
+pub enum ComparedCode<'a> {
     /// The recursion, hinge forces included.
     Recursion {
         /// The recursion in the subject's mode.
         dynamics: Box<Recursive<f64>>,
         /// The states.
-        states: &'a [State],
+        states: &'a [RandomState],
         /// Where accelerations go.
         found: Accelerations<f64>,
     },
@@ -26,7 +26,7 @@ pub enum Code<'a> {
         /// The matrix in the subject's mode.
         dense: Box<Dense>,
         /// The states.
-        states: &'a [State],
+        states: &'a [RandomState],
     },
     /// A closed form for chains and paddles.
     ClosedForm {
@@ -59,8 +59,8 @@ pub enum Code<'a> {
     },
 }
 
-impl<'a> Code<'a> {
-    pub(crate) fn recursion(dynamics: &Recursive<f64>, states: &'a [State]) -> Self {
+impl<'a> ComparedCode<'a> {
+    pub(crate) fn recursion(dynamics: &Recursive<f64>, states: &'a [RandomState]) -> Self {
         let found = Accelerations::for_hinges(dynamics.free_hinges().len());
         Self::Recursion { dynamics: Box::new(dynamics.clone()), states, found }
     }

@@ -4,7 +4,7 @@ use serde::Serialize;
 use crate::VerifyError;
 use crate::equations::EquationsCode;
 use crate::label::{Hinges, Label, Quantity};
-use crate::reference::{Off, Referee};
+use crate::reference::{Deviation, Referee};
 use crate::subject::{NotCovered, Subject};
 
 /// The largest deviations of one code in one quantity, over the states that it covers.
@@ -46,7 +46,7 @@ impl Row {
         self.from_recursion.unwrap_or(0.0).max(self.from_double_double)
     }
 
-    fn note(&mut self, state: usize, virtual_links: usize, off: Off) {
+    fn note(&mut self, state: usize, virtual_links: usize, off: Deviation) {
         if self.states == 0 || off.worst() > self.worst() {
             self.state = state;
         }
@@ -64,7 +64,14 @@ struct Rows {
 }
 
 impl Rows {
-    fn note(&mut self, label: Label, quantity: Quantity, hinges: Hinges, state: usize, off: Off) {
+    fn note(
+        &mut self,
+        label: Label,
+        quantity: Quantity,
+        hinges: Hinges,
+        state: usize,
+        off: Deviation,
+    ) {
         let same = |row: &Row| {
             (row.label.code(), row.quantity, row.hinges) == (label.code(), quantity, hinges)
         };

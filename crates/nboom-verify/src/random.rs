@@ -1,10 +1,10 @@
 use rand_xoshiro::SplitMix64;
-use rand_xoshiro::rand_core::{Rng, SeedableRng};
+use rand_xoshiro::rand_core::{Rng as _, SeedableRng};
 
 /// Random numbers that are the same everywhere for the same seed.
-pub(crate) struct Dice(SplitMix64);
+pub(crate) struct Rng(SplitMix64);
 
-impl Dice {
+impl Rng {
     pub fn new(seed: u64) -> Self {
         Self(SplitMix64::seed_from_u64(seed))
     }
@@ -36,7 +36,7 @@ mod tests {
 
     #[test]
     fn numbers_fill_their_interval() {
-        let mut dice = Dice::new(1970);
+        let mut dice = Rng::new(1970);
         let numbers: Vec<f64> = (0..1000).map(|_| dice.between(-2.0, 6.0)).collect();
         assert!(numbers.iter().all(|x| (-2.0..6.0).contains(x)));
         let mean = numbers.iter().sum::<f64>() / 1000.0;
@@ -45,6 +45,6 @@ mod tests {
 
     #[test]
     fn a_seed_gives_the_published_numbers() {
-        assert_eq!(Dice::new(1234567).0.next_u64(), 6_457_827_717_110_365_317);
+        assert_eq!(Rng::new(1234567).0.next_u64(), 6_457_827_717_110_365_317);
     }
 }

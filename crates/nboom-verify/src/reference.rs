@@ -7,7 +7,7 @@ use nboom_scalar::{DoubleDouble, Real, Vec3};
 use crate::VerifyError;
 use crate::condition::condition;
 use crate::equations::{expected, order};
-use crate::subject::{State, Subject};
+use crate::subject::{RandomState, Subject};
 
 /// Up to this condition of the mass matrix deviations count as they are; beyond it they are
 /// divided by what it magnifies rounding by.
@@ -18,12 +18,12 @@ const LARGEST_CONDITION: f64 = 1e14;
 
 /// Deviations of one code in one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Off {
+pub(crate) struct Deviation {
     pub from_recursion: f64,
     pub from_double_double: f64,
 }
 
-impl Off {
+impl Deviation {
     pub fn worst(self) -> f64 {
         self.from_recursion.max(self.from_double_double)
     }
@@ -70,7 +70,7 @@ struct OneState<R> {
 }
 
 impl<R: Real> OneState<R> {
-    fn of(dynamics: &mut Recursive<R>, state: &State) -> Self {
+    fn of(dynamics: &mut Recursive<R>, state: &RandomState) -> Self {
         let on_scalar = |numbers: &[f64]| numbers.iter().map(|&x| R::constant(x)).collect();
         let (beta, tau): (Vec<R>, Vec<R>) = (on_scalar(&state.beta), on_scalar(&state.tau));
         let omega_body = Vec3::constant(state.omega);
@@ -114,24 +114,28 @@ impl Reference<'_> {
     }
 
     /// Deviations of accelerations.
-    pub fn off_accelerations(&self, found: &[f64]) -> Off {
+    pub fn off_accelerations(&self, found: &[f64]) -> Deviation {
         let allowance = allowance(self.condition);
-        Off {
+        Deviation {
             from_recursion: of_largest(found, &self.recursion.accelerations) / allowance,
             from_double_double: of_largest(found, &self.truth()) / allowance,
         }
     }
 
     /// Deviations of a formulation's matrix and right side.
-    pub fn off_equations(&self, formulation: Formulation, found: &Equations<f64>) -> [Off; 2] {
+    pub fn off_equations(
+        &self,
+        formulation: Formulation,
+        found: &Equations<f64>,
+    ) -> [Deviation; 2] {
         let recursion = expected(formulation, self.subject, &self.recursion.equations);
         let exact = expected(formulation, self.subject, &self.exact.equations);
         let (scale, matrix) = (self.scale(), &found.matrix);
-        let of_matrix = Off {
+        let of_matrix = Deviation {
             from_recursion: largest(matrix, &recursion.matrix, |at| scale[at]),
             from_double_double: largest(matrix, &rounded(&exact.matrix), |at| scale[at]),
         };
-        let of_forcing = Off {
+        let of_forcing = Deviation {
             from_recursion: of_largest(&found.forcing, &recursion.forcing),
             from_double_double: of_largest(&found.forcing, &rounded(&exact.forcing)),
         };
@@ -139,7 +143,7 @@ impl Reference<'_> {
     }
 
     /// Deviations of the recursion's own matrix and right side.
-    pub fn off_recursion(&self) -> [Off; 2] {
+    pub fn off_recursion(&self) -> [Deviation; 2] {
         let own = expected(Formulation::Symmetric, self.subject, &self.recursion.equations);
         self.off_equations(Formulation::Symmetric, &own)
     }

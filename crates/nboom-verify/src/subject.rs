@@ -8,14 +8,14 @@ use nboom_sim::{Fit, NoRoutine, Options, Repertoire};
 use serde::Serialize;
 
 use crate::VerifyError;
-use crate::code::Code;
+use crate::code::ComparedCode;
 use crate::dense::Dense;
 use crate::label::Label;
-use crate::random::Dice;
+use crate::random::Rng;
 
 /// One random state: rates and angles, in the order of the scene's free hinges.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub struct RandomState {
     /// ω, main-body axes \[rad/T\].
     pub omega: Vec3<f64>,
     /// β, any angle \[rad\].
@@ -24,9 +24,9 @@ pub struct State {
     pub tau: Vec<f64>,
 }
 
-impl State {
+impl RandomState {
     /// Angles of any size for this many hinges, and rates up to `rate`.
-    fn random(dice: &mut Dice, hinges: usize, rate: f64) -> Self {
+    fn random(dice: &mut Rng, hinges: usize, rate: f64) -> Self {
         let mut rates =
             |count: usize| -> Vec<f64> { (0..count).map(|_| dice.between(-rate, rate)).collect() };
         let (omega, tau) = (rates(3), rates(hinges));
@@ -59,7 +59,7 @@ pub struct Subject {
     seed: u64,
     /// For each hinge of the scene, the angle at which it is held.
     held: Vec<Option<f64>>,
-    states: Vec<State>,
+    states: Vec<RandomState>,
     dynamics: Recursive<f64>,
     recognised: Result<Recognised, usize>,
 }
@@ -73,7 +73,7 @@ impl Subject {
     /// [`VerifyError::NotFinite`] where a parameter that routines take overflows.
     pub fn new(scene: Scene, states: usize, seed: u64) -> Result<Self, VerifyError> {
         let free = vec![None; scene.bodies.len()];
-        Self::in_mode(scene, free, states, seed, &mut Dice::new(seed))
+        Self::in_mode(scene, free, states, seed, &mut Rng::new(seed))
     }
 
     /// Random states of `scene` with random hinges, at least one, held at random angles: a subject
@@ -88,7 +88,7 @@ impl Subject {
     ) -> Result<Vec<Self>, VerifyError> {
         let hinges = scene.bodies.len();
         let states = if hinges > 0 { states } else { 0 };
-        let mut dice = Dice::new(!seed);
+        let mut dice = Rng::new(!seed);
         let one = |_| {
             let surely = dice.below(hinges);
             let mut held = |i| (dice.below(2) == 0 || i == surely).then(|| dice.angle());
@@ -103,12 +103,12 @@ impl Subject {
         held: Vec<Option<f64>>,
         states: usize,
         seed: u64,
-        dice: &mut Dice,
+        dice: &mut Rng,
     ) -> Result<Self, VerifyError> {
         let of_scene = scene.initial.omega_body.norm();
         let rate = if of_scene > 0.0 { of_scene } else { 1.0 };
         let free = held.iter().filter(|angle| angle.is_none()).count();
-        let states = (0..states).map(|_| State::random(dice, free, rate)).collect();
+        let states = (0..states).map(|_| RandomState::random(dice, free, rate)).collect();
         let dynamics = recursive(&scene, &held);
         let recognised = recognise(dynamics.tree());
         if let Ok(recognised) = &recognised {
@@ -133,7 +133,7 @@ impl Subject {
     }
 
     /// The states.
-    pub fn states(&self) -> &[State] {
+    pub fn states(&self) -> &[RandomState] {
         &self.states
     }
 
@@ -154,7 +154,7 @@ impl Subject {
         let external = self.dynamics.external().unwrap_or(Wrench::zero());
         let mut dynamics = self.dynamics.clone();
         self.states.iter().map(move |state| {
-            let State { omega, beta, tau } = state;
+            let RandomState { omega, beta, tau } = state;
             let mut torque = vec![0.0; beta.len()];
             dynamics.hinge_forces(&state.motion(), &mut torque);
             let hinge =
@@ -173,8 +173,8 @@ impl Subject {
     }
 
     /// The recursion, which covers any scene.
-    pub fn recursion(&self) -> Code<'_> {
-        Code::recursion(&self.dynamics, &self.states)
+    pub fn recursion(&self) -> ComparedCode<'_> {
+        ComparedCode::recursion(&self.dynamics, &self.states)
     }
 
     /// All code that covers the subject: the recursion first, then the whole mass matrix, factored,
@@ -183,18 +183,23 @@ impl Subject {
     ///
     /// # Errors
     /// [`VerifyError::Sizes`] where one of these is wrong about its sizes.
-    pub fn codes(&self, kernels: &'static [Kernel]) -> Result<Vec<(Label, Code<'_>)>, VerifyError> {
+    pub fn codes(
+        &self,
+        kernels: &'static [Kernel],
+    ) -> Result<Vec<(Label, ComparedCode<'_>)>, VerifyError> {
         let states: Vec<_> = self.coordinates().collect();
-        let dense =
-            Code::Dense { dense: Box::new(Dense::new(&self.dynamics)), states: &self.states };
+        let dense = ComparedCode::Dense {
+            dense: Box::new(Dense::new(&self.dynamics)),
+            states: &self.states,
+        };
         let mut codes = vec![(Label::RECURSION, self.recursion()), (Label::DENSE, dense)];
         let Some(recognised) = self.recognised() else {
-            let code = Code::Tree { tree: self.dynamics.tree(), states };
+            let code = ComparedCode::Tree { tree: self.dynamics.tree(), states };
             codes.push((Label::generic(Formulation::Symmetric.name()), code));
             return Ok(codes);
         };
         for formulation in Formulation::ALL {
-            let code = Code::ClosedForm { formulation, recognised, states: states.clone() };
+            let code = ComparedCode::ClosedForm { formulation, recognised, states: states.clone() };
             codes.push((Label::generic(formulation.name()), code));
         }
         let outputs = Layout::outputs(&recognised.topology);
@@ -202,7 +207,8 @@ impl Subject {
         if let Some(fit) = self.taken(kernels).filter(|fit| fit.embedding.virtual_links() > 0) {
             fits.push(with_sizes(fit, Layout::outputs)?);
         }
-        let routine = |fit: Fit| (Label::generated(&fit), Code::routine(fit, recognised, &states));
+        let routine =
+            |fit: Fit| (Label::generated(&fit), ComparedCode::routine(fit, recognised, &states));
         codes.extend(fits.into_iter().map(routine));
         Ok(codes)
     }

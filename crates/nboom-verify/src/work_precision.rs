@@ -12,7 +12,7 @@ use nboom_sim::{
     Failure, Form, Method, Options, Path, Scales, Snapshot, Witness, differences, simulate,
 };
 
-use crate::picture::{Curve, picture};
+use crate::plot::{Curve, plot};
 
 /// 1e-3 to 1e-14, the smallest that a run takes.
 const TOLERANCES: RangeInclusive<i32> = 3..=14;
@@ -145,7 +145,7 @@ impl WorkPrecision {
                 points: runs.iter().map(|run| (run.error, run.microseconds)).collect(),
             })
             .collect();
-        picture(&self.scene, &shown)
+        plot(&self.scene, &shown)
     }
 
     /// The shortest time of each code and integrator that is as accurate as every other decade.

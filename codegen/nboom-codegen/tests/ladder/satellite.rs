@@ -28,7 +28,7 @@ pub struct Satellite {
 
 impl Satellite {
     pub fn random(seed: u64) -> Self {
-        let dice = &mut Dice(seed);
+        let dice = &mut Rng(seed);
         let (topology, held, mut parameters) = welded(dice);
         let assumptions = assumptions(dice, &topology, &mut parameters);
         let external = dice.chance(0.5);
@@ -38,9 +38,9 @@ impl Satellite {
 }
 
 /// A generator of numbers that are the same on every machine (SplitMix64).
-struct Dice(u64);
+struct Rng(u64);
 
-impl Dice {
+impl Rng {
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -94,7 +94,7 @@ impl Dice {
 
 /// Topology, held hinges and parameters of a random scene: mostly up to 10 hinges, now and then
 /// up to 30.
-fn welded(dice: &mut Dice) -> (Topology, usize, Vec<f64>) {
+fn welded(dice: &mut Rng) -> (Topology, usize, Vec<f64>) {
     let hinges = if dice.chance(0.97) { dice.below(11) } else { 11 + dice.below(20) };
     let scene = scene(dice, hinges);
     let share = if dice.chance(0.5) { 0.3 } else { 0.0 };
@@ -109,7 +109,7 @@ fn welded(dice: &mut Dice) -> (Topology, usize, Vec<f64>) {
     (topology, held, parameters.write())
 }
 
-fn scene(dice: &mut Dice, hinges: usize) -> Scene {
+fn scene(dice: &mut Rng, hinges: usize) -> Scene {
     let along_axes = dice.chance(0.5);
     let mut main_body = dice.body(50.0, along_axes);
     if along_axes {
@@ -124,7 +124,7 @@ fn scene(dice: &mut Dice, hinges: usize) -> Scene {
 }
 
 /// A chain or a paddle of at most this many hinges.
-fn appendage(dice: &mut Dice, along_axes: bool, most: usize) -> Appendage {
+fn appendage(dice: &mut Rng, along_axes: bool, most: usize) -> Appendage {
     let rot_inboard_from_hinge = dice.rotation(along_axes);
     let mount = Mount { point: dice.vector(1.0), rot_inboard_from_hinge };
     let is_paddle = most >= 2 && dice.chance(0.3);
@@ -143,7 +143,7 @@ fn appendage(dice: &mut Dice, along_axes: bool, most: usize) -> Appendage {
 
 /// Nothing, all zeros and ones, some numbers, or all. Of those that may be zero, some are set to
 /// zero first.
-fn assumptions(dice: &mut Dice, topology: &Topology, parameters: &mut [f64]) -> Vec<Option<f64>> {
+fn assumptions(dice: &mut Rng, topology: &Topology, parameters: &mut [f64]) -> Vec<Option<f64>> {
     match dice.below(4) {
         0 => vec![None; parameters.len()],
         1 => {
@@ -177,7 +177,7 @@ fn rigid_bodies(topology: &Topology) -> Vec<usize> {
 }
 
 /// Numbers of order one, some of them zero at times.
-fn state(dice: &mut Dice, topology: &Topology, external: bool) -> Vec<f64> {
+fn state(dice: &mut Rng, topology: &Topology, external: bool) -> Vec<f64> {
     let zeros = if dice.chance(0.3) { 0.5 } else { 0.0 };
     let mut number = |_| if dice.chance(zeros) { 0.0 } else { dice.between(-3.0, 3.0) };
     let mut state: Vec<f64> = (0..Layout::coordinates(topology)).map(&mut number).collect();

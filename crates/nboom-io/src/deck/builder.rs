@@ -2,7 +2,7 @@ use nboom_model::{Appendage, MassProperties, Mount, SceneDescription, SegmentStr
 use nboom_scalar::{Sym3, Vec3};
 
 use super::angles;
-use super::layout::Place;
+use super::layout::AppendageSegments;
 use super::shown;
 use super::values::{Key, Sizes, Values, plain};
 use crate::diagnostic::Report;
@@ -41,7 +41,7 @@ impl Builder<'_, '_, '_> {
         description
     }
 
-    fn appendage(&mut self, place: &Place) -> Appendage {
+    fn appendage(&mut self, place: &AppendageSegments) -> Appendage {
         let [psi, theta, phi] = self.values.vector("FTSIK", place.appendage).to_array();
         let mount = Mount {
             point: self.values.vector("DBK", place.appendage),

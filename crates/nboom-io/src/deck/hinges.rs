@@ -4,7 +4,7 @@ use nboom_model::{
 use nboom_scalar::Vec3;
 
 use super::builder::Builder;
-use super::layout::Place;
+use super::layout::AppendageSegments;
 use super::shown;
 use super::values::plain;
 
@@ -14,7 +14,7 @@ pub const NEVER: f64 = 1e6;
 
 impl Builder<'_, '_, '_> {
     /// Segment `i`, from 0.
-    pub fn segment(&mut self, i: usize, place: &Place) -> Segment {
+    pub fn segment(&mut self, i: usize, place: &AppendageSegments) -> Segment {
         let length = self.values.real("ELIK", i);
         if length < 0.0 {
             self.error(plain("ELIK"), i, shown(length), "none below zero");
@@ -22,7 +22,7 @@ impl Builder<'_, '_, '_> {
         Segment { length, mass_properties: self.segment_mass(i), hinge: self.hinge(i, place) }
     }
 
-    fn hinge(&mut self, i: usize, place: &Place) -> Hinge {
+    fn hinge(&mut self, i: usize, place: &AppendageSegments) -> Hinge {
         Hinge {
             spring: self.spring(i),
             dashpot: self.dashpot(i),
@@ -123,7 +123,7 @@ impl Builder<'_, '_, '_> {
         }
     }
 
-    fn start(&mut self, i: usize, place: &Place) -> HingeStart {
+    fn start(&mut self, i: usize, place: &AppendageSegments) -> HingeStart {
         let absolute = self.values.real("IAB", 0) != 0.0;
         let (angle, rate) = if absolute { ("ALIK", "SIGIK") } else { ("BETAIK", "TAUIK") };
         let inboard = place.summed_inboard(i).filter(|_| absolute);
@@ -158,7 +158,7 @@ impl Builder<'_, '_, '_> {
     }
 
     /// TSK, which IREL and RELTB superseded, may only repeat them.
-    pub fn check_release_times(&mut self, place: &Place) {
+    pub fn check_release_times(&mut self, place: &AppendageSegments) {
         let (k, first) = (place.appendage, place.segments.start);
         let Some(time) = self.values.get("TSK", k) else { return };
         let (trigger, value) = (self.values.real("IREL", first), self.values.real("RELTB", first));

@@ -6,7 +6,7 @@ use super::values::plain;
 
 /// Where one appendage stands in the list of all segments.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct AppendageSegments {
     /// Number of the appendage, from 0.
     pub appendage: usize,
     /// Its segments, from 0.
@@ -14,7 +14,7 @@ pub(crate) struct Place {
     pub is_paddle: bool,
 }
 
-impl Place {
+impl AppendageSegments {
     /// The segment whose absolute angle is part of that of segment `i`; a paddle's second body
     /// turns about another axis.
     pub fn summed_inboard(&self, i: usize) -> Option<usize> {
@@ -24,7 +24,7 @@ impl Place {
 
 impl Builder<'_, '_, '_> {
     /// The appendages; `None`, and reported, when NA, NP, IXK and NK do not fit together.
-    pub fn layout(&mut self) -> Option<Vec<Place>> {
+    pub fn layout(&mut self) -> Option<Vec<AppendageSegments>> {
         let first_paddle = self.first_paddle();
         let counts = self.counts();
         let (first_paddle, counts) = (first_paddle?, counts?);
@@ -34,7 +34,7 @@ impl Builder<'_, '_, '_> {
         let places = counts.iter().enumerate().map(|(appendage, count)| {
             let segments = start..start + count;
             start = segments.end;
-            Place { appendage, segments, is_paddle: appendage >= first_paddle }
+            AppendageSegments { appendage, segments, is_paddle: appendage >= first_paddle }
         });
         (paddles_are_pairs && sum_is_right).then(|| places.collect())
     }

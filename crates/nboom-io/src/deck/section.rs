@@ -11,7 +11,7 @@ pub(super) const MOST_VERTICES: usize = 6;
 
 /// The place of a section in the stress groups: segment and station, from 0.
 #[derive(Clone, Copy)]
-struct Place {
+struct StationNumber {
     segment: usize,
     station: usize,
 }
@@ -20,7 +20,7 @@ impl Builder<'_, '_, '_> {
     /// The section of station `j` of segment `i`, both from 0. Its errors are reported, and walls
     /// for which thin-wall theory may not hold give a warning.
     pub fn section(&mut self, i: usize, j: usize) -> SectionShape {
-        let place = Place { segment: i, station: j };
+        let place = StationNumber { segment: i, station: j };
         let reported = self.report.errors.len();
         let shape = self.shape(place);
         // Missing numbers have stand-ins, whose outline means nothing.
@@ -46,8 +46,8 @@ impl Builder<'_, '_, '_> {
         shape
     }
 
-    fn shape(&mut self, place: Place) -> SectionShape {
-        let Place { segment: i, station: j } = place;
+    fn shape(&mut self, place: StationNumber) -> SectionShape {
+        let StationNumber { segment: i, station: j } = place;
         if self.values.real("ICIR", i) == 0.0 {
             let (radius, thickness) = (place.radius(), place.of_vertex("T", 0));
             let vertices = thickness.1..thickness.1 + MOST_VERTICES;
@@ -81,7 +81,7 @@ impl Builder<'_, '_, '_> {
     }
 }
 
-impl Place {
+impl StationNumber {
     fn radius(self) -> (Key, usize) {
         (plain("R"), MOST_STATIONS * self.segment + self.station)
     }

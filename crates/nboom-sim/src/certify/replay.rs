@@ -5,7 +5,7 @@ use nboom_model::Scene;
 use nboom_scalar::{DoubleDouble, Real};
 
 use crate::certify::expansion::{Accuracy, Expansion};
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 use crate::equations::series::exact_graph;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
@@ -141,7 +141,7 @@ impl<'a> Replay<'a> {
         let thrust = dynamics.elements().thrust().is_some();
         let free = dynamics.free_hinges().len();
         let (momentum, dashpots) = (None, false);
-        let layout = Layout { momentum, free, thrust, dashpots };
+        let layout = VariableLayout { momentum, free, thrust, dashpots };
         let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
         fixed.extend(state.center.velocity.to_array());

@@ -13,13 +13,13 @@ pub(crate) struct Generated {
     constants: Vec<f64>,
     coordinates: Vec<f64>,
     outputs: Vec<f64>,
-    hinges: Vec<Place>,
+    hinges: Vec<HingeNumbers>,
     torques: Vec<f64>,
 }
 
 /// Where the numbers of one free hinge stand in a state and in the accelerations.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct HingeNumbers {
     in_state: [usize; 3],
     in_output: usize,
 }
@@ -143,9 +143,10 @@ impl Generated {
         let fit = repertoire
             .best(&recognised, external)
             .ok_or_else(|| NoRoutine::because(&recognised, external, options))?;
-        let mut hinges = vec![Place { in_state: [0; 3], in_output: 0 }; recognised.links.len()];
+        let mut hinges =
+            vec![HingeNumbers { in_state: [0; 3], in_output: 0 }; recognised.links.len()];
         for (&link, (in_state, in_output)) in recognised.links.iter().zip(fit.hinges()) {
-            hinges[link] = Place { in_state, in_output };
+            hinges[link] = HingeNumbers { in_state, in_output };
         }
         Ok(Self {
             constants: fit.constants(),

@@ -2,7 +2,7 @@ use nboom_dynamics::{Accelerations, Recursive};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Dual, Real, Vec3};
 
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 use crate::equations::rates::Rates;
 use crate::equations::variables::motion;
 
@@ -11,7 +11,7 @@ use crate::equations::variables::motion;
 ///
 /// They are exact whatever code computes the accelerations, as all code computes the same ones.
 pub(crate) struct Jacobian {
-    layout: Layout,
+    layout: VariableLayout,
     dynamics: Recursive<Dual<f64>>,
     accelerations: Accelerations<Dual<f64>>,
     rates: Rates<Dual<f64>>,
@@ -21,7 +21,7 @@ pub(crate) struct Jacobian {
 
 impl Jacobian {
     /// Of `mode`, in which held hinges have their angles in `beta` (all hinges).
-    pub fn new(scene: &Scene, mode: &Mode, beta: &[f64], layout: Layout) -> Self {
+    pub fn new(scene: &Scene, mode: &Mode, beta: &[f64], layout: VariableLayout) -> Self {
         let mut dynamics = Recursive::new(scene);
         let beta: Vec<Dual<f64>> = beta.iter().map(|&angle| Dual::constant(angle)).collect();
         dynamics.set_mode(mode, &beta);

@@ -7,7 +7,7 @@ use nboom_scalar::Vec3;
 /// where needed the thrust's displacement and velocity of the mass centre (6), the work of
 /// dashpots (1), and the work and angular impulse of the thrust (4).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Layout {
+pub(crate) struct VariableLayout {
     /// H̄_c, inertial axes, of a mode in which it stands for the rate.
     pub momentum: Option<Vec3<f64>>,
     pub free: usize,
@@ -15,7 +15,7 @@ pub(crate) struct Layout {
     pub dashpots: bool,
 }
 
-impl Layout {
+impl VariableLayout {
     pub const ATTITUDE: Range<usize> = 0..4;
 
     pub fn omega(&self) -> Range<usize> {

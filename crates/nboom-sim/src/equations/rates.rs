@@ -3,18 +3,18 @@ use nboom_elements::ThrustForce;
 use nboom_model::Scene;
 use nboom_scalar::{Real, Vec3};
 
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 use crate::equations::variables::attitude;
 
 /// The rates of change of all variables of a mode, over any scalar, once accelerations are known.
 pub(crate) struct Rates<R> {
-    layout: Layout,
+    layout: VariableLayout,
     total_mass: R,
 }
 
 impl<R: Real> Rates<R> {
     /// Of a mode whose variables stand as in `layout`.
-    pub fn new(scene: &Scene, layout: Layout) -> Self {
+    pub fn new(scene: &Scene, layout: VariableLayout) -> Self {
         Self { layout, total_mass: R::constant(scene.total_mass()) }
     }
 

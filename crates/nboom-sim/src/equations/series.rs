@@ -6,7 +6,7 @@ use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{Real, Vec3};
 
 use crate::code::closed_form::ClosedForm;
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 use crate::equations::rates::Rates;
 use crate::equations::variables::{Variables, motion};
 
@@ -37,7 +37,7 @@ pub(crate) fn graph(scene: &Scene, mode: &Mode, variables: &Variables<f64>) -> G
 /// The same by the recursion and without rounding, as it holds for any state that the mode begins
 /// in. Further inputs: the time counts from there, and the angle of every hinge and the velocity
 /// of the mass centre there follow it.
-pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: Layout) -> Graph {
+pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) -> Graph {
     let hinges = scene.bodies.len();
     Graph::trace_exactly(layout.len() + 1 + hinges + 3, |inputs| {
         let (y, rest) = inputs.split_at(layout.len());
@@ -54,7 +54,7 @@ pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: Layout) -> Graph {
 /// The rates of the variables `y`, where `accelerate` computes the accelerations.
 fn rates(
     scene: &Scene,
-    layout: Layout,
+    layout: VariableLayout,
     dynamics: &mut Recursive<Expr>,
     y: &[Expr],
     free_fall: Vec3<Expr>,

@@ -2,7 +2,7 @@ use nboom_model::Scene;
 use nboom_scalar::Vec3;
 
 use crate::certify::scales::reach;
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 
 /// Natural sizes of the variables: one for attitude and angles, a rate for rates, a length for the way
 /// that the thrust displaces the mass centre. They follow the scene's units, so that no step depends
@@ -45,7 +45,7 @@ impl Sizes {
     }
 
     /// Writes the size of each variable.
-    pub fn write(&self, layout: &Layout, sizes: &mut [f64]) {
+    pub fn write(&self, layout: &VariableLayout, sizes: &mut [f64]) {
         sizes.fill(1.0);
         sizes[layout.omega()].fill(self.rate);
         sizes[layout.tau()].fill(self.rate);

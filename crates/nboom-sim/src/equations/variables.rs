@@ -3,13 +3,13 @@ use nboom_elements::gravity;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Quaternion, Real, Vec3};
 
-use crate::equations::layout::Layout;
+use crate::equations::layout::VariableLayout;
 use crate::equations::state::{MassCenter, State};
 
 /// The way between the variables of a mode and states.
 #[derive(Clone, Debug)]
 pub(crate) struct Variables<R> {
-    pub layout: Layout,
+    pub layout: VariableLayout,
     /// The state in which the mode began; held hinges keep its angles.
     pub origin: State<R>,
     gravity: Vec3<R>,
@@ -18,7 +18,7 @@ pub(crate) struct Variables<R> {
 
 impl<R: Number> Variables<R> {
     /// Of a mode of `scene` that begins at `origin`.
-    pub fn new(scene: &Scene, layout: Layout, origin: &State<R>) -> Self {
+    pub fn new(scene: &Scene, layout: VariableLayout, origin: &State<R>) -> Self {
         let total_mass = R::constant(scene.total_mass());
         Self { layout, origin: origin.clone(), gravity: gravity(scene), total_mass }
     }
@@ -81,7 +81,7 @@ impl<R: Number> Variables<R> {
 
 /// The motion that the variables stand for; `dynamics` is in their mode.
 pub(crate) fn motion<'a, R: Real>(
-    layout: &Layout,
+    layout: &VariableLayout,
     dynamics: &mut Recursive<R>,
     y: &'a [R],
 ) -> Motion<'a, R> {

@@ -20,7 +20,7 @@ const BOTTOM: f64 = 50.0;
 const GOLDEN_ANGLE: f64 = 137.508;
 
 /// Run time over error, both in decades, with a legend.
-pub(crate) fn picture(title: &str, curves: &[Curve]) -> String {
+pub(crate) fn plot(title: &str, curves: &[Curve]) -> String {
     let all = || curves.iter().flat_map(|curve| &curve.points).filter(|(error, _)| *error > 0.0);
     let x = Axis::over(all().map(|(error, _)| *error), LEFT, WIDTH - RIGHT);
     let y = Axis::over(all().map(|(_, time)| *time), HEIGHT - BOTTOM, TOP);
@@ -116,8 +116,8 @@ mod tests {
     #[test]
     fn names_and_titles_are_text() {
         let curve = Curve { name: "a<b".to_owned(), points: vec![(1e-3, 5.0), (0.0, 7.0)] };
-        let svg = picture("x & y", &[curve]);
+        let svg = plot("x & y", &[curve]);
         assert!(svg.contains("a&lt;b") && svg.contains("x &amp; y"), "{svg}");
-        assert!(picture("nothing", &[]).ends_with("</svg>\n"));
+        assert!(plot("nothing", &[]).ends_with("</svg>\n"));
     }
 }

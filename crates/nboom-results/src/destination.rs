@@ -23,7 +23,7 @@ const DRAFT_FILE: &str = "summary.json.new";
 
 /// A directory for the results of a run, and the locked one in which they are written.
 #[derive(Debug)]
-pub(crate) struct Place {
+pub(crate) struct Destination {
     finished: PathBuf,
     partial: PathBuf,
     lock: Lock,
@@ -31,7 +31,7 @@ pub(crate) struct Place {
     pub has_put_right: bool,
 }
 
-impl Place {
+impl Destination {
     /// Locks the place of the results `directory`, finishes the move of a run that was killed, and
     /// removes the files of an unfinished run.
     ///

@@ -38,7 +38,7 @@ fn a_kill_between_any_two_steps_loses_nothing() {
         let finished = folder.path().join("run");
         write(&finished, "old", &OLD, true);
         fs::write(finished.join("notes.txt"), "mine").expect("writable");
-        let place = Place::take(&finished).expect("nobody has it");
+        let place = Destination::take(&finished).expect("nobody has it");
         write(place.partial(), "new", &NEW, true);
         let new = Earlier::in_directory(place.partial()).expect("ours").expect("a summary");
         let old = check(&finished).expect("ours");
@@ -64,7 +64,7 @@ fn a_kill_between_any_two_steps_loses_nothing() {
                 assert!(!marked.complete, "after {kept} steps");
             }
         }
-        let next = Place::take(&finished).expect("nobody has it");
+        let next = Destination::take(&finished).expect("nobody has it");
         assert_eq!(next.has_put_right, kept < count, "after {kept} steps");
         assert_eq!(whole(&finished, &NEW).as_deref(), Some("new"), "after {kept} steps");
         drop(next);
@@ -80,7 +80,7 @@ fn incomplete_results_are_marked_on_their_whole_way() {
         let folder = tempfile::tempdir().expect("a directory");
         let finished = folder.path().join("run");
         write(&finished, "old", &OLD, false);
-        let place = Place::take(&finished).expect("nobody has it");
+        let place = Destination::take(&finished).expect("nobody has it");
         write(place.partial(), "new", &NEW, false);
         let new = Earlier::in_directory(place.partial()).expect("ours").expect("a summary");
         let old = check(&finished).expect("ours");
@@ -97,7 +97,7 @@ fn incomplete_results_never_take_the_place_of_finished_ones() {
     let folder = tempfile::tempdir().expect("a directory");
     let finished = folder.path().join("run");
     write(&finished, "old", &OLD, true);
-    let place = Place::take(&finished).expect("nobody has it");
+    let place = Destination::take(&finished).expect("nobody has it");
     write(place.partial(), "new", &NEW, false);
     assert_eq!(place.settle().expect("writable"), folder.path().join("run.partial"));
     drop(place);
@@ -112,14 +112,14 @@ fn a_directory_is_one_by_whatever_path_it_is_named() {
     fs::create_dir_all(path.join("a/run")).expect("writable");
     #[cfg(unix)]
     std::os::unix::fs::symlink(path.join("a"), path.join("b")).expect("a unix system");
-    let held = Place::take(&path.join("a/run")).expect("nobody has it");
+    let held = Destination::take(&path.join("a/run")).expect("nobody has it");
     for other in ["a/run/", "a/run/.", "a/../a/run", "b/run", "b/run/"] {
-        let refused = Place::take(&path.join(other)).expect_err("it is held");
+        let refused = Destination::take(&path.join(other)).expect_err("it is held");
         assert!(matches!(refused, ResultsError::InUse { .. }), "{other}: {refused}");
     }
     drop(held);
     for wrong in ["/", "a/run.partial", "a/run.partial/"] {
-        let refused = Place::take(&path.join(wrong)).expect_err("it has no such name");
+        let refused = Destination::take(&path.join(wrong)).expect_err("it has no such name");
         assert!(matches!(refused, ResultsError::Name { .. }), "{wrong}: {refused}");
     }
 }
@@ -146,7 +146,7 @@ fn what_no_run_wrote_is_refused_and_stays() {
                 }
                 make(&finished.join(name));
                 let before = Kind::of(&finished.join(name)).expect("there");
-                let refused = Place::take(&finished).expect_err("it is not ours");
+                let refused = Destination::take(&finished).expect_err("it is not ours");
                 assert!(matches!(&refused, ResultsError::Foreign { .. }), "{name}: {refused}");
                 assert!(refused.to_string().contains(name), "{refused}");
                 assert_eq!(Kind::of(&finished.join(name)).expect("there"), before);
@@ -166,7 +166,7 @@ fn a_link_is_no_directory_for_results() {
         std::os::unix::fs::symlink(&target, folder.path().join(link)).expect("a unix system");
     }
     for path in ["run", "run/", "other"] {
-        let refused = Place::take(&folder.path().join(path)).expect_err("it is a link");
+        let refused = Destination::take(&folder.path().join(path)).expect_err("it is a link");
         assert!(matches!(refused, ResultsError::NotADirectory { .. }), "{path}: {refused}");
     }
     assert_eq!(fs::read_dir(&target).expect("readable").count(), 0);
