@@ -91,7 +91,7 @@ pub struct Turned<R> {
 
 impl<R: Real> Turned<R> {
     /// The way to the next hinge.
-    pub(crate) fn way(&self) -> Vec3<R> {
+    pub(crate) fn hinge_offset(&self) -> Vec3<R> {
         Vec3::new(R::zero(), self.next[0], self.next[1])
     }
 
@@ -168,8 +168,8 @@ pub fn outward_at<R: Real>(
     let (ly, lz) = turn(link.next[0], link.next[1]);
     let force = from_hinge * link.inertia.mass + spin.bias_of(sigma, first_moment);
     let moment = first_moment.cross(from_hinge) + gyroscopic_moment(spin, sigma, &about_hinge);
-    let way = Vec3::new(R::zero(), ly, lz);
-    let hinge = from_hinge + spin.bias_of(sigma, way);
+    let hinge_offset = Vec3::new(R::zero(), ly, lz);
+    let hinge = from_hinge + spin.bias_of(sigma, hinge_offset);
     let turned = Turned {
         first_moment,
         about_hinge,

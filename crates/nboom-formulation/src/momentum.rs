@@ -235,10 +235,10 @@ fn carried<R: Real>(
         motion.angular = inboard + link.axis * rate;
         let outboard = pose::momentum(&link.inertia, motion);
         hinges.push(Carried { axis: link.axis, motion, outboard });
-        motion = motion.at(link.way);
+        motion = motion.at(link.hinge_offset);
     }
     for i in (1..hinges.len()).rev() {
-        let outer = hinges[i].outboard.seen_from(links[i - 1].way);
+        let outer = hinges[i].outboard.seen_from(links[i - 1].hinge_offset);
         hinges[i - 1].outboard.add(outer);
     }
     hinges

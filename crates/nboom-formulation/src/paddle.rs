@@ -73,10 +73,10 @@ pub fn arm_inward<R: Real>(
     outboard: &ArticulatedInertia<R>,
     wrench: Wrench<R>,
 ) -> (Shown<R>, crate::chain::Eliminated<R>) {
-    let way = arm.way();
-    let mut inertia = outboard.seen_from(way);
+    let hinge_offset = arm.hinge_offset();
+    let mut inertia = outboard.seen_from(hinge_offset);
     inertia.add(&arm.inertia());
-    let mut total = wrench.seen_from(way);
+    let mut total = wrench.seen_from(hinge_offset);
     total.add(arm.wrench());
     arm.eliminate(&inertia, total, torque)
 }

@@ -15,8 +15,8 @@ pub(crate) struct Posed<R> {
     pub axis: Vec3<R>,
     /// h̄, its hinge from O.
     pub hinge: Vec3<R>,
-    /// The way to the next hinge.
-    pub way: Vec3<R>,
+    /// To the next hinge, from this one.
+    pub hinge_offset: Vec3<R>,
 }
 
 /// The links of an appendage at these hinge angles.
@@ -34,7 +34,7 @@ fn chain<R: Real>(branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
         alpha += beta;
         let (s, c) = alpha.sin_cos();
         let link = Posed { hinge, ..turned(link, s, c) };
-        hinge += link.way;
+        hinge += link.hinge_offset;
         posed.push(link);
     }
     posed
@@ -54,8 +54,8 @@ fn paddle<R: Real>(branch: &Branch<R>, alpha1: R, alpha2: R) -> Vec<Posed<R>> {
     let paddle = Posed {
         inertia: branch.links[1].inertia.rotated(&rot),
         axis: Vec3::new(zero, c1, s1),
-        hinge: arm.hinge + arm.way,
-        way: Vec3::zero(),
+        hinge: arm.hinge + arm.hinge_offset,
+        hinge_offset: Vec3::zero(),
     };
     vec![arm, paddle]
 }
@@ -71,8 +71,8 @@ fn turned<R: Real>(link: &ChainLink<R>, s: R, c: R) -> Posed<R> {
         first_moment: Vec3::new(first_moment.x, cy, cz),
         about_origin: turned_tensor(&about_origin, s, c),
     };
-    let way = Vec3::new(R::zero(), ly, lz);
-    Posed { inertia, axis: Vec3::unit_x(), hinge: Vec3::zero(), way }
+    let hinge_offset = Vec3::new(R::zero(), ly, lz);
+    Posed { inertia, axis: Vec3::unit_x(), hinge: Vec3::zero(), hinge_offset }
 }
 
 /// The tensor turned about the first axis.

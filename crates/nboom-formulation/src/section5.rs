@@ -187,7 +187,7 @@ fn outboard_sums<R: Real>(links: &[Posed<R>]) -> Vec<RigidInertia<R>> {
     let mut sum = RigidInertia::zero();
     let mut sums = Vec::new();
     for link in links.iter().rev() {
-        sum = sum.seen_from(link.way);
+        sum = sum.seen_from(link.hinge_offset);
         sum.add(link.inertia);
         sums.push(sum);
     }
@@ -200,7 +200,7 @@ fn outboard_bias<R: Real>(links: &[Posed<R>], own: &[Wrench<R>]) -> Vec<Wrench<R
     let mut sum = Wrench::zero();
     let mut sums = Vec::new();
     for (link, own) in links.iter().zip(own).rev() {
-        sum = sum.seen_from(link.way);
+        sum = sum.seen_from(link.hinge_offset);
         sum.add(*own);
         sums.push(sum);
     }
@@ -225,8 +225,8 @@ fn bias_wrenches<R: Real>(
         let (turning, changing) = relative_rotation(shape, links, sigma, i);
         let bias = Twist { angular: w.cross(turning) + changing, linear: hinge };
         wrenches.push(link.inertia.inertia_wrench(w + turning, bias));
-        relative_rate += Vec3::unit_x().cross(link.way) * sigma_i;
-        relative_bias += link.way * (sigma_i * sigma_i);
+        relative_rate += Vec3::unit_x().cross(link.hinge_offset) * sigma_i;
+        relative_bias += link.hinge_offset * (sigma_i * sigma_i);
     }
     wrenches
 }
@@ -260,11 +260,11 @@ fn columns<R: Real>(
     let column = |(i, link): (usize, &Posed<R>)| {
         let mut column = spun(&link.inertia, link.axis);
         if let Some(outer) = outboard.get(i + 1) {
-            let carried = Twist { angular: Vec3::zero(), linear: e1.cross(link.way) };
-            column.add(pose::momentum(outer, carried).seen_from(link.way));
+            let carried = Twist { angular: Vec3::zero(), linear: e1.cross(link.hinge_offset) };
+            column.add(pose::momentum(outer, carried).seen_from(link.hinge_offset));
         }
         if shape == Shape::Paddle && i == 0 {
-            column.add(spun(&links[1].inertia, e1).seen_from(link.way));
+            column.add(spun(&links[1].inertia, e1).seen_from(link.hinge_offset));
         }
         column
     };
@@ -284,7 +284,7 @@ fn hinge_block<R: Real>(
         if j >= i {
             return row.axis.dot(columns[j].seen_from(column.hinge - row.hinge).moment);
         }
-        let mut moment = outboard[i].first_moment.cross(e1.cross(column.way));
+        let mut moment = outboard[i].first_moment.cross(e1.cross(column.hinge_offset));
         if shape == Shape::Paddle {
             moment += outboard[i].about_origin * e1;
         }

@@ -6,7 +6,7 @@ use nboom_formulation::{Embedding, Formulation, Layout};
 use nboom_model::{Scene, Topology};
 use nboom_scalar::{Isa, Kernel, Real, Routine, Vec3};
 use nboom_sim::Fit;
-use nboom_verify::{Code, Label, Subject, VerifyError, compare};
+use nboom_verify::{ComparedCode, Label, Subject, VerifyError, compare};
 
 use support::{fork, s2_p, s2_p_scene};
 
@@ -98,7 +98,7 @@ fn a_routine_that_a_run_embeds_the_scene_in_is_covered() {
     let subject = s2_p();
     let larger = support::articulated_s3_p();
     let codes = subject.codes(larger).expect("it fits");
-    let (label, Code::Routine { fit, .. }) = codes.last().expect("codes") else {
+    let (label, ComparedCode::Routine { fit, .. }) = codes.last().expect("codes") else {
         panic!("no routine")
     };
     assert_eq!((label.topology, label.virtual_links), (Some("S3_P"), 1));

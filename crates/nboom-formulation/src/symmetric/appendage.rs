@@ -111,17 +111,17 @@ fn augmented<R: Real>(links: &[Posed<R>]) -> (Vec<Augmented<R>>, R) {
     let mut outboard = R::zero();
     let mut bodies = Vec::new();
     for link in links.iter().rev() {
-        let (way, own) = (link.way, &link.inertia);
-        let square = way.y * way.y + way.z * way.z;
+        let (hinge_offset, own) = (link.hinge_offset, &link.inertia);
+        let square = hinge_offset.y * hinge_offset.y + hinge_offset.z * hinge_offset.z;
         let lumped = Sym3 {
             xx: square,
-            yy: way.z * way.z,
-            zz: way.y * way.y,
-            yz: -(way.y * way.z),
+            yy: hinge_offset.z * hinge_offset.z,
+            zz: hinge_offset.y * hinge_offset.y,
+            yz: -(hinge_offset.y * hinge_offset.z),
             ..Sym3::zero()
         };
         bodies.push(Augmented {
-            first_moment: own.first_moment + way * outboard,
+            first_moment: own.first_moment + hinge_offset * outboard,
             inertia: own.about_origin + lumped * outboard,
         });
         outboard += own.mass;
@@ -146,12 +146,12 @@ fn chain<R: Real>(links: &[Posed<R>], turning: &Turning<R>, sigma: &[R], torque:
     for (i, (link, body)) in links.iter().zip(&bodies).enumerate().rev() {
         let d = body.first_moment;
         let bias = d.cross(accelerations[i])
-            + link.way.cross(forces)
+            + link.hinge_offset.cross(forces)
             + turning.gyroscopic(sigma[i], &body.inertia);
         let outer_torque = torque.get(i + 1).map_or(R::zero(), |&outer| outer);
         right.push(torque[i] - outer_torque - bias.x);
         columns.push(column(link, body, moments));
-        whole += body.inertia + crossed(link.way, moments);
+        whole += body.inertia + crossed(link.hinge_offset, moments);
         bias_moment += bias;
         moments += d;
         forces += turning.bias(sigma[i], d);
@@ -183,7 +183,7 @@ fn hinge_accelerations<R: Real>(
     let mut all = Vec::new();
     for (link, &sigma) in links.iter().zip(sigma) {
         all.push(hinge);
-        hinge += turning.bias(sigma, link.way);
+        hinge += turning.bias(sigma, link.hinge_offset);
     }
     all
 }
@@ -198,21 +198,21 @@ fn column<R: Real>(link: &Posed<R>, body: &Augmented<R>, outboard: Vec3<R>) -> W
     let force = about_first(body.first_moment);
     let moment = Vec3::new(k.xx, k.xy, k.xz)
         + link.hinge.cross(force)
-        + outboard.cross(about_first(link.way));
+        + outboard.cross(about_first(link.hinge_offset));
     Wrench { moment, force }
 }
 
 /// 2 L·R U − L Rᵀ − R Lᵀ with L in the plane.
-fn crossed<R: Real>(way: Vec3<R>, outboard: Vec3<R>) -> Sym3<R> {
-    let (yy, zz) = (way.y * outboard.y, way.z * outboard.z);
+fn crossed<R: Real>(hinge_offset: Vec3<R>, outboard: Vec3<R>) -> Sym3<R> {
+    let (yy, zz) = (hinge_offset.y * outboard.y, hinge_offset.z * outboard.z);
     let twice = |x: R| x + x;
     Sym3 {
         xx: twice(yy + zz),
         yy: twice(zz),
         zz: twice(yy),
-        xy: -(way.y * outboard.x),
-        xz: -(way.z * outboard.x),
-        yz: -(way.y * outboard.z + way.z * outboard.y),
+        xy: -(hinge_offset.y * outboard.x),
+        xz: -(hinge_offset.z * outboard.x),
+        yz: -(hinge_offset.y * outboard.z + hinge_offset.z * outboard.y),
     }
 }
 
@@ -220,7 +220,7 @@ fn crossed<R: Real>(way: Vec3<R>, outboard: Vec3<R>) -> Sym3<R> {
 fn in_plane_products<R: Real>(links: &[Posed<R>], bodies: &[Augmented<R>]) -> Vec<Vec<R>> {
     let row = |(i, body): (usize, &Augmented<R>)| {
         let d = body.first_moment;
-        let product = |link: &Posed<R>| link.way.y * d.y + link.way.z * d.z;
+        let product = |link: &Posed<R>| link.hinge_offset.y * d.y + link.hinge_offset.z * d.z;
         let mut row: Vec<R> = links[..i].iter().map(product).collect();
         row.push(body.inertia.xx);
         row
@@ -235,21 +235,21 @@ fn paddle<R: Real>(links: &[Posed<R>], w: Vec3<R>, sigma: [R; 2], torque: &[R]) 
     let (of_arm, of_paddle) = (turn(arm, sigma[0]), turn(paddle, sigma[1]));
     let omega_arm = w + of_arm;
     let bias_arm = Twist { angular: w.cross(of_arm), linear: w.cross(w.cross(arm.hinge)) };
-    let relative = omega_arm.cross(omega_arm.cross(arm.way));
+    let relative = omega_arm.cross(omega_arm.cross(arm.hinge_offset));
     let bias_paddle = Twist {
         angular: bias_arm.angular + omega_arm.cross(of_paddle),
-        linear: bias_arm.at(arm.way).linear + relative,
+        linear: bias_arm.at(arm.hinge_offset).linear + relative,
     };
     let mut wrench = arm.inertia.inertia_wrench(omega_arm, bias_arm);
     let outer = paddle.inertia.inertia_wrench(omega_arm + of_paddle, bias_paddle);
-    wrench.add(outer.seen_from(arm.way));
-    let mut composite = paddle.inertia.seen_from(arm.way);
+    wrench.add(outer.seen_from(arm.hinge_offset));
+    let mut composite = paddle.inertia.seen_from(arm.hinge_offset);
     composite.add(arm.inertia);
 
     let about = |axis| Twist { angular: axis, linear: Vec3::zero() };
     let first = momentum(&composite, about(arm.axis));
     let second = momentum(&paddle.inertia, about(paddle.axis));
-    let at_arm = second.seen_from(arm.way);
+    let at_arm = second.seen_from(arm.hinge_offset);
     let right =
         [torque[0] - arm.axis.dot(wrench.moment), torque[1] - paddle.axis.dot(outer.moment)];
     Arrow {
