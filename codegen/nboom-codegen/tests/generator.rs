@@ -13,8 +13,9 @@ fn root() -> PathBuf {
 }
 
 /// Crates whose equations are traced, or that trace them.
-const TRACED: [&str; 7] = [
+const TRACED: [&str; 8] = [
     "codegen/nboom-codegen",
+    "crates/nboom-elements",
     "crates/nboom-expr",
     "crates/nboom-formulation",
     "crates/nboom-loads",
