@@ -57,7 +57,7 @@ fn lengthening(scene: &Scene, pushing: bool) -> f64 {
     dynamics.accelerations(&motion, &mut found);
     // At rest the length's second derivative is what its rate would be at rates τ̇.
     let as_rate = Motion { tau: &found.tau_dot, ..motion };
-    dynamics.line_length(&as_rate, 0).squared_rate
+    dynamics.line_length(0, |j| [as_rate.beta[j], as_rate.tau[j]]).squared_rate
 }
 
 /// The scene with a spring that starts exactly at its limit length.
@@ -75,7 +75,7 @@ fn at_limit(turn: f64, force: f64) -> Scene {
     let scene = with(1.0);
     let beta = [scene.bodies[0].hinge.start.angle];
     let motion = Motion { omega_body: scene.initial.omega_body, beta: &beta, tau: &[0.0] };
-    let length = Recursive::<f64>::new(&scene).line_length(&motion, 0);
+    let length = Recursive::<f64>::new(&scene).line_length(0, |j| [motion.beta[j], motion.tau[j]]);
     with(length.squared.sqrt())
 }
 

@@ -71,7 +71,9 @@ fn spring_lengths(description: &SceneDescription) -> Vec<f64> {
     let mut dynamics = Recursive::new(&scene);
     let length = |i: usize| {
         let line = scene.bodies[i].hinge.kick_off.map(|_| spring(&scene.bodies, i));
-        line.map_or(0.0, |line| dynamics.line_length(&motion, line).squared.sqrt())
+        line.map_or(0.0, |line| {
+            dynamics.line_length(line, |j| [motion.beta[j], motion.tau[j]]).squared.sqrt()
+        })
     };
     (0..scene.bodies.len()).map(length).collect()
 }

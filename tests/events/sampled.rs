@@ -145,7 +145,8 @@ impl<'a> Sampled<'a> {
             Guard::Spring(hinge) => {
                 let limit = self.scene.bodies[hinge].hinge.kick_off.map_or(0.0, |k| k.limit_length);
                 let line = spring(&self.scene.bodies, hinge);
-                self.dynamics.line_length(&motion, line).squared.sqrt() - limit
+                self.dynamics.line_length(line, |j| [motion.beta[j], motion.tau[j]]).squared.sqrt()
+                    - limit
             }
         }
     }

@@ -79,19 +79,23 @@ impl<R: Real> Recursive<R> {
         about_center.solve(momentum_body - of_hinges.angular_momentum)
     }
 
-    /// Length and rate of a line, by its place among [`Elements::lines`](nboom_elements::Elements).
+    /// Length and rate of a line, by its place among [`Elements::lines`](nboom_elements::Elements), when
+    /// `of_hinge` gives β and τ of each free hinge that moves its end.
     ///
     /// # Panics
     /// When there are not so many lines.
-    pub fn line_length(&mut self, motion: &Motion<'_, R>, line: usize) -> LineLength<R> {
-        pose::place(&self.tree, &self.constants, motion.beta, &mut self.poses);
-        let line = self.elements.lines()[line];
-        let (end, along) = line.end_and_span(&self.poses);
-        let mut velocity = Vec3::zero();
+    pub fn line_length(&self, line: usize, of_hinge: impl Fn(usize) -> [R; 2]) -> LineLength<R> {
+        let line = &self.elements.lines()[line];
+        let (mut end, mut velocity) = (line.point, Vec3::zero());
         for j in self.path_inward(line.link) {
-            let turning = self.poses[j].axis * motion.tau[j];
-            velocity += turning.cross(end - self.poses[j].position);
+            let ([beta, tau], of_link) = (of_hinge(j), &self.constants[j]);
+            let turned = of_link.turned(beta);
+            let from_hinge = turned * end;
+            let turning = of_link.axis_inboard() * tau;
+            velocity = turned * velocity + turning.cross(from_hinge);
+            end = self.tree.links[j].point + from_hinge;
         }
+        let along = end - line.main_body_point;
         let rate = along.dot(velocity);
         LineLength { squared: along.norm_squared(), squared_rate: rate + rate }
     }
@@ -104,13 +108,17 @@ impl<R: Real> Recursive<R> {
         }
     }
 
-    /// |x̄|² of one line at the angles `beta` of the free hinges.
+    /// |x̄|² of one line, when `beta` gives the angle of each free hinge that moves its end.
     ///
     /// # Panics
     /// When there are not so many lines.
-    pub fn line_length_squared(&mut self, beta: &[R], line: usize) -> R {
-        pose::place(&self.tree, &self.constants, beta, &mut self.poses);
-        self.elements.lines()[line].end_and_span(&self.poses).1.norm_squared()
+    pub fn line_length_squared(&self, line: usize, beta: impl Fn(usize) -> R) -> R {
+        let line = &self.elements.lines()[line];
+        let mut end = line.point;
+        for j in self.path_inward(line.link) {
+            end = self.tree.links[j].point + self.constants[j].turned(beta(j)) * end;
+        }
+        (end - line.main_body_point).norm_squared()
     }
 
     /// For a line, each free hinge that moves its end (a position in [`Recursive::free_hinges`]) with
@@ -118,15 +126,13 @@ impl<R: Real> Recursive<R> {
     ///
     /// # Panics
     /// When there are not so many lines.
-    pub fn line_reach(&self, line: usize) -> Vec<(usize, R)> {
+    pub fn line_reach(&self, line: usize) -> impl Iterator<Item = (usize, R)> {
         let line = &self.elements.lines()[line];
-        let mut reach = line.point.norm();
-        let mut reaches = Vec::new();
-        for j in self.path_inward(line.link) {
-            reaches.push((j, reach));
-            reach += self.tree.links[j].point.norm();
-        }
-        reaches
+        self.path_inward(line.link).scan(line.point.norm(), |reach, j| {
+            let of_hinge = *reach;
+            *reach += self.tree.links[j].point.norm();
+            Some((j, of_hinge))
+        })
     }
 
     fn path_inward(&self, from: Option<usize>) -> impl Iterator<Item = usize> {

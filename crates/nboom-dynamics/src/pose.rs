@@ -24,6 +24,19 @@ impl<R: Real> LinkConstants<R> {
             along_sin: rot * Mat3::skew(axis),
         }
     }
+
+    /// Turns link components into components in the inboard link's axes, at the hinge angle `beta`.
+    #[inline]
+    pub fn turned(&self, beta: R) -> Mat3<R> {
+        let (s, c) = beta.sin_cos();
+        self.still + self.along_cos * c + self.along_sin * s
+    }
+
+    /// Unit vector along the hinge axis, inboard link's axes.
+    #[inline]
+    pub fn axis_inboard(&self) -> Vec3<R> {
+        self.axis_inboard
+    }
 }
 
 /// Where one link is, main-body axes.
@@ -83,8 +96,7 @@ pub(crate) fn place<R: Real>(
             Some(i) => (poses[i].rot, poses[i].position),
             None => (Mat3::identity(), Vec3::zero()),
         };
-        let (s, c) = beta[j].sin_cos();
-        let turned = of_link.still + of_link.along_cos * c + of_link.along_sin * s;
+        let turned = of_link.turned(beta[j]);
         let pose = &mut poses[j];
         if link.inboard.is_none() {
             (pose.rot, pose.offset, pose.axis) = (turned, link.point, of_link.axis_inboard);

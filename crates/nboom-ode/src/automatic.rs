@@ -117,6 +117,11 @@ impl Stepper for Automatic {
         self.active_mut().start(system, t, y, controlled);
     }
 
+    fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+        (self.controlled, self.against) = (controlled, 0);
+        self.active_mut().restart(system, t, y, controlled);
+    }
+
     fn limit_steps(&mut self, longest: f64) {
         self.explicit.limit_steps(longest);
         self.implicit.limit_steps(longest);
@@ -146,6 +151,10 @@ impl Stepper for Automatic {
 
     fn retake(&mut self, system: &mut dyn System, step: f64) {
         self.active_mut().retake(system, step);
+    }
+
+    fn move_end(&mut self, system: &mut dyn System, by: f64) -> bool {
+        self.active_mut().move_end(system, by)
     }
 
     fn advance(&mut self) {

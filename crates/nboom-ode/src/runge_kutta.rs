@@ -53,6 +53,25 @@ impl RungeKutta {
         }
     }
 
+    /// Makes room for (`t`, `y`) and evaluates there.
+    fn begin(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+        self.controlled = controlled;
+        self.previous_error = SMALL_ERROR;
+        self.window.start(system, t, y);
+        self.stride = y.len().next_multiple_of(BLOCK);
+        let terms = self.terms();
+        for (buffer, size) in [
+            (&mut self.stages, self.stride * self.tableau.c.len()),
+            (&mut self.stage_state, self.stride),
+            (&mut self.dense, y.len() * terms),
+        ] {
+            buffer.clear();
+            buffer.resize(size, 0.0);
+        }
+        system.derivative(t, y, &mut self.stages[..y.len()]);
+        self.window.counts.evaluations += 1;
+    }
+
     fn take(&mut self, system: &mut dyn System, step: f64) {
         let last = self.tableau.stages;
         for stage in 1..last {
@@ -220,22 +239,16 @@ fn weighted(stages: &[f64], stride: usize, block: usize, weights: Row) -> [f64; 
 
 impl Stepper for RungeKutta {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
-        self.controlled = controlled;
-        self.previous_error = SMALL_ERROR;
-        self.window.start(system, t, y);
-        self.stride = y.len().next_multiple_of(BLOCK);
-        let terms = self.terms();
-        for (buffer, size) in [
-            (&mut self.stages, self.stride * self.tableau.c.len()),
-            (&mut self.stage_state, self.stride),
-            (&mut self.dense, y.len() * terms),
-        ] {
-            buffer.clear();
-            buffer.resize(size, 0.0);
-        }
-        system.derivative(t, y, &mut self.stages[..y.len()]);
-        self.window.counts.evaluations += 1;
+        self.begin(system, t, y, controlled);
         self.window.next_step = self.first_step(system).min(self.window.longest);
+    }
+
+    fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+        let had = self.window.next_step;
+        self.begin(system, t, y, controlled);
+        let has_had = had > 0.0 && had.is_finite();
+        let first = if has_had { had } else { self.first_step(system) };
+        self.window.next_step = first.min(self.window.longest);
     }
 
     fn limit_steps(&mut self, longest: f64) {
@@ -312,6 +325,29 @@ impl Stepper for RungeKutta {
         self.take(system, step);
         self.step = step;
         self.window.end_time = self.window.time + step;
+    }
+
+    fn move_end(&mut self, system: &mut dyn System, by: f64) -> bool {
+        let (size, stride) = (self.size(), self.stride);
+        let (end, after) = (self.tableau.stages * stride, stride);
+        for i in 0..size {
+            self.stage_state[i] = self.window.end_state[i] + by * self.stages[end + i];
+        }
+        let time = self.window.end_time + by;
+        let slope = &mut self.stages[after..][..size];
+        system.derivative(time, &self.stage_state[..size], slope);
+        self.window.counts.evaluations += 1;
+        let bend = |i: usize| 0.5 * by * (self.stages[after + i] - self.stages[end + i]);
+        let is_straight = self.norm(bend) <= 1.0;
+        if is_straight {
+            for i in 0..size {
+                self.window.end_state[i] = self.stage_state[i] + bend(i);
+            }
+            self.step += by;
+            self.window.end_time = time;
+            self.stages.copy_within(after..after + stride, end);
+        }
+        is_straight
     }
 
     fn advance(&mut self) {

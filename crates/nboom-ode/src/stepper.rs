@@ -12,6 +12,12 @@ pub trait Stepper {
     /// `controlled` variables decide on the step size.
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize);
 
+    /// Starts at (`t`, `y`) anew, where what the system does has changed a little or at once: as
+    /// [`start`](Self::start), but methods that can go on with the step that they had.
+    fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+        self.start(system, t, y, controlled);
+    }
+
     /// Takes no step longer than `longest` from now on, but by up to a hundredth of it to reach
     /// a limit; without this call steps have any length.
     fn limit_steps(&mut self, longest: f64);
@@ -36,6 +42,13 @@ pub trait Stepper {
     /// Takes the step again with another length, whatever its error; dense output stays that
     /// of the step before.
     fn retake(&mut self, system: &mut dyn System, step: f64);
+
+    /// Moves the end of the step by `by` along a parabola, if the motion bends so little on the way
+    /// that what is left out is far below the tolerance; else, or where a method takes steps again at
+    /// no great cost, returns `false` and leaves the step as it is.
+    fn move_end(&mut self, _system: &mut dyn System, _by: f64) -> bool {
+        false
+    }
 
     /// Makes the end of the step the start of the next one.
     fn advance(&mut self);

@@ -134,7 +134,12 @@ impl<'a> Run<'a> {
         self.select()?;
         let controlled = self.equations.variables.layout.controlled();
         self.attitude_norm.put_back();
-        self.stepper.start(&mut self.equations, time, &self.variables, controlled);
+        let (stepper, equations) = (&mut self.stepper, &mut self.equations);
+        if time > scene.initial.time {
+            stepper.restart(equations, time, &self.variables, controlled);
+        } else {
+            stepper.start(equations, time, &self.variables, controlled);
+        }
         self.situation.watch(&mut self.equations.dynamics, &outcome.crossed);
         finite::check_instant(scene, time, &outcome.events, &outcome.jumps)?;
         if !outcome.events.is_empty() {
@@ -151,11 +156,11 @@ impl<'a> Run<'a> {
         loop {
             self.step(limit)?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
-            let guards = &self.situation.guards;
+            let guards = &mut self.situation.guards;
             if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
                 self.stepper.prepare_dense(&mut self.equations);
             }
-            let change = guards.first_change(&mut self.equations, &*self.stepper);
+            let change = guards.first_change(&self.equations, &*self.stepper);
             if let Some((kind, fraction)) = change {
                 let full = self.stepper.window().length();
                 self.locate(kind, fraction * full, full);
@@ -195,7 +200,8 @@ impl<'a> Run<'a> {
     }
 
     /// Takes the step again so that it ends where the guard is zero: Newton's method on the
-    /// integrated motion itself, from the place where dense output has the zero.
+    /// integrated motion itself, from the place where dense output has the zero. One step is
+    /// mostly enough, whose end is then moved.
     fn locate(&mut self, kind: GuardKind, guess: f64, full: f64) {
         let mut step = guess;
         let mut last_correction = f64::INFINITY;
@@ -209,6 +215,9 @@ impl<'a> Run<'a> {
             let better = correction.abs() < 0.5 * last_correction;
             let matters = self.stepper.window().time + (step + correction) != time;
             if !(correction.is_finite() && better && matters) {
+                return;
+            }
+            if self.stepper.move_end(&mut self.equations, correction) {
                 return;
             }
             last_correction = correction.abs();

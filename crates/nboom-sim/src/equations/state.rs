@@ -83,16 +83,15 @@ impl<R: Number> State<R> {
     }
 
     /// Length of a line and its rate.
-    pub fn line_length(&self, dynamics: &mut Recursive<R>, line: usize) -> [R; 2] {
-        let [beta, tau] = self.of_free(dynamics);
-        let motion = Motion { omega_body: self.omega_body, beta: &beta, tau: &tau };
-        let found = dynamics.line_length(&motion, line);
+    pub fn line_length(&self, dynamics: &Recursive<R>, line: usize) -> [R; 2] {
+        let free = dynamics.free_hinges();
+        let found = dynamics.line_length(line, |j| [self.beta[free[j]], self.tau[free[j]]]);
         let length = found.squared.sqrt();
         [length, found.squared_rate / (length + length)]
     }
 
     /// What the law of an element is a function of, and its rate.
-    pub fn coordinate(&self, dynamics: &mut Recursive<R>, coordinate: Coordinate) -> [R; 2] {
+    pub fn coordinate(&self, dynamics: &Recursive<R>, coordinate: Coordinate) -> [R; 2] {
         match coordinate {
             Coordinate::Length(line) => self.line_length(dynamics, line),
             Coordinate::Angle(hinge) => [self.beta[hinge], self.tau[hinge]],

@@ -10,7 +10,7 @@ use crate::events::instant;
 use crate::run::record::EventKind;
 
 /// A quantity whose change of sign is an event.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Guard {
     pub kind: GuardKind,
     side: Side,
@@ -161,11 +161,13 @@ const AT_REST: f64 = 1e-13;
 pub(crate) struct Guards {
     pub list: Vec<Guard>,
     interpolation: Interpolation,
+    /// The free hinges that move a line's end, each with its angle over the step.
+    path: Vec<(usize, Bernstein)>,
 }
 
 impl Guards {
     pub fn new() -> Self {
-        Self { list: Vec::new(), interpolation: Interpolation::new() }
+        Self { list: Vec::new(), interpolation: Interpolation::new(), path: Vec::new() }
     }
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
@@ -210,12 +212,13 @@ impl Guards {
     /// The guard that first changes sign within the step that dense output was prepared for,
     /// and at which fraction of it.
     pub fn first_change(
-        &self,
-        equations: &mut Equations,
+        &mut self,
+        equations: &Equations,
         stepper: &dyn Stepper,
     ) -> Option<(GuardKind, f64)> {
         let mut first: Option<(GuardKind, f64)> = None;
-        for guard in &self.list {
+        for i in 0..self.list.len() {
+            let guard = self.list[i];
             let change = match watched(guard.kind, equations.dynamics.elements()) {
                 (Coordinate::Length(line), limit) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)
@@ -285,35 +288,37 @@ impl Guards {
 
     /// Follows a line's length in pieces, each so short that a polynomial represents it.
     fn length_change(
-        &self,
-        equations: &mut Equations,
+        &mut self,
+        equations: &Equations,
         stepper: &dyn Stepper,
         (line, limit): (usize, f64),
         side: Side,
     ) -> Option<f64> {
-        let layout = equations.variables.layout;
-        let mut turned = 0.0;
-        let mut displaced = 0.0;
-        for (j, reach) in equations.dynamics.line_reach(line) {
-            let excursion = stepper.polynomial(layout.beta().start + j).excursion();
+        let (dynamics, first) = (&equations.dynamics, equations.variables.layout.beta().start);
+        self.path.clear();
+        let (mut turned, mut displaced) = (0.0, 0.0);
+        for (j, reach) in dynamics.line_reach(line) {
+            let angle = stepper.polynomial(first + j);
+            let excursion = angle.excursion();
             turned += excursion;
             displaced += excursion * reach;
+            self.path.push((j, angle));
         }
-        let start = &stepper.window().state[layout.beta()];
-        let length_squared = equations.dynamics.line_length_squared(start, line);
-        let clearance = (length_squared.sqrt() - limit).abs();
+        let angle = |hinge: usize, fraction: f64| {
+            let of_hinge = self.path.iter().find(|(j, _)| *j == hinge);
+            of_hinge.expect("the path moves the line").1.at(fraction)
+        };
+        let squared = |x: f64| dynamics.line_length_squared(line, |j| angle(j, x));
+        let clearance = (squared(0.0).sqrt() - limit).abs();
         if matches!(side, Side::Known(_)) && clearance > displaced {
             return None;
         }
         let pieces = (turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
-        let mut variables = vec![0.0; layout.len()];
         let mut side = side;
         (0..pieces).find_map(|piece| {
             let values = std::array::from_fn(|i| {
                 let fraction = (piece as f64 + Interpolation::point(i)) / pieces as f64;
-                stepper.interpolate(fraction, &mut variables);
-                let beta = &variables[layout.beta()];
-                equations.dynamics.line_length_squared(beta, line) - limit * limit
+                squared(fraction) - limit * limit
             });
             let polynomial = self.interpolation.through(&values);
             let has_left = polynomial.excursion() > BEYOND_ROUNDING * limit * limit;

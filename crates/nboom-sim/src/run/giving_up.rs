@@ -110,7 +110,7 @@ impl Run<'_> {
     pub(super) fn check_lines(&mut self) -> Result<(), SimError> {
         let Self { situation: Situation { scene, state, .. }, equations, .. } = self;
         for line in 0..equations.dynamics.elements().lines().len() {
-            let [length, _] = state.line_length(&mut equations.dynamics, line);
+            let [length, _] = state.line_length(&equations.dynamics, line);
             let line = &equations.dynamics.elements().lines()[line];
             if line.acts && line.link.is_some() && length <= NO_LENGTH * line.size {
                 let (time, hinge) = (state.time, scene.label(line.hinge));

@@ -137,7 +137,7 @@ fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> Potenti
         found.add(gravity_potential(scene, state.center.position), None);
     }
     for line in 0..equations.dynamics.elements().lines().len() {
-        let [length, _] = state.line_length(&mut equations.dynamics, line);
+        let [length, _] = state.line_length(&equations.dynamics, line);
         let line = &equations.dynamics.elements().lines()[line];
         found.add(line.potential(length), Some(line.hinge));
     }
