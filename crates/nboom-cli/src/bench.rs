@@ -84,13 +84,8 @@ fn rows(subject: &Subject, routines: &Routines, seconds: f64) -> Result<Vec<Row>
 
 /// Whether a batch is the same routine.
 fn is_of(batch: &Batch, label: &Label) -> bool {
-    let facts = match batch.pinned.len() {
-        0 => "general",
-        pinned if pinned == batch.parameters => "baked",
-        _ => "principal",
-    };
-    (Some(batch.topology), batch.formulation, facts)
-        == (label.topology, label.formulation, label.facts)
+    (Some(batch.topology), batch.formulation, batch.assumptions_in_a_word())
+        == (label.topology, label.formulation, label.assumptions)
 }
 
 /// Times a batch of eight states of this satellite at once; times are those of one state.
@@ -177,11 +172,11 @@ fn table(subject: &Subject, routines: &Routines, rows: &[Row]) -> String {
 fn json(rows: &[Row]) -> String {
     let object = |row: &Row| {
         let Row { label, lanes, times: Times { least, median }, of_recursive } = row;
-        let Label { path, formulation, facts, instructions, topology, virtual_links } = label;
+        let Label { path, formulation, assumptions, instructions, topology, virtual_links } = label;
         let topology = topology.map_or("null".to_owned(), |topology| format!("\"{topology}\""));
         format!(
             "  {{\"path\": \"{path}\", \"formulation\": \"{formulation}\", \
-             \"facts\": \"{facts}\", \"instructions\": \"{instructions}\", \
+             \"assumptions\": \"{assumptions}\", \"instructions\": \"{instructions}\", \
              \"topology\": {topology}, \"virtual_links\": {virtual_links}, \"lanes\": {lanes}, \
              \"ns_min\": {least:?}, \"ns_median\": {median:?}, \
              \"of_recursive\": {of_recursive:?}}}"
@@ -205,8 +200,8 @@ fn harness(scene: &str, rows: &[Row]) -> String {
 }
 
 fn name(row: &Row) -> String {
-    let Label { path, formulation, facts, .. } = row.label;
-    let baked = if facts == "baked" { "_baked" } else { "" };
+    let Label { path, formulation, assumptions, .. } = row.label;
+    let baked = if assumptions == "baked" { "_baked" } else { "" };
     let lanes = if row.lanes > 1 { format!("_lanes{}", row.lanes) } else { String::new() };
     format!("nboom_{path}_{formulation}{baked}{lanes}")
 }
@@ -214,5 +209,5 @@ fn name(row: &Row) -> String {
 /// Larger for the routine that a run prefers: one of a larger topology, which is there only if a
 /// run takes it, then the more specialised one.
 fn precedence(label: &Label) -> (bool, bool) {
-    (label.virtual_links > 0, label.facts != "general")
+    (label.virtual_links > 0, label.assumptions != "general")
 }

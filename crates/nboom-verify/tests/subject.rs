@@ -35,14 +35,14 @@ fn parameters_that_overflow_are_refused() {
     assert!(message.ends_with("a finite one expected"), "{message}");
 }
 
-/// Says that it takes `PINNED` of three parameters for granted.
-struct Facts<const PINNED: usize>;
+/// Assumes the first `ASSUMED` of three parameters.
+struct Assuming<const ASSUMED: usize>;
 
-impl<const PINNED: usize> Routine for Facts<PINNED> {
+impl<const ASSUMED: usize> Routine for Assuming<ASSUMED> {
     const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "M";
     const FORMULATION: &'static str = "articulated";
-    const PINNED: &'static [(usize, f64)] = [(0, 1.0), (1, 1.0), (2, 1.0)].split_at(PINNED).0;
+    const ASSUMPTIONS: &'static [(usize, f64)] = [(0, 1.0), (1, 1.0), (2, 1.0)].split_at(ASSUMED).0;
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = 3;
     const CONSTANTS: usize = 0;
@@ -57,38 +57,41 @@ impl<const PINNED: usize> Routine for Facts<PINNED> {
 }
 
 #[test]
-fn labels_say_what_is_taken_for_granted() {
-    for (kernel, facts) in [
-        (Kernel::of::<Facts<0>>(), "general"),
-        (Kernel::of::<Facts<2>>(), "principal"),
-        (Kernel::of::<Facts<3>>(), "baked"),
+fn labels_say_what_is_assumed() {
+    for (kernel, assumptions) in [
+        (Kernel::of::<Assuming<0>>(), "general"),
+        (Kernel::of::<Assuming<2>>(), "principal"),
+        (Kernel::of::<Assuming<3>>(), "baked"),
     ] {
         let topology: Topology = "M".parse().expect("a topology");
         let embedding = Embedding::new(&topology, &topology).expect("it is in itself");
         let fit = Fit { kernel, embedding, parameters: vec![1.0; 3] };
         let label = Label::generated(&fit);
-        assert_eq!((label.facts, label.topology, label.virtual_links), (facts, Some("M"), 0));
+        assert_eq!(
+            (label.assumptions, label.topology, label.virtual_links),
+            (assumptions, Some("M"), 0)
+        );
     }
 }
 
 #[test]
 fn routines_for_other_scenes_are_left_out() {
     let subject = s2_p();
-    let other = vec![Kernel::of::<Facts<0>>()].leak();
+    let other = vec![Kernel::of::<Assuming<0>>()].leak();
     assert_eq!(subject.codes(other).expect("none fits").len(), 7);
     assert_eq!(subject.not_covered(other)[0].why, "no routine for topology S2_P");
 }
 
 #[test]
-fn what_is_taken_for_granted_in_vain_is_named() {
+fn an_assumption_that_does_not_hold_is_named() {
     // S2_P with the chain's first mass taken for 2; it is 1.
     const MASS: usize = Layout::MAIN + Layout::BRANCH;
-    let mut kernel = Kernel::of::<Facts<0>>();
-    (kernel.topology, kernel.parameters, kernel.pinned) = ("S2_P", 82, &[(MASS, 2.0)]);
+    let mut kernel = Kernel::of::<Assuming<0>>();
+    (kernel.topology, kernel.parameters, kernel.assumptions) = ("S2_P", 82, &[(MASS, 2.0)]);
     let why = &s2_p().not_covered(vec![kernel].leak())[0].why;
-    let words = "mass of link 1 of appendage 1 is 1, and 2 is taken for granted";
+    let words = "mass of link 1 of appendage 1 is 1, and 2 is assumed";
     assert_eq!(*why, format!("no routine for topology S2_P fits: {words}"));
-    (kernel.pinned, kernel.external) = (&[], false);
+    (kernel.assumptions, kernel.external) = (&[], false);
     let why = &s2_p().not_covered(vec![kernel].leak())[0].why;
     assert!(why.ends_with("that nothing acts on the main body from outside"), "{why}");
 }

@@ -39,7 +39,7 @@ impl<const WRONG: u32> Routine for Accelerations<WRONG> {
     const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "S2_P";
     const FORMULATION: &'static str = "articulated";
-    const PINNED: &'static [(usize, f64)] = &[];
+    const ASSUMPTIONS: &'static [(usize, f64)] = &[];
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = PARAMETERS;
     const CONSTANTS: usize = PARAMETERS;
@@ -71,7 +71,7 @@ impl<const RELATIVE: u32, const WRONG: usize> Routine for System<RELATIVE, WRONG
     const RESULT: &'static str = "equations";
     const TOPOLOGY: &'static str = "S2_P";
     const FORMULATION: &'static str = if RELATIVE == 1 { "relative" } else { "report" };
-    const PINNED: &'static [(usize, f64)] = &[];
+    const ASSUMPTIONS: &'static [(usize, f64)] = &[];
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = PARAMETERS;
     const CONSTANTS: usize = PARAMETERS;

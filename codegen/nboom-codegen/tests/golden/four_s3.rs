@@ -12,7 +12,7 @@ pub mod routine_four_s3 {
         const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "4xS3";
         const FORMULATION: &'static str = "articulated";
-        const PINNED: &'static [(usize, f64)] = &::nboom_scalar::assumed(
+        const ASSUMPTIONS: &'static [(usize, f64)] = &::nboom_scalar::assumed(
             [
                 1, 2, 3, 7, 8, 9, 23, 25, 29, 30, 31, 33, 35, 37, 41, 42, 43, 45, 47, 49, 53, 54,
                 55, 57, 71, 73, 77, 78, 79, 81, 83, 85, 89, 90, 91, 93, 95, 97, 101, 102, 103, 105,

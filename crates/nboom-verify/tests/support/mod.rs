@@ -50,7 +50,7 @@ pub fn fork() -> Scene {
     with_thrust(description)
 }
 
-/// `articulated` of S3_P, nothing taken for granted, with τ̇ of the hinge at `WRONG` wrong by 1e-9
+/// `articulated` of S3_P, nothing assumed, with τ̇ of the hinge at `WRONG` wrong by 1e-9
 /// of itself.
 struct ArticulatedS3P<const WRONG: usize>;
 
@@ -58,7 +58,7 @@ impl<const WRONG: usize> Routine for ArticulatedS3P<WRONG> {
     const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "S3_P";
     const FORMULATION: &'static str = "articulated";
-    const PINNED: &'static [(usize, f64)] = &[];
+    const ASSUMPTIONS: &'static [(usize, f64)] = &[];
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = 94;
     const CONSTANTS: usize = 94;
