@@ -170,7 +170,7 @@ fn a_compiled_scene_finds_its_stresses_in_its_own_code() {
         let mut stressed = Stressed(analysis);
         let options = Options { samples: 50, ..Options::default() };
         simulate(&sample(), &options, &mut stressed).expect("the sample deck runs");
-        let of_station = |worst: &Worst| worst.severest.stress.von_mises();
+        let of_station = |worst: &Worst| worst.max_von_mises.stress.von_mises();
         stressed.0.envelope().iter().map(of_station).collect()
     };
     let (generated, library) = (worst(SAMPLE.kernels()), worst(&[]));

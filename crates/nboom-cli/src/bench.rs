@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use nboom_formulation::{Recognised, symmetric};
 use nboom_scalar::{Batch, Eight};
-use nboom_verify::{ComparedCode, Label, Subject};
+use nboom_verify::{ComparedCode, Label, TestCase};
 
 use crate::format::{code_columns, code_head, not_covered, routine_topology};
 use crate::run::default_directory;
@@ -49,18 +49,18 @@ pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, Cli
         let directory = args.output.as_ref().unwrap_or(&directory);
         return work_precision(&file.scene, routines, args.seconds, directory);
     }
-    let subject = Subject::new(file.scene, STATES, SEED)?;
-    let rows = rows(&subject, routines, args.seconds)?;
+    let test_case = TestCase::new(file.scene, STATES, SEED)?;
+    let rows = rows(&test_case, routines, args.seconds)?;
     Ok(match (args.json, args.harness) {
         (true, _) => json(&rows),
-        (_, true) => harness(&subject.scene().name, &rows),
-        _ => table(&subject, routines, &rows),
+        (_, true) => harness(&test_case.scene().name, &rows),
+        _ => table(&test_case, routines, &rows),
     })
 }
 
 /// The recursion first.
-fn rows(subject: &Subject, routines: &Routines, seconds: f64) -> Result<Vec<Row>, CliError> {
-    let codes = subject.codes(routines.accelerations)?;
+fn rows(test_case: &TestCase, routines: &Routines, seconds: f64) -> Result<Vec<Row>, CliError> {
+    let codes = test_case.codes(routines.accelerations)?;
     let mut timed: Vec<(Label, usize, Times)> = Vec::new();
     for (label, mut code) in codes {
         timed.push((label, 1, time_of(&mut code, seconds)));
@@ -148,10 +148,10 @@ fn time(seconds: f64, mut call: impl FnMut(usize)) -> Times {
     Times { least: samples[0], median: samples[samples.len() / 2] }
 }
 
-fn table(subject: &Subject, routines: &Routines, rows: &[Row]) -> String {
+fn table(test_case: &TestCase, routines: &Routines, rows: &[Row]) -> String {
     let mut text = format!(
         "{}: ns per evaluation of the accelerations, all hinges free\n{} {:>5} {:>10} {:>10} {:>12}\n",
-        subject.scene().name,
+        test_case.scene().name,
         code_head(),
         "lanes",
         "ns min",
@@ -165,7 +165,7 @@ fn table(subject: &Subject, routines: &Routines, rows: &[Row]) -> String {
             "{columns} {lanes:>5} {least:>10.1} {median:>10.1} {of_recursive:>12.3}{routine}"
         ));
     }
-    subject.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);
+    test_case.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);
     text
 }
 

@@ -213,12 +213,12 @@ pub mod routine_four_s3 {
     fn s3_inward<R: Real>(
         k: [R; 2],
         turned: [R; 13],
-        excess: [R; 1],
+        net_torque: [R; 1],
         shown: [R; 14],
     ) -> ([R; 14], [R; 6]) {
         let [mass, jxx] = k;
         let [cy, cz, jyy, jzz, jyz, ly, lz, nx, ny, nz, fx, fy, fz] = turned;
-        let [excess] = excess;
+        let [net_torque] = net_torque;
         let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = shown;
         let t33 = (-lz).mul_add(myy, ly * myz);
         let t36 = (-lz).mul_add(myz, ly * mzz);
@@ -227,7 +227,7 @@ pub mod routine_four_s3 {
         let t45 = t33 - cz;
         let t46 = cy + t36;
         let t48 = R::one() / (jxx + (-lz).mul_add(t33, ly * t36));
-        let t53 = excess - nx - (-lz).mul_add(py, ly * pz);
+        let t53 = net_torque - nx - (-lz).mul_add(py, ly * pz);
         let t54 = t48 * t53;
         let t56 = t46 * t48;
         let t60 = jyy + lz.mul_add(byx + t38, ayy);

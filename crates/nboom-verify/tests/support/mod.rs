@@ -6,7 +6,7 @@ use nboom_model::{
     Appendage, Body, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Thrust,
 };
 use nboom_scalar::{Isa, Kernel, Mat3, Real, Routine, Sym3, Vec3};
-use nboom_verify::Subject;
+use nboom_verify::TestCase;
 
 pub fn body() -> MassProperties {
     MassProperties::new(1.0, Vec3::new(0.1, 0.5, 0.2), Sym3::diagonal(1.0, 1.2, 1.4))
@@ -36,8 +36,8 @@ pub fn s2_p_scene() -> SceneDescription {
 }
 
 /// Forty states of [`s2_p_scene`] under thrust.
-pub fn s2_p() -> Subject {
-    Subject::new(with_thrust(s2_p_scene()), 40, 1970).expect("all numbers are finite")
+pub fn s2_p() -> TestCase {
+    TestCase::new(with_thrust(s2_p_scene()), 40, 1970).expect("all numbers are finite")
 }
 
 /// A boom of two segments, and a third one on the first: no chain.
