@@ -4,7 +4,7 @@ use nboom_formulation::{Embedding, Formulation, Layout, Recognised};
 use nboom_model::Topology;
 use nboom_scalar::Kernel;
 
-use crate::run::options::Options;
+use crate::options::Options;
 
 /// A generated routine that computes the accelerations of a mode, and how the mode is embedded in
 /// the routine's topology.

@@ -4,7 +4,7 @@ use nboom_model::{HingeLabel, Scene};
 use nboom_scalar::{Kernel, Vec3};
 
 use crate::code::fit::{Fit, Repertoire};
-use crate::run::options::{Form, Options};
+use crate::options::{Form, Options};
 
 /// A generated routine fitted to a scene in one mode.
 #[derive(Clone, Debug)]
