@@ -5,18 +5,17 @@ use nboom_ode::System;
 use nboom_scalar::Vec3;
 use nboom_series::Series;
 
-use crate::code::AccelerationCode;
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
+use crate::code::{AccelerationCode, CodeError};
 use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::VariableLayout;
 use crate::equations::rates::Rates;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
+use crate::equations::totals::Totals;
 use crate::equations::variables::{Variables, motion};
-use crate::error::SimError;
-use crate::run::ledger::totals;
-use crate::run::options::Options;
+use crate::options::Options;
 
 pub(crate) mod attitude_norm;
 pub(crate) mod jacobian;
@@ -25,6 +24,7 @@ pub(crate) mod rates;
 pub(crate) mod series;
 pub(crate) mod sizes;
 pub(crate) mod state;
+pub(crate) mod totals;
 pub(crate) mod variables;
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
@@ -85,7 +85,7 @@ impl Equations {
         let free = free.len();
         // Springs, dashpots and uniform gravity exert no moment about the mass centre.
         let momentum = (self.momentum_for_rate && !thrust).then(|| {
-            totals(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
+            Totals::of(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
         });
         let layout = VariableLayout { momentum, free, thrust, dashpots };
         self.accelerations = Accelerations::for_hinges(free);
@@ -119,7 +119,7 @@ impl Equations {
     ///
     /// # Errors
     /// When the code that is demanded does not fit.
-    pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, SimError> {
+    pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, CodeError> {
         let Self { dynamics, repertoire, variables, .. } = self;
         let since = variables.origin.time;
         let (code, selection) =

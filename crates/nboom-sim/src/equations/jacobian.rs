@@ -68,7 +68,7 @@ mod tests {
     use super::*;
     use crate::equations::Equations;
     use crate::equations::state::State;
-    use crate::run::options::Options;
+    use crate::options::Options;
     use nboom_model::HingeState;
     use nboom_ode::System;
 
