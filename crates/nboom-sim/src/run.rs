@@ -14,7 +14,7 @@ use crate::events::instant::{self, Arrivals};
 use crate::events::situation::Situation;
 use crate::options::Options;
 use crate::run::ledger::Ledger;
-use crate::run::record::{Failure, Integration, Recorder, Summary};
+use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
 use crate::run::verdict::Verdict;
 
@@ -58,6 +58,10 @@ struct Run<'a> {
     recorder: &'a mut dyn Recorder,
     situation: Situation<'a, f64>,
     scratch: State,
+    /// Room for states between those of steps.
+    spare: Option<State>,
+    /// What the recorder was shown last.
+    seen: Snapshot,
     equations: Equations,
     stepper: Box<dyn Stepper>,
     ledger: Ledger,
@@ -90,6 +94,8 @@ impl<'a> Run<'a> {
             ledger: Ledger::new(scene, &mut equations, state),
             resources: Resources::of(scene, &mut equations, state),
             scratch: state.clone(),
+            spare: None,
+            seen: Snapshot::empty(),
             verdict: Verdict::of(&mode.hinges, &state.beta),
             situation,
             equations,

@@ -118,12 +118,10 @@ impl<'a> Replay<'a> {
 
     /// What a recorder sees of the present state.
     pub fn snapshot(&mut self) -> Snapshot {
-        snapshot::take(
-            self.situation.scene,
-            &self.situation.mode,
-            &mut self.dynamics,
-            &self.situation.state,
-        )
+        let Situation { scene, mode, state, .. } = &self.situation;
+        let mut seen = Snapshot::empty();
+        snapshot::write(scene, mode, state, &state.invariants(&mut self.dynamics), &mut seen);
+        seen
     }
 
     /// Changes the mode as the instant demands; returns the elements that have passed a bound.

@@ -149,7 +149,8 @@ pub(crate) fn pass<R: Number>(
     let before = Totals::of(state, &state.invariants(dynamics));
     let mut events = Vec::new();
     let locked = lock(scene, dynamics, &arrivals.locks, state, mode)?;
-    let after = Totals::of(state, &state.invariants(dynamics));
+    let mut now = || Totals::of(state, &state.invariants(dynamics));
+    let after = if locked.is_empty() { before } else { now() };
     let time = state.time.to_f64();
     let event =
         |kind, hinge, impulse, before: Totals| Event { time, kind, hinge, impulse, before, after };

@@ -1,3 +1,4 @@
+use nboom_dynamics::Invariants;
 use nboom_elements::gravity_potential;
 use nboom_model::Scene;
 use nboom_scalar::Vec3;
@@ -56,7 +57,7 @@ impl Ledger {
         }
     }
 
-    /// Compares `state` with what impulses and work account for.
+    /// Compares `state`, whose invariants are given, with what impulses and work account for.
     ///
     /// # Errors
     /// When an energy or a momentum is not finite, so that nothing can be said about it.
@@ -65,9 +66,9 @@ impl Ledger {
         scene: &Scene,
         equations: &mut Equations,
         state: &State,
+        invariants: &Invariants<f64>,
     ) -> Result<(), SimError> {
-        let invariants = state.invariants(&mut equations.dynamics);
-        let now = Totals::of(state, &invariants);
+        let now = Totals::of(state, invariants);
         let work = &state.work;
         let weight = equations.gravity() * scene.total_mass();
         let impulse = weight * (state.time - self.start_time) + work.thrust_impulse;

@@ -131,6 +131,32 @@ pub struct Snapshot {
     pub next_step: f64,
 }
 
+impl Snapshot {
+    /// Nothing, with room for what is seen.
+    pub(crate) fn empty() -> Self {
+        let (none, zero) = (Vec::new, Vec3::zero());
+        Self {
+            time: 0.0,
+            position_inertial: zero,
+            velocity_inertial: zero,
+            attitude: Quaternion { scalar: 1.0, vector: zero },
+            omega_body: zero,
+            beta: none(),
+            tau: none(),
+            alpha: none(),
+            sigma: none(),
+            hinges: Vec::new(),
+            kinetic_energy: 0.0,
+            linear_momentum_inertial: zero,
+            angular_momentum_inertial: zero,
+            nutation: 0.0,
+            detail: None,
+            steps: 0,
+            next_step: 0.0,
+        }
+    }
+}
+
 /// Accelerations and forces at one time. Vectors over hinges have one entry for each hinge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detail {
@@ -154,6 +180,25 @@ pub struct Detail {
     pub mass_center_velocity_inertial: Vec3<f64>,
     /// Acceleration of the system mass centre, inertial axes.
     pub mass_center_acceleration_inertial: Vec3<f64>,
+}
+
+impl Detail {
+    /// Nothing, with room for what is found.
+    pub(crate) fn empty() -> Self {
+        let (none, zero) = (Vec::new, Vec3::zero());
+        Self {
+            omega_dot_body: zero,
+            origin_acceleration_body: zero,
+            beta_ddot: none(),
+            alpha_ddot: none(),
+            hinge_torque: none(),
+            lines: Vec::new(),
+            mass_center_body: zero,
+            mass_center_inertial: zero,
+            mass_center_velocity_inertial: zero,
+            mass_center_acceleration_inertial: zero,
+        }
+    }
 }
 
 /// How a run went.

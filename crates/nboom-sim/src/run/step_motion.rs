@@ -105,14 +105,14 @@ impl Forces {
     }
 }
 
-/// Room for the motion at one time of a step.
+/// Room for the motion at one time.
 #[derive(Clone, Debug)]
 pub(crate) struct Room {
     variables: Vec<f64>,
-    beta: Vec<f64>,
-    tau: Vec<f64>,
-    beta_ddot: Vec<f64>,
-    forces: Forces,
+    pub beta: Vec<f64>,
+    pub tau: Vec<f64>,
+    pub beta_ddot: Vec<f64>,
+    pub forces: Forces,
 }
 
 impl Room {

@@ -1,5 +1,7 @@
 //! What a run tells its recorder, and when.
 
+use nboom_dynamics::Invariants;
+
 use super::Run;
 use crate::equations::state::State;
 use crate::error::SimError;
@@ -7,7 +9,7 @@ use crate::events::event::{Event, Jump};
 use crate::events::instant::Arrivals;
 use crate::events::situation::Situation;
 use crate::run::finite;
-use crate::run::record::{InstantMotion, Snapshot};
+use crate::run::record::{Detail, InstantMotion, Snapshot};
 use crate::run::snapshot;
 use crate::run::step_motion::DenseStep;
 
@@ -30,9 +32,11 @@ impl Run<'_> {
             self.variables.resize(self.equations.variables.layout.len(), 0.0);
             let fraction = (time - self.stepper.window().time) / full;
             self.stepper.interpolate(fraction, &mut self.variables);
-            self.equations.read(time, &self.variables, &mut self.scratch);
-            let state = self.scratch.clone();
+            let spare = self.spare.take();
+            let mut state = spare.unwrap_or_else(|| self.situation.state.clone());
+            self.equations.read(time, &self.variables, &mut state);
             self.sample(&state)?;
+            self.spare = Some(state);
         }
         Ok(())
     }
@@ -61,27 +65,44 @@ impl Run<'_> {
     fn sample(&mut self, state: &State) -> Result<(), SimError> {
         self.check_interrupt(state.time)?;
         self.next_sample += 1;
-        self.ledger.check(self.situation.scene, &mut self.equations, state)?;
-        let snapshot = self.snapshot(state)?;
-        let kept = self.recorder.sample(&snapshot);
+        self.look(state)?;
+        let kept = self.recorder.sample(&self.seen);
         kept.map_err(|source| SimError::Record { time: state.time, source })
     }
 
-    fn snapshot(&mut self, state: &State) -> Result<Snapshot, SimError> {
-        let needs_detail = self.recorder.needs_detail();
-        self.snapshot_with(state, needs_detail)
+    /// Enters `state` in the ledger and sees all of it that the recorder wants.
+    fn look(&mut self, state: &State) -> Result<(), SimError> {
+        let found = state.invariants(&mut self.equations.dynamics);
+        self.ledger.check(self.situation.scene, &mut self.equations, state, &found)?;
+        self.see(state, &found, self.recorder.needs_detail())
     }
 
-    fn snapshot_with(&mut self, state: &State, needs_detail: bool) -> Result<Snapshot, SimError> {
-        let Self { situation: Situation { scene, mode, .. }, equations, .. } = self;
-        let seen = snapshot::take(scene, mode, &mut equations.dynamics, state);
-        let detail = needs_detail.then(|| snapshot::detail(scene, equations, state));
-        let (steps, next_step) =
-            (self.stepper.window().counts.accepted, self.stepper.window().next_step);
-        let next_step = next_step.min(scene.end_time - scene.initial.time);
-        let seen = Snapshot { detail, steps, next_step, ..seen };
-        finite::check_snapshot(scene, &seen)?;
-        Ok(seen)
+    fn see(
+        &mut self,
+        state: &State,
+        found: &Invariants<f64>,
+        detailed: bool,
+    ) -> Result<(), SimError> {
+        let Self { situation: Situation { scene, mode, .. }, equations, seen, room, .. } = self;
+        snapshot::write(scene, mode, state, found, seen);
+        if detailed {
+            let detail = seen.detail.get_or_insert_with(Detail::empty);
+            snapshot::write_detail(scene, equations, state, found.mass_center, room, detail);
+        } else {
+            seen.detail = None;
+        }
+        let window = self.stepper.window();
+        seen.steps = window.counts.accepted;
+        seen.next_step = window.next_step.min(scene.end_time - scene.initial.time);
+        finite::check_snapshot(scene, seen)
+    }
+
+    /// The present motion in detail.
+    fn motion_here(&mut self) -> Result<Snapshot, SimError> {
+        let state = self.situation.state.clone();
+        let found = state.invariants(&mut self.equations.dynamics);
+        self.see(&state, &found, true)?;
+        Ok(self.seen.clone())
     }
 
     /// The motion before an instant, if there is one and the recorder wants it.
@@ -94,8 +115,7 @@ impl Run<'_> {
         if !(has_moved && self.recorder.needs_instants()) {
             return Ok(None);
         }
-        let state = self.situation.state.clone();
-        self.snapshot_with(&state, true).map(Some)
+        self.motion_here().map(Some)
     }
 
     pub(super) fn tell_instant(
@@ -106,10 +126,9 @@ impl Run<'_> {
         if !self.recorder.needs_instants() {
             return Ok(());
         }
-        let state = self.situation.state.clone();
-        let after = self.snapshot_with(&state, true)?;
+        let (time, after) = (self.situation.state.time, self.motion_here()?);
         let kept = self.recorder.instant(&InstantMotion { before, jumps, after });
-        kept.map_err(|source| SimError::Record { time: state.time, source })
+        kept.map_err(|source| SimError::Record { time, source })
     }
 
     pub(super) fn report(&mut self, events: &[Event]) -> Result<(), SimError> {
@@ -117,12 +136,11 @@ impl Run<'_> {
             return Ok(());
         }
         let state = self.situation.state.clone();
-        self.ledger.check(self.situation.scene, &mut self.equations, &state)?;
-        let after = self.snapshot(&state)?;
+        self.look(&state)?;
         for event in events {
             self.events += 1;
             self.verdict.note(event);
-            let kept = self.recorder.event(event, &after);
+            let kept = self.recorder.event(event, &self.seen);
             kept.map_err(|source| SimError::Record { time: event.time, source })?;
         }
         Ok(())
