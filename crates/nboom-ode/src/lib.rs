@@ -40,6 +40,7 @@ mod stepper;
 mod system;
 mod tableau;
 mod taylor;
+mod weighted_sum;
 
 pub use automatic::Automatic;
 pub use bernstein::{Bernstein, Interpolation};

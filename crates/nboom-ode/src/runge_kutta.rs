@@ -1,6 +1,7 @@
 use std::ops::Range;
 
 use crate::tableau::{DOP853, DOPRI5, Row, Tableau};
+use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
 /// An explicit Runge-Kutta method with step control and dense output.
@@ -15,13 +16,13 @@ pub struct RungeKutta {
     stages: Vec<f64>,
     stride: usize,
     stage_state: Vec<f64>,
+    /// Weighted sums of stages.
+    sums: [Vec<f64>; 2],
     /// Terms of dense output, variable by variable.
     dense: Vec<f64>,
     previous_error: f64,
 }
 
-/// Numbers that are combined together, so that the compiler makes vector code of it.
-const BLOCK: usize = 8;
 /// An error this small does not speed up the next step any more.
 const SMALL_ERROR: f64 = 1e-4;
 
@@ -48,6 +49,7 @@ impl RungeKutta {
             stages: Vec::new(),
             stride: 0,
             stage_state: Vec::new(),
+            sums: [Vec::new(), Vec::new()],
             dense: Vec::new(),
             previous_error: SMALL_ERROR,
         }
@@ -60,9 +62,12 @@ impl RungeKutta {
         self.window.start(system, t, y);
         self.stride = y.len().next_multiple_of(BLOCK);
         let terms = self.terms();
+        let [errors, lowers] = &mut self.sums;
         for (buffer, size) in [
             (&mut self.stages, self.stride * self.tableau.c.len()),
             (&mut self.stage_state, self.stride),
+            (errors, self.stride),
+            (lowers, self.stride),
             (&mut self.dense, y.len() * terms),
         ] {
             buffer.clear();
@@ -122,14 +127,10 @@ impl RungeKutta {
 
     /// Writes the argument of a stage.
     fn combine(&mut self, stage: usize, step: f64) {
-        let Self { tableau, window, stages, stride, stage_state, .. } = self;
-        for (block, out) in stage_state.chunks_exact_mut(BLOCK).enumerate() {
-            let sum = weighted(stages, *stride, block, tableau.a[stage]);
-            let (first, size) = (block * BLOCK, window.state.len());
-            let state = &window.state[first..size.min(first + BLOCK)];
-            for ((out, y), sum) in out.iter_mut().zip(state).zip(sum) {
-                *out = y + step * sum;
-            }
+        let Self { tableau, window, stages, stage_state, .. } = self;
+        sum_up(stages, tableau.a[stage], step, stage_state);
+        for (out, y) in stage_state.iter_mut().zip(&window.state) {
+            *out += y;
         }
     }
 
@@ -142,16 +143,15 @@ impl RungeKutta {
     }
 
     /// Estimated error of the step in units of the tolerance.
-    fn error_norm(&self, step: f64) -> f64 {
+    fn error_norm(&mut self, step: f64) -> f64 {
+        let Self { tableau, stages, sums: [errors, lowers], .. } = self;
+        sum_up(stages, tableau.error, 1.0, errors);
+        sum_up(stages, tableau.lower_error, 1.0, lowers);
         let (mut error, mut lower) = (0.0, 0.0);
-        for first in (0..self.controlled).step_by(BLOCK) {
-            let of = |row| weighted(&self.stages, self.stride, first / BLOCK, row);
-            let (errors, lowers) = (of(self.tableau.error), of(self.tableau.lower_error));
-            for i in first..self.controlled.min(first + BLOCK) {
-                let inverse = 1.0 / self.scale_of(i);
-                error += (errors[i - first] * inverse).powi(2);
-                lower += (lowers[i - first] * inverse).powi(2);
-            }
+        for i in 0..self.controlled {
+            let inverse = 1.0 / self.scale_of(i);
+            error += (self.sums[0][i] * inverse).powi(2);
+            lower += (self.sums[1][i] * inverse).powi(2);
         }
         let finite = self.window.end_state.iter().all(|y| y.is_finite());
         if !finite || !(error + lower).is_finite() {
@@ -224,19 +224,6 @@ impl RungeKutta {
     }
 }
 
-/// The weighted sum of stages for the variables of one block.
-#[inline]
-fn weighted(stages: &[f64], stride: usize, block: usize, weights: Row) -> [f64; BLOCK] {
-    let mut sum = [0.0; BLOCK];
-    for &(j, weight) in weights {
-        let of_stage = &stages[j * stride + block * BLOCK..][..BLOCK];
-        for (sum, value) in sum.iter_mut().zip(of_stage) {
-            *sum += weight * value;
-        }
-    }
-    sum
-}
-
 impl Stepper for RungeKutta {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.begin(system, t, y, controlled);
@@ -296,9 +283,11 @@ impl Stepper for RungeKutta {
             terms[0] = difference;
             terms[1] = first - difference;
             terms[2] = 2.0 * difference - (first + end);
-            for (term, row) in terms[3..].iter_mut().zip(self.tableau.dense) {
-                let sum: f64 = row.iter().map(|&(j, d)| d * self.stages[j * stride + i]).sum();
-                *term = h * sum;
+        }
+        for (row, weights) in self.tableau.dense.iter().enumerate() {
+            sum_up(&self.stages, weights, h, &mut self.sums[0]);
+            for (terms, sum) in self.dense.chunks_exact_mut(count).zip(&self.sums[0]) {
+                terms[3 + row] = *sum;
             }
         }
     }
