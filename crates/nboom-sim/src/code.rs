@@ -14,6 +14,7 @@ use crate::options::{Form, Options, Path};
 pub(crate) mod closed_form;
 pub(crate) mod fit;
 pub(crate) mod generated;
+pub(crate) mod right_side;
 pub(crate) mod selection;
 
 /// Code that computes the accelerations of one mode.

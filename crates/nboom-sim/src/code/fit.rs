@@ -1,6 +1,6 @@
 use std::cmp::Reverse;
 
-use nboom_formulation::{Embedding, Formulation, Layout, Recognised};
+use nboom_formulation::{Embedding, Forces, Formulation, Layout, Recognised};
 use nboom_model::Topology;
 use nboom_scalar::Kernel;
 
@@ -42,14 +42,12 @@ fn duration_of_recursion(topology: &Topology) -> usize {
     60 + 110 * topology.hinges()
 }
 
-/// What [`Kernel::result`] says of routines that a run may take.
-const ACCELERATIONS: &str = "accelerations";
-
 /// The routines that a run may take: the one that is probably fastest first, of equally fast ones
 /// that with fewest links, then one of `articulated`, then the most specialised.
 #[derive(Clone, Debug)]
 pub struct Repertoire {
-    entries: Vec<Entry>,
+    accelerations: Vec<Entry>,
+    right_sides: Vec<Entry>,
 }
 
 #[derive(Clone, Debug)]
@@ -62,43 +60,59 @@ struct Entry {
 impl Repertoire {
     /// The routines that `options` allow.
     pub fn new(options: &Options) -> Self {
+        let of = |result| Entry::all(options, result);
+        Self { accelerations: of("accelerations"), right_sides: of("right_side") }
+    }
+
+    /// The first routine that computes accelerations in a mode in which something acts on the
+    /// main body from outside or nothing does (`external`). `None` if there is none.
+    pub fn best(&self, recognised: &Recognised, external: bool) -> Option<Fit> {
+        let may_hold = |entry: &&Entry| entry.kernel.external || !external;
+        let mut entries = self.accelerations.iter().filter(may_hold);
+        entries.find_map(|entry| entry.fit(recognised, |_| Vec::new()))
+    }
+
+    /// The first routine that computes all rates of change in a mode in which `forces` act. `None` if
+    /// there is none.
+    pub(crate) fn right_side(&self, recognised: &Recognised, forces: &Forces<f64>) -> Option<Fit> {
+        let of_forces = |embedding: &Embedding| forces.embedded(embedding).write();
+        self.right_sides.iter().find_map(|entry| entry.fit(recognised, of_forces))
+    }
+}
+
+impl Entry {
+    /// The routines for `result` that `options` allow, in order.
+    fn all(options: &Options, result: &str) -> Vec<Self> {
         let allowed = |kernel: &&Kernel| {
-            kernel.result == ACCELERATIONS
+            kernel.result == result
                 && options.formulation.is_none_or(|form| kernel.formulation == form.name())
         };
         let entry = |kernel: &Kernel| {
             let topology = kernel.topology.parse::<Topology>().ok()?;
             let duration = duration(&topology, kernel.instructions);
-            Some(Entry { kernel: *kernel, topology, duration })
+            Some(Self { kernel: *kernel, topology, duration })
         };
-        let mut entries: Vec<Entry> =
+        let mut entries: Vec<Self> =
             options.kernels.iter().filter(allowed).filter_map(entry).collect();
         entries.sort_by_key(|entry| {
             let articulated = entry.kernel.formulation == Formulation::Articulated.name();
             let assumptions = Reverse(entry.kernel.assumptions.len());
             (entry.duration, entry.topology.hinges(), !articulated, assumptions)
         });
-        Self { entries }
+        entries
     }
 
-    /// The first routine that computes what is wanted in a mode in which something acts on the
-    /// main body from outside or nothing does (`external`). `None` if there is none.
-    pub fn best(&self, recognised: &Recognised, external: bool) -> Option<Fit> {
-        let most = duration_of_recursion(&recognised.topology);
-        let may_hold = |entry: &&Entry| {
-            let may_embed = entry.kernel.formulation == Formulation::Articulated.name()
-                && entry.duration < most;
-            (entry.kernel.external || !external)
-                && (may_embed || recognised.topology == entry.topology)
-        };
-        self.entries.iter().filter(may_hold).find_map(|entry| entry.fit(recognised))
-    }
-}
-
-impl Entry {
-    fn fit(&self, recognised: &Recognised) -> Option<Fit> {
+    /// How it takes a mode, if it does and that pays; `more` has the parameters that follow those of the
+    /// satellite.
+    fn fit(&self, recognised: &Recognised, more: impl Fn(&Embedding) -> Vec<f64>) -> Option<Fit> {
+        let may_embed = self.kernel.formulation == Formulation::Articulated.name()
+            && self.duration < duration_of_recursion(&recognised.topology);
+        if !(may_embed || recognised.topology == self.topology) {
+            return None;
+        }
         let embedding = Embedding::new(&recognised.topology, &self.topology)?;
-        let parameters = embedding.parameters(&recognised.parameters, self.kernel.assumptions);
+        let mut parameters = embedding.parameters(&recognised.parameters, self.kernel.assumptions);
+        parameters.extend(more(&embedding));
         let fit = Fit { kernel: self.kernel, embedding, parameters };
         self.kernel.accepts(&fit.parameters).then_some(fit)
     }
