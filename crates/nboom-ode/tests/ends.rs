@@ -1,0 +1,110 @@
+//! The end of a step that is moved a little, and steps that go on where a system has changed.
+
+use nboom_ode::{Method, Stepper, System, Tolerance};
+
+/// ÿ = −y, which y = sin t solves.
+struct Oscillator {
+    evaluations: usize,
+}
+
+impl System for Oscillator {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        self.evaluations += 1;
+        (dy[0], dy[1]) = (y[1], -y[0]);
+    }
+}
+
+const TOLERANCE: Tolerance = Tolerance { relative: 1e-9, absolute: 1e-9 };
+
+/// A stepper of the method that has taken a step of the oscillator from t = 0.
+fn after_a_step(method: Method) -> (Box<dyn Stepper>, Oscillator) {
+    let (mut system, mut stepper) = (Oscillator { evaluations: 0 }, method.stepper(TOLERANCE));
+    stepper.start(&mut system, 0.0, &[0.0, 1.0], 2);
+    stepper.step(&mut system, 0.1).expect("a smooth motion");
+    (stepper, system)
+}
+
+/// All but the one that takes power series, which this system has none of.
+fn methods() -> impl Iterator<Item = Method> {
+    Method::ALL.into_iter().filter(|&method| method != Method::Taylor)
+}
+
+#[test]
+fn an_end_that_is_moved_is_on_the_motion() {
+    let mut moved = Vec::new();
+    for method in methods() {
+        for by in [1e-6, -1e-6, 3e-5] {
+            let (mut stepper, mut system) = after_a_step(method);
+            let before = stepper.window().clone();
+            if !stepper.move_end(&mut system, by) {
+                assert_eq!(stepper.window().end_state, before.end_state, "{method}");
+                assert_eq!(stepper.window().end_time, before.end_time, "{method}");
+                continue;
+            }
+            moved.push(method);
+            let window = stepper.window();
+            assert_eq!(window.end_time, before.end_time + by);
+            assert_eq!(window.counts.evaluations, system.evaluations);
+            // Σ of the step's own error, at most the tolerance, and by³/6 of the parabola.
+            let allowed = TOLERANCE.absolute + by.abs().powi(3);
+            assert!((window.end_state[0] - window.end_time.sin()).abs() < allowed, "{method}");
+            assert!((window.end_state[1] - window.end_time.cos()).abs() < allowed, "{method}");
+            // The next step starts there.
+            stepper.advance();
+            stepper.step(&mut system, 0.2).expect("a smooth motion");
+            let window = stepper.window();
+            let error = (window.end_state[0] - window.end_time.sin()).abs();
+            assert!(error < 3.0 * TOLERANCE.absolute, "{method}: {error}");
+        }
+    }
+    assert!(moved.contains(&Method::Dop853) && moved.contains(&Method::Auto));
+}
+
+#[test]
+fn an_end_is_not_moved_as_far_as_the_motion_bends() {
+    for method in methods() {
+        let (mut stepper, mut system) = after_a_step(method);
+        // Half of this squared, the bend of the motion, is far above the tolerance.
+        assert!(!stepper.move_end(&mut system, 1e-2), "{method}");
+    }
+}
+
+#[test]
+fn a_restart_goes_on_with_the_step_it_had_or_finds_one() {
+    for method in methods() {
+        let (mut stepper, mut system) = after_a_step(method);
+        for _ in 0..20 {
+            stepper.advance();
+            let limit = stepper.window().time + 10.0;
+            stepper.step(&mut system, limit).expect("a smooth motion");
+        }
+        let (had, counted) = (stepper.window().next_step, stepper.window().counts);
+        stepper.restart(&mut system, 5.0, &[5.0_f64.sin(), 5.0_f64.cos()], 2);
+        let window = stepper.window();
+        assert_eq!((window.time, &window.state), (5.0, &vec![5.0_f64.sin(), 5.0_f64.cos()]));
+        if method == Method::Dop853 {
+            assert_eq!(window.next_step, had);
+            assert_eq!(window.counts.evaluations, counted.evaluations + 1);
+        }
+        while stepper.window().time < 10.0 {
+            stepper.step(&mut system, 10.0).expect("a smooth motion");
+            stepper.advance();
+        }
+        let error = (stepper.window().state[0] - 10.0_f64.sin()).abs();
+        // A few dozen steps, each within the tolerance; rkam has an error of its own.
+        let allowed = if method == Method::Rkam { 1e-6 } else { 1e-7 };
+        assert!(error < allowed, "{method}: {error}");
+    }
+}
+
+#[test]
+fn a_restart_of_what_was_at_rest_finds_a_first_step() {
+    for method in methods() {
+        let (mut system, mut stepper) = (Oscillator { evaluations: 0 }, method.stepper(TOLERANCE));
+        stepper.start(&mut system, 0.0, &[0.0, 0.0], 2);
+        stepper.restart(&mut system, 0.0, &[0.0, 1.0], 2);
+        stepper.step(&mut system, 10.0).expect("a smooth motion");
+        let window = stepper.window();
+        assert!((window.end_state[0] - window.end_time.sin()).abs() < 1e-6, "{method}");
+    }
+}
