@@ -1,6 +1,6 @@
 use nboom_scalar::{Number, Vec3, Wrench};
 
-use crate::Recursive;
+use crate::{Recursive, ldl};
 
 /// The exact change of all velocities when hinges lock in one instant, Section 7.
 ///
@@ -57,7 +57,12 @@ impl<R: Number> Recursive<R> {
         let row = |&i: &usize| responses.iter().map(|response| response.tau[i]).collect();
         let mut compliance: Vec<Vec<R>> = locking.iter().map(row).collect();
         let mut impulses: Vec<R> = locking.iter().map(|&j| -tau[j]).collect();
-        solve(&mut compliance, &mut impulses)?;
+        let mut inverse_pivots = vec![R::zero(); locking.len()];
+        ldl::factor(&mut compliance, &mut inverse_pivots);
+        if !ldl::is_positive_definite(&inverse_pivots) {
+            return Err(LockUpError);
+        }
+        ldl::solve(&compliance, &inverse_pivots, &mut impulses);
         let mut lock_up = LockUp {
             impulses: Vec::new(),
             delta_omega_body: Vec3::zero(),
@@ -90,58 +95,5 @@ impl<R: Number> Recursive<R> {
         tau[j] = R::one();
         let of_main = self.solve(Wrench::zero(), &mut tau);
         VelocityJump { omega_body: of_main.angular, velocity_body: of_main.linear, tau }
-    }
-}
-
-/// Turns `x` from the right side into the solution of symmetric equations, by L D Lᵀ.
-///
-/// # Errors
-/// When `matrix` is not positive definite.
-fn solve<R: Number>(matrix: &mut [Vec<R>], x: &mut [R]) -> Result<(), LockUpError> {
-    for j in 0..x.len() {
-        let pivot = matrix[j][j];
-        if !(pivot.to_f64() > 0.0 && pivot.to_f64().is_finite()) {
-            return Err(LockUpError);
-        }
-        for i in j + 1..x.len() {
-            let ratio = matrix[i][j] / pivot;
-            for k in j + 1..=i {
-                let eliminated = ratio * matrix[k][j];
-                matrix[i][k] -= eliminated;
-            }
-            let eliminated = ratio * x[j];
-            x[i] -= eliminated;
-        }
-    }
-    for j in (0..x.len()).rev() {
-        for i in j + 1..x.len() {
-            let known = matrix[i][j] * x[i];
-            x[j] -= known;
-        }
-        x[j] = x[j] / matrix[j][j];
-    }
-    Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equations_of_three_hinges() {
-        let mut matrix = vec![vec![4.0, 2.0, -2.0], vec![2.0, 5.0, 3.0], vec![-2.0, 3.0, 11.0]];
-        let mut x = [2.0, 21.0, 37.0];
-        solve(&mut matrix, &mut x).expect("positive definite");
-        assert_eq!(x, [1.0, 2.0, 3.0]);
-    }
-
-    #[test]
-    fn what_is_not_positive_definite_is_refused() {
-        for matrix in [[[0.0, 0.0], [0.0, 1.0]], [[1.0, 2.0], [2.0, 4.0]], [[1.0, 2.0], [2.0, 3.0]]]
-        {
-            let mut rows = matrix.map(Vec::from);
-            assert_eq!(solve(&mut rows, &mut [1.0, 1.0]), Err(LockUpError), "{matrix:?}");
-        }
-        assert_eq!(solve(&mut [vec![f64::NAN]], &mut [1.0]), Err(LockUpError));
     }
 }

@@ -34,6 +34,7 @@ mod base;
 mod composite_body;
 mod impulse;
 mod invariants;
+mod ldl;
 mod pose;
 mod recursive;
 
