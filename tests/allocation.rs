@@ -9,12 +9,13 @@ mod random_scene;
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
-use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::dynamics::{Accelerations, Momenta, Motion, Recursive};
+use nboom::formulation::Formulation;
 use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom::model::{HingeState, Mode, Scene, SectionShape, SegmentStructure, Station, Structure};
 use nboom::ode::{Method, System, Tolerance};
 use nboom::scalar::{Real, Vec3};
-use nboom::sim::{Options, Recorder, StepMotion, simulate};
+use nboom::sim::{Form, Options, Recorder, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
 use nboom_expr::{Expr, Graph};
 use nboom_series::Series;
@@ -113,6 +114,15 @@ fn evaluations_allocate_nothing() {
     );
     let guarded = || dynamics.line_lengths_squared(&beta, &mut lengths);
     assert_eq!(allocations(guarded), 0);
+    let (mut hinges, mut rates) = (tau.clone(), tau.clone());
+    assert_eq!(
+        allocations(|| {
+            let angular_body = dynamics.momenta(&motion, &mut rates);
+            let momenta = Momenta { angular_body, beta: &beta, hinges: &tau };
+            dynamics.momentum_rates(&momenta, &mut hinges, &mut rates);
+        }),
+        0
+    );
     assert!(found.tau_dot.iter().chain(&matrix).chain(&forcing).all(|x| x.is_finite()));
     assert!(lengths[0] > 0.0);
 }
@@ -186,13 +196,19 @@ impl Recorder for Counted {
 
 #[test]
 fn looking_for_the_worst_of_a_step_allocates_nothing() {
+    let momentum = Some(Form::Closed(Formulation::Momentum));
+    [None, momentum].into_iter().for_each(looking_allocates_nothing);
+}
+
+fn looking_allocates_nothing(formulation: Option<Form>) {
     let (scene, _) = scene_and_mode();
     // Its dashpots feed energy, later.
     let scene = scene.ending_at(0.3).expect("a time");
     let analysis = StressAnalysis::new(&scene, &structure(&scene), Settings::default());
     let mut counted =
         Counted { analysis: analysis.expect("tubes are sections"), steps: 0, allocations: 0 };
-    let options = Options { samples: 1, rtol: 1e-13, atol: 1e-15, ..Options::default() };
+    let options =
+        Options { samples: 1, rtol: 1e-13, atol: 1e-15, formulation, ..Options::default() };
     simulate(&scene, &options, &mut counted).expect("an ordinary motion");
     assert!(counted.steps > 5, "{} steps", counted.steps);
     assert_eq!(counted.allocations, 0, "in {} steps", counted.steps);

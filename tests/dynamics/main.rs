@@ -11,5 +11,6 @@ mod embedding;
 mod formulations;
 mod forward_dynamics;
 mod lines;
+mod momenta;
 mod satellites;
 mod scalars;

@@ -22,6 +22,7 @@ mod decks;
 mod embedding;
 mod event_times;
 mod lock_ups;
+mod momenta;
 mod stiff;
 mod tolerance;
 mod trajectories;

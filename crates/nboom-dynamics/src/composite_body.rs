@@ -71,11 +71,25 @@ pub(crate) fn gather<R: Real>(
     tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
     wrenches: &mut [Wrench<R>],
-    mut main: Wrench<R>,
+    main: Wrench<R>,
     torques: &mut [R],
 ) -> Wrench<R> {
+    let main = carry_inward(tree, poses, wrenches, main);
+    for (torque, (pose, outboard)) in torques.iter_mut().zip(poses.iter().zip(wrenches)) {
+        *torque -= pose.axis.dot(outboard.moment);
+    }
+    main
+}
+
+/// Adds the wrenches of all links outboard to each link's own, about its hinge, and those of all
+/// links to `main`, about O, which it returns.
+pub(crate) fn carry_inward<R: Real>(
+    tree: &WeldedTree<R>,
+    poses: &[LinkPose<R>],
+    wrenches: &mut [Wrench<R>],
+    mut main: Wrench<R>,
+) -> Wrench<R> {
     for j in (0..tree.links.len()).rev() {
-        torques[j] -= poses[j].axis.dot(wrenches[j].moment);
         let moved = wrenches[j].seen_from(poses[j].offset);
         match tree.links[j].inboard {
             Some(i) => wrenches[i].add(moved),

@@ -89,7 +89,7 @@ impl<R: Number> Recursive<R> {
     }
 
     /// The velocity jump for a unit impulsive torque at link `j`: one column of B₀⁻¹.
-    fn response_to(&mut self, j: usize) -> VelocityJump<R> {
+    pub(crate) fn response_to(&mut self, j: usize) -> VelocityJump<R> {
         self.wrenches.fill(Wrench::zero());
         let mut tau = vec![R::zero(); self.wrenches.len()];
         tau[j] = R::one();

@@ -1,4 +1,4 @@
-use nboom_scalar::{Real, RigidInertia, Sym3, Twist, Vec3};
+use nboom_scalar::{Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::pose;
 use crate::{Motion, Recursive};
@@ -42,13 +42,13 @@ impl<R: Real> Recursive<R> {
         self.place(motion.beta);
         self.velocities_with_origin_at_rest(motion);
         let inverse_mass = R::one() / self.total_mass();
-        let (mut first_moment, mut momentum) = (Vec3::zero(), Vec3::zero());
+        let (mut first_moment, mut linear_momentum) = (Vec3::zero(), Vec3::zero());
         self.for_each_link(motion, |position, inertia, twist| {
             first_moment += inertia.first_moment + position * inertia.mass;
-            momentum += momentum_of(inertia, twist);
+            linear_momentum += momentum(inertia, twist).force;
         });
         let mass_center = first_moment * inverse_mass;
-        let origin_velocity = center_velocity - momentum * inverse_mass;
+        let origin_velocity = center_velocity - linear_momentum * inverse_mass;
         let mut found = Invariants {
             mass_center,
             origin_velocity,
@@ -179,9 +179,7 @@ impl<R: Real> Invariants<R> {
         relative: Twist<R>,
         center_velocity: Vec3<R>,
     ) {
-        let momentum = momentum_of(inertia, relative);
-        let about_hinge =
-            inertia.first_moment.cross(relative.linear) + inertia.about_origin * relative.angular;
+        let Wrench { moment: about_hinge, force: momentum } = momentum(inertia, relative);
         let twice_energy = relative.linear.dot(momentum) + relative.angular.dot(about_hinge);
         let inertial_momentum = momentum + center_velocity * inertia.mass;
         let about_center = about_hinge + arm.cross(momentum);
@@ -193,6 +191,13 @@ impl<R: Real> Invariants<R> {
     }
 }
 
-fn momentum_of<R: Real>(inertia: &RigidInertia<R>, twist: Twist<R>) -> Vec3<R> {
-    twist.linear * inertia.mass + twist.angular.cross(inertia.first_moment)
+/// Angular momentum about its origin (`moment`) and linear momentum (`force`) of a body that moves
+/// as `twist`.
+#[inline]
+pub(crate) fn momentum<R: Real>(inertia: &RigidInertia<R>, twist: Twist<R>) -> Wrench<R> {
+    let first_moment = inertia.first_moment;
+    Wrench {
+        moment: first_moment.cross(twist.linear) + inertia.about_origin * twist.angular,
+        force: twist.linear * inertia.mass + twist.angular.cross(first_moment),
+    }
 }

@@ -1,9 +1,9 @@
 //! Equations of motion of any tree, by recursion over its bodies.
 //!
 //! [`Recursive`] gives accelerations (articulated bodies), the mass matrix (composite bodies)
-//! and bias, the velocity jump of a lock-up, and the conserved quantities. Hinges that are
-//! held are not in the computation at all: when the mode is set, the bodies they join are
-//! merged into one.
+//! and bias, momenta and their rates, the velocity jump of a lock-up, and the conserved
+//! quantities. Hinges that are held are not in the computation at all: when the mode is set, the
+//! bodies they join are merged into one.
 //!
 //! All vectors are along the main-body axes. The motion of O never enters: accelerations are
 //! those of a scene whose O is at rest at the inertial origin, without gravity, and uniform
@@ -35,9 +35,11 @@ mod composite_body;
 mod impulse;
 mod invariants;
 mod ldl;
+mod momenta;
 mod pose;
 mod recursive;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};
 pub use invariants::{Invariants, LineLength};
+pub use momenta::{EffectiveInertias, Momenta};
 pub use recursive::{Accelerations, Motion, Recursive};

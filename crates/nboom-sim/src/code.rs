@@ -8,7 +8,7 @@ use nboom_ode::Method;
 use crate::code::closed_form::{ClosedForm, NotCovered};
 use crate::code::fit::Repertoire;
 use crate::code::generated::{Generated, NoRoutine};
-use crate::code::selection::Selection;
+use crate::code::selection::{AS_DEMANDED, Selection};
 use crate::options::{Form, Options, Path};
 
 pub(crate) mod closed_form;
@@ -53,7 +53,7 @@ impl AccelerationCode {
             let reason = "power series of these equations, as recorded".to_owned();
             return Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }));
         }
-        let as_demanded = "as demanded".to_owned();
+        let as_demanded = AS_DEMANDED.to_owned();
         let (code, reason) = match (options.path, options.formulation) {
             (Path::Generated, _) => {
                 generated(scene, dynamics, repertoire, options).map_err(CodeError::NoRoutine)?

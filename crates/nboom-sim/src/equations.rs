@@ -9,7 +9,7 @@ use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
 use crate::code::{AccelerationCode, CodeError};
 use crate::equations::jacobian::Jacobian;
-use crate::equations::layout::VariableLayout;
+use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::rates::Rates;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
@@ -47,13 +47,24 @@ pub(crate) struct Equations {
     sizes: Sizes,
     /// Evaluations of accelerations, and series of them, that integration has asked for.
     evaluations: usize,
+    /// Whether momenta are integrated.
+    momenta: bool,
     /// Whether the angular momentum stands for the rate where nothing changes it.
     momentum_for_rate: bool,
+    /// Room for τ of the free hinges.
+    tau: Vec<f64>,
 }
 
 impl Equations {
     pub fn new(scene: &Scene, state: &State, options: &Options) -> Self {
-        let layout = VariableLayout { momentum: None, free: 0, thrust: false, dashpots: false };
+        let layout = VariableLayout {
+            unknowns: Unknowns::Velocities,
+            free: 0,
+            thrust: false,
+            dashpots: false,
+        };
+        // Bodies whose inertia turns otherwise than they do have no momenta.
+        let rigid = scene.departures().turned.is_empty();
         Self {
             scene: scene.clone(),
             mode: Mode::at_start(scene),
@@ -69,8 +80,9 @@ impl Equations {
             series: None,
             sizes: Sizes::of(scene),
             evaluations: 0,
-            momentum_for_rate: options.integrator.keeps_invariants()
-                && scene.departures().turned.is_empty(),
+            momenta: rigid && options.integrates_momenta(),
+            momentum_for_rate: rigid && options.integrator.keeps_invariants(),
+            tau: Vec::new(),
         }
     }
 
@@ -83,17 +95,27 @@ impl Equations {
         let free = self.dynamics.free_hinges();
         let dashpots = free.iter().any(|&i| torques[i].depends_on_rate());
         let free = free.len();
-        // Springs, dashpots and uniform gravity exert no moment about the mass centre.
-        let momentum = (self.momentum_for_rate && !thrust).then(|| {
-            Totals::of(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
-        });
-        let layout = VariableLayout { momentum, free, thrust, dashpots };
+        let unknowns = self.unknowns(state, thrust);
+        let layout = VariableLayout { unknowns, free, thrust, dashpots };
         self.accelerations = Accelerations::for_hinges(free);
         self.rates = Rates::new(scene, layout);
         (self.jacobian, self.series) = (None, None);
         self.variables = Variables::new(scene, layout, state);
-        self.variables.write(self.dynamics.free_hinges(), y);
+        self.variables.write(&mut self.dynamics, y);
+        self.tau.resize(free, 0.0);
         self.size_up(state);
+    }
+
+    /// What is integrated for rates in a mode that begins at `state`.
+    fn unknowns(&mut self, state: &State, thrust: bool) -> Unknowns {
+        // Springs, dashpots and uniform gravity exert no moment about the mass centre.
+        if !self.momenta && (thrust || !self.momentum_for_rate) {
+            return Unknowns::Velocities;
+        }
+        let angular = state.momenta.angular_inertial.unwrap_or_else(|| {
+            Totals::of(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
+        });
+        if self.momenta { Unknowns::Momenta(angular) } else { Unknowns::HingeRates(angular) }
     }
 
     /// Notes how fast `state` is, and how fast it soon will be.
@@ -108,6 +130,8 @@ impl Equations {
         let thrust = self.dynamics.elements().thrust();
         let force = thrust.map_or(Vec3::zero(), |thrust| thrust.force);
         self.sizes.saw_accelerations(angular, force * (1.0 / self.total_mass));
+        let has_momenta = self.variables.layout.has_momenta();
+        self.sizes.weigh(has_momenta.then(|| self.dynamics.effective_inertias(&beta)));
     }
 
     /// The state that the variables `y` at time `t` stand for.
@@ -122,6 +146,10 @@ impl Equations {
     pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, CodeError> {
         let Self { dynamics, repertoire, variables, .. } = self;
         let since = variables.origin.time;
+        if variables.layout.has_momenta() {
+            self.code = AccelerationCode::Recursion;
+            return Ok(Selection::of_momenta(since));
+        }
         let (code, selection) =
             AccelerationCode::choose(scene, dynamics, repertoire, options, since)?;
         self.code = code;
@@ -174,19 +202,28 @@ impl Equations {
 
 impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        let motion = motion(&self.variables.layout, &mut self.dynamics, y);
-        if self.variables.layout.needs_accelerations() {
-            self.compute(&motion);
-            self.evaluations += 1;
-        }
-        let free_fall = self.variables.free_fall(t).velocity;
-        self.rates.write(&mut self.dynamics, (&motion, &self.accelerations), free_fall, y, dy);
+        let Self { variables, dynamics, code, rates, evaluations, .. } = self;
+        *evaluations += usize::from(variables.layout.needs_elimination());
+        let free_fall = variables.free_fall(t).velocity;
+        rates.write(
+            dynamics,
+            |dynamics, motion, out| code.accelerations(dynamics, motion, out),
+            free_fall,
+            y,
+            dy,
+        );
     }
 
     fn sizes(&mut self, y: &[f64], sizes: &mut [f64]) {
-        let layout = &self.variables.layout;
-        self.sizes.saw(&y[layout.omega()]);
-        self.sizes.saw(&y[layout.tau()]);
+        let Variables { layout, .. } = &self.variables;
+        if layout.has_momenta() {
+            let motion = motion(layout, &mut self.dynamics, y, &mut self.tau);
+            self.sizes.saw(&motion.omega_body.to_array());
+            self.sizes.saw(motion.tau);
+        } else {
+            self.sizes.saw(&y[layout.omega()]);
+            self.sizes.saw(&y[layout.hinge_motion()]);
+        }
         self.sizes.write(layout, sizes);
     }
 

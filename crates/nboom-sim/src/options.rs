@@ -151,6 +151,14 @@ impl Options {
         if reaches { Ok(()) } else { Err(OptionError { option, value, expected }) }
     }
 
+    /// Whether momenta are integrated in place of rates: generated routines and power series know
+    /// accelerations alone.
+    pub(crate) fn integrates_momenta(&self) -> bool {
+        self.formulation == Some(Form::Closed(Formulation::Momentum))
+            && self.path != Path::Generated
+            && self.integrator != Method::Taylor
+    }
+
     /// What says how many steps are allowed.
     pub(crate) fn most_steps_by(&self) -> &'static str {
         match (self.integrator, self.rkam) {

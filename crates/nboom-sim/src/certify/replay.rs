@@ -5,7 +5,7 @@ use nboom_model::Scene;
 use nboom_scalar::{DoubleDouble, Real};
 
 use crate::certify::expansion::{Accuracy, Expansion};
-use crate::equations::layout::VariableLayout;
+use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::series::exact_graph;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
@@ -136,11 +136,12 @@ impl<'a> Replay<'a> {
     /// Takes up the mode at the present state.
     fn enter(&mut self, crossed: &[(usize, usize)]) -> Course {
         self.situation.watch(&mut self.dynamics, crossed);
-        let (dynamics, Situation { scene, state, mode, .. }) = (&self.dynamics, &self.situation);
+        let (dynamics, Situation { scene, state, mode, .. }) =
+            (&mut self.dynamics, &self.situation);
         let thrust = dynamics.elements().thrust().is_some();
         let free = dynamics.free_hinges().len();
-        let (momentum, dashpots) = (None, false);
-        let layout = VariableLayout { momentum, free, thrust, dashpots };
+        let (unknowns, dashpots) = (Unknowns::Velocities, false);
+        let layout = VariableLayout { unknowns, free, thrust, dashpots };
         let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
         fixed.extend(state.center.velocity.to_array());
@@ -152,7 +153,7 @@ impl<'a> Replay<'a> {
         let expansion = Expansion::new(&graph, &fixed, sizes, self.accuracy);
         let variables = Variables::new(scene, layout, state);
         let mut now = Vec::new();
-        variables.write(dynamics.free_hinges(), &mut now);
+        variables.write(dynamics, &mut now);
         Course { variables, expansion, then: now.clone(), now }
     }
 

@@ -1,3 +1,5 @@
+use nboom_formulation::Formulation;
+
 /// Which code computed accelerations from a time on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
@@ -23,6 +25,17 @@ impl Selection {
     /// What a run is said to have gone on in which generated and library code had their turns.
     pub const MIXED: &'static str = "mixed";
 }
+
+impl Selection {
+    /// That of a mode whose momenta are integrated.
+    pub(crate) fn of_momenta(since: f64) -> Self {
+        let (path, formulation) = (Self::GENERIC, Formulation::Momentum.name());
+        Self { since, path, formulation, reason: AS_DEMANDED.to_owned(), evaluations: 0 }
+    }
+}
+
+/// Why code runs that was asked for by name.
+pub(crate) const AS_DEMANDED: &str = "as demanded";
 
 /// What stands for all code of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

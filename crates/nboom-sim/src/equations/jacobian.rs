@@ -1,10 +1,9 @@
-use nboom_dynamics::{Accelerations, Recursive};
+use nboom_dynamics::Recursive;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Dual, Real, Vec3};
 
 use crate::equations::layout::VariableLayout;
 use crate::equations::rates::Rates;
-use crate::equations::variables::motion;
 
 /// Derivatives of the equations of one mode with respect to its variables: the recursion over
 /// dual numbers, one variable at a time.
@@ -13,7 +12,6 @@ use crate::equations::variables::motion;
 pub(crate) struct Jacobian {
     layout: VariableLayout,
     dynamics: Recursive<Dual<f64>>,
-    accelerations: Accelerations<Dual<f64>>,
     rates: Rates<Dual<f64>>,
     variables: Vec<Dual<f64>>,
     derivatives: Vec<Dual<f64>>,
@@ -27,7 +25,6 @@ impl Jacobian {
         dynamics.set_mode(mode, &beta);
         Self {
             layout,
-            accelerations: Accelerations::for_hinges(layout.free),
             rates: Rates::new(scene, layout),
             dynamics,
             variables: vec![Dual::zero(); layout.len()],
@@ -55,11 +52,9 @@ impl Jacobian {
     }
 
     fn differentiate(&mut self, free_fall: Vec3<f64>) {
-        let Self { layout, dynamics, accelerations, rates, variables, derivatives } = self;
-        let motion = motion(layout, dynamics, variables);
-        dynamics.accelerations(&motion, accelerations);
+        let Self { dynamics, rates, variables, derivatives, .. } = self;
         let free_fall = Vec3::constant(free_fall);
-        rates.write(dynamics, (&motion, accelerations), free_fall, variables, derivatives);
+        rates.write(dynamics, Recursive::accelerations, free_fall, variables, derivatives);
     }
 }
 
@@ -68,12 +63,13 @@ mod tests {
     use super::*;
     use crate::equations::Equations;
     use crate::equations::state::State;
-    use crate::options::Options;
+    use crate::options::{Form, Options};
+    use nboom_formulation::Formulation;
     use nboom_model::HingeState;
     use nboom_ode::System;
 
     /// A reference scene, in motion, with every hinge free and every force acting.
-    fn in_motion(name: &str) -> (Equations, Vec<f64>) {
+    fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Vec<f64>) {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/scenes");
         let path = std::path::Path::new(folder).join(name).with_extension("nml");
         let scene = nboom_io::read_scene(&path).expect("reference decks are valid").scene;
@@ -88,10 +84,10 @@ mod tests {
             pieces: vec![0; Mode::at_start(&scene).pieces.len()],
             thrust: scene.thrust.is_some(),
         };
-        let (mut equations, mut y) =
-            (Equations::new(&scene, &state, &Options::default()), Vec::new());
+        let options = Options { formulation, ..Options::default() };
+        let (mut equations, mut y) = (Equations::new(&scene, &state, &options), Vec::new());
         equations.enter(&scene, &mode, &state, &mut y);
-        y.iter_mut().skip(equations.variables.layout.tau().end).for_each(|y| *y = 0.4);
+        y.iter_mut().skip(equations.variables.layout.hinge_motion().end).for_each(|y| *y = 0.4);
         (equations, y)
     }
 
@@ -124,20 +120,26 @@ mod tests {
             "s07_quadratic_terms",
             "s08_kickoff_disengage",
         ] {
-            let (mut equations, y) = in_motion(name);
-            let t = 0.7;
-            let mut exact = vec![0.0; y.len() * y.len()];
-            assert!(equations.jacobian(t, &y, &mut exact));
-            let expected = differences(&mut equations, t, &y);
-            for (row, (exact, expected)) in
-                exact.chunks(y.len()).zip(expected.chunks(y.len())).enumerate()
-            {
-                let scale = expected.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
-                for (column, (a, b)) in exact.iter().zip(expected).enumerate() {
-                    // Shifts squared, times a third derivative; and rounding over shifts.
-                    let close = (a - b).abs() < 1e-8 * scale;
-                    assert!(close, "{name}: row {row}, column {column}: {a} {b}");
-                }
+            for formulation in [None, Some(Form::Closed(Formulation::Momentum))] {
+                are_the_limits_of_differences(name, formulation);
+            }
+        }
+    }
+
+    fn are_the_limits_of_differences(name: &str, formulation: Option<Form>) {
+        let (mut equations, y) = in_motion(name, formulation);
+        let t = 0.7;
+        let mut exact = vec![0.0; y.len() * y.len()];
+        assert!(equations.jacobian(t, &y, &mut exact));
+        let expected = differences(&mut equations, t, &y);
+        for (row, (exact, expected)) in
+            exact.chunks(y.len()).zip(expected.chunks(y.len())).enumerate()
+        {
+            let scale = expected.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+            for (column, (a, b)) in exact.iter().zip(expected).enumerate() {
+                // Shifts squared, times a third derivative; and rounding over shifts.
+                let close = (a - b).abs() < 1e-8 * scale;
+                assert!(close, "{name}: row {row}, column {column}: {a} {b}");
             }
         }
     }

@@ -2,14 +2,25 @@ use std::ops::Range;
 
 use nboom_scalar::Vec3;
 
+/// What is integrated for the rates of the main body and of the free hinges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Unknowns {
+    /// ω and τ.
+    Velocities,
+    /// τ. ω follows from H̄_c, inertial axes, which is constant in the mode.
+    HingeRates(Vec3<f64>),
+    /// π, from which ω and τ follow with H̄_c: this one, inertial axes, and what the thrust has added.
+    Momenta(Vec3<f64>),
+}
+
 /// Which variables are integrated in a mode, and where they stand: attitude (4), rate (3)
-/// unless it follows from the angular momentum, angles and rates of the free hinges, and only
-/// where needed the thrust's displacement and velocity of the mass centre (6), the work of
-/// dashpots (1), and the work and angular impulse of the thrust (4).
+/// unless it follows from the angular momentum, angles of the free hinges and their rates or
+/// momenta, and only where needed the thrust's displacement and velocity of the mass centre (6),
+/// the work of dashpots (1), and the work (1) and angular impulse (3) of the thrust. The impulse
+/// comes before all work where the rate follows from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct VariableLayout {
-    /// H̄_c, inertial axes, of a mode in which it stands for the rate.
-    pub momentum: Option<Vec3<f64>>,
+    pub unknowns: Unknowns,
     pub free: usize,
     pub thrust: bool,
     pub dashpots: bool,
@@ -20,7 +31,7 @@ impl VariableLayout {
 
     pub fn omega(&self) -> Range<usize> {
         let start = Self::ATTITUDE.end;
-        start..start + if self.momentum.is_none() { 3 } else { 0 }
+        start..start + if self.unknowns == Unknowns::Velocities { 3 } else { 0 }
     }
 
     pub fn beta(&self) -> Range<usize> {
@@ -28,25 +39,30 @@ impl VariableLayout {
         start..start + self.free
     }
 
-    pub fn tau(&self) -> Range<usize> {
+    /// τ of the free hinges, or π.
+    pub fn hinge_motion(&self) -> Range<usize> {
         let start = self.beta().end;
         start..start + self.free
     }
 
-    /// Whether the rate of some variable is an acceleration.
-    pub fn needs_accelerations(&self) -> bool {
-        self.momentum.is_none() || self.free > 0
+    pub fn has_momenta(&self) -> bool {
+        matches!(self.unknowns, Unknowns::Momenta(_))
+    }
+
+    /// Whether rates of variables take the elimination of the hinges.
+    pub fn needs_elimination(&self) -> bool {
+        !matches!(self.unknowns, Unknowns::HingeRates(_)) || self.free > 0
     }
 
     /// Displacement of the mass centre by the thrust, then its velocity.
     pub fn thrust_motion(&self) -> Range<usize> {
-        let start = self.tau().end;
+        let start = self.hinge_motion().end;
         start..start + if self.thrust { 6 } else { 0 }
     }
 
     /// Variables that decide on the step size; the others are integrals along the way.
     pub fn controlled(&self) -> usize {
-        self.thrust_motion().end
+        self.thrust_motion().end + if self.has_momenta() { self.impulses() } else { 0 }
     }
 
     pub fn dashpot_work(&self) -> Range<usize> {
@@ -54,13 +70,23 @@ impl VariableLayout {
         start..start + usize::from(self.dashpots)
     }
 
-    /// Work of the thrust, then its angular impulse.
     pub fn thrust_work(&self) -> Range<usize> {
         let start = self.dashpot_work().end;
-        start..start + if self.thrust { 4 } else { 0 }
+        start..start + usize::from(self.thrust)
+    }
+
+    /// Angular impulse of the thrust about the mass centre, inertial axes.
+    pub fn angular_impulse(&self) -> Range<usize> {
+        let start =
+            if self.has_momenta() { self.thrust_motion().end } else { self.thrust_work().end };
+        start..start + self.impulses()
+    }
+
+    fn impulses(&self) -> usize {
+        if self.thrust { 3 } else { 0 }
     }
 
     pub fn len(&self) -> usize {
-        self.thrust_work().end
+        self.thrust_work().end.max(self.angular_impulse().end)
     }
 }

@@ -8,7 +8,7 @@ use nboom_scalar::{Real, Vec3};
 use crate::code::closed_form::ClosedForm;
 use crate::equations::layout::VariableLayout;
 use crate::equations::rates::Rates;
-use crate::equations::variables::{Variables, motion};
+use crate::equations::variables::Variables;
 
 /// What the equations of a mode compute: its variables and the time in, their rates out. They do
 /// not branch, so that one recording holds for the whole mode.
@@ -60,11 +60,7 @@ fn rates(
     free_fall: Vec3<Expr>,
     accelerate: impl FnOnce(&mut Recursive<Expr>, &Motion<'_, Expr>, &mut Accelerations<Expr>),
 ) -> Vec<Expr> {
-    let mut accelerations = Accelerations::for_hinges(layout.free);
-    let motion = motion(&layout, dynamics, y);
-    accelerate(dynamics, &motion, &mut accelerations);
     let mut rates = vec![Expr::zero(); layout.len()];
-    let of_mode = Rates::new(scene, layout);
-    of_mode.write(dynamics, (&motion, &accelerations), free_fall, y, &mut rates);
+    Rates::new(scene, layout).write(dynamics, accelerate, free_fall, y, &mut rates);
     rates
 }

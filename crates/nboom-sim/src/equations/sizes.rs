@@ -1,3 +1,4 @@
+use nboom_dynamics::EffectiveInertias;
 use nboom_model::{MassProperties, Scene};
 use nboom_scalar::Vec3;
 
@@ -12,6 +13,8 @@ pub(crate) struct Sizes {
     length: f64,
     /// The largest rate so far \[1/T\].
     rate: f64,
+    /// What makes momenta of rates, of a mode that has them.
+    inertias: Option<EffectiveInertias<f64>>,
 }
 
 /// Angle \[rad\] through which accelerations act at least.
@@ -22,7 +25,7 @@ impl Sizes {
     pub fn of(scene: &Scene) -> Self {
         let point = scene.thrust.map_or(0.0, |thrust| thrust.point.norm());
         let rate = 1.0 / (scene.end_time - scene.initial.time).max(f64::MIN_POSITIVE);
-        Self { length: reach(scene).max(point), rate }
+        Self { length: reach(scene).max(point), rate, inertias: None }
     }
 
     /// The largest rate so far, or one radian in the whole run.
@@ -36,6 +39,11 @@ impl Sizes {
         self.rate = sizes.fold(self.rate, f64::max);
     }
 
+    /// Notes the inertias of a mode whose variables have momenta, or that they have none.
+    pub fn weigh(&mut self, inertias: Option<EffectiveInertias<f64>>) {
+        self.inertias = inertias;
+    }
+
     /// Notes accelerations, which soon make rates: angular ones, and one of the mass centre.
     pub fn saw_accelerations(&mut self, angular: impl Iterator<Item = f64>, linear: Vec3<f64>) {
         let linear = if self.length > 0.0 { linear.norm() / self.length } else { 0.0 };
@@ -47,7 +55,13 @@ impl Sizes {
     pub fn write(&self, layout: &VariableLayout, sizes: &mut [f64]) {
         sizes.fill(1.0);
         sizes[layout.omega()].fill(self.rate);
-        sizes[layout.tau()].fill(self.rate);
+        sizes[layout.hinge_motion()].fill(self.rate);
+        if let Some(EffectiveInertias { main, hinges }) = &self.inertias {
+            sizes[layout.angular_impulse()].fill(main * self.rate);
+            for (size, inertia) in sizes[layout.hinge_motion()].iter_mut().zip(hinges) {
+                *size = inertia * self.rate;
+            }
+        }
         if let [displacement @ .., vx, vy, vz] = &mut sizes[layout.thrust_motion()] {
             displacement.fill(self.length);
             [*vx, *vy, *vz] = [self.length * self.rate; 3];

@@ -16,6 +16,28 @@ pub(crate) struct State<R = f64> {
     /// The system mass centre, inertial axes.
     pub center: MassCenter<R>,
     pub work: Work<R>,
+    pub momenta: Momenta<R>,
+}
+
+/// Momenta as they were integrated; none of those that were not. No lock-up changes them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Momenta<R = f64> {
+    /// H̄_c, inertial axes.
+    pub angular_inertial: Option<Vec3<R>>,
+    /// π of every hinge.
+    pub hinges: Vec<Option<R>>,
+}
+
+impl<R: Number> Momenta<R> {
+    fn of_none(hinges: usize) -> Self {
+        Self { angular_inertial: None, hinges: vec![None; hinges] }
+    }
+
+    /// Leaves none.
+    pub fn forget(&mut self) {
+        self.angular_inertial = None;
+        self.hinges.fill(None);
+    }
 }
 
 /// Position and velocity of the system mass centre, inertial axes.
@@ -71,6 +93,7 @@ impl<R: Number> State<R> {
                 velocity: Vec3::constant(initial.velocity_inertial),
             },
             work: Work::none(),
+            momenta: Momenta::of_none(scene.bodies.len()),
         }
     }
 

@@ -1,9 +1,9 @@
-use nboom_dynamics::{Motion, Recursive};
+use nboom_dynamics::{Momenta, Motion, Recursive};
 use nboom_elements::gravity;
 use nboom_model::Scene;
 use nboom_scalar::{Number, Quaternion, Real, Vec3};
 
-use crate::equations::layout::VariableLayout;
+use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::state::{MassCenter, State};
 
 /// The way between the variables of a mode and states.
@@ -14,48 +14,70 @@ pub(crate) struct Variables<R> {
     pub origin: State<R>,
     gravity: Vec3<R>,
     total_mass: R,
+    /// τ of the free hinges where it is no variable.
+    tau: Vec<R>,
 }
 
 impl<R: Number> Variables<R> {
     /// Of a mode of `scene` that begins at `origin`.
     pub fn new(scene: &Scene, layout: VariableLayout, origin: &State<R>) -> Self {
         let total_mass = R::constant(scene.total_mass());
-        Self { layout, origin: origin.clone(), gravity: gravity(scene), total_mass }
+        let tau = vec![R::zero(); layout.free];
+        Self { layout, origin: origin.clone(), gravity: gravity(scene), total_mass, tau }
     }
 
-    /// Writes those with which the mode begins, in which the hinges `free` turn.
-    pub fn write(&self, free: &[usize], y: &mut Vec<R>) {
+    /// Writes those with which the mode of `dynamics` begins.
+    pub fn write(&self, dynamics: &mut Recursive<R>, y: &mut Vec<R>) {
         let Self { layout, origin, .. } = self;
+        let [beta, tau] = origin.of_free(dynamics);
         y.clear();
         y.push(origin.attitude.scalar);
         y.extend(origin.attitude.vector.to_array());
-        if layout.momentum.is_none() {
+        if layout.unknowns == Unknowns::Velocities {
             y.extend(origin.omega_body.to_array());
         }
-        y.extend(free.iter().map(|&i| origin.beta[i]));
-        y.extend(free.iter().map(|&i| origin.tau[i]));
+        y.extend(&beta);
+        y.extend(&tau);
         y.resize(layout.len(), R::zero());
+        if layout.has_momenta() {
+            let motion = Motion { omega_body: origin.omega_body, beta: &beta, tau: &tau };
+            let hinges = &mut y[layout.hinge_motion()];
+            dynamics.momenta(&motion, hinges);
+            for (pi, &i) in hinges.iter_mut().zip(dynamics.free_hinges()) {
+                *pi = origin.momenta.hinges[i].unwrap_or(*pi);
+            }
+        }
     }
 
     /// The state that the variables `y` at time `t` stand for; `dynamics` is in their mode.
-    pub fn read(&self, dynamics: &mut Recursive<R>, t: R, y: &[R], state: &mut State<R>) {
+    pub fn read(&mut self, dynamics: &mut Recursive<R>, t: R, y: &[R], state: &mut State<R>) {
         let layout = &self.layout;
         state.time = t;
         state.attitude = attitude(y).normalized();
-        state.omega_body = motion(layout, dynamics, y).omega_body;
+        let motion = motion(layout, dynamics, y, &mut self.tau);
+        state.omega_body = motion.omega_body;
         state.beta.clone_from(&self.origin.beta);
         state.tau.fill(R::zero());
+        state.momenta.forget();
         for (j, &i) in dynamics.free_hinges().iter().enumerate() {
-            state.beta[i] = y[layout.beta()][j];
-            state.tau[i] = y[layout.tau()][j];
+            state.beta[i] = motion.beta[j];
+            state.tau[i] = motion.tau[j];
+        }
+        if let Unknowns::Momenta(at_start) = layout.unknowns {
+            state.momenta.angular_inertial = Some(angular_momentum(layout, at_start, y));
+            for (&pi, &i) in y[layout.hinge_motion()].iter().zip(dynamics.free_hinges()) {
+                state.momenta.hinges[i] = Some(pi);
+            }
         }
         state.center = self.center(t, y);
         state.work = self.origin.work;
         if let [work] = y[layout.dashpot_work()] {
             state.work.dashpots += work;
         }
-        if let [work, mx, my, mz] = y[layout.thrust_work()] {
+        if let [work] = y[layout.thrust_work()] {
             state.work.thrust += work;
+        }
+        if let [mx, my, mz] = y[layout.angular_impulse()] {
             state.work.thrust_angular_impulse += Vec3::new(mx, my, mz);
         }
         if let [_, _, _, vx, vy, vz] = y[layout.thrust_motion()] {
@@ -79,22 +101,54 @@ impl<R: Number> Variables<R> {
     }
 }
 
-/// The motion that the variables stand for; `dynamics` is in their mode.
+/// The motion that the variables stand for; `dynamics` is in their mode. `tau` is room for τ of the
+/// free hinges, where it is no variable.
 pub(crate) fn motion<'a, R: Real>(
     layout: &VariableLayout,
     dynamics: &mut Recursive<R>,
     y: &'a [R],
+    tau: &'a mut [R],
 ) -> Motion<'a, R> {
-    let (beta, tau) = (&y[layout.beta()], &y[layout.tau()]);
-    let omega_body = match layout.momentum {
-        None => Vec3::new(y[4], y[5], y[6]),
-        Some(momentum) => {
-            let to_inertial = attitude(y).normalized().to_matrix();
-            let momentum_body = to_inertial.transpose_mul(Vec3::constant(momentum));
-            dynamics.angular_rate(momentum_body, beta, tau)
+    let (beta, hinge_motion) = (&y[layout.beta()], &y[layout.hinge_motion()]);
+    match layout.unknowns {
+        Unknowns::Velocities => {
+            Motion { omega_body: Vec3::new(y[4], y[5], y[6]), beta, tau: hinge_motion }
         }
-    };
-    Motion { omega_body, beta, tau }
+        Unknowns::HingeRates(momentum) => {
+            let momentum_body = along_body_axes(y, Vec3::constant(momentum));
+            let omega_body = dynamics.angular_rate(momentum_body, beta, hinge_motion);
+            Motion { omega_body, beta, tau: hinge_motion }
+        }
+        Unknowns::Momenta(at_start) => {
+            let omega_body = dynamics.velocities(&momenta(layout, at_start, y), tau);
+            Motion { omega_body, beta, tau }
+        }
+    }
+}
+
+/// The momenta among variables that have them; H̄_c was `at_start` when the mode began.
+pub(crate) fn momenta<'a, R: Real>(
+    layout: &VariableLayout,
+    at_start: Vec3<f64>,
+    y: &'a [R],
+) -> Momenta<'a, R> {
+    Momenta {
+        angular_body: along_body_axes(y, angular_momentum(layout, at_start, y)),
+        beta: &y[layout.beta()],
+        hinges: &y[layout.hinge_motion()],
+    }
+}
+
+/// H̄_c, inertial axes, which was `at_start` when the mode began.
+fn angular_momentum<R: Real>(layout: &VariableLayout, at_start: Vec3<f64>, y: &[R]) -> Vec3<R> {
+    match y[layout.angular_impulse()] {
+        [x, y, z] => Vec3::constant(at_start) + Vec3::new(x, y, z),
+        _ => Vec3::constant(at_start),
+    }
+}
+
+fn along_body_axes<R: Real>(y: &[R], inertial: Vec3<R>) -> Vec3<R> {
+    attitude(y).normalized().to_matrix().transpose_mul(inertial)
 }
 
 /// The attitude among the variables, whose norm is near 1.

@@ -66,7 +66,7 @@ impl Run<'_> {
 
     /// The hinge with the largest error in the last step.
     fn worst_hinge(&self) -> Option<HingeLabel> {
-        let start = self.equations.variables.layout.tau().start;
+        let start = self.equations.variables.layout.hinge_motion().start;
         let error_of = |position: usize| self.stepper.error_of(start + position);
         let free = self.equations.dynamics.free_hinges();
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
@@ -80,11 +80,13 @@ impl Run<'_> {
         let free = self.equations.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];
         let dynamics = &mut self.equations.dynamics;
-        let motion = motion(&layout, dynamics, self.stepper.last_evaluated());
+        let mut tau = vec![0.0; free.len()];
+        let motion = motion(&layout, dynamics, self.stepper.last_evaluated(), &mut tau);
         dynamics.hinge_forces(&motion, &mut torques);
         let bounded = |torque: f64| torque.abs() < BOUND;
         let without_bound = torques.iter().position(|&torque| !bounded(torque));
-        let error_of = |position: usize| self.stepper.error_of(layout.tau().start + position);
+        let error_of =
+            |position: usize| self.stepper.error_of(layout.hinge_motion().start + position);
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
         let of_all = match error {
             StepError::Underflow { variable, .. } => self.stepper.error_of(variable),

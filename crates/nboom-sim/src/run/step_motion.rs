@@ -109,6 +109,8 @@ impl Forces {
 #[derive(Clone, Debug)]
 pub(crate) struct Room {
     variables: Vec<f64>,
+    /// τ of the free hinges where it is no variable.
+    free_tau: Vec<f64>,
     pub beta: Vec<f64>,
     pub tau: Vec<f64>,
     pub beta_ddot: Vec<f64>,
@@ -120,6 +122,7 @@ impl Room {
         let none = vec![0.0; scene.bodies.len()];
         Self {
             variables: Vec::new(),
+            free_tau: Vec::new(),
             beta: none.clone(),
             tau: none.clone(),
             beta_ddot: none,
@@ -150,7 +153,9 @@ impl<'a> DenseStep<'a> {
         room: &'a mut Room,
     ) -> Self {
         let (start, end) = (stepper.window().time, stepper.window().end_time);
-        room.variables.resize(equations.variables.layout.len(), 0.0);
+        let layout = &equations.variables.layout;
+        room.variables.resize(layout.len(), 0.0);
+        room.free_tau.resize(layout.free, 0.0);
         room.beta.copy_from_slice(&equations.variables.origin.beta);
         room.tau.fill(0.0);
         room.beta_ddot.fill(0.0);
@@ -165,10 +170,10 @@ impl StepMotion for DenseStep<'_> {
 
     fn at(&mut self, time: f64) -> MotionAt<'_> {
         let Self { hinges, equations, stepper, room, start, full, .. } = self;
-        let Room { variables, beta, tau, beta_ddot, forces } = &mut **room;
+        let Room { variables, free_tau, beta, tau, beta_ddot, forces } = &mut **room;
         stepper.interpolate((time - *start) / *full, variables);
-        let motion =
-            motion(&equations.variables.layout, &mut equations.dynamics, variables.as_slice());
+        let layout = &equations.variables.layout;
+        let motion = motion(layout, &mut equations.dynamics, variables, free_tau);
         let found = equations.accelerations(&motion);
         let (omega_dot_body, origin_acceleration_body) = (found.omega_dot_body, found.origin_body);
         equations.spread(&motion, [beta, tau, beta_ddot]);
