@@ -1,31 +1,33 @@
 use std::ops::Range;
 
+use smooth::Smooth;
+
 use crate::method::Description;
-use crate::{
-    Bernstein, Choice, Method, Radau, RungeKutta, StepError, Stepper, System, Tolerance, Window,
-};
+use crate::{Bernstein, Choice, Method, Radau, StepError, Stepper, System, Tolerance, Window};
+
+mod smooth;
 
 /// The row of [`Method`]'s table.
 pub(crate) const DESCRIPTION: Description = Description {
     name: "auto",
     about: "dopri5, dop853 or radau5, by tolerance and stiffness",
-    order: |tolerance| Automatic::explicit(tolerance).order(tolerance),
-    dense_order: |tolerance| Automatic::explicit(tolerance).dense_order(tolerance),
+    order: |tolerance| Automatic::smooth(tolerance).order(tolerance),
+    dense_order: |tolerance| Automatic::smooth(tolerance).dense_order(tolerance),
     keeps_invariants: false,
     stepper: |tolerance| Box::new(Automatic::new(tolerance)),
 };
 
-/// Takes the explicit method that suits the tolerance, and Radau's implicit one while stability
-/// and not accuracy bounds the explicit one's steps.
+/// Takes the method that suits the tolerance, and Radau's implicit one while stability and not
+/// accuracy bounds its steps.
 #[derive(Debug)]
 pub struct Automatic {
-    explicit: RungeKutta,
+    smooth: Smooth,
     implicit: Radau,
     is_stiff: bool,
     controlled: usize,
     /// Steps in a row, less those that say otherwise, for which the other method would be better.
     against: usize,
-    /// How many of these it takes to go back to the explicit method.
+    /// How many of these it takes to go back to the method for smooth motions.
     patience: usize,
     choice: Choice,
 }
@@ -35,25 +37,28 @@ const LOOSE: f64 = 1e-5;
 /// Steps bounded by stability after which a problem counts as stiff, and steps in between that
 /// show the contrary (Hairer and Wanner, Section IV.2).
 const STIFF: usize = 15;
-/// Share of the stability limit beyond which a step counts as bounded by it: the tighter the
-/// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
-/// below a third of it.
-const NEAR: f64 = 0.7;
 /// The first step of a method may be this many times the last one of the other.
 const GROWTH: f64 = 10.0;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
 
 impl Automatic {
-    /// The methods with this tolerance; the explicit one begins.
+    /// The methods with this tolerance; the one for smooth motions begins.
     pub fn new(tolerance: Tolerance) -> Self {
-        let (explicit, reason) = match Self::explicit(tolerance) {
-            Method::Dopri5 => (RungeKutta::dopri5(tolerance), "the tolerance is loose"),
-            _ => (RungeKutta::dop853(tolerance), "the tolerance is tight"),
+        let method = Self::smooth(tolerance);
+        let reason = match method {
+            Method::Dopri5 => "the tolerance is loose",
+            _ => "the tolerance is tight",
         };
+        Self::with_smooth(Choice { method, reason }, tolerance)
+    }
+
+    /// The methods with this tolerance, with this choice for smooth motions: one of
+    /// [`Method::Dopri5`], [`Method::Dop853`] and [`Method::GaussLanes`].
+    pub fn with_smooth(choice: Choice, tolerance: Tolerance) -> Self {
         Self {
-            choice: Choice { reason, ..explicit.choice() },
-            explicit,
+            choice,
+            smooth: Smooth::new(choice.method, tolerance),
             implicit: Radau::new(tolerance),
             is_stiff: false,
             controlled: 0,
@@ -62,30 +67,29 @@ impl Automatic {
         }
     }
 
-    /// The explicit method for a tolerance.
-    pub(crate) fn explicit(tolerance: Tolerance) -> Method {
+    /// The method for smooth motions under a tolerance.
+    pub(crate) fn smooth(tolerance: Tolerance) -> Method {
         if tolerance.relative >= LOOSE { Method::Dopri5 } else { Method::Dop853 }
     }
 
     fn active(&self) -> &dyn Stepper {
-        if self.is_stiff { &self.implicit } else { &self.explicit }
+        if self.is_stiff { &self.implicit } else { self.smooth.stepper() }
     }
 
     fn active_mut(&mut self) -> &mut dyn Stepper {
-        if self.is_stiff { &mut self.implicit } else { &mut self.explicit }
+        if self.is_stiff { &mut self.implicit } else { self.smooth.stepper_mut() }
     }
 
     fn active_window_mut(&mut self) -> &mut Window {
-        if self.is_stiff { self.implicit.window_mut() } else { self.explicit.window_mut() }
+        if self.is_stiff { self.implicit.window_mut() } else { self.smooth.window_mut() }
     }
 
     /// Whether the step just taken speaks for the other method.
     fn is_against(&mut self) -> bool {
-        let limit = self.explicit.stability_limit();
         if self.is_stiff {
-            self.implicit.stiffness() < COST * limit
+            self.implicit.stiffness() < COST * self.smooth.limit()
         } else {
-            self.explicit.stiffness() > NEAR * limit
+            self.smooth.is_held_back()
         }
     }
 
@@ -102,7 +106,7 @@ impl Automatic {
             self.active_window_mut().counts = counts;
             self.patience *= 2;
             let reason = "accuracy, not stability, bounds steps again";
-            Choice { reason, ..self.explicit.choice() }
+            Choice { reason, ..self.smooth.stepper().choice() }
         };
         let controlled = self.controlled;
         self.active_mut().start(system, time, &state, controlled);
@@ -123,7 +127,7 @@ impl Stepper for Automatic {
     }
 
     fn limit_steps(&mut self, longest: f64) {
-        self.explicit.limit_steps(longest);
+        self.smooth.stepper_mut().limit_steps(longest);
         self.implicit.limit_steps(longest);
     }
 

@@ -6,7 +6,7 @@ use plan::Plan;
 use crate::method::Description;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
-mod coefficients;
+pub(crate) mod coefficients;
 mod plan;
 
 /// The row of [`Method`]'s table.
@@ -185,12 +185,8 @@ impl Gauss {
     /// Adds the increments to the start of the step, and keeps what rounding loses.
     fn keep(&mut self) {
         for (i, of_stages) in self.increments.iter().enumerate() {
-            let start = self.window.state[i];
             let increment = self.lost[i] + of_stages.iter().sum::<f64>();
-            let end = start + increment;
-            let added = end - start;
-            self.end_lost[i] = (start - (end - added)) + (increment - added);
-            self.window.end_state[i] = end;
+            self.end_lost[i] = self.window.end_after(i, increment);
         }
     }
 

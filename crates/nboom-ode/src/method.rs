@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::{Stepper, Tolerance, automatic, gauss, radau, rkam, tableau, taylor};
+use crate::{Stepper, Tolerance, automatic, gauss, gauss_lanes, radau, rkam, tableau, taylor};
 
 /// What a method tells about itself, beside its steps.
 pub(crate) struct Description {
@@ -57,6 +57,8 @@ methods! {
     Radau5 = radau::DESCRIPTION,
     /// Gauss's implicit Runge-Kutta method of order 16 with constant steps.
     Gauss = gauss::DESCRIPTION,
+    /// Gauss's implicit Runge-Kutta method of order 16 with stages side by side.
+    GaussLanes = gauss_lanes::DESCRIPTION,
 }
 
 impl Method {

@@ -176,6 +176,15 @@ impl Window {
         self.counts.accepted += 1;
     }
 
+    /// Ends variable `i` at its start and an increment; returns what rounding takes from it.
+    pub(crate) fn end_after(&mut self, i: usize, increment: f64) -> f64 {
+        let start = self.state[i];
+        let end = start + increment;
+        let added = end - start;
+        self.end_state[i] = end;
+        (start - (end - added)) + (increment - added)
+    }
+
     pub(crate) fn advance(&mut self) {
         self.time = self.end_time;
         std::mem::swap(&mut self.state, &mut self.end_state);

@@ -1,3 +1,5 @@
+use nboom_scalar::Eight;
+
 /// A system of ordinary differential equations ẏ = f(t, y).
 pub trait System {
     /// Writes f(t, y) to `dy`, which has the length of `y`.
@@ -22,6 +24,40 @@ pub trait System {
     fn series(&mut self, _t: f64, _y: &[f64], _order: usize, _out: &mut [f64]) -> bool {
         false
     }
+
+    /// Writes f(t, y) of eight states to `dy` and returns `true`; a system that returns `false`
+    /// leaves it to the method to take one state after the other. Derivatives outside `part` may
+    /// be written or not. Only [`GaussLanes`](crate::GaussLanes) asks.
+    fn derivatives(&mut self, _part: Part, _t: &Eight, _y: &[Eight], _dy: &mut [Eight]) -> bool {
+        false
+    }
+
+    /// How variable `i` hangs together with the others; asked at a start, by methods that iterate.
+    fn role(&self, _i: usize) -> Role {
+        Role::Coupled
+    }
+}
+
+/// How a variable hangs together with the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// Any derivative may depend on it, and its own on all variables but followers.
+    #[default]
+    Coupled,
+    /// Its derivative is the coupled variable of this number, as of an angle and its rate; any
+    /// derivative may depend on it.
+    Integral(usize),
+    /// Only derivatives of followers depend on it; its own may depend on all variables.
+    Follower,
+}
+
+/// Which derivatives are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Those of coupled variables; values of followers are out of date.
+    Coupled,
+    /// Those of followers.
+    Followers,
 }
 
 /// Error allowed in a step: `absolute · size + relative · |y|` for each variable, whose natural

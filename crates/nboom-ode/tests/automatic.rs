@@ -1,6 +1,6 @@
 //! The method that chooses: which one it takes, and that it is right to.
 
-use nboom_ode::{Automatic, Method, RungeKutta, Stepper, System, Tolerance};
+use nboom_ode::{Automatic, Choice, Method, RungeKutta, Stepper, System, Tolerance};
 
 /// ẏ = −rate(t) (y − cos t) − sin t, which y = cos t solves; fast for `fast.0 < t < fast.1`.
 struct Drawn {
@@ -80,6 +80,31 @@ fn the_explicit_method_comes_back_when_the_motion_is_smooth_again() {
     let mut alone = RungeKutta::dop853(tolerance(1e-8));
     let (_, of_explicit, _) = run(&mut alone, (2.0, 4.0), 40.0);
     assert!(10 * evaluations < of_explicit, "{evaluations} {of_explicit}");
+}
+
+/// Begins with stages side by side.
+fn with_lanes(relative: f64) -> Automatic {
+    let choice = Choice { method: Method::GaussLanes, reason: "for this test" };
+    Automatic::with_smooth(choice, tolerance(relative))
+}
+
+#[test]
+fn stages_side_by_side_are_left_where_their_iteration_is_slow() {
+    for relative in [1e-6, 1e-8, 1e-10, 1e-12] {
+        let (error, evaluations, methods) = run(&mut with_lanes(relative), (-1.0, 11.0), 10.0);
+        assert_eq!(methods, [Method::GaussLanes, Method::Radau5], "{relative}");
+        // As above.
+        assert!(error < relative.powf(2.0 / 3.0), "{relative}: {error}");
+        assert!(evaluations < 12_000, "{relative}: {evaluations}");
+    }
+}
+
+#[test]
+fn stages_side_by_side_come_back_when_the_motion_is_smooth_again() {
+    let (error, evaluations, methods) = run(&mut with_lanes(1e-8), (2.0, 4.0), 40.0);
+    assert_eq!(methods, [Method::GaussLanes, Method::Radau5, Method::GaussLanes]);
+    assert!(error < 1e-8, "{error}");
+    assert!(evaluations < 12_000, "{evaluations}");
 }
 
 #[test]

@@ -1,11 +1,13 @@
+use crate::legendre::{bernstein_of_legendre, legendre};
+
 /// Stages of the method, whose order is twice as high.
-pub(super) const STAGES: usize = 8;
+pub(crate) const STAGES: usize = 8;
 
 /// Values of the Legendre polynomials P₀, P₁, … up to the degree of the nodes.
-type Legendre = [f64; STAGES + 1];
+type Values = [f64; STAGES + 1];
 
 /// One number for each pair of stages, row by row.
-pub(super) type Matrix = [[f64; STAGES]; STAGES];
+pub(crate) type Matrix = [[f64; STAGES]; STAGES];
 
 /// Gauss's collocation method in terms of the stages' increments Lⱼ = h bⱼ f(Yⱼ).
 ///
@@ -14,7 +16,7 @@ pub(super) type Matrix = [[f64; STAGES]; STAGES];
 /// stages counted backwards; in this form both hold for the rounded numbers too, so rounding of
 /// coefficients does not add up (Antoñana, Makazaga, Murua, Numer. Algorithms 76, 2017).
 #[derive(Clone, Debug)]
-pub(super) struct Coefficients {
+pub(crate) struct Coefficients {
     /// cᵢ on [0, 1].
     pub nodes: [f64; STAGES],
     /// bᵢ.
@@ -30,7 +32,7 @@ pub(super) struct Coefficients {
 impl Coefficients {
     pub fn new() -> Self {
         let points: [f64; STAGES] = std::array::from_fn(root);
-        let at = points.map(legendre);
+        let at: [Values; STAGES] = points.map(legendre);
         let spectrum: Matrix = std::array::from_fn(|k| at.map(|p| (2 * k + 1) as f64 * p[k]));
         // Christoffel's numbers, sums of positive terms.
         let weight = |i: usize| 1.0 / (0..STAGES).map(|k| spectrum[k][i] * at[i][k]).sum::<f64>();
@@ -57,7 +59,7 @@ impl Coefficients {
     /// another, which begins at the fraction `from` of it and is `ratio` times as long.
     pub fn continuation(&self, from: f64, ratio: f64) -> Matrix {
         std::array::from_fn(|i| {
-            let p = legendre(2.0 * (from + ratio * self.nodes[i]) - 1.0);
+            let p: Values = legendre(2.0 * (from + ratio * self.nodes[i]) - 1.0);
             std::array::from_fn(|j| {
                 let value: f64 = (0..STAGES).map(|k| p[k] * self.spectrum[k][j]).sum();
                 ratio * self.weights[i] * value
@@ -71,19 +73,8 @@ impl Coefficients {
     }
 }
 
-pub(super) fn dot(a: &[f64; STAGES], b: &[f64; STAGES]) -> f64 {
+pub(crate) fn dot(a: &[f64; STAGES], b: &[f64; STAGES]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// P₀ to P_s at x.
-fn legendre(x: f64) -> Legendre {
-    let mut values = [1.0; STAGES + 1];
-    values[1] = x;
-    for k in 1..STAGES {
-        let n = k as f64;
-        values[k + 1] = ((2.0 * n + 1.0) * x * values[k] - n * values[k - 1]) / (n + 1.0);
-    }
-    values
 }
 
 /// Root `i` of P_s in ascending order, by Newton's method; those of each pair are opposite.
@@ -95,7 +86,7 @@ fn root(i: usize) -> f64 {
     let angle = std::f64::consts::PI * (i as f64 + 0.75) / (STAGES as f64 + 0.5);
     let mut x = -angle.cos();
     for _ in 0..NEWTON_STEPS {
-        let p = legendre(x);
+        let p: Values = legendre(x);
         let slope = STAGES as f64 * (p[STAGES - 1] - x * p[STAGES]) / (1.0 - x * x);
         x -= p[STAGES] / slope;
     }
@@ -107,19 +98,7 @@ const NEWTON_STEPS: usize = 6;
 
 /// Bernstein coefficients of ∫P_k(2x − 1) from 0, of degree s.
 fn integral_of_legendre(k: usize) -> [f64; STAGES + 1] {
-    let mut slope = [0.0; STAGES];
-    let mut coefficient = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-    // (−1)^(k−i) C(k, i) of degree k.
-    for i in 0..=k {
-        slope[i] = coefficient;
-        coefficient *= -((k - i) as f64) / (i + 1) as f64;
-    }
-    for degree in k + 1..STAGES {
-        for i in (1..=degree).rev() {
-            let share = i as f64 / degree as f64;
-            slope[i] = share * slope[i - 1] + (1.0 - share) * slope[i];
-        }
-    }
+    let slope: [f64; STAGES] = bernstein_of_legendre(k);
     let mut sums = [0.0; STAGES + 1];
     for i in 0..STAGES {
         sums[i + 1] = sums[i] + slope[i] / STAGES as f64;

@@ -1,0 +1,330 @@
+//! Gauss's method with its stages side by side, against closed forms.
+
+use std::ops::Range;
+
+use nboom_ode::{Counts, GaussLanes, Part, Role, Stepper, System, Tolerance};
+use nboom_scalar::Eight;
+
+fn tolerance(relative: f64) -> Tolerance {
+    Tolerance { relative, absolute: relative }
+}
+
+/// Takes steps until `end` and hands each to `look`, with dense output prepared.
+fn follow(
+    stepper: &mut dyn Stepper,
+    system: &mut dyn System,
+    end: f64,
+    mut look: impl FnMut(&dyn Stepper),
+) -> Counts {
+    while stepper.window().time < end {
+        stepper.step(system, end).expect("a smooth problem");
+        stepper.prepare_dense(system);
+        look(stepper);
+        stepper.advance();
+    }
+    stepper.window().counts
+}
+
+/// A planet about a sun, its place before its velocity.
+#[derive(Clone, Copy)]
+struct Kepler {
+    /// Whether it says that its place is the integral of its velocity.
+    tells_roles: bool,
+    /// Whether it takes eight states at once.
+    has_lanes: bool,
+    states_seen: usize,
+}
+
+const PLAIN: Kepler = Kepler { tells_roles: false, has_lanes: false, states_seen: 0 };
+const WITH_ROLES: Kepler = Kepler { tells_roles: true, ..PLAIN };
+
+fn attraction([x, y]: [f64; 2]) -> [f64; 2] {
+    let squared = x * x + y * y;
+    let factor = -1.0 / (squared * squared.sqrt());
+    [factor * x, factor * y]
+}
+
+impl System for Kepler {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        self.states_seen += 1;
+        (dy[0], dy[1]) = (y[2], y[3]);
+        [dy[2], dy[3]] = attraction([y[0], y[1]]);
+    }
+
+    fn derivatives(&mut self, part: Part, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
+        if !self.has_lanes {
+            return false;
+        }
+        assert_eq!(part, Part::Coupled, "it has no followers");
+        self.states_seen += 8;
+        (dy[0], dy[1]) = (y[2], y[3]);
+        for lane in 0..8 {
+            [dy[2].0[lane], dy[3].0[lane]] = attraction([y[0].0[lane], y[1].0[lane]]);
+        }
+        true
+    }
+
+    fn role(&self, i: usize) -> Role {
+        if self.tells_roles && i < 2 { Role::Integral(i + 2) } else { Role::Coupled }
+    }
+}
+
+/// The orbit of eccentricity `e`, `t` after the passage of the perihelion (Kepler's equation).
+fn orbit(e: f64, t: f64) -> [f64; 4] {
+    let turns = (t / std::f64::consts::TAU).round();
+    let mean = t - turns * std::f64::consts::TAU;
+    let mut angle = mean + e * mean.sin();
+    for _ in 0..50 {
+        angle -= (angle - e * angle.sin() - mean) / (1.0 - e * angle.cos());
+    }
+    let (sin, cos) = angle.sin_cos();
+    let (minor, rate) = ((1.0 - e * e).sqrt(), 1.0 / (1.0 - e * cos));
+    [cos - e, minor * sin, -sin * rate, minor * cos * rate]
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn errors_inside_steps_and_at_their_ends_follow_the_tolerance() {
+    for relative in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+        for (e, begin) in [(0.05, 0.0), (0.2, 1.0), (0.35, 2.0), (0.5, -3.0), (0.6, 2.5)] {
+            let (mut stepper, mut system) = (GaussLanes::new(tolerance(relative)), WITH_ROLES);
+            stepper.start(&mut system, begin, &orbit(e, begin), 4);
+            let (mut inside, mut at_end) = (0.0_f64, 0.0_f64);
+            let mut y = [0.0; 4];
+            follow(&mut stepper, &mut system, begin + 6.0, |stepper| {
+                let window = stepper.window();
+                at_end = at_end.max(distance(&window.end_state, &orbit(e, window.end_time)));
+                for i in 0..20 {
+                    let x = f64::from(i) / 20.0;
+                    stepper.interpolate(x, &mut y);
+                    inside = inside.max(distance(&y, &orbit(e, window.time + x * window.length())));
+                }
+            });
+            // In one turn a local error is magnified by about 6 π / (1 − e)².
+            let magnified = 20.0 / (1.0 - e).powi(2);
+            let rounding = 1e-14 * magnified;
+            assert!(at_end < magnified * relative + rounding, "{relative:e} {e}: {at_end:e}");
+            assert!(inside < magnified * relative + rounding, "{relative:e} {e}: {inside:e}");
+        }
+    }
+}
+
+#[test]
+fn one_state_after_the_other_and_eight_at_once_give_the_same_bits() {
+    let run = |mut system: Kepler| {
+        let mut stepper = GaussLanes::new(tolerance(1e-10));
+        stepper.start(&mut system, 0.0, &orbit(0.4, 0.0), 4);
+        let (mut seen, mut y) = (Vec::new(), [0.0; 4]);
+        let counts = follow(&mut stepper, &mut system, 9.0, |stepper| {
+            stepper.interpolate(0.3, &mut y);
+            seen.push((stepper.window().end_state.clone(), y));
+        });
+        assert_eq!(counts.evaluations, system.states_seen);
+        (seen, counts)
+    };
+    for tells_roles in [false, true] {
+        let scalar = Kepler { tells_roles, ..PLAIN };
+        assert_eq!(run(scalar), run(Kepler { has_lanes: true, ..scalar }));
+    }
+}
+
+#[test]
+fn roles_change_the_way_to_a_solution_and_not_the_solution() {
+    let end = |mut system: Kepler| {
+        let mut stepper = GaussLanes::new(tolerance(1e-12));
+        stepper.start(&mut system, 0.0, &orbit(0.4, 0.0), 4);
+        let counts = follow(&mut stepper, &mut system, 9.0, |_| ());
+        (stepper.window().state.clone(), counts.evaluations)
+    };
+    let ((plain, more), (with_roles, fewer)) = (end(PLAIN), end(WITH_ROLES));
+    assert!(distance(&plain, &with_roles) < 1e-10, "{plain:?} {with_roles:?}");
+    assert!(fewer < more, "{fewer} {more}");
+}
+
+#[test]
+fn a_step_is_taken_again_to_a_shorter_length_in_a_few_iterations() {
+    let (mut stepper, mut system) = (GaussLanes::new(tolerance(1e-10)), WITH_ROLES);
+    stepper.start(&mut system, 0.0, &orbit(0.4, 0.0), 4);
+    let mut taken = 0;
+    while stepper.window().time < 9.0 {
+        stepper.step(&mut system, 20.0).expect("a smooth problem");
+        let step = stepper.window().length();
+        let before = stepper.window().counts.evaluations;
+        stepper.retake(&mut system, 0.37 * step);
+        taken = taken.max(stepper.window().counts.evaluations - before);
+        let window = stepper.window();
+        assert_eq!(window.end_time, window.time + 0.37 * step);
+        let error = distance(&window.end_state, &orbit(0.4, window.end_time));
+        // Errors of one turn and a half.
+        assert!(error < 2e-8, "{error:e} at {}", window.end_time);
+        stepper.retake(&mut system, step);
+        stepper.advance();
+    }
+    assert!(taken <= 4 * 8, "{taken} evaluations");
+}
+
+#[test]
+fn a_start_remembers_nothing() {
+    let mut system = WITH_ROLES;
+    let (first, second) = (orbit(0.5, 0.0), orbit(0.1, 2.0));
+    let after = |stepper: &mut GaussLanes, system: &mut Kepler| {
+        stepper.start(system, 0.5, &second, 4);
+        follow(stepper, system, 4.0, |_| ());
+        (stepper.window().state.clone(), stepper.window().counts.accepted)
+    };
+    let mut used = GaussLanes::new(tolerance(1e-9));
+    used.start(&mut system, 0.0, &first, 4);
+    let before = follow(&mut used, &mut system, 3.0, |_| ()).accepted;
+    let (state, count) = after(&mut used, &mut system);
+    let (expected, fresh) = after(&mut GaussLanes::new(tolerance(1e-9)), &mut system);
+    assert_eq!((state, count - before), (expected, fresh));
+}
+
+/// A free body of these principal moments of inertia: attitude, then angular velocity. The attitude
+/// follows.
+struct Body;
+
+const MOMENTS: [f64; 3] = [1.0, 2.0, 2.6];
+const ATTITUDE: Range<usize> = 0..4;
+
+impl System for Body {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        let [a, b, c] = MOMENTS;
+        let (&[s, x, y, z], &[p, q, r]) = (&[y[0], y[1], y[2], y[3]], &[y[4], y[5], y[6]]);
+        dy[0] = -0.5 * (x * p + y * q + z * r);
+        dy[1] = 0.5 * (s * p + y * r - z * q);
+        dy[2] = 0.5 * (s * q + z * p - x * r);
+        dy[3] = 0.5 * (s * r + x * q - y * p);
+        dy[4] = (b - c) / a * q * r;
+        dy[5] = (c - a) / b * r * p;
+        dy[6] = (a - b) / c * p * q;
+    }
+
+    fn role(&self, i: usize) -> Role {
+        if ATTITUDE.contains(&i) { Role::Follower } else { Role::Coupled }
+    }
+}
+
+/// Jacobi's sn, cn and dn of parameter m (arithmetic and geometric means).
+fn jacobi(u: f64, m: f64) -> [f64; 3] {
+    let mut means = vec![(1.0_f64, m.sqrt())];
+    let mut b = (1.0 - m).sqrt();
+    while means.last().is_some_and(|(_, c)| *c > 1e-17) {
+        let (a, _) = means[means.len() - 1];
+        means.push((0.5 * (a + b), 0.5 * (a - b)));
+        b = (a * b).sqrt();
+    }
+    let mut phi = (1_u32 << (means.len() - 1)) as f64 * means[means.len() - 1].0 * u;
+    for (a, c) in means[1..].iter().rev() {
+        phi = 0.5 * (phi + (c / a * phi.sin()).asin());
+    }
+    let sn = phi.sin();
+    [sn, phi.cos(), (1.0 - m * sn * sn).sqrt()]
+}
+
+/// ω of the body about its axes that starts with ω = (p, 0, r), its squared momentum below twice its
+/// energy times the second moment (Landau and Lifshitz, Section 37, axes counted backwards).
+fn turning([p, r]: [f64; 2], t: f64) -> [f64; 3] {
+    let [a, b, c] = MOMENTS;
+    let (energy, squared) = (a * p * p + c * r * r, (a * p).powi(2) + (c * r).powi(2));
+    assert!(squared < energy * b);
+    let rate = ((b - a) * (energy * c - squared) / (a * b * c)).sqrt();
+    let m = (c - b) * (squared - energy * a) / ((b - a) * (energy * c - squared));
+    let [sn, cn, dn] = jacobi(rate * t, m);
+    let q = ((squared - energy * a) / (b * (b - a))).sqrt();
+    [p * dn, q * sn, r * cn]
+}
+
+/// The momentum in inertial axes.
+fn momentum(y: &[f64]) -> [f64; 3] {
+    let [s, v] = [[y[0]; 3], [y[1], y[2], y[3]]];
+    let h = [0, 1, 2].map(|i| MOMENTS[i] * y[4 + i]);
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
+    };
+    let twice = cross(v, h).map(|x| 2.0 * x);
+    let turned = cross(v, twice);
+    [0, 1, 2].map(|i| h[i] + s[i] * twice[i] + turned[i])
+}
+
+const SPIN: [f64; 2] = [1.5, 0.3];
+const AT_START: [f64; 7] = [1.0, 0.0, 0.0, 0.0, SPIN[0], 0.0, SPIN[1]];
+
+#[test]
+fn a_free_body_turns_as_elliptic_functions_do_and_keeps_its_momentum() {
+    for relative in [1e-6, 1e-9, 1e-12] {
+        let mut stepper = GaussLanes::new(tolerance(relative));
+        stepper.start(&mut Body, 0.0, &AT_START, 7);
+        let (mut y, mut error, mut drift) = ([0.0; 7], 0.0_f64, 0.0_f64);
+        follow(&mut stepper, &mut Body, 20.0, |stepper| {
+            let window = stepper.window();
+            for x in [0.1, 0.45, 0.8, 1.0] {
+                stepper.interpolate(x, &mut y);
+                let exact = turning(SPIN, window.time + x * window.length());
+                error = error.max(distance(&y[4..], &exact));
+                drift = drift.max(distance(&momentum(&y), &momentum(&AT_START)));
+            }
+        });
+        // Twenty units of time, in each of which the body turns by 1.5 and errors by as much.
+        assert!(error < 30.0 * relative, "{relative:e}: {error:e}");
+        assert!(drift < 60.0 * relative, "{relative:e}: {drift:e}");
+    }
+}
+
+#[test]
+fn the_order_is_sixteen_with_followers_too() {
+    let error = |count: u32| {
+        let mut stepper = GaussLanes::new(tolerance(1e-15));
+        stepper.start(&mut Body, 0.0, &AT_START, 7);
+        for _ in 0..count {
+            stepper.retake(&mut Body, 24.0 / f64::from(count));
+            stepper.advance();
+        }
+        let end = &stepper.window().state;
+        [distance(&end[4..], &turning(SPIN, 24.0)), distance(&momentum(end), &momentum(&AT_START))]
+    };
+    let (coarse, fine) = (error(8), error(12));
+    for (coarse, fine) in coarse.into_iter().zip(fine) {
+        let order = (coarse / fine).ln() / 1.5_f64.ln();
+        assert!((14.5..18.5).contains(&order), "{order}: {coarse:e} {fine:e}");
+    }
+}
+
+#[test]
+fn the_tightest_tolerance_is_met_to_rounding() {
+    for relative in [1e-14, 1e-15] {
+        let (mut stepper, mut system) = (GaussLanes::new(tolerance(relative)), WITH_ROLES);
+        stepper.start(&mut system, 0.0, &orbit(0.2, 0.0), 4);
+        let counts = follow(&mut stepper, &mut system, 12.0, |_| ());
+        let error = distance(&stepper.window().state, &orbit(0.2, 12.0));
+        // Two turns magnify errors about forty times.
+        assert!(error < 40.0 * 1e-14, "{relative:e}: {error:e}");
+        assert!(counts.rejected < 5 && counts.accepted < 60, "{counts:?}");
+    }
+}
+
+/// Nothing moves before a time, and afterwards it does.
+struct Waiting;
+
+impl System for Waiting {
+    fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
+        (dy[0], dy[1]) = (y[1], 0.0);
+    }
+
+    fn role(&self, i: usize) -> Role {
+        if i == 0 { Role::Integral(1) } else { Role::Coupled }
+    }
+}
+
+#[test]
+fn where_nothing_moves_the_next_step_is_infinite() {
+    let mut stepper = GaussLanes::new(tolerance(1e-9));
+    stepper.start(&mut Waiting, 0.0, &[0.3, 0.0], 2);
+    assert_eq!(stepper.window().next_step, f64::INFINITY);
+    let counts = follow(&mut stepper, &mut Waiting, 5.0, |_| ());
+    assert_eq!(stepper.window().state, [0.3, 0.0]);
+    assert!(counts.accepted < 30, "{counts:?}");
+}
