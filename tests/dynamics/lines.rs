@@ -47,7 +47,10 @@ fn lengths_by_their_path_are_those_by_poses_and_rates_their_derivatives() {
             let moving = |j: usize| Dual { value: of_free(j)[0], derivative: of_free(j)[1] };
             let derivative: Dual<f64> = dual.line_length_squared(line, moving);
             let error = (found.squared_rate - derivative.derivative).abs();
-            assert!(error < 1e-12 * (1.0 + derivative.derivative.abs()), "{seed}, {line}: {error:e}");
+            assert!(
+                error < 1e-12 * (1.0 + derivative.derivative.abs()),
+                "{seed}, {line}: {error:e}"
+            );
         }
     }
 }

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use nboom_elements::Elements;
 use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
@@ -46,7 +48,7 @@ impl<R: Real> Accelerations<R> {
 /// Evaluations allocate nothing; setting the mode does.
 #[derive(Clone, Debug)]
 pub struct Recursive<R> {
-    pub(crate) scene: Scene,
+    pub(crate) scene: Arc<Scene>,
     pub(crate) tree: WeldedTree<R>,
     pub(crate) constants: Vec<LinkConstants<R>>,
     pub(crate) elements: Elements<R>,
@@ -69,7 +71,7 @@ impl<R: Real> Recursive<R> {
             scene.bodies.iter().map(|body| R::constant(body.hinge.start.angle)).collect();
         let tree = WeldedTree::new(scene, &mode, &beta);
         let mut recursive = Self {
-            scene: scene.clone(),
+            scene: Arc::new(scene.clone()),
             elements: Elements::new(scene, &mode, &tree),
             tree,
             constants: Vec::new(),

@@ -5,11 +5,12 @@ use nboom_ode::System;
 use nboom_scalar::Vec3;
 use nboom_series::Series;
 
+use crate::code::CodeError;
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
-use crate::code::{AccelerationCode, CodeError};
 use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::{Unknowns, VariableLayout};
+use crate::equations::prepared_mode::PreparedMode;
 use crate::equations::rates::Rates;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
@@ -20,6 +21,7 @@ use crate::options::Options;
 pub(crate) mod attitude_norm;
 pub(crate) mod jacobian;
 pub(crate) mod layout;
+pub(crate) mod prepared_mode;
 pub(crate) mod rates;
 pub(crate) mod series;
 pub(crate) mod sizes;
@@ -27,13 +29,17 @@ pub(crate) mod state;
 pub(crate) mod totals;
 pub(crate) mod variables;
 
+/// Modes that are kept beside the one entered. Few scenes have more, but springs that engage again and
+/// again make any number.
+const MOST_MODES: usize = 63;
+
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
     scene: Scene,
-    mode: Mode,
-    pub dynamics: Recursive<f64>,
-    /// What computes the accelerations of the mode.
-    code: AccelerationCode,
+    /// The mode that was entered last.
+    pub entered: PreparedMode,
+    /// Others that were entered.
+    others: Vec<PreparedMode>,
     repertoire: Repertoire,
     pub variables: Variables<f64>,
     gravity: Vec3<f64>,
@@ -67,9 +73,8 @@ impl Equations {
         let rigid = scene.departures().turned.is_empty();
         Self {
             scene: scene.clone(),
-            mode: Mode::at_start(scene),
-            dynamics: Recursive::new(scene),
-            code: AccelerationCode::Recursion,
+            entered: PreparedMode::new(Recursive::new(scene), &Mode::at_start(scene), &state.beta),
+            others: Vec::new(),
             repertoire: Repertoire::new(options),
             variables: Variables::new(scene, layout, state),
             gravity: gravity(scene),
@@ -88,11 +93,10 @@ impl Equations {
 
     /// Goes on from `state` in `mode`; writes the variables to `y`.
     pub fn enter(&mut self, scene: &Scene, mode: &Mode, state: &State, y: &mut Vec<f64>) {
-        self.mode.clone_from(mode);
-        self.dynamics.set_mode(mode, &state.beta);
-        let elements = self.dynamics.elements();
+        self.change_mode(mode, &state.beta);
+        let elements = self.entered.dynamics.elements();
         let (thrust, torques) = (elements.thrust().is_some(), elements.torques());
-        let free = self.dynamics.free_hinges();
+        let free = self.entered.dynamics.free_hinges();
         let dashpots = free.iter().any(|&i| torques[i].depends_on_rate());
         let free = free.len();
         let unknowns = self.unknowns(state, thrust);
@@ -101,9 +105,24 @@ impl Equations {
         self.rates = Rates::new(scene, layout);
         (self.jacobian, self.series) = (None, None);
         self.variables = Variables::new(scene, layout, state);
-        self.variables.write(&mut self.dynamics, y);
+        self.variables.write(&mut self.entered.dynamics, y);
         self.tau.resize(free, 0.0);
         self.size_up(state);
+    }
+
+    /// Takes up `mode` with held hinges at `beta`, as it was prepared before if it was.
+    fn change_mode(&mut self, mode: &Mode, beta: &[f64]) {
+        if self.entered.is(mode, beta) {
+            return;
+        }
+        let next = match self.others.iter().position(|other| other.is(mode, beta)) {
+            Some(at) => self.others.swap_remove(at),
+            None => PreparedMode::new(self.entered.dynamics.clone(), mode, beta),
+        };
+        if self.others.len() == MOST_MODES {
+            self.others.remove(0);
+        }
+        self.others.push(std::mem::replace(&mut self.entered, next));
     }
 
     /// What is integrated for rates in a mode that begins at `state`.
@@ -113,7 +132,8 @@ impl Equations {
             return Unknowns::Velocities;
         }
         let angular = state.momenta.angular_inertial.unwrap_or_else(|| {
-            Totals::of(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
+            Totals::of(state, &state.invariants(&mut self.entered.dynamics))
+                .angular_momentum_inertial
         });
         if self.momenta { Unknowns::Momenta(angular) } else { Unknowns::HingeRates(angular) }
     }
@@ -122,21 +142,21 @@ impl Equations {
     fn size_up(&mut self, state: &State) {
         self.sizes.saw(&state.omega_body.to_array());
         self.sizes.saw(&state.tau);
-        let [beta, tau] = state.of_free(&self.dynamics);
+        let [beta, tau] = state.of_free(&self.entered.dynamics);
         let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
-        self.dynamics.accelerations(&motion, &mut self.accelerations);
+        self.entered.dynamics.accelerations(&motion, &mut self.accelerations);
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
         let angular = omega_dot_body.to_array().into_iter().chain(tau_dot.iter().copied());
-        let thrust = self.dynamics.elements().thrust();
+        let thrust = self.entered.dynamics.elements().thrust();
         let force = thrust.map_or(Vec3::zero(), |thrust| thrust.force);
         self.sizes.saw_accelerations(angular, force * (1.0 / self.total_mass));
         let has_momenta = self.variables.layout.has_momenta();
-        self.sizes.weigh(has_momenta.then(|| self.dynamics.effective_inertias(&beta)));
+        self.sizes.weigh(has_momenta.then(|| self.entered.dynamics.effective_inertias(&beta)));
     }
 
     /// The state that the variables `y` at time `t` stand for.
     pub fn read(&mut self, t: f64, y: &[f64], state: &mut State) {
-        self.variables.read(&mut self.dynamics, t, y, state);
+        self.variables.read(&mut self.entered.dynamics, t, y, state);
     }
 
     /// Chooses the code that computes accelerations in the mode that was entered.
@@ -144,32 +164,24 @@ impl Equations {
     /// # Errors
     /// When the code that is demanded does not fit.
     pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, CodeError> {
-        let Self { dynamics, repertoire, variables, .. } = self;
+        let Self { entered, repertoire, variables, .. } = self;
         let since = variables.origin.time;
         if variables.layout.has_momenta() {
-            self.code = AccelerationCode::Recursion;
             return Ok(Selection::of_momenta(since));
         }
-        let (code, selection) =
-            AccelerationCode::choose(scene, dynamics, repertoire, options, since)?;
-        self.code = code;
-        Ok(selection)
-    }
-
-    fn compute(&mut self, motion: &Motion<'_, f64>) {
-        self.code.accelerations(&mut self.dynamics, motion, &mut self.accelerations);
+        entered.select(scene, repertoire, options, since)
     }
 
     /// Accelerations without gravity in the mode that was entered.
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>) -> &Accelerations<f64> {
-        self.compute(motion);
+        self.entered.accelerations(motion, &mut self.accelerations);
         &self.accelerations
     }
 
     /// Writes β, τ and τ̇ of the free hinges, τ̇ as computed last, among those of all hinges.
     pub fn spread(&self, motion: &Motion<'_, f64>, all: [&mut [f64]; 3]) {
         let [beta, tau, tau_dot] = all;
-        for (j, &i) in self.dynamics.free_hinges().iter().enumerate() {
+        for (j, &i) in self.entered.dynamics.free_hinges().iter().enumerate() {
             beta[i] = motion.beta[j];
             tau[i] = motion.tau[j];
             tau_dot[i] = self.accelerations.tau_dot[j];
@@ -178,7 +190,7 @@ impl Equations {
 
     /// The acceleration of the mass centre, inertial axes.
     pub fn center_acceleration(&self, state: &State) -> Vec3<f64> {
-        let thrust = self.dynamics.elements().thrust().map_or(Vec3::zero(), |thrust| {
+        let thrust = self.entered.dynamics.elements().thrust().map_or(Vec3::zero(), |thrust| {
             state.attitude.to_matrix() * thrust.force * (1.0 / self.total_mass)
         });
         self.gravity + thrust
@@ -202,22 +214,16 @@ impl Equations {
 
 impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        let Self { variables, dynamics, code, rates, evaluations, .. } = self;
+        let Self { variables, entered, rates, evaluations, .. } = self;
         *evaluations += usize::from(variables.layout.needs_elimination());
         let free_fall = variables.free_fall(t).velocity;
-        rates.write(
-            dynamics,
-            |dynamics, motion, out| code.accelerations(dynamics, motion, out),
-            free_fall,
-            y,
-            dy,
-        );
+        entered.rates(rates, free_fall, y, dy);
     }
 
     fn sizes(&mut self, y: &[f64], sizes: &mut [f64]) {
         let Variables { layout, .. } = &self.variables;
         if layout.has_momenta() {
-            let motion = motion(layout, &mut self.dynamics, y, &mut self.tau);
+            let motion = motion(layout, &mut self.entered.dynamics, y, &mut self.tau);
             self.sizes.saw(&motion.omega_body.to_array());
             self.sizes.saw(motion.tau);
         } else {
@@ -229,8 +235,8 @@ impl System for Equations {
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
         let free_fall = self.variables.free_fall(t).velocity;
-        let Self { scene, mode, variables: Variables { layout, origin, .. }, .. } = self;
-        let of_mode = || Jacobian::new(scene, mode, &origin.beta, *layout);
+        let Self { scene, entered, variables: Variables { layout, origin, .. }, .. } = self;
+        let of_mode = || Jacobian::new(scene, &entered.mode, &origin.beta, *layout);
         self.jacobian.get_or_insert_with(of_mode).write(free_fall, y, out);
         true
     }
@@ -238,8 +244,8 @@ impl System for Equations {
     fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
         self.evaluations += 1;
         self.series.take_if(|series| series.order() != order);
-        let Self { scene, mode, variables, .. } = self;
-        let of_mode = || Series::new(&series::graph(scene, mode, variables), &[], order);
+        let Self { scene, entered, variables, .. } = self;
+        let of_mode = || Series::new(&series::graph(scene, &entered.mode, variables), &[], order);
         self.series.get_or_insert_with(of_mode).write(t, y, out);
         true
     }

@@ -87,7 +87,7 @@ impl<'a> Run<'a> {
         let mut equations = Equations::new(scene, state, &options);
         let mut variables = Vec::new();
         equations.enter(scene, mode, state, &mut variables);
-        let room = Room::new(scene, equations.dynamics.elements());
+        let room = Room::new(scene, equations.entered.dynamics.elements());
         Self {
             options,
             recorder,
@@ -115,7 +115,7 @@ impl<'a> Run<'a> {
     fn complete(&mut self) -> Result<(), SimError> {
         self.options
             .check_span(self.situation.scene.end_time - self.situation.scene.initial.time)?;
-        let dynamics = &mut self.equations.dynamics;
+        let dynamics = &mut self.equations.entered.dynamics;
         self.situation.watch(dynamics, &[]);
         let mut arrivals = self.situation.arrivals_at_start(dynamics);
         loop {
@@ -125,14 +125,14 @@ impl<'a> Run<'a> {
                 return self.finish();
             }
             let located = self.integrate_to_next_instant()?;
-            arrivals = self.situation.arrivals(&mut self.equations.dynamics, located);
+            arrivals = self.situation.arrivals(&mut self.equations.entered.dynamics, located);
         }
     }
 
     /// Changes the mode as the instant demands and starts integration anew.
     fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<(), SimError> {
         let before = self.before_instant(arrivals)?;
-        let outcome = self.situation.pass(&mut self.equations.dynamics, arrivals)?;
+        let outcome = self.situation.pass(&mut self.equations.entered.dynamics, arrivals)?;
         let Situation { scene, state, mode, .. } = &self.situation;
         let (scene, time) = (*scene, state.time);
         self.equations.enter(scene, mode, state, &mut self.variables);
@@ -147,7 +147,7 @@ impl<'a> Run<'a> {
         } else {
             stepper.start(equations, time, &self.variables, controlled);
         }
-        self.situation.watch(&mut self.equations.dynamics, &outcome.crossed);
+        self.situation.watch(&mut self.equations.entered.dynamics, &outcome.crossed);
         finite::check_instant(scene, time, &outcome.events, &outcome.jumps)?;
         if !outcome.events.is_empty() {
             self.tell_instant(before, outcome.jumps)?;
@@ -181,7 +181,7 @@ impl<'a> Run<'a> {
             self.tell_step(full)?;
             self.accept();
             let Situation { state, guards, .. } = &mut self.situation;
-            guards.settle(&mut self.equations.dynamics, state);
+            guards.settle(&mut self.equations.entered.dynamics, state);
             if state.time >= limit {
                 return Ok(None);
             }
@@ -217,7 +217,7 @@ impl<'a> Run<'a> {
             let window = self.stepper.window();
             let time = window.end_time;
             self.equations.read(time, &window.end_state, &mut self.scratch);
-            let reading = read(kind, &mut self.equations.dynamics, &self.scratch);
+            let reading = read(kind, &mut self.equations.entered.dynamics, &self.scratch);
             let correction = -reading.value / reading.rate;
             let better = correction.abs() < 0.5 * last_correction;
             let matters = self.stepper.window().time + (step + correction) != time;
@@ -256,7 +256,7 @@ impl<'a> Run<'a> {
     fn finish(&mut self) -> Result<(), SimError> {
         let now = Totals::of(
             &self.situation.state,
-            &self.situation.state.invariants(&mut self.equations.dynamics),
+            &self.situation.state.invariants(&mut self.equations.entered.dynamics),
         );
         let end = Event {
             time: self.situation.state.time,

@@ -8,7 +8,7 @@ use crate::equations::variables::{attitude, momenta, motion};
 
 /// The rates of change of all variables of a mode, over any scalar.
 pub(crate) struct Rates<R> {
-    layout: VariableLayout,
+    pub layout: VariableLayout,
     total_mass: R,
     /// τ where it is no variable.
     tau: Vec<R>,
@@ -64,6 +64,28 @@ impl<R: Real> Rates<R> {
         if let Some(&thrust) = dynamics.elements().thrust() {
             let center = (*total_mass, free_fall);
             write_thrust(layout, dynamics, thrust, (&motion, center), y, dy);
+        }
+    }
+
+    /// Writes what is left of ẏ at `y` where the rates of attitude, ω, β and τ stand in `dy` already, and
+    /// the parts of hinge torques that depend on rates have the power `power`.
+    pub fn complete(
+        &self,
+        dynamics: &mut Recursive<R>,
+        power: R,
+        free_fall: Vec3<R>,
+        y: &[R],
+        dy: &mut [R],
+    ) {
+        let Self { layout, total_mass, .. } = self;
+        if let [work] = &mut dy[layout.dashpot_work()] {
+            *work = power;
+        }
+        if let Some(&thrust) = dynamics.elements().thrust() {
+            let omega_body = Vec3::new(y[4], y[5], y[6]);
+            let (beta, tau) = (&y[layout.beta()], &y[layout.hinge_motion()]);
+            let motion = Motion { omega_body, beta, tau };
+            write_thrust(layout, dynamics, thrust, (&motion, (*total_mass, free_fall)), y, dy);
         }
     }
 }

@@ -219,7 +219,7 @@ impl Guards {
         let mut first: Option<(GuardKind, f64)> = None;
         for i in 0..self.list.len() {
             let guard = self.list[i];
-            let change = match watched(guard.kind, equations.dynamics.elements()) {
+            let change = match watched(guard.kind, equations.entered.dynamics.elements()) {
                 (Coordinate::Length(line), limit) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)
                 }
@@ -294,7 +294,8 @@ impl Guards {
         (line, limit): (usize, f64),
         side: Side,
     ) -> Option<f64> {
-        let (dynamics, first) = (&equations.dynamics, equations.variables.layout.beta().start);
+        let (dynamics, first) =
+            (&equations.entered.dynamics, equations.variables.layout.beta().start);
         self.path.clear();
         let (mut turned, mut displaced) = (0.0, 0.0);
         for (j, reach) in dynamics.line_reach(line) {
@@ -397,7 +398,7 @@ fn angle_polynomial(
     equations: &Equations,
     stepper: &dyn Stepper,
 ) -> Bernstein {
-    let position = equations.dynamics.free_hinges().binary_search(&hinge);
+    let position = equations.entered.dynamics.free_hinges().binary_search(&hinge);
     let position = position.expect("guards watch only free hinges");
     stepper.polynomial(equations.variables.layout.beta().start + position).minus(angle)
 }

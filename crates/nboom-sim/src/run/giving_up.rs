@@ -68,7 +68,7 @@ impl Run<'_> {
     fn worst_hinge(&self) -> Option<HingeLabel> {
         let start = self.equations.variables.layout.hinge_motion().start;
         let error_of = |position: usize| self.stepper.error_of(start + position);
-        let free = self.equations.dynamics.free_hinges();
+        let free = self.equations.entered.dynamics.free_hinges();
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
         largest.map(|position| self.situation.scene.label(free[position]))
     }
@@ -77,9 +77,9 @@ impl Run<'_> {
     /// the one with the largest error, unless that is far below the main body's.
     fn hinge_to_blame(&mut self, error: StepError) -> Option<HingeLabel> {
         let layout = self.equations.variables.layout;
-        let free = self.equations.dynamics.free_hinges().to_vec();
+        let free = self.equations.entered.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];
-        let dynamics = &mut self.equations.dynamics;
+        let dynamics = &mut self.equations.entered.dynamics;
         let mut tau = vec![0.0; free.len()];
         let motion = motion(&layout, dynamics, self.stepper.last_evaluated(), &mut tau);
         dynamics.hinge_forces(&motion, &mut torques);
@@ -98,8 +98,8 @@ impl Run<'_> {
 
     /// Refuses a mode in which a link has no inertia about its hinge.
     pub(super) fn check_regular(&mut self) -> Result<(), SimError> {
-        let [beta, _] = self.situation.state.of_free(&self.equations.dynamics);
-        match self.equations.dynamics.singular_hinge(&beta) {
+        let [beta, _] = self.situation.state.of_free(&self.equations.entered.dynamics);
+        match self.equations.entered.dynamics.singular_hinge(&beta) {
             None => Ok(()),
             Some(hinge) => Err(SimError::SingularMassMatrix {
                 time: self.situation.state.time,
@@ -111,9 +111,9 @@ impl Run<'_> {
     /// Refuses a mode in which a force acts along a line that moves and has no length.
     pub(super) fn check_lines(&mut self) -> Result<(), SimError> {
         let Self { situation: Situation { scene, state, .. }, equations, .. } = self;
-        for line in 0..equations.dynamics.elements().lines().len() {
-            let [length, _] = state.line_length(&equations.dynamics, line);
-            let line = &equations.dynamics.elements().lines()[line];
+        for line in 0..equations.entered.dynamics.elements().lines().len() {
+            let [length, _] = state.line_length(&equations.entered.dynamics, line);
+            let line = &equations.entered.dynamics.elements().lines()[line];
             if line.acts && line.link.is_some() && length <= NO_LENGTH * line.size {
                 let (time, hinge) = (state.time, scene.label(line.hinge));
                 return Err(SimError::NoDirection { time, hinge, element: line.kind.names().name });

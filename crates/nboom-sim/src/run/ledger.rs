@@ -29,7 +29,7 @@ pub(crate) struct Ledger {
 
 impl Ledger {
     pub fn new(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
-        let start = Totals::of(state, &state.invariants(&mut equations.dynamics));
+        let start = Totals::of(state, &state.invariants(&mut equations.entered.dynamics));
         let Potential { sum: potential, .. } = potential(scene, equations, state);
         Self {
             start_time: state.time,
@@ -119,16 +119,16 @@ impl Potential {
 
 fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> Potential {
     let mut found = Potential { sum: 0.0, scale: 0.0, beyond: None };
-    let laws = equations.dynamics.elements().torques();
+    let laws = equations.entered.dynamics.elements().torques();
     for (i, (law, &beta)) in laws.iter().zip(&state.beta).enumerate() {
         found.add(law.potential(beta), Some(i));
     }
     if equations.gravity() != Vec3::zero() {
         found.add(gravity_potential(scene, state.center.position), None);
     }
-    for line in 0..equations.dynamics.elements().lines().len() {
-        let [length, _] = state.line_length(&equations.dynamics, line);
-        let line = &equations.dynamics.elements().lines()[line];
+    for line in 0..equations.entered.dynamics.elements().lines().len() {
+        let [length, _] = state.line_length(&equations.entered.dynamics, line);
+        let line = &equations.entered.dynamics.elements().lines()[line];
         found.add(line.potential(length), Some(line.hinge));
     }
     found

@@ -37,7 +37,7 @@ impl Resources {
 
 /// Kinetic energy about the mass centre.
 fn turning(scene: &Scene, equations: &mut Equations, state: &State) -> f64 {
-    let found = state.invariants(&mut equations.dynamics);
+    let found = state.invariants(&mut equations.entered.dynamics);
     found.kinetic_energy - 0.5 * found.linear_momentum.norm_squared() / scene.total_mass()
 }
 
@@ -65,7 +65,7 @@ impl Run<'_> {
         if growth.is_nan() || growth <= GROWTH {
             return None;
         }
-        let elements = equations.dynamics.elements();
+        let elements = equations.entered.dynamics.elements();
         let laws = || elements.torques().iter().zip(&scene.bodies).enumerate();
         let from_spring = laws().map(|(i, (law, body))| {
             (i, law.potential(body.hinge.start.angle) - law.potential(state.beta[i]))

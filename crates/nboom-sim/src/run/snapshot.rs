@@ -53,7 +53,7 @@ pub(crate) fn write_detail(
     room: &mut Room,
     out: &mut Detail,
 ) {
-    let [free_beta, free_tau] = state.of_free(&equations.dynamics);
+    let [free_beta, free_tau] = state.of_free(&equations.entered.dynamics);
     let motion = Motion { omega_body: state.omega_body, beta: &free_beta, tau: &free_tau };
     let Room { beta, tau, beta_ddot, forces, .. } = room;
     beta.copy_from_slice(&state.beta);
@@ -66,7 +66,7 @@ pub(crate) fn write_detail(
     out.beta_ddot.clone_from(beta_ddot);
     out.alpha_ddot.clone_from(beta_ddot);
     scene.accumulate_along_appendages(&mut out.alpha_ddot);
-    forces.set(&mut equations.dynamics, [beta, tau], &free_beta);
+    forces.set(&mut equations.entered.dynamics, [beta, tau], &free_beta);
     out.hinge_torque.clone_from(&forces.torque);
     out.lines.clone_from(&forces.lines);
     out.mass_center_body = mass_center_body;

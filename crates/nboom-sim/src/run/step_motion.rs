@@ -173,11 +173,11 @@ impl StepMotion for DenseStep<'_> {
         let Room { variables, free_tau, beta, tau, beta_ddot, forces } = &mut **room;
         stepper.interpolate((time - *start) / *full, variables);
         let layout = &equations.variables.layout;
-        let motion = motion(layout, &mut equations.dynamics, variables, free_tau);
+        let motion = motion(layout, &mut equations.entered.dynamics, variables, free_tau);
         let found = equations.accelerations(&motion);
         let (omega_dot_body, origin_acceleration_body) = (found.omega_dot_body, found.origin_body);
         equations.spread(&motion, [beta, tau, beta_ddot]);
-        forces.set(&mut equations.dynamics, [beta, tau], motion.beta);
+        forces.set(&mut equations.entered.dynamics, [beta, tau], motion.beta);
         MotionAt {
             time,
             hinges,

@@ -72,7 +72,7 @@ impl Run<'_> {
 
     /// Enters `state` in the ledger and sees all of it that the recorder wants.
     fn look(&mut self, state: &State) -> Result<(), SimError> {
-        let found = state.invariants(&mut self.equations.dynamics);
+        let found = state.invariants(&mut self.equations.entered.dynamics);
         self.ledger.check(self.situation.scene, &mut self.equations, state, &found)?;
         self.see(state, &found, self.recorder.needs_detail())
     }
@@ -100,7 +100,7 @@ impl Run<'_> {
     /// The present motion in detail.
     fn motion_here(&mut self) -> Result<Snapshot, SimError> {
         let state = self.situation.state.clone();
-        let found = state.invariants(&mut self.equations.dynamics);
+        let found = state.invariants(&mut self.equations.entered.dynamics);
         self.see(&state, &found, true)?;
         Ok(self.seen.clone())
     }
