@@ -62,7 +62,8 @@ pub(crate) struct Equations {
 }
 
 impl Equations {
-    pub fn new(scene: &Scene, state: &State, options: &Options) -> Self {
+    /// Those of `scene`, in the mode in which it starts.
+    pub fn new(scene: &Scene, options: &Options) -> Self {
         let layout = VariableLayout {
             unknowns: Unknowns::Velocities,
             free: 0,
@@ -71,12 +72,14 @@ impl Equations {
         };
         // Bodies whose inertia turns otherwise than they do have no momenta.
         let rigid = scene.departures().turned.is_empty();
+        let state = State::initial(scene);
+        let at_start = Mode::at_start(scene);
         Self {
             scene: scene.clone(),
-            entered: PreparedMode::new(Recursive::new(scene), &Mode::at_start(scene), &state.beta),
+            entered: PreparedMode::new(Recursive::new(scene), &at_start, &state.beta),
             others: Vec::new(),
             repertoire: Repertoire::new(options),
-            variables: Variables::new(scene, layout, state),
+            variables: Variables::new(scene, layout, &state),
             gravity: gravity(scene),
             total_mass: scene.total_mass(),
             accelerations: Accelerations::for_hinges(0),
@@ -89,6 +92,15 @@ impl Equations {
             momentum_for_rate: rigid && options.integrator.keeps_invariants(),
             tau: Vec::new(),
         }
+    }
+
+    /// Begins anew with `scene`, whose satellite is that of all runs so far, in the mode in which it
+    /// starts.
+    pub fn begin(&mut self, scene: &Scene) {
+        self.scene.clone_from(scene);
+        (self.sizes, self.evaluations) = (Sizes::of(scene), 0);
+        let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
+        self.change_mode(&Mode::at_start(scene), &beta);
     }
 
     /// Goes on from `state` in `mode`; writes the variables to `y`.

@@ -56,6 +56,6 @@ pub use run::conservation::{Conservation, PoorConservation};
 pub use run::record::{
     Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,
 };
-pub use run::simulate;
 pub use run::step_motion::{MotionAt, StepMotion};
 pub use run::verdict::{HingeVerdict, LockUpImpulse, Verdict};
+pub use run::{Simulator, simulate};

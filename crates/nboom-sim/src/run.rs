@@ -29,9 +29,11 @@ pub(crate) mod verdict;
 
 mod giving_up;
 mod runaway;
+mod simulator;
 mod telling;
 
 use runaway::Resources;
+pub use simulator::Simulator;
 
 /// Runs `scene` from its initial to its end time and tells `recorder` on the way.
 ///
@@ -43,11 +45,7 @@ pub fn simulate(
     options: &Options,
     recorder: &mut dyn Recorder,
 ) -> Result<Summary, Failure> {
-    let mut run = Run::new(scene, *options, recorder);
-    match run.complete() {
-        Ok(()) => Ok(run.summary()),
-        Err(error) => Err(Failure { error, summary: Box::new(run.summary()) }),
-    }
+    Simulator::new(scene, *options).run(recorder)
 }
 
 /// Corrections after which an event's time is as good as it gets.
@@ -62,7 +60,7 @@ struct Run<'a> {
     spare: Option<State>,
     /// What the recorder was shown last.
     seen: Snapshot,
-    equations: Equations,
+    equations: &'a mut Equations,
     stepper: Box<dyn Stepper>,
     ledger: Ledger,
     variables: Vec<f64>,
@@ -81,18 +79,24 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(scene: &'a Scene, options: Options, recorder: &'a mut dyn Recorder) -> Self {
-        let situation = Situation::at_start(scene);
+    /// The beginning of `scene`, which `equations` are of.
+    fn new(
+        scene: &'a Scene,
+        options: Options,
+        equations: &'a mut Equations,
+        recorder: &'a mut dyn Recorder,
+    ) -> Self {
+        equations.begin(scene);
+        let situation = Situation::at_start(scene, &mut equations.entered.dynamics);
         let Situation { state, mode, .. } = &situation;
-        let mut equations = Equations::new(scene, state, &options);
         let mut variables = Vec::new();
         equations.enter(scene, mode, state, &mut variables);
         let room = Room::new(scene, equations.entered.dynamics.elements());
         Self {
             options,
             recorder,
-            ledger: Ledger::new(scene, &mut equations, state),
-            resources: Resources::of(scene, &mut equations, state),
+            ledger: Ledger::new(scene, equations, state),
+            resources: Resources::of(scene, equations, state),
             scratch: state.clone(),
             spare: None,
             seen: Snapshot::empty(),
@@ -141,7 +145,7 @@ impl<'a> Run<'a> {
         self.select()?;
         let controlled = self.equations.variables.layout.controlled();
         self.attitude_norm.put_back();
-        let (stepper, equations) = (&mut self.stepper, &mut self.equations);
+        let (stepper, equations) = (&mut self.stepper, &mut *self.equations);
         if time > scene.initial.time {
             stepper.restart(equations, time, &self.variables, controlled);
         } else {
@@ -165,7 +169,7 @@ impl<'a> Run<'a> {
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
             let guards = &mut self.situation.guards;
             if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
-                self.stepper.prepare_dense(&mut self.equations);
+                self.stepper.prepare_dense(&mut *self.equations);
             }
             let change = guards.first_change(&self.equations, &*self.stepper);
             if let Some((kind, fraction)) = change {
@@ -192,7 +196,7 @@ impl<'a> Run<'a> {
         self.check_interrupt(self.situation.state.time)?;
         self.check_progress()?;
         self.check_growth()?;
-        let taken = self.stepper.step(&mut self.equations, limit);
+        let taken = self.stepper.step(&mut *self.equations, limit);
         taken.map_err(|error| self.stopped(error))?;
         self.note_method();
         Ok(())
@@ -213,7 +217,7 @@ impl<'a> Run<'a> {
         let mut step = guess;
         let mut last_correction = f64::INFINITY;
         for _ in 0..CORRECTIONS {
-            self.stepper.retake(&mut self.equations, step);
+            self.stepper.retake(&mut *self.equations, step);
             let window = self.stepper.window();
             let time = window.end_time;
             self.equations.read(time, &window.end_state, &mut self.scratch);
@@ -224,7 +228,7 @@ impl<'a> Run<'a> {
             if !(correction.is_finite() && better && matters) {
                 return;
             }
-            if self.stepper.move_end(&mut self.equations, correction) {
+            if self.stepper.move_end(&mut *self.equations, correction) {
                 return;
             }
             last_correction = correction.abs();

@@ -71,14 +71,15 @@ impl<'a> Replay<'a> {
         most_steps: usize,
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
-        let situation = Situation::at_start(scene);
+        let mut dynamics = Recursive::new(scene);
+        let situation = Situation::at_start(scene, &mut dynamics);
         Self {
             guide,
             accuracy,
             most_steps,
             interrupted,
             steps: 0,
-            dynamics: Recursive::new(scene),
+            dynamics,
             sizes: Sizes::of(scene),
             scratch: situation.state.clone(),
             situation,

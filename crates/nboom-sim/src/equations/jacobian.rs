@@ -85,7 +85,7 @@ mod tests {
             thrust: scene.thrust.is_some(),
         };
         let options = Options { formulation, ..Options::default() };
-        let (mut equations, mut y) = (Equations::new(&scene, &state, &options), Vec::new());
+        let (mut equations, mut y) = (Equations::new(&scene, &options), Vec::new());
         equations.enter(&scene, &mode, &state, &mut y);
         y.iter_mut().skip(equations.variables.layout.hinge_motion().end).for_each(|y| *y = 0.4);
         (equations, y)

@@ -1,5 +1,5 @@
 use nboom_dynamics::Recursive;
-use nboom_elements::{Switched, thrust_acts};
+use nboom_elements::thrust_acts;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Number, Vec3};
 
@@ -22,13 +22,13 @@ pub(crate) struct Situation<'a, R> {
 }
 
 impl<'a, R: Number> Situation<'a, R> {
-    /// At the beginning of `scene`, before the first instant; nothing is watched yet.
-    pub fn at_start(scene: &'a Scene) -> Self {
+    /// At the beginning of `scene`, before the first instant; nothing is watched yet. `dynamics` is in
+    /// the mode in which the scene starts.
+    pub fn at_start(scene: &'a Scene, dynamics: &mut Recursive<R>) -> Self {
         let (mut state, mut mode) = (State::initial(scene), Mode::at_start(scene));
-        let mut dynamics = Recursive::new(scene);
-        put_mass_center(&mut dynamics, &mut state);
-        for (piece, element) in mode.pieces.iter_mut().zip(Switched::all(scene)) {
-            let [value, _] = state.coordinate(&mut dynamics, element.coordinate);
+        put_mass_center(dynamics, &mut state);
+        for (piece, element) in mode.pieces.iter_mut().zip(dynamics.elements().switched()) {
+            let [value, _] = state.coordinate(dynamics, element.coordinate);
             *piece = element.piece_at(value);
         }
         mode.thrust = scene.thrust.is_some_and(|f| thrust_acts(&f, scene.initial.time));
