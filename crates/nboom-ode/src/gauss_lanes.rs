@@ -187,10 +187,11 @@ impl GaussLanes {
             if !self.iterate(system, part, step, MOST) {
                 return Err(HALF);
             }
-            error = error.max(self.error_of_part(part));
-            if error.is_nan() || error > REFUSED {
-                return Err(factor(error).min(SHORTER));
+            let of_part = self.error_of_part(part);
+            if of_part.is_nan() || of_part > REFUSED {
+                return Err(factor(of_part).min(SHORTER));
             }
+            error = error.max(of_part);
         }
         Ok(error)
     }
