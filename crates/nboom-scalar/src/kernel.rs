@@ -98,6 +98,16 @@ impl<N: Numbers> RoutineOn<N> {
         }
     }
 
+    /// Whether both are forms of one generated routine, or of routines that differ in their name alone.
+    pub fn is_of_same_routine<M>(&self, other: &RoutineOn<M>) -> bool {
+        let what = [self.result, self.topology, self.formulation];
+        let sizes = [self.parameters, self.constants, self.coordinates, self.outputs];
+        what == [other.result, other.topology, other.formulation]
+            && sizes == [other.parameters, other.constants, other.coordinates, other.outputs]
+            && self.assumptions == other.assumptions
+            && self.external == other.external
+    }
+
     /// Whether these parameters are finite numbers, and those that the routine assumes.
     pub fn accepts(&self, parameters: &[N]) -> bool {
         parameters.len() == self.parameters

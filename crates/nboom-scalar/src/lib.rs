@@ -41,7 +41,7 @@ pub use instructions::InstructionSet;
 pub use isa::Isa;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use isa::{Avx2, Avx512};
-pub use kernel::{Kernel, RoutineOn};
+pub use kernel::{Kernel, Numbers, RoutineOn};
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
 pub use pair::Pair;

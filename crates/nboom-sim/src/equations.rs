@@ -1,8 +1,8 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::gravity;
 use nboom_model::{Mode, Scene};
-use nboom_ode::System;
-use nboom_scalar::Vec3;
+use nboom_ode::{Part, Role, System};
+use nboom_scalar::{Eight, Vec3};
 use nboom_series::Series;
 
 use crate::code::CodeError;
@@ -230,6 +230,17 @@ impl System for Equations {
         *evaluations += usize::from(variables.layout.needs_elimination());
         let free_fall = variables.free_fall(t).velocity;
         entered.rates(rates, free_fall, y, dy);
+    }
+
+    fn derivatives(&mut self, part: Part, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
+        let Self { variables, entered, evaluations, .. } = self;
+        let in_lanes = entered.rates_of_eight(&variables.layout, part, y, dy);
+        *evaluations += if in_lanes && part == Part::Coupled { 8 } else { 0 };
+        in_lanes
+    }
+
+    fn role(&self, i: usize) -> Role {
+        self.variables.layout.role(i)
     }
 
     fn sizes(&mut self, y: &[f64], sizes: &mut [f64]) {

@@ -2,7 +2,7 @@ use std::fmt;
 
 use nboom_formulation::Formulation;
 use nboom_ode::{Method, Rkam, RkamSettings, Stepper, Tolerance};
-use nboom_scalar::Kernel;
+use nboom_scalar::{Batch, Kernel};
 
 /// Whether generated or library code computes accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,6 +79,8 @@ pub struct Options {
     pub formulation: Option<Form>,
     /// The generated routines to choose from.
     pub kernels: &'static [Kernel],
+    /// Right sides among the generated routines, on eight states at once.
+    pub batches: &'static [Batch],
 }
 
 impl Default for Options {
@@ -95,6 +97,7 @@ impl Default for Options {
             path: Path::Auto,
             formulation: None,
             kernels: &[],
+            batches: &[],
         }
     }
 }

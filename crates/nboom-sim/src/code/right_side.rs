@@ -1,26 +1,37 @@
 use nboom_dynamics::Recursive;
 use nboom_formulation::{Forces, RightSideLayout, recognise};
+use nboom_scalar::{Batch, Eight, Numbers, RoutineOn};
 
 use crate::code::fit::{Fit, Repertoire};
 
 /// A generated right side fitted to a scene in one mode: the rates of change of attitude, ω, β and τ in
-/// one call.
+/// one call, on numbers `N` of one state or of several side by side.
 #[derive(Clone, Debug)]
-pub(crate) struct RightSide {
-    fit: Fit,
-    constants: Vec<f64>,
+pub(crate) struct RightSide<N> {
+    routine: RoutineOn<N>,
+    constants: Vec<N>,
     /// For each free hinge, the routine's.
     hinges: Vec<usize>,
-    /// Whether the variables of the mode stand as the routine wants them.
-    in_order: bool,
-    coordinates: Vec<f64>,
-    rates: Vec<f64>,
+    /// Hinges of the routine.
+    all_hinges: usize,
+    coordinates: Vec<N>,
+    rates: Vec<N>,
 }
 
-impl RightSide {
-    /// The best routine of `repertoire` for what acts in the mode of `dynamics`. `None` if there is
+/// The right side of a mode, on one state and, where there is such code, on eight.
+pub(crate) struct RightSides {
+    pub of_one: RightSide<f64>,
+    pub of_eight: Option<RightSide<Eight>>,
+}
+
+impl RightSides {
+    /// The best routines of `repertoire` for what acts in the mode of `dynamics`. `None` if there is
     /// none.
-    pub fn fit(dynamics: &Recursive<f64>, repertoire: &Repertoire) -> Option<Self> {
+    pub fn fit(
+        dynamics: &Recursive<f64>,
+        repertoire: &Repertoire,
+        batches: &[Batch],
+    ) -> Option<Self> {
         let tree = dynamics.tree();
         let recognised = recognise(tree).ok()?;
         let forces = Forces::of(dynamics.elements(), tree, &recognised)?;
@@ -29,40 +40,50 @@ impl RightSide {
         for (&link, &hinge) in recognised.links.iter().zip(fit.embedding.hinges()) {
             hinges[link] = hinge;
         }
-        let in_order = hinges.iter().copied().eq(0..fit.embedding.outer().hinges());
+        let of_eight = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel));
         Some(Self {
-            constants: fit.constants(),
-            hinges,
-            in_order,
-            coordinates: vec![0.0; fit.kernel.coordinates],
-            rates: vec![0.0; fit.kernel.outputs],
-            fit,
+            of_eight: of_eight.map(|batch| RightSide::new(*batch, &fit, hinges.clone())),
+            of_one: RightSide::new(fit.kernel, &fit, hinges),
         })
+    }
+}
+
+impl<N: Numbers> RightSide<N> {
+    fn new(routine: RoutineOn<N>, fit: &Fit, hinges: Vec<usize>) -> Self {
+        let zeros = |count| vec![N::splat(0.0); count];
+        Self {
+            constants: fit.constants().into_iter().map(N::splat).collect(),
+            hinges,
+            all_hinges: fit.embedding.outer().hinges(),
+            coordinates: zeros(routine.coordinates),
+            rates: zeros(routine.outputs),
+            routine,
+        }
     }
 
     /// Writes the rates of attitude, ω, β and τ at `y`, which begins with these, to the beginning of
     /// `dy`; returns the power of the parts of the hinge torques that depend on rates.
-    pub fn write(&mut self, y: &[f64], dy: &mut [f64]) -> f64 {
-        let Self { fit, constants, hinges, in_order, coordinates, rates } = self;
-        let topology = fit.embedding.outer();
-        let (first, end) = (RightSideLayout::STATE, RightSideLayout::STATE + 2 * hinges.len());
-        let power = RightSideLayout::power(topology);
-        if *in_order {
-            fit.kernel.evaluate(constants, &y[..end], rates);
+    pub fn write(&mut self, y: &[N], dy: &mut [N]) -> N {
+        let Self { routine, constants, hinges, all_hinges, coordinates, rates } = self;
+        let first = RightSideLayout::STATE;
+        let (end, power) = (first + 2 * hinges.len(), first + 2 * *all_hinges);
+        if hinges.iter().copied().eq(0..*all_hinges) {
+            routine.evaluate(constants, &y[..end], rates);
             dy[..end].copy_from_slice(&rates[..end]);
             return rates[power];
         }
-        let tau = RightSideLayout::tau(topology).start;
         coordinates[..first].copy_from_slice(&y[..first]);
         let (of_beta, of_tau) = y[first..end].split_at(hinges.len());
-        for (&hinge, (beta, rate)) in hinges.iter().zip(of_beta.iter().zip(of_tau)) {
-            (coordinates[first + hinge], coordinates[tau + hinge]) = (*beta, *rate);
+        for (&hinge, (beta, tau)) in hinges.iter().zip(of_beta.iter().zip(of_tau)) {
+            coordinates[first + hinge] = *beta;
+            coordinates[first + *all_hinges + hinge] = *tau;
         }
-        fit.kernel.evaluate(constants, coordinates, rates);
+        routine.evaluate(constants, coordinates, rates);
         dy[..first].copy_from_slice(&rates[..first]);
         let (of_beta, of_tau) = dy[first..end].split_at_mut(hinges.len());
-        for (&hinge, (beta, rate)) in hinges.iter().zip(of_beta.iter_mut().zip(of_tau)) {
-            (*beta, *rate) = (rates[first + hinge], rates[tau + hinge]);
+        for (&hinge, (beta, tau)) in hinges.iter().zip(of_beta.iter_mut().zip(of_tau)) {
+            *beta = rates[first + hinge];
+            *tau = rates[first + *all_hinges + hinge];
         }
         rates[power]
     }

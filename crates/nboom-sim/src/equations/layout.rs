@@ -1,5 +1,6 @@
 use std::ops::Range;
 
+use nboom_ode::Role;
 use nboom_scalar::Vec3;
 
 /// What is integrated for the rates of the main body and of the free hinges.
@@ -84,6 +85,25 @@ impl VariableLayout {
 
     fn impulses(&self) -> usize {
         if self.thrust { 3 } else { 0 }
+    }
+
+    /// How a variable hangs together with the others.
+    pub fn role(&self, i: usize) -> Role {
+        let (beta, motion) = (self.beta(), self.hinge_motion());
+        let rates_are_variables = !self.has_momenta();
+        if beta.contains(&i) && rates_are_variables {
+            return Role::Integral(motion.start + i - beta.start);
+        }
+        // Where rates follow from momenta, they depend on the attitude.
+        let is_coupled = self.omega().contains(&i) || beta.contains(&i) || motion.contains(&i);
+        let depends = self.unknowns == Unknowns::Velocities;
+        if is_coupled
+            || !depends && (Self::ATTITUDE.contains(&i) || self.angular_impulse().contains(&i))
+        {
+            Role::Coupled
+        } else {
+            Role::Follower
+        }
     }
 
     pub fn len(&self) -> usize {

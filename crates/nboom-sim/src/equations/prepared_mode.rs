@@ -1,12 +1,13 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_model::{Mode, Scene};
-use nboom_scalar::Vec3;
+use nboom_ode::Part;
+use nboom_scalar::{Eight, Quaternion, Vec3};
 
 use crate::code::fit::Repertoire;
-use crate::code::right_side::RightSide;
+use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{AccelerationCode, CodeError};
-use crate::equations::layout::Unknowns;
+use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::rates::Rates;
 use crate::options::Options;
 
@@ -19,7 +20,7 @@ pub(crate) struct PreparedMode {
     /// What computes accelerations, once it has been chosen.
     code: AccelerationCode,
     /// What computes all rates of change, if something does.
-    right_side: Option<RightSide>,
+    right_sides: Option<RightSides>,
     selection: Option<Selection>,
 }
 
@@ -29,7 +30,7 @@ impl PreparedMode {
         dynamics.set_mode(mode, beta);
         let (mode, beta) = (mode.clone(), beta.to_vec());
         let code = AccelerationCode::Recursion;
-        Self { mode, beta, dynamics, code, right_side: None, selection: None }
+        Self { mode, beta, dynamics, code, right_sides: None, selection: None }
     }
 
     /// Whether it is this mode, with held hinges at these angles.
@@ -55,7 +56,7 @@ impl PreparedMode {
         let (code, selection) =
             AccelerationCode::choose(scene, &self.dynamics, repertoire, options, since)?;
         if let AccelerationCode::Generated(_) = code {
-            self.right_side = RightSide::fit(&self.dynamics, repertoire);
+            self.right_sides = RightSides::fit(&self.dynamics, repertoire, options.batches);
         }
         (self.code, self.selection) = (code, Some(selection.clone()));
         Ok(selection)
@@ -70,10 +71,10 @@ impl PreparedMode {
         y: &[f64],
         dy: &mut [f64],
     ) {
-        let Self { dynamics, code, right_side, .. } = self;
-        match right_side {
-            Some(right_side) if rates.layout.unknowns == Unknowns::Velocities => {
-                let power = right_side.write(y, dy);
+        let Self { dynamics, code, right_sides, .. } = self;
+        match right_sides {
+            Some(right_sides) if rates.layout.unknowns == Unknowns::Velocities => {
+                let power = right_sides.of_one.write(y, dy);
                 rates.complete(dynamics, power, free_fall, y, dy);
             }
             _ => {
@@ -86,8 +87,52 @@ impl PreparedMode {
         }
     }
 
+    /// Writes ẏ of eight states to `dy`, if there is code for them in `layout`; returns whether there is.
+    pub fn rates_of_eight(
+        &mut self,
+        layout: &VariableLayout,
+        part: Part,
+        y: &[Eight],
+        dy: &mut [Eight],
+    ) -> bool {
+        let in_lanes = layout.unknowns == Unknowns::Velocities && !layout.thrust;
+        let of_eight = self.right_sides.as_mut().and_then(|both| both.of_eight.as_mut());
+        let Some(right_side) = of_eight.filter(|_| in_lanes) else { return false };
+        if part == Part::Coupled {
+            let power = right_side.write(y, dy);
+            if let [work] = &mut dy[layout.dashpot_work()] {
+                *work = power;
+            }
+            return true;
+        }
+        attitude_rates(y, dy);
+        if let [work] = &mut dy[layout.dashpot_work()] {
+            let free = self.dynamics.free_hinges();
+            let torques = self.dynamics.elements().torques();
+            *work = Eight::default();
+            for (&hinge, rates) in free.iter().zip(&y[layout.hinge_motion()]) {
+                for (power, &tau) in work.0.iter_mut().zip(&rates.0) {
+                    *power += torques[hinge].rate_torque(tau) * tau;
+                }
+            }
+        }
+        true
+    }
+
     /// Accelerations: ω̇, a_O without gravity, τ̇.
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>, out: &mut Accelerations<f64>) {
         self.code.accelerations(&mut self.dynamics, motion, out);
+    }
+}
+
+/// Writes the rates of the attitudes of eight states, whose variables begin with attitude and ω.
+fn attitude_rates(y: &[Eight], dy: &mut [Eight]) {
+    for lane in 0..8 {
+        let [w, x, y, z, p, q, r] = std::array::from_fn(|i| y[i].0[lane]);
+        let rate = Quaternion { scalar: w, vector: Vec3::new(x, y, z) }.rate(Vec3::new(p, q, r));
+        dy[0].0[lane] = rate.scalar;
+        for (of_all, one) in dy[1..4].iter_mut().zip(rate.vector.to_array()) {
+            of_all.0[lane] = one;
+        }
     }
 }
