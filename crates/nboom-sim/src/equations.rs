@@ -13,7 +13,7 @@ use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::rates::Rates;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
-use crate::equations::variables::{Variables, motion};
+use crate::equations::variables::Variables;
 use crate::error::SimError;
 use crate::run::ledger::totals;
 use crate::run::options::Options;
@@ -51,8 +51,6 @@ pub(crate) struct Equations {
     momenta: bool,
     /// Whether the angular momentum stands for the rate where nothing changes it.
     momentum_for_rate: bool,
-    /// Room for τ of the free hinges.
-    tau: Vec<f64>,
 }
 
 impl Equations {
@@ -82,7 +80,6 @@ impl Equations {
             evaluations: 0,
             momenta: rigid && options.integrates_momenta(),
             momentum_for_rate: rigid && options.integrator.keeps_invariants(),
-            tau: Vec::new(),
         }
     }
 
@@ -102,7 +99,6 @@ impl Equations {
         (self.jacobian, self.series) = (None, None);
         self.variables = Variables::new(scene, layout, state);
         self.variables.write(&mut self.dynamics, y);
-        self.tau.resize(free, 0.0);
         self.size_up(state);
     }
 
@@ -215,16 +211,16 @@ impl System for Equations {
     }
 
     fn sizes(&mut self, y: &[f64], sizes: &mut [f64]) {
-        let Variables { layout, .. } = &self.variables;
+        let layout = self.variables.layout;
         if layout.has_momenta() {
-            let motion = motion(layout, &mut self.dynamics, y, &mut self.tau);
+            let motion = self.variables.motion(&mut self.dynamics, y);
             self.sizes.saw(&motion.omega_body.to_array());
             self.sizes.saw(motion.tau);
         } else {
             self.sizes.saw(&y[layout.omega()]);
             self.sizes.saw(&y[layout.hinge_motion()]);
         }
-        self.sizes.write(layout, sizes);
+        self.sizes.write(&layout, sizes);
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
