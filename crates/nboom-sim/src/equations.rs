@@ -15,7 +15,7 @@ use crate::equations::rates::Rates;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
 use crate::equations::totals::Totals;
-use crate::equations::variables::{Variables, motion};
+use crate::equations::variables::Variables;
 use crate::options::Options;
 
 pub(crate) mod attitude_norm;
@@ -57,8 +57,6 @@ pub(crate) struct Equations {
     momenta: bool,
     /// Whether the angular momentum stands for the rate where nothing changes it.
     momentum_for_rate: bool,
-    /// Room for τ of the free hinges.
-    tau: Vec<f64>,
 }
 
 impl Equations {
@@ -90,7 +88,6 @@ impl Equations {
             evaluations: 0,
             momenta: rigid && options.integrates_momenta(),
             momentum_for_rate: rigid && options.integrator.keeps_invariants(),
-            tau: Vec::new(),
         }
     }
 
@@ -118,7 +115,6 @@ impl Equations {
         (self.jacobian, self.series) = (None, None);
         self.variables = Variables::new(scene, layout, state);
         self.variables.write(&mut self.entered.dynamics, y);
-        self.tau.resize(free, 0.0);
         self.size_up(state);
     }
 
@@ -244,16 +240,16 @@ impl System for Equations {
     }
 
     fn sizes(&mut self, y: &[f64], sizes: &mut [f64]) {
-        let Variables { layout, .. } = &self.variables;
+        let layout = self.variables.layout;
         if layout.has_momenta() {
-            let motion = motion(layout, &mut self.entered.dynamics, y, &mut self.tau);
+            let motion = self.variables.motion(&mut self.entered.dynamics, y);
             self.sizes.saw(&motion.omega_body.to_array());
             self.sizes.saw(motion.tau);
         } else {
             self.sizes.saw(&y[layout.omega()]);
             self.sizes.saw(&y[layout.hinge_motion()]);
         }
-        self.sizes.write(layout, sizes);
+        self.sizes.write(&layout, sizes);
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {

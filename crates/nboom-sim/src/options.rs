@@ -22,7 +22,8 @@ pub enum Path {
 pub enum Form {
     /// The recursion over any tree, which exists as library code alone.
     Recursive,
-    /// A closed form, as library code and in generated routines.
+    /// A closed form, as library code and in generated routines. Of `momentum`, library code
+    /// integrates momenta in place of rates.
     Closed(Formulation),
 }
 

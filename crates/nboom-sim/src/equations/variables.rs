@@ -49,6 +49,11 @@ impl<R: Number> Variables<R> {
         }
     }
 
+    /// The motion that the variables `y` stand for; `dynamics` is in their mode.
+    pub fn motion<'a>(&'a mut self, dynamics: &mut Recursive<R>, y: &'a [R]) -> Motion<'a, R> {
+        motion(&self.layout, dynamics, y, &mut self.tau)
+    }
+
     /// The state that the variables `y` at time `t` stand for; `dynamics` is in their mode.
     pub fn read(&mut self, dynamics: &mut Recursive<R>, t: R, y: &[R], state: &mut State<R>) {
         let layout = &self.layout;

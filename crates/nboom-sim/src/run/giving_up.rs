@@ -4,7 +4,6 @@ use nboom_model::HingeLabel;
 use nboom_ode::StepError;
 
 use super::Run;
-use crate::equations::variables::motion;
 use crate::error::SimError;
 use crate::events::event::Event;
 use crate::events::situation::Situation;
@@ -80,8 +79,7 @@ impl Run<'_> {
         let free = self.equations.entered.dynamics.free_hinges().to_vec();
         let mut torques = vec![0.0; free.len()];
         let dynamics = &mut self.equations.entered.dynamics;
-        let mut tau = vec![0.0; free.len()];
-        let motion = motion(&layout, dynamics, self.stepper.last_evaluated(), &mut tau);
+        let motion = self.equations.variables.motion(dynamics, self.stepper.last_evaluated());
         dynamics.hinge_forces(&motion, &mut torques);
         let bounded = |torque: f64| torque.abs() < BOUND;
         let without_bound = torques.iter().position(|&torque| !bounded(torque));
