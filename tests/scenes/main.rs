@@ -23,6 +23,7 @@ mod embedding;
 mod event_times;
 mod lock_ups;
 mod momenta;
+mod prepared;
 mod stiff;
 mod tolerance;
 mod trajectories;

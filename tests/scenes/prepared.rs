@@ -1,0 +1,68 @@
+//! A simulator that runs again and again: what it has prepared changes nothing.
+
+use nboom::model::{Scene, SceneDescription};
+use nboom::sim::{Options, Simulator, Summary};
+
+use crate::catalog::Reference;
+use crate::collect::{Collected, run, tight};
+
+fn next_run(simulator: &mut Simulator) -> (Collected, Summary) {
+    let mut found = Collected::default();
+    let summary = simulator.run(&mut found).expect("reference scenes run");
+    (found, summary)
+}
+
+/// Every number of every sample and event, and what the run says of itself.
+fn assert_same(found: &(Collected, Summary), expected: &(Collected, Summary), name: &str) {
+    assert_eq!(found.0.samples, expected.0.samples, "{name}");
+    assert_eq!(found.0.events, expected.0.events, "{name}");
+    assert_eq!(found.1, expected.1, "{name}");
+}
+
+fn options() -> [Options; 2] {
+    [tight(20), Options { kernels: nboom_routines::all(), ..tight(20) }]
+}
+
+#[test]
+fn every_run_of_a_simulator_is_that_of_a_new_one() {
+    for reference in Reference::all() {
+        for options in options() {
+            let expected = run(&reference.scene(), &options);
+            let mut simulator = Simulator::new(&reference.scene(), options);
+            for _ in 0..3 {
+                assert_same(&next_run(&mut simulator), &expected, &reference.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn another_scene_leaves_nothing_of_the_one_before() {
+    let change = |scene: &Scene, how: &dyn Fn(&mut SceneDescription)| {
+        let mut changed = SceneDescription::clone(scene);
+        how(&mut changed);
+        Scene::new(changed).expect("a physical scene")
+    };
+    for reference in Reference::all() {
+        for options in options() {
+            let scene = reference.scene();
+            let faster = change(&scene, &|s| s.initial.omega_body.x += 0.25);
+            let shorter = change(&scene, &|s| s.end_time *= 0.75);
+            let turned = change(&scene, &|s| {
+                if let Some(body) = s.bodies.last_mut() {
+                    body.hinge.start.angle += 0.1;
+                }
+            });
+            let heavier = change(&scene, &|s| s.main_body.mass *= 2.0);
+            let softer = change(&scene, &|s| {
+                s.bodies.iter_mut().for_each(|body| body.hinge.spring.linear *= 0.5);
+            });
+            let mut simulator = Simulator::new(&scene, options);
+            for other in [&scene, &faster, &shorter, &turned, &heavier, &softer, &scene] {
+                simulator.set_scene(other);
+                let expected = run(other, &options);
+                assert_same(&next_run(&mut simulator), &expected, &reference.name);
+            }
+        }
+    }
+}
