@@ -103,7 +103,7 @@ fn errors_away_from_the_origin(faster: f64) -> Vec<f64> {
         let (rho, v) = (dice.vector(1.0), dice.vector(1.0));
         let of_report = DISTANCES.map(|distance| {
             let place = OriginMotion { rho: rho * distance, v: v * distance };
-            report::solve(topology, parameters, &coordinates, &place)
+            report::solve_at(topology, parameters, &coordinates, &place)
         });
         for (worst, found) in worst.iter_mut().zip([articulated].iter().chain(&of_report)) {
             *worst = worst.max(error(&flat(found), &exact));

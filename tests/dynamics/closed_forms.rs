@@ -1,7 +1,7 @@
 //! Closed forms against the recursive path, which shares only spatial algebra with them.
 
 use nboom::dynamics::{Accelerations, Motion};
-use nboom::formulation::{Coordinates, HingeCoordinates, articulated, recognise};
+use nboom::formulation::{Coordinates, Formulation, HingeCoordinates, recognise};
 use nboom::model::WeldedTree;
 use nboom::scalar::{Vec3, Wrench};
 
@@ -29,7 +29,11 @@ fn articulated_gives_the_accelerations_of_the_recursive_path() {
             external: external.map_or(Wrench::zero(), |t| Wrench::of_force(t.point, t.force)),
             hinges: recognised.links.iter().map(hinge).collect(),
         };
-        let found = articulated::solve(&recognised.topology, &recognised.parameters, &coordinates);
+        let found = Formulation::Articulated.solve(
+            &recognised.topology,
+            &recognised.parameters,
+            &coordinates,
+        );
         let flat =
             |omega: Vec3<f64>, origin: Vec3<f64>| [omega.to_array(), origin.to_array()].concat();
         let mut all_found = flat(found.main.angular, found.main.linear);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use nboom::formulation::{
-    Coordinates, Embedding, Layout, Parameters, Recognised, articulated, recognise,
+    Coordinates, Embedding, Formulation, Layout, Parameters, Recognised, recognise,
 };
 use nboom::model::{HingeState, Mode, Scene, Shape, Topology, WeldedTree};
 use nboom::scalar::Kernel;
@@ -69,7 +69,7 @@ fn closed_forms_of_embedded_satellites_give_the_same_accelerations() {
         let recognised = satellite.recognised();
         let Recognised { topology: inner, parameters, links } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
-        let own = flat(&articulated::solve(inner, parameters, &coordinates));
+        let own = flat(&Formulation::Articulated.solve(inner, parameters, &coordinates));
         let dice = &mut Rng::new(seed ^ 0xe1b);
         let outer = larger(inner, dice);
         let embedding = Embedding::new(inner, &outer).expect("it is larger");
@@ -77,7 +77,8 @@ fn closed_forms_of_embedded_satellites_give_the_same_accelerations() {
         for assumptions in [vec![], any_numbers(Layout::parameters(&outer), dice)] {
             let numbers = embedding.parameters(parameters, &assumptions);
             let satellite_in_it = Parameters::read(&outer, numbers);
-            let found = articulated::solve(&outer, &satellite_in_it, &state).write(&outer);
+            let found =
+                Formulation::Articulated.solve(&outer, &satellite_in_it, &state).write(&outer);
             let found = of_real(&embedding, &found);
             let error = relative_error(&found, &own, 0.0) / satellite.condition();
             worst = worst.max(error);

@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use nboom::formulation::momentum::{self, Momenta, Velocities};
 use nboom::formulation::report::{self, OriginMotion};
 use nboom::formulation::{
-    Coordinates, Formulation, Parameters, Recognised, Solution, articulated, relative, symmetric,
+    Coordinates, Equations, Formulation, Parameters, Recognised, Solution, relative, symmetric,
 };
-use nboom::model::{HingeState, Mode, Shape};
+use nboom::model::{HingeState, Mode, Shape, Topology};
 use nboom::scalar::{Dual, Twist, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, cases};
@@ -82,8 +82,8 @@ fn the_reports_equations_hold_wherever_the_satellite_is() {
         let place = OriginMotion { rho: dice.vector(10.0), v: dice.vector(10.0) };
         let Recognised { topology, parameters, .. } = &recognised;
         for (name, found) in [
-            ("report", report::solve(topology, parameters, &coordinates, &place)),
-            ("relative", relative::solve(topology, parameters, &coordinates, &place)),
+            ("report", report::solve_at(topology, parameters, &coordinates, &place)),
+            ("relative", relative::solve_at(topology, parameters, &coordinates, &place)),
         ] {
             let error = relative_error(&flat(&found), &expected, 0.0);
             // A few digits go: the satellites measure about 1, and ρ̄ is ten times as long.
@@ -106,17 +106,27 @@ fn square(entries: &[f64]) -> DMatrix<f64> {
     DMatrix::from_row_slice(size, size, entries)
 }
 
+/// B₀ and u₀.
+fn equations(
+    topology: &Topology,
+    parameters: &Parameters<f64>,
+    coordinates: &Coordinates<f64>,
+) -> Equations<f64> {
+    let found = Formulation::Symmetric.equations(topology, parameters, coordinates);
+    found.expect("it solves a system")
+}
+
 fn assert_same_equations(satellite: &Satellite, label: &str) {
     let recognised = satellite.recognised();
     let Recognised { topology, parameters, links } = &recognised;
     let coordinates = satellite.coordinates_of(&recognised);
     let expected = satellite.mass_matrix_of(&recognised);
-    let found = square(&symmetric::mass_matrix(topology, parameters, &coordinates));
+    let Equations { matrix, forcing } = equations(topology, parameters, &coordinates);
+    let found = square(&matrix);
     assert_eq!(found, found.transpose());
     let error = matrix_error(&found, &expected);
     assert!(error < ROUNDING, "{label}, {topology}: {error:e}");
 
-    let forcing = symmetric::forcing(topology, parameters, &coordinates);
     let in_order = (0..6).chain(links.iter().map(|j| 6 + j));
     let expected: Vec<f64> = in_order.map(|i| satellite.forcing[i]).collect();
     let error = relative_error(&forcing, &expected, 1.0);
@@ -142,7 +152,7 @@ fn symmetric_has_the_mass_matrix_of_the_reference_states() {
         let recognised = satellite.recognised();
         let Recognised { topology, parameters, links } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
-        let found = square(&symmetric::mass_matrix(topology, parameters, &coordinates));
+        let found = square(&equations(topology, parameters, &coordinates).matrix);
         let expected = square(&numbers(&case.expected["mass_matrix"]));
         let order: Vec<usize> = (0..6).chain(links.iter().map(|&j| 6 + j)).collect();
         let error = matrix_error(&found, &expected.select_rows(&order).select_columns(&order));
@@ -162,8 +172,8 @@ fn a_b_and_the_symmetric_matrix_are_columns_of_each_other() {
         let coordinates = satellite.coordinates_of(&recognised);
         let dice = &mut Rng::new(seed);
         let place = OriginMotion { rho: dice.vector(2.0), v: dice.vector(2.0) };
-        let a = report::equations(topology, parameters, &coordinates, &place);
-        let b = relative::equations(topology, parameters, &coordinates, &place);
+        let a = report::equations_at(topology, parameters, &coordinates, &place);
+        let b = relative::equations_at(topology, parameters, &coordinates, &place);
         assert_eq!(a.forcing, b.forcing);
         let size = a.forcing.len();
         // σ = a τ, and a_O = v̇ − J(ρ̄) ω̇ + …
@@ -192,13 +202,13 @@ fn a_b_and_the_symmetric_matrix_are_columns_of_each_other() {
             to_components[(j, 3 + i)] = -entry;
         }
         let kinetic = &b_matrix * to_components;
-        let expected = square(&symmetric::mass_matrix(topology, parameters, &coordinates));
+        let expected = square(&equations(topology, parameters, &coordinates).matrix);
         let error = (&kinetic - &expected).amax() / b_matrix.amax();
         assert!(error < ROUNDING, "seed {seed}, B C = B₀: {error:e}");
 
         let at_origin =
-            relative::equations(topology, parameters, &coordinates, &OriginMotion::origin());
-        let forcing = symmetric::forcing(topology, parameters, &coordinates);
+            relative::equations_at(topology, parameters, &coordinates, &OriginMotion::origin());
+        let forcing = equations(topology, parameters, &coordinates).forcing;
         let error = relative_error(&at_origin.forcing, &forcing, 1.0);
         assert!(error < 10.0 * ROUNDING, "seed {seed}, u₀: {error:e}");
     }
@@ -297,7 +307,7 @@ fn momenta_are_the_mass_matrix_times_the_velocities_and_back() {
 /// The derivative of (Π, P, π) along the motion that `articulated` gives.
 fn momenta_along_the_motion(moving: &Moving) -> Momenta<f64> {
     let Recognised { topology, parameters, .. } = &moving.recognised;
-    let found = articulated::solve(topology, parameters, &moving.coordinates);
+    let found = Formulation::Articulated.solve(topology, parameters, &moving.coordinates);
     let dual = |value: f64, derivative: f64| Dual { value, derivative };
     let vector =
         |v: Vec3<f64>, d: Vec3<f64>| Vec3::new(dual(v.x, d.x), dual(v.y, d.y), dual(v.z, d.z));

@@ -2,7 +2,7 @@
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::{
-    Branch, ChainLink, Coordinates, HingeCoordinates, Layout, Parameters, Recognised, articulated,
+    Branch, ChainLink, Coordinates, Formulation, HingeCoordinates, Layout, Parameters, Recognised,
     recognise,
 };
 use nboom::model::{
@@ -82,7 +82,8 @@ impl Prepared {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Vec<R> {
-        let found = articulated::solve(&self.recognised.topology, parameters, coordinates);
+        let found =
+            Formulation::Articulated.solve(&self.recognised.topology, parameters, coordinates);
         let mut tau_dot = found.tau_dot.clone();
         for (&j, &of_hinge) in self.recognised.links.iter().zip(&found.tau_dot) {
             tau_dot[j] = of_hinge;

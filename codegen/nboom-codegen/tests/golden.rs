@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, StressRequest, generate, source};
-use nboom_formulation::{Coordinates, Formulation, Layout, Parameters, articulated};
+use nboom_formulation::{Coordinates, Formulation, Layout, Parameters};
 use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
     Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
@@ -171,7 +171,8 @@ fn is_the_closed_form<T: Routine>(request: &Request) {
         let (parameters, state) = (parameters::<T>(topology, case), state::<T>(case));
         let satellite = Parameters::read(topology, parameters.iter().copied());
         let coordinates = Coordinates::read(topology, &state);
-        let expected = articulated::solve(topology, &satellite, &coordinates).write(topology);
+        let expected =
+            Formulation::Articulated.solve(topology, &satellite, &coordinates).write(topology);
 
         let (mut constants, mut found) = (vec![0.0; T::CONSTANTS], vec![0.0; T::OUTPUTS]);
         T::prepare(&parameters, &mut constants);

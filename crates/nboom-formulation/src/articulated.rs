@@ -22,39 +22,30 @@ impl ClosedForm for Articulated {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Solution<R> {
-        solve(topology, parameters, coordinates)
+        let omega = coordinates.omega;
+        let mut seen = AtOrigin::nothing();
+        let mut first = 0;
+        let mut appendages = Vec::new();
+        for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
+            let hinges = &coordinates.hinges[first..first + shape.hinges()];
+            let number = appendages.len() + 1;
+            let appendage = Appendage::eliminate(number, shape, branch, omega, hinges);
+            R::remark(|| format!("Appendage {number}: what it shows at O, main-body axes."));
+            seen.add(&appendage.at_origin(branch));
+            appendages.push(appendage);
+            first += shape.hinges();
+        }
+        R::remark(|| "Main body: its own wrench, and all shares at O.".to_owned());
+        let mut total = AtOrigin::of_main_body(&parameters.main, omega, &coordinates.external);
+        total.add(&seen);
+        R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
+        let main = total.accelerations();
+        let mut tau_dot = Vec::new();
+        for (appendage, branch) in appendages.iter().zip(&parameters.branches) {
+            appendage.back(branch, main, &mut tau_dot);
+        }
+        Solution { main, tau_dot }
     }
-}
-
-/// Accelerations of a satellite.
-pub fn solve<R: Real>(
-    topology: &Topology,
-    parameters: &Parameters<R>,
-    coordinates: &Coordinates<R>,
-) -> Solution<R> {
-    let omega = coordinates.omega;
-    let mut seen = AtOrigin::nothing();
-    let mut first = 0;
-    let mut appendages = Vec::new();
-    for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
-        let hinges = &coordinates.hinges[first..first + shape.hinges()];
-        let number = appendages.len() + 1;
-        let appendage = Appendage::eliminate(number, shape, branch, omega, hinges);
-        R::remark(|| format!("Appendage {number}: what it shows at O, main-body axes."));
-        seen.add(&appendage.at_origin(branch));
-        appendages.push(appendage);
-        first += shape.hinges();
-    }
-    R::remark(|| "Main body: its own wrench, and all shares at O.".to_owned());
-    let mut total = AtOrigin::of_main_body(&parameters.main, omega, &coordinates.external);
-    total.add(&seen);
-    R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
-    let main = total.accelerations();
-    let mut tau_dot = Vec::new();
-    for (appendage, branch) in appendages.iter().zip(&parameters.branches) {
-        appendage.back(branch, main, &mut tau_dot);
-    }
-    Solution { main, tau_dot }
 }
 
 /// An appendage whose hinges have been eliminated.

@@ -1,5 +1,5 @@
-//! Formulation `momentum`: the elimination of [`articulated`] on momenta, form M-P of the cost
-//! table in `docs/formulations.md`.
+//! Formulation `momentum`: the elimination of [`articulated`](crate::articulated) on momenta, form M-P
+//! of the cost table in `docs/formulations.md`.
 //!
 //! The state has momenta (Π, P, π) = B₀ (ω, V, τ) in place of velocities. No bias acceleration
 //! is ever formed, momentum is conserved to the last digit, and a lock-up merely drops the π of
@@ -8,7 +8,7 @@
 use nboom_model::{Shape, Topology};
 use nboom_scalar::{Dual, Real, Twist, Vec3, Wrench};
 
-use crate::articulated;
+use crate::articulated::Articulated;
 use crate::formulation::ClosedForm;
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
 use crate::pose::{self, Posed, each};
@@ -21,12 +21,33 @@ impl ClosedForm for Momentum {
     const ABOUT: &'static str =
         "O(n) elimination on momenta (Π, P, π): velocities, no accelerations";
 
+    /// The velocities of the momenta, differentiated along the motion.
+    ///
+    /// Runs do not need it; it makes the formulation comparable with the others.
     fn solve<R: Real>(
         topology: &Topology,
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Solution<R> {
-        solve(topology, parameters, coordinates)
+        let hinges = &coordinates.hinges;
+        let (beta, tau) = (each(hinges, |hinge| hinge.beta), each(hinges, |hinge| hinge.tau));
+        let torques = each(hinges, |hinge| hinge.torque);
+        // a_O does not depend on the velocity of O, which may be zero for the moment.
+        let main = Twist { angular: coordinates.omega, linear: Vec3::zero() };
+        let now = Velocities { main, tau: tau.clone() };
+        let at = momenta(topology, parameters, &beta, &now);
+        let rate = rates(topology, parameters, &beta, (&at, &now), coordinates.external, &torques);
+        let beta: Vec<_> = beta.iter().zip(&tau).map(|(&b, &rate)| dual(b, rate)).collect();
+        let constants = parameters.write().into_iter().map(Dual::constant);
+        let parameters = Parameters::read(topology, constants);
+        let moved = velocities(topology, &parameters, &beta, &in_time(&at, &rate));
+        let derivative =
+            |v: Vec3<Dual<R>>| Vec3::new(v.x.derivative, v.y.derivative, v.z.derivative);
+        let Twist { angular, linear } = moved.main;
+        Solution {
+            main: Twist { angular: derivative(angular), linear: derivative(linear) },
+            tau_dot: moved.tau.into_iter().map(|tau| tau.derivative).collect(),
+        }
     }
 }
 
@@ -82,7 +103,7 @@ pub fn velocities<R: Real>(
         external: momenta.main,
         hinges: beta.iter().zip(&momenta.hinges).map(hinge).collect(),
     };
-    let Solution { main, tau_dot } = articulated::solve(topology, parameters, &at_rest);
+    let Solution { main, tau_dot } = Articulated::solve(topology, parameters, &at_rest);
     Velocities { main, tau: tau_dot }
 }
 
@@ -118,34 +139,6 @@ pub fn rates<R: Real>(
     }
     hinges.iter_mut().zip(torques).for_each(|(rate, &torque)| *rate += torque);
     Momenta { main, hinges }
-}
-
-/// Accelerations of a satellite: the velocities of the momenta, differentiated along the motion.
-///
-/// Runs do not need it; it makes the formulation comparable with the others.
-pub fn solve<R: Real>(
-    topology: &Topology,
-    parameters: &Parameters<R>,
-    coordinates: &Coordinates<R>,
-) -> Solution<R> {
-    let hinges = &coordinates.hinges;
-    let (beta, tau) = (each(hinges, |hinge| hinge.beta), each(hinges, |hinge| hinge.tau));
-    let torques = each(hinges, |hinge| hinge.torque);
-    // a_O does not depend on the velocity of O, which may be zero for the moment.
-    let main = Twist { angular: coordinates.omega, linear: Vec3::zero() };
-    let now = Velocities { main, tau: tau.clone() };
-    let at = momenta(topology, parameters, &beta, &now);
-    let rate = rates(topology, parameters, &beta, (&at, &now), coordinates.external, &torques);
-    let beta: Vec<_> = beta.iter().zip(&tau).map(|(&b, &rate)| dual(b, rate)).collect();
-    let constants = parameters.write().into_iter().map(Dual::constant);
-    let parameters = Parameters::read(topology, constants);
-    let moved = velocities(topology, &parameters, &beta, &in_time(&at, &rate));
-    let derivative = |v: Vec3<Dual<R>>| Vec3::new(v.x.derivative, v.y.derivative, v.z.derivative);
-    let Twist { angular, linear } = moved.main;
-    Solution {
-        main: Twist { angular: derivative(angular), linear: derivative(linear) },
-        tau_dot: moved.tau.into_iter().map(|tau| tau.derivative).collect(),
-    }
 }
 
 fn dual<R>(value: R, derivative: R) -> Dual<R> {

@@ -24,7 +24,7 @@ impl ClosedForm for Relative {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Option<Equations<R>> {
-        Some(equations(topology, parameters, coordinates, &OriginMotion::origin()))
+        Some(equations_at(topology, parameters, coordinates, &OriginMotion::origin()))
     }
 
     fn solve<R: Real>(
@@ -32,20 +32,20 @@ impl ClosedForm for Relative {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Solution<R> {
-        solve(topology, parameters, coordinates, &OriginMotion::origin())
+        solve_at(topology, parameters, coordinates, &OriginMotion::origin())
     }
 }
 
-/// B and u over (v̇, ω̇, τ̇), hinges appendage by appendage, without gravity.
+/// B and u over (v̇, ω̇, τ̇) where O is at `place`, hinges appendage by appendage, without gravity.
 ///
 /// σ = a τ, eq. (5.14): a chain's σ are sums of τ, so columns are summed from the tip.
-pub fn equations<R: Real>(
+pub fn equations_at<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
     place: &OriginMotion<R>,
 ) -> Equations<R> {
-    let mut equations = section5::equations(topology, parameters, coordinates, place);
+    let mut equations = section5::equations_at(topology, parameters, coordinates, place);
     let size = equations.forcing.len();
     let mut first = 6;
     for &shape in topology.shapes() {
@@ -63,13 +63,13 @@ pub fn equations<R: Real>(
 }
 
 /// Accelerations of a satellite whose O is at `place`.
-pub fn solve<R: Real>(
+pub fn solve_at<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
     place: &OriginMotion<R>,
 ) -> Solution<R> {
-    let unknowns = equations(topology, parameters, coordinates, place).solve();
+    let unknowns = equations_at(topology, parameters, coordinates, place).solve();
     let main = report::main_rates(&unknowns, coordinates.omega, place);
     Solution { main, tau_dot: unknowns[6..].to_vec() }
 }

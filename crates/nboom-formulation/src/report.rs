@@ -11,9 +11,8 @@ use nboom_scalar::{Real, Twist, Vec3};
 use crate::formulation::ClosedForm;
 use crate::parameters::{Coordinates, Parameters, Solution};
 use crate::pose;
-use crate::section5;
 
-pub use crate::section5::{Equations, OriginMotion};
+pub use crate::section5::{Equations, OriginMotion, equations_at};
 
 /// The row of [`Formulation`](crate::Formulation)'s table.
 pub(crate) struct Report;
@@ -29,7 +28,7 @@ impl ClosedForm for Report {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Option<Equations<R>> {
-        Some(equations(topology, parameters, coordinates, &OriginMotion::origin()))
+        Some(equations_at(topology, parameters, coordinates, &OriginMotion::origin()))
     }
 
     fn solve<R: Real>(
@@ -37,28 +36,18 @@ impl ClosedForm for Report {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Solution<R> {
-        solve(topology, parameters, coordinates, &OriginMotion::origin())
+        solve_at(topology, parameters, coordinates, &OriginMotion::origin())
     }
 }
 
-/// A and u over (v̇, ω̇, σ̇), hinges appendage by appendage, without gravity.
-pub fn equations<R: Real>(
-    topology: &Topology,
-    parameters: &Parameters<R>,
-    coordinates: &Coordinates<R>,
-    place: &OriginMotion<R>,
-) -> Equations<R> {
-    section5::equations(topology, parameters, coordinates, place)
-}
-
 /// Accelerations of a satellite whose O is at `place`.
-pub fn solve<R: Real>(
+pub fn solve_at<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,
     place: &OriginMotion<R>,
 ) -> Solution<R> {
-    let unknowns = equations(topology, parameters, coordinates, place).solve();
+    let unknowns = equations_at(topology, parameters, coordinates, place).solve();
     let mut tau_dot = Vec::new();
     let mut first = 6;
     for &shape in topology.shapes() {

@@ -52,8 +52,8 @@ impl<R: Real> Equations<R> {
 }
 
 /// A and u of eq. (5.1) over (v̇, ω̇, σ̇); u is what eqs. (4.24), (4.36) and (4.38) to (4.43) have
-/// besides. corrected: notes 1, 2, 11.
-pub(crate) fn equations<R: Real>(
+/// besides. corrected: notes 1, 2, 11. Hinges stand appendage by appendage, O at `place`; without gravity.
+pub fn equations_at<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,
     coordinates: &Coordinates<R>,

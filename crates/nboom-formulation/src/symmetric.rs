@@ -40,10 +40,8 @@ impl ClosedForm for Symmetric {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Option<Equations<R>> {
-        Some(Equations {
-            matrix: mass_matrix(topology, parameters, coordinates),
-            forcing: forcing(topology, parameters, coordinates),
-        })
+        let whole = whole(topology, parameters, coordinates);
+        Some(Equations { matrix: whole.dense(), forcing: whole.dense_right() })
     }
 
     fn solve<R: Real>(
@@ -51,56 +49,28 @@ impl ClosedForm for Symmetric {
         parameters: &Parameters<R>,
         coordinates: &Coordinates<R>,
     ) -> Solution<R> {
-        solve(topology, parameters, coordinates)
+        let Coordinates { omega, external, .. } = coordinates;
+        let mut total = AtOrigin::of_main_body(&parameters.main, *omega, external);
+        let mut eliminated = Vec::new();
+        for (branch, arrow) in appendages(topology, parameters, coordinates) {
+            R::remark(|| format!("Appendage {}: its hinges eliminated.", eliminated.len() + 1));
+            let (seen, left) = arrow.eliminate();
+            total.add(&seen.rotated(&branch.rot_body_from_appendage));
+            eliminated.push((branch.rot_body_from_appendage, left));
+        }
+        R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
+        let main = total.accelerations();
+        let mut tau_dot = Vec::new();
+        for (i, (&shape, (rot, left))) in topology.shapes().iter().zip(&eliminated).enumerate() {
+            R::remark(|| format!("Appendage {}, back: τ̇ of its hinges.", i + 1));
+            let seen = Twist {
+                angular: rot.transpose_mul(main.angular),
+                linear: rot.transpose_mul(main.linear),
+            };
+            tau_dot.extend(pose::relative(shape, &left.back(seen)));
+        }
+        Solution { main, tau_dot }
     }
-}
-
-/// Accelerations of a satellite.
-pub fn solve<R: Real>(
-    topology: &Topology,
-    parameters: &Parameters<R>,
-    coordinates: &Coordinates<R>,
-) -> Solution<R> {
-    let Coordinates { omega, external, .. } = coordinates;
-    let mut total = AtOrigin::of_main_body(&parameters.main, *omega, external);
-    let mut eliminated = Vec::new();
-    for (branch, arrow) in appendages(topology, parameters, coordinates) {
-        R::remark(|| format!("Appendage {}: its hinges eliminated.", eliminated.len() + 1));
-        let (seen, left) = arrow.eliminate();
-        total.add(&seen.rotated(&branch.rot_body_from_appendage));
-        eliminated.push((branch.rot_body_from_appendage, left));
-    }
-    R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
-    let main = total.accelerations();
-    let mut tau_dot = Vec::new();
-    for (i, (&shape, (rot, left))) in topology.shapes().iter().zip(&eliminated).enumerate() {
-        R::remark(|| format!("Appendage {}, back: τ̇ of its hinges.", i + 1));
-        let seen = Twist {
-            angular: rot.transpose_mul(main.angular),
-            linear: rot.transpose_mul(main.linear),
-        };
-        tau_dot.extend(pose::relative(shape, &left.back(seen)));
-    }
-    Solution { main, tau_dot }
-}
-
-/// B₀, the matrix of kinetic energy over (V, ω, τ): (6 + n)² entries, row by row, hinges
-/// appendage by appendage. Only the angles are read.
-pub fn mass_matrix<R: Real>(
-    topology: &Topology,
-    parameters: &Parameters<R>,
-    coordinates: &Coordinates<R>,
-) -> Vec<R> {
-    whole(topology, parameters, coordinates).dense()
-}
-
-/// u₀, the right side of B₀ (a_O, ω̇, τ̇) = u₀ without gravity: 6 + n entries.
-pub fn forcing<R: Real>(
-    topology: &Topology,
-    parameters: &Parameters<R>,
-    coordinates: &Coordinates<R>,
-) -> Vec<R> {
-    whole(topology, parameters, coordinates).dense_right()
 }
 
 /// Each appendage with its arrow along appendage axes, absolute rates.
