@@ -1,7 +1,7 @@
 //! Lines along which forces act: their lengths and rates.
 
 use nboom::dynamics::Recursive;
-use nboom::scalar::{Dual, Real};
+use nboom::scalar::Dual;
 
 use crate::forward_dynamics::cases;
 use crate::random_scene::{Moment, moment, spring};

@@ -68,7 +68,7 @@ fn spring_lengths(description: &SceneDescription) -> Vec<f64> {
     let beta: Vec<f64> = free.map(|body| body.hinge.start.angle).collect();
     let tau = vec![0.0; beta.len()];
     let motion = Motion { omega_body: scene.initial.omega_body, beta: &beta, tau: &tau };
-    let mut dynamics = Recursive::new(&scene);
+    let dynamics = Recursive::new(&scene);
     let length = |i: usize| {
         let line = scene.bodies[i].hinge.kick_off.map(|_| spring(&scene.bodies, i));
         line.map_or(0.0, |line| {
