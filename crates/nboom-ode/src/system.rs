@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 /// A system of ordinary differential equations ẏ = f(t, y).
 pub trait System {
     /// Writes f(t, y) to `dy`, which has the length of `y`.
@@ -14,6 +16,12 @@ pub trait System {
     /// `false` leaves it to the method to take differences. Only implicit methods ask.
     fn jacobian(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> bool {
         false
+    }
+
+    /// Variables that are integrals of others: the rate of each in the first range is the one at its place
+    /// in the second. Implicit methods eliminate them.
+    fn integrals(&self) -> [Range<usize>; 2] {
+        [0..0, 0..0]
     }
 
     /// Writes the power series of the solution through (t, y) to `out` and returns `true`:

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::gravity;
 use nboom_model::{Mode, Scene};
@@ -196,6 +198,10 @@ impl System for Equations {
         let of_mode = || Jacobian::new(scene, mode, &origin.beta, *layout);
         self.jacobian.get_or_insert_with(of_mode).write(free_fall, y, out);
         true
+    }
+
+    fn integrals(&self) -> [Range<usize>; 2] {
+        [self.variables.layout.beta(), self.variables.layout.tau()]
     }
 
     fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
