@@ -32,7 +32,7 @@ pub trait System {
         false
     }
 
-    /// How variable `i` hangs together with the others; asked at a start, by methods that iterate.
+    /// How variable `i` hangs together with the others; asked at a start, by implicit methods.
     fn role(&self, _i: usize) -> Role {
         Role::Coupled
     }
