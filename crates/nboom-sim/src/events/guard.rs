@@ -6,6 +6,7 @@ use nboom_scalar::{Number, Real};
 
 use crate::equations::Equations;
 use crate::equations::state::State;
+use crate::events::arc::Arc;
 use crate::events::event::EventKind;
 use crate::events::instant;
 
@@ -14,6 +15,8 @@ use crate::events::instant;
 pub(crate) struct Guard {
     pub kind: GuardKind,
     side: Side,
+    /// The angles at which it keeps its side, of a line's length that one hinge changes.
+    arc: Option<Arc>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -187,7 +190,8 @@ impl Guards {
             if let Some(angle) = body.hinge.lock_angle.filter(|_| mode.is_free(i)) {
                 let leaving = Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() };
                 let side = lock_sides[i].map_or(leaving, |side| Side::Known(side.sign()));
-                self.list.push(Guard { kind: GuardKind::Lock { hinge: i, angle }, side });
+                let kind = GuardKind::Lock { hinge: i, angle };
+                self.list.push(Guard { kind, side, arc: None });
             }
             if let Release::Angle { hinge: trigger, angle } = body.hinge.release
                 && mode.hinges[i] == HingeState::Unreleased
@@ -195,7 +199,7 @@ impl Guards {
             {
                 let side = Side::Known((state.beta[trigger].to_f64() - angle).signum());
                 let kind = GuardKind::Trigger { hinge: i, trigger, angle };
-                self.list.push(Guard { kind, side });
+                self.list.push(Guard { kind, side, arc: None });
             }
         }
         for bound in bounds(dynamics, mode) {
@@ -205,7 +209,15 @@ impl Guards {
                 || value.to_f64().abs() <= AT_BOUND * bound.scale(dynamics.elements());
             let leaving = Side::Leaving { sign: Some(sign), at_rest: rate == R::zero() };
             let side = if at_bound { leaving } else { Side::Known(sign) };
-            self.list.push(Guard { kind, side });
+            let free = dynamics.free_hinges();
+            let beta = |j: usize| state.beta[free[j]].to_f64();
+            let arc = match watched(kind, dynamics.elements()) {
+                (Coordinate::Length(line), limit) if !at_bound => {
+                    Arc::of(dynamics, (line, limit), beta, sign)
+                }
+                _ => None,
+            };
+            self.list.push(Guard { kind, side, arc });
         }
     }
 
@@ -220,6 +232,10 @@ impl Guards {
         for i in 0..self.list.len() {
             let guard = self.list[i];
             let change = match watched(guard.kind, equations.entered.dynamics.elements()) {
+                _ if let Some(arc) = guard.arc => {
+                    let first = equations.variables.layout.beta().start;
+                    arc.left_by(&stepper.polynomial(first + arc.hinge))
+                }
                 (Coordinate::Length(line), limit) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)
                 }

@@ -1,0 +1,63 @@
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use nboom_dynamics::Recursive;
+use nboom_ode::Bernstein;
+use nboom_scalar::Number;
+
+/// The angles of one hinge over which a line that it alone moves stays on one side of a limit.
+///
+/// The square of the length is a + r cos(β − φ), so that the limit is a pair of angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Arc {
+    /// Position among the free hinges.
+    pub hinge: usize,
+    low: f64,
+    high: f64,
+}
+
+/// Closer than this to the longest or shortest length in units of r, a limit is as good as touched.
+const TOUCHED: f64 = 1e-6;
+
+impl Arc {
+    /// Of `line`, whose length is below (`side` < 0) or above `limit` with the hinge at `beta`. `None`
+    /// where other hinges move the line too, and where rounding decides whether it comes to the limit.
+    pub fn of<R: Number>(
+        dynamics: &Recursive<R>,
+        (line, limit): (usize, f64),
+        beta: impl Fn(usize) -> f64,
+        side: f64,
+    ) -> Option<Self> {
+        let mut path = dynamics.line_reach(line);
+        let (Some((hinge, _)), None) = (path.next(), path.next()) else { return None };
+        let squared =
+            |angle: f64| dynamics.line_length_squared(line, |_| R::constant(angle)).to_f64();
+        let (at_zero, at_half) = (squared(0.0), squared(PI));
+        let mean = 0.5 * (at_zero + at_half);
+        let (along_cos, along_sin) = (0.5 * (at_zero - at_half), squared(FRAC_PI_2) - mean);
+        let (radius, phase) = (along_cos.hypot(along_sin), along_sin.atan2(along_cos));
+        let cosine = (limit * limit - mean) / radius;
+        // Beyond one the limit is out of reach; near one rounding tells.
+        if cosine.is_nan() || (cosine.abs() - 1.0).abs() < TOUCHED {
+            return None;
+        }
+        let beta = beta(hinge);
+        if cosine.abs() > 1.0 {
+            return Some(Self { hinge, low: f64::NEG_INFINITY, high: f64::INFINITY });
+        }
+        let (half, from_longest) = (cosine.acos(), (beta - phase).rem_euclid(TAU));
+        let [low, high] = if side < 0.0 {
+            [half - from_longest, TAU - half - from_longest]
+        } else {
+            let from_longest = if from_longest > PI { from_longest - TAU } else { from_longest };
+            [-half - from_longest, half - from_longest]
+        };
+        (low < 0.0 && 0.0 < high).then_some(Self { hinge, low: beta + low, high: beta + high })
+    }
+
+    /// Where on [0, 1] an angle leaves the arc.
+    pub fn left_by(&self, angle: &Bernstein) -> Option<f64> {
+        let (low, high) = (angle.minus(self.low), angle.minus(self.high));
+        let ends = [low.leaves_side(1.0), high.leaves_side(-1.0)];
+        ends.into_iter().flatten().reduce(f64::min)
+    }
+}
