@@ -71,8 +71,8 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// Of a run of `scene` with these largest values. A motion that does not turn anything in the
-    /// whole run is measured by one radian in it.
+    /// The scales of a run of `scene` with these largest values. A motion that turns nothing is
+    /// measured by one radian in the whole run.
     pub(crate) fn of(scene: &Scene, largest: &Largest) -> Self {
         let Largest { omega, beta, tau, rho, v, impulse } = *largest;
         let time = scene.end_time - scene.initial.time;
@@ -93,7 +93,7 @@ impl Scales {
     }
 }
 
-/// How far from O matter of the satellite can be, about: hinge distances along a branch, and the
+/// About how far from O the satellite's matter can be: hinge distances along a branch, and the
 /// radius of gyration at its end.
 pub(crate) fn reach(scene: &Scene) -> f64 {
     let of_body = |body: &MassProperties| {
