@@ -242,7 +242,7 @@ impl<R: Real> Rotation<R> {
     }
 }
 
-/// The same with its power series up to some order.
+/// A rotation with its power series up to some order.
 struct WithSeries {
     rotation: Rotation<f64>,
     series: Series<f64>,

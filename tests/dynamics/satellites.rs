@@ -138,7 +138,7 @@ pub fn random(seed: u64) -> Moment {
     of_kind(seed, Kind { longest: 6, decades: 0.0 })
 }
 
-/// The same with masses over six decades, light main bodies with heavy booms among them, and
+/// A random satellite with masses over six decades, light main bodies with heavy booms among them, and
 /// chains of up to 20 links.
 pub fn extreme(seed: u64) -> Moment {
     of_kind(seed, Kind { longest: 20, decades: 3.0 })

@@ -40,7 +40,7 @@ impl<R: Real> State<R> {
     }
 }
 
-/// The same numbers, of which the one at `at` is the variable.
+/// Dual numbers with these values, of which the one at `at` is the variable.
 fn seeded<R: Real>(numbers: &[R], at: usize) -> Vec<Dual<R>> {
     let mut seeded: Vec<_> = numbers.iter().map(|&number| Dual::constant(number)).collect();
     seeded[at] = Dual::variable(numbers[at]);
@@ -76,7 +76,7 @@ impl Prepared {
         (flat(found.omega_dot_body, found.origin_body, &found.tau_dot), torques)
     }
 
-    /// The same accelerations by the closed form.
+    /// Accelerations by the closed form.
     fn by_closed_form<R: Real>(
         &self,
         parameters: &Parameters<R>,

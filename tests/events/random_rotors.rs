@@ -5,39 +5,26 @@ use nboom::model::{Hinge, HingeState, Release};
 use nboom::sim::EventKind;
 
 use crate::collect::{run, tight};
+use crate::random_scene::Rng;
 use crate::rotors::{BOOM, HUB, free, locking_at, scene, waiting};
 
 const END: f64 = 4.0;
-
-/// Numbers from a fixed seed (Knuth's multiplier, upper half of the bits).
-struct Rng(u64);
-
-impl Rng {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (self.0 >> 32) as f64 / 4_294_967_296.0
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-}
 
 /// Hinges of which some turn, some wait for a time, an angle or a lock angle of an earlier one.
 fn hinges(dice: &mut Rng) -> Vec<Hinge> {
     let mut hinges: Vec<Hinge> = Vec::new();
     for i in 0..6 {
-        let hinge = match (i, dice.unit()) {
+        let hinge = match (i, dice.between(0.0, 1.0)) {
             (0 | 1, _) => free(dice.between(-1.0, 1.0), dice.between(-2.0, 2.0)),
             (_, roll) if roll < 0.3 => waiting(Release::Time(dice.between(0.0, END))),
             (_, roll) => {
-                let trigger = (dice.unit() * i as f64) as usize;
+                let trigger = dice.below(i);
                 let lock = hinges[trigger].lock_angle.filter(|_| roll < 0.6);
                 let angle = lock.unwrap_or(dice.between(-1.5, 1.5));
                 waiting(Release::Angle { hinge: trigger, angle })
             }
         };
-        let locks = dice.unit() < 0.7;
+        let locks = dice.chance(0.7);
         let angle = dice.between(-1.5, 1.5);
         hinges.push(if locks { locking_at(hinge, angle) } else { hinge });
     }
@@ -144,7 +131,7 @@ impl<'a> Exact<'a> {
 
 #[test]
 fn random_rotors_have_the_events_of_the_closed_form() {
-    let mut dice = Rng(1970);
+    let mut dice = Rng::new(1970);
     let (mut locks, mut releases, mut joint) = (0, 0, 0);
     for case in 0..400 {
         let hinges = hinges(&mut dice);

@@ -94,7 +94,7 @@ struct Tally {
     mismatches: Vec<u64>,
     /// The largest difference of times, and its scene.
     worst: (f64, u64),
-    /// The same in units of as much of what is allowed as was needed.
+    /// The largest difference in units of what had to be allowed, and its scene.
     worst_share: (f64, u64),
     /// Most steps whose share of what is allowed was needed, and all of that run.
     most_terms: (usize, usize),

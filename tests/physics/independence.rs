@@ -183,7 +183,7 @@ fn whole_runs_with_events() {
     }
 }
 
-/// The same events of the same hinges; those of one instant may stand in another order.
+/// Asserts equal events of equal hinges; those of one instant may stand in another order.
 fn same_events(original: &Log, other: &Log, variant: &Variant, told: &str) {
     let mut found: Vec<_> = other
         .events

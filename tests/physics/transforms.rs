@@ -1,4 +1,4 @@
-//! The same scene told in other words, and how to read its motion back in the first ones.
+//! A scene told in other words, and how to read its motion back in the first ones.
 
 use nboom::model::{Release, SceneDescription};
 use nboom::scalar::{Mat3, Quaternion, Vec3};

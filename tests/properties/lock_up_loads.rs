@@ -13,7 +13,7 @@ use crate::{Prepared, relative};
 /// What a lock-up changes; all for every hinge of the scene.
 struct Locked {
     jump: Jump,
-    /// The same for each locking hinge alone.
+    /// What each locking hinge alone would change.
     shares: Vec<(usize, Jump)>,
     /// Impulses of the latches.
     latches: Vec<f64>,

@@ -60,7 +60,7 @@ impl Reference {
         json_scene::scene(&data(&format!("scenes/{}.json", self.name)), self.end_time())
     }
 
-    /// The same scene read from its deck.
+    /// The scene read from its deck.
     pub fn deck(&self) -> Scene {
         let path = match self.name {
             "report_testcase" => {

@@ -70,7 +70,7 @@ fn same_to_the_last_bit(scene: &SceneDescription, options: &Options) {
     }
 }
 
-/// The same events, times within 1e-11 of the span and impulses within 1e-11 of the largest.
+/// Asserts equal events, times within 1e-11 of the span and impulses within 1e-11 of the largest.
 fn same_events_and_impulses(scene: &SceneDescription, options: &Options) {
     let one = Units { time: 1.0, mass: 1.0, length: 1.0 };
     let expected = events(&run(&checked(scene.clone()), options).0, one);

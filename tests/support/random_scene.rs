@@ -8,37 +8,12 @@ use nboom::model::{
 };
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 
-/// A generator of numbers that are the same on every machine (SplitMix64).
-pub struct Rng(u64);
+pub use random::Rng;
+
+#[path = "random.rs"]
+mod random;
 
 impl Rng {
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [low, high).
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Uniform below `count`.
-    pub fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
-    }
-
-    /// True with this probability.
-    pub fn chance(&mut self, probability: f64) -> bool {
-        self.between(0.0, 1.0) < probability
-    }
-
     /// Components uniform within ±`size`.
     pub fn vector(&mut self, size: f64) -> Vec3<f64> {
         let mut one = || self.between(-size, size);
@@ -148,7 +123,7 @@ fn body(dice: &mut Rng, inboard: Option<usize>) -> Body {
     Body { inboard, mount, axis: dice.direction(), mass_properties, tip: Vec3::zero(), hinge }
 }
 
-/// The same without anything that takes or gives energy: no dashpot rates and no thrust.
+/// A random tree without anything that takes or gives energy: no dashpot rates and no thrust.
 pub fn conservative(bodies: usize, seed: u64) -> SceneDescription {
     let mut scene = description(bodies, seed);
     scene.thrust = None;

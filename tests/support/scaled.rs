@@ -31,7 +31,7 @@ impl Units {
         body.inertia = body.inertia * (self.mass * self.length * self.length);
     }
 
-    /// The same scene, with all numbers in the new units.
+    /// The scene with all numbers in the new units.
     pub fn scene(self, old: &SceneDescription) -> SceneDescription {
         let Self { time, length, .. } = self;
         let (force, torque) = (self.force(), self.torque());

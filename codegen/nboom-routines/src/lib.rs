@@ -47,6 +47,28 @@ pub fn equations() -> &'static [Kernel] {
     })
 }
 
+/// Calls a function of a routine's type for each routine that [`batches`] has, and gives the array
+/// of what it returns.
+///
+/// ```
+/// use nboom_scalar::Routine;
+/// fn topology<T: Routine>() -> &'static str {
+///     T::TOPOLOGY
+/// }
+/// assert_eq!(nboom_routines::for_each_batched!(topology).len(), nboom_routines::batches().len());
+/// ```
+#[macro_export]
+macro_rules! for_each_batched {
+    ($($function:ident)::+) => {
+        [
+            $($function)::+::<$crate::PrincipalS2P>(),
+            $($function)::+::<$crate::Principal4S5>(),
+            $($function)::+::<$crate::PrincipalS100>(),
+            $($function)::+::<$crate::Principal20S5>(),
+        ]
+    };
+}
+
 /// Routines on eight states at once, for satellites with principal axes.
 ///
 /// They are compiled for the topologies of the benches only; any other comes from
@@ -59,13 +81,6 @@ pub fn equations() -> &'static [Kernel] {
 /// assert!(!batch.accepts(&constants));
 /// ```
 pub fn batches() -> &'static [Batch] {
-    static BATCHES: OnceLock<[Batch; 4]> = OnceLock::new();
-    BATCHES.get_or_init(|| {
-        [
-            Batch::of::<PrincipalS2P>(),
-            Batch::of::<Principal4S5>(),
-            Batch::of::<PrincipalS100>(),
-            Batch::of::<Principal20S5>(),
-        ]
-    })
+    static BATCHES: OnceLock<Vec<Batch>> = OnceLock::new();
+    BATCHES.get_or_init(|| for_each_batched!(Batch::of).into())
 }

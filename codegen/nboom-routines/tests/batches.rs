@@ -2,10 +2,10 @@
 //! processor, and nothing goes from one lane to another.
 
 use nboom_model::Topology;
-use nboom_routines::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
+use nboom_routines::for_each_batched;
 use nboom_scalar::{Batch, Eight, InstructionSet, Kernel, Routine};
 
-use support::{Numbers, parameters, shapes, state};
+use support::{Rng, parameters, shapes, state};
 
 mod support;
 
@@ -18,9 +18,9 @@ struct Satellites {
 impl Satellites {
     fn of(batch: &Batch) -> Self {
         let topology = Topology::new(shapes(batch.topology));
-        let mut numbers = Numbers(8);
+        let mut numbers = Rng::new(8);
         let mut eight =
-            |make: &dyn Fn(&mut Numbers) -> Vec<f64>| (0..8).map(|_| make(&mut numbers)).collect();
+            |make: &dyn Fn(&mut Rng) -> Vec<f64>| (0..8).map(|_| make(&mut numbers)).collect();
         Self {
             parameters: eight(&|numbers| parameters(&topology, batch.assumptions, numbers)),
             states: eight(&|numbers| state(&topology, batch.external, numbers)),
@@ -75,10 +75,7 @@ fn lanes_are_states<T: Routine>() {
 
 #[test]
 fn each_lane_is_its_state_alone() {
-    lanes_are_states::<PrincipalS2P>();
-    lanes_are_states::<Principal4S5>();
-    lanes_are_states::<PrincipalS100>();
-    lanes_are_states::<Principal20S5>();
+    for_each_batched!(lanes_are_states);
 }
 
 #[test]
@@ -92,10 +89,7 @@ fn one_state_in_code_of_every_instruction_set_is_the_same() {
             assert!(off < 1e-12, "{}, {}: {off:e}", T::TOPOLOGY, set.name());
         }
     }
-    agree::<PrincipalS2P>();
-    agree::<Principal4S5>();
-    agree::<PrincipalS100>();
-    agree::<Principal20S5>();
+    for_each_batched!(agree);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use nboom_model::{HingeState, Mode, Scene, SceneDescription};
 use nboom_routines::{Principal4S5, PrincipalS2P};
 use nboom_scalar::{DoubleDouble, Dual, Routine, Vec3};
 
-use support::Numbers;
+use support::Rng;
 
 mod support;
 
@@ -36,15 +36,15 @@ impl Moment {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../benches/scenes").join(name);
         let scene = nboom_io::read_scene(&path).expect("the scene is in the clone").scene;
         let hinges = scene.bodies.len();
-        let mut numbers = Numbers(2);
-        let omega = std::array::from_fn(|_| numbers.within(-1.5, 1.5));
+        let mut numbers = Rng::new(2);
+        let omega = std::array::from_fn(|_| numbers.between(-1.5, 1.5));
         let mut some =
-            |count: usize| -> Vec<f64> { (0..count).map(|_| numbers.within(-1.5, 1.5)).collect() };
+            |count: usize| -> Vec<f64> { (0..count).map(|_| numbers.between(-1.5, 1.5)).collect() };
         let wide = |all: Vec<f64>| all.into_iter().map(DoubleDouble::from).collect();
         Self { scene, omega, beta: wide(some(hinges)), tau: wide(some(hinges)) }
     }
 
-    /// The same with the variable changed by `step`.
+    /// The moment with the variable changed by `step`.
     fn changed(&self, variable: Variable, step: f64) -> Self {
         let mut changed = self.clone();
         match variable {

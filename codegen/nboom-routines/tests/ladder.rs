@@ -6,7 +6,7 @@ use nboom_formulation::{Coordinates, Equations, Formulation, Layout, Parameters}
 use nboom_model::Topology;
 use nboom_scalar::{Kernel, Lanes, Routine};
 
-use support::{Numbers, parameters, state};
+use support::{Rng, parameters, state};
 
 mod support;
 
@@ -83,7 +83,7 @@ fn generated<T: Routine>(parameters: &[f64], state: &[f64]) -> Vec<f64> {
 fn is_the_closed_form<T: Routine>() {
     let closed_form = ClosedForm::of::<T>();
     let topology = &closed_form.topology;
-    let mut numbers = Numbers(1970);
+    let mut numbers = Rng::new(1970);
     for case in 0..100 {
         let parameters = parameters(topology, T::ASSUMPTIONS, &mut numbers);
         let state = state(topology, T::EXTERNAL, &mut numbers);
@@ -110,7 +110,7 @@ fn lanes_hold_independent_states() {
     type T = exact::RolledMixed;
     let closed_form = ClosedForm::of::<T>();
     let topology = &closed_form.topology;
-    let mut numbers = Numbers(7);
+    let mut numbers = Rng::new(7);
     let parameters = parameters(topology, T::ASSUMPTIONS, &mut numbers);
     let states: Vec<Vec<f64>> = (0..8).map(|_| state(topology, false, &mut numbers)).collect();
     let wide = |values: &dyn Fn(usize) -> f64| Lanes::<8>(std::array::from_fn(values));
@@ -131,7 +131,7 @@ fn lanes_hold_independent_states() {
 /// Other numbers in the place of what the routine assumes change nothing.
 fn never_reads_assumptions<T: Routine>() {
     let topology = ClosedForm::of::<T>().topology;
-    let mut numbers = Numbers(3);
+    let mut numbers = Rng::new(3);
     let mut parameters = parameters(&topology, T::ASSUMPTIONS, &mut numbers);
     let mut state = state(&topology, T::EXTERNAL, &mut numbers);
     let expected = generated::<T>(&parameters, &state);
@@ -159,7 +159,7 @@ fn stock_routines_agree_with_the_closed_form_in_this_processors_code() {
         let closed_form = ClosedForm::of_kernel(kernel);
         let topology = &closed_form.topology;
         assert_eq!(topology.to_string(), kernel.topology);
-        let mut numbers = Numbers(11);
+        let mut numbers = Rng::new(11);
         for case in 0..50 {
             let parameters = parameters(topology, kernel.assumptions, &mut numbers);
             assert!(kernel.accepts(&parameters));
@@ -198,7 +198,7 @@ fn the_stock_has_all_formulations_of_one_topology_and_articulated_before_them() 
 fn a_parameter_that_breaks_an_assumption_is_not_accepted() {
     for kernel in nboom_routines::all().iter().filter(|kernel| !kernel.assumptions.is_empty()) {
         let topology = ClosedForm::of_kernel(kernel).topology;
-        let mut parameters = parameters(&topology, kernel.assumptions, &mut Numbers(5));
+        let mut parameters = parameters(&topology, kernel.assumptions, &mut Rng::new(5));
         parameters[kernel.assumptions[0].0] += 1e-12;
         assert!(!kernel.accepts(&parameters));
         assert!(!kernel.accepts(&parameters[1..]));
@@ -209,7 +209,7 @@ fn a_parameter_that_breaks_an_assumption_is_not_accepted() {
 fn parameters_that_are_no_numbers_are_not_accepted() {
     for kernel in nboom_routines::all().iter().chain(nboom_routines::equations()) {
         let topology = ClosedForm::of_kernel(kernel).topology;
-        let good = parameters(&topology, kernel.assumptions, &mut Numbers(5));
+        let good = parameters(&topology, kernel.assumptions, &mut Rng::new(5));
         assert!(kernel.accepts(&good));
         for at in 0..good.len() {
             for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

@@ -34,8 +34,8 @@ struct Timed {
 }
 
 impl Graph {
-    /// The same results with sums regrouped: of all terms of a sum the two that are ready first
-    /// are added first. Nodes for which `varies` does not hold are ready from the start.
+    /// Regroups sums: of all terms of a sum the two that are ready first are added first. Nodes for
+    /// which `varies` does not hold are ready from the start.
     ///
     /// A sum that is used more than once stays one node. Results differ by rounding.
     pub fn regrouped(&self, varies: &[bool]) -> Self {

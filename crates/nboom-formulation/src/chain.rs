@@ -149,8 +149,8 @@ pub fn outward<R: Real>(
     (turned, Outward { alpha, sigma, hinge })
 }
 
-/// The same step with sine and cosine of α at hand; from and to σ and the bias acceleration of
-/// the next hinge.
+/// [`outward`] with sine and cosine of α at hand: from σ and the bias acceleration of this hinge
+/// to those of the next one.
 #[inline]
 pub fn outward_at<R: Real>(
     spin: &Spin<R>,

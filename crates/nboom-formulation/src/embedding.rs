@@ -1,10 +1,10 @@
 //! A satellite inside a topology that has more hinges, for code that exists for that topology
 //! alone.
 //!
-//! The additional links are **virtual**: without mass, at the tips of chains or in appendages of
-//! their own, with nothing but a moment of inertia [`VIRTUAL`] about their hinges. They divide
-//! by that in `articulated` and show nothing at their inboard hinges, so that accelerations of
-//! the real satellite are what they are without them.
+//! The additional links are **virtual**: they have no mass, sit at the tips of chains or in
+//! appendages of their own, and have nothing but a moment of inertia [`VIRTUAL`] about their
+//! hinges, by which `articulated` divides. They exert nothing on their inboard hinges, so they do
+//! not change the accelerations of the real satellite.
 
 use nboom_model::{Shape, Topology};
 use nboom_scalar::{Mat3, RigidInertia, Sym3, Vec3};
@@ -32,9 +32,9 @@ pub struct Embedding {
 }
 
 impl Embedding {
-    /// The inner topology in the outer one: each chain, the longest first, in the shortest chain
-    /// that is left and long enough, each paddle in a paddle. `None` if one is left over, and
-    /// then no other way to place them does better.
+    /// Places the inner topology in the outer one: each chain, the longest first, in the shortest
+    /// chain that is left and long enough; each paddle in a paddle. `None` if one is left over;
+    /// then no other placement has room for all.
     pub fn new(inner: &Topology, outer: &Topology) -> Option<Self> {
         let mut left: Vec<usize> = (0..outer.shapes().len()).collect();
         let mut take = |shape: &Shape| {
@@ -81,9 +81,9 @@ impl Embedding {
     /// The numbers of the outer satellite, in the order of [`Parameters::write`], for `inner` of
     /// the inner topology.
     ///
-    /// Some numbers nothing depends on: where a virtual appendage sits, how it is turned, and the
-    /// way to a virtual hinge. They are as `assumptions` has them (parameter numbers and values), or
-    /// else nothing is turned and all stand at one point.
+    /// Nothing depends on some of these numbers: where a virtual appendage sits, how it is turned,
+    /// and the way to a virtual hinge. They have their values in `assumptions` (parameter numbers
+    /// and values) if they are there; otherwise nothing is turned and all points coincide.
     pub fn parameters(&self, inner: &Parameters<f64>, assumptions: &[(usize, f64)]) -> Vec<f64> {
         let mut branches: Vec<Branch<f64>> =
             self.outer.shapes().iter().map(|&shape| virtual_branch(shape)).collect();

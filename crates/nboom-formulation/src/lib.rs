@@ -1,7 +1,6 @@
 //! Closed forms of the equations of motion, each written once over any scalar.
 //!
-//! Nothing here is shared with the recursive path but spatial algebra: the two are compared
-//! with each other on everything that is tested.
+//! This crate shares only spatial algebra with the recursion. Tests compare the two.
 
 mod arrow;
 pub mod articulated;

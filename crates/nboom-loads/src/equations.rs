@@ -63,7 +63,7 @@ impl LoadEquations {
         numbers
     }
 
-    /// The same arrangement with other [`numbers`](Self::numbers).
+    /// These equations with other [`numbers`](Self::numbers).
     ///
     /// # Panics
     /// When there are fewer.

@@ -59,7 +59,7 @@ impl Loads {
         }
     }
 
-    /// The same by the first of `kernels` that was generated from these equations, if one was.
+    /// Computes loads by the first of `kernels` that was generated from these equations, if one was.
     pub fn with_kernels(mut self, kernels: &[Kernel]) -> Self {
         self.code.generated = Generated::of(kernels, &self.code.equations.numbers());
         self

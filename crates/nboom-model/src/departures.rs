@@ -2,8 +2,8 @@ use nboom_scalar::{Mat3, Real, Sym3, Vec3};
 
 use crate::Scene;
 
-/// What of a motion departs on purpose from that of rigid bodies under the forces of the scene, so that
-/// another program can be followed; by default nothing.
+/// Deliberate departures of a motion from that of rigid bodies under the scene's forces, made to
+/// follow another program. By default there are none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Departures {
     /// Bodies whose inertia about their mass centre turns otherwise than they do.
@@ -28,7 +28,7 @@ impl Departures {
     }
 }
 
-/// By which rotations the inertia of a body about its mass centre stands along main-body axes.
+/// The rotations that turn the inertia of a body about its mass centre into main-body axes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TurnOrder {
     /// The body.
@@ -52,7 +52,7 @@ pub struct Withheld {
 
 /// The inertia of a body about its mass centre that turns by a [`TurnOrder`].
 ///
-/// Unless all its hinges are held, it is the tensor of no rigid body.
+/// It is the tensor of a rigid body only while all hinges of the body are held.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TurnedInertia<R> {
     rot_main_from_mount: Mat3<R>,

@@ -93,7 +93,7 @@ impl MassProperties {
         self.defect_apart_from_mass()
     }
 
-    /// The same for a mass that is known to be finite and not negative.
+    /// The first defect of the other numbers; the mass must be finite and not negative.
     pub(crate) fn defect_apart_from_mass(&self) -> Option<MassDefect> {
         if !self.center_of_mass.is_finite() {
             return Some(MassDefect::CenterOfMass(self.center_of_mass));

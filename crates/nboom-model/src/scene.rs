@@ -27,8 +27,8 @@ pub struct Body {
     pub hinge: Hinge,
 }
 
-/// A torque about a hinge over its angle, given at points; what lies between is said in
-/// `docs/equations.md`.
+/// A torque about a hinge as a function of its angle, given at points; `docs/equations.md` says how
+/// it runs between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TorqueTable {
     /// Index of the hinge, from 0.
@@ -74,9 +74,9 @@ impl SceneDescription {
         }
     }
 
-    /// The piece of each force law that has several before anything acts: for each kick-off spring, by
-    /// hinge, 1, which it is in beyond its limit length and does not push; then for each torque table
-    /// how many of its points are below the angle at which its hinge starts.
+    /// The initial piece of each force law that has several. For each kick-off spring, by hinge, it
+    /// is 1: the spring is beyond its limit length and does not push. Then, for each torque table,
+    /// it is the number of its points below the angle at which its hinge starts.
     pub fn pieces_at_rest(&self) -> Vec<usize> {
         let springs = self.bodies.iter().filter_map(|body| body.hinge.kick_off).map(|_| 1);
         let tables = self.torque_tables.iter().map(|table| {
@@ -127,7 +127,7 @@ impl Scene {
         Ok(scene.with_departures(self.departures.clone()))
     }
 
-    /// The scene with these departures in its motion instead of those that it has.
+    /// Replaces the departures of the scene's motion.
     ///
     /// # Panics
     /// When they name a body or hinge that it has not.
@@ -138,7 +138,7 @@ impl Scene {
         Self { departures, ..self }
     }
 
-    /// What of the motion departs from that of rigid bodies under the scene's forces.
+    /// The departures of the motion from that of rigid bodies under the scene's forces.
     pub fn departures(&self) -> &Departures {
         &self.departures
     }

@@ -79,8 +79,8 @@ impl Structure {
         if differences.is_empty() { Ok(structure) } else { Err(differences) }
     }
 
-    /// The same, but slices need not add up to their segment; where they do not is returned
-    /// beside the structure.
+    /// Checks a structure whose slices need not add up to their segment. Returns the structure, and
+    /// where its slices do not.
     ///
     /// Motion and hinge loads then follow from the segment, station loads from the slices.
     ///
@@ -134,8 +134,8 @@ impl SegmentStructure {
         self.outboard_of_stations().pop()
     }
 
-    /// Everything that is wrong with the structure of the segment that users call `label`, but
-    /// for what depends on the segment's own mass properties.
+    /// All errors in the structure of the segment that users call `label`, except those that depend
+    /// on the segment's own mass properties.
     pub fn errors(&self, label: HingeLabel) -> Vec<StructureError> {
         structure_error::find(self, label)
     }

@@ -126,8 +126,8 @@ impl Bernstein {
         c[..first].iter().any(|&c| c > 0.0) && c[first..].iter().all(|&c| c <= 0.0)
     }
 
-    /// Where a polynomial that is positive on the left and negative on the right of one root has
-    /// that root: Newton's method, with halves where it does not get on.
+    /// The root of a polynomial that is positive to the left and negative to the right of it:
+    /// Newton's method, with bisection where that does not get on.
     fn only_root(&self) -> f64 {
         let (mut left, mut right) = (0.0, 1.0);
         let (mut x, mut last_step) = (0.5, 0.5);

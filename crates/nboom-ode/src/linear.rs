@@ -1,7 +1,7 @@
 //! Dense linear systems over real or complex numbers.
 //!
-//! faer's LU, and substitutions by columns: its own take half as long again for a dozen unknowns,
-//! which runs with two stiff hinges feel (docs/decisions/0007-linear-algebra.md).
+//! LU factors by faer, substitution by columns of our own: faer's takes half as long again for a
+//! dozen unknowns, which slows runs with two stiff hinges (docs/decisions/0007-linear-algebra.md).
 
 use std::mem::MaybeUninit;
 use std::ops::{Div, Mul, Sub};

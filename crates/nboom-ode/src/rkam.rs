@@ -49,7 +49,7 @@ impl Bound {
         }
     }
 
-    /// The bound below which a step is doubled that is halved above this one.
+    /// The bound below which a step is doubled; above this one it is halved.
     fn for_doubling(self) -> Self {
         match self {
             Self::Number(number) => Self::Number(number / BAND),

@@ -18,8 +18,8 @@ pub trait Stepper {
         self.start(system, t, y, controlled);
     }
 
-    /// Takes no step longer than `longest` from now on, but by up to a hundredth of it to reach
-    /// a limit; without this call steps have any length.
+    /// Bounds steps from now on by `longest`, which a step may exceed by up to a hundredth to reach
+    /// a limit. Without this call steps have any length.
     fn limit_steps(&mut self, longest: f64);
 
     /// Takes a step that meets the tolerance and does not pass `limit`, which is reached

@@ -26,7 +26,8 @@ pub(crate) const SEED: u64 = 1970;
 /// tested on.
 const FREE: [usize; 2] = [100, 20];
 
-/// The same for a state with held hinges; in each of them they are held at other angles.
+/// Random states with held hinges, each at other angles, and those of them that the compiled code
+/// is tested on.
 const HELD: [usize; 2] = [20, 4];
 
 /// A routine's formulation against the truth.

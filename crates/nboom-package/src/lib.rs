@@ -5,7 +5,7 @@
 //! its tests measure the compiled code. [`is_current`] compares such a crate with what would be written now. [`compile`]
 //! builds the command `nboom`, without its generator, around the routines of a scene.
 //!
-//! The same scene and the same choices give the same bytes. What somebody else has written or
+//! One scene and one set of choices always give the same bytes. What somebody else has written or
 //! changed is not overwritten.
 
 mod certificate;

@@ -8,7 +8,7 @@ use crate::{Pair, Routine, RoutineOn};
 pub struct Eight(pub [f64; 8]);
 
 impl Eight {
-    /// The same number in every state.
+    /// One number in every state.
     pub fn splat(value: f64) -> Self {
         Self([value; 8])
     }

@@ -155,7 +155,7 @@ unsafe impl EightNumbers for crate::Pair<crate::Avx4> {}
 // SAFETY: as above.
 unsafe impl EightNumbers for crate::Avx8 {}
 
-/// The same numbers as scalars.
+/// Reads numbers as scalars in registers.
 #[inline(always)]
 pub(crate) fn as_registers<R: EightNumbers>(numbers: &[Eight]) -> &[R] {
     const { assert!(size_of::<R>() == size_of::<Eight>()) };
@@ -164,7 +164,7 @@ pub(crate) fn as_registers<R: EightNumbers>(numbers: &[Eight]) -> &[R] {
     unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) }
 }
 
-/// The same places as scalars.
+/// Reads places of numbers as places of scalars in registers.
 #[inline(always)]
 pub(crate) fn as_registers_mut<R: EightNumbers>(numbers: &mut [Eight]) -> &mut [R] {
     const { assert!(size_of::<R>() == size_of::<Eight>()) };

@@ -6,7 +6,7 @@ pub trait Numbers: Copy + PartialEq {
     /// The routine in its forms.
     type Forms<T: Routine>: Compiled<Number = Self>;
 
-    /// The same number in every state.
+    /// One number in every state.
     fn splat(value: f64) -> Self;
 
     /// Whether it is a finite number in every state.

@@ -131,7 +131,7 @@ pub trait Pack<S>: Real {
         all
     }
 
-    /// The same number in every lane.
+    /// One number in every lane.
     fn spread(value: S) -> Self;
 
     /// Each number in every lane.

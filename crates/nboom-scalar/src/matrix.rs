@@ -47,7 +47,7 @@ impl<R: Real> Mat3<R> {
         Self::from_rows(Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z())
     }
 
-    /// The same matrix with every entry made a scalar of this kind.
+    /// Makes every entry a scalar of this kind.
     #[inline]
     pub fn constant(m: Mat3<f64>) -> Self {
         m.map(R::constant)

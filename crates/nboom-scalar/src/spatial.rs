@@ -21,13 +21,13 @@ impl<R: Real> Wrench<R> {
         Self { moment: point.cross(force), force }
     }
 
-    /// The same wrench about a reference point from which the old one is seen at `offset`.
+    /// Moves the reference point to where the old one is seen at `offset`.
     #[inline]
     pub fn seen_from(self, offset: Vec3<R>) -> Self {
         Self { moment: self.moment + offset.cross(self.force), force: self.force }
     }
 
-    /// The same wrench along other axes.
+    /// Turns the components to other axes.
     #[inline]
     pub fn rotated(self, rot: &Mat3<R>) -> Self {
         Self { moment: *rot * self.moment, force: *rot * self.force }
@@ -105,7 +105,7 @@ impl<R: Real> RigidInertia<R> {
         Self { mass, first_moment: Vec3::zero(), about_origin: inertia }.seen_from(center_of_mass)
     }
 
-    /// The same body about an origin from which the old one is seen at `offset`.
+    /// Moves the origin to where the old one is seen at `offset`.
     #[inline]
     pub fn seen_from(self, offset: Vec3<R>) -> Self {
         let c = self.first_moment;
@@ -121,7 +121,7 @@ impl<R: Real> RigidInertia<R> {
         }
     }
 
-    /// The same body along other axes.
+    /// Turns the components to other axes.
     #[inline]
     pub fn rotated(self, rot: &Mat3<R>) -> Self {
         Self {
@@ -193,7 +193,7 @@ impl<R: Real> ArticulatedInertia<R> {
         }
     }
 
-    /// The same inertia at a point from which the old one is seen at `offset`.
+    /// Moves the reference point to where the old one is seen at `offset`.
     #[inline]
     pub fn seen_from(&self, offset: Vec3<R>) -> Self {
         let linear = self.linear.to_matrix();

@@ -41,7 +41,7 @@ impl<R: Real> Sym3<R> {
         Self { xx, yy, zz, xy: R::zero(), xz: R::zero(), yz: R::zero() }
     }
 
-    /// The same matrix with every entry made a scalar of this kind.
+    /// Makes every entry a scalar of this kind.
     #[inline]
     pub fn constant(m: Sym3<f64>) -> Self {
         m.map(R::constant)

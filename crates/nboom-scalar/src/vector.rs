@@ -48,7 +48,7 @@ impl<R: Real> Vec3<R> {
         Self::new(R::zero(), R::zero(), R::one())
     }
 
-    /// The same vector with every component made a scalar of this kind.
+    /// Makes every component a scalar of this kind.
     #[inline]
     pub fn constant(v: Vec3<f64>) -> Self {
         v.map(R::constant)

@@ -48,7 +48,7 @@ pub(crate) struct Equations {
     rates: Rates<f64>,
     /// Made when an integrator asks for it in the mode.
     jacobian: Option<Jacobian>,
-    /// The same.
+    /// Made when an integrator asks for it in the mode.
     series: Option<Series<f64>>,
     sizes: Sizes,
     /// Evaluations of accelerations, and series of them, that integration has asked for.

@@ -60,14 +60,14 @@ pub struct Options {
     pub samples: usize,
     /// The method of integration.
     pub integrator: Method,
-    /// What steers [`Method::Rkam`]; `None` leaves that to the errors allowed.
+    /// Settings of [`Method::Rkam`]; `None` derives them from the errors allowed.
     pub rkam: Option<RkamSettings>,
     /// Relative error allowed in a step.
     pub rtol: f64,
     /// Absolute error allowed in a step, as a share of each variable's natural size: 1 rad for angles,
     /// for rates the largest so far, or one radian in the whole run if that is more.
     pub atol: f64,
-    /// What no step is longer than, but by up to a hundredth of it to reach the next scheduled
+    /// The longest step; a step may exceed it by up to a hundredth to reach the next scheduled
     /// time.
     pub max_step: f64,
     /// Steps after which the run is given up.
@@ -143,7 +143,7 @@ impl Options {
         })
     }
 
-    /// Refuses also a longest step with which no run over `span` time units comes to its end.
+    /// Also refuses a longest step with which no run over `span` time units comes to its end.
     ///
     /// # Errors
     /// The first of them.

@@ -9,7 +9,7 @@ use crate::test_case::RandomState;
 
 /// Code that computes accelerations, with the states of a test case as it takes them.
 ///
-/// What each variant holds is there for those who time it.
+/// The variants' fields are public for callers that time the code.
 #[derive(Clone, Debug)]
 pub enum ComparedCode<'a> {
     /// The recursion, hinge forces included.

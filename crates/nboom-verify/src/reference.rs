@@ -9,8 +9,8 @@ use crate::condition::condition;
 use crate::equations::{expected, order};
 use crate::test_case::{RandomState, TestCase};
 
-/// Up to this condition of the mass matrix deviations count as they are; beyond it they are
-/// divided by what it magnifies rounding by.
+/// Deviations count in full up to this condition of the mass matrix. Beyond it they are divided by
+/// what the condition magnifies rounding by.
 const HARMLESS_CONDITION: f64 = 1e4;
 
 /// Beyond this condition f64 holds no accelerations to compare.

@@ -26,11 +26,12 @@ const MOST_STEPS: usize = 100_000;
 /// A curve ends with a run that takes longer \[s\]: those at smaller tolerances would, too.
 const LONGEST: f64 = 0.25;
 
-/// No curve begins where this share of the span takes as much of so many times [`LONGEST`].
+/// No curve begins where this share of the span takes longer than this share of [`MARGIN`] times
+/// [`LONGEST`].
 const TRIAL: f64 = 0.05;
 const MARGIN: f64 = 8.0;
 
-/// All runs take turns so often, and the shortest time counts.
+/// How many turns each run takes; the shortest time counts.
 const TURNS: usize = 5;
 
 /// Runs that take longer \[s\] are made once.
@@ -93,7 +94,7 @@ impl WorkPrecision {
             }
             for exponent in TOLERANCES {
                 let options = code.options(integrator, exponent, kernels);
-                // What does not come to the end will not at smaller tolerances either.
+                // A run that does not come to the end will not at smaller tolerances either.
                 let Some(run) = timed(scene, code, &options, &truth, seconds) else { break };
                 measured.push((run, options));
                 if run.microseconds > LONGEST * 1e6 {

@@ -41,7 +41,7 @@ impl Module {
         Ok(Self { routines, stresses: stresses.into_iter().filter(is_short).collect() })
     }
 
-    /// The same for a place where the crate `nboom_scalar` has another path.
+    /// Sets the path of the crate `nboom_scalar` where the code is to stand.
     pub fn at(mut self, scalar_path: &str) -> Self {
         let of_routines = self.routines.iter_mut().map(|request| &mut request.scalar_path);
         let of_stresses = self.stresses.iter_mut().map(|request| &mut request.scalar_path);

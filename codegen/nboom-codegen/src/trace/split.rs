@@ -22,7 +22,7 @@ impl Split {
         Self { graph, parameters, varies, constants }
     }
 
-    /// The same with sums regrouped if the level lets them.
+    /// Regroups sums if the level permits it.
     pub fn at(self, level: Level) -> Self {
         match level {
             Level::Exact => self,

@@ -1,6 +1,8 @@
 //! The graph that a formulation leaves, interpreted, against the formulation itself on `f64`: bit
 //! for bit, but for the sign of zeros, on random satellites.
 
+#[path = "../../../../tests/support/random.rs"]
+mod random;
 mod satellite;
 
 use std::collections::BTreeSet;

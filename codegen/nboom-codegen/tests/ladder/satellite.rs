@@ -10,6 +10,8 @@ use nboom_model::{
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
+use crate::random::Rng;
+
 /// States of each satellite.
 const STATES: usize = 2;
 
@@ -28,7 +30,7 @@ pub struct Satellite {
 
 impl Satellite {
     pub fn random(seed: u64) -> Self {
-        let dice = &mut Rng(seed);
+        let dice = &mut Rng::new(seed);
         let (topology, held, mut parameters) = welded(dice);
         let assumptions = assumptions(dice, &topology, &mut parameters);
         let external = dice.chance(0.5);
@@ -37,30 +39,7 @@ impl Satellite {
     }
 }
 
-/// A generator of numbers that are the same on every machine (SplitMix64).
-struct Rng(u64);
-
 impl Rng {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
-    }
-
-    fn chance(&mut self, probability: f64) -> bool {
-        self.between(0.0, 1.0) < probability
-    }
-
     fn vector(&mut self, size: f64) -> Vec3<f64> {
         let mut one = || self.between(-size, size);
         Vec3::new(one(), one(), one())

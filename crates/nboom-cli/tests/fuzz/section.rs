@@ -13,7 +13,7 @@ pub fn some(rng: &mut Rng, sections: &[Value]) -> Value {
     json!({ "cases": chosen })
 }
 
-/// The same after some changes.
+/// Some sections after some changes.
 pub fn changed(rng: &mut Rng, sections: &[Value]) -> Vec<u8> {
     let mut file = some(rng, sections);
     for section in file["cases"].as_array_mut().expect("a list") {

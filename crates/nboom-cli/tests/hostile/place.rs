@@ -43,7 +43,7 @@ impl Place {
         self.limited("", args)
     }
 
-    /// The same where no file may grow beyond so many blocks of 512 bytes; the signal that
+    /// Runs it where no file may grow beyond so many blocks of 512 bytes; the signal that
     /// would end the program there is ignored, so that writing fails as on a full disk.
     pub fn nboom_with_files_of(&self, blocks: u32, args: &[&str]) -> Finished {
         self.limited(&format!("trap '' XFSZ && ulimit -f {blocks} && "), args)

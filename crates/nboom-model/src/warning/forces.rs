@@ -1,4 +1,4 @@
-//! Signs of springs and dashpots by which they drive a hinge where nobody wants it.
+//! Finds springs and dashpots whose signs drive a hinge the wrong way.
 
 use nboom_scalar::Vec3;
 
@@ -35,7 +35,7 @@ fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
     found
 }
 
-/// Of the spring and the dashpot's terms in the angle, where no table adds to their torque.
+/// Warnings about the spring and the dashpot's terms in the angle of a hinge without a table.
 fn spring(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
     let (hinge, label) = (&scene.bodies[i].hinge, scene.label(i));
     let mut found = Vec::new();

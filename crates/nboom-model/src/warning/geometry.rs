@@ -5,7 +5,7 @@ use nboom_scalar::Vec3;
 use super::ModelWarning;
 use crate::{Posture, Scene};
 
-/// Sines of angles, and distances as shares of the length in between, that count as none.
+/// Sines of angles, and ratios of a distance to the length in between, that count as zero.
 const COINCIDENCE: f64 = 1e-6;
 
 pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {

@@ -16,7 +16,7 @@ const GAUSS_3: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// The same for degree three, across the thickness.
+/// Gauss points for degree three, across the thickness.
 const GAUSS_2: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// The load on the outboard part that shear stress stands for, on the middle line, and that of

@@ -1,4 +1,4 @@
-//! The same section told in other words.
+//! A section told in other words.
 
 use std::f64::consts::TAU;
 

@@ -15,8 +15,8 @@ use serde_json::Value;
 /// the loads and of the stress, and some stresses are differences; the largest found is 2.4e-4.
 const COMPONENT: f64 = 2.5e-4;
 
-/// The same of principal stresses, which follow from components of five digits: 4.1e-4 is the
-/// largest.
+/// Largest relative difference of principal stresses, which follow from components of five digits:
+/// the largest found is 4.1e-4.
 const PRINCIPAL: f64 = 5e-4;
 
 /// What single precision of the time, 2^-20, leaves of a stress that vanishes or is a difference, in

@@ -15,8 +15,8 @@ pub(crate) struct Accuracy {
 }
 
 impl Accuracy {
-    /// Of a reference: thousands of steps, and what they magnify, leave the digits of an `f64`
-    /// alone. The order is that of fewest operations (see [`Taylor`]).
+    /// The accuracy of a reference: the errors of thousands of steps, magnified by the motion, stay
+    /// below the digits of an `f64`. The order is that of fewest operations (see [`Taylor`]).
     pub const REFERENCE: Self = Self { order: 33, relative: 1e-28, absolute: 1e-31 };
 }
 
@@ -33,8 +33,8 @@ pub(crate) struct Expansion {
 }
 
 impl Expansion {
-    /// Of what `graph` computes with the `fixed` inputs; the first variables, whose natural sizes
-    /// are `sizes`, decide on the step.
+    /// Expands what `graph` computes with the `fixed` inputs. The first variables, whose natural
+    /// sizes are `sizes`, decide on the step.
     pub fn new(graph: &Graph, fixed: &[DoubleDouble], sizes: Vec<f64>, accuracy: Accuracy) -> Self {
         let size = graph.outputs().len();
         let coefficients = vec![DoubleDouble::zero(); (accuracy.order + 1) * size];

@@ -26,10 +26,10 @@ const LOCATED: f64 = 1e-20;
 
 /// A run of a scene in double-double.
 ///
-/// What may happen next is known from the guide, the events of an `f64` run, so that no guard is
-/// searched for its first root: that of the next event is followed to its root by Newton's
-/// method, and all others must not have changed sign at the end of any step. Equations, guards
-/// and what an instant does are those of every run.
+/// The guide, the events of an `f64` run, tells what happens next. No guard is therefore searched
+/// for its first root: the guard of the next event is followed to its root by Newton's method, and
+/// no other may have changed sign at the end of any step. Equations, guards and instants are those
+/// of every run.
 pub(crate) struct Replay<'a> {
     guide: &'a [Event],
     accuracy: Accuracy,
@@ -50,7 +50,7 @@ struct Course {
     expansion: Expansion,
     /// The variables at the present state.
     now: Vec<DoubleDouble>,
-    /// The same at another time.
+    /// The variables at another time.
     then: Vec<DoubleDouble>,
 }
 
@@ -63,7 +63,7 @@ enum Ending {
 }
 
 impl<'a> Replay<'a> {
-    /// At the beginning of `scene`; `guide` has its events without the end.
+    /// A replay at the beginning of `scene`; `guide` has its events without the end.
     pub fn new(
         scene: &'a Scene,
         guide: &'a [Event],

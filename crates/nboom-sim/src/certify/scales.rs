@@ -72,8 +72,8 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// Of a run of `scene` with these largest values. A motion that does not turn anything in the
-    /// whole run is measured by one radian in it.
+    /// The scales of a run of `scene` with these largest values. A motion that turns nothing is
+    /// measured by one radian in the whole run.
     pub(crate) fn of(scene: &Scene, largest: &Largest) -> Self {
         let Largest { omega, beta, tau, rho, v, impulse } = *largest;
         let time = scene.end_time - scene.initial.time;

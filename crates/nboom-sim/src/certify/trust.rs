@@ -151,8 +151,8 @@ pub struct Trust {
     pub same_events: bool,
     /// The events up to the first that differs.
     pub events: Vec<EventTrust>,
-    /// The final state, quantity by quantity; empty when the reference is in double-double and
-    /// events are others, as it ends at the first of them.
+    /// The final state, quantity by quantity. It is empty when a reference in double-double has
+    /// other events, as that ends at the first of them.
     pub end: Vec<Digits>,
 }
 
@@ -196,8 +196,8 @@ impl Digits {
 /// Runs `scene` again, more accurately than `options` say, and compares with what `witness` saw
 /// of the run under `options`.
 ///
-/// What a run tells its recorder the reference tells `beside`: of one in double-double the `f64` run that
-/// it follows, whose errors are rounding.
+/// The reference tells `beside` what a run tells its recorder. In double-double it is the `f64` run
+/// that the reference follows which does so; its errors are rounding.
 ///
 /// # Errors
 /// When the reference cannot be computed to the end, or `beside` interrupts it.
@@ -234,7 +234,7 @@ pub fn trust(
     Ok(Trust { reference, rtol, atol, same_events, events, end: end.unwrap_or_default() })
 }
 
-/// What a run with these tolerances is like.
+/// Runs the scene again with these tolerances.
 fn run_again(
     scene: &Scene,
     options: &Options,
@@ -254,7 +254,7 @@ fn run_again(
     Ok((both.witness, summary))
 }
 
-/// The same in double-double, along the events of a run that is as accurate as `f64` allows.
+/// The witness in double-double, along the events of a run that is as accurate as `f64` allows.
 fn in_double_double(
     scene: &Scene,
     options: &Options,

@@ -37,7 +37,7 @@ fn duration(topology: &Topology, instructions: &str) -> usize {
     45 + sweeps.sum::<usize>()
 }
 
-/// The same of the recursion.
+/// About how long an evaluation of the recursion takes, as [`duration`] counts.
 fn duration_of_recursion(topology: &Topology) -> usize {
     60 + 110 * topology.hinges()
 }

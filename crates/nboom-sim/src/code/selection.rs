@@ -22,7 +22,7 @@ impl Selection {
     pub const GENERIC: &'static str = "generic";
     /// The path of power series of recorded equations.
     pub const SERIES: &'static str = "series";
-    /// What a run is said to have gone on in which generated and library code had their turns.
+    /// The path of a run in which generated and library code both had their turns.
     pub const MIXED: &'static str = "mixed";
 }
 

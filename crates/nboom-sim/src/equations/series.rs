@@ -34,9 +34,9 @@ pub(crate) fn graph(scene: &Scene, mode: &Mode, variables: &Variables<f64>) -> G
     })
 }
 
-/// The same by the recursion and without rounding, as it holds for any state that the mode begins
-/// in. Further inputs: the time counts from there, and the angle of every hinge and the velocity
-/// of the mass centre there follow it.
+/// The graph of the rates by the recursion, without rounding, for any state that the mode begins
+/// in. The time counts from that state; the angle of every hinge and the velocity of the mass
+/// centre in it are further inputs, after the time.
 pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) -> Graph {
     let hinges = scene.bodies.len();
     Graph::trace_exactly(layout.len() + 1 + hinges + 3, |inputs| {

@@ -9,8 +9,8 @@ use crate::error::SimError;
 use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::{Bound, GuardKind, Guards, read};
 
-/// Angle \[rad\] through which the fastest hinge that arrives turns in one instant; of a line, the
-/// share of the length at which it arrives by which it changes.
+/// Angle \[rad\] through which the fastest arriving hinge turns in one instant; for a line, its
+/// change of length as a share of the length at which it arrives.
 const ONE_INSTANT: f64 = 1e-11;
 
 /// Spacings of `f64` that an instant lasts at least.

@@ -16,8 +16,8 @@ impl Recorder for Reluctant {
     }
 }
 
-/// Refuses what no run of `scene` under `options` could begin with: a number among them with which
-/// nothing can be run, and code or a formulation for the first mode that there is not.
+/// Refuses options with which no run of `scene` can begin: numbers with which nothing can be run,
+/// and code or a formulation that does not exist for the first mode.
 ///
 /// # Errors
 /// [`SimError::Option`], [`SimError::NoRoutine`] and [`SimError::NotCovered`]. A motion that

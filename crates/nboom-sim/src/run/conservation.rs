@@ -3,8 +3,8 @@ use std::fmt;
 /// Largest residuals of the conservation laws over a run, after every impulse and all work of
 /// thrust, gravity, springs, dashpots and lock-ups have been accounted for.
 ///
-/// Momenta that are nothing but rounding of the motion are relative to a share of what the energy
-/// could make of them.
+/// A momentum that is only rounding of the motion is measured by a share of what the energy could
+/// make of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Conservation {
     /// Linear momentum, relative to the sum of the bodies' own momenta.
@@ -15,8 +15,8 @@ pub struct Conservation {
     pub energy: f64,
 }
 
-/// Residuals above so many times the relative tolerance are poor: steps by the hundred err by less,
-/// and motions that magnify errors more do not end in the digits that were asked for.
+/// Residuals above this multiple of the relative tolerance are poor. Hundreds of steps err by less;
+/// a motion that magnifies errors more does not keep the digits that were asked for.
 const MOST: f64 = 1e4;
 
 /// The relative tolerances between which that holds: below, rounding of long runs and of unequal
@@ -35,7 +35,7 @@ pub struct PoorConservation {
 }
 
 impl Conservation {
-    /// What is worse than the relative tolerance `rtol` lets expect.
+    /// The residuals that are larger than the relative tolerance `rtol` allows.
     pub fn poor(&self, rtol: f64) -> impl Iterator<Item = PoorConservation> + use<> {
         let (least, most) = JUDGED_BY;
         let limit = MOST * rtol.clamp(least, most);

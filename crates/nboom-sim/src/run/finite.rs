@@ -1,4 +1,4 @@
-//! Numbers that are none are found before anybody keeps them.
+//! Refuses numbers that are not finite before a recorder keeps them.
 
 use nboom_model::Scene;
 use nboom_scalar::Vec3;
@@ -35,7 +35,7 @@ pub(crate) fn check_snapshot(scene: &Scene, snapshot: &Snapshot) -> Result<(), S
     snapshot.detail.as_ref().map_or(Ok(()), |detail| check.detail(detail))
 }
 
-/// The same for the events of an instant and what its lock-ups change.
+/// Checks the events of an instant and what its lock-ups change.
 pub(crate) fn check_instant(
     scene: &Scene,
     time: f64,

@@ -17,7 +17,7 @@ const COUNTS: f64 = 0.01;
 /// Share of its ends' distances below which a line's length is rounding.
 const NO_LENGTH: f64 = 1e-14;
 
-/// Steps that must take a run by [`PACE_SPAN`] of the whole span, or it is given up.
+/// A run is given up if this many steps do not take it by [`PACE_SPAN`] of the whole span.
 const PACE_STEPS: usize = 20_000;
 const PACE_SPAN: f64 = 1e-7;
 

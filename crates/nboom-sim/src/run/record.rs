@@ -12,7 +12,7 @@ use crate::run::conservation::Conservation;
 use crate::run::step_motion::StepMotion;
 use crate::run::verdict::Verdict;
 
-/// What a run tells while it goes on: a snapshot at every output time, and every event.
+/// Receives what a run tells while it goes on: a snapshot at every output time, and every event.
 ///
 /// Calls come in time order. An error ends the run with everything recorded so far kept.
 pub trait Recorder {
@@ -80,8 +80,8 @@ pub struct Nobody;
 
 impl Recorder for Nobody {}
 
-/// Both sides of an instant in which something happens: what jumps are accelerations, and where hinges
-/// lock velocities too.
+/// The motion on both sides of an instant in which something happens. Accelerations jump; where
+/// hinges lock, velocities do too.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstantMotion {
     /// The motion just before, with detail; none at the initial time unless a hinge locks there.

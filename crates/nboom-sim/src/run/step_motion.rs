@@ -1,4 +1,4 @@
-//! Steps as recorders see them that look for the worst within each.
+//! Steps as they are shown to recorders that search each of them for the worst value.
 
 use nboom_dynamics::Recursive;
 use nboom_elements::{Elements, LineReading};

@@ -90,7 +90,7 @@ pub fn articulated_s3_p() -> &'static [Kernel] {
     vec![Kernel::of::<ArticulatedS3P<5>>()].leak()
 }
 
-/// The same with the paddle's τ̇ wrong by 1e-9 of itself.
+/// `articulated` of S3_P with the paddle's τ̇ wrong by 1e-9 of itself.
 pub fn wrong_s3_p() -> &'static [Kernel] {
     vec![Kernel::of::<ArticulatedS3P<4>>()].leak()
 }
