@@ -54,8 +54,8 @@ fn measure(name: &str, scene: &Scene) {
         let generated = time(|i| {
             kernel.evaluate(black_box(&constants), black_box(&coordinates[i]), black_box(&mut out));
         });
-        let facts = if kernel.pinned.is_empty() { "general" } else { "principal" };
-        let label = format!("generated_articulated_{facts}_{}", kernel.instructions);
+        let assumptions = kernel.assumptions_in_a_word();
+        let label = format!("generated_articulated_{assumptions}_{}", kernel.instructions);
         report(name, &label, generated, recursive);
     }
     let eight = eight_at_once(&topology, &parameters);

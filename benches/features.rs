@@ -3,8 +3,8 @@
 //!
 //! `cargo bench --bench features` prints a line for each: the shortest of many runs in microseconds,
 //! its ratio to that of the full scene, steps and evaluations, nanoseconds for each evaluation, and
-//! how many operations generated code takes for the accelerations of the scene when it takes the
-//! scene's zeros for granted. All runs take turns. In the last row nothing is left out and stresses are
+//! how many operations generated code takes for the accelerations of the scene when it assumes the
+//! scene's zeros. All runs take turns. In the last row nothing is left out and stresses are
 //! computed at each output time and event and the worst searched in each step, without files.
 
 use std::hint::black_box;

@@ -154,7 +154,7 @@ fn ratios(times: [f64; 2], shortest: [f64; 2]) -> Worst {
 
 /// The routine's topology, the axes it is for and its virtual links.
 fn description(fit: &Fit) -> String {
-    let axes = if fit.kernel.pinned.is_empty() { "general" } else { "principal" };
+    let axes = if fit.kernel.assumptions.is_empty() { "general" } else { "principal" };
     format!("{} {axes} {}", fit.kernel.topology, fit.embedding.virtual_links())
 }
 

@@ -1,5 +1,6 @@
 //! The shape of the workspace: which crate may use which (the table in `docs/architecture.md`
-//! against the manifests as cargo reads them), short files, unsafe code in named files only, shared lints.
+//! against the manifests as cargo reads them), the order of rooms in a crate, short files, unsafe code in
+//! named files only, shared lints.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -44,10 +45,14 @@ fn arrows() -> BTreeMap<String, BTreeSet<String>> {
     packages.iter().map(|package| (text(&package["name"]).to_owned(), uses(package))).collect()
 }
 
+fn map_of_the_code() -> String {
+    let path = root().join("docs/architecture.md");
+    fs::read_to_string(path).expect("docs/architecture.md can be read")
+}
+
 /// The table of `docs/architecture.md`: what each crate may use.
 fn allowed() -> BTreeMap<String, BTreeSet<String>> {
-    let path = root().join("docs/architecture.md");
-    let document = fs::read_to_string(path).expect("docs/architecture.md can be read");
+    let document = map_of_the_code();
     let row = |line: &str| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
         let [name, _, uses] = cells[..] else { return None };
@@ -175,6 +180,39 @@ fn no_source_file_is_long() {
         let lines = source.lines().count();
         assert!(lines <= MOST_LINES, "{}: {lines} lines", path.display());
     }
+}
+
+/// The rooms of `nboom-sim`, each of which may use those before it.
+fn rooms() -> Vec<String> {
+    let document = map_of_the_code();
+    let (_, rest) = document.split_once("## Rooms of nboom-sim").expect("a section");
+    let (section, _) = rest.split_once("\n## ").expect("another follows");
+    let name = |line: &str| Some(line.strip_prefix("| `")?.split_once('`')?.0.to_owned());
+    section.lines().filter_map(name).collect()
+}
+
+#[test]
+fn rooms_of_the_simulator_use_those_above_them() {
+    let rooms = rooms();
+    let place = |name: &str| rooms.iter().position(|room| room == name);
+    let folder = root().join("crates/nboom-sim/src");
+    let mut found = BTreeSet::new();
+    for (path, source) in sources(&["crates/nboom-sim/src"]) {
+        let within = path.strip_prefix(&folder).expect("it was found there").with_extension("");
+        let room = within.iter().next().and_then(|part| part.to_str()).expect("a name");
+        if room == "lib" {
+            continue;
+        }
+        let own = place(room).unwrap_or_else(|| panic!("{room} is not in the table"));
+        found.insert(room.to_owned());
+        let code = source.lines().map(|line| line.split("//").next().unwrap_or_default());
+        for used in code.flat_map(|line| line.split("crate::").skip(1)) {
+            let name = used.split(|c: char| !(c.is_alphanumeric() || c == '_')).next();
+            let its = name.and_then(place);
+            assert!(its.is_some_and(|its| its <= own), "{}: crate::{used}", path.display());
+        }
+    }
+    assert!(found.into_iter().eq(rooms.iter().cloned().collect::<BTreeSet<_>>()), "{rooms:?}");
 }
 
 /// Files that may have unsafe code, each for a reason that a benchmark has shown to pay.

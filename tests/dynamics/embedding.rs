@@ -74,8 +74,8 @@ fn closed_forms_of_embedded_satellites_give_the_same_accelerations() {
         let outer = larger(inner, dice);
         let embedding = Embedding::new(inner, &outer).expect("it is larger");
         let state = Coordinates::read(&outer, &embedded(&embedding, &coordinates));
-        for pinned in [vec![], any_numbers(Layout::parameters(&outer), dice)] {
-            let numbers = embedding.parameters(parameters, &pinned);
+        for assumptions in [vec![], any_numbers(Layout::parameters(&outer), dice)] {
+            let numbers = embedding.parameters(parameters, &assumptions);
             let satellite_in_it = Parameters::read(&outer, numbers);
             let found = articulated::solve(&outer, &satellite_in_it, &state).write(&outer);
             let found = of_real(&embedding, &found);
@@ -107,7 +107,9 @@ fn check_routine(satellite: &Satellite, recognised: &Recognised, fit: &Fit, told
 #[test]
 fn stock_routines_give_the_accelerations_of_satellites_embedded_in_them() {
     let general = |kernel: &&Kernel| {
-        kernel.pinned.is_empty() && kernel.formulation == "articulated" && kernel.parameters > 10
+        kernel.assumptions.is_empty()
+            && kernel.formulation == "articulated"
+            && kernel.parameters > 10
     };
     let mut checked = BTreeMap::new();
     for &kernel in nboom_routines::all().iter().filter(general) {
@@ -159,7 +161,7 @@ fn bench_scene(name: &str) -> Scene {
 fn routines_for_principal_axes_take_satellites_with_fewer_links() {
     for (name, topology) in [("T2", "4xS5"), ("T4", "20xS5"), ("T1", "S2_P")] {
         let scene = bench_scene(name);
-        let of_it = |kernel: &Kernel| kernel.topology == topology && !kernel.pinned.is_empty();
+        let of_it = |kernel: &Kernel| kernel.topology == topology && !kernel.assumptions.is_empty();
         let options = choosing_from(nboom_routines::all().iter().copied().filter(of_it));
         let mut checked = 0;
         for seed in 0..200 {
@@ -174,11 +176,11 @@ fn routines_for_principal_axes_take_satellites_with_fewer_links() {
     }
 }
 
-/// The stock routine of this topology with every parameter of a satellite taken for granted.
+/// The stock routine of this topology with every parameter of a satellite assumed.
 fn baked(topology: &str, parameters: &[f64]) -> Kernel {
-    let general = |kernel: &&Kernel| kernel.topology == topology && kernel.pinned.is_empty();
+    let general = |kernel: &&Kernel| kernel.topology == topology && kernel.assumptions.is_empty();
     let mut kernel = *nboom_routines::all().iter().find(general).expect("a stock topology");
-    kernel.pinned = parameters.iter().copied().enumerate().collect::<Vec<_>>().leak();
+    kernel.assumptions = parameters.iter().copied().enumerate().collect::<Vec<_>>().leak();
     kernel
 }
 
@@ -245,7 +247,7 @@ fn only_articulated_is_embedded() {
     let recognised = Recognised { topology, parameters, links: vec![0, 1, 2] };
     for &kernel in nboom_routines::all().iter().filter(|kernel| kernel.topology == "S2_P") {
         let found = Repertoire::new(&choosing_from([kernel].into_iter())).best(&recognised, true);
-        let may = kernel.formulation == "articulated" && kernel.pinned.is_empty();
+        let may = kernel.formulation == "articulated" && kernel.assumptions.is_empty();
         assert_eq!(found.is_some(), may, "{}", kernel.formulation);
     }
 }

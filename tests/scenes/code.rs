@@ -166,7 +166,7 @@ fn a_routine_is_of_the_formulation_that_is_asked_for() {
         Ok::<Selection, SimError>(selections.pop().expect("one mode"))
     };
     let report: &'static [Kernel] = named(Report).collect::<Vec<_>>().leak();
-    let of_articulated = named(Articulated).filter(|kernel| kernel.pinned.is_empty());
+    let of_articulated = named(Articulated).filter(|kernel| kernel.assumptions.is_empty());
     let both: &'static [Kernel] =
         named(Report).chain(of_articulated).chain(named(Report)).collect::<Vec<_>>().leak();
     for (path, asked, kernels, path_used, formulation) in [

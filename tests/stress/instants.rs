@@ -28,7 +28,7 @@ fn sampled(scene: &Scene, samples: usize) -> Vec<f64> {
     let follow = Follow::run_with(scene, Settings::default(), samples);
     let stations = 0..STATIONS.len();
     let von_mises =
-        |i: usize| follow.at_samples.iter().map(move |all| all[i].severest.stress.von_mises());
+        |i: usize| follow.at_samples.iter().map(move |all| all[i].max_von_mises.stress.von_mises());
     stations.map(|i| von_mises(i).fold(0.0, f64::max)).collect()
 }
 
@@ -37,7 +37,7 @@ fn is_approached(scene: &Scene, event: f64) {
     const SAMPLES: usize = 4000;
     let (found, few, many) = (worst(scene), sampled(scene, 1), sampled(scene, SAMPLES));
     for (station, worst) in found.iter().enumerate() {
-        let limit = worst.severest.stress.von_mises();
+        let limit = worst.max_von_mises.stress.von_mises();
         assert!(few[station] < 0.9 * limit, "outputs alone see it: {few:?} {found:?}");
         // Stresses change by less than ten times themselves in a unit of time.
         let change = 10.0 / SAMPLES as f64;
@@ -57,7 +57,7 @@ fn a_thrust_between_output_times_loads_what_it_accelerates() {
         let outboard = MASS * (LENGTH - s) / LENGTH;
         let pressure = outboard * force / (HUB_MASS + MASS) / area;
         // The line of the force has both mass centres: nothing turns. A few roundings.
-        let found = worst.severest.stress;
+        let found = worst.max_von_mises.stress;
         assert!((found.normal + pressure).abs() < 1e-12 * pressure, "{s}: {found:?} {pressure}");
         assert_eq!(worst.cause, Cause::Motion);
         assert!((0.3..=0.6).contains(&worst.time), "{worst:?}");

@@ -83,14 +83,14 @@ pub fn quantities(sections: &[Section], loads: &LoadSet, hinges: usize) -> Vec<f
     let stations = (0..hinges).flat_map(|i| loads.stations(i));
     let stresses = stations
         .zip(sections)
-        .map(|(load, section)| section.stresses(load).severest().stress.von_mises());
+        .map(|(load, section)| section.stresses(load).max_von_mises().stress.von_mises());
     let of_hinge = |i| [loads.hinge(i).force.norm(), loads.hinge(i).moment.norm()];
     stresses.chain((0..hinges).flat_map(of_hinge)).collect()
 }
 
 /// What an analysis has found, in the same order.
 pub fn envelope(analysis: &StressAnalysis) -> Vec<f64> {
-    let stresses = analysis.envelope().into_iter().map(|w| w.severest.stress.von_mises());
+    let stresses = analysis.envelope().into_iter().map(|w| w.max_von_mises.stress.von_mises());
     let of_hinges = analysis.hinge_envelope().into_iter().map(|worst| worst.magnitude());
     stresses.chain(of_hinges).collect()
 }

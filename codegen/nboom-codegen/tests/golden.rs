@@ -149,7 +149,7 @@ fn parameters<T: Routine>(topology: &Topology, case: usize) -> Vec<f64> {
             all.extend((0..2).map(|_| 0.6 + 0.4 * wave()));
         }
     }
-    T::PINNED.iter().for_each(|&(i, value)| all[i] = value);
+    T::ASSUMPTIONS.iter().for_each(|&(i, value)| all[i] = value);
     all
 }
 

@@ -65,7 +65,7 @@ pub fn routine(input: TokenStream) -> TokenStream {
 /// let options =
 ///     Options { path: Path::Generated, kernels: BOOMS.kernels(), ..Options::default() };
 /// assert_eq!(BOOMS.scene()?.name, "T1");
-/// assert_eq!(options.kernels[0].pinned.len(), options.kernels[0].parameters);
+/// assert_eq!(options.kernels[0].assumptions.len(), options.kernels[0].parameters);
 /// # Ok::<(), nboom::io::InputError>(())
 /// ```
 ///

@@ -72,7 +72,7 @@ fn a_routine_gives_the_closed_forms_accelerations() {
     let topology: Topology = "S2_P".parse().expect("a topology");
     let expected = Formulation::Articulated.solve(&topology, &parameters(), &state());
     agree(&outputs::<Satellite>(), &expected.write(&topology));
-    assert!(!Satellite::EXTERNAL && Satellite::PINNED.is_empty());
+    assert!(!Satellite::EXTERNAL && Satellite::ASSUMPTIONS.is_empty());
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn a_routine_for_equations_gives_the_formulations_matrix() {
     let expected = Formulation::Symmetric.equations(&topology, &parameters(), &state());
     let expected = expected.expect("it solves a system");
     agree(&outputs::<Forced>(), &[expected.matrix, expected.forcing].concat());
-    assert!(Forced::EXTERNAL && !Forced::PINNED.is_empty());
+    assert!(Forced::EXTERNAL && !Forced::ASSUMPTIONS.is_empty());
 }
 
 #[test]
@@ -125,10 +125,10 @@ fn a_compiled_scene_has_its_numbers_built_in() {
     let all_free: Vec<&Kernel> =
         SAMPLE.kernels().iter().filter(|kernel| kernel.topology == "S2_P").collect();
     assert_eq!(all_free.len(), 3);
-    assert_eq!(all_free[0].pinned.len(), numbers.len());
-    assert!(all_free[0].pinned.iter().all(|&(i, value)| numbers[i] == value));
-    assert!(all_free[1].pinned.len() < numbers.len() && all_free[1].accepts(&numbers));
-    assert!(all_free[2].pinned.is_empty() && all_free[2].external);
+    assert_eq!(all_free[0].assumptions.len(), numbers.len());
+    assert!(all_free[0].assumptions.iter().all(|&(i, value)| numbers[i] == value));
+    assert!(all_free[1].assumptions.len() < numbers.len() && all_free[1].accepts(&numbers));
+    assert!(all_free[2].assumptions.is_empty() && all_free[2].external);
 }
 
 #[test]
@@ -170,7 +170,7 @@ fn a_compiled_scene_finds_its_stresses_in_its_own_code() {
         let mut stressed = Stressed(analysis);
         let options = Options { samples: 50, ..Options::default() };
         simulate(&sample(), &options, &mut stressed).expect("the sample deck runs");
-        let of_station = |worst: &Worst| worst.severest.stress.von_mises();
+        let of_station = |worst: &Worst| worst.max_von_mises.stress.von_mises();
         stressed.0.envelope().iter().map(of_station).collect()
     };
     let (generated, library) = (worst(SAMPLE.kernels()), worst(&[]));

@@ -22,7 +22,7 @@ impl Satellites {
         let mut eight =
             |make: &dyn Fn(&mut Numbers) -> Vec<f64>| (0..8).map(|_| make(&mut numbers)).collect();
         Self {
-            parameters: eight(&|numbers| parameters(&topology, batch.pinned, numbers)),
+            parameters: eight(&|numbers| parameters(&topology, batch.assumptions, numbers)),
             states: eight(&|numbers| state(&topology, batch.external, numbers)),
         }
     }
@@ -121,7 +121,7 @@ fn one_state_that_breaks_an_assumption_is_not_accepted() {
     for batch in nboom_routines::batches() {
         let mut parameters = side_by_side(&Satellites::of(batch).parameters);
         assert!(batch.accepts(&parameters));
-        parameters[batch.pinned[0].0].0[7] += 1e-12;
+        parameters[batch.assumptions[0].0].0[7] += 1e-12;
         assert!(!batch.accepts(&parameters));
         assert!(!batch.accepts(&parameters[1..]));
     }

@@ -85,7 +85,7 @@ fn is_the_closed_form<T: Routine>() {
     let topology = &closed_form.topology;
     let mut numbers = Numbers(1970);
     for case in 0..100 {
-        let parameters = parameters(topology, T::PINNED, &mut numbers);
+        let parameters = parameters(topology, T::ASSUMPTIONS, &mut numbers);
         let state = state(topology, T::EXTERNAL, &mut numbers);
         let (found, expected) =
             (generated::<T>(&parameters, &state), closed_form.evaluate(&parameters, &state));
@@ -102,7 +102,7 @@ fn exact_code_is_the_closed_form_bit_for_bit() {
 #[test]
 fn what_is_assumed_of_one_appendage_or_link_is_not_of_the_others() {
     is_the_closed_form::<exact::RolledUnequal>();
-    const { assert!(exact::RolledUnequal::PINNED.len() == 3 + 4 * 5) };
+    const { assert!(exact::RolledUnequal::ASSUMPTIONS.len() == 3 + 4 * 5) };
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn lanes_hold_independent_states() {
     let closed_form = ClosedForm::of::<T>();
     let topology = &closed_form.topology;
     let mut numbers = Numbers(7);
-    let parameters = parameters(topology, T::PINNED, &mut numbers);
+    let parameters = parameters(topology, T::ASSUMPTIONS, &mut numbers);
     let states: Vec<Vec<f64>> = (0..8).map(|_| state(topology, false, &mut numbers)).collect();
     let wide = |values: &dyn Fn(usize) -> f64| Lanes::<8>(std::array::from_fn(values));
     let p: Vec<Lanes<8>> = parameters.iter().map(|&value| wide(&|_| value)).collect();
@@ -132,11 +132,11 @@ fn lanes_hold_independent_states() {
 fn never_reads_assumptions<T: Routine>() {
     let topology = ClosedForm::of::<T>().topology;
     let mut numbers = Numbers(3);
-    let mut parameters = parameters(&topology, T::PINNED, &mut numbers);
+    let mut parameters = parameters(&topology, T::ASSUMPTIONS, &mut numbers);
     let mut state = state(&topology, T::EXTERNAL, &mut numbers);
     let expected = generated::<T>(&parameters, &state);
     assert!(expected.iter().all(|number| number.is_finite()));
-    for &(i, _) in T::PINNED {
+    for &(i, _) in T::ASSUMPTIONS {
         parameters[i] = f64::NAN;
     }
     if !T::EXTERNAL {
@@ -148,7 +148,7 @@ fn never_reads_assumptions<T: Routine>() {
 #[test]
 fn what_a_routine_never_reads_assumptions_is_never_read() {
     for_each_exact_routine!(never_reads_assumptions);
-    const { assert!(!exact::MomentumS1P::PINNED.is_empty() && !exact::MomentumS1P::EXTERNAL) };
+    const { assert!(!exact::MomentumS1P::ASSUMPTIONS.is_empty() && !exact::MomentumS1P::EXTERNAL) };
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn stock_routines_agree_with_the_closed_form_in_this_processors_code() {
         assert_eq!(topology.to_string(), kernel.topology);
         let mut numbers = Numbers(11);
         for case in 0..50 {
-            let parameters = parameters(topology, kernel.pinned, &mut numbers);
+            let parameters = parameters(topology, kernel.assumptions, &mut numbers);
             assert!(kernel.accepts(&parameters));
             let state = state(topology, kernel.external, &mut numbers);
             let (mut constants, mut found) =
@@ -184,7 +184,7 @@ fn the_stock_has_all_formulations_of_one_topology_and_articulated_before_them() 
     let stock = nboom_routines::all();
     let of = |formulation: Formulation| {
         let is = |kernel: &&Kernel| kernel.formulation == formulation.name();
-        stock.iter().rev().find(is).map(|kernel| (kernel.topology, kernel.pinned.len()))
+        stock.iter().rev().find(is).map(|kernel| (kernel.topology, kernel.assumptions.len()))
     };
     for formulation in Formulation::ALL {
         assert_eq!(of(formulation), Some(("S2_P", 0)), "{formulation}");
@@ -196,10 +196,10 @@ fn the_stock_has_all_formulations_of_one_topology_and_articulated_before_them() 
 
 #[test]
 fn a_parameter_that_breaks_an_assumption_is_not_accepted() {
-    for kernel in nboom_routines::all().iter().filter(|kernel| !kernel.pinned.is_empty()) {
+    for kernel in nboom_routines::all().iter().filter(|kernel| !kernel.assumptions.is_empty()) {
         let topology = ClosedForm::of_kernel(kernel).topology;
-        let mut parameters = parameters(&topology, kernel.pinned, &mut Numbers(5));
-        parameters[kernel.pinned[0].0] += 1e-12;
+        let mut parameters = parameters(&topology, kernel.assumptions, &mut Numbers(5));
+        parameters[kernel.assumptions[0].0] += 1e-12;
         assert!(!kernel.accepts(&parameters));
         assert!(!kernel.accepts(&parameters[1..]));
     }
@@ -209,7 +209,7 @@ fn a_parameter_that_breaks_an_assumption_is_not_accepted() {
 fn parameters_that_are_no_numbers_are_not_accepted() {
     for kernel in nboom_routines::all().iter().chain(nboom_routines::equations()) {
         let topology = ClosedForm::of_kernel(kernel).topology;
-        let good = parameters(&topology, kernel.pinned, &mut Numbers(5));
+        let good = parameters(&topology, kernel.assumptions, &mut Numbers(5));
         assert!(kernel.accepts(&good));
         for at in 0..good.len() {
             for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

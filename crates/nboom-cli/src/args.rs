@@ -38,7 +38,7 @@ pub enum Command {
     /// Read and validate a scene, and say what it contains.
     ///
     /// No motion is computed. Also says what the scene does not pay for because it lacks it, what
-    /// code generated for it takes for granted, and which code a run begins with.
+    /// code generated for it assumes, and which code a run begins with.
     Check(CheckArgs),
     /// Compare all code that computes accelerations, on random states.
     ///
@@ -84,8 +84,8 @@ pub enum Command {
     /// The program takes SCENE and the options of nboom run; run, check, verify, bench and
     /// section as first word do what they do here. It has routines with the scene's numbers, with numbers at run time,
     /// and for states with held hinges: all of them with up to 10 hinges; with more, those in which
-    /// all appendages are held in step; at most 32. By articulated it also has a routine that takes
-    /// nothing for granted, in which other states and changed scenes are embedded. All else runs by
+    /// all appendages are held in step; at most 32. By articulated it also has a routine that assumes
+    /// nothing, in which other states and changed scenes are embedded. All else runs by
     /// the recursion. Cargo, which comes with Rust, builds it in a folder that is kept, so that the
     /// next build is quicker.
     #[cfg(feature = "generator")]
@@ -202,7 +202,7 @@ pub struct GenerateArgs {
     pub output: PathBuf,
 
     /// Take the satellite's numbers from the scene; without it they are handed in, and only zeros
-    /// of the scene are taken for granted.
+    /// of the scene are assumed.
     #[arg(long)]
     pub baked: bool,
 

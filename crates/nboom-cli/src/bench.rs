@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use nboom_formulation::{Recognised, symmetric};
 use nboom_scalar::{Batch, Eight};
-use nboom_verify::{ComparedCode, Label, Subject};
+use nboom_verify::{ComparedCode, Label, TestCase};
 
 use crate::format::{code_columns, code_head, not_covered, routine_topology};
 use crate::run::default_directory;
@@ -49,18 +49,18 @@ pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, Cli
         let directory = args.output.as_ref().unwrap_or(&directory);
         return work_precision(&file.scene, routines, args.seconds, directory);
     }
-    let subject = Subject::new(file.scene, STATES, SEED)?;
-    let rows = rows(&subject, routines, args.seconds)?;
+    let test_case = TestCase::new(file.scene, STATES, SEED)?;
+    let rows = rows(&test_case, routines, args.seconds)?;
     Ok(match (args.json, args.harness) {
         (true, _) => json(&rows),
-        (_, true) => harness(&subject.scene().name, &rows),
-        _ => table(&subject, routines, &rows),
+        (_, true) => harness(&test_case.scene().name, &rows),
+        _ => table(&test_case, routines, &rows),
     })
 }
 
 /// The recursion first.
-fn rows(subject: &Subject, routines: &Routines, seconds: f64) -> Result<Vec<Row>, CliError> {
-    let codes = subject.codes(routines.accelerations)?;
+fn rows(test_case: &TestCase, routines: &Routines, seconds: f64) -> Result<Vec<Row>, CliError> {
+    let codes = test_case.codes(routines.accelerations)?;
     let mut timed: Vec<(Label, usize, Times)> = Vec::new();
     for (label, mut code) in codes {
         timed.push((label, 1, time_of(&mut code, seconds)));
@@ -84,13 +84,8 @@ fn rows(subject: &Subject, routines: &Routines, seconds: f64) -> Result<Vec<Row>
 
 /// Whether a batch is the same routine.
 fn is_of(batch: &Batch, label: &Label) -> bool {
-    let facts = match batch.pinned.len() {
-        0 => "general",
-        pinned if pinned == batch.parameters => "baked",
-        _ => "principal",
-    };
-    (Some(batch.topology), batch.formulation, facts)
-        == (label.topology, label.formulation, label.facts)
+    (Some(batch.topology), batch.formulation, batch.assumptions_in_a_word())
+        == (label.topology, label.formulation, label.assumptions)
 }
 
 /// Times a batch of eight states of this satellite at once; times are those of one state.
@@ -153,10 +148,10 @@ fn time(seconds: f64, mut call: impl FnMut(usize)) -> Times {
     Times { least: samples[0], median: samples[samples.len() / 2] }
 }
 
-fn table(subject: &Subject, routines: &Routines, rows: &[Row]) -> String {
+fn table(test_case: &TestCase, routines: &Routines, rows: &[Row]) -> String {
     let mut text = format!(
         "{}: ns per evaluation of the accelerations, all hinges free\n{} {:>5} {:>10} {:>10} {:>12}\n",
-        subject.scene().name,
+        test_case.scene().name,
         code_head(),
         "lanes",
         "ns min",
@@ -170,18 +165,18 @@ fn table(subject: &Subject, routines: &Routines, rows: &[Row]) -> String {
             "{columns} {lanes:>5} {least:>10.1} {median:>10.1} {of_recursive:>12.3}{routine}"
         ));
     }
-    subject.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);
+    test_case.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);
     text
 }
 
 fn json(rows: &[Row]) -> String {
     let object = |row: &Row| {
         let Row { label, lanes, times: Times { least, median }, of_recursive } = row;
-        let Label { path, formulation, facts, instructions, topology, virtual_links } = label;
+        let Label { path, formulation, assumptions, instructions, topology, virtual_links } = label;
         let topology = topology.map_or("null".to_owned(), |topology| format!("\"{topology}\""));
         format!(
             "  {{\"path\": \"{path}\", \"formulation\": \"{formulation}\", \
-             \"facts\": \"{facts}\", \"instructions\": \"{instructions}\", \
+             \"assumptions\": \"{assumptions}\", \"instructions\": \"{instructions}\", \
              \"topology\": {topology}, \"virtual_links\": {virtual_links}, \"lanes\": {lanes}, \
              \"ns_min\": {least:?}, \"ns_median\": {median:?}, \
              \"of_recursive\": {of_recursive:?}}}"
@@ -205,8 +200,8 @@ fn harness(scene: &str, rows: &[Row]) -> String {
 }
 
 fn name(row: &Row) -> String {
-    let Label { path, formulation, facts, .. } = row.label;
-    let baked = if facts == "baked" { "_baked" } else { "" };
+    let Label { path, formulation, assumptions, .. } = row.label;
+    let baked = if assumptions == "baked" { "_baked" } else { "" };
     let lanes = if row.lanes > 1 { format!("_lanes{}", row.lanes) } else { String::new() };
     format!("nboom_{path}_{formulation}{baked}{lanes}")
 }
@@ -214,5 +209,5 @@ fn name(row: &Row) -> String {
 /// Larger for the routine that a run prefers: one of a larger topology, which is there only if a
 /// run takes it, then the more specialised one.
 fn precedence(label: &Label) -> (bool, bool) {
-    (label.virtual_links > 0, label.facts != "general")
+    (label.virtual_links > 0, label.assumptions != "general")
 }

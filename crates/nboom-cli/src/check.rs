@@ -44,7 +44,7 @@ fn generated_code(scene: &Scene) -> String {
     };
     let phrases = request.assumptions_in_words();
     let phrases = if phrases.is_empty() { "nothing".to_owned() } else { phrases.join("; ") };
-    format!("topology: {}\ngenerated code takes for granted: {phrases}\n", request.topology)
+    format!("topology: {}\ngenerated code assumes: {phrases}\n", request.topology)
 }
 
 /// The code that a run begins with, and why, found by a run that ends where it starts.

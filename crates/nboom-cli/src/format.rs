@@ -39,16 +39,17 @@ pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
-/// Path, formulation, facts and instructions of code in columns.
+/// Path, formulation, assumptions and instructions of code in columns.
 pub(crate) fn code_columns(label: &Label) -> String {
-    let Label { path, formulation, facts, instructions, .. } = label;
-    format!("{path:<10} {formulation:<12} {facts:<10} {instructions:<13}")
+    let Label { path, formulation, assumptions, instructions, .. } = label;
+    format!("{path:<10} {formulation:<12} {assumptions:<11} {instructions:<13}")
 }
 
 /// The head of [`code_columns`].
 pub(crate) fn code_head() -> String {
-    let [path, formulation, facts, instructions] = ["path", "formulation", "facts", "instructions"];
-    code_columns(&Label { path, formulation, facts, instructions, ..Label::RECURSION })
+    let [path, formulation, assumptions, instructions] =
+        ["path", "formulation", "assumptions", "instructions"];
+    code_columns(&Label { path, formulation, assumptions, instructions, ..Label::RECURSION })
 }
 
 /// The topology that a routine is for, after a line of columns.

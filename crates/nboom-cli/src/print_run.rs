@@ -170,7 +170,7 @@ fn worst_line(scene: &Scene, worst: &Worst) -> String {
     format!(
         "worst stress  von Mises {} in segment {}, station {}, at {} by {why}{mostly}{margin}; of thin \
          walls, without corners and holes",
-        short(worst.severest.stress.von_mises(), 5),
+        short(worst.max_von_mises.stress.von_mises(), 5),
         worst.segment,
         worst.station + 1,
         short(worst.time, 10),

@@ -1,6 +1,6 @@
 use nboom_model::{
-    Body, Dashpot, Facts, Hinge, HingePlace, HingeState, KickOffSpring, MassProperties, Posture,
-    Release, Scene, Spring,
+    Body, Dashpot, Hinge, HingePlace, HingeState, KickOffSpring, MassProperties, Posture, Release,
+    Scene, Spring,
 };
 use nboom_scalar::Vec3;
 
@@ -171,7 +171,7 @@ fn environment(scene: &Scene) -> [String; 2] {
 }
 
 fn skipped(scene: &Scene) -> String {
-    let skipped = Facts::of(scene).skipped();
+    let skipped = nboom_model::skipped(scene);
     let what = if skipped.is_empty() { "nothing".to_owned() } else { skipped.join("; ") };
     format!("not paid for: {what}")
 }

@@ -62,7 +62,8 @@ fn tube_stresses(tube: &Tube, load: &Wrench<f64>) -> Value {
             "principal": principal(stress),
         })
     };
-    let (tangential, absolute) = (stresses.severest(), report::severest_of_tube(&stresses));
+    let (tangential, absolute) =
+        (stresses.max_von_mises(), report::max_von_mises_of_tube(&stresses));
     json!({
         "axis_points": Tube::AXIS_ANGLES.into_iter().enumerate().map(axis_point).collect::<Vec<_>>(),
         "max_von_mises_tangential_shear": largest(tangential, at(&stresses, tangential)),
@@ -143,7 +144,7 @@ impl Traction {
 }
 
 fn largest(stresses: &PolygonStresses<'_>) -> Value {
-    let (wall, x) = stresses.severest();
+    let (wall, x) = stresses.max_von_mises();
     let (found, traction) = (stresses.at(wall, x), Traction::at(stresses, wall, x));
     json!({
         "vm": found.stress.von_mises(),

@@ -148,7 +148,9 @@ fn case(value: Value) -> Result<Case, Vec<Defect>> {
     let (Some(section), []) = (section, &fields.defects[..]) else {
         return Err(fields.defects);
     };
-    if load.is_some_and(|load| !section.stresses(&load).severest().stress.von_mises().is_finite()) {
+    if load
+        .is_some_and(|load| !section.stresses(&load).max_von_mises().stress.von_mises().is_finite())
+    {
         return Err(vec![Defect::Load]);
     }
     Ok(Case { given, section, load })

@@ -1,6 +1,6 @@
 use std::fmt::Write;
 
-use nboom_verify::{Comparison, Hinges, Quantity, Row, Subject, compare};
+use nboom_verify::{Comparison, Hinges, Quantity, Row, TestCase, compare};
 
 use crate::format::{code_columns, code_head, count, not_covered, routine_topology, short};
 use crate::run::default_directory;
@@ -14,8 +14,8 @@ pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, C
     let beside = || default_directory(&file.scene.name).join(FILE);
     let path = args.output.clone().unwrap_or_else(beside);
     output::check(&path, &args.scene.scene)?;
-    let held = Subject::with_held_hinges(&file.scene, args.states / 2, args.seed)?;
-    let free = Subject::new(file.scene, args.states - held.len(), args.seed)?;
+    let held = TestCase::with_held_hinges(&file.scene, args.states / 2, args.seed)?;
+    let free = TestCase::new(file.scene, args.states - held.len(), args.seed)?;
     let Routines { accelerations, equations, .. } = *routines;
     let comparison = compare(&free, &held, accelerations, equations, args.tol)?;
     print(&table(&comparison))?;

@@ -225,7 +225,7 @@ fn bench_gives_json() {
         let ratio = number("ns_min") / rows[0]["ns_min"].as_f64().expect("a number");
         assert!((number("of_recursive") - ratio).abs() <= 1e-12 * ratio, "{row}");
         assert!(0.0 < number("ns_min") && number("ns_min") <= number("ns_median"), "{row}");
-        assert!(row["facts"].is_string() && row["instructions"].is_string(), "{row}");
+        assert!(row["assumptions"].is_string() && row["instructions"].is_string(), "{row}");
     }
 }
 

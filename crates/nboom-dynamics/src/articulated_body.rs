@@ -64,9 +64,9 @@ pub(crate) fn solve<R: Real>(
     let Load { wrenches, mut main, tau_dot, twists } = load;
     for j in (0..tree.links.len()).rev() {
         let (pose, hinge) = (&poses[j], &hinges[j]);
-        let excess = tau_dot[j] - pose.axis.dot(wrenches[j].moment);
-        tau_dot[j] = excess;
-        let ratio = excess * hinge.inverse_pivot;
+        let net_torque = tau_dot[j] - pose.axis.dot(wrenches[j].moment);
+        tau_dot[j] = net_torque;
+        let ratio = net_torque * hinge.inverse_pivot;
         let transmitted = Wrench {
             moment: wrenches[j].moment + hinge.column.moment * ratio,
             force: wrenches[j].force + hinge.column.force * ratio,

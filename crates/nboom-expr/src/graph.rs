@@ -123,13 +123,13 @@ impl Graph {
         Self::trace_with(&vec![None; inputs], computation)
     }
 
-    /// Like [`trace`](Self::trace), with the inputs that have a value in `pinned` replaced by
+    /// Like [`trace`](Self::trace), with the inputs that have a value in `assumptions` replaced by
     /// that constant.
     pub fn trace_with(
-        pinned: &[Option<f64>],
+        assumptions: &[Option<f64>],
         computation: impl FnOnce(&[Expr]) -> Vec<Expr>,
     ) -> Self {
-        Self::record(Builder::default(), pinned, computation)
+        Self::record(Builder::default(), assumptions, computation)
     }
 
     /// Like [`trace`](Self::trace), with no operation carried out, so that none is rounded:
@@ -144,11 +144,11 @@ impl Graph {
 
     fn record(
         builder: Builder,
-        pinned: &[Option<f64>],
+        assumptions: &[Option<f64>],
         computation: impl FnOnce(&[Expr]) -> Vec<Expr>,
     ) -> Self {
         let (builder, outputs) = expr::record(builder, || {
-            let inputs: Vec<Expr> = pinned
+            let inputs: Vec<Expr> = assumptions
                 .iter()
                 .enumerate()
                 .map(|(i, value)| match value {
@@ -158,7 +158,7 @@ impl Graph {
                 .collect();
             computation(&inputs)
         });
-        builder.finish(pinned.len(), outputs.into_iter().map(Expr::id).collect())
+        builder.finish(assumptions.len(), outputs.into_iter().map(Expr::id).collect())
     }
 
     /// How many inputs there are, used or not.

@@ -109,9 +109,9 @@ proptest! {
         (steps, inputs) in computation(),
         pins in prop::array::uniform4(any::<bool>()),
     ) {
-        let pinned: Vec<Option<f64>> =
+        let assumptions: Vec<Option<f64>> =
             inputs.iter().zip(pins).map(|(&value, pin)| pin.then_some(value)).collect();
-        let graph = Graph::trace_with(&pinned, |inputs| run(&steps, inputs));
+        let graph = Graph::trace_with(&assumptions, |inputs| run(&steps, inputs));
         for (_, node) in graph.nodes() {
             prop_assert!(!matches!(node, Node::Input(i) if pins[i as usize]));
         }

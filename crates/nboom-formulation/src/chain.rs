@@ -118,8 +118,8 @@ impl<R: Real> Turned<R> {
         let [u, b2, b3] = coupling.rows;
         let (u2, u3) = (angular.xy, angular.xz);
         let inverse_pivot = R::one() / angular.xx;
-        let excess = torque - wrench.moment.x;
-        let ratio = excess * inverse_pivot;
+        let net_torque = torque - wrench.moment.x;
+        let ratio = net_torque * inverse_pivot;
         let (s2, s3) = (u2 * inverse_pivot, u3 * inverse_pivot);
         let shown = Shown {
             angular: [angular.yy - u2 * s2, angular.zz - u3 * s3, angular.yz - u2 * s3],
@@ -129,7 +129,7 @@ impl<R: Real> Turned<R> {
             force: wrench.force + u * ratio,
         };
         let eliminated =
-            Eliminated { angular: [u2, u3], linear: u, inverse_pivot, excess, next: self.next };
+            Eliminated { angular: [u2, u3], linear: u, inverse_pivot, net_torque, next: self.next };
         (shown, eliminated)
     }
 }
@@ -245,15 +245,15 @@ pub struct Eliminated<R> {
     linear: Vec3<R>,
     inverse_pivot: R,
     /// Moment left for ε.
-    excess: R,
+    net_torque: R,
     next: [R; 2],
 }
 
-/// One step of the inward sweep: `excess` is the hinge torque less that of the next hinge.
+/// One step of the inward sweep: `net_torque` is the hinge torque less that of the next hinge.
 #[inline]
 pub fn inward<R: Real>(
     link: &Turned<R>,
-    excess: R,
+    net_torque: R,
     outboard: &Shown<R>,
 ) -> (Shown<R>, Eliminated<R>) {
     let [ly, lz] = link.next;
@@ -271,8 +271,8 @@ pub fn inward<R: Real>(
     let u3 = b3.z * ly - b3.y * lz - m_eps.x * ly + own.xz;
     let u = Vec3::new(m_eps.x, m_eps.y - c.z, m_eps.z + c.y);
     let inverse_pivot = R::one() / pivot;
-    let excess = excess - link.moment.x - (f.z * ly - f.y * lz);
-    let ratio = excess * inverse_pivot;
+    let net_torque = net_torque - link.moment.x - (f.z * ly - f.y * lz);
+    let ratio = net_torque * inverse_pivot;
     let (s2, s3, s) = (u2 * inverse_pivot, u3 * inverse_pivot, u * inverse_pivot);
     let mass = link.mass;
     let shown = Shown {
@@ -300,7 +300,7 @@ pub fn inward<R: Real>(
         force: f + link.force + u * ratio,
     };
     let eliminated =
-        Eliminated { angular: [u2, u3], linear: u, inverse_pivot, excess, next: link.next };
+        Eliminated { angular: [u2, u3], linear: u, inverse_pivot, net_torque, next: link.next };
     (shown, eliminated)
 }
 
@@ -310,7 +310,7 @@ pub fn back<R: Real>(eliminated: &Eliminated<R>, omega_dot: [R; 2], a: Vec3<R>) 
     let [u2, u3] = eliminated.angular;
     let [w2, w3] = omega_dot;
     let carried = u2 * w2 + u3 * w3 + eliminated.linear.dot(a);
-    let epsilon = (eliminated.excess - carried) * eliminated.inverse_pivot;
+    let epsilon = (eliminated.net_torque - carried) * eliminated.inverse_pivot;
     let [ly, lz] = eliminated.next;
     let next = Vec3::new(a.x + lz * w2 - ly * w3, a.y - lz * epsilon, a.z + ly * epsilon);
     (epsilon, next)
@@ -356,7 +356,7 @@ impl<R: Real> Eliminated<R> {
     pub(crate) fn flat(&self) -> Vec<R> {
         let mut flat = self.angular.to_vec();
         flat.extend(self.linear.to_array());
-        flat.extend([self.inverse_pivot, self.excess]);
+        flat.extend([self.inverse_pivot, self.net_torque]);
         flat.extend(self.next);
         flat
     }
@@ -366,7 +366,7 @@ impl<R: Real> Eliminated<R> {
             angular: [reader.next(), reader.next()],
             linear: reader.vector(),
             inverse_pivot: reader.next(),
-            excess: reader.next(),
+            net_torque: reader.next(),
             next: [reader.next(), reader.next()],
         }
     }

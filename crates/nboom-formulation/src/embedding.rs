@@ -73,9 +73,9 @@ impl Embedding {
     /// the inner topology.
     ///
     /// Some numbers nothing depends on: where a virtual appendage sits, how it is turned, and the
-    /// way to a virtual hinge. They are as `pinned` has them (parameter numbers and values), or
+    /// way to a virtual hinge. They are as `assumptions` has them (parameter numbers and values), or
     /// else nothing is turned and all stand at one point.
-    pub fn parameters(&self, inner: &Parameters<f64>, pinned: &[(usize, f64)]) -> Vec<f64> {
+    pub fn parameters(&self, inner: &Parameters<f64>, assumptions: &[(usize, f64)]) -> Vec<f64> {
         let mut branches: Vec<Branch<f64>> =
             self.outer.shapes().iter().map(|&shape| virtual_branch(shape)).collect();
         for (&branch, real) in self.branches.iter().zip(&inner.branches) {
@@ -85,7 +85,8 @@ impl Embedding {
         }
         let mut numbers = Parameters { main: inner.main, branches }.write();
         let arbitrary = self.arbitrary(inner);
-        for &(at, value) in pinned.iter().filter(|&&(at, _)| arbitrary.get(at) == Some(&true)) {
+        for &(at, value) in assumptions.iter().filter(|&&(at, _)| arbitrary.get(at) == Some(&true))
+        {
             numbers[at] = value;
         }
         numbers
@@ -164,8 +165,8 @@ mod tests {
             let numbers: Vec<f64> =
                 (0..Layout::parameters(&topology(name))).map(|i| i as f64).collect();
             let inner = Parameters::read(&topology(name), numbers.clone());
-            let pinned: Vec<(usize, f64)> = (0..numbers.len()).map(|i| (i, -1.0)).collect();
-            assert_eq!(found.parameters(&inner, &pinned), numbers);
+            let assumptions: Vec<(usize, f64)> = (0..numbers.len()).map(|i| (i, -1.0)).collect();
+            assert_eq!(found.parameters(&inner, &assumptions), numbers);
         }
     }
 
@@ -196,15 +197,15 @@ mod tests {
     }
 
     #[test]
-    fn pinned_numbers_are_taken_where_nothing_depends_on_them_and_nowhere_else() {
+    fn assumed_numbers_are_taken_where_nothing_depends_on_them_and_nowhere_else() {
         let (inner, outer) = (topology("S1"), topology("S2_P"));
         let numbers: Vec<f64> = (1..=Layout::parameters(&inner)).map(|i| i as f64).collect();
         let inner_parameters = Parameters::read(&inner, numbers.clone());
         let found = Embedding::new(&inner, &outer).expect("it fits");
         let count = Layout::parameters(&outer);
-        let pinned: Vec<(usize, f64)> = (0..count).map(|i| (i, -1.0)).collect();
+        let assumptions: Vec<(usize, f64)> = (0..count).map(|i| (i, -1.0)).collect();
         let taken: Vec<usize> = found
-            .parameters(&inner_parameters, &pinned)
+            .parameters(&inner_parameters, &assumptions)
             .iter()
             .enumerate()
             .filter_map(|(i, &number)| (number == -1.0).then_some(i))

@@ -10,7 +10,7 @@ use crate::parameters::Reader;
 pub struct Paddle<R> {
     column: Wrench<R>,
     inverse_pivot: R,
-    excess: R,
+    net_torque: R,
 }
 
 /// Rates of the arm, which the paddle turns with.
@@ -54,13 +54,13 @@ pub fn eliminate<R: Real>(
     let inertia = ArticulatedInertia::of(&body);
     let column = Wrench { moment: inertia.angular * axis, force: axis.cross(body.first_moment) };
     let inverse_pivot = R::one() / axis.dot(column.moment);
-    let excess = rates.torque - axis.dot(wrench.moment);
-    let ratio = excess * inverse_pivot;
+    let net_torque = rates.torque - axis.dot(wrench.moment);
+    let ratio = net_torque * inverse_pivot;
     let left = Wrench {
         moment: wrench.moment + column.moment * ratio,
         force: wrench.force + column.force * ratio,
     };
-    let eliminated = Paddle { column, inverse_pivot, excess };
+    let eliminated = Paddle { column, inverse_pivot, net_torque };
     (inertia.without(&column, inverse_pivot), left, eliminated)
 }
 
@@ -85,14 +85,14 @@ pub fn arm_inward<R: Real>(
 #[inline]
 pub fn back<R: Real>(paddle: &Paddle<R>, hinge: Twist<R>) -> R {
     let carried = paddle.column.moment.dot(hinge.angular) + paddle.column.force.dot(hinge.linear);
-    (paddle.excess - carried) * paddle.inverse_pivot
+    (paddle.net_torque - carried) * paddle.inverse_pivot
 }
 
 impl<R: Real> Paddle<R> {
     pub(crate) fn flat(&self) -> Vec<R> {
         let vectors = [self.column.moment, self.column.force];
         let mut flat: Vec<R> = vectors.into_iter().flat_map(Vec3::to_array).collect();
-        flat.extend([self.inverse_pivot, self.excess]);
+        flat.extend([self.inverse_pivot, self.net_torque]);
         flat
     }
 
@@ -100,7 +100,7 @@ impl<R: Real> Paddle<R> {
         Self {
             column: Wrench { moment: reader.vector(), force: reader.vector() },
             inverse_pivot: reader.next(),
-            excess: reader.next(),
+            net_torque: reader.next(),
         }
     }
 }

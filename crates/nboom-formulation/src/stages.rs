@@ -81,7 +81,7 @@ pub const TAU: Group = Group::new("tau", &["tau"]);
 pub const PADDLE_HINGES: Group =
     Group::new("hinges", &["beta_1", "tau_1", "torque_1", "beta_2", "tau_2", "torque_2"]);
 /// Torque of a hinge less that of the next one.
-pub const EXCESS: Group = Group::new("excess", &["excess"]);
+pub const NET_TORQUE: Group = Group::new("net_torque", &["net_torque"]);
 /// Torque of the first hinge.
 pub const TORQUE: Group = Group::new("torque", &["torque"]);
 /// How far the outward sweep has come: σ, and the bias acceleration of the next hinge.
@@ -176,15 +176,15 @@ pub fn inward<R: Real>() -> Stage<R> {
         name: "inward",
         about: "A link's hinge eliminated: what it shows inboard, and what is left for the way back.",
         parameters: &[LINK],
-        inputs: &[TURNED, EXCESS, SHOWN],
+        inputs: &[TURNED, NET_TORQUE, SHOWN],
         outputs: &[SHOWN, ELIMINATED],
         run: |numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let link = reader.link();
             let turned = Turned::read(&link, &mut reader);
-            let excess = reader.next();
+            let net_torque = reader.next();
             let outboard = Shown::read(&mut reader);
-            let (shown, eliminated) = chain::inward(&turned, excess, &outboard);
+            let (shown, eliminated) = chain::inward(&turned, net_torque, &outboard);
             [shown.flat(), eliminated.flat()].concat()
         },
     }

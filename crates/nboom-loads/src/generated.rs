@@ -16,7 +16,7 @@ pub(crate) struct Generated {
 }
 
 impl Generated {
-    /// The first kernel that is for loads and takes for granted nothing but these numbers.
+    /// The first kernel that is for loads and assumes nothing but these numbers.
     pub fn of(kernels: &[Kernel], numbers: &[f64]) -> Option<Self> {
         let is_ours = |kernel: &&Kernel| kernel.result == RESULT && kernel.accepts(numbers);
         let kernel = *kernels.iter().find(is_ours)?;

@@ -5,7 +5,7 @@ use nboom_codegen::{Output, Request, trace};
 use nboom_expr::Graph;
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::{Scene, Shape};
-use nboom_verify::{Certificate, Subject, certify, truth};
+use nboom_verify::{Certificate, TestCase, certify, truth};
 
 use crate::PackageError;
 use crate::held::welded;
@@ -69,23 +69,23 @@ impl Certified {
         request: &Request,
         free: Option<&[bool]>,
     ) -> Result<Self, PackageError> {
-        let (subjects, tested) = match free {
-            None => (vec![Subject::new(scene.clone(), FREE[0], SEED)?], FREE[1]),
+        let (test_cases, tested) = match free {
+            None => (vec![TestCase::new(scene.clone(), FREE[0], SEED)?], FREE[1]),
             Some(free) => (held(scene, free)?, HELD[1]),
         };
         let graph = trace(request);
         let found = match request.output {
             Output::Accelerations => {
-                Found::Accelerations(accelerations(&graph, request, &subjects)?)
+                Found::Accelerations(accelerations(&graph, request, &test_cases)?)
             }
-            Output::Equations => Found::Equations(equations(&graph, request, &subjects)?),
+            Output::Equations => Found::Equations(equations(&graph, request, &test_cases)?),
         };
         let mut cases = Vec::new();
-        for subject in &subjects {
+        for test_case in &test_cases {
             let missing = tested - cases.len();
-            cases.extend(self::tested(subject, request)?.into_iter().take(missing));
+            cases.extend(self::tested(test_case, request)?.into_iter().take(missing));
         }
-        let states = subjects.iter().map(|subject| subject.states().len()).sum();
+        let states = test_cases.iter().map(|test_case| test_case.states().len()).sum();
         let certified = Self { states, found, tested: cases };
         certified.require_close(request)?;
         Ok(certified)
@@ -120,26 +120,26 @@ impl Certified {
 }
 
 /// The scene in states with held hinges, one random state of each.
-fn held(scene: &Scene, free: &[bool]) -> Result<Vec<Subject>, PackageError> {
-    let subject = |i: usize| {
+fn held(scene: &Scene, free: &[bool]) -> Result<Vec<TestCase>, PackageError> {
+    let test_case = |i: usize| {
         let angle = 0.4 + 0.7 * i as f64;
-        Ok(Subject::new(welded(scene, free, angle)?, 1, SEED + i as u64)?)
+        Ok(TestCase::new(welded(scene, free, angle)?, 1, SEED + i as u64)?)
     };
-    (0..HELD[0]).map(subject).collect()
+    (0..HELD[0]).map(test_case).collect()
 }
 
-/// The largest deviations in any of the subjects' states.
+/// The largest deviations in any of the test cases' states.
 fn accelerations(
     graph: &Graph,
     request: &Request,
-    subjects: &[Subject],
+    test_cases: &[TestCase],
 ) -> Result<Certificate, PackageError> {
     let mut most: Option<Certificate> = None;
-    for subject in subjects {
-        let recognised = recognised(subject);
-        let inputs = inputs(subject, request);
+    for test_case in test_cases {
+        let recognised = recognised(test_case);
+        let inputs = inputs(test_case, request);
         let places = Layout::places(&request.topology);
-        let found = certify(subject, |i| {
+        let found = certify(test_case, |i| {
             let found = graph.evaluate(&inputs[i].concat());
             let mut in_scene = found.clone();
             for (&link, place) in recognised.links.iter().zip(&places) {
@@ -155,46 +155,50 @@ fn accelerations(
             ..most
         }));
     }
-    Ok(most.expect("there is a subject"))
+    Ok(most.expect("there is a test case"))
 }
 
-/// The largest residual in any of the subjects' states.
-fn equations(graph: &Graph, request: &Request, subjects: &[Subject]) -> Result<f64, PackageError> {
+/// The largest residual in any of the test cases' states.
+fn equations(
+    graph: &Graph,
+    request: &Request,
+    test_cases: &[TestCase],
+) -> Result<f64, PackageError> {
     let mut most = 0.0_f64;
-    for subject in subjects {
-        for (input, truth) in inputs(subject, request).iter().zip(truth(subject)?) {
-            let unknowns = unknowns(request.formulation, recognised(subject), &truth);
+    for test_case in test_cases {
+        for (input, truth) in inputs(test_case, request).iter().zip(truth(test_case)?) {
+            let unknowns = unknowns(request.formulation, recognised(test_case), &truth);
             most = most.max(residual(&graph.evaluate(&input.concat()), &unknowns));
         }
     }
     Ok(most)
 }
 
-/// All states of a subject with what is to come out.
-fn tested(subject: &Subject, request: &Request) -> Result<Vec<Tested>, PackageError> {
+/// All states of a test case with what is to come out.
+fn tested(test_case: &TestCase, request: &Request) -> Result<Vec<Tested>, PackageError> {
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Vec<f64>)| {
         let expected = match request.output {
-            Output::Accelerations => in_routine(recognised(subject), &truth),
-            Output::Equations => unknowns(request.formulation, recognised(subject), &truth),
+            Output::Accelerations => in_routine(recognised(test_case), &truth),
+            Output::Equations => unknowns(request.formulation, recognised(test_case), &truth),
         };
         Tested { parameters, coordinates, expected }
     };
-    Ok(inputs(subject, request).into_iter().zip(truth(subject)?).map(case).collect())
+    Ok(inputs(test_case, request).into_iter().zip(truth(test_case)?).map(case).collect())
 }
 
 /// Parameters and coordinates of each state.
-fn inputs(subject: &Subject, request: &Request) -> Vec<[Vec<f64>; 2]> {
-    let mut parameters = recognised(subject).parameters.write();
+fn inputs(test_case: &TestCase, request: &Request) -> Vec<[Vec<f64>; 2]> {
+    let mut parameters = recognised(test_case).parameters.write();
     // Welding and taking moments about the mass centre has rounded.
     for (parameter, assumed) in parameters.iter_mut().zip(&request.assumptions) {
         *parameter = assumed.unwrap_or(*parameter);
     }
-    let states = subject.coordinates();
+    let states = test_case.coordinates();
     states.map(|state| [parameters.clone(), state.write(&request.topology)]).collect()
 }
 
-fn recognised(subject: &Subject) -> &Recognised {
-    subject.recognised().expect("requests are refused before when there are no chains")
+fn recognised(test_case: &TestCase) -> &Recognised {
+    test_case.recognised().expect("requests are refused before when there are no chains")
 }
 
 /// Accelerations in the order of [`Layout`] from those in the scene's order.

@@ -6,7 +6,7 @@ use nboom_codegen::{Generated, Request, generate as emit, hash};
 use nboom_expr::Operations;
 use nboom_formulation::Recognised;
 use nboom_model::Scene;
-use nboom_verify::{Certificate, Subject};
+use nboom_verify::{Certificate, TestCase};
 
 use crate::certificate::{self, Routine};
 use crate::certified::{Certified, Found};
@@ -144,7 +144,7 @@ fn routine(
 
 /// The scene's appendages with all hinges free.
 fn recognised(scene: &Scene) -> Result<Recognised, PackageError> {
-    let subject = Subject::new(scene.clone(), 0, 0)?;
+    let test_case = TestCase::new(scene.clone(), 0, 0)?;
     // Requests are refused before when there are none.
-    Ok(subject.recognised().cloned().expect("there is a request for the scene"))
+    Ok(test_case.recognised().cloned().expect("there is a request for the scene"))
 }

@@ -8,7 +8,7 @@ const TOLERANCE: f64 = 1e-12;
 #[test]
 fn loads_and_stresses_are_those_of_the_equations() {
     let kernel = Kernel::of::</*NAME*/>();
-    let parameters: Vec<f64> = /*NAME*/::PINNED.iter().map(|&(_, number)| number).collect();
+    let parameters: Vec<f64> = /*NAME*/::ASSUMPTIONS.iter().map(|&(_, number)| number).collect();
     assert!(kernel.accepts(&parameters));
     let mut constants = vec![0.0; kernel.constants];
     kernel.prepare(&parameters, &mut constants);

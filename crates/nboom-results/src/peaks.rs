@@ -24,9 +24,9 @@ pub fn peak_digits(run: &WorstLoads, truth: &WorstLoads, scales: &Scales) -> Vec
     let (of_forces, of_moments) = (natural(force, scales.force), natural(moment, scales.moment));
     // Stresses follow from loads, and vanish where these do.
     let loaded = (force / of_forces).max(moment / of_moments);
-    let von_mises = truth.station().map_or(0.0, |worst| worst.severest.stress.von_mises());
+    let von_mises = truth.station().map_or(0.0, |worst| worst.max_von_mises.stress.von_mises());
     let stations = run.stations.iter().zip(&truth.stations).map(|(run, truth)| {
-        let [ours, true_one] = [run, truth].map(|worst| worst.severest.stress.von_mises());
+        let [ours, true_one] = [run, truth].map(|worst| worst.max_von_mises.stress.von_mises());
         let size = natural(true_one, von_mises) / loaded;
         let digits = Digits::new("von_mises", (ours - true_one).abs(), size);
         PeakDigits { hinge: truth.segment, station: Some(truth.station), digits }

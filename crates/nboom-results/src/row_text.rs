@@ -72,7 +72,7 @@ impl RowText {
             writeln!(self.load)?;
             let axis_points = AXIS_POINTS.into_iter().zip(station.axis_points);
             let points = axis_points.filter_map(|(name, point)| Some((name, point?)));
-            for (name, point) in points.chain([("max", station.severest)]) {
+            for (name, point) in points.chain([("max", station.max_von_mises)]) {
                 out.extend(&self.instant);
                 out.extend(self.head(
                     row,

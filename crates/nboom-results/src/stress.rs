@@ -217,9 +217,9 @@ impl StressWriter {
         write!(out, "{},{},{},", appendage + 1, segment + 1, worst.station + 1)?;
         number(out, worst.time)?;
         self.event_fields(out, worst.cause)?;
-        place_fields(out, worst.severest.place)?;
-        stress_fields(out, self.text.components(worst.severest.stress))?;
-        field(out, worst.severest.stress.von_mises())?;
+        place_fields(out, worst.max_von_mises.place)?;
+        stress_fields(out, self.text.components(worst.max_von_mises.stress))?;
+        field(out, worst.max_von_mises.stress.von_mises())?;
         write!(out, ",{}", worst.driver.map_or(UNLOADED, |driver| driver.name()))?;
         match worst.margin {
             Some(margin) => field(out, margin)?,

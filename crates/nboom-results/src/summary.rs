@@ -1,4 +1,4 @@
-use nboom_model::{Facts, HingeLabel, Scene};
+use nboom_model::{HingeLabel, Scene};
 use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
 use nboom_strength::PulseShape;
 use serde::Serialize;
@@ -51,7 +51,7 @@ impl RunDescription {
             units,
             stresses: None,
             print_interval: 1,
-            skipped: Facts::of(scene).skipped(),
+            skipped: nboom_model::skipped(scene),
             warnings: Vec::new(),
             input_sha256: None,
             hinges: (0..scene.bodies.len()).map(|i| scene.label(i)).collect(),

@@ -20,7 +20,7 @@ impl WorstLoads {
 
     /// The station with the largest von Mises stress.
     pub fn station(&self) -> Option<&Worst> {
-        let von_mises = |worst: &Worst| worst.severest.stress.von_mises();
+        let von_mises = |worst: &Worst| worst.max_von_mises.stress.von_mises();
         self.stations.iter().max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
     }
 
@@ -95,7 +95,7 @@ impl VerdictKeys {
             hinges: hinges.map(|(&label, hinge)| HingeKeys::new(label, hinge)).collect(),
             largest_impulse: largest.map(|largest| largest.impulse.abs()),
             largest_impulse_at: largest.map(|largest| LockUpKeys::new(labels, &largest)),
-            worst_load: most_loaded.map(|worst| worst.severest.stress.von_mises()),
+            worst_load: most_loaded.map(|worst| worst.max_von_mises.stress.von_mises()),
             worst_load_at: most_loaded.map(StationKeys::from),
             smallest_margin: weakest.and_then(|worst| worst.margin),
             smallest_margin_at: weakest.map(StationKeys::from),

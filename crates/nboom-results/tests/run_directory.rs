@@ -189,7 +189,7 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "wall_seconds": 0.25,
         "conservation": {"linear_momentum": 1e-15, "angular_momentum": 2e-15, "energy": 3e-13},
         "attitude_drift": 3e-12,
-        "skipped": nboom_model::Facts::of(&scene()).skipped(),
+        "skipped": nboom_model::skipped(&scene()),
         "warnings": [],
         "files": ["states.csv", "events.csv", "summary.json"],
     });

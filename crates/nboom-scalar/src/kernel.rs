@@ -45,8 +45,8 @@ pub struct RoutineOn<N> {
     pub topology: &'static str,
     /// Formulation, for example `articulated`; none of stresses.
     pub formulation: &'static str,
-    /// What the routine takes for granted: parameter numbers and their values.
-    pub pinned: &'static [(usize, f64)],
+    /// What the routine assumes: parameter numbers and their values.
+    pub assumptions: &'static [(usize, f64)],
     /// Whether an external wrench on the main body is taken into account.
     pub external: bool,
     /// How many numbers describe a satellite.
@@ -76,7 +76,7 @@ impl<N: Numbers> RoutineOn<N> {
             result: T::RESULT,
             topology: T::TOPOLOGY,
             formulation: T::FORMULATION,
-            pinned: T::PINNED,
+            assumptions: T::ASSUMPTIONS,
             external: T::EXTERNAL,
             parameters: T::PARAMETERS,
             constants: T::CONSTANTS,
@@ -88,21 +88,21 @@ impl<N: Numbers> RoutineOn<N> {
         })
     }
 
-    /// What it takes for granted about a satellite: `general` nothing, `principal` some parameters,
-    /// `baked` all of them.
-    pub fn facts(&self) -> &'static str {
-        match self.pinned.len() {
+    /// What it assumes of a satellite: `general` nothing, `principal` some parameters, `baked` all
+    /// of them.
+    pub fn assumptions_in_a_word(&self) -> &'static str {
+        match self.assumptions.len() {
             0 => "general",
-            pinned if pinned == self.parameters => "baked",
+            count if count == self.parameters => "baked",
             _ => "principal",
         }
     }
 
-    /// Whether these parameters are finite numbers and what the routine takes for granted.
+    /// Whether these parameters are finite numbers, and those that the routine assumes.
     pub fn accepts(&self, parameters: &[N]) -> bool {
         parameters.len() == self.parameters
             && parameters.iter().all(|parameter| parameter.is_finite())
-            && self.pinned.iter().all(|&(i, value)| parameters[i] == N::splat(value))
+            && self.assumptions.iter().all(|&(i, value)| parameters[i] == N::splat(value))
     }
 
     /// Computes the constants that depend on parameters alone.

@@ -17,8 +17,8 @@ pub trait Routine {
     const TOPOLOGY: &'static str;
     /// Formulation, for example `articulated`; none of stresses.
     const FORMULATION: &'static str;
-    /// What the routine takes for granted: parameter numbers and their values.
-    const PINNED: &'static [(usize, f64)];
+    /// What the routine assumes: parameter numbers and their values.
+    const ASSUMPTIONS: &'static [(usize, f64)];
     /// Whether an external wrench on the main body is taken into account.
     const EXTERNAL: bool;
     /// How many numbers describe a satellite.
@@ -49,7 +49,7 @@ pub trait Routine {
     fn evaluate_packed<I: Isa>(constants: &[f64], coordinates: &[f64], outputs: &mut [f64]);
 }
 
-/// Values at places: [`Routine::PINNED`] as generated code writes it.
+/// Values at places: [`Routine::ASSUMPTIONS`] as generated code writes it.
 pub const fn assumed<const N: usize>(places: [usize; N], values: [f64; N]) -> [(usize, f64); N] {
     let mut all = [(0, 0.0); N];
     let mut i = 0;

@@ -22,13 +22,14 @@
 //!
 //! let torsion = Wrench { force: Vec3::zero(), moment: Vec3::new(0.0, 50.0, 0.0) };
 //! // Bredt: the shear stress is M / (2 A t).
-//! let shear = section.stresses(&torsion).severest().stress.shear();
+//! let shear = section.stresses(&torsion).max_von_mises().stress.shear();
 //! assert!((shear - 50.0 / (2.0 * 4.0 * 0.02)).abs() < 1e-10);
 //! # Ok::<(), nboom_sections::SectionError>(())
 //! ```
 
 mod error;
 mod harmonics;
+mod max_von_mises;
 mod outline;
 mod point;
 mod polygon;
@@ -36,7 +37,6 @@ mod polynomial;
 mod properties;
 pub mod report;
 mod section;
-mod severest;
 mod shear_flow;
 mod stress;
 mod tube;

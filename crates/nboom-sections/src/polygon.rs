@@ -1,6 +1,6 @@
 use nboom_scalar::{Vec3, Wrench};
 
-use crate::severest::{bound, severest};
+use crate::max_von_mises::{bound, max_von_mises};
 use crate::{
     Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Stress, Wall,
     WallStress, outline, shear_flow,
@@ -189,11 +189,11 @@ impl PolygonStresses<'_> {
     }
 
     /// The wall, from 0, and the place on it where the von Mises stress is largest.
-    pub fn severest(&self) -> (usize, f64) {
-        severest((0..self.polygon.walls.len()).map(|wall| self.wall(wall)))
+    pub fn max_von_mises(&self) -> (usize, f64) {
+        max_von_mises((0..self.polygon.walls.len()).map(|wall| self.wall(wall)))
     }
 
-    /// An upper bound of the von Mises stress, cheaper than the severest place.
+    /// An upper bound of the von Mises stress, cheaper than the search for the largest.
     pub fn bound(&self) -> f64 {
         let walls = 0..self.polygon.walls.len();
         walls.map(|wall| bound(&self.wall(wall))).fold(0.0, f64::max)

@@ -132,17 +132,17 @@ impl SectionStresses<'_> {
     }
 
     /// The point at which the von Mises stress is largest.
-    pub fn severest(&self) -> PointStress {
+    pub fn max_von_mises(&self) -> PointStress {
         match self {
-            Self::Tube(stresses) => stresses.at(stresses.severest()),
+            Self::Tube(stresses) => stresses.at(stresses.max_von_mises()),
             Self::Polygon(stresses) => {
-                let (wall, x) = stresses.severest();
+                let (wall, x) = stresses.max_von_mises();
                 stresses.at(wall, x)
             }
         }
     }
 
-    /// An upper bound of the von Mises stress, cheaper than [`severest`](Self::severest).
+    /// An upper bound of the von Mises stress, cheaper than [`max_von_mises`](Self::max_von_mises).
     pub fn bound(&self) -> f64 {
         match self {
             Self::Tube(stresses) => stresses.bound(),

@@ -147,14 +147,14 @@ impl TubeStresses {
         PointStress { place, wall: None, stress }
     }
 
-    /// An upper bound of the von Mises stress, cheaper than the severest place.
+    /// An upper bound of the von Mises stress, cheaper than the search for the largest.
     pub fn bound(&self) -> f64 {
         let most = |[a, b, c]: [f64; 3]| a.abs() + b.hypot(c);
         most(self.normal).hypot(3.0_f64.sqrt() * most(self.shear))
     }
 
     /// The θ at which the von Mises stress is largest, from 0 to 2π.
-    pub fn severest(&self) -> f64 {
+    pub fn max_von_mises(&self) -> f64 {
         let coefficients = self.normal.iter().chain(&self.shear);
         let unit = coefficients.fold(f64::MIN_POSITIVE, |most, c| most.max(c.abs()));
         let square = |form: [f64; 3]| Harmonics::of_square(form.map(|c| c / unit));

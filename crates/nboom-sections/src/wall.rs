@@ -1,4 +1,4 @@
-use crate::severest::severest;
+use crate::max_von_mises::max_von_mises;
 use crate::shear_flow::UnitFlows;
 use crate::{Point, Stress};
 
@@ -82,8 +82,8 @@ impl WallStress {
     }
 
     /// Where the von Mises stress is largest.
-    pub fn severest(&self) -> f64 {
-        let (_, x) = severest(std::iter::once(*self));
+    pub fn max_von_mises(&self) -> f64 {
+        let (_, x) = max_von_mises(std::iter::once(*self));
         x
     }
 

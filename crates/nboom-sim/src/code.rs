@@ -9,8 +9,7 @@ use crate::code::closed_form::{ClosedForm, NotCovered};
 use crate::code::fit::Repertoire;
 use crate::code::generated::{Generated, NoRoutine};
 use crate::code::selection::{AS_DEMANDED, Selection};
-use crate::error::SimError;
-use crate::run::options::{Form, Options, Path};
+use crate::options::{Form, Options, Path};
 
 pub(crate) mod closed_form;
 pub(crate) mod fit;
@@ -23,6 +22,13 @@ pub(crate) enum AccelerationCode {
     Recursion,
     ClosedForm(ClosedForm<f64>),
     Generated(Generated),
+}
+
+/// Why the code that is demanded cannot be had.
+#[derive(Debug)]
+pub(crate) enum CodeError {
+    NoRoutine(NoRoutine),
+    NotCovered(NotCovered),
 }
 
 /// Code, and why that.
@@ -39,7 +45,7 @@ impl AccelerationCode {
         repertoire: &Repertoire,
         options: &Options,
         since: f64,
-    ) -> Result<(Self, Selection), SimError> {
+    ) -> Result<(Self, Selection), CodeError> {
         if options.integrator == Method::Taylor {
             let code = Self::recorded(scene, dynamics);
             let (path, (_, formulation)) = (Selection::SERIES, code.path_and_formulation());
@@ -47,20 +53,21 @@ impl AccelerationCode {
             return Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }));
         }
         let as_demanded = AS_DEMANDED.to_owned();
-        let chosen = match (options.path, options.formulation) {
-            (Path::Generated, _) => generated(scene, dynamics, repertoire, options)
-                .map_err(|source| SimError::NoRoutine { time: since, source }),
-            (Path::Generic, form) => library(scene, dynamics, form, as_demanded)
-                .map_err(|source| SimError::NotCovered { time: since, source }),
-            (Path::Auto, Some(Form::Recursive)) => Ok((Self::Recursion, as_demanded)),
-            (Path::Auto, _) => Ok(whatever_fits(scene, dynamics, repertoire, options)),
+        let (code, reason) = match (options.path, options.formulation) {
+            (Path::Generated, _) => {
+                generated(scene, dynamics, repertoire, options).map_err(CodeError::NoRoutine)?
+            }
+            (Path::Generic, form) => {
+                library(scene, dynamics, form, as_demanded).map_err(CodeError::NotCovered)?
+            }
+            (Path::Auto, Some(Form::Recursive)) => (Self::Recursion, as_demanded),
+            (Path::Auto, _) => whatever_fits(scene, dynamics, repertoire, options),
         };
-        let (code, reason) = chosen?;
         let (path, formulation) = code.path_and_formulation();
         Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }))
     }
 
-    /// The equations that [`series::graph`](crate::equations::series::graph) records, for what is told beside.
+    /// The equations that power series are taken of, for what is told beside.
     pub fn recorded(scene: &Scene, dynamics: &Recursive<f64>) -> Self {
         let (tree, external) = (dynamics.tree(), dynamics.external());
         let form = ClosedForm::fit(scene, tree, external, Formulation::Articulated);

@@ -5,18 +5,17 @@ use nboom_ode::System;
 use nboom_scalar::Vec3;
 use nboom_series::Series;
 
-use crate::code::AccelerationCode;
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
+use crate::code::{AccelerationCode, CodeError};
 use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::rates::Rates;
 use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
+use crate::equations::totals::Totals;
 use crate::equations::variables::Variables;
-use crate::error::SimError;
-use crate::run::ledger::totals;
-use crate::run::options::Options;
+use crate::options::Options;
 
 pub(crate) mod attitude_norm;
 pub(crate) mod jacobian;
@@ -25,6 +24,7 @@ pub(crate) mod rates;
 pub(crate) mod series;
 pub(crate) mod sizes;
 pub(crate) mod state;
+pub(crate) mod totals;
 pub(crate) mod variables;
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
@@ -109,7 +109,7 @@ impl Equations {
             return Unknowns::Velocities;
         }
         let angular = state.momenta.angular_inertial.unwrap_or_else(|| {
-            totals(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
+            Totals::of(state, &state.invariants(&mut self.dynamics)).angular_momentum_inertial
         });
         if self.momenta { Unknowns::Momenta(angular) } else { Unknowns::HingeRates(angular) }
     }
@@ -139,7 +139,7 @@ impl Equations {
     ///
     /// # Errors
     /// When the code that is demanded does not fit.
-    pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, SimError> {
+    pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, CodeError> {
         let Self { dynamics, repertoire, variables, .. } = self;
         let since = variables.origin.time;
         if variables.layout.has_momenta() {

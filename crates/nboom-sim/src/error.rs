@@ -3,7 +3,10 @@ use std::{fmt, io};
 use nboom_model::HingeLabel;
 use nboom_ode::StepError;
 
-use crate::{NoRoutine, NotCovered, Summary};
+use crate::code::CodeError;
+use crate::code::closed_form::NotCovered;
+use crate::code::generated::NoRoutine;
+use crate::options::OptionError;
 
 /// Why a run could not be finished.
 #[derive(Debug, thiserror::Error)]
@@ -178,6 +181,14 @@ impl fmt::Display for Feeds {
 }
 
 impl SimError {
+    /// No code for the mode that begins at `time`.
+    pub(crate) fn from_code(error: CodeError, time: f64) -> Self {
+        match error {
+            CodeError::NoRoutine(source) => Self::NoRoutine { time, source },
+            CodeError::NotCovered(source) => Self::NotCovered { time, source },
+        }
+    }
+
     /// The stepper's refusal, blamed on `hinge`.
     pub(crate) fn from_step(error: StepError, hinge: Option<HingeLabel>) -> Self {
         match error {
@@ -200,27 +211,4 @@ fn place(hinge: &Option<HingeLabel>) -> String {
 
 fn of_hinge(quantity: &str, hinge: &Option<HingeLabel>) -> String {
     hinge.map_or_else(|| quantity.to_owned(), |label| format!("{quantity} of hinge {label}"))
-}
-
-/// An option with a value that it cannot have.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{option} {value:e} found, {expected} expected")]
-pub struct OptionError {
-    /// Which option.
-    pub option: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// What it can be.
-    pub expected: &'static str,
-}
-
-/// A run that ended early.
-#[derive(Debug, thiserror::Error)]
-#[error("{error}")]
-pub struct Failure {
-    /// Why.
-    #[source]
-    pub error: SimError,
-    /// How far it came.
-    pub summary: Box<Summary>,
 }

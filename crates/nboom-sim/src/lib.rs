@@ -37,6 +37,7 @@ mod code;
 mod equations;
 mod error;
 mod events;
+mod options;
 mod run;
 
 pub use certify::scales::{Scales, natural};
@@ -45,14 +46,15 @@ pub use code::closed_form::NotCovered;
 pub use code::fit::{Fit, Repertoire};
 pub use code::generated::{NoRoutine, Unmet};
 pub use code::selection::{CodeOfRun, Selection};
-pub use error::{Failure, Feeds, OptionError, SimError};
+pub use equations::totals::Totals;
+pub use error::{Feeds, SimError};
+pub use events::event::{Event, EventKind, Jump};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
+pub use options::{Form, OptionError, Options, Path};
 pub use run::beforehand::check_start;
 pub use run::conservation::{Conservation, PoorConservation};
-pub use run::options::{Form, Options, Path};
 pub use run::record::{
-    Detail, Event, EventKind, InstantMotion, Integration, Jump, Nobody, Recorder, Snapshot,
-    Summary, Totals,
+    Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,
 };
 pub use run::simulate;
 pub use run::step_motion::{MotionAt, StepMotion};

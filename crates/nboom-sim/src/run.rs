@@ -6,13 +6,15 @@ use crate::equations::Equations;
 use crate::equations::attitude_norm::AttitudeNorm;
 use crate::equations::layout::VariableLayout;
 use crate::equations::state::State;
-use crate::error::{Failure, SimError};
+use crate::equations::totals::Totals;
+use crate::error::SimError;
+use crate::events::event::{Event, EventKind};
 use crate::events::guard::{GuardKind, read};
 use crate::events::instant::{self, Arrivals};
 use crate::events::situation::Situation;
-use crate::run::ledger::{Ledger, totals};
-use crate::run::options::Options;
-use crate::run::record::{Event, EventKind, Integration, Recorder, Summary};
+use crate::options::Options;
+use crate::run::ledger::Ledger;
+use crate::run::record::{Failure, Integration, Recorder, Summary};
 use crate::run::step_motion::Room;
 use crate::run::verdict::Verdict;
 
@@ -20,7 +22,6 @@ pub(crate) mod beforehand;
 pub(crate) mod conservation;
 pub(crate) mod finite;
 pub(crate) mod ledger;
-pub(crate) mod options;
 pub(crate) mod record;
 pub(crate) mod snapshot;
 pub(crate) mod step_motion;
@@ -238,7 +239,7 @@ impl<'a> Run<'a> {
     }
 
     fn finish(&mut self) -> Result<(), SimError> {
-        let now = totals(
+        let now = Totals::of(
             &self.situation.state,
             &self.situation.state.invariants(&mut self.equations.dynamics),
         );
@@ -255,7 +256,9 @@ impl<'a> Run<'a> {
 
     /// Chooses the code for the mode, and notes when that is a change.
     fn select(&mut self) -> Result<(), SimError> {
-        let selection = self.equations.select(self.situation.scene, &self.options)?;
+        let selection = self.equations.select(self.situation.scene, &self.options);
+        let selection =
+            selection.map_err(|error| SimError::from_code(error, self.situation.state.time))?;
         self.selections = self.counted_selections();
         let same = |last: &Selection| {
             let Selection { since, evaluations, .. } = *last;

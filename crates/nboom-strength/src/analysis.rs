@@ -314,12 +314,12 @@ impl StressAnalysis {
     fn worst_of(&self, g: usize, place: &StationPlace) -> Option<Worst> {
         let Record { value, time, cause, load, numbers } = *self.worst.get(g)?;
         let Measure::Stress(formulas) = &self.search.gauges[g].measure else { return None };
-        let severest = formulas.severest_of(numbers);
+        let max_von_mises = formulas.max_von_mises_of(numbers);
         let has_load = value > ROUNDING * self.worst.largest_of_kind(g);
         let (segment, station) = (self.labels[place.segment], place.station);
-        let driver = has_load.then(|| driver(formulas, &load, &severest));
+        let driver = has_load.then(|| driver(formulas, &load, &max_von_mises));
         let margin = self.settings.margin(value).filter(|_| has_load);
-        Some(Worst { segment, station, time, cause, load, severest, driver, margin })
+        Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margin })
     }
 
     /// The largest force and the largest moment of each hinge so far; nothing before the first motion.

@@ -97,7 +97,7 @@ pub struct Worst {
     /// axes; while pulses last the sum over the motion and the pulses.
     pub load: Wrench<f64>,
     /// Where the von Mises stress is largest, and the stress there.
-    pub severest: PointStress,
+    pub max_von_mises: PointStress,
     /// The component of the load that alone makes the largest von Mises stress at that point;
     /// `None` for a station without load, whose stress is at most the rounding of the worst one.
     pub driver: Option<Component>,

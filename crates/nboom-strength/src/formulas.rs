@@ -36,17 +36,17 @@ impl Formulas {
 
     /// Where the von Mises stress is largest: under P and Q by formulas of 1970, otherwise for the
     /// stresses that the numbers describe.
-    pub fn severest_of(&self, [a, b, c, d, e, f]: [f64; 6]) -> PointStress {
+    pub fn max_von_mises_of(&self, [a, b, c, d, e, f]: [f64; 6]) -> PointStress {
         let load = Wrench { force: Vec3::new(a, b, c), moment: Vec3::new(d, e, f) };
-        self.stresses(&load, [a, b, c, d, e, f]).severest()
+        self.stresses(&load, [a, b, c, d, e, f]).max_von_mises()
     }
 
     /// An upper bound of the von Mises stress under these numbers, cheaper than
-    /// [`severest_of`](Self::severest_of), which it equals for formulas of 1970.
+    /// [`max_von_mises_of`](Self::max_von_mises_of), which it equals for formulas of 1970.
     pub fn bound(&self, numbers: [f64; 6]) -> f64 {
         match self {
             Self::Right(section) => section.described_by(numbers).bound(),
-            Self::Of1970(_) => self.severest_of(numbers).stress.von_mises(),
+            Self::Of1970(_) => self.max_von_mises_of(numbers).stress.von_mises(),
         }
     }
 
@@ -73,10 +73,10 @@ impl Stresses<'_> {
         }
     }
 
-    pub fn severest(&self) -> PointStress {
+    pub fn max_von_mises(&self) -> PointStress {
         match self {
-            Self::Right(stresses) => stresses.severest(),
-            Self::Of1970(original, load) => original.severest(load),
+            Self::Right(stresses) => stresses.max_von_mises(),
+            Self::Of1970(original, load) => original.max_von_mises(load),
         }
     }
 }

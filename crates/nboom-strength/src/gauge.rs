@@ -69,7 +69,7 @@ impl Gauge {
     pub fn value(&self, numbers: &[f64; 6]) -> f64 {
         let Wrench { force, moment } = wrench(*numbers);
         match &self.measure {
-            Measure::Stress(formulas) => formulas.severest_of(*numbers).stress.von_mises(),
+            Measure::Stress(formulas) => formulas.max_von_mises_of(*numbers).stress.von_mises(),
             Measure::Force => force.norm(),
             Measure::Moment => moment.norm(),
         }
@@ -113,7 +113,7 @@ impl Gauge {
         row: &'a [f64],
         parts: impl Iterator<Item = &'a [f64]> + 'a,
     ) -> impl Iterator<Item = f64> + 'a {
-        let point = self.severest(row);
+        let point = self.max_von_mises(row);
         let vector = move |row: &[f64]| self.vector(row, point.as_ref());
         let whole = vector(row);
         let size = whole.norm_squared();
@@ -121,9 +121,9 @@ impl Gauge {
     }
 
     /// Where a station is stressed most under a row of loads.
-    fn severest(&self, row: &[f64]) -> Option<PointStress> {
+    fn max_von_mises(&self, row: &[f64]) -> Option<PointStress> {
         match &self.measure {
-            Measure::Stress(formulas) => Some(formulas.severest_of(self.numbers(row))),
+            Measure::Stress(formulas) => Some(formulas.max_von_mises_of(self.numbers(row))),
             Measure::Force | Measure::Moment => None,
         }
     }

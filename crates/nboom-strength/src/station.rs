@@ -25,7 +25,7 @@ pub struct StationStress {
     /// At 0, 90, 180 and 270 degrees; a section that is not convex may lack some.
     pub axis_points: [Option<PointStress>; 4],
     /// Where the von Mises stress is largest.
-    pub severest: PointStress,
+    pub max_von_mises: PointStress,
 }
 
 /// The largest loads on either side of a lock-up, by its pulses and those that still lasted, until
@@ -53,7 +53,8 @@ pub(crate) fn set_stresses(
         let Measure::Stress(formulas) = &gauge.measure else { continue };
         let (load, numbers) = of(g);
         let axis_points = formulas.stresses(&load, numbers).axis_points();
-        let (segment, station, severest) = (at.segment, at.station, formulas.severest_of(numbers));
-        stresses.push(StationStress { segment, station, load, axis_points, severest });
+        let (segment, station, max_von_mises) =
+            (at.segment, at.station, formulas.max_von_mises_of(numbers));
+        stresses.push(StationStress { segment, station, load, axis_points, max_von_mises });
     }
 }

@@ -2,7 +2,7 @@ use serde::Serialize;
 
 use crate::VerifyError;
 use crate::reference::Referee;
-use crate::subject::Subject;
+use crate::test_case::TestCase;
 
 /// How far the accelerations of one code are from the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -21,20 +21,20 @@ pub struct Certificate {
 }
 
 /// Compares code with both recursions. `accelerations` gives ω̇, a_O, then τ̇ in the order of the
-/// scene's hinges, in state `i` of the subject, counted from 0.
+/// scene's hinges, in state `i` of the test case, counted from 0.
 ///
 /// Results that are too few or too many, or no numbers, deviate infinitely.
 ///
 /// # Errors
 /// [`VerifyError::NoReference`] where the recursion has no accelerations in a state.
 pub fn certify(
-    subject: &Subject,
+    test_case: &TestCase,
     mut accelerations: impl FnMut(usize) -> Vec<f64>,
 ) -> Result<Certificate, VerifyError> {
-    let (states, seed) = (subject.states().len(), subject.seed());
+    let (states, seed) = (test_case.states().len(), test_case.seed());
     let nothing =
         Certificate { states, seed, from_recursion: 0.0, from_double_double: 0.0, condition: 1.0 };
-    let mut referee = Referee::new(subject, 1);
+    let mut referee = Referee::new(test_case, 1);
     (0..states).try_fold(nothing, |most, i| {
         let reference = referee.reference(i)?;
         let off = reference.off_accelerations(&accelerations(i));
@@ -52,7 +52,7 @@ pub fn certify(
 ///
 /// # Errors
 /// [`VerifyError::NoReference`] where a state has none.
-pub fn truth(subject: &Subject) -> Result<Vec<Vec<f64>>, VerifyError> {
-    let mut referee = Referee::new(subject, 1);
-    (0..subject.states().len()).map(|i| Ok(referee.reference(i)?.truth())).collect()
+pub fn truth(test_case: &TestCase) -> Result<Vec<Vec<f64>>, VerifyError> {
+    let mut referee = Referee::new(test_case, 1);
+    (0..test_case.states().len()).map(|i| Ok(referee.reference(i)?.truth())).collect()
 }

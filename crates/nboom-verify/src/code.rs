@@ -5,16 +5,16 @@ use nboom_scalar::{Twist, Vec3};
 use nboom_sim::Fit;
 
 use crate::dense::Dense;
-use crate::subject::RandomState;
+use crate::test_case::RandomState;
 
-/// Code that computes accelerations, with the states of a subject as it takes them.
+/// Code that computes accelerations, with the states of a test case as it takes them.
 ///
 /// What each variant holds is there for those who time it.
 #[derive(Clone, Debug)]
 pub enum ComparedCode<'a> {
     /// The recursion, hinge forces included.
     Recursion {
-        /// The recursion in the subject's mode.
+        /// The recursion in the test case's mode.
         dynamics: Box<Recursive<f64>>,
         /// The states.
         states: &'a [RandomState],
@@ -23,7 +23,7 @@ pub enum ComparedCode<'a> {
     },
     /// The whole mass matrix, factored; hinge forces included.
     Dense {
-        /// The matrix in the subject's mode.
+        /// The matrix in the test case's mode.
         dense: Box<Dense>,
         /// The states.
         states: &'a [RandomState],
@@ -46,7 +46,7 @@ pub enum ComparedCode<'a> {
     },
     /// A generated routine.
     Routine {
-        /// The routine, and how the subject is embedded in its topology.
+        /// The routine, and how the test case is embedded in its topology.
         fit: Box<Fit>,
         /// Topology and parameters.
         recognised: &'a Recognised,

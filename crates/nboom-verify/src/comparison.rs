@@ -5,7 +5,7 @@ use crate::VerifyError;
 use crate::equations::EquationsCode;
 use crate::label::{Hinges, Label, Quantity};
 use crate::reference::{Deviation, Referee};
-use crate::subject::{NotCovered, Subject};
+use crate::test_case::{NotCovered, TestCase};
 
 /// The largest deviations of one code in one quantity, over the states that it covers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -82,20 +82,20 @@ impl Rows {
         self.rows[at].note(state, label.virtual_links, off);
     }
 
-    /// Takes all code through the states of a subject, the first of which has the number `first`.
+    /// Takes all code through the states of a test case, the first of which has the number `first`.
     fn compare(
         &mut self,
-        subject: &Subject,
+        test_case: &TestCase,
         first: usize,
         kernels: &'static [Kernel],
         of_equations: &[Kernel],
     ) -> Result<(), VerifyError> {
-        let all_free = subject.held().iter().all(Option::is_none);
+        let all_free = test_case.held().iter().all(Option::is_none);
         let hinges = if all_free { Hinges::Free } else { Hinges::Held };
-        let mut codes = subject.codes(kernels)?;
-        let equations = EquationsCode::all(subject, of_equations)?;
-        let mut referee = Referee::new(subject, first);
-        for (i, state) in subject.coordinates().enumerate() {
+        let mut codes = test_case.codes(kernels)?;
+        let equations = EquationsCode::all(test_case, of_equations)?;
+        let mut referee = Referee::new(test_case, first);
+        for (i, state) in test_case.coordinates().enumerate() {
             let (reference, number) = (referee.reference(i)?, first + i);
             self.largest_condition = self.largest_condition.max(reference.condition);
             for (label, code) in &mut codes {
@@ -115,7 +115,7 @@ impl Rows {
     }
 }
 
-/// What comparing all code that covers a subject has found.
+/// What comparing all code that covers a test case has found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Name of the scene.
@@ -166,10 +166,10 @@ impl Comparison {
     }
 }
 
-/// Takes all code that covers a subject through its states: the recursion, the factored mass matrix, the
+/// Takes all code that covers a test case through its states: the recursion, the factored mass matrix, the
 /// closed forms, and the routines that fit among `kernels`, which compute accelerations, and `of_equations`, which
 /// compute a formulation's matrix row by row and then its right side, hinges appendage by
-/// appendage. First the subject `free`, all of whose hinges are free, then those of `held`.
+/// appendage. First the test case `free`, all of whose hinges are free, then those of `held`.
 ///
 /// Matrices and right sides of a formulation are compared with those of the recursion, turned
 /// into the formulation's unknowns.
@@ -178,17 +178,17 @@ impl Comparison {
 /// [`VerifyError::NoReference`] where the recursion has no accelerations in a state, and
 /// [`VerifyError::Sizes`] or [`VerifyError::NoEquations`] where a routine is not what it says.
 pub fn compare(
-    free: &Subject,
-    held: &[Subject],
+    free: &TestCase,
+    held: &[TestCase],
     kernels: &'static [Kernel],
     of_equations: &[Kernel],
     tolerance: f64,
 ) -> Result<Comparison, VerifyError> {
     let mut found = Rows { rows: Vec::new(), largest_condition: 1.0 };
     let mut states = 0;
-    for subject in [free].into_iter().chain(held) {
-        found.compare(subject, states + 1, kernels, of_equations)?;
-        states += subject.states().len();
+    for test_case in [free].into_iter().chain(held) {
+        found.compare(test_case, states + 1, kernels, of_equations)?;
+        states += test_case.states().len();
     }
     found.rows.sort_by_key(|row| (row.hinges, row.quantity));
     Ok(Comparison {

@@ -6,10 +6,10 @@ use nboom_scalar::{Kernel, Real};
 
 use crate::VerifyError;
 use crate::label::Label;
-use crate::subject::Subject;
+use crate::test_case::TestCase;
 
 /// Code that computes the matrix and the right side of one formulation, hinges in the order of
-/// [`Subject::links`].
+/// [`TestCase::links`].
 pub(crate) struct EquationsCode<'a> {
     pub label: Label,
     pub formulation: Formulation,
@@ -23,18 +23,18 @@ enum Way<'a> {
 }
 
 impl<'a> EquationsCode<'a> {
-    /// All that covers the subject: closed forms, then those of `kernels` that take the scene.
-    pub fn all(subject: &'a Subject, kernels: &[Kernel]) -> Result<Vec<Self>, VerifyError> {
+    /// All that covers the test case: closed forms, then those of `kernels` that take the scene.
+    pub fn all(test_case: &'a TestCase, kernels: &[Kernel]) -> Result<Vec<Self>, VerifyError> {
         let generic = |formulation: Formulation, way| {
             let label = Label::generic(formulation.name());
             Self { label, formulation, way }
         };
-        let Some(recognised) = subject.recognised() else {
-            return Ok(vec![generic(Formulation::Symmetric, Way::Tree(subject.tree()))]);
+        let Some(recognised) = test_case.recognised() else {
+            return Ok(vec![generic(Formulation::Symmetric, Way::Tree(test_case.tree()))]);
         };
         let size = 6 + recognised.topology.hinges();
         let mut routines = Vec::new();
-        for fit in subject.fitting(kernels, size * size + size)? {
+        for fit in test_case.fitting(kernels, size * size + size)? {
             let kernel = fit.kernel;
             let named = Formulation::named(kernel.formulation);
             let formulation = named.filter(|formulation| formulation.has_equations());
@@ -75,23 +75,23 @@ impl<'a> EquationsCode<'a> {
 /// are for the formulation's unknowns when O is at the inertial origin.
 pub(crate) fn expected<R: Real>(
     formulation: Formulation,
-    subject: &Subject,
+    test_case: &TestCase,
     of_recursion: &Equations<R>,
 ) -> Equations<R> {
-    let order = order(subject);
+    let order = order(test_case);
     let size = order.len();
     let entry = |(&i, &j): (&usize, &usize)| of_recursion.matrix[i * size + j];
     let pairs = order.iter().flat_map(|i| order.iter().map(move |j| (i, j)));
     let mut matrix: Vec<R> = pairs.map(entry).collect();
-    if let (Formulation::Report, Some(recognised)) = (formulation, subject.recognised()) {
+    if let (Formulation::Report, Some(recognised)) = (formulation, test_case.recognised()) {
         to_absolute_rates(&recognised.topology, &mut matrix);
     }
     Equations { matrix, forcing: order.iter().map(|&i| of_recursion.forcing[i]).collect() }
 }
 
 /// The rows of the recursion's matrix in the order of closed forms.
-pub(crate) fn order(subject: &Subject) -> Vec<usize> {
-    (0..6).chain(subject.links().iter().map(|link| 6 + link)).collect()
+pub(crate) fn order(test_case: &TestCase) -> Vec<usize> {
+    (0..6).chain(test_case.links().iter().map(|link| 6 + link)).collect()
 }
 
 /// The matrix over σ from that over τ = a⁻¹ σ, eq. (5.14): in a chain τᵢ is σᵢ less the σ

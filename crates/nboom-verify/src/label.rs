@@ -11,9 +11,9 @@ pub struct Label {
     pub path: &'static str,
     /// The form of the equations of motion.
     pub formulation: &'static str,
-    /// What it takes for granted about a scene: `general` nothing, `principal` some parameters,
-    /// `baked` all of them.
-    pub facts: &'static str,
+    /// What it assumes of a scene: `general` nothing, `principal` some parameters, `baked` all of
+    /// them.
+    pub assumptions: &'static str,
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
     /// The topology that a routine is for; none of code that is for any.
@@ -28,7 +28,7 @@ impl Label {
     pub const RECURSION: Self = Self {
         path: "generic",
         formulation: "recursive",
-        facts: "general",
+        assumptions: "general",
         instructions: "portable",
         topology: None,
         virtual_links: 0,
@@ -37,7 +37,7 @@ impl Label {
     /// The whole mass matrix by composite bodies, factored by Cholesky's method.
     pub const DENSE: Self = Self { formulation: "dense", ..Self::RECURSION };
 
-    /// A closed form of the library, which takes any facts.
+    /// A closed form of the library, which assumes nothing.
     pub fn generic(formulation: &'static str) -> Self {
         Self { formulation, ..Self::RECURSION }
     }
@@ -46,8 +46,8 @@ impl Label {
     pub fn generated(fit: &Fit) -> Self {
         let (kernel, virtual_links) = (&fit.kernel, fit.embedding.virtual_links());
         let Kernel { formulation, instructions, topology, .. } = *kernel;
-        let (facts, topology) = (kernel.facts(), Some(topology));
-        Self { path: "generated", formulation, facts, instructions, topology, virtual_links }
+        let (assumptions, topology) = (kernel.assumptions_in_a_word(), Some(topology));
+        Self { path: "generated", formulation, assumptions, instructions, topology, virtual_links }
     }
 
     /// The code alone, however many links it takes as virtual.
@@ -57,9 +57,9 @@ impl Label {
 }
 
 impl fmt::Display for Label {
-    /// Path, formulation and facts.
+    /// Path, formulation and assumptions.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {} ({})", self.path, self.formulation, self.facts)
+        write!(f, "{} {} ({})", self.path, self.formulation, self.assumptions)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Compares and certifies code that computes accelerations, and times whole runs with it.
 //!
-//! A [`Subject`] is a scene with all hinges free or some held, and random states of it. [`compare`]
+//! A [`TestCase`] is a scene with all hinges free or some held, and random states of it. [`compare`]
 //! takes all code that covers it, the recursion, the factored mass matrix, the closed forms and
 //! generated routines, through these states; [`certify`] does so with any one code. Both measure twice: against the recursion in
 //! `f64`, and against the recursion in double-double, which has 32 digits and stands for the
@@ -14,7 +14,7 @@
 //! ```
 //! use nboom_model::{Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment};
 //! use nboom_scalar::{Sym3, Vec3};
-//! use nboom_verify::{Subject, certify, compare};
+//! use nboom_verify::{TestCase, certify, compare};
 //!
 //! let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
 //! let boom = MassProperties::new(3.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
@@ -23,13 +23,13 @@
 //! description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
 //! let scene = Scene::new(description).expect("the bodies are physical");
 //!
-//! let held = Subject::with_held_hinges(&scene, 10, 1970)?;
-//! let subject = Subject::new(scene, 20, 1970)?;
-//! let comparison = compare(&subject, &held, &[], &[], 1e-11)?;
+//! let held = TestCase::with_held_hinges(&scene, 10, 1970)?;
+//! let test_case = TestCase::new(scene, 20, 1970)?;
+//! let comparison = compare(&test_case, &held, &[], &[], 1e-11)?;
 //! assert!(comparison.passed());
 //!
-//! let mut code = subject.recursion();
-//! let certificate = certify(&subject, |i| code.accelerations(i))?;
+//! let mut code = test_case.recursion();
+//! let certificate = certify(&test_case, |i| code.accelerations(i))?;
 //! assert_eq!(certificate.from_recursion, 0.0);
 //! assert!(certificate.from_double_double < 1e-13);
 //! # Ok::<(), nboom_verify::VerifyError>(())
@@ -46,7 +46,7 @@ mod label;
 mod plot;
 mod random;
 mod reference;
-mod subject;
+mod test_case;
 mod work_precision;
 
 pub use certificate::{Certificate, certify, truth};
@@ -55,5 +55,5 @@ pub use comparison::{Comparison, Row, compare};
 pub use dense::Dense;
 pub use error::VerifyError;
 pub use label::{Hinges, Label, Quantity};
-pub use subject::{NotCovered, RandomState, Subject};
+pub use test_case::{NotCovered, RandomState, TestCase};
 pub use work_precision::{TimedRun, WorkPrecision};

@@ -7,7 +7,7 @@ use nboom_scalar::{DoubleDouble, Real, Vec3};
 use crate::VerifyError;
 use crate::condition::condition;
 use crate::equations::{expected, order};
-use crate::subject::{RandomState, Subject};
+use crate::test_case::{RandomState, TestCase};
 
 /// Up to this condition of the mass matrix deviations count as they are; beyond it they are
 /// divided by what it magnifies rounding by.
@@ -29,9 +29,9 @@ impl Deviation {
     }
 }
 
-/// Both recursions of a subject.
+/// Both recursions of a test case.
 pub(crate) struct Referee<'a> {
-    subject: &'a Subject,
+    test_case: &'a TestCase,
     /// The number of its first state.
     first: usize,
     recursion: Recursive<f64>,
@@ -39,8 +39,8 @@ pub(crate) struct Referee<'a> {
 }
 
 impl<'a> Referee<'a> {
-    pub fn new(subject: &'a Subject, first: usize) -> Self {
-        Self { subject, first, recursion: subject.recursive(), exact: subject.recursive() }
+    pub fn new(test_case: &'a TestCase, first: usize) -> Self {
+        Self { test_case, first, recursion: test_case.recursive(), exact: test_case.recursive() }
     }
 
     /// Both recursions in state `i`.
@@ -48,14 +48,14 @@ impl<'a> Referee<'a> {
     /// # Errors
     /// [`VerifyError::NoReference`] where they have no accelerations.
     pub fn reference(&mut self, i: usize) -> Result<Reference<'a>, VerifyError> {
-        let state = &self.subject.states()[i];
+        let state = &self.test_case.states()[i];
         let singular = self.recursion.singular_hinge(&state.beta);
         let recursion = OneState::of(&mut self.recursion, state);
         let exact = OneState::of(&mut self.exact, state);
         let condition = condition(&recursion.equations.matrix);
-        let reference = Reference { subject: self.subject, recursion, exact, condition };
+        let reference = Reference { test_case: self.test_case, recursion, exact, condition };
         if singular.is_some() || !reference.is_good() {
-            let hinge = singular.flatten().map(|hinge| self.subject.scene().label(hinge));
+            let hinge = singular.flatten().map(|hinge| self.test_case.scene().label(hinge));
             return Err(VerifyError::NoReference { state: self.first + i, hinge });
         }
         Ok(reference)
@@ -94,7 +94,7 @@ fn accelerations<R: Real>(dynamics: &mut Recursive<R>, motion: &Motion<'_, R>) -
 
 /// What one state is compared with.
 pub(crate) struct Reference<'a> {
-    subject: &'a Subject,
+    test_case: &'a TestCase,
     recursion: OneState<f64>,
     exact: OneState<DoubleDouble>,
     /// Of the mass matrix, scaled to diagonal 1.
@@ -128,8 +128,8 @@ impl Reference<'_> {
         formulation: Formulation,
         found: &Equations<f64>,
     ) -> [Deviation; 2] {
-        let recursion = expected(formulation, self.subject, &self.recursion.equations);
-        let exact = expected(formulation, self.subject, &self.exact.equations);
+        let recursion = expected(formulation, self.test_case, &self.recursion.equations);
+        let exact = expected(formulation, self.test_case, &self.exact.equations);
         let (scale, matrix) = (self.scale(), &found.matrix);
         let of_matrix = Deviation {
             from_recursion: largest(matrix, &recursion.matrix, |at| scale[at]),
@@ -144,13 +144,13 @@ impl Reference<'_> {
 
     /// Deviations of the recursion's own matrix and right side.
     pub fn off_recursion(&self) -> [Deviation; 2] {
-        let own = expected(Formulation::Symmetric, self.subject, &self.recursion.equations);
+        let own = expected(Formulation::Symmetric, self.test_case, &self.recursion.equations);
         self.off_equations(Formulation::Symmetric, &own)
     }
 
     /// √(Mᵢᵢ Mⱼⱼ) of each entry of the matrix of kinetic energy, in the order of closed forms.
     fn scale(&self) -> Vec<f64> {
-        let order = order(self.subject);
+        let order = order(self.test_case);
         let matrix = &self.recursion.equations.matrix;
         let root = |&i: &usize| matrix[i * order.len() + i].sqrt();
         let roots: Vec<f64> = order.iter().map(root).collect();

@@ -6,7 +6,7 @@ use nboom_formulation::{Coordinates, Equations, Formulation, Parameters};
 use nboom_model::Topology;
 use nboom_scalar::{Isa, Kernel, Real, Routine};
 use nboom_verify::{
-    Comparison, Hinges, Label, Quantity, Subject, VerifyError, certify, compare, truth,
+    Comparison, Hinges, Label, Quantity, TestCase, VerifyError, certify, compare, truth,
 };
 
 use support::{articulated_s3_p, fork, s2_p, wrong_s3_p};
@@ -39,7 +39,7 @@ impl<const WRONG: u32> Routine for Accelerations<WRONG> {
     const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "S2_P";
     const FORMULATION: &'static str = "articulated";
-    const PINNED: &'static [(usize, f64)] = &[];
+    const ASSUMPTIONS: &'static [(usize, f64)] = &[];
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = PARAMETERS;
     const CONSTANTS: usize = PARAMETERS;
@@ -71,7 +71,7 @@ impl<const RELATIVE: u32, const WRONG: usize> Routine for System<RELATIVE, WRONG
     const RESULT: &'static str = "equations";
     const TOPOLOGY: &'static str = "S2_P";
     const FORMULATION: &'static str = if RELATIVE == 1 { "relative" } else { "report" };
-    const PINNED: &'static [(usize, f64)] = &[];
+    const ASSUMPTIONS: &'static [(usize, f64)] = &[];
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = PARAMETERS;
     const CONSTANTS: usize = PARAMETERS;
@@ -164,27 +164,27 @@ fn the_matrix_of_another_formulation_is_caught() {
 
 #[test]
 fn routines_that_are_not_what_they_say_are_refused() {
-    let subject = s2_p();
+    let test_case = s2_p();
     let of_equations = Kernel::of::<System<0, EQUATIONS>>();
-    let refused = compare(&subject, &[], vec![of_equations].leak(), &[], TOLERANCE);
+    let refused = compare(&test_case, &[], vec![of_equations].leak(), &[], TOLERANCE);
     assert!(matches!(refused, Err(VerifyError::Sizes { outputs: EQUATIONS, .. })), "{refused:?}");
     let mut articulated = of_equations;
     articulated.formulation = "articulated";
-    let refused = compare(&subject, &[], &[], &[articulated], TOLERANCE);
+    let refused = compare(&test_case, &[], &[], &[articulated], TOLERANCE);
     let message = refused.expect_err("articulated has no matrix").to_string();
     assert_eq!(message, "a routine gives a matrix of articulated, which has none");
 }
 
 #[test]
 fn a_certificate_tells_right_code_from_wrong() {
-    let subject = s2_p();
-    let mut recursion = subject.recursion();
-    let right = certify(&subject, |i| recursion.accelerations(i)).expect("accelerations");
+    let test_case = s2_p();
+    let mut recursion = test_case.recursion();
+    let right = certify(&test_case, |i| recursion.accelerations(i)).expect("accelerations");
     assert_eq!((right.states, right.seed, right.from_recursion), (40, 1970, 0.0));
     assert!(right.from_double_double > 0.0 && right.from_double_double < 1e-13, "{right:?}");
     assert!(right.condition > 1.0 && right.condition < 1e4, "{right:?}");
 
-    let wrong = certify(&subject, |i| {
+    let wrong = certify(&test_case, |i| {
         let mut found = recursion.accelerations(i);
         let largest = found.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
         if i == 7 {
@@ -195,17 +195,17 @@ fn a_certificate_tells_right_code_from_wrong() {
     let wrong = wrong.expect("accelerations");
     assert!((wrong.from_recursion - 1e-9).abs() < 1e-15, "{wrong:?}");
     assert!((wrong.from_double_double - 1e-9).abs() < 1e-13, "{wrong:?}");
-    let nothing = certify(&subject, |_| vec![f64::NAN; UNKNOWNS]).expect("accelerations");
+    let nothing = certify(&test_case, |_| vec![f64::NAN; UNKNOWNS]).expect("accelerations");
     assert!(nothing.from_recursion.is_infinite() && nothing.from_double_double.is_infinite());
-    let too_few = certify(&subject, |_| Vec::new()).expect("accelerations");
+    let too_few = certify(&test_case, |_| Vec::new()).expect("accelerations");
     assert!(too_few.from_recursion.is_infinite());
 }
 
 #[test]
 fn the_truth_is_that_of_double_double() {
-    let subject = s2_p();
-    let truth = truth(&subject).expect("accelerations");
-    let certificate = certify(&subject, |i| truth[i].clone()).expect("accelerations");
+    let test_case = s2_p();
+    let truth = truth(&test_case).expect("accelerations");
+    let certificate = certify(&test_case, |i| truth[i].clone()).expect("accelerations");
     assert_eq!(certificate.from_double_double, 0.0);
     // The recursion in f64 has errors of its own.
     let rounding = certificate.from_recursion;
@@ -214,8 +214,8 @@ fn the_truth_is_that_of_double_double() {
 
 #[test]
 fn a_tree_is_compared_as_a_tree() {
-    let subject = Subject::new(fork(), 10, 1).expect("finite");
-    let comparison = compare(&subject, &[], &[], &[], TOLERANCE).expect("accelerations");
+    let test_case = TestCase::new(fork(), 10, 1).expect("finite");
+    let comparison = compare(&test_case, &[], &[], &[], TOLERANCE).expect("accelerations");
     assert!(comparison.passed(), "{comparison:?}");
     assert_eq!(comparison.topology, None);
     let labels: Vec<_> = comparison.rows.iter().map(|row| (row.quantity, row.label)).collect();
@@ -232,7 +232,7 @@ fn a_tree_is_compared_as_a_tree() {
 #[test]
 fn code_is_compared_while_hinges_are_held() {
     let free = s2_p();
-    let held = Subject::with_held_hinges(free.scene(), 60, 1970).expect("finite");
+    let held = TestCase::with_held_hinges(free.scene(), 60, 1970).expect("finite");
     let right = compare(&free, &held, articulated_s3_p(), &[], TOLERANCE).expect("accelerations");
     assert!(right.passed(), "{right:?}");
     assert_eq!((right.states, right.held), (100, 60));
@@ -249,7 +249,7 @@ fn code_is_compared_while_hinges_are_held() {
     assert_eq!(with_held().count(), 8 + 2 * 4);
 
     // Compared with nothing but held hinges, so that these alone can tell.
-    let free = Subject::new(free.scene().clone(), 0, 1970).expect("finite");
+    let free = TestCase::new(free.scene().clone(), 0, 1970).expect("finite");
     let wrong = compare(&free, &held, wrong_s3_p(), &[], TOLERANCE).expect("accelerations");
     assert_eq!(caught(&wrong), [(Quantity::Accelerations, "generated")]);
     assert_eq!(wrong.worst().hinges, Hinges::Held);

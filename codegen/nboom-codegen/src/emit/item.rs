@@ -114,7 +114,7 @@ impl Item<'_> {
                 const RESULT: &'static str = #result;
                 const TOPOLOGY: &'static str = #topology;
                 const FORMULATION: &'static str = #formulation;
-                const PINNED: &'static [(usize, f64)] = #assumed;
+                const ASSUMPTIONS: &'static [(usize, f64)] = #assumed;
                 const EXTERNAL: bool = #external;
                 const PARAMETERS: usize = #parameters;
                 const CONSTANTS: usize = #constants;

@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn each_fact_has_its_phrase() {
+    fn each_assumption_has_its_phrase() {
         let topology = Topology::new([Shape::Chain(2), Shape::Paddle]);
         let general = Request::new("S2P", topology.clone(), Level::Fast);
         assert_eq!(phrases(&general), ["no external wrench on the main body"]);

@@ -12,7 +12,7 @@ pub mod routine_four_s3 {
         const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "4xS3";
         const FORMULATION: &'static str = "articulated";
-        const PINNED: &'static [(usize, f64)] = &::nboom_scalar::assumed(
+        const ASSUMPTIONS: &'static [(usize, f64)] = &::nboom_scalar::assumed(
             [
                 1, 2, 3, 7, 8, 9, 23, 25, 29, 30, 31, 33, 35, 37, 41, 42, 43, 45, 47, 49, 53, 54,
                 55, 57, 71, 73, 77, 78, 79, 81, 83, 85, 89, 90, 91, 93, 95, 97, 101, 102, 103, 105,
@@ -213,12 +213,12 @@ pub mod routine_four_s3 {
     fn s3_inward<R: Real>(
         k: [R; 2],
         turned: [R; 13],
-        excess: [R; 1],
+        net_torque: [R; 1],
         shown: [R; 14],
     ) -> ([R; 14], [R; 6]) {
         let [mass, jxx] = k;
         let [cy, cz, jyy, jzz, jyz, ly, lz, nx, ny, nz, fx, fy, fz] = turned;
-        let [excess] = excess;
+        let [net_torque] = net_torque;
         let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = shown;
         let t33 = (-lz).mul_add(myy, ly * myz);
         let t36 = (-lz).mul_add(myz, ly * mzz);
@@ -227,7 +227,7 @@ pub mod routine_four_s3 {
         let t45 = t33 - cz;
         let t46 = cy + t36;
         let t48 = R::one() / (jxx + (-lz).mul_add(t33, ly * t36));
-        let t53 = excess - nx - (-lz).mul_add(py, ly * pz);
+        let t53 = net_torque - nx - (-lz).mul_add(py, ly * pz);
         let t54 = t48 * t53;
         let t56 = t46 * t48;
         let t60 = jyy + lz.mul_add(byx + t38, ayy);

@@ -12,7 +12,7 @@ pub mod routine_s1 {
         const RESULT: &'static str = "accelerations";
         const TOPOLOGY: &'static str = "S1";
         const FORMULATION: &'static str = "articulated";
-        const PINNED: &'static [(usize, f64)] = &[];
+        const ASSUMPTIONS: &'static [(usize, f64)] = &[];
         const EXTERNAL: bool = false;
         const PARAMETERS: usize = 34;
         const CONSTANTS: usize = 43;

@@ -12,7 +12,7 @@ pub mod routine_stresses_s1 {
         const RESULT: &'static str = "stresses";
         const TOPOLOGY: &'static str = "1 hinge";
         const FORMULATION: &'static str = "";
-        const PINNED: &'static [(usize, f64)] = &::nboom_scalar::assumed(
+        const ASSUMPTIONS: &'static [(usize, f64)] = &::nboom_scalar::assumed(
             [
                 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22,
                 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43,

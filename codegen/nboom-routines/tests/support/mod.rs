@@ -21,7 +21,11 @@ impl Numbers {
 
 /// Parameters of a satellite whose mass matrix is positive: light links on a heavy main body,
 /// every inertia well above what its first moment demands.
-pub fn parameters(topology: &Topology, pinned: &[(usize, f64)], numbers: &mut Numbers) -> Vec<f64> {
+pub fn parameters(
+    topology: &Topology,
+    assumptions: &[(usize, f64)],
+    numbers: &mut Numbers,
+) -> Vec<f64> {
     let mut all = body(100.0, numbers);
     for shape in topology.shapes() {
         let rot = nboom_scalar::Mat3::from_euler_121(
@@ -36,7 +40,7 @@ pub fn parameters(topology: &Topology, pinned: &[(usize, f64)], numbers: &mut Nu
             all.extend((0..2).map(|_| numbers.within(0.2, 1.0)));
         }
     }
-    for &(i, value) in pinned {
+    for &(i, value) in assumptions {
         all[i] = value;
     }
     all

@@ -208,7 +208,7 @@ fn check_says_what_the_scene_contains_and_computes_nothing() {
         "span: 0 to 4",
         "not paid for: gravity; thrust",
         "topology: S1",
-        "generated code takes for granted: no external wrench on the main body; O at the main body",
+        "generated code assumes: no external wrench on the main body; O at the main body",
         // The only hinge is unreleased.
         "code at the start: generated articulated, routine for M",
     ] {

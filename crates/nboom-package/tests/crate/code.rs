@@ -98,7 +98,7 @@ fn a_certificate_says_what_was_compared() {
     // FNV-1a of 64 bits of the two letters.
     assert_eq!(routine["topology_hash"], "0945ff07b5d5a329");
     assert_eq!(routine["evaluation"]["angles"], 1);
-    assert_eq!(routine["taken_for_granted"][0], "O at the main body's mass centre");
+    assert_eq!(routine["assumptions"][0], "O at the main body's mass centre");
     let table = fs::read_to_string(place.path().join("tests/SatelliteS1.csv")).expect("a table");
     let topology: Topology = "S1".parse().expect("a topology");
     let columns =

@@ -1,16 +1,16 @@
 use super::*;
 
-/// Every parameter that a routine takes for granted is named in the crate's README: the numbers
+/// Every parameter that a routine assumes is named in the crate's README: the numbers
 /// of a parameter's name over all phrases are those that are assumed in the code.
 #[test]
-fn a_crate_names_all_that_it_takes_for_granted() {
+fn a_crate_names_all_that_it_assumes() {
     let place = written(&satellite("mixed", &[1, 2, 2]), &Choices::default());
     let readme = fs::read_to_string(place.path().join("README.md")).expect("readable");
     let row = readme.lines().find(|line| line.starts_with("| `Satellite")).expect("a row");
     let phrases = row.trim_end_matches(" |").rsplit(" | ").next().expect("a last column");
     let named: usize = phrases.split("; ").map(parameters_of).sum();
     let code = fs::read_to_string(place.path().join("src/routines.rs")).expect("readable");
-    let start = code.find("const PINNED").expect("a table");
+    let start = code.find("const ASSUMPTIONS").expect("a table");
     let (_, places) = code[start..].split_once("assumed(").expect("there are some");
     let (_, places) = places.split_once('[').expect("a list of places");
     let (places, _) = places.split_once(']').expect("its end");

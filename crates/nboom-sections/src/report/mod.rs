@@ -50,7 +50,7 @@ pub fn tube_stress(stresses: &TubeStresses, theta: f64) -> Stress {
 }
 
 /// The θ, from 0 to 2π, at which the von Mises stress of [`tube_stress`] is largest.
-pub fn severest_of_tube(stresses: &TubeStresses) -> f64 {
+pub fn max_von_mises_of_tube(stresses: &TubeStresses) -> f64 {
     let normal = stresses.normal;
     let [torsion, zeta, xi] = in_report_signs(stresses);
     let of_shear = [xi.abs() + torsion.abs(), zeta.abs() + torsion.abs()];

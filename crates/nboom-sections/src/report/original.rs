@@ -1,6 +1,6 @@
 use nboom_scalar::{Vec3, Wrench};
 
-use super::{bending_constants, severest_of_tube, static_moments, tube_stress};
+use super::{bending_constants, max_von_mises_of_tube, static_moments, tube_stress};
 use crate::{Point, PointStress, Polygon, Section, Stress, Tube, TubeStresses, outline};
 
 /// Most walls of a section whose last wall the original closed.
@@ -74,13 +74,16 @@ impl Original {
     }
 
     /// The point with the largest von Mises stress; for a polygon, the vertex.
-    pub fn severest(&self, load: &Wrench<f64>) -> PointStress {
+    pub fn max_von_mises(&self, load: &Wrench<f64>) -> PointStress {
         match &self.section {
             Section::Tube(tube) => {
                 let stresses = self.tube_stresses(tube, load);
                 let of_report = self.slips.tube_shear;
-                let theta =
-                    if of_report { severest_of_tube(&stresses) } else { stresses.severest() };
+                let theta = if of_report {
+                    max_von_mises_of_tube(&stresses)
+                } else {
+                    stresses.max_von_mises()
+                };
                 self.tube_point(tube, load, theta)
             }
             Section::Polygon(polygon) => {
@@ -97,7 +100,7 @@ impl Original {
         }
     }
 
-    /// The stress of a load at a point that [`Original::severest`] found for another load.
+    /// The stress of a load at a point that [`Original::max_von_mises`] found for another load.
     pub fn at(&self, point: &PointStress, load: &Wrench<f64>) -> Stress {
         match &self.section {
             Section::Tube(tube) => {

@@ -141,7 +141,7 @@ fn many_walls_make_a_tube() {
     let errors = |count| {
         let polygon = regular(count, radius, t);
         let (found, right) = (*polygon.properties(), tube.properties());
-        let worst = |section: Section| section.stresses(&load).severest().stress.von_mises();
+        let worst = |section: Section| section.stresses(&load).max_von_mises().stress.von_mises();
         [
             found.area / right.area - 1.0,
             found.enclosed_area / right.enclosed_area - 1.0,

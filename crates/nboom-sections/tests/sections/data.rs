@@ -99,7 +99,7 @@ fn stresses_of_polygons() {
         let told = |what: &str| format!("{} {what}", case["id"]);
         let stresses = polygon.stresses(&load);
         let section = Section::Polygon(polygon.clone());
-        let worst = section.stresses(&load).severest().stress.von_mises();
+        let worst = section.stresses(&load).max_von_mises().stress.von_mises();
         near(&told("maximum"), worst, &expect["max_von_mises"]["vm"], worst, MAXIMUM);
         let moment = polygon.about_centroid(&load).moment;
         let scale = moment.norm().max(load.force.norm());
@@ -127,7 +127,8 @@ fn axis_points_of_polygons() {
     for case in cases("polygon").iter().filter(|case| case["expect"]["axis_points"].is_array()) {
         let (polygon, load) = (polygon(case), load(case));
         let size = polygon.properties().enclosed_area.sqrt();
-        let worst = Section::Polygon(polygon.clone()).stresses(&load).severest().stress.von_mises();
+        let worst =
+            Section::Polygon(polygon.clone()).stresses(&load).max_von_mises().stress.von_mises();
         let stresses = polygon.stresses(&load);
         let places = polygon.axis_points().into_iter().flatten();
         for ((wall, x), expect) in places.zip(case["expect"]["axis_points"].as_array().unwrap()) {
@@ -173,10 +174,10 @@ fn tubes() {
             near(&told(key), value, &expect[key], value, PROPERTY);
         }
         let stresses = tube.stresses(&load);
-        let worst = stresses.at(stresses.severest()).stress.von_mises();
+        let worst = stresses.at(stresses.max_von_mises()).stress.von_mises();
         let right = &expect["max_von_mises_tangential_shear"]["vm"];
         near(&told("maximum"), worst, right, worst, MAXIMUM);
-        let angle = report::severest_of_tube(&stresses);
+        let angle = report::max_von_mises_of_tube(&stresses);
         let of_report = report::tube_stress(&stresses, angle).von_mises();
         let right = &expect["max_von_mises_report_abs_shear"]["vm"];
         near(&told("maximum of the report"), of_report, right, of_report, MAXIMUM);

@@ -13,7 +13,7 @@ fn invariants(polygon: &Polygon, load: &Wrench<f64>) -> [f64; 7] {
     let found = polygon.properties();
     let [largest, smallest] = found.inertia.principal();
     let stresses = polygon.stresses(load);
-    let (wall, x) = stresses.severest();
+    let (wall, x) = stresses.max_von_mises();
     [
         found.area,
         found.enclosed_area,

@@ -33,7 +33,7 @@ proptest! {
     fn of_polygons(description in description(), load in load()) {
         let polygon = description.polygon();
         let sampled = largest(samples(&polygon, &load).iter().map(|s| s.stress.von_mises()));
-        let worst = Section::Polygon(polygon.clone()).stresses(&load).severest();
+        let worst = Section::Polygon(polygon.clone()).stresses(&load).max_von_mises();
         let found = worst.stress.von_mises();
         prop_assert!(sampled <= found * (1.0 + ROUNDING), "{sampled} above {found}");
         prop_assert!(sampled >= found * (1.0 - 1e-3), "{sampled} far below {found}");
@@ -51,7 +51,7 @@ proptest! {
             sigma * sigma + 3.0 * tau * tau
         };
         let direction = Point { xi: 1.0, zeta: 0.0 };
-        let x = WallStress { normal, shear, direction }.severest();
+        let x = WallStress { normal, shear, direction }.max_von_mises();
         let sampled = largest((0..=SAMPLES).map(|i| square(f64::from(i) / f64::from(SAMPLES))));
         prop_assert!((0.0..=1.0).contains(&x));
         prop_assert!(sampled <= square(x) * (1.0 + ROUNDING));
@@ -63,13 +63,13 @@ proptest! {
         let stresses = tube.stresses(&load);
         let angles = || (0..4 * SAMPLES).map(|i| TAU * f64::from(i) / f64::from(4 * SAMPLES));
         let sampled = largest(angles().map(|theta| stresses.at(theta).stress.von_mises()));
-        let found = stresses.at(stresses.severest()).stress.von_mises();
+        let found = stresses.at(stresses.max_von_mises()).stress.von_mises();
         prop_assert!(sampled <= found * (1.0 + ROUNDING), "{sampled} above {found}");
         prop_assert!(sampled >= found * (1.0 - 1e-3), "{sampled} far below {found}");
 
         let of_report = |theta: f64| report::tube_stress(&stresses, theta).von_mises();
         let sampled = largest(angles().map(of_report));
-        let found = of_report(report::severest_of_tube(&stresses));
+        let found = of_report(report::max_von_mises_of_tube(&stresses));
         prop_assert!(sampled <= found * (1.0 + ROUNDING), "{sampled} above {found}");
     }
 
@@ -81,8 +81,8 @@ proptest! {
         let factor = 10.0_f64.powi(power);
         let scaled = Wrench { force: load.force * factor, moment: load.moment * factor };
         for section in [section, tube] {
-            let found = section.stresses(&scaled).severest().stress.von_mises() / factor;
-            let right = section.stresses(&load).severest().stress.von_mises();
+            let found = section.stresses(&scaled).max_von_mises().stress.von_mises() / factor;
+            let right = section.stresses(&load).max_von_mises().stress.von_mises();
             prop_assert!((found - right).abs() <= ROUNDING * right, "{found} and {right}");
         }
     }
@@ -90,7 +90,7 @@ proptest! {
     /// Largest and smallest stress over all directions of a face.
     #[test]
     fn principal_stresses(description in description(), load in load(), angle in 0.0..TAU) {
-        let stress = Section::Polygon(description.polygon()).stresses(&load).severest().stress;
+        let stress = Section::Polygon(description.polygon()).stresses(&load).max_von_mises().stress;
         let [most, least] = stress.principal();
         let (sin, cos) = angle.sin_cos();
         let on_face = stress.normal * cos * cos + 2.0 * stress.shear() * sin * cos;
@@ -107,5 +107,5 @@ proptest! {
 fn without_a_load_there_is_no_stress() {
     let tube = Section::Tube(Tube::new(2.0, 0.05).expect("a tube"));
     let nothing = Wrench { force: Vec3::zero(), moment: Vec3::zero() };
-    assert_eq!(tube.stresses(&nothing).severest().stress.von_mises(), 0.0);
+    assert_eq!(tube.stresses(&nothing).max_von_mises().stress.von_mises(), 0.0);
 }

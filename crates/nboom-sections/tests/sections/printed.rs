@@ -385,7 +385,7 @@ fn without_slips() {
         let (section, load) = ((block.section)(), block.load());
         let original = Original::new(section.clone(), SectionSlips::default());
         let stresses = section.stresses(&load);
-        let largest = stresses.severest().stress.von_mises();
+        let largest = stresses.max_von_mises().stress.von_mises();
         for (right, found) in stresses.axis_points().iter().zip(original.axis_points(&load)) {
             let (right, found) = (right.expect("convex"), found.expect("convex"));
             // Cosines of right angles are not always zero.

@@ -11,10 +11,11 @@ use crate::equations::sizes::Sizes;
 use crate::equations::state::State;
 use crate::equations::variables::Variables;
 use crate::error::SimError;
+use crate::events::event::Event;
 use crate::events::guard::{GuardKind, Reading, read};
 use crate::events::instant::{self, Arrivals};
 use crate::events::situation::Situation;
-use crate::run::record::{Event, Snapshot};
+use crate::run::record::Snapshot;
 use crate::run::snapshot;
 
 /// Corrections after which an event's time is as good as it gets.

@@ -9,9 +9,9 @@ use nboom_scalar::Vec3;
 use crate::certify::expansion::Accuracy;
 use crate::certify::replay::Replay;
 use crate::certify::scales::{Largest, Scales, natural};
-use crate::error::Failure;
-use crate::run::options::Options;
-use crate::run::record::{Event, EventKind, InstantMotion, Recorder, Snapshot, Summary};
+use crate::events::event::{Event, EventKind};
+use crate::options::Options;
+use crate::run::record::{Failure, InstantMotion, Recorder, Snapshot, Summary};
 use crate::run::simulate;
 use crate::run::step_motion::StepMotion;
 
@@ -310,7 +310,7 @@ fn of_list(quantity: &'static str, run: &[f64], truth: &[f64], size: f64) -> Dig
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::record::Totals;
+    use crate::equations::totals::Totals;
 
     #[test]
     fn digits_are_counted_down_from_sixteen() {

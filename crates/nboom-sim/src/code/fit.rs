@@ -4,7 +4,7 @@ use nboom_formulation::{Embedding, Formulation, Layout, Recognised};
 use nboom_model::Topology;
 use nboom_scalar::Kernel;
 
-use crate::run::options::Options;
+use crate::options::Options;
 
 /// A generated routine that computes the accelerations of a mode, and how the mode is embedded in
 /// the routine's topology.
@@ -75,8 +75,8 @@ impl Repertoire {
             options.kernels.iter().filter(allowed).filter_map(entry).collect();
         entries.sort_by_key(|entry| {
             let articulated = entry.kernel.formulation == Formulation::Articulated.name();
-            let pinned = Reverse(entry.kernel.pinned.len());
-            (entry.duration, entry.topology.hinges(), !articulated, pinned)
+            let assumptions = Reverse(entry.kernel.assumptions.len());
+            (entry.duration, entry.topology.hinges(), !articulated, assumptions)
         });
         Self { entries }
     }
@@ -98,7 +98,7 @@ impl Repertoire {
 impl Entry {
     fn fit(&self, recognised: &Recognised) -> Option<Fit> {
         let embedding = Embedding::new(&recognised.topology, &self.topology)?;
-        let parameters = embedding.parameters(&recognised.parameters, self.kernel.pinned);
+        let parameters = embedding.parameters(&recognised.parameters, self.kernel.assumptions);
         let fit = Fit { kernel: self.kernel, embedding, parameters };
         self.kernel.accepts(&fit.parameters).then_some(fit)
     }

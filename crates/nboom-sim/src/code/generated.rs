@@ -4,7 +4,7 @@ use nboom_model::{HingeLabel, Scene};
 use nboom_scalar::{Kernel, Vec3};
 
 use crate::code::fit::{Fit, Repertoire};
-use crate::run::options::{Form, Options};
+use crate::options::{Form, Options};
 
 /// A generated routine fitted to a scene in one mode.
 #[derive(Clone, Debug)]
@@ -48,37 +48,37 @@ pub enum NoRoutine {
         /// The mode's topology.
         topology: String,
     },
-    /// Routines for the mode's topology take for granted what does not hold.
+    /// Routines for the mode's topology assume what does not hold.
     #[error("no {} for topology {topology} fits: {unmet}", routine(.form))]
     Unmet {
         /// The formulation asked for.
         form: Option<Form>,
         /// The mode's topology.
         topology: String,
-        /// What does not hold first, of the routine that takes least for granted in vain.
+        /// What does not hold first, of the routine with the fewest assumptions that fail.
         unmet: Unmet,
     },
 }
 
-/// What a routine takes for granted and what does not hold.
+/// An assumption of a routine that does not hold.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unmet {
     /// Something acts on the main body from outside.
-    #[error("it takes for granted that nothing acts on the main body from outside")]
+    #[error("it assumes that nothing acts on the main body from outside")]
     External,
     /// A parameter has another value.
-    #[error("{parameter} is {found}, and {granted} is taken for granted")]
+    #[error("{parameter} is {found}, and {assumed} is assumed")]
     Parameter {
         /// Which one, in words.
         parameter: String,
-        /// The value taken for granted.
-        granted: f64,
+        /// The value assumed.
+        assumed: f64,
         /// Its value in the mode.
         found: f64,
     },
     /// A parameter is too large for a number.
-    #[error("{parameter} is {found}, and finite numbers are taken for granted")]
+    #[error("{parameter} is {found}, and finite numbers are assumed")]
     NotFinite {
         /// Which one, in words.
         parameter: String,
@@ -95,10 +95,10 @@ impl NoRoutine {
         let parameters = recognised.parameters.write();
         let unmet = |kernel: &Kernel| -> Vec<Unmet> {
             let wrench = (external && !kernel.external).then_some(Unmet::External);
-            let wrong = kernel.pinned.iter().filter(|&&(i, granted)| parameters[i] != granted);
-            let parameter = |&(i, granted): &(usize, f64)| Unmet::Parameter {
+            let wrong = kernel.assumptions.iter().filter(|&&(i, assumed)| parameters[i] != assumed);
+            let parameter = |&(i, assumed): &(usize, f64)| Unmet::Parameter {
                 parameter: Layout::name(&recognised.topology, i),
-                granted,
+                assumed,
                 found: parameters[i],
             };
             let infinite = parameters.iter().enumerate().filter(|(_, found)| !found.is_finite());

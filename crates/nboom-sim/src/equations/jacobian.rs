@@ -63,7 +63,7 @@ mod tests {
     use super::*;
     use crate::equations::Equations;
     use crate::equations::state::State;
-    use crate::run::options::{Form, Options};
+    use crate::options::{Form, Options};
     use nboom_formulation::Formulation;
     use nboom_model::HingeState;
     use nboom_ode::System;

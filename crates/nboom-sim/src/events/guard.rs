@@ -6,8 +6,8 @@ use nboom_scalar::{Number, Real};
 
 use crate::equations::Equations;
 use crate::equations::state::State;
+use crate::events::event::EventKind;
 use crate::events::instant;
-use crate::run::record::EventKind;
 
 /// A quantity whose change of sign is an event.
 #[derive(Clone, Debug)]

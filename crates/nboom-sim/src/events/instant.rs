@@ -4,10 +4,10 @@ use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
 use crate::equations::state::State;
+use crate::equations::totals::Totals;
 use crate::error::SimError;
+use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::{Bound, GuardKind, Guards, read};
-use crate::run::ledger::totals;
-use crate::run::record::{Event, EventKind, Jump, Totals};
 
 /// Angle \[rad\] through which the fastest hinge that arrives turns in one instant; of a line, the
 /// share of the length at which it arrives by which it changes.
@@ -146,10 +146,10 @@ pub(crate) fn pass<R: Number>(
     state: &mut State<R>,
     mode: &mut Mode,
 ) -> Result<Outcome, SimError> {
-    let before = totals(state, &state.invariants(dynamics));
+    let before = Totals::of(state, &state.invariants(dynamics));
     let mut events = Vec::new();
     let locked = lock(scene, dynamics, &arrivals.locks, state, mode)?;
-    let after = totals(state, &state.invariants(dynamics));
+    let after = Totals::of(state, &state.invariants(dynamics));
     let time = state.time.to_f64();
     let event =
         |kind, hinge, impulse, before: Totals| Event { time, kind, hinge, impulse, before, after };

@@ -2,9 +2,9 @@
 
 use nboom_model::Scene;
 
-use crate::error::{Failure, SimError};
-use crate::run::options::Options;
-use crate::run::record::Recorder;
+use crate::error::SimError;
+use crate::options::Options;
+use crate::run::record::{Failure, Recorder};
 use crate::run::simulate;
 
 /// Ends a run before its first step.

@@ -3,8 +3,10 @@
 use nboom_model::Scene;
 use nboom_scalar::Vec3;
 
+use crate::equations::totals::Totals;
 use crate::error::SimError;
-use crate::run::record::{Detail, Event, Jump, Snapshot, Totals};
+use crate::events::event::{Event, Jump};
+use crate::run::record::{Detail, Snapshot};
 
 /// Refuses a snapshot that has a number beyond all numbers, by name and hinge.
 pub(crate) fn check_snapshot(scene: &Scene, snapshot: &Snapshot) -> Result<(), SimError> {

@@ -5,8 +5,8 @@ use nboom_ode::StepError;
 
 use super::Run;
 use crate::error::SimError;
+use crate::events::event::Event;
 use crate::events::situation::Situation;
-use crate::run::record::Event;
 
 /// A torque whose square is no number any more.
 const BOUND: f64 = 1e154;

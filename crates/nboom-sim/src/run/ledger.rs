@@ -1,15 +1,14 @@
-use nboom_dynamics::Invariants;
 use nboom_elements::gravity_potential;
 use nboom_model::Scene;
-use nboom_scalar::{Number, Vec3};
+use nboom_scalar::Vec3;
 
-use crate::certify::scales::reach;
 use crate::equations::Equations;
+use crate::equations::sizes::reach;
 use crate::equations::state::State;
+use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::run::conservation::Conservation;
 use crate::run::finite::Check;
-use crate::run::record::Totals;
 
 /// Share of the momentum that the energy could make, below which bodies' own momenta are rounding.
 const ROUNDING: f64 = 1e-7;
@@ -29,7 +28,7 @@ pub(crate) struct Ledger {
 
 impl Ledger {
     pub fn new(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
-        let start = totals(state, &state.invariants(&mut equations.dynamics));
+        let start = Totals::of(state, &state.invariants(&mut equations.dynamics));
         let Potential { sum: potential, .. } = potential(scene, equations, state);
         Self {
             start_time: state.time,
@@ -68,7 +67,7 @@ impl Ledger {
         state: &State,
     ) -> Result<(), SimError> {
         let invariants = state.invariants(&mut equations.dynamics);
-        let now = totals(state, &invariants);
+        let now = Totals::of(state, &invariants);
         let work = &state.work;
         let weight = equations.gravity() * scene.total_mass();
         let impulse = weight * (state.time - self.start_time) + work.thrust_impulse;
@@ -97,16 +96,6 @@ impl Ledger {
             *largest = largest.max(value);
         }
         Ok(())
-    }
-}
-
-/// Energy and momenta in inertial axes.
-pub(crate) fn totals<R: Number>(state: &State<R>, found: &Invariants<R>) -> Totals {
-    let to_inertial = state.attitude.to_matrix();
-    Totals {
-        kinetic_energy: found.kinetic_energy.to_f64(),
-        linear_momentum_inertial: (to_inertial * found.linear_momentum).to_f64(),
-        angular_momentum_inertial: (to_inertial * found.angular_momentum).to_f64(),
     }
 }
 

@@ -1,11 +1,13 @@
 use std::io;
 
-use nboom_elements::{Kind, LineReading};
+use nboom_elements::LineReading;
 use nboom_model::HingeState;
 use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3};
 
 use crate::code::selection::{CodeOfRun, Selection};
+use crate::error::SimError;
+use crate::events::event::{Event, Jump};
 use crate::run::conservation::Conservation;
 use crate::run::step_motion::StepMotion;
 use crate::run::verdict::Verdict;
@@ -36,7 +38,7 @@ pub trait Recorder {
         Ok(())
     }
 
-    /// Whether the run shall end where it is, with [`SimError::Interrupted`](crate::SimError);
+    /// Whether the run shall end where it is, with [`SimError::Interrupted`];
     /// asked at every step and output time.
     fn interrupted(&self) -> bool {
         false
@@ -88,19 +90,6 @@ pub struct InstantMotion {
     pub jumps: Vec<Jump>,
     /// The motion after all events of the instant, with detail.
     pub after: Snapshot,
-}
-
-/// Change of all velocities by the impulsive torque at one hinge that locks.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Jump {
-    /// The hinge.
-    pub hinge: usize,
-    /// Of V, the inertial velocity of O, main-body axes.
-    pub velocity_body: Vec3<f64>,
-    /// Of ω, main-body axes \[rad/T\].
-    pub omega_body: Vec3<f64>,
-    /// Of τ, one entry for each hinge of the scene \[rad/T\].
-    pub tau: Vec<f64>,
 }
 
 /// The motion at one time. Vectors over hinges have one entry for each hinge of the scene.
@@ -167,68 +156,6 @@ pub struct Detail {
     pub mass_center_acceleration_inertial: Vec3<f64>,
 }
 
-/// What happens in an instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum EventKind {
-    /// A hinge reaches its lock angle and is held from then on.
-    LockUp,
-    /// An unreleased hinge becomes free.
-    Release,
-    /// A length or angle rises beyond a bound, at which the law of a force element goes on otherwise.
-    Rise(Kind),
-    /// It falls below such a bound.
-    Fall(Kind),
-    /// The thrust starts.
-    ThrustOn,
-    /// The thrust stops.
-    ThrustOff,
-    /// The run has reached its end time.
-    End,
-}
-
-impl EventKind {
-    /// The name used in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::LockUp => "lock_up",
-            Self::Release => "release",
-            Self::Rise(kind) => kind.names().rise.in_files,
-            Self::Fall(kind) => kind.names().fall.in_files,
-            Self::ThrustOn => "thrust_on",
-            Self::ThrustOff => "thrust_off",
-            Self::End => "end",
-        }
-    }
-}
-
-/// One event.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Event {
-    /// Time.
-    pub time: f64,
-    /// What happens.
-    pub kind: EventKind,
-    /// Index of the hinge it happens to, if to one.
-    pub hinge: Option<usize>,
-    /// Impulsive torque of a lock-up on the outboard side, positive along the hinge axis.
-    pub impulse: Option<f64>,
-    /// Energy and momenta before the event; for lock-ups of one instant, before all of them.
-    pub before: Totals,
-    /// Energy and momenta after the event; for lock-ups of one instant, after all of them.
-    pub after: Totals,
-}
-
-/// Energy and momenta of all bodies together.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Totals {
-    /// Kinetic energy.
-    pub kinetic_energy: f64,
-    /// Linear momentum, inertial axes.
-    pub linear_momentum_inertial: Vec3<f64>,
-    /// Angular momentum about the system mass centre, inertial axes.
-    pub angular_momentum_inertial: Vec3<f64>,
-}
-
 /// How a run went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -275,4 +202,15 @@ pub struct Integration {
     pub since: f64,
     /// The method, and why this one.
     pub choice: Choice,
+}
+
+/// A run that ended early.
+#[derive(Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct Failure {
+    /// Why.
+    #[source]
+    pub error: SimError,
+    /// How far it came.
+    pub summary: Box<Summary>,
 }

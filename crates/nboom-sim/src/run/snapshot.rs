@@ -4,7 +4,7 @@ use nboom_scalar::{Number, Quaternion};
 
 use crate::equations::Equations;
 use crate::equations::state::State;
-use crate::run::ledger::totals;
+use crate::equations::totals::Totals;
 use crate::run::record::{Detail, Snapshot};
 use crate::run::step_motion::Forces;
 
@@ -23,7 +23,7 @@ pub(crate) fn take<R: Number>(
     scene.accumulate_along_appendages(&mut alpha);
     scene.accumulate_along_appendages(&mut sigma);
     let Quaternion { scalar, vector } = state.attitude;
-    let now = totals(state, &found);
+    let now = Totals::of(state, &found);
     let h = found.angular_momentum.to_f64();
     Snapshot {
         time: state.time.to_f64(),

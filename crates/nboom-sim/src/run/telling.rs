@@ -3,10 +3,11 @@
 use super::Run;
 use crate::equations::state::State;
 use crate::error::SimError;
+use crate::events::event::{Event, Jump};
 use crate::events::instant::Arrivals;
 use crate::events::situation::Situation;
 use crate::run::finite;
-use crate::run::record::{Event, InstantMotion, Jump, Snapshot};
+use crate::run::record::{InstantMotion, Snapshot};
 use crate::run::snapshot;
 use crate::run::step_motion::DenseStep;
 

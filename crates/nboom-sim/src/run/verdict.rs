@@ -1,6 +1,6 @@
 use nboom_model::HingeState;
 
-use crate::run::record::{Event, EventKind};
+use crate::events::event::{Event, EventKind};
 
 /// What became of the hinges of a scene.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use nboom_model::{
     Appendage, Body, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Thrust,
 };
 use nboom_scalar::{Isa, Kernel, Mat3, Real, Routine, Sym3, Vec3};
-use nboom_verify::Subject;
+use nboom_verify::TestCase;
 
 pub fn body() -> MassProperties {
     MassProperties::new(1.0, Vec3::new(0.1, 0.5, 0.2), Sym3::diagonal(1.0, 1.2, 1.4))
@@ -36,8 +36,8 @@ pub fn s2_p_scene() -> SceneDescription {
 }
 
 /// Forty states of [`s2_p_scene`] under thrust.
-pub fn s2_p() -> Subject {
-    Subject::new(with_thrust(s2_p_scene()), 40, 1970).expect("all numbers are finite")
+pub fn s2_p() -> TestCase {
+    TestCase::new(with_thrust(s2_p_scene()), 40, 1970).expect("all numbers are finite")
 }
 
 /// A boom of two segments, and a third one on the first: no chain.
@@ -50,7 +50,7 @@ pub fn fork() -> Scene {
     with_thrust(description)
 }
 
-/// `articulated` of S3_P, nothing taken for granted, with τ̇ of the hinge at `WRONG` wrong by 1e-9
+/// `articulated` of S3_P, nothing assumed, with τ̇ of the hinge at `WRONG` wrong by 1e-9
 /// of itself.
 struct ArticulatedS3P<const WRONG: usize>;
 
@@ -58,7 +58,7 @@ impl<const WRONG: usize> Routine for ArticulatedS3P<WRONG> {
     const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "S3_P";
     const FORMULATION: &'static str = "articulated";
-    const PINNED: &'static [(usize, f64)] = &[];
+    const ASSUMPTIONS: &'static [(usize, f64)] = &[];
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = 94;
     const CONSTANTS: usize = 94;

@@ -7,8 +7,8 @@ use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::*;
 use crate::certify::trust::Witness;
-use crate::run::options::Options;
-use crate::run::record::EventKind;
+use crate::events::event::EventKind;
+use crate::options::Options;
 use crate::run::simulate;
 
 /// Two booms of two segments on springs, which unfold in a spin and lock; one hinge is released on

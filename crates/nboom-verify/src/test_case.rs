@@ -40,7 +40,7 @@ impl RandomState {
     }
 }
 
-/// Code that does not cover a subject.
+/// Code that does not cover a test case.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct NotCovered {
     /// `generic` or `generated`.
@@ -54,7 +54,7 @@ pub struct NotCovered {
 /// A scene with its thrust on and no force along a line, all hinges free or some held,
 /// and random states of it.
 #[derive(Clone, Debug)]
-pub struct Subject {
+pub struct TestCase {
     scene: Scene,
     seed: u64,
     /// For each hinge of the scene, the angle at which it is held.
@@ -64,7 +64,7 @@ pub struct Subject {
     recognised: Result<Recognised, usize>,
 }
 
-impl Subject {
+impl TestCase {
     /// `states` random states of `scene`, all hinges free, the same for the same `seed` everywhere.
     /// Angles are of any size; rates are as large as the scene's initial angular rate, or of order
     /// 1 where it has none.
@@ -76,7 +76,7 @@ impl Subject {
         Self::in_mode(scene, free, states, seed, &mut Rng::new(seed))
     }
 
-    /// Random states of `scene` with random hinges, at least one, held at random angles: a subject
+    /// Random states of `scene` with random hinges, at least one, held at random angles: a test case
     /// for each of the states. Empty for a scene without hinges.
     ///
     /// # Errors
@@ -143,7 +143,7 @@ impl Subject {
         self.recognised.as_ref().ok()
     }
 
-    /// The recursion on any scalar, in the subject's mode.
+    /// The recursion on any scalar, in the test case's mode.
     pub(crate) fn recursive<R: Real>(&self) -> Recursive<R> {
         recursive(&self.scene, &self.held)
     }
@@ -177,7 +177,7 @@ impl Subject {
         ComparedCode::recursion(&self.dynamics, &self.states)
     }
 
-    /// All code that covers the subject: the recursion first, then the whole mass matrix, factored,
+    /// All code that covers the test case: the recursion first, then the whole mass matrix, factored,
     /// then closed forms, then those of `kernels` that compute accelerations of its topology and accept its parameters, and the one
     /// that a run takes where that is of a larger topology.
     ///
@@ -236,7 +236,7 @@ impl Subject {
         }
     }
 
-    /// The routine that a run takes in the subject's mode.
+    /// The routine that a run takes in the test case's mode.
     fn taken(&self, kernels: &'static [Kernel]) -> Option<Fit> {
         Repertoire::new(&choosing_from(kernels)).best(self.recognised()?, self.is_pushed())
     }
@@ -246,7 +246,7 @@ impl Subject {
         self.dynamics.external().is_some()
     }
 
-    /// Those of `kernels` that are of the subject's topology and accept its parameters, each of
+    /// Those of `kernels` that are of the test case's topology and accept its parameters, each of
     /// which gives this many numbers.
     pub(crate) fn fitting(
         &self,

@@ -9,7 +9,7 @@ use crate::polynomial::{Polynomial, SignChanges};
 /// derivative changes sign. The search begins with all ends. It skips the inside of a wall if
 /// [`Square::bound_inside`] shows that it has no larger value. Ends come before places between
 /// them; of equal places the first counts.
-pub(crate) fn severest(walls: impl Iterator<Item = WallStress> + Clone) -> (usize, f64) {
+pub(crate) fn max_von_mises(walls: impl Iterator<Item = WallStress> + Clone) -> (usize, f64) {
     let unit = walls.clone().map(|wall| wall.largest_coefficient()).fold(0.0, f64::max);
     let scale = 1.0 / unit.max(f64::MIN_POSITIVE);
     let squares = walls.map(|wall| Square::of(&wall, scale)).enumerate();
@@ -129,7 +129,7 @@ mod tests {
             let squares: Vec<Square> = walls.iter().map(|wall| Square::of(wall, 1.0)).collect();
             let all = squares.iter().flat_map(|square| places(square).map(|x| square.at(x)));
             let largest = all.fold(0.0, f64::max);
-            let (wall, x) = severest(walls.iter().copied());
+            let (wall, x) = max_von_mises(walls.iter().copied());
             // A few roundings of terms that the largest one is made of.
             prop_assert!(squares[wall].at(x) >= largest * (1.0 - 1e-14));
         }

@@ -4,8 +4,6 @@ use nboom_formulation::Formulation;
 use nboom_ode::{Method, Rkam, RkamSettings, Stepper, Tolerance};
 use nboom_scalar::Kernel;
 
-use crate::OptionError;
-
 /// Whether generated or library code computes accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Path {
@@ -100,6 +98,18 @@ impl Default for Options {
             kernels: &[],
         }
     }
+}
+
+/// An option with a value that it cannot have.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{option} {value:e} found, {expected} expected")]
+pub struct OptionError {
+    /// Which option.
+    pub option: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it can be.
+    pub expected: &'static str,
 }
 
 /// Below this a relative error is smaller than the rounding of a step.

@@ -1,4 +1,4 @@
-//! Subjects, labels and the file.
+//! Test cases, labels and the file.
 
 mod support;
 
@@ -6,7 +6,7 @@ use nboom_formulation::{Embedding, Formulation, Layout};
 use nboom_model::{Scene, Topology};
 use nboom_scalar::{Isa, Kernel, Real, Routine, Vec3};
 use nboom_sim::Fit;
-use nboom_verify::{ComparedCode, Label, Subject, VerifyError, compare};
+use nboom_verify::{ComparedCode, Label, TestCase, VerifyError, compare};
 
 use support::{fork, s2_p, s2_p_scene};
 
@@ -14,8 +14,9 @@ use support::{fork, s2_p, s2_p_scene};
 fn states_are_as_fast_as_the_scene() {
     let mut description = s2_p_scene();
     description.initial.omega_body = Vec3::unit_y() * 1e-3;
-    let subject = Subject::new(Scene::new(description).expect("as before"), 50, 1).expect("finite");
-    let rates = subject.states().iter().flat_map(|state| &state.tau);
+    let test_case =
+        TestCase::new(Scene::new(description).expect("as before"), 50, 1).expect("finite");
+    let rates = test_case.states().iter().flat_map(|state| &state.tau);
     assert!(rates.clone().all(|rate| rate.abs() <= 1e-3) && rates.count() == 200);
 }
 
@@ -25,7 +26,7 @@ fn parameters_that_overflow_are_refused() {
     // Each body's numbers are finite; the paddle's, seen from where a chain has its origin, is not.
     description.bodies[3].mount.point = Vec3::unit_x() * 1e160;
     let scene = Scene::new(description).expect("every number is finite");
-    let refused = Subject::new(scene, 1, 1);
+    let refused = TestCase::new(scene, 1, 1);
     let Err(VerifyError::NotFinite { topology, parameter, value }) = &refused else {
         panic!("{refused:?}")
     };
@@ -35,14 +36,14 @@ fn parameters_that_overflow_are_refused() {
     assert!(message.ends_with("a finite one expected"), "{message}");
 }
 
-/// Says that it takes `PINNED` of three parameters for granted.
-struct Facts<const PINNED: usize>;
+/// Assumes the first `ASSUMED` of three parameters.
+struct Assuming<const ASSUMED: usize>;
 
-impl<const PINNED: usize> Routine for Facts<PINNED> {
+impl<const ASSUMED: usize> Routine for Assuming<ASSUMED> {
     const RESULT: &'static str = "accelerations";
     const TOPOLOGY: &'static str = "M";
     const FORMULATION: &'static str = "articulated";
-    const PINNED: &'static [(usize, f64)] = [(0, 1.0), (1, 1.0), (2, 1.0)].split_at(PINNED).0;
+    const ASSUMPTIONS: &'static [(usize, f64)] = [(0, 1.0), (1, 1.0), (2, 1.0)].split_at(ASSUMED).0;
     const EXTERNAL: bool = true;
     const PARAMETERS: usize = 3;
     const CONSTANTS: usize = 0;
@@ -57,54 +58,57 @@ impl<const PINNED: usize> Routine for Facts<PINNED> {
 }
 
 #[test]
-fn labels_say_what_is_taken_for_granted() {
-    for (kernel, facts) in [
-        (Kernel::of::<Facts<0>>(), "general"),
-        (Kernel::of::<Facts<2>>(), "principal"),
-        (Kernel::of::<Facts<3>>(), "baked"),
+fn labels_say_what_is_assumed() {
+    for (kernel, assumptions) in [
+        (Kernel::of::<Assuming<0>>(), "general"),
+        (Kernel::of::<Assuming<2>>(), "principal"),
+        (Kernel::of::<Assuming<3>>(), "baked"),
     ] {
         let topology: Topology = "M".parse().expect("a topology");
         let embedding = Embedding::new(&topology, &topology).expect("it is in itself");
         let fit = Fit { kernel, embedding, parameters: vec![1.0; 3] };
         let label = Label::generated(&fit);
-        assert_eq!((label.facts, label.topology, label.virtual_links), (facts, Some("M"), 0));
+        assert_eq!(
+            (label.assumptions, label.topology, label.virtual_links),
+            (assumptions, Some("M"), 0)
+        );
     }
 }
 
 #[test]
 fn routines_for_other_scenes_are_left_out() {
-    let subject = s2_p();
-    let other = vec![Kernel::of::<Facts<0>>()].leak();
-    assert_eq!(subject.codes(other).expect("none fits").len(), 7);
-    assert_eq!(subject.not_covered(other)[0].why, "no routine for topology S2_P");
+    let test_case = s2_p();
+    let other = vec![Kernel::of::<Assuming<0>>()].leak();
+    assert_eq!(test_case.codes(other).expect("none fits").len(), 7);
+    assert_eq!(test_case.not_covered(other)[0].why, "no routine for topology S2_P");
 }
 
 #[test]
-fn what_is_taken_for_granted_in_vain_is_named() {
+fn an_assumption_that_does_not_hold_is_named() {
     // S2_P with the chain's first mass taken for 2; it is 1.
     const MASS: usize = Layout::MAIN + Layout::BRANCH;
-    let mut kernel = Kernel::of::<Facts<0>>();
-    (kernel.topology, kernel.parameters, kernel.pinned) = ("S2_P", 82, &[(MASS, 2.0)]);
+    let mut kernel = Kernel::of::<Assuming<0>>();
+    (kernel.topology, kernel.parameters, kernel.assumptions) = ("S2_P", 82, &[(MASS, 2.0)]);
     let why = &s2_p().not_covered(vec![kernel].leak())[0].why;
-    let words = "mass of link 1 of appendage 1 is 1, and 2 is taken for granted";
+    let words = "mass of link 1 of appendage 1 is 1, and 2 is assumed";
     assert_eq!(*why, format!("no routine for topology S2_P fits: {words}"));
-    (kernel.pinned, kernel.external) = (&[], false);
+    (kernel.assumptions, kernel.external) = (&[], false);
     let why = &s2_p().not_covered(vec![kernel].leak())[0].why;
     assert!(why.ends_with("that nothing acts on the main body from outside"), "{why}");
 }
 
 #[test]
 fn a_routine_that_a_run_embeds_the_scene_in_is_covered() {
-    let subject = s2_p();
+    let test_case = s2_p();
     let larger = support::articulated_s3_p();
-    let codes = subject.codes(larger).expect("it fits");
+    let codes = test_case.codes(larger).expect("it fits");
     let (label, ComparedCode::Routine { fit, .. }) = codes.last().expect("codes") else {
         panic!("no routine")
     };
     assert_eq!((label.topology, label.virtual_links), (Some("S3_P"), 1));
     assert_eq!(fit.kernel.formulation, Formulation::Articulated.name());
-    assert!(subject.not_covered(larger).is_empty());
-    let comparison = compare(&subject, &[], larger, &[], 1e-11).expect("accelerations");
+    assert!(test_case.not_covered(larger).is_empty());
+    let comparison = compare(&test_case, &[], larger, &[], 1e-11).expect("accelerations");
     assert!(comparison.passed(), "{comparison:?}");
     let row = comparison.rows.iter().find(|row| row.label == *label).expect("a row");
     assert!(row.states == 40 && row.from_double_double > 0.0, "{row:?}");
@@ -113,28 +117,28 @@ fn a_routine_that_a_run_embeds_the_scene_in_is_covered() {
 #[test]
 fn held_hinges_are_some_and_have_all_angles() {
     let scene = Scene::new(s2_p_scene()).expect("as before");
-    let held = Subject::with_held_hinges(&scene, 200, 3).expect("finite");
+    let held = TestCase::with_held_hinges(&scene, 200, 3).expect("finite");
     assert_eq!(held.len(), 200);
-    for subject in &held {
-        let free = subject.held().iter().filter(|angle| angle.is_none()).count();
-        let [state] = subject.states() else { panic!("one state each") };
+    for test_case in &held {
+        let free = test_case.held().iter().filter(|angle| angle.is_none()).count();
+        let [state] = test_case.states() else { panic!("one state each") };
         assert!(free < 4 && state.beta.len() == free && state.tau.len() == free);
     }
-    let angles = || held.iter().flat_map(Subject::held).flatten();
+    let angles = || held.iter().flat_map(TestCase::held).flatten();
     assert!(angles().any(|angle| *angle > 3.0) && angles().any(|angle| *angle < -3.0));
     for hinge in 0..4 {
-        let count = held.iter().filter(|subject| subject.held()[hinge].is_some()).count();
+        let count = held.iter().filter(|test_case| test_case.held()[hinge].is_some()).count();
         assert!((100..150).contains(&count), "{count}");
     }
-    assert!(held.iter().any(|subject| subject.held().iter().all(Option::is_some)));
+    assert!(held.iter().any(|test_case| test_case.held().iter().all(Option::is_some)));
 }
 
 #[test]
 fn the_file_has_what_was_found() {
-    let subject = Subject::new(fork(), 7, 3).expect("finite");
-    let held = Subject::with_held_hinges(&fork(), 3, 3).expect("finite");
+    let test_case = TestCase::new(fork(), 7, 3).expect("finite");
+    let held = TestCase::with_held_hinges(&fork(), 3, 3).expect("finite");
     for (tolerance, passed) in [(1e-11, true), (1e-30, false)] {
-        let comparison = compare(&subject, &held, &[], &[], tolerance).expect("accelerations");
+        let comparison = compare(&test_case, &held, &[], &[], tolerance).expect("accelerations");
         let text = comparison.json();
         let file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!(file["passed"], passed);
