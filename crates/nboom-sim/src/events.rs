@@ -4,4 +4,5 @@ pub(crate) mod arc;
 pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;
+pub(crate) mod side;
 pub(crate) mod situation;

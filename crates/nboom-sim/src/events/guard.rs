@@ -9,6 +9,7 @@ use crate::equations::state::State;
 use crate::events::arc::Arc;
 use crate::events::event::EventKind;
 use crate::events::instant;
+use crate::events::side::{LockSide, Side};
 
 /// A quantity whose change of sign is an event.
 #[derive(Clone, Copy, Debug)]
@@ -88,47 +89,6 @@ impl GuardKind {
     }
 }
 
-/// On which side of its lock angle a hinge is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum LockSide {
-    Below,
-    Above,
-}
-
-impl LockSide {
-    /// That of `hinge` at the angle `beta`; none where it has no lock angle or is on it.
-    pub fn of<R: Number>(scene: &Scene, hinge: usize, beta: R) -> Option<Self> {
-        let angle = scene.bodies[hinge].hinge.lock_angle?;
-        Self::of_sign((beta - R::constant(angle)).to_f64())
-    }
-
-    fn of_sign(from_lock: f64) -> Option<Self> {
-        match from_lock {
-            below if below < 0.0 => Some(Self::Below),
-            above if above > 0.0 => Some(Self::Above),
-            _ => None,
-        }
-    }
-
-    /// The sign of the angle less the lock angle.
-    fn sign(self) -> f64 {
-        match self {
-            Self::Below => -1.0,
-            Self::Above => 1.0,
-        }
-    }
-}
-
-/// On which side of zero a guard is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Side {
-    /// It has this sign.
-    Known(f64),
-    /// It is zero and takes this sign at once; without a sign, that of its first motion. At rest
-    /// its rate is zero too.
-    Leaving { sign: Option<f64>, at_rest: bool },
-}
-
 impl Guard {
     /// How long before or after the reading it is zero, if it leaves its side there.
     pub fn time_away<R: Number>(&self, reading: Reading<R>) -> Option<f64> {
@@ -156,9 +116,6 @@ const AT_BOUND: f64 = 1e-13;
 /// Share of its scale by which a length or angle that leaves a bound must have moved before the way
 /// it moves is told from rounding.
 const BEYOND_ROUNDING: f64 = 1e-12;
-
-/// Share of the largest coefficient below which a first rate counts as zero.
-const AT_REST: f64 = 1e-13;
 
 /// The guards of one mode.
 pub(crate) struct Guards {
@@ -346,24 +303,6 @@ impl Guards {
             }
             change.map(|within| (piece as f64 + within) / pieces as f64)
         })
-    }
-}
-
-impl Side {
-    /// Where on [0, 1] a guard that starts on this side leaves it.
-    fn change(self, polynomial: &Bernstein) -> Option<f64> {
-        match self {
-            Self::Known(sign) => polynomial.leaves_side(sign),
-            Self::Leaving { sign, at_rest } => {
-                let from_here = polynomial.minus(polynomial.coefficients()[0]);
-                let mut moved = from_here.without_root_at_start();
-                let largest = moved.coefficients().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-                if at_rest || moved.coefficients()[0].abs() <= AT_REST * largest {
-                    moved = moved.without_root_at_start();
-                }
-                moved.leaves_side(sign.unwrap_or(moved.coefficients()[0].signum()))
-            }
-        }
     }
 }
 

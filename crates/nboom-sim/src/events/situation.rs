@@ -5,8 +5,9 @@ use nboom_scalar::{Number, Vec3};
 
 use crate::equations::state::{MassCenter, State};
 use crate::error::SimError;
-use crate::events::guard::{GuardKind, Guards, LockSide};
+use crate::events::guard::{GuardKind, Guards};
 use crate::events::instant::{self, Arrivals, Outcome};
+use crate::events::side::LockSide;
 
 /// Where a motion has come to: its state and mode, and what may end the mode.
 ///

@@ -1,0 +1,65 @@
+use nboom_model::Scene;
+use nboom_ode::Bernstein;
+use nboom_scalar::Number;
+
+/// Share of the largest coefficient below which a first rate counts as zero.
+const AT_REST: f64 = 1e-13;
+
+/// On which side of its lock angle a hinge is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LockSide {
+    Below,
+    Above,
+}
+
+impl LockSide {
+    /// That of `hinge` at the angle `beta`; none where it has no lock angle or is on it.
+    pub fn of<R: Number>(scene: &Scene, hinge: usize, beta: R) -> Option<Self> {
+        let angle = scene.bodies[hinge].hinge.lock_angle?;
+        Self::of_sign((beta - R::constant(angle)).to_f64())
+    }
+
+    pub fn of_sign(from_lock: f64) -> Option<Self> {
+        match from_lock {
+            below if below < 0.0 => Some(Self::Below),
+            above if above > 0.0 => Some(Self::Above),
+            _ => None,
+        }
+    }
+
+    /// The sign of the angle less the lock angle.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Below => -1.0,
+            Self::Above => 1.0,
+        }
+    }
+}
+
+/// On which side of zero a guard is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Side {
+    /// It has this sign.
+    Known(f64),
+    /// It is zero and takes this sign at once; without a sign, that of its first motion. At rest
+    /// its rate is zero too.
+    Leaving { sign: Option<f64>, at_rest: bool },
+}
+
+impl Side {
+    /// Where on [0, 1] a guard that starts on this side leaves it.
+    pub fn change(self, polynomial: &Bernstein) -> Option<f64> {
+        match self {
+            Self::Known(sign) => polynomial.leaves_side(sign),
+            Self::Leaving { sign, at_rest } => {
+                let from_here = polynomial.minus(polynomial.coefficients()[0]);
+                let mut moved = from_here.without_root_at_start();
+                let largest = moved.coefficients().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+                if at_rest || moved.coefficients()[0].abs() <= AT_REST * largest {
+                    moved = moved.without_root_at_start();
+                }
+                moved.leaves_side(sign.unwrap_or(moved.coefficients()[0].signum()))
+            }
+        }
+    }
+}
