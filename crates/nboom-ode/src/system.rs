@@ -26,8 +26,8 @@ pub trait System {
     }
 
     /// Writes f(t, y) of eight states to `dy` and returns `true`; a system that returns `false`
-    /// leaves it to the method to take one state after the other. Derivatives outside `part` may
-    /// be written or not. Only [`GaussLanes`](crate::GaussLanes) asks.
+    /// leaves it to the method to take one state after the other. What is written for other
+    /// variables than those of `part` is not read. Only [`GaussLanes`](crate::GaussLanes) asks.
     fn derivatives(&mut self, _part: Part, _t: &Eight, _y: &[Eight], _dy: &mut [Eight]) -> bool {
         false
     }

@@ -150,5 +150,5 @@ pub(super) fn error_of_end(last_terms: [f64; 2], magnitude: f64, per_tolerance: 
 }
 
 const FALL: f64 = 7.0;
-/// Set by trials, so that errors at the end of a run are about the tolerance.
-const SHARE: f64 = 0.05;
+/// Set by trials, so that errors inside steps are within about ten tolerances.
+const SHARE: f64 = 0.01;
