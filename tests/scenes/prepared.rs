@@ -30,7 +30,7 @@ fn every_run_of_a_simulator_is_that_of_a_new_one() {
             let expected = run(&reference.scene(), &options);
             let mut simulator = Simulator::new(&reference.scene(), options);
             for _ in 0..3 {
-                assert_same(&next_run(&mut simulator), &expected, &reference.name);
+                assert_same(&next_run(&mut simulator), &expected, reference.name);
             }
         }
     }
@@ -61,7 +61,7 @@ fn another_scene_leaves_nothing_of_the_one_before() {
             for other in [&scene, &faster, &shorter, &turned, &heavier, &softer, &scene] {
                 simulator.set_scene(other);
                 let expected = run(other, &options);
-                assert_same(&next_run(&mut simulator), &expected, &reference.name);
+                assert_same(&next_run(&mut simulator), &expected, reference.name);
             }
         }
     }

@@ -171,7 +171,7 @@ impl<'a> Run<'a> {
             if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
                 self.stepper.prepare_dense(&mut *self.equations);
             }
-            let change = guards.first_change(&self.equations, &*self.stepper);
+            let change = guards.first_change(self.equations, &*self.stepper);
             if let Some((kind, fraction)) = change {
                 let full = self.stepper.window().length();
                 self.locate(kind, fraction * full, full);

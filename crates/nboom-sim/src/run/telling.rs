@@ -73,7 +73,7 @@ impl Run<'_> {
     /// Enters `state` in the ledger and sees all of it that the recorder wants.
     fn look(&mut self, state: &State) -> Result<(), SimError> {
         let found = state.invariants(&mut self.equations.entered.dynamics);
-        self.ledger.check(self.situation.scene, &mut self.equations, state, &found)?;
+        self.ledger.check(self.situation.scene, self.equations, state, &found)?;
         self.see(state, &found, self.recorder.needs_detail())
     }
 
