@@ -235,7 +235,7 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
 }
 
 /// ω of the body about its axes that starts with ω = (p, 0, r), its squared momentum below twice its
-/// energy times the second moment (Landau and Lifshitz, Section 37, axes counted backwards).
+/// energy times the second moment (Landau and Lifshitz, Mechanics, chapter VI, axes counted backwards).
 fn turning([p, r]: [f64; 2], t: f64) -> [f64; 3] {
     let [a, b, c] = MOMENTS;
     let (energy, squared) = (a * p * p + c * r * r, (a * p).powi(2) + (c * r).powi(2));
