@@ -79,6 +79,7 @@ impl Certified {
                 Found::Accelerations(accelerations(&graph, request, &subjects)?)
             }
             Output::Equations => Found::Equations(equations(&graph, request, &subjects)?),
+            Output::RightSide => unreachable!("crates have no right sides"),
         };
         let mut cases = Vec::new();
         for subject in &subjects {
@@ -174,8 +175,8 @@ fn equations(graph: &Graph, request: &Request, subjects: &[Subject]) -> Result<f
 fn tested(subject: &Subject, request: &Request) -> Result<Vec<Tested>, PackageError> {
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Vec<f64>)| {
         let expected = match request.output {
-            Output::Accelerations => in_routine(recognised(subject), &truth),
             Output::Equations => unknowns(request.formulation, recognised(subject), &truth),
+            Output::Accelerations | Output::RightSide => in_routine(recognised(subject), &truth),
         };
         Tested { parameters, coordinates, expected }
     };
