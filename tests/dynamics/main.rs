@@ -12,5 +12,6 @@ mod formulations;
 mod forward_dynamics;
 mod lines;
 mod momenta;
+mod right_side;
 mod satellites;
 mod scalars;

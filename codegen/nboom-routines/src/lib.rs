@@ -21,6 +21,10 @@ mod of_equations {
     include!(concat!(env!("OUT_DIR"), "/equations.rs"));
 }
 
+mod of_right_sides {
+    include!(concat!(env!("OUT_DIR"), "/right_sides.rs"));
+}
+
 pub use stock::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
 
 /// The stock routines for accelerations: those of `articulated`, the more specialised one of each
@@ -67,6 +71,25 @@ macro_rules! for_each_batched {
             $($function)::+::<$crate::Principal20S5>(),
         ]
     };
+}
+
+/// Right sides of the differential equations by `articulated`, without external wrench: those of each
+/// topology of [`all`], and with lines that push the links those of up to four hinges. The more
+/// specialised ones of each topology come first.
+///
+/// ```
+/// use nboom_formulation::RightSideLayout;
+/// let topology = "S2_P".parse()?;
+/// let of_topology = nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == "S2_P");
+/// assert!(of_topology.clone().count() == 4);
+/// for kernel in of_topology {
+///     assert_eq!(kernel.parameters, RightSideLayout::parameters(&topology));
+///     assert_eq!(kernel.coordinates, RightSideLayout::coordinates(&topology));
+/// }
+/// # Ok::<(), nboom_model::TopologyError>(())
+/// ```
+pub fn right_sides() -> &'static [Kernel] {
+    of_right_sides::kernels()
 }
 
 /// Routines on eight states at once, for satellites with principal axes.

@@ -1,9 +1,10 @@
 use nboom_elements::{Elements, HingeLaw, KickOffLaw};
-use nboom_model::WeldedTree;
+use nboom_model::{Shape, Topology, WeldedTree};
 use nboom_scalar::{Real, Vec3, Wrench};
 
 use crate::embedding::Embedding;
-use crate::parameters::Reader;
+use crate::parameters::{Branch, Parameters, Reader};
+use crate::pose::{self, Posed};
 use crate::recognise::Recognised;
 use crate::right_side::RightSideLayout;
 
@@ -97,6 +98,55 @@ impl<R: Real> Forces<R> {
             (outer.laws[hinge], outer.lines[hinge]) = (*law, *line);
         }
         outer
+    }
+}
+
+impl<R: Real> Forces<R> {
+    /// Generalised forces conjugate to the hinges' angles: torques about hinges, and forces along
+    /// lines, each of which turns all hinges inboard of its link; eqs. (6.1) and (6.17), corrected:
+    /// note 5.
+    pub fn torques(
+        &self,
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        [beta, tau]: [&[R]; 2],
+    ) -> Vec<R> {
+        R::remark(|| "Hinges: torques of springs and dashpots.".to_owned());
+        let hinges = self.laws.iter().zip(beta.iter().zip(tau));
+        let mut torques: Vec<R> =
+            hinges.map(|(law, (&beta, &tau))| law.torque(beta, tau)).collect();
+        let mut first = 0;
+        let appendages = topology.shapes().iter().zip(&parameters.branches);
+        for (number, (&shape, branch)) in appendages.enumerate() {
+            let hinges = first..first + shape.hinges();
+            first = hinges.end;
+            R::remark(|| format!("Appendage {}: torques of the lines that push it.", number + 1));
+            let links = pose::place(shape, branch, &beta[hinges.clone()]);
+            push(branch, &links, &self.lines[hinges.clone()], &mut torques[hinges]);
+        }
+        torques
+    }
+
+    /// Power of the parts of the torques that depend on rates, summed up appendage by appendage.
+    pub fn rate_power(&self, topology: &Topology, tau: &[R]) -> R {
+        let mut of_hinges = self.laws.iter().zip(tau).map(|(law, &tau)| law.rate_torque(tau) * tau);
+        let sum = |sum: R, power: R| sum + power;
+        let mut of_appendage =
+            |shape: &Shape| of_hinges.by_ref().take(shape.hinges()).fold(R::zero(), sum);
+        topology.shapes().iter().map(&mut of_appendage).fold(R::zero(), sum)
+    }
+}
+
+/// Adds to the torques about the hinges of an appendage those of the lines that push its links. The
+/// reaction on the main body leaves no resultant.
+fn push<R: Real>(branch: &Branch<R>, links: &[Posed<R>], lines: &[LinkLine<R>], torques: &mut [R]) {
+    for (i, (link, line)) in links.iter().zip(lines).enumerate() {
+        let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
+        let end = link.hinge + link.rot * line.point;
+        let force = line.law.push(end - fixed);
+        for (inboard, torque) in links.iter().zip(torques.iter_mut()).take(i + 1) {
+            *torque += inboard.axis.dot((end - inboard.hinge).cross(force));
+        }
     }
 }
 
