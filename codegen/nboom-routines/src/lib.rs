@@ -51,6 +51,17 @@ pub fn equations() -> &'static [Kernel] {
     })
 }
 
+/// The routines that a run takes: [`all`], then [`right_sides`].
+pub fn for_runs() -> &'static [Kernel] {
+    static FOR_RUNS: OnceLock<Vec<Kernel>> = OnceLock::new();
+    FOR_RUNS.get_or_init(|| [all(), right_sides()].concat())
+}
+
+/// The [`right_sides`] of up to twenty hinges on eight states at once.
+pub fn right_sides_of_eight() -> &'static [Batch] {
+    of_right_sides::batches()
+}
+
 /// Calls a function of a routine's type for each routine that [`batches`] has, and gives the array
 /// of what it returns.
 ///

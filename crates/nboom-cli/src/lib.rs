@@ -68,21 +68,27 @@ use terminal::{print, say};
 /// Generated routines that commands choose from.
 #[derive(Clone, Copy, Debug)]
 pub struct Routines {
-    /// Those for accelerations.
+    /// Those for accelerations and right sides.
     pub accelerations: &'static [Kernel],
     /// Those for the matrix and the right side of a formulation.
     pub equations: &'static [Kernel],
     /// Those for accelerations of eight states at once.
     pub batches: &'static [Batch],
+    /// Right sides of eight states at once.
+    pub right_sides_of_eight: &'static [Batch],
 }
 
 /// Runs the command and returns its exit code: 0 done, 1 a comparison failed, 2 the input is wrong,
 /// 3 the computation or the writing failed or was interrupted.
 #[cfg(feature = "generator")]
 pub fn execute(cli: &Cli) -> ExitCode {
-    let (accelerations, equations) = (nboom_routines::all(), nboom_routines::equations());
-    let batches = nboom_routines::batches();
-    execute_with(cli, &Routines { accelerations, equations, batches })
+    let routines = Routines {
+        accelerations: nboom_routines::for_runs(),
+        equations: nboom_routines::equations(),
+        batches: nboom_routines::batches(),
+        right_sides_of_eight: nboom_routines::right_sides_of_eight(),
+    };
+    execute_with(cli, &routines)
 }
 
 /// Runs the command like `execute`, with other routines than the stock ones.

@@ -83,7 +83,7 @@ fn options(
         PathChoice::Generated => Path::Generated,
         PathChoice::Generic => Path::Generic,
     };
-    let kernels = routines.accelerations;
+    let (kernels, batches) = (routines.accelerations, routines.right_sides_of_eight);
     let mut options = Options {
         samples,
         integrator,
@@ -94,6 +94,7 @@ fn options(
         path,
         formulation,
         kernels,
+        batches,
         ..Options::default()
     };
     if integrator == Method::Rkam {

@@ -3,7 +3,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches};
-use nboom_scalar::Kernel;
+use nboom_scalar::{Batch, Kernel};
 
 use crate::{Cli, Routines, execute_with, refuse};
 
@@ -13,6 +13,7 @@ pub fn simulator(
     words: impl IntoIterator<Item = OsString>,
     about: &'static str,
     accelerations: &'static [Kernel],
+    right_sides_of_eight: &'static [Batch],
 ) -> ExitCode {
     let mut words: Vec<OsString> = words.into_iter().collect();
     let name = words.first().map(|path| Path::new(path).file_name().unwrap_or(path));
@@ -23,7 +24,11 @@ pub fn simulator(
         words.insert(1, "run".into());
     }
     match command.try_get_matches_from(words).and_then(|found| Cli::from_arg_matches(&found)) {
-        Ok(cli) => execute_with(&cli, &Routines { accelerations, equations: &[], batches: &[] }),
+        Ok(cli) => {
+            let routines =
+                Routines { accelerations, equations: &[], batches: &[], right_sides_of_eight };
+            execute_with(&cli, &routines)
+        }
         Err(error) => refuse(&error),
     }
 }

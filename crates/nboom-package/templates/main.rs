@@ -8,5 +8,5 @@ mod routines;
 const MADE: &str = "/*MADE*/";
 
 fn main() -> ExitCode {
-    nboom_cli::simulator(std::env::args_os(), MADE, routines::kernels())
+    nboom_cli::simulator(std::env::args_os(), MADE, routines::kernels(), routines::batches())
 }

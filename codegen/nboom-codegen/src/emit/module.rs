@@ -13,6 +13,9 @@ use crate::emit::text::formatted;
 use crate::request::{CodegenError, Level, Output, Request, StressRequest};
 use crate::trace::Equations;
 
+/// The most hinges of a right side that is compiled for eight states at once, too.
+const MOST_IN_LANES: usize = 20;
+
 /// Routines that stand together.
 #[derive(Clone, Debug, Default)]
 pub struct Module {
@@ -103,8 +106,8 @@ impl Module {
         hash(text.as_bytes())
     }
 
-    /// Code of a function `kernels` that lists the routines ready to run; equations are left out,
-    /// and there is no function where nothing is left.
+    /// Code of a function `kernels` that lists the routines ready to run, and of a function `batches`;
+    /// equations are left out, and there are no functions where nothing is left.
     fn table(&self) -> Result<TokenStream, CodegenError> {
         let runs = |request: &&Request| request.output != Output::Equations;
         let routines = self.routines.iter().filter(runs).map(|r| (&r.name, &r.scalar_path));
@@ -114,6 +117,12 @@ impl Module {
         let scalar = scalar(name, path)?;
         let count = Literal::usize_unsuffixed(listed.len());
         let names = listed.iter().map(|(name, _)| format_ident!("{name}"));
+        let in_lanes = |request: &&Request| {
+            request.output == Output::RightSide && request.topology.hinges() <= MOST_IN_LANES
+        };
+        let batched = self.routines.iter().filter(in_lanes).map(|r| format_ident!("{}", r.name));
+        let batched: Vec<_> = batched.collect();
+        let batch_count = Literal::usize_unsuffixed(batched.len());
         Ok(quote! {
             /// The routines, ready to run on this processor.
             #[allow(dead_code)]
@@ -121,6 +130,14 @@ impl Module {
                 static ALL: ::std::sync::OnceLock<[#scalar::Kernel; #count]> =
                     ::std::sync::OnceLock::new();
                 ALL.get_or_init(|| [#(#scalar::Kernel::of::<#names>()),*])
+            }
+
+            /// The right sides of few hinges on eight states at once, ready to run on this processor.
+            #[allow(dead_code)]
+            pub fn batches() -> &'static [#scalar::Batch] {
+                static ALL: ::std::sync::OnceLock<[#scalar::Batch; #batch_count]> =
+                    ::std::sync::OnceLock::new();
+                ALL.get_or_init(|| [#(#scalar::Batch::of::<#batched>()),*])
             }
         })
     }
