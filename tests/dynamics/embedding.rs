@@ -67,7 +67,7 @@ fn closed_forms_of_embedded_satellites_give_the_same_accelerations() {
     for seed in 0..RANDOM_SATELLITES {
         let satellite = Satellite::of_moment(&random(seed));
         let recognised = satellite.recognised();
-        let Recognised { topology: inner, parameters, links } = &recognised;
+        let Recognised { topology: inner, parameters, links, .. } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
         let own = flat(&articulated::solve(inner, parameters, &coordinates));
         let dice = &mut Rng::new(seed ^ 0xe1b);
