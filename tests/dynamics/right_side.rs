@@ -19,12 +19,16 @@ const RANDOM_SATELLITES: u64 = 3000;
 const ROUNDING: f64 = 1e-13;
 
 /// A random satellite of chains and paddles with every kind of spring and dashpot, on some of whose
-/// bodies kick-off springs push.
+/// bodies kick-off springs push, its hinges anywhere.
 fn pushed(seed: u64) -> Moment {
     let (of_seed, dice) = (random(seed), &mut Rng::new(seed ^ 0x9a5));
     let mut description = (*of_seed.scene).clone();
     let share = dice.between(0.0, 0.6);
     for body in &mut description.bodies {
+        if body.inboard.is_some() {
+            // Hinges off the segment's axis, some of them along the hinge axis.
+            body.mount.point += dice.vector(0.3);
+        }
         body.hinge.spring.quadratic = dice.between(-1.0, 1.0);
         body.hinge.dashpot.rate_quadratic = dice.between(-0.3, 0.3);
         body.hinge.dashpot.angle_linear = dice.between(-1.0, 0.0);

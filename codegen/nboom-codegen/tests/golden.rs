@@ -3,8 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
-use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, StressRequest, generate, source};
-use nboom_formulation::{Coordinates, Formulation, Layout, Parameters};
+use nboom_codegen::{
+    CodegenError, HINGE_LIMIT, Level, Request, STRAIGHT_LIMIT, StressRequest, generate, source,
+};
+use nboom_formulation::{Coordinates, Formulation, Layout, Parameters, articulated};
 use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
     Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
@@ -16,6 +18,7 @@ use nboom_scalar::{Kernel, Mat3, Routine, Sym3, Vec3};
 mod golden {
     include!("golden/s1.rs");
     include!("golden/four_s3.rs");
+    include!("golden/right_side.rs");
     include!("golden/stresses.rs");
 }
 
@@ -29,6 +32,14 @@ fn four_s3() -> Request {
     Request::new("FourS3", Topology::new([Shape::Chain(3); 4]), Level::Fast)
         .with_external_wrench()
         .with_principal_axes()
+}
+
+/// One boom that a line pushes, with its hinge law and its attitude.
+fn right_side() -> Request {
+    Request::new("RightSideS1", Topology::new([Shape::Chain(1)]), Level::Exact)
+        .with_external_wrench()
+        .for_right_side()
+        .with_lines()
 }
 
 /// A boom of a tube and a triangle on a hub, with a kick-off spring.
@@ -92,6 +103,7 @@ fn is_checked_in(name: &str, found: &str) {
 fn generated_text_is_what_is_checked_in() {
     is_checked_in("s1.rs", &text_of(&s1()));
     is_checked_in("four_s3.rs", &text_of(&four_s3()));
+    is_checked_in("right_side.rs", &text_of(&right_side()));
     is_checked_in("stresses.rs", &stresses().source().expect("sections are right"));
 }
 
@@ -108,13 +120,13 @@ fn small_satellites_are_straight_lines_and_large_ones_loops() {
     assert!(text_of(&four_s3()).contains("for i in (0..3).rev()"));
     let evaluation = generate(&s1()).expect("S1 can be generated").evaluation;
     assert_eq!(evaluation.angles, 1);
-    assert!(evaluation.flops() <= nboom_codegen::STRAIGHT_LIMIT);
+    assert!(evaluation.flops() <= STRAIGHT_LIMIT);
 }
 
 #[test]
 fn what_is_checked_in_is_formatted_as_rustfmt_does() {
     let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = ["s1.rs", "four_s3.rs", "stresses.rs"]
+    let files = ["s1.rs", "four_s3.rs", "right_side.rs", "stresses.rs"]
         .map(|name| crate_root.join("tests/golden").join(name));
     let rustfmt = std::process::Command::new("rustfmt")
         .args(["--check", "--edition", "2024", "--config-path"])
@@ -171,8 +183,7 @@ fn is_the_closed_form<T: Routine>(request: &Request) {
         let (parameters, state) = (parameters::<T>(topology, case), state::<T>(case));
         let satellite = Parameters::read(topology, parameters.iter().copied());
         let coordinates = Coordinates::read(topology, &state);
-        let expected =
-            Formulation::Articulated.solve(topology, &satellite, &coordinates).write(topology);
+        let expected = articulated::solve(topology, &satellite, &coordinates).write(topology);
 
         let (mut constants, mut found) = (vec![0.0; T::CONSTANTS], vec![0.0; T::OUTPUTS]);
         T::prepare(&parameters, &mut constants);
@@ -314,6 +325,12 @@ fn what_a_formulation_cannot_give_is_refused() {
             if topology == "S60" && operations > limit),
         "{dense}"
     );
+    for name in ["S10", "4xS5"] {
+        let expected = CodegenError::Lines { topology: name.to_owned(), limit: STRAIGHT_LIMIT };
+        let right_side = of(name, Formulation::Articulated).for_right_side();
+        assert!(source(&right_side).is_ok());
+        assert_eq!(refusal(&right_side.with_lines()), expected);
+    }
     let long = refusal(&of("S101", Formulation::Symmetric));
     assert!(matches!(long, CodegenError::TooLarge { links: 101, .. }), "{long}");
 }

@@ -62,6 +62,25 @@ pub fn right_sides_of_eight() -> &'static [Batch] {
     of_right_sides::batches()
 }
 
+/// Right sides of the differential equations by `articulated`, without external wrench: those of each
+/// topology of [`all`], and with lines that push the links those of up to four hinges. Of each
+/// topology those for principal axes come first.
+///
+/// ```
+/// use nboom_formulation::RightSideLayout;
+/// let topology = "S2_P".parse()?;
+/// let of_topology = nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == "S2_P");
+/// assert!(of_topology.clone().count() == 4);
+/// for kernel in of_topology {
+///     assert_eq!(kernel.parameters, RightSideLayout::parameters(&topology));
+///     assert_eq!(kernel.coordinates, RightSideLayout::coordinates(&topology));
+/// }
+/// # Ok::<(), nboom_model::TopologyError>(())
+/// ```
+pub fn right_sides() -> &'static [Kernel] {
+    of_right_sides::kernels()
+}
+
 /// Calls a function of a routine's type for each routine that [`batches`] has, and gives the array
 /// of what it returns.
 ///
@@ -82,25 +101,6 @@ macro_rules! for_each_batched {
             $($function)::+::<$crate::Principal20S5>(),
         ]
     };
-}
-
-/// Right sides of the differential equations by `articulated`, without external wrench: those of each
-/// topology of [`all`], and with lines that push the links those of up to four hinges. The more
-/// specialised ones of each topology come first.
-///
-/// ```
-/// use nboom_formulation::RightSideLayout;
-/// let topology = "S2_P".parse()?;
-/// let of_topology = nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == "S2_P");
-/// assert!(of_topology.clone().count() == 4);
-/// for kernel in of_topology {
-///     assert_eq!(kernel.parameters, RightSideLayout::parameters(&topology));
-///     assert_eq!(kernel.coordinates, RightSideLayout::coordinates(&topology));
-/// }
-/// # Ok::<(), nboom_model::TopologyError>(())
-/// ```
-pub fn right_sides() -> &'static [Kernel] {
-    of_right_sides::kernels()
 }
 
 /// Routines on eight states at once, for satellites with principal axes.

@@ -1,10 +1,10 @@
 use nboom_elements::{Elements, HingeLaw, KickOffLaw};
 use nboom_model::{Shape, Topology, WeldedTree};
-use nboom_scalar::{Real, Vec3, Wrench};
+use nboom_scalar::{Mat3, Real, Vec3, Wrench};
 
 use crate::embedding::Embedding;
 use crate::parameters::{Branch, Parameters, Reader};
-use crate::pose::{self, Posed};
+use crate::pose;
 use crate::recognise::Recognised;
 use crate::right_side::RightSideLayout;
 
@@ -16,7 +16,7 @@ pub struct Forces<R> {
     pub laws: Vec<HingeLaw<R>>,
     /// External wrench about O, main-body axes.
     pub external: Wrench<R>,
-    /// The line that pushes the link of each hinge.
+    /// The line that pushes the link of each hinge; empty where nothing pushes any.
     pub lines: Vec<LinkLine<R>>,
 }
 
@@ -64,6 +64,10 @@ impl<R: Real> Forces<R> {
         }
     }
 
+    fn line(&self, hinge: usize) -> LinkLine<R> {
+        self.lines.get(hinge).copied().unwrap_or_else(LinkLine::absent)
+    }
+
     /// Reads what [`write`](Self::write) writes.
     pub fn read(hinges: usize, numbers: impl IntoIterator<Item = R>) -> Self {
         let mut reader = Reader(numbers.into_iter());
@@ -80,7 +84,8 @@ impl<R: Real> Forces<R> {
         let mut numbers: Vec<R> = self.laws.iter().flat_map(HingeLaw::numbers).collect();
         numbers.extend(self.external.moment.to_array());
         numbers.extend(self.external.force.to_array());
-        for LinkLine { point, main_body_point, law } in &self.lines {
+        for hinge in 0..self.laws.len() {
+            let LinkLine { point, main_body_point, law } = self.line(hinge);
             numbers.extend(point.to_array());
             numbers.extend(main_body_point.to_array());
             numbers.extend(law.numbers());
@@ -92,10 +97,8 @@ impl<R: Real> Forces<R> {
     pub fn embedded(&self, embedding: &Embedding) -> Self {
         let mut outer = Self::none(embedding.outer().hinges());
         outer.external = self.external;
-        for (&hinge, (law, line)) in
-            embedding.hinges().iter().zip(self.laws.iter().zip(&self.lines))
-        {
-            (outer.laws[hinge], outer.lines[hinge]) = (*law, *line);
+        for (inner, &hinge) in embedding.hinges().iter().enumerate() {
+            (outer.laws[hinge], outer.lines[hinge]) = (self.laws[inner], self.line(inner));
         }
         outer
     }
@@ -120,9 +123,10 @@ impl<R: Real> Forces<R> {
         for (number, (&shape, branch)) in appendages.enumerate() {
             let hinges = first..first + shape.hinges();
             first = hinges.end;
+            let Some(lines) = self.lines.get(hinges.clone()) else { continue };
             R::remark(|| format!("Appendage {}: torques of the lines that push it.", number + 1));
-            let links = pose::place(shape, branch, &beta[hinges.clone()]);
-            push(branch, &links, &self.lines[hinges.clone()], &mut torques[hinges]);
+            let turns = pose::turns(shape, &beta[hinges.clone()]);
+            push(branch, &turns, lines, &mut torques[hinges]);
         }
         torques
     }
@@ -139,14 +143,24 @@ impl<R: Real> Forces<R> {
 
 /// Adds to the torques about the hinges of an appendage those of the lines that push its links. The
 /// reaction on the main body leaves no resultant.
-fn push<R: Real>(branch: &Branch<R>, links: &[Posed<R>], lines: &[LinkLine<R>], torques: &mut [R]) {
-    for (i, (link, line)) in links.iter().zip(lines).enumerate() {
+fn push<R: Real>(
+    branch: &Branch<R>,
+    turns: &[(Mat3<R>, Vec3<R>)],
+    lines: &[LinkLine<R>],
+    torques: &mut [R],
+) {
+    let mut position = branch.point;
+    let mut inboard = Vec::new();
+    for (((rot, axis), line), link) in turns.iter().zip(lines).zip(&branch.links) {
+        inboard.push((*axis, position));
         let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
-        let end = link.hinge + link.rot * line.point;
+        let end = position + *rot * line.point;
         let force = line.law.push(end - fixed);
-        for (inboard, torque) in links.iter().zip(torques.iter_mut()).take(i + 1) {
-            *torque += inboard.axis.dot((end - inboard.hinge).cross(force));
+        for ((axis, position), torque) in inboard.iter().zip(torques.iter_mut()) {
+            *torque += axis.dot((end - *position).cross(force));
         }
+        let [ly, lz] = link.next;
+        position += *rot * Vec3::new(R::zero(), ly, lz);
     }
 }
 

@@ -70,8 +70,8 @@ impl Request {
         request
     }
 
-    /// Lines push, the force of each by coefficients at run time, so that the code is for modes in which
-    /// some have let go; where no line is, that is built in with all other numbers.
+    /// Lines push, with numbers at run time, so that the code is for modes in which some have let go, too;
+    /// where there is none, that is built in with all other numbers.
     fn pushed(&self, case: &[f64]) -> Self {
         let name = format!("Pushed{}", self.name);
         if self.is_general() {
@@ -80,9 +80,8 @@ impl Request {
         let mut request = Self { name, ..self.right_side(&[case.to_vec()]) };
         for hinge in 0..self.topology.hinges() {
             let coefficients = RightSideLayout::coefficients(&self.topology, hinge);
-            let of_line = &mut request.assumptions[coefficients];
-            if of_line.iter().any(|assumed| *assumed != Some(0.0)) {
-                of_line.fill(None);
+            if request.assumptions[coefficients].iter().any(|assumed| *assumed != Some(0.0)) {
+                request.assumptions[RightSideLayout::line(&self.topology, hinge)].fill(None);
             }
         }
         request

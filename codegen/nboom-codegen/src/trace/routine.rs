@@ -32,7 +32,10 @@ pub fn trace(request: &Request) -> Graph {
                 matrix
             }
             Output::RightSide => {
-                let forces = Forces::read(topology.hinges(), of_forces.iter().copied());
+                let mut forces = Forces::read(topology.hinges(), of_forces.iter().copied());
+                if !request.has_lines() {
+                    forces.lines.clear();
+                }
                 right_side(*formulation, topology, &satellite, &forces, state)
             }
         }
