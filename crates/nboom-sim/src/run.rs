@@ -172,22 +172,17 @@ impl<'a> Run<'a> {
                 self.stepper.prepare_dense(&mut *self.equations);
             }
             let change = guards.first_change(self.equations, &*self.stepper);
-            if let Some((kind, fraction)) = change {
-                let full = self.stepper.window().length();
-                self.locate(kind, fraction * full, full);
-                self.sample_within(full, self.stepper.window().end_time)?;
-                self.tell_step(full)?;
-                self.accept();
-                return Ok(Some(kind));
-            }
             let full = self.stepper.window().length();
+            if let Some((kind, fraction)) = change {
+                self.locate(kind, fraction * full, full);
+            }
             self.sample_within(full, self.stepper.window().end_time)?;
             self.tell_step(full)?;
             self.accept();
             let Situation { state, guards, .. } = &mut self.situation;
             guards.settle(&mut self.equations.entered.dynamics, state);
-            if state.time >= limit {
-                return Ok(None);
+            if change.is_some() || state.time >= limit {
+                return Ok(change.map(|(kind, _)| kind));
             }
         }
     }

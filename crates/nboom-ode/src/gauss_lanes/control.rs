@@ -41,7 +41,7 @@ pub(super) enum Progress {
 impl Iteration {
     pub fn new(relative: f64) -> Self {
         let rounding = 100.0 * f64::EPSILON / relative.max(f64::EPSILON);
-        Self { count: 0, contraction: 1.0, step: 1.0, last_change: f64::INFINITY, rounding }
+        Self { count: 0, contraction: 1.0, step: 0.0, last_change: f64::INFINITY, rounding }
     }
 
     /// A new step begins; the contraction is in proportion to its length.
