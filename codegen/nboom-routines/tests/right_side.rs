@@ -8,7 +8,7 @@ use nboom_formulation::{
 use nboom_model::Topology;
 use nboom_scalar::{Batch, Eight, InstructionSet, Kernel, Routine};
 
-use support::Numbers;
+use support::Rng;
 
 mod support;
 
@@ -40,23 +40,23 @@ struct Case {
 
 impl Case {
     /// One that has what is assumed; lines push some of its links where nothing is assumed of them.
-    fn random(topology: &str, assumptions: &[(usize, f64)], numbers: &mut Numbers) -> Self {
+    fn random(topology: &str, assumptions: &[(usize, f64)], numbers: &mut Rng) -> Self {
         let topology: Topology = topology.parse().expect("a topology's name");
         let mut parameters = support::parameters(&topology, &[], numbers);
         let mut forces = Forces::none(topology.hinges());
         for line in forces.lines.iter_mut().step_by(2) {
             line.law = nboom_elements::KickOffLaw::of_numbers([0.5, -0.2, 0.1, 0.02]);
             line.point = nboom_scalar::Vec3::new(0.3, 0.5, -0.2);
-            line.main_body_point = nboom_scalar::Vec3::new(numbers.within(-1.0, 1.0), 0.2, 0.1);
+            line.main_body_point = nboom_scalar::Vec3::new(numbers.between(-1.0, 1.0), 0.2, 0.1);
         }
         let of_lines = RightSideLayout::external(&topology).end;
-        parameters.resize_with(of_lines, || numbers.within(-1.0, 1.0));
+        parameters.resize_with(of_lines, || numbers.between(-1.0, 1.0));
         let all = forces.write();
         let start = all.len() - RightSideLayout::LINE * topology.hinges();
         parameters.extend(&all[start..]);
         assumptions.iter().for_each(|&(i, value)| parameters[i] = value);
         let count = RightSideLayout::coordinates(&topology);
-        let y = (0..count).map(|_| numbers.within(-2.0, 2.0)).collect();
+        let y = (0..count).map(|_| numbers.between(-2.0, 2.0)).collect();
         Self { topology, parameters, y }
     }
 
@@ -95,7 +95,7 @@ fn assert_near(found: &[f64], expected: &[f64], told: &str) {
 }
 
 fn is_the_right_side<T: Routine>() {
-    let mut numbers = Numbers(1970);
+    let mut numbers = Rng::new(1970);
     assert_eq!(T::RESULT, "right_side");
     for number in 0..100 {
         let case = Case::random(T::TOPOLOGY, T::ASSUMPTIONS, &mut numbers);
@@ -125,7 +125,7 @@ fn what_is_assumed_of_one_hinge_is_not_of_the_others() {
 }
 
 fn never_reads_assumptions<T: Routine>() {
-    let case = Case::random(T::TOPOLOGY, T::ASSUMPTIONS, &mut Numbers(3));
+    let case = Case::random(T::TOPOLOGY, T::ASSUMPTIONS, &mut Rng::new(3));
     let expected = evaluated::<T>(&case.parameters, &case.y);
     assert!(expected.iter().all(|number| number.is_finite()));
     let mut parameters = case.parameters;
@@ -140,7 +140,7 @@ fn what_a_routine_assumes_is_never_read() {
 }
 
 fn each_lane_is_a_state<T: Routine>() {
-    let mut numbers = Numbers(8);
+    let mut numbers = Rng::new(8);
     let cases: [Case; 8] =
         std::array::from_fn(|_| Case::random(T::TOPOLOGY, T::ASSUMPTIONS, &mut numbers));
     let side_by_side = |of: fn(&Case) -> &[f64]| -> Vec<Eight> {
@@ -175,7 +175,7 @@ fn stock_right_sides_agree_with_the_equations_in_this_processors_code() {
     let of_accelerations = nboom_routines::all().iter().map(|kernel| kernel.topology).collect();
     assert_eq!(topologies, of_accelerations);
     for kernel in stock {
-        let mut numbers = Numbers(11);
+        let mut numbers = Rng::new(11);
         for _ in 0..20 {
             let case = Case::random(kernel.topology, kernel.assumptions, &mut numbers);
             let expected = case.expected(kernel.formulation);
@@ -187,7 +187,7 @@ fn stock_right_sides_agree_with_the_equations_in_this_processors_code() {
 #[test]
 fn a_link_that_no_line_pushes_is_not_divided_by() {
     for kernel in nboom_routines::right_sides() {
-        let mut case = Case::random(kernel.topology, kernel.assumptions, &mut Numbers(5));
+        let mut case = Case::random(kernel.topology, kernel.assumptions, &mut Rng::new(5));
         let hinges = case.topology.hinges();
         // Hinges at O: an end there would have no distance from the other one.
         for branch in 0..case.topology.shapes().len() {
