@@ -34,7 +34,7 @@ pub(crate) enum Equations {
     /// Whole, for one straight line.
     Straight(Split),
     /// Step by step, for loops over links and equal appendages.
-    Rolled(Rolled),
+    Rolled(Box<Rolled>),
 }
 
 impl Equations {
@@ -61,7 +61,7 @@ impl Equations {
         let straight = (request.topology.hinges() <= STRAIGHT_HINGES && !side_by_side)
             .then(straight)
             .filter(is_short);
-        Ok(straight.map_or_else(|| Self::Rolled(Rolled::of(request)), Self::Straight))
+        Ok(straight.map_or_else(|| Self::Rolled(Box::new(Rolled::of(request))), Self::Straight))
     }
 }
 

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use nboom_codegen::{
     CodegenError, HINGE_LIMIT, Level, Request, STRAIGHT_LIMIT, StressRequest, generate, source,
 };
-use nboom_formulation::{Coordinates, Formulation, Layout, Parameters, articulated};
+use nboom_formulation::{
+    Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout, articulated,
+};
 use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
     Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
@@ -210,6 +212,30 @@ fn near(found: &[f64], expected: &[f64], case: usize) {
 fn what_is_checked_in_computes_the_closed_form() {
     is_the_closed_form::<golden::S1>(&s1());
     is_the_closed_form::<golden::FourS3>(&four_s3());
+}
+
+#[test]
+fn a_checked_in_right_side_is_that_of_the_equations() {
+    type T = golden::RightSideS1;
+    let topology = right_side().topology;
+    let kernel = Kernel::of::<T>();
+    for case in 0..50 {
+        let satellite = parameters::<T>(&topology, case);
+        let of_forces = RightSideLayout::parameters(&topology) - satellite.len();
+        let forces: Vec<f64> = (0..of_forces).map(|i| 0.3 + 0.1 * i as f64).collect();
+        let (all, y) = ([&satellite[..], &forces].concat(), state::<T>(case));
+        let satellite = Parameters::read(&topology, satellite);
+        let forces = Forces::read(topology.hinges(), forces);
+        let form = Formulation::Articulated;
+        let expected = nboom_formulation::right_side(form, &topology, &satellite, &forces, &y);
+        let (mut constants, mut found) = (vec![0.0; T::CONSTANTS], vec![0.0; T::OUTPUTS]);
+        assert!(kernel.accepts(&all));
+        T::prepare(&all, &mut constants);
+        T::evaluate(&constants, &y, &mut found);
+        assert_eq!(found, expected, "case {case}");
+        kernel.evaluate(&constants, &y, &mut found);
+        near(&found, &expected, case);
+    }
 }
 
 #[test]

@@ -120,7 +120,7 @@ fn owners(topology: &Topology) -> Vec<(String, &'static [&'static str])> {
     owners
 }
 
-/// The same of [`Forces`](nboom_formulation::Forces).
+/// Whose the numbers of [`Forces`](nboom_formulation::Forces) are, and what theirs are called.
 fn owners_of_forces(topology: &Topology) -> Vec<(String, &'static [&'static str])> {
     let shapes = topology.shapes().iter().enumerate();
     let hinges: Vec<String> = shapes
