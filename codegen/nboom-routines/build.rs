@@ -40,7 +40,8 @@ fn main() {
     let files = [
         ("stock.rs", accelerations()),
         ("equations.rs", equations()),
-        ("right_sides.rs", right_sides()),
+        ("right_sides_in_lanes.rs", right_sides(true)),
+        ("right_sides.rs", right_sides(false)),
         ("exact.rs", exact()),
         ("exact_right_sides.rs", exact_right_sides()),
     ];
@@ -71,24 +72,30 @@ fn equations() -> Vec<Request> {
     with_equations(|formulation| s2_p("Equations", Level::Fast, formulation).for_equations())
 }
 
-/// The most hinges of a topology that has right sides with lines.
-const PUSHED_HINGES: usize = 4;
+/// The most hinges of a topology that has right sides with lines, and on eight states at once.
+const FEW_HINGES: usize = 4;
 
-/// Right sides for each topology of the stock, without external wrench; those of few hinges once more
-/// with lines that push the links.
-fn right_sides() -> Vec<Request> {
+/// The most hinges of a topology that has right sides: beyond that accelerations are nearly all of one.
+const MOST_HINGES: usize = 20;
+
+/// Right sides for topologies of the stock, without external wrench; those of few hinges once more
+/// with lines that push the links. Those that are also for eight states at once are `in_lanes`: of few
+/// hinges, for principal axes, without lines.
+fn right_sides(in_lanes: bool) -> Vec<Request> {
     let mut requests = Vec::new();
-    for shapes in stock() {
-        let topology = Topology::new(shapes);
+    let topologies = stock().into_iter().map(Topology::new);
+    for topology in topologies.filter(|topology| topology.hinges() <= MOST_HINGES) {
+        let is_small = (1..=FEW_HINGES).contains(&topology.hinges());
         for principal in [true, false] {
             let name = name(&topology, principal);
             let request = Request::new(&name, topology.clone(), Level::Fast).for_right_side();
             let request = if principal { request.with_principal_axes() } else { request };
-            let pushed = (1..=PUSHED_HINGES).contains(&topology.hinges()).then(|| {
+            let pushed = (is_small && !in_lanes).then(|| {
                 let name = format!("Pushed{name}");
                 Request { name, ..request.clone() }.with_lines()
             });
-            requests.extend([request].into_iter().chain(pushed));
+            let wanted = Some(request).filter(|_| in_lanes == (is_small && principal));
+            requests.extend(wanted.into_iter().chain(pushed));
         }
     }
     requests

@@ -25,6 +25,10 @@ mod of_right_sides {
     include!(concat!(env!("OUT_DIR"), "/right_sides.rs"));
 }
 
+mod of_right_sides_in_lanes {
+    include!(concat!(env!("OUT_DIR"), "/right_sides_in_lanes.rs"));
+}
+
 pub use stock::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
 
 /// The stock routines for accelerations: those of `articulated`, the more specialised one of each
@@ -57,14 +61,14 @@ pub fn for_runs() -> &'static [Kernel] {
     FOR_RUNS.get_or_init(|| [all(), right_sides()].concat())
 }
 
-/// The [`right_sides`] of up to twenty hinges on eight states at once.
+/// Those of [`right_sides`] that are compiled for eight states at once, too: of one to four hinges, for
+/// principal axes, without lines.
 pub fn right_sides_of_eight() -> &'static [Batch] {
-    of_right_sides::batches()
+    of_right_sides_in_lanes::batches()
 }
 
 /// Right sides of the differential equations by `articulated`, without external wrench: those of each
-/// topology of [`all`], and with lines that push the links those of up to four hinges. Of each
-/// topology those for principal axes come first.
+/// topology of [`all`] with up to twenty hinges, and with lines that push the links those of up to four.
 ///
 /// ```
 /// use nboom_formulation::RightSideLayout;
@@ -78,7 +82,9 @@ pub fn right_sides_of_eight() -> &'static [Batch] {
 /// # Ok::<(), nboom_model::TopologyError>(())
 /// ```
 pub fn right_sides() -> &'static [Kernel] {
-    of_right_sides::kernels()
+    static RIGHT_SIDES: OnceLock<Vec<Kernel>> = OnceLock::new();
+    let (of_few, others) = (of_right_sides_in_lanes::kernels, of_right_sides::kernels);
+    RIGHT_SIDES.get_or_init(|| [of_few(), others()].concat())
 }
 
 /// Calls a function of a routine's type for each routine that [`batches`] has, and gives the array
