@@ -11,7 +11,6 @@ mod coefficients;
 mod collocation;
 mod iteration_matrix;
 mod newton;
-mod shifted;
 
 pub(crate) use coefficients::DESCRIPTION;
 
@@ -250,7 +249,7 @@ impl Radau {
         for (e, z) in self.error.iter_mut().zip(&self.stages.z) {
             *e = step * *e + ERROR[0] * z[0] + ERROR[1] * z[1] + ERROR[2] * z[2];
         }
-        self.matrix.solve_real(&mut self.error);
+        self.matrix.real.solve(&mut self.error);
         let norm = self.norm(|i| self.error[i]);
         if norm.is_nan() { f64::INFINITY } else { norm.max(SMALLEST_ERROR) }
     }
@@ -272,7 +271,7 @@ impl Stepper for Radau {
         let size = y.len();
         self.controlled = controlled;
         self.window.start(system, t, y);
-        self.matrix.resize(system, size);
+        self.matrix.resize(size);
         self.stages.resize(size);
         for (buffer, len) in
             [(&mut self.slope, size), (&mut self.error, size), (&mut self.scales, controlled)]

@@ -147,8 +147,8 @@ impl Stages {
             self.of_real[i] = step * f[0] - REAL * w[0];
             self.of_complex[i] = step * c64::new(f[1], f[2]) - COMPLEX * c64::new(w[1], w[2]);
         }
-        matrix.solve_real(&mut self.of_real);
-        matrix.solve_complex(&mut self.of_complex);
+        matrix.real.solve(&mut self.of_real);
+        matrix.complex.solve(&mut self.of_complex);
         let corrections = self.of_real.iter().zip(&self.of_complex).zip(scales);
         let square =
             |((a, b), scale): ((&f64, &c64), &f64)| (a * a + b.norm_sqr()) / (scale * scale);
