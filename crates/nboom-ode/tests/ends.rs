@@ -83,7 +83,7 @@ fn a_restart_goes_on_with_the_step_it_had_or_finds_one() {
         let window = stepper.window();
         assert_eq!((window.time, &window.state), (5.0, &vec![5.0_f64.sin(), 5.0_f64.cos()]));
         if method == Method::Dop853 {
-            assert_eq!(window.next_step, had);
+            assert!(0.5 * had < window.next_step && window.next_step <= had);
             assert_eq!(window.counts.evaluations, counted.evaluations + 1);
         }
         while stepper.window().time < 10.0 {
