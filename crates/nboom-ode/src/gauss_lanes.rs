@@ -42,7 +42,7 @@ pub(crate) const DESCRIPTION: Description = Description {
 /// [`Role`]: crate::Role
 #[derive(Clone, Debug)]
 pub struct GaussLanes {
-    collocation: Collocation,
+    collocation: &'static Collocation,
     tolerance: Tolerance,
     controlled: usize,
     window: Window,
@@ -77,9 +77,9 @@ const TOO_FAR: f64 = 4.0;
 impl GaussLanes {
     /// The method with this tolerance.
     pub fn new(tolerance: Tolerance) -> Self {
-        let collocation = Collocation::new();
+        let collocation = Collocation::of_eight_stages();
         Self {
-            dense: Dense::new(&collocation),
+            dense: Dense::new(collocation),
             collocation,
             tolerance,
             controlled: 0,
@@ -126,7 +126,7 @@ impl GaussLanes {
         let Curve { length, from } = self.curve;
         let ratio = step / length;
         if ratio.abs() < TOO_FAR {
-            self.stages.predict(&self.known, from, ratio, &self.collocation);
+            self.stages.predict(&self.known, from, ratio, self.collocation);
             return;
         }
         let start = self.ends.start(system, &mut self.window);

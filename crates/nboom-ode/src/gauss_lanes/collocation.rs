@@ -1,3 +1,5 @@
+use std::sync::OnceLock;
+
 use nboom_scalar::Eight;
 
 use crate::gauss::coefficients::{Coefficients, STAGES};
@@ -21,7 +23,13 @@ pub(super) struct Collocation {
 }
 
 impl Collocation {
-    pub fn new() -> Self {
+    /// The only one there is, computed once.
+    pub fn of_eight_stages() -> &'static Self {
+        static OF_EIGHT_STAGES: OnceLock<Collocation> = OnceLock::new();
+        OF_EIGHT_STAGES.get_or_init(Self::new)
+    }
+
+    fn new() -> Self {
         let Coefficients { nodes, weights, couplings, spectrum, .. } = Coefficients::new();
         let columns = |of: &dyn Fn(usize, usize) -> f64| -> Columns<STAGES> {
             std::array::from_fn(|j| Eight(std::array::from_fn(|i| weights[j] * of(i, j))))

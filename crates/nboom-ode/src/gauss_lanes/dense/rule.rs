@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn lobattos_conditions_hold() {
-        let rule = Rule::new(&Collocation::new());
+        let rule = Rule::new(Collocation::of_eight_stages());
         let mut nodes = [0.0, 1.0, 0.5].to_vec();
         let mut weights = [0, NODES - 1, MIDDLE].map(|i| rule.weights[i]).to_vec();
         nodes.extend(rule.nodes.0);
@@ -144,8 +144,8 @@ mod tests {
 
     #[test]
     fn a_polynomial_through_what_is_known_is_found_again() {
-        let collocation = Collocation::new();
-        let rule = Rule::new(&collocation);
+        let collocation = Collocation::of_eight_stages();
+        let rule = Rule::new(collocation);
         let stages = collocation.times(0.0, 1.0).0;
         for degree in 0..KNOWN {
             let power = degree as i32;
