@@ -24,7 +24,7 @@ fn errors() -> Vec<([f64; 5], f64)> {
         let moment = random(seed);
         let satellite = Satellite::of_moment(&moment);
         let recognised = satellite.recognised();
-        let Recognised { topology, parameters, links } = &recognised;
+        let Recognised { topology, parameters, links, .. } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
         let exact = exact(&moment, links);
         let errors = Formulation::ALL.map(|formulation| {
@@ -95,7 +95,7 @@ fn errors_away_from_the_origin(faster: f64) -> Vec<f64> {
         moment.tau.iter_mut().for_each(|tau| *tau *= faster);
         let satellite = Satellite::of_moment(&moment);
         let recognised = satellite.recognised();
-        let Recognised { topology, parameters, links } = &recognised;
+        let Recognised { topology, parameters, links, .. } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
         let exact = exact(&moment, links);
         let articulated = Formulation::Articulated.solve(topology, parameters, &coordinates);

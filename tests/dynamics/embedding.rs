@@ -67,7 +67,7 @@ fn closed_forms_of_embedded_satellites_give_the_same_accelerations() {
     for seed in 0..RANDOM_SATELLITES {
         let satellite = Satellite::of_moment(&random(seed));
         let recognised = satellite.recognised();
-        let Recognised { topology: inner, parameters, links } = &recognised;
+        let Recognised { topology: inner, parameters, links, .. } = &recognised;
         let coordinates = satellite.coordinates_of(&recognised);
         let own = flat(&articulated::solve(inner, parameters, &coordinates));
         let dice = &mut Rng::new(seed ^ 0xe1b);
@@ -230,7 +230,7 @@ fn the_choice_is_what_is_probably_fastest() {
         let numbers = (0..Layout::parameters(&topology)).map(|i| 1.0 + i as f64);
         let parameters = Parameters::read(&topology, numbers);
         let links = (0..topology.hinges()).collect();
-        let recognised = Recognised { topology, parameters, links };
+        let recognised = Recognised { topology, parameters, links, frames: Vec::new() };
         for options in [&stock, &reversed] {
             let found =
                 Repertoire::new(options).best(&recognised, true).map(|fit| fit.kernel.topology);
@@ -244,7 +244,7 @@ fn only_articulated_is_embedded() {
     let topology: Topology = "S1_P".parse().expect("a topology");
     let numbers = (0..Layout::parameters(&topology)).map(|i| 1.0 + i as f64);
     let parameters = Parameters::read(&topology, numbers);
-    let recognised = Recognised { topology, parameters, links: vec![0, 1, 2] };
+    let recognised = Recognised { topology, parameters, links: vec![0, 1, 2], frames: Vec::new() };
     for &kernel in nboom_routines::all().iter().filter(|kernel| kernel.topology == "S2_P") {
         let found = Repertoire::new(&choosing_from([kernel].into_iter())).best(&recognised, true);
         let may = kernel.formulation == "articulated" && kernel.assumptions.is_empty();

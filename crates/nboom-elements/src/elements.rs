@@ -85,6 +85,11 @@ impl<R: Real> HingeTorque<R> {
         self.table.as_ref().map_or(torque, |table| torque + table.torque(beta))
     }
 
+    /// The law of spring and dashpot, where they are all that acts about the hinge.
+    pub fn law(&self) -> Option<&HingeLaw<R>> {
+        self.table.is_none().then_some(&self.law)
+    }
+
     /// The part of the torque that depends on the rate, and does work no potential accounts for.
     #[inline]
     pub fn rate_torque(&self, tau: R) -> R {
@@ -171,6 +176,11 @@ impl<R: Real> Elements<R> {
         for moment in &self.withheld {
             torques[moment.link] -= moment.torque(links);
         }
+    }
+
+    /// Whether some line does not transmit all of its moment.
+    pub fn withholds(&self) -> bool {
+        !self.withheld.is_empty()
     }
 
     /// Power of the parts of the torques about the hinges `free` that depend on their rates `tau`.

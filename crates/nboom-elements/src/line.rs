@@ -95,9 +95,13 @@ impl<R: Real> Line<R> {
     /// The end on the body from O, and the force on it while it acts; main-body axes.
     #[inline]
     pub fn end_and_force<P: Placed<R>>(&self, links: &[P]) -> (Vec3<R>, Vec3<R>) {
-        let (end, along) = self.end_and_span(links);
-        let length = along.norm();
-        (end, along * (self.law.force(length) / length))
+        let (end, span) = self.end_and_span(links);
+        (end, self.law.push(span))
+    }
+
+    /// The force by the line's length, while it acts.
+    pub fn law(&self) -> &KickOffLaw<R> {
+        &self.law
     }
 }
 

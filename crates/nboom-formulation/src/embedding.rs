@@ -25,6 +25,8 @@ pub struct Embedding {
     outer: Topology,
     /// For each inner appendage, the outer one.
     branches: Vec<usize>,
+    /// For each inner hinge, the outer one.
+    hinges: Vec<usize>,
     /// For each inner hinge, its place among the outer hinges.
     places: Vec<usize>,
 }
@@ -45,17 +47,24 @@ impl Embedding {
         let branches = inner.shapes().iter().map(&mut take).collect::<Option<Vec<usize>>>()?;
         let outer_places = Layout::places(outer);
         let firsts = first_hinges(outer);
-        let place = |(&branch, shape): (&usize, &Shape)| {
+        let of_branch = |(&branch, shape): (&usize, &Shape)| {
             let first = firsts[branch];
-            outer_places[first..first + shape.hinges()].to_vec()
+            first..first + shape.hinges()
         };
-        let places = branches.iter().zip(inner.shapes()).flat_map(place).collect();
-        Some(Self { outer: outer.clone(), branches, places })
+        let hinges: Vec<usize> = branches.iter().zip(inner.shapes()).flat_map(of_branch).collect();
+        let places = hinges.iter().map(|&hinge| outer_places[hinge]).collect();
+        Some(Self { outer: outer.clone(), branches, hinges, places })
     }
 
     /// The outer topology.
     pub fn outer(&self) -> &Topology {
         &self.outer
+    }
+
+    /// For each inner hinge, in the order of the inner topology, the outer one, in the order of the
+    /// outer topology.
+    pub fn hinges(&self) -> &[usize] {
+        &self.hinges
     }
 
     /// For each inner hinge, in the order of the inner topology, its place among the outer hinges

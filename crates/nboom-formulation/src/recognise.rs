@@ -13,6 +13,31 @@ pub struct Recognised {
     pub parameters: Parameters<f64>,
     /// For each hinge in the topology's order, its link in the tree.
     pub links: Vec<usize>,
+    /// For each hinge in the topology's order, the frame in which its link's constants are written.
+    pub frames: Vec<LinkFrame>,
+}
+
+/// The frame of a link of a chain or paddle, ê₁ along the first hinge of the appendage, as it stands in
+/// the link's axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkFrame {
+    /// Turns components along the frame into link components.
+    rot: Mat3<f64>,
+    /// The link's hinge point on ê₁, from the frame's origin.
+    along: f64,
+}
+
+impl LinkFrame {
+    /// A point of the link, given from its hinge in link axes, from the frame's origin along the frame.
+    pub fn point(&self, from_hinge: Vec3<f64>) -> Vec3<f64> {
+        self.rot.transpose_mul(from_hinge) + Vec3::unit_x() * self.along
+    }
+
+    /// Constants of a link along the frame, without the way to the next hinge.
+    fn constants(&self, inertia: &RigidInertia<f64>) -> ChainLink<f64> {
+        let turned = inertia.rotated(&self.rot.transpose());
+        ChainLink { inertia: turned.seen_from(Vec3::unit_x() * self.along), next: [0.0; 2] }
+    }
 }
 
 /// Departure from parallel or square axes that is taken for rounding.
@@ -25,21 +50,29 @@ const SAME_AXIS: f64 = 1e-12;
 /// on the same inboard link, or one whose axis is neither that of a chain nor that of a paddle.
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
     rigid(tree)?;
-    let mut appendages: Vec<(Shape, Branch<f64>, Vec<usize>)> = Vec::new();
+    let mut appendages: Vec<Appendage> = Vec::new();
     for root in (0..tree.links.len()).filter(|&j| tree.links[j].inboard.is_none()) {
         appendages.push(appendage(tree, root)?);
     }
-    let topology = Topology::new(appendages.iter().map(|(shape, ..)| *shape));
+    let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape));
     let mut parameters = Parameters { main: tree.main, branches: Vec::new() };
-    let mut links = Vec::new();
+    let (mut links, mut frames) = (Vec::new(), Vec::new());
     for shape in topology.shapes() {
-        let next = appendages.iter().position(|(other, ..)| other == shape);
-        let (_, branch, of_branch) =
-            appendages.remove(next.expect("the topology holds the same shapes"));
-        parameters.branches.push(branch);
-        links.extend(of_branch);
+        let next = appendages.iter().position(|other| other.shape == *shape);
+        let appendage = appendages.remove(next.expect("the topology holds the same shapes"));
+        parameters.branches.push(appendage.branch);
+        links.extend(appendage.links);
+        frames.extend(appendage.frames);
     }
-    Ok(Recognised { topology, parameters, links })
+    Ok(Recognised { topology, parameters, links, frames })
+}
+
+/// A chain or a paddle of the tree, links inboard before outboard.
+struct Appendage {
+    shape: Shape,
+    branch: Branch<f64>,
+    links: Vec<usize>,
+    frames: Vec<LinkFrame>,
 }
 
 /// Whether every link is rigid.
@@ -50,77 +83,75 @@ pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), usize> {
     tree.turned.first().map_or(Ok(()), |&(link, _)| Err(link))
 }
 
-/// One appendage: its shape, constants and links.
-fn appendage(
-    tree: &WeldedTree<f64>,
-    root: usize,
-) -> Result<(Shape, Branch<f64>, Vec<usize>), usize> {
+/// The appendage that begins with the link `root`.
+fn appendage(tree: &WeldedTree<f64>, root: usize) -> Result<Appendage, usize> {
     let links = path_outward(tree, root)?;
     let of = |j: usize| &tree.links[j];
     match links[..] {
         [arm, paddle] if axis_along(of(paddle)).dot(of(arm).axis).abs() < SAME_AXIS => {
-            Ok((Shape::Paddle, paddle_branch(of(arm), of(paddle)), links))
+            let (branch, frames) = paddle_branch(of(arm), of(paddle));
+            Ok(Appendage { shape: Shape::Paddle, branch, links, frames: frames.to_vec() })
         }
         _ => {
-            let branch = chain_branch(tree, &links)?;
-            Ok((Shape::Chain(links.len()), branch, links))
+            let (branch, frames) = chain_branch(tree, &links)?;
+            Ok(Appendage { shape: Shape::Chain(links.len()), branch, links, frames })
         }
     }
 }
 
 /// Link frames are chosen so that all coincide at hinge angles zero, and origins so that all
 /// lie in one plane square to the hinges.
-fn chain_branch(tree: &WeldedTree<f64>, links: &[usize]) -> Result<Branch<f64>, usize> {
+fn chain_branch(
+    tree: &WeldedTree<f64>,
+    links: &[usize],
+) -> Result<(Branch<f64>, Vec<LinkFrame>), usize> {
     let first = &tree.links[links[0]];
-    let mut frame = frame_of(first.axis, square_to(first.axis));
-    let rot = first.rot_inboard_at_zero * frame;
+    let mut frame = LinkFrame { rot: frame_of(first.axis, square_to(first.axis)), along: 0.0 };
+    let mut frames = vec![frame];
+    let rot = first.rot_inboard_at_zero * frame.rot;
     let mut branch = Branch {
         rot_body_from_appendage: rot,
         point: rot.transpose_mul(first.point),
-        links: vec![constants(&first.inertia, &frame, 0.0)],
+        links: vec![frame.constants(&first.inertia)],
     };
-    let mut slid = 0.0;
     for pair in links.windows(2) {
         let (inboard, link) = (&tree.links[pair[0]], &tree.links[pair[1]]);
         if (axis_along(link) - inboard.axis).norm() > SAME_AXIS {
             return Err(pair[1]);
         }
-        let next = frame.transpose_mul(link.point);
-        slid += next.x;
+        let next = frame.rot.transpose_mul(link.point);
+        frame.along += next.x;
         if let Some(last) = branch.links.last_mut() {
             last.next = [next.y, next.z];
         }
-        frame = link.rot_inboard_at_zero.transpose() * frame;
-        branch.links.push(constants(&link.inertia, &frame, slid));
+        frame.rot = link.rot_inboard_at_zero.transpose() * frame.rot;
+        branch.links.push(frame.constants(&link.inertia));
+        frames.push(frame);
     }
-    Ok(branch)
+    Ok((branch, frames))
 }
 
 /// The arm's second axis is along the paddle's hinge; the arm's origin lies square to it.
-fn paddle_branch(arm: &Link<f64>, paddle: &Link<f64>) -> Branch<f64> {
+fn paddle_branch(arm: &Link<f64>, paddle: &Link<f64>) -> (Branch<f64>, [LinkFrame; 2]) {
     let frame = frame_of(arm.axis, axis_along(paddle));
     let rot = arm.rot_inboard_at_zero * frame;
     let next = frame.transpose_mul(paddle.point);
-    let mut of_arm = constants(&arm.inertia, &frame, -next.x);
-    of_arm.next = [next.y, next.z];
     let of_paddle = paddle.rot_inboard_at_zero.transpose() * frame;
-    Branch {
+    let frames =
+        [LinkFrame { rot: frame, along: -next.x }, LinkFrame { rot: of_paddle, along: 0.0 }];
+    let mut of_arm = frames[0].constants(&arm.inertia);
+    of_arm.next = [next.y, next.z];
+    let branch = Branch {
         rot_body_from_appendage: rot,
         point: rot.transpose_mul(arm.point) + Vec3::unit_x() * next.x,
-        links: vec![of_arm, constants(&paddle.inertia, &of_paddle, 0.0)],
-    }
+        links: vec![of_arm, frames[1].constants(&paddle.inertia)],
+    };
+    (branch, frames)
 }
 
 /// The hinge axis of a link, inboard link's axes.
 fn axis_along(link: &Link<f64>) -> Vec3<f64> {
     link.rot_inboard_at_zero * link.axis
-}
-
-/// Constants in the frame whose axes are the columns of `frame`, about an origin from which
-/// the old one is seen at `along` on the hinge axis.
-fn constants(inertia: &RigidInertia<f64>, frame: &Mat3<f64>, along: f64) -> ChainLink<f64> {
-    let turned = inertia.rotated(&frame.transpose());
-    ChainLink { inertia: turned.seen_from(Vec3::unit_x() * along), next: [0.0; 2] }
 }
 
 /// Columns: `first`, `second`, and the axis that completes a right-handed triad.

@@ -93,7 +93,7 @@ impl<'a> ComparedCode<'a> {
                 [&found[3..6], &found[..3], &found[6..]].concat()
             }
             Self::ClosedForm { formulation, recognised, states } => {
-                let Recognised { topology, parameters, links } = recognised;
+                let Recognised { topology, parameters, links, .. } = recognised;
                 let found = formulation.solve(topology, parameters, &states[i]);
                 flat(found.main, &found.tau_dot, links.iter().copied())
             }

@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-12;
 
 fn main() -> Result<(), String> {
     let mut recursion = Recursive::new(&satellite());
-    let Recognised { topology, parameters, links } =
+    let Recognised { topology, parameters, links, .. } =
         recognise(recursion.tree()).map_err(|_| "a chain and a paddle expected")?;
     let parameters = parameters.write();
     let states: Vec<State> = (0..8).map(State::new).collect();

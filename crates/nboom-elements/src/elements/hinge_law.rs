@@ -31,6 +31,16 @@ impl<R: Real> HingeLaw<R> {
         }
     }
 
+    /// The law with numbers q₁, q₂, A₂, A₁, A₀.
+    pub fn of_numbers([q1, q2, a2, a1, a0]: [R; 5]) -> Self {
+        Self { q1, q2, a2, a1, a0 }
+    }
+
+    /// q₁, q₂, A₂, A₁, A₀.
+    pub fn numbers(&self) -> [R; 5] {
+        [self.q1, self.q2, self.a2, self.a1, self.a0]
+    }
+
     /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
     #[inline]
     pub fn torque(&self, beta: R, tau: R) -> R {

@@ -1,5 +1,5 @@
 use nboom_model::Hinge;
-use nboom_scalar::Real;
+use nboom_scalar::{Real, Vec3};
 
 use crate::{EventName, LineNames, Names};
 
@@ -29,7 +29,17 @@ pub struct KickOffLaw<R> {
 impl<R: Real> KickOffLaw<R> {
     /// The law with coefficients a₀ to a₃.
     pub fn new(coefficients: [f64; 4]) -> Self {
-        Self { coefficients: coefficients.map(R::constant) }
+        Self::of_numbers(coefficients.map(R::constant))
+    }
+
+    /// The law with coefficients a₀ to a₃ of any scalar.
+    pub fn of_numbers(coefficients: [R; 4]) -> Self {
+        Self { coefficients }
+    }
+
+    /// a₀ to a₃.
+    pub fn numbers(&self) -> [R; 4] {
+        self.coefficients
     }
 
     /// Force at `length`, while the spring acts.
@@ -37,6 +47,14 @@ impl<R: Real> KickOffLaw<R> {
     pub fn force(&self, length: R) -> R {
         let [a0, a1, a2, a3] = self.coefficients;
         ((a3 * length + a2) * length + a1) * length + a0
+    }
+
+    /// The force on the end to which `span` leads from the other one, while the spring acts; NaN where
+    /// the ends meet.
+    #[inline]
+    pub fn push(&self, span: Vec3<R>) -> Vec3<R> {
+        let length = span.norm();
+        span * (self.force(length) / length)
     }
 
     /// Potential energy at `length`, zero at zero length. A spring that has let go keeps the
