@@ -26,6 +26,15 @@ pub struct ArmRates<R> {
     pub torque: R,
 }
 
+/// R_x(α₁) R_y(α₂) from sines and cosines: turns paddle components into appendage components.
+pub(crate) fn rotation<R: Real>((s1, c1): (R, R), (s2, c2): (R, R)) -> Mat3<R> {
+    Mat3::from_rows(
+        Vec3::new(c2, R::zero(), s2),
+        Vec3::new(s1 * s2, c1, -(s1 * c2)),
+        Vec3::new(-(c1 * s2), s1, c1 * c2),
+    )
+}
+
 /// The paddle's share at its hinge once the hinge has been eliminated: inertia and wrench,
 /// appendage axes.
 #[inline]
@@ -35,13 +44,7 @@ pub fn eliminate<R: Real>(
     rates: &ArmRates<R>,
 ) -> (ArticulatedInertia<R>, Wrench<R>, Paddle<R>) {
     let (s1, c1) = rates.arm.alpha.sin_cos();
-    let (s2, c2) = rates.beta.sin_cos();
-    // R_x(α₁) R_y(α₂)
-    let rot = Mat3::from_rows(
-        Vec3::new(c2, R::zero(), s2),
-        Vec3::new(s1 * s2, c1, -(s1 * c2)),
-        Vec3::new(-(c1 * s2), s1, c1 * c2),
-    );
+    let rot = rotation((s1, c1), rates.beta.sin_cos());
     let axis = Vec3::new(R::zero(), c1, s1);
     let body = paddle.rotated(&rot);
     let omega_arm = Vec3::new(spin.w.x + rates.arm.sigma, spin.w.y, spin.w.z);

@@ -4,11 +4,14 @@ use nboom_model::Shape;
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::chain::ChainLink;
+use crate::paddle;
 use crate::parameters::{Branch, HingeCoordinates};
 
 /// A link turned into appendage axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Posed<R> {
+    /// Turns link components into appendage components.
+    pub rot: Mat3<R>,
     /// Mass properties about its hinge.
     pub inertia: RigidInertia<R>,
     /// Unit vector along its hinge: ê₁, or η̂₁ for a paddle.
@@ -23,7 +26,7 @@ pub(crate) struct Posed<R> {
 pub(crate) fn place<R: Real>(shape: Shape, branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
     match shape {
         Shape::Chain(_) => chain(branch, beta),
-        Shape::Paddle => paddle(branch, beta[0], beta[1]),
+        Shape::Paddle => arm_and_paddle(branch, beta[0], beta[1]),
     }
 }
 
@@ -41,19 +44,14 @@ fn chain<R: Real>(branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
 }
 
 /// eqs. (9.1) and (9.2): the arm turns with R_x(α₁), the paddle with R_x(α₁) R_y(α₂).
-fn paddle<R: Real>(branch: &Branch<R>, alpha1: R, alpha2: R) -> Vec<Posed<R>> {
+fn arm_and_paddle<R: Real>(branch: &Branch<R>, alpha1: R, alpha2: R) -> Vec<Posed<R>> {
     let (s1, c1) = alpha1.sin_cos();
     let arm = Posed { hinge: branch.point, ..turned(&branch.links[0], s1, c1) };
-    let (s2, c2) = alpha2.sin_cos();
-    let zero = R::zero();
-    let rot = Mat3::from_rows(
-        Vec3::new(c2, zero, s2),
-        Vec3::new(s1 * s2, c1, -(s1 * c2)),
-        Vec3::new(-(c1 * s2), s1, c1 * c2),
-    );
+    let rot = paddle::rotation((s1, c1), alpha2.sin_cos());
     let paddle = Posed {
+        rot,
         inertia: branch.links[1].inertia.rotated(&rot),
-        axis: Vec3::new(zero, c1, s1),
+        axis: Vec3::new(R::zero(), c1, s1),
         hinge: arm.hinge + arm.hinge_offset,
         hinge_offset: Vec3::zero(),
     };
@@ -72,7 +70,9 @@ fn turned<R: Real>(link: &ChainLink<R>, s: R, c: R) -> Posed<R> {
         about_origin: turned_tensor(&about_origin, s, c),
     };
     let hinge_offset = Vec3::new(R::zero(), ly, lz);
-    Posed { inertia, axis: Vec3::unit_x(), hinge: Vec3::zero(), hinge_offset }
+    let zero = R::zero();
+    let rot = Mat3::from_rows(Vec3::unit_x(), Vec3::new(zero, c, -s), Vec3::new(zero, s, c));
+    Posed { rot, inertia, axis: Vec3::unit_x(), hinge: Vec3::zero(), hinge_offset }
 }
 
 /// The tensor turned about the first axis.

@@ -4,8 +4,12 @@
 use std::ops::Range;
 
 use nboom_model::Topology;
+use nboom_scalar::{Quaternion, Real, Vec3};
 
-use crate::parameters::Layout;
+use crate::Formulation;
+use crate::forces::Forces;
+use crate::parameters::{Coordinates, HingeCoordinates, Layout, Parameters, Solution};
+use crate::pose;
 
 /// Where the numbers of a right side stand: parameters of the satellite and of what acts on it, variables
 /// y, and ẏ. Hinges are in the topology's order, appendage by appendage.
@@ -78,5 +82,69 @@ impl RightSideLayout {
     pub fn line(topology: &Topology, hinge: usize) -> Range<usize> {
         let start = Self::external(topology).end + Self::LINE * hinge;
         start..start + Self::LINE
+    }
+}
+
+/// ẏ and the power at y, in the order of [`RightSideLayout`], accelerations by `formulation`.
+///
+/// eqs. (9.15) for the attitude, (6.1) and (6.17) for the forces.
+pub fn right_side<R: Real>(
+    formulation: Formulation,
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    forces: &Forces<R>,
+    y: &[R],
+) -> Vec<R> {
+    let [beta, tau] = [RightSideLayout::beta, RightSideLayout::tau].map(|of| &y[of(topology)]);
+    let vector = |at: usize| Vec3::new(y[at], y[at + 1], y[at + 2]);
+    let omega = vector(RightSideLayout::OMEGA.start);
+    R::remark(|| "Attitude: its rate.".to_owned());
+    let rate = Quaternion { scalar: y[0], vector: vector(1) }.rate(omega);
+    R::remark(|| "Hinges: torques of springs and dashpots, and their power.".to_owned());
+    let of_hinges = || forces.laws.iter().zip(beta.iter().zip(tau));
+    let power = of_hinges().map(|(law, (_, &tau))| law.rate_torque(tau) * tau);
+    let power = power.fold(R::zero(), |sum, of_hinge| sum + of_hinge);
+    let mut torques: Vec<R> =
+        of_hinges().map(|(law, (&beta, &tau))| law.torque(beta, tau)).collect();
+    push(topology, parameters, forces, beta, &mut torques);
+    let hinges = beta.iter().zip(tau).zip(torques);
+    let hinges =
+        hinges.map(|((&beta, &tau), torque)| HingeCoordinates { beta, tau, torque }).collect();
+    let coordinates = Coordinates { omega, external: forces.external, hinges };
+    let Solution { main, tau_dot } = formulation.solve(topology, parameters, &coordinates);
+    let mut rates = vec![rate.scalar];
+    rates.extend(rate.vector.to_array());
+    rates.extend(main.angular.to_array());
+    rates.extend(tau);
+    rates.extend(tau_dot);
+    rates.push(power);
+    rates
+}
+
+/// Adds to the hinges' torques those of the lines: a line turns all hinges inboard of its link. Its
+/// reaction on the main body leaves no resultant.
+fn push<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    forces: &Forces<R>,
+    beta: &[R],
+    torques: &mut [R],
+) {
+    let mut first = 0;
+    for (number, (&shape, branch)) in topology.shapes().iter().zip(&parameters.branches).enumerate()
+    {
+        let hinges = first..first + shape.hinges();
+        first = hinges.end;
+        let (lines, torques) = (&forces.lines[hinges.clone()], &mut torques[hinges.clone()]);
+        R::remark(|| format!("Appendage {}: torques of the lines that push it.", number + 1));
+        let links = pose::place(shape, branch, &beta[hinges]);
+        for (i, (link, line)) in links.iter().zip(lines).enumerate() {
+            let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
+            let end = link.hinge + link.rot * line.point;
+            let force = line.law.push(end - fixed);
+            for (inboard, torque) in links.iter().zip(torques.iter_mut()).take(i + 1) {
+                *torque += inboard.axis.dot((end - inboard.hinge).cross(force));
+            }
+        }
     }
 }
