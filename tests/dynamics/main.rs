@@ -10,5 +10,6 @@ mod closed_forms;
 mod embedding;
 mod formulations;
 mod forward_dynamics;
+mod right_side;
 mod satellites;
 mod scalars;

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-use nboom_codegen::{Level, Module, Numbers, Request, Standing, StressRequest};
+use nboom_codegen::{Level, Module, Numbers, Output, Request, Standing, StressRequest};
 use nboom_formulation::Formulation;
 use nboom_io::{SceneFile, read_scene};
 
@@ -19,6 +19,7 @@ pub struct Config {
     external_wrench: bool,
     principal_axes: bool,
     equations: bool,
+    right_sides: bool,
     formulation: Formulation,
     level: Level,
     scalar_path: String,
@@ -42,6 +43,7 @@ impl Default for Config {
             external_wrench: false,
             principal_axes: false,
             equations: false,
+            right_sides: false,
             formulation: Formulation::Articulated,
             level: Level::Fast,
             scalar_path: "::nboom_scalar".to_owned(),
@@ -115,6 +117,13 @@ impl Config {
     /// accelerations.
     pub fn for_equations(self) -> Self {
         Self { equations: true, ..self }
+    }
+
+    /// Beside each routine for accelerations there is one for the right side of a mode's differential
+    /// equations, `RightSideSatelliteS2P`, and for a scene with kick-off springs one whose links they
+    /// push, `PushedBakedS2P`, where that is not too long.
+    pub fn with_right_sides(self) -> Self {
+        Self { right_sides: true, ..self }
     }
 
     /// The closed form that routines compute.
@@ -228,7 +237,11 @@ impl Config {
                 if self.principal_axes {
                     request = request.with_principal_axes();
                 }
-                Ok(vec![request].into())
+                let right_side = self.right_sides.then(|| {
+                    let name = format!("RightSide{name}");
+                    Request { name, ..request.clone() }.for_right_side()
+                });
+                Ok([request].into_iter().chain(right_side).collect::<Vec<_>>().into())
             }
             Source::Scene { path, numbers } => {
                 println!("cargo::rerun-if-changed={}", path.display());
@@ -239,14 +252,21 @@ impl Config {
                 }
                 let structure = structure.filter(|_| self.stresses);
                 let stresses = structure.map(|s| StressRequest::of_scene(&scene, &s, self.level));
-                Ok(Module { routines, stresses: stresses.transpose()?.into_iter().collect() })
+                let stresses = stresses.transpose()?.into_iter().collect();
+                let by = |request: Request| request.by(self.formulation);
+                let routines = routines.into_iter().map(by).collect();
+                let module = Module { routines, stresses };
+                Ok(if self.right_sides { module.with_right_sides(&scene) } else { module })
             }
         }
     }
 
     fn as_configured(&self, request: Request) -> Request {
         let request = request.by(self.formulation);
-        if self.equations { request.for_equations() } else { request }
+        match request.output {
+            Output::Accelerations if self.equations => request.for_equations(),
+            _ => request,
+        }
     }
 }
 

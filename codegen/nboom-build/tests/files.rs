@@ -110,6 +110,12 @@ fn a_scene_gives_its_routines() {
         assert_eq!(text.matches(&format!("pub struct {name};")).count(), 1, "{name}");
         assert!(text.contains(&format!("Kernel::of::<{name}>()")), "{name}");
     }
+    let right_sides = ["RightSideBakedS2P", "PushedBakedS2P", "RightSideSatelliteS2P"];
+    let with_right_sides = written(&both.with_right_sides());
+    for name in right_sides {
+        assert!(!text.contains(name), "{name}");
+        assert!(with_right_sides.contains(&format!("Kernel::of::<{name}>()")), "{name}");
+    }
     let alone = written(&Config::new().scene(SAMPLE));
     assert_eq!(alone.matches("pub struct ").count(), 1);
 }

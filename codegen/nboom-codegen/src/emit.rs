@@ -6,6 +6,7 @@ mod driver;
 mod expression;
 mod file;
 mod fusion;
+mod hinges;
 mod inputs;
 mod item;
 mod module;

@@ -3,12 +3,15 @@
 mod assumptions;
 mod error;
 mod names;
+mod output;
+mod right_sides;
 mod routine;
 mod scene;
 mod stresses;
 
 pub use error::CodegenError;
 pub(crate) use names::Names;
-pub use routine::{HINGE_LIMIT, Level, Output, Request, STRAIGHT_HINGE_LIMIT};
+pub use output::Output;
+pub use routine::{HINGE_LIMIT, Level, Request, STRAIGHT_HINGE_LIMIT};
 pub use scene::{Numbers, held};
 pub use stresses::StressRequest;

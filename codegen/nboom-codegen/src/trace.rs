@@ -34,7 +34,7 @@ pub(crate) enum Equations {
     /// Whole, for one straight line.
     Straight(Split),
     /// Step by step, for loops over links and equal appendages.
-    Rolled(Rolled),
+    Rolled(Box<Rolled>),
 }
 
 impl Equations {
@@ -43,17 +43,25 @@ impl Equations {
     /// # Errors
     /// When no loops can be made of what is too long for one line.
     pub fn of(request: &Request) -> Result<Self, CodegenError> {
+        let is_short = |straight: &Split| straight.evaluation().flops() <= STRAIGHT_LIMIT;
         let straight = || Split::new(trace(request), request.assumptions.len()).at(request.level);
         if request.formulation != Formulation::Articulated {
             let straight = straight();
             check_length(request, &straight)?;
             return Ok(Self::Straight(straight));
         }
+        if request.has_lines() {
+            let few = request.topology.hinges() <= STRAIGHT_HINGES;
+            let straight = few.then(straight).filter(is_short);
+            let (topology, limit) = (request.topology.to_string(), STRAIGHT_LIMIT);
+            let straight = straight.ok_or(CodegenError::Lines { topology, limit })?;
+            return Ok(Self::Straight(straight));
+        }
         let side_by_side = request.topology.groups().iter().any(|&(_, count)| count >= PACK);
         let straight = (request.topology.hinges() <= STRAIGHT_HINGES && !side_by_side)
             .then(straight)
-            .filter(|straight| straight.evaluation().flops() <= STRAIGHT_LIMIT);
-        Ok(straight.map_or_else(|| Self::Rolled(Rolled::of(request)), Self::Straight))
+            .filter(is_short);
+        Ok(straight.map_or_else(|| Self::Rolled(Box::new(Rolled::of(request))), Self::Straight))
     }
 }
 

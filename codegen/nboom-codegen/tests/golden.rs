@@ -3,8 +3,12 @@
 
 use std::path::{Path, PathBuf};
 
-use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, StressRequest, generate, source};
-use nboom_formulation::{Coordinates, Formulation, Layout, Parameters, articulated};
+use nboom_codegen::{
+    CodegenError, HINGE_LIMIT, Level, Request, STRAIGHT_LIMIT, StressRequest, generate, source,
+};
+use nboom_formulation::{
+    Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout, articulated,
+};
 use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
     Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
@@ -16,6 +20,7 @@ use nboom_scalar::{Kernel, Mat3, Routine, Sym3, Vec3};
 mod golden {
     include!("golden/s1.rs");
     include!("golden/four_s3.rs");
+    include!("golden/right_side.rs");
     include!("golden/stresses.rs");
 }
 
@@ -29,6 +34,14 @@ fn four_s3() -> Request {
     Request::new("FourS3", Topology::new([Shape::Chain(3); 4]), Level::Fast)
         .with_external_wrench()
         .with_principal_axes()
+}
+
+/// One boom that a line pushes, with its hinge law and its attitude.
+fn right_side() -> Request {
+    Request::new("RightSideS1", Topology::new([Shape::Chain(1)]), Level::Exact)
+        .with_external_wrench()
+        .for_right_side()
+        .with_lines()
 }
 
 /// A boom of a tube and a triangle on a hub, with a kick-off spring.
@@ -92,6 +105,7 @@ fn is_checked_in(name: &str, found: &str) {
 fn generated_text_is_what_is_checked_in() {
     is_checked_in("s1.rs", &text_of(&s1()));
     is_checked_in("four_s3.rs", &text_of(&four_s3()));
+    is_checked_in("right_side.rs", &text_of(&right_side()));
     is_checked_in("stresses.rs", &stresses().source().expect("sections are right"));
 }
 
@@ -108,13 +122,13 @@ fn small_satellites_are_straight_lines_and_large_ones_loops() {
     assert!(text_of(&four_s3()).contains("for i in (0..3).rev()"));
     let evaluation = generate(&s1()).expect("S1 can be generated").evaluation;
     assert_eq!(evaluation.angles, 1);
-    assert!(evaluation.flops() <= nboom_codegen::STRAIGHT_LIMIT);
+    assert!(evaluation.flops() <= STRAIGHT_LIMIT);
 }
 
 #[test]
 fn what_is_checked_in_is_formatted_as_rustfmt_does() {
     let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = ["s1.rs", "four_s3.rs", "stresses.rs"]
+    let files = ["s1.rs", "four_s3.rs", "right_side.rs", "stresses.rs"]
         .map(|name| crate_root.join("tests/golden").join(name));
     let rustfmt = std::process::Command::new("rustfmt")
         .args(["--check", "--edition", "2024", "--config-path"])
@@ -198,6 +212,30 @@ fn near(found: &[f64], expected: &[f64], case: usize) {
 fn what_is_checked_in_computes_the_closed_form() {
     is_the_closed_form::<golden::S1>(&s1());
     is_the_closed_form::<golden::FourS3>(&four_s3());
+}
+
+#[test]
+fn a_checked_in_right_side_is_that_of_the_equations() {
+    type T = golden::RightSideS1;
+    let topology = right_side().topology;
+    let kernel = Kernel::of::<T>();
+    for case in 0..50 {
+        let satellite = parameters::<T>(&topology, case);
+        let of_forces = RightSideLayout::parameters(&topology) - satellite.len();
+        let forces: Vec<f64> = (0..of_forces).map(|i| 0.3 + 0.1 * i as f64).collect();
+        let (all, y) = ([&satellite[..], &forces].concat(), state::<T>(case));
+        let satellite = Parameters::read(&topology, satellite);
+        let forces = Forces::read(topology.hinges(), forces);
+        let form = Formulation::Articulated;
+        let expected = nboom_formulation::right_side(form, &topology, &satellite, &forces, &y);
+        let (mut constants, mut found) = (vec![0.0; T::CONSTANTS], vec![0.0; T::OUTPUTS]);
+        assert!(kernel.accepts(&all));
+        T::prepare(&all, &mut constants);
+        T::evaluate(&constants, &y, &mut found);
+        assert_eq!(found, expected, "case {case}");
+        kernel.evaluate(&constants, &y, &mut found);
+        near(&found, &expected, case);
+    }
 }
 
 #[test]
@@ -313,6 +351,12 @@ fn what_a_formulation_cannot_give_is_refused() {
             if topology == "S60" && operations > limit),
         "{dense}"
     );
+    for name in ["S10", "4xS5"] {
+        let expected = CodegenError::Lines { topology: name.to_owned(), limit: STRAIGHT_LIMIT };
+        let right_side = of(name, Formulation::Articulated).for_right_side();
+        assert!(source(&right_side).is_ok());
+        assert_eq!(refusal(&right_side.with_lines()), expected);
+    }
     let long = refusal(&of("S101", Formulation::Symmetric));
     assert!(matches!(long, CodegenError::TooLarge { links: 101, .. }), "{long}");
 }

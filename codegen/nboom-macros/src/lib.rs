@@ -23,6 +23,7 @@ const SCALAR: &str = "::nboom::scalar";
 /// | `assumptions = principal` | inertias along the segment axes, mass centres and next hinges on the η axis, O at the main body's mass centre | all numbers at run time |
 /// | `external` | an external wrench on the main body | none |
 /// | `equations` | the matrix and the right side that the formulation solves | accelerations |
+/// | `right_side` | the right side of a mode's differential equations, without lines that push links | accelerations |
 ///
 /// A routine with `assumptions = principal` computes something else for other satellites. Only
 /// `Kernel::accepts` refuses their numbers; `Kernel::prepare` does not look.
@@ -54,7 +55,8 @@ pub fn routine(input: TokenStream) -> TokenStream {
 /// numbers of the scene built in, one that takes them at run time, and routines for states with
 /// held hinges: one for each topology of a scene of up to 10 hinges; with more, those in which all
 /// appendages are held in step; at most 32. One more assumes nothing: other states, and
-/// the scene with other numbers, run embedded in it. When the file changes, the program is compiled
+/// the scene with other numbers, run embedded in it. Each comes for accelerations and for the right
+/// side of the differential equations. When the file changes, the program is compiled
 /// again.
 ///
 /// ```

@@ -104,8 +104,10 @@ fn with(request: Request, option: &Ident, input: ParseStream<'_>) -> Result<Requ
         }
         "external" => request.with_external_wrench(),
         "equations" => request.for_equations(),
+        "right_side" => request.for_right_side(),
         _ => {
-            let all = ["formulation", "level", "assumptions", "external", "equations"];
+            let all =
+                ["formulation", "level", "assumptions", "external", "equations", "right_side"];
             return Err(unknown(option, &all));
         }
     })

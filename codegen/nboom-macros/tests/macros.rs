@@ -1,7 +1,11 @@
 //! What the macros expand to, compiled and run: routines against the closed form, a scene against
 //! the recursion.
 
-use nboom::formulation::{Coordinates, Formulation, HingeCoordinates, Parameters, recognise};
+use nboom::dynamics::Recursive;
+use nboom::formulation::{
+    Coordinates, Forces, Formulation, HingeCoordinates, Parameters, Recognised, recognise,
+    right_side,
+};
 use nboom::model::{HingeState, Mode, Scene, SectionShape, Structure, Topology, WeldedTree};
 use nboom::scalar::{Kernel, Routine, Vec3, Wrench};
 use nboom::sim::{Event, EventKind, InstantMotion, Options, Path, Recorder, Snapshot, simulate};
@@ -13,6 +17,7 @@ nboom::routine! {
     Forced: P_S2, equations, external, level = exact, formulation = symmetric,
     assumptions = principal,
 }
+nboom::routine! { RightSide: S2_P, right_side }
 nboom::routine! { ByName: "2xS1", level = exact }
 nboom::routine! { OneToken: 4xS1_P }
 
@@ -84,6 +89,56 @@ fn a_routine_for_equations_gives_the_formulations_matrix() {
     assert!(Forced::EXTERNAL && !Forced::ASSUMPTIONS.is_empty());
 }
 
+/// Parameters of a right side for the sample with all hinges free, and what it gives at some variables;
+/// kick-off springs push or have let go.
+fn sample_in_motion(pushed: bool) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+    let scene = sample();
+    let hinges = scene.bodies.len();
+    let start = Mode::at_start(&scene);
+    let pieces = vec![usize::from(!pushed); start.pieces.len()];
+    let mode = Mode { hinges: vec![HingeState::Free; hinges], pieces, thrust: false };
+    let mut dynamics = Recursive::<f64>::new(&scene);
+    dynamics.set_mode(&mode, &vec![0.0; hinges]);
+    let recognised = recognise(dynamics.tree()).expect("a chain and a paddle");
+    let forces = Forces::of(dynamics.elements(), dynamics.tree(), &recognised);
+    let forces = forces.expect("no line has company");
+    let Recognised { topology, parameters, .. } = &recognised;
+    let y: Vec<f64> = (0..7 + 2 * hinges).map(|i| (0.9 * i as f64).sin()).collect();
+    let expected = right_side(Formulation::Articulated, topology, parameters, &forces, &y);
+    ([parameters.write(), forces.write()].concat(), y, expected)
+}
+
+fn evaluated(kernel: &Kernel, parameters: &[f64], y: &[f64]) -> Vec<f64> {
+    let (mut constants, mut out) = (vec![0.0; kernel.constants], vec![0.0; kernel.outputs]);
+    kernel.prepare(parameters, &mut constants);
+    kernel.evaluate(&constants, y, &mut out);
+    out
+}
+
+#[test]
+fn a_routine_for_a_right_side_gives_the_rates_of_a_mode() {
+    let kernel = Kernel::of::<RightSide>();
+    let (parameters, y, expected) = sample_in_motion(false);
+    assert!(kernel.accepts(&parameters));
+    agree(&evaluated(&kernel, &parameters, &y), &expected);
+    assert!(!kernel.accepts(&sample_in_motion(true).0), "lines push");
+}
+
+#[test]
+fn a_compiled_scene_has_right_sides_of_its_modes() {
+    for (pushed, count) in [(false, 5), (true, 2)] {
+        let (parameters, y, expected) = sample_in_motion(pushed);
+        let right_sides = SAMPLE.kernels().iter().filter(|kernel| {
+            (kernel.result, kernel.topology) == ("right_side", "S2_P")
+                && kernel.accepts(&parameters)
+        });
+        assert_eq!(right_sides.clone().count(), count, "lines push: {pushed}");
+        for kernel in right_sides {
+            agree(&evaluated(kernel, &parameters, &y), &expected);
+        }
+    }
+}
+
 #[test]
 fn topologies_are_names_numbers_or_strings() {
     assert_eq!(
@@ -122,9 +177,12 @@ fn a_compiled_scene_runs_in_its_own_code_alone() {
 #[test]
 fn a_compiled_scene_has_its_numbers_built_in() {
     let numbers = parameters().write();
-    let all_free: Vec<&Kernel> =
-        SAMPLE.kernels().iter().filter(|kernel| kernel.topology == "S2_P").collect();
-    assert_eq!(all_free.len(), 3);
+    let of = |result: &str| -> Vec<&Kernel> {
+        let kernels = SAMPLE.kernels().iter();
+        kernels.filter(|kernel| kernel.topology == "S2_P" && kernel.result == result).collect()
+    };
+    let (all_free, right_sides) = (of("accelerations"), of("right_side"));
+    assert_eq!((all_free.len(), right_sides.len()), (3, 5));
     assert_eq!(all_free[0].assumptions.len(), numbers.len());
     assert!(all_free[0].assumptions.iter().all(|&(i, value)| numbers[i] == value));
     assert!(all_free[1].assumptions.len() < numbers.len() && all_free[1].accepts(&numbers));
@@ -203,7 +261,7 @@ fn code_for_stresses_is_for_the_numbers_it_was_made_from() {
 #[test]
 fn a_scene_without_stations_has_no_code_for_stresses() {
     assert!(PLAIN.structure().expect("it was read").is_none());
-    assert!(PLAIN.kernels().iter().all(|kernel| kernel.result == "accelerations"));
+    assert!(PLAIN.kernels().iter().all(|kernel| kernel.result != "stresses"));
     let of_sample = SAMPLE.kernels().iter().filter(|kernel| kernel.result == "stresses");
     assert_eq!(of_sample.count(), 1);
 }

@@ -1,9 +1,10 @@
 use nboom_elements::{Elements, HingeLaw, KickOffLaw};
-use nboom_model::WeldedTree;
-use nboom_scalar::{Real, Vec3, Wrench};
+use nboom_model::{Shape, Topology, WeldedTree};
+use nboom_scalar::{Mat3, Real, Vec3, Wrench};
 
 use crate::embedding::Embedding;
-use crate::parameters::Reader;
+use crate::parameters::{Branch, Parameters, Reader};
+use crate::pose;
 use crate::recognise::Recognised;
 use crate::right_side::RightSideLayout;
 
@@ -15,7 +16,7 @@ pub struct Forces<R> {
     pub laws: Vec<HingeLaw<R>>,
     /// External wrench about O, main-body axes.
     pub external: Wrench<R>,
-    /// The line that pushes the link of each hinge.
+    /// The line that pushes the link of each hinge; empty where nothing pushes any.
     pub lines: Vec<LinkLine<R>>,
 }
 
@@ -63,6 +64,10 @@ impl<R: Real> Forces<R> {
         }
     }
 
+    fn line(&self, hinge: usize) -> LinkLine<R> {
+        self.lines.get(hinge).copied().unwrap_or_else(LinkLine::absent)
+    }
+
     /// Reads what [`write`](Self::write) writes.
     pub fn read(hinges: usize, numbers: impl IntoIterator<Item = R>) -> Self {
         let mut reader = Reader(numbers.into_iter());
@@ -79,7 +84,8 @@ impl<R: Real> Forces<R> {
         let mut numbers: Vec<R> = self.laws.iter().flat_map(HingeLaw::numbers).collect();
         numbers.extend(self.external.moment.to_array());
         numbers.extend(self.external.force.to_array());
-        for LinkLine { point, main_body_point, law } in &self.lines {
+        for hinge in 0..self.laws.len() {
+            let LinkLine { point, main_body_point, law } = self.line(hinge);
             numbers.extend(point.to_array());
             numbers.extend(main_body_point.to_array());
             numbers.extend(law.numbers());
@@ -91,12 +97,70 @@ impl<R: Real> Forces<R> {
     pub fn embedded(&self, embedding: &Embedding) -> Self {
         let mut outer = Self::none(embedding.outer().hinges());
         outer.external = self.external;
-        for (&hinge, (law, line)) in
-            embedding.hinges().iter().zip(self.laws.iter().zip(&self.lines))
-        {
-            (outer.laws[hinge], outer.lines[hinge]) = (*law, *line);
+        for (inner, &hinge) in embedding.hinges().iter().enumerate() {
+            (outer.laws[hinge], outer.lines[hinge]) = (self.laws[inner], self.line(inner));
         }
         outer
+    }
+}
+
+impl<R: Real> Forces<R> {
+    /// Generalised forces conjugate to the hinges' angles: torques about hinges, and forces along
+    /// lines, each of which turns all hinges inboard of its link; eqs. (6.1) and (6.17), corrected:
+    /// note 5.
+    pub fn torques(
+        &self,
+        topology: &Topology,
+        parameters: &Parameters<R>,
+        [beta, tau]: [&[R]; 2],
+    ) -> Vec<R> {
+        R::remark(|| "Hinges: torques of springs and dashpots.".to_owned());
+        let hinges = self.laws.iter().zip(beta.iter().zip(tau));
+        let mut torques: Vec<R> =
+            hinges.map(|(law, (&beta, &tau))| law.torque(beta, tau)).collect();
+        let mut first = 0;
+        let appendages = topology.shapes().iter().zip(&parameters.branches);
+        for (number, (&shape, branch)) in appendages.enumerate() {
+            let hinges = first..first + shape.hinges();
+            first = hinges.end;
+            let Some(lines) = self.lines.get(hinges.clone()) else { continue };
+            R::remark(|| format!("Appendage {}: torques of the lines that push it.", number + 1));
+            let turns = pose::turns(shape, &beta[hinges.clone()]);
+            push(branch, &turns, lines, &mut torques[hinges]);
+        }
+        torques
+    }
+
+    /// Power of the parts of the torques that depend on rates, summed up appendage by appendage.
+    pub fn rate_power(&self, topology: &Topology, tau: &[R]) -> R {
+        let mut of_hinges = self.laws.iter().zip(tau).map(|(law, &tau)| law.rate_torque(tau) * tau);
+        let sum = |sum: R, power: R| sum + power;
+        let mut of_appendage =
+            |shape: &Shape| of_hinges.by_ref().take(shape.hinges()).fold(R::zero(), sum);
+        topology.shapes().iter().map(&mut of_appendage).fold(R::zero(), sum)
+    }
+}
+
+/// Adds to the torques about the hinges of an appendage those of the lines that push its links. The
+/// reaction on the main body leaves no resultant.
+fn push<R: Real>(
+    branch: &Branch<R>,
+    turns: &[(Mat3<R>, Vec3<R>)],
+    lines: &[LinkLine<R>],
+    torques: &mut [R],
+) {
+    let mut position = branch.point;
+    let mut inboard = Vec::new();
+    for (((rot, axis), line), link) in turns.iter().zip(lines).zip(&branch.links) {
+        inboard.push((*axis, position));
+        let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
+        let end = position + *rot * line.point;
+        let force = line.law.push(end - fixed);
+        for ((axis, position), torque) in inboard.iter().zip(torques.iter_mut()) {
+            *torque += axis.dot((end - *position).cross(force));
+        }
+        let [ly, lz] = link.next;
+        position += *rot * Vec3::new(R::zero(), ly, lz);
     }
 }
 

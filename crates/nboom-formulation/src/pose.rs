@@ -10,8 +10,6 @@ use crate::parameters::{Branch, HingeCoordinates};
 /// A link turned into appendage axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Posed<R> {
-    /// Turns link components into appendage components.
-    pub rot: Mat3<R>,
     /// Mass properties about its hinge.
     pub inertia: RigidInertia<R>,
     /// Unit vector along its hinge: ê₁, or η̂₁ for a paddle.
@@ -27,6 +25,26 @@ pub(crate) fn place<R: Real>(shape: Shape, branch: &Branch<R>, beta: &[R]) -> Ve
     match shape {
         Shape::Chain(_) => chain(branch, beta),
         Shape::Paddle => arm_and_paddle(branch, beta[0], beta[1]),
+    }
+}
+
+/// What turns components of each link into appendage components, and the unit vector along its hinge.
+pub(crate) fn turns<R: Real>(shape: Shape, beta: &[R]) -> Vec<(Mat3<R>, Vec3<R>)> {
+    let about_first = |(s, c): (R, R)| {
+        let zero = R::zero();
+        Mat3::from_rows(Vec3::unit_x(), Vec3::new(zero, c, -s), Vec3::new(zero, s, c))
+    };
+    match shape {
+        Shape::Chain(_) => {
+            let alpha = absolute(shape, beta).into_iter();
+            alpha.map(|alpha| (about_first(alpha.sin_cos()), Vec3::unit_x())).collect()
+        }
+        Shape::Paddle => {
+            let arm = beta[0].sin_cos();
+            let outer =
+                (paddle::rotation(arm, beta[1].sin_cos()), Vec3::new(R::zero(), arm.1, arm.0));
+            vec![(about_first(arm), Vec3::unit_x()), outer]
+        }
     }
 }
 
@@ -49,7 +67,6 @@ fn arm_and_paddle<R: Real>(branch: &Branch<R>, alpha1: R, alpha2: R) -> Vec<Pose
     let arm = Posed { hinge: branch.point, ..turned(&branch.links[0], s1, c1) };
     let rot = paddle::rotation((s1, c1), alpha2.sin_cos());
     let paddle = Posed {
-        rot,
         inertia: branch.links[1].inertia.rotated(&rot),
         axis: Vec3::new(R::zero(), c1, s1),
         hinge: arm.hinge + arm.hinge_offset,
@@ -70,9 +87,7 @@ fn turned<R: Real>(link: &ChainLink<R>, s: R, c: R) -> Posed<R> {
         about_origin: turned_tensor(&about_origin, s, c),
     };
     let hinge_offset = Vec3::new(R::zero(), ly, lz);
-    let zero = R::zero();
-    let rot = Mat3::from_rows(Vec3::unit_x(), Vec3::new(zero, c, -s), Vec3::new(zero, s, c));
-    Posed { rot, inertia, axis: Vec3::unit_x(), hinge: Vec3::zero(), hinge_offset }
+    Posed { inertia, axis: Vec3::unit_x(), hinge: Vec3::zero(), hinge_offset }
 }
 
 /// The tensor turned about the first axis.

@@ -9,7 +9,6 @@ use nboom_scalar::{Quaternion, Real, Vec3};
 use crate::Formulation;
 use crate::forces::Forces;
 use crate::parameters::{Coordinates, HingeCoordinates, Layout, Parameters, Solution};
-use crate::pose;
 
 /// Where the numbers of a right side stand: parameters of the satellite and of what acts on it, variables
 /// y, and ẏ. Hinges are in the topology's order, appendage by appendage.
@@ -83,11 +82,17 @@ impl RightSideLayout {
         let start = Self::external(topology).end + Self::LINE * hinge;
         start..start + Self::LINE
     }
+
+    /// Where that line's a₀ to a₃ stand; they are zero where nothing pushes.
+    pub fn coefficients(topology: &Topology, hinge: usize) -> Range<usize> {
+        let Range { end, .. } = Self::line(topology, hinge);
+        end - 4..end
+    }
 }
 
 /// ẏ and the power at y, in the order of [`RightSideLayout`], accelerations by `formulation`.
 ///
-/// eqs. (9.15) for the attitude, (6.1) and (6.17) for the forces.
+/// eq. (9.15) for the attitude, (6.1) and (6.17) for the forces.
 pub fn right_side<R: Real>(
     formulation: Formulation,
     topology: &Topology,
@@ -100,13 +105,9 @@ pub fn right_side<R: Real>(
     let omega = vector(RightSideLayout::OMEGA.start);
     R::remark(|| "Attitude: its rate.".to_owned());
     let rate = Quaternion { scalar: y[0], vector: vector(1) }.rate(omega);
-    R::remark(|| "Hinges: torques of springs and dashpots, and their power.".to_owned());
-    let of_hinges = || forces.laws.iter().zip(beta.iter().zip(tau));
-    let power = of_hinges().map(|(law, (_, &tau))| law.rate_torque(tau) * tau);
-    let power = power.fold(R::zero(), |sum, of_hinge| sum + of_hinge);
-    let mut torques: Vec<R> =
-        of_hinges().map(|(law, (&beta, &tau))| law.torque(beta, tau)).collect();
-    push(topology, parameters, forces, beta, &mut torques);
+    R::remark(|| "Hinges: power of what depends on their rates.".to_owned());
+    let power = forces.rate_power(topology, tau);
+    let torques = forces.torques(topology, parameters, [beta, tau]);
     let hinges = beta.iter().zip(tau).zip(torques);
     let hinges =
         hinges.map(|((&beta, &tau), torque)| HingeCoordinates { beta, tau, torque }).collect();
@@ -119,32 +120,4 @@ pub fn right_side<R: Real>(
     rates.extend(tau_dot);
     rates.push(power);
     rates
-}
-
-/// Adds to the hinges' torques those of the lines: a line turns all hinges inboard of its link. Its
-/// reaction on the main body leaves no resultant.
-fn push<R: Real>(
-    topology: &Topology,
-    parameters: &Parameters<R>,
-    forces: &Forces<R>,
-    beta: &[R],
-    torques: &mut [R],
-) {
-    let mut first = 0;
-    for (number, (&shape, branch)) in topology.shapes().iter().zip(&parameters.branches).enumerate()
-    {
-        let hinges = first..first + shape.hinges();
-        first = hinges.end;
-        let (lines, torques) = (&forces.lines[hinges.clone()], &mut torques[hinges.clone()]);
-        R::remark(|| format!("Appendage {}: torques of the lines that push it.", number + 1));
-        let links = pose::place(shape, branch, &beta[hinges]);
-        for (i, (link, line)) in links.iter().zip(lines).enumerate() {
-            let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
-            let end = link.hinge + link.rot * line.point;
-            let force = line.law.push(end - fixed);
-            for (inboard, torque) in links.iter().zip(torques.iter_mut()).take(i + 1) {
-                *torque += inboard.axis.dot((end - inboard.hinge).cross(force));
-            }
-        }
-    }
 }

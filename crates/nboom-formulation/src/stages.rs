@@ -3,13 +3,17 @@
 //! Each step maps flat groups of numbers to flat groups of numbers, so that it can be traced
 //! once and emitted as one function that a loop calls for every link.
 
-use nboom_scalar::{ArticulatedInertia, Mat3, Real, Sym3, Twist, Vec3, Wrench};
+use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::articulated::{at_origin, first_hinge};
 use crate::base::AtOrigin;
 use crate::chain::{self, Eliminated, Outward, Shown, Spin, Turned};
 use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Layout, Reader};
+
+mod forces;
+
+pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, LAW, LINE, POWER, attitude, base_in_mode, law};
 
 /// A step: what it reads and writes, each a named group of so many numbers.
 #[derive(Clone, Copy, Debug)]
@@ -221,12 +225,21 @@ pub fn base<R: Real>() -> Stage<R> {
             let main = reader.rigid();
             let omega = reader.vector();
             let external = Wrench { moment: reader.vector(), force: reader.vector() };
-            let mut total = AtOrigin::of_main_body(&main, omega, &external);
-            total.add(&AtOrigin::read(&mut reader));
-            let rates = total.accelerations();
-            [rates.angular.to_array(), rates.linear.to_array()].concat()
+            main_rates(&main, omega, &external, &AtOrigin::read(&mut reader))
         },
     }
+}
+
+fn main_rates<R: Real>(
+    main: &RigidInertia<R>,
+    omega: Vec3<R>,
+    external: &Wrench<R>,
+    seen: &AtOrigin<R>,
+) -> Vec<R> {
+    let mut total = AtOrigin::of_main_body(main, omega, external);
+    total.add(seen);
+    let rates = total.accelerations();
+    [rates.angular.to_array(), rates.linear.to_array()].concat()
 }
 
 /// ω̇ and the first hinge's acceleration in appendage axes.

@@ -80,6 +80,7 @@ impl Certified {
                 Found::Accelerations(accelerations(&graph, request, &test_cases)?)
             }
             Output::Equations => Found::Equations(equations(&graph, request, &test_cases)?),
+            Output::RightSide => unreachable!("crates have no right sides"),
         };
         let mut cases = Vec::new();
         for test_case in &test_cases {
@@ -179,8 +180,8 @@ fn equations(
 fn tested(test_case: &TestCase, request: &Request) -> Result<Vec<Tested>, PackageError> {
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Vec<f64>)| {
         let expected = match request.output {
-            Output::Accelerations => in_routine(recognised(test_case), &truth),
             Output::Equations => unknowns(request.formulation, recognised(test_case), &truth),
+            Output::Accelerations | Output::RightSide => in_routine(recognised(test_case), &truth),
         };
         Tested { parameters, coordinates, expected }
     };

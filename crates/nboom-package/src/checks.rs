@@ -3,7 +3,7 @@
 use nboom_codegen::Output;
 
 use crate::certificate::Routine;
-use crate::certified::Tested;
+use crate::certified::{Found, Tested};
 use crate::manifest::rust_name;
 
 const COMMON: &str = include_str!("../templates/certificate.rs");
@@ -26,9 +26,9 @@ pub(crate) fn code(name: &str, routines: &[Routine]) -> String {
 fn test(of_crate: &str, routine: &Routine) -> String {
     let name = &routine.request.name;
     let (function, tolerance) = (name.to_lowercase(), routine.certified.tolerance());
-    let off = match routine.request.output {
-        Output::Accelerations => "off_accelerations",
-        Output::Equations => "off_equations",
+    let off = match routine.certified.found {
+        Found::Accelerations(_) => "off_accelerations",
+        Found::Equations(_) => "off_equations",
     };
     let values = [
         ("FUNCTION", function.as_str()),
@@ -49,9 +49,9 @@ pub(crate) fn table_path(routine: &Routine) -> String {
 
 /// Parameters, states and what is to come out, a row for each state under one that counts them.
 pub(crate) fn table(routine: &Routine) -> String {
-    let word = match routine.request.output {
-        Output::Accelerations => "acceleration",
-        Output::Equations => "unknown",
+    let word = match routine.certified.found {
+        Found::Accelerations(_) => "acceleration",
+        Found::Equations(_) => "unknown",
     };
     let mut text = String::new();
     for (i, Tested { parameters, coordinates, expected }) in

@@ -131,6 +131,9 @@ pub trait Pack<S>: Real {
         all
     }
 
+    /// The number at `at`, or the lanes from there on, each `apart` places after the one before.
+    fn gather_apart(from: &[S], at: usize, apart: usize) -> Self;
+
     /// One number in every lane.
     fn spread(value: S) -> Self;
 
@@ -158,6 +161,9 @@ pub trait Pack<S>: Real {
         }
     }
 
+    /// Writes what [`gather_apart`](Self::gather_apart) would read.
+    fn scatter_apart(self, to: &mut [S], at: usize, apart: usize);
+
     /// The sum of the lanes.
     fn sum(self) -> S;
 }
@@ -169,12 +175,22 @@ impl<R: Real> Pack<R> for R {
     }
 
     #[inline(always)]
+    fn gather_apart(from: &[R], at: usize, _apart: usize) -> Self {
+        from[at]
+    }
+
+    #[inline(always)]
     fn spread(value: R) -> Self {
         value
     }
 
     #[inline(always)]
     fn scatter(self, to: &mut [R], at: usize) {
+        to[at] = self;
+    }
+
+    #[inline(always)]
+    fn scatter_apart(self, to: &mut [R], at: usize, _apart: usize) {
         to[at] = self;
     }
 
@@ -192,6 +208,15 @@ impl<const N: usize> Pack<f64> for Lanes<N> {
     }
 
     #[inline(always)]
+    fn gather_apart(from: &[f64], at: usize, apart: usize) -> Self {
+        let mut lanes = [0.0; N];
+        for i in 0..N {
+            lanes[i] = from[at + i * apart];
+        }
+        Self(lanes)
+    }
+
+    #[inline(always)]
     fn spread(value: f64) -> Self {
         Self([value; N])
     }
@@ -199,6 +224,13 @@ impl<const N: usize> Pack<f64> for Lanes<N> {
     #[inline(always)]
     fn scatter(self, to: &mut [f64], at: usize) {
         to[at..at + N].copy_from_slice(&self.0);
+    }
+
+    #[inline(always)]
+    fn scatter_apart(self, to: &mut [f64], at: usize, apart: usize) {
+        for i in 0..N {
+            to[at + i * apart] = self.0[i];
+        }
     }
 
     #[inline(always)]

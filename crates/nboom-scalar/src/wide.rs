@@ -179,6 +179,15 @@ macro_rules! wide {
             }
 
             #[inline(always)]
+            fn gather_apart(from: &[f64], at: usize, apart: usize) -> Self {
+                let mut lanes = [0.0; $lanes];
+                for i in 0..$lanes {
+                    lanes[i] = from[at + i * apart];
+                }
+                Self::gather(&lanes, 0)
+            }
+
+            #[inline(always)]
             fn spread(value: f64) -> Self {
                 Self::constant(value)
             }
@@ -188,6 +197,14 @@ macro_rules! wide {
                 let lanes = &mut to[at..at + $lanes];
                 // SAFETY: the slice has as many places as there are lanes.
                 unsafe { $store(lanes.as_mut_ptr(), self.0) };
+            }
+
+            #[inline(always)]
+            fn scatter_apart(self, to: &mut [f64], at: usize, apart: usize) {
+                let lanes = self.to_array();
+                for i in 0..$lanes {
+                    to[at + i * apart] = lanes[i];
+                }
             }
 
             #[inline(always)]
@@ -235,6 +252,7 @@ mod tests {
         sum -= -b.mul_add(c, a);
         sum.scatter(out, 0);
         out[8] = sum.sum();
+        P::gather_apart(numbers, 1, 2).scatter_apart(out, 9, 3);
     }
 
     #[target_feature(enable = "avx2,fma")]
@@ -253,13 +271,14 @@ mod tests {
 
     #[test]
     fn registers_compute_what_arrays_do() {
-        let (mut expected, mut found) = ([0.0; 9], [0.0; 9]);
+        let (mut expected, mut found) = ([0.0; 31], [0.0; 31]);
         if Avx4::may_exist() {
             every_operation::<Lanes<4>>(&numbers(), &mut expected);
             // SAFETY: the features are there.
             unsafe { in_avx4(&numbers(), &mut found) };
             assert_eq!(found[..4], expected[..4]);
             assert!((found[8] - expected[8]).abs() < 1e-14 * expected[8].abs());
+            assert_eq!(found[9..], expected[9..]);
         }
         if Avx8::may_exist() {
             every_operation::<Lanes<8>>(&numbers(), &mut expected);
@@ -267,6 +286,7 @@ mod tests {
             unsafe { in_avx8(&numbers(), &mut found) };
             assert_eq!(found[..8], expected[..8]);
             assert!((found[8] - expected[8]).abs() < 1e-14 * expected[8].abs());
+            assert_eq!(found[9..], expected[9..]);
         }
     }
 }

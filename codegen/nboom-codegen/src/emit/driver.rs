@@ -1,5 +1,7 @@
 //! The body of an evaluation by sweeps: all groups inward, the main body, all groups outward.
 
+use std::ops::Range;
+
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -14,24 +16,32 @@ pub(crate) struct Call {
     pub saved: Vec<(usize, Option<usize>)>,
 }
 
-/// Evaluations from calls of the groups' sweeps; `at_origin` numbers are shown at O.
+/// Evaluations from calls of the groups' sweeps.
 pub(crate) struct Driver {
     pub calls: Vec<Call>,
+    /// How many numbers are shown at O.
     pub at_origin: usize,
+    /// What a right side has besides.
+    pub beside: Option<Beside>,
+}
+
+/// What a right side writes beside accelerations: β̇ and the power.
+pub(crate) struct Beside {
+    /// Where β of the hinges stand in y.
+    pub beta: Range<usize>,
+    /// Where τ of the hinges stand in y.
+    pub tau: Range<usize>,
+    /// Where the power is written.
+    pub power: usize,
 }
 
 impl Driver {
     /// The evaluation on any scalar, one appendage after the other.
     pub fn on_any_scalar(&self) -> TokenStream {
-        let size = Literal::usize_unsuffixed(self.at_origin);
-        let inward = self.calls.iter().map(Call::inward_singly);
+        let inward = self.calls.iter().map(|call| call.inward_singly(self.power()));
         let outward = self.calls.iter().map(Call::outward_singly);
-        quote! {
-            let mut seen = [R::zero(); #size];
-            #(#inward)*
-            main_body::<R, R>(k, x, seen, out);
-            #(#outward)*
-        }
+        let body = quote!(main_body::<R, R>(k, x, seen, out));
+        self.evaluation(&quote!(R::zero()), &quote!(#(#inward)*), &body, &quote!(#(#outward)*))
     }
 
     /// The evaluation in packs of whatever width the processor has.
@@ -45,14 +55,47 @@ impl Driver {
     }
 
     fn in_packs_of(&self, most: usize) -> TokenStream {
-        let size = Literal::usize_unsuffixed(self.at_origin);
-        let inward = self.calls.iter().map(|call| call.inward_packed(most));
+        let inward = self.calls.iter().map(|call| call.inward_packed(most, self.power()));
         let outward = self.calls.iter().map(|call| call.outward_packed(most));
+        let body = quote!(main_body::<f64, I::One>(k, x, seen, out));
+        self.evaluation(&quote!(0.0), &quote!(#(#inward)*), &body, &quote!(#(#outward)*))
+    }
+
+    /// The argument for the power, of a right side.
+    fn power(&self) -> Option<TokenStream> {
+        self.beside.as_ref().map(|_| quote!(&mut power))
+    }
+
+    /// All sweeps, sums beginning with `zero`.
+    fn evaluation(
+        &self,
+        zero: &TokenStream,
+        inward: &TokenStream,
+        main_body: &TokenStream,
+        outward: &TokenStream,
+    ) -> TokenStream {
+        let size = Literal::usize_unsuffixed(self.at_origin);
+        let power = self.beside.as_ref().map(|_| quote!(let mut power = #zero;));
+        let beside = self.beside.as_ref().map(Beside::tokens);
         quote! {
-            let mut seen = [0.0; #size];
-            #(#inward)*
-            main_body::<f64, I::One>(k, x, seen, out);
-            #(#outward)*
+            let mut seen = [#zero; #size];
+            #power
+            #inward
+            let main = #main_body;
+            #outward
+            #beside
+        }
+    }
+}
+
+impl Beside {
+    fn tokens(&self) -> TokenStream {
+        let ends = |range: &Range<usize>| [range.start, range.end].map(Literal::usize_unsuffixed);
+        let ([beta, beta_end], [tau, tau_end]) = (ends(&self.beta), ends(&self.tau));
+        let power = Literal::usize_unsuffixed(self.power);
+        quote! {
+            out[#beta..#beta_end].copy_from_slice(&x[#tau..#tau_end]);
+            out[#power] = power;
         }
     }
 }
@@ -67,13 +110,13 @@ impl Call {
         saved(&self.saved, &quote!(#pack::zero()))
     }
 
-    fn inward_singly(&self) -> TokenStream {
+    fn inward_singly(&self, power: Option<TokenStream>) -> TokenStream {
         let (inward, saved) = (self.names().0, format_ident!("{}_saved", self.prefix));
         let empty = self.empty(&quote!(R));
         let count = Literal::usize_unsuffixed(self.count);
         let calls = repeated("a", self.count, false, |a| {
             let a = slot(a);
-            quote!(#inward::<R, R>(k, x, #a, &mut #saved[#a], &mut seen);)
+            quote!(#inward::<R, R>(k, x, #a, &mut #saved[#a], &mut seen, #power);)
         });
         quote!(let mut #saved = [#empty; #count]; #calls)
     }
@@ -82,18 +125,18 @@ impl Call {
         let (outward, saved) = (self.names().1, format_ident!("{}_saved", self.prefix));
         repeated("a", self.count, false, |a| {
             let a = slot(a);
-            quote!(#outward::<R, R>(k, #a, &#saved[#a], out);)
+            quote!(#outward::<R, R>(k, #a, &#saved[#a], main, out);)
         })
     }
 
-    fn inward_packed(&self, most: usize) -> TokenStream {
+    fn inward_packed(&self, most: usize, power: Option<TokenStream>) -> TokenStream {
         let inward = self.names().0;
         let packs = self.packs(most).into_iter().map(|(a, width)| {
             let (pack, saved) = (pack(width), format_ident!("{}_saved_{a}", self.prefix));
             let (empty, a) = (self.empty(&pack), Literal::usize_unsuffixed(a));
             quote! {
                 let mut #saved = #empty;
-                #inward::<f64, #pack>(k, x, #a, &mut #saved, &mut seen);
+                #inward::<f64, #pack>(k, x, #a, &mut #saved, &mut seen, #power);
             }
         });
         quote!(#(#packs)*)
@@ -104,7 +147,7 @@ impl Call {
         let packs = self.packs(most).into_iter().map(|(a, width)| {
             let (pack, saved) = (pack(width), format_ident!("{}_saved_{a}", self.prefix));
             let a = Literal::usize_unsuffixed(a);
-            quote!(#outward::<f64, #pack>(k, #a, &#saved, out);)
+            quote!(#outward::<f64, #pack>(k, #a, &#saved, main, out);)
         });
         quote!(#(#packs)*)
     }

@@ -1,4 +1,3 @@
-use nboom_formulation::Layout;
 use nboom_loads::{RESULT, SceneMotion};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -33,7 +32,7 @@ impl Signature {
             formulation: formulation.name(),
             external: *external,
             assumptions: assumptions.clone(),
-            coordinates: Layout::coordinates(topology),
+            coordinates: output.coordinates(topology),
             outputs: output.size(topology),
         }
     }

@@ -11,20 +11,21 @@ use crate::emit::file::{self, Standing, hash};
 use crate::emit::routine::{generate, scalar, source};
 use crate::emit::text::formatted;
 use crate::request::{CodegenError, Level, Output, Request, StressRequest};
+use crate::trace::Equations;
 
 /// Routines that stand together.
 #[derive(Clone, Debug, Default)]
 pub struct Module {
-    /// Routines for accelerations and equations.
+    /// Routines for accelerations, equations and right sides.
     pub routines: Vec<Request>,
     /// Routines for loads and stresses.
     pub stresses: Vec<StressRequest>,
 }
 
 impl Module {
-    /// What a simulator for a scene has: [`Request::of_simulator`], and with a structure code for
-    /// its loads and stresses, unless that is too long for a compiler. A scene without structure has
-    /// nothing of them.
+    /// What a simulator for a scene has: [`Request::of_simulator`], right sides, and with a structure code
+    /// for its loads and stresses, unless that is too long for a compiler. A scene without structure has
+    /// nothing of loads and stresses.
     ///
     /// # Errors
     /// When the scene is not made of chains and paddles, or a section is not one.
@@ -38,7 +39,16 @@ impl Module {
         let stresses = structure.map(|structure| StressRequest::of_scene(scene, structure, level));
         let stresses: Vec<StressRequest> = stresses.transpose()?.into_iter().collect();
         let is_short = |request: &StressRequest| request.check_length().is_ok();
-        Ok(Self { routines, stresses: stresses.into_iter().filter(is_short).collect() })
+        let stresses = stresses.into_iter().filter(is_short).collect();
+        Ok(Self { routines, stresses }.with_right_sides(scene))
+    }
+
+    /// With [`Request::right_sides`] beside the routines for accelerations of a scene, but for code that
+    /// would be too long.
+    pub fn with_right_sides(mut self, scene: &Scene) -> Self {
+        let right_sides = Request::right_sides(scene, &self.routines).into_iter();
+        self.routines.extend(right_sides.filter(|request| Equations::of(request).is_ok()));
+        self
     }
 
     /// Sets the path of the crate `nboom_scalar` where the code is to stand.
@@ -96,7 +106,7 @@ impl Module {
     /// Code of a function `kernels` that lists the routines ready to run; equations are left out,
     /// and there is no function where nothing is left.
     fn table(&self) -> Result<TokenStream, CodegenError> {
-        let runs = |request: &&Request| request.output == Output::Accelerations;
+        let runs = |request: &&Request| request.output != Output::Equations;
         let routines = self.routines.iter().filter(runs).map(|r| (&r.name, &r.scalar_path));
         let stresses = self.stresses.iter().map(|r| (&r.name, &r.scalar_path));
         let listed: Vec<(&String, &String)> = routines.chain(stresses).collect();

@@ -1,29 +1,30 @@
 //! A routine whose sweeps are loops over links, and over equal appendages side by side.
 
-use nboom_formulation::Layout;
 use nboom_formulation::stages::EXTERNAL;
+use nboom_formulation::{Layout, RightSideLayout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::emit::driver::Driver;
+use crate::emit::driver::{Beside, Driver};
+use crate::emit::hinges::omega_spread;
 use crate::emit::item::{Item, Signature};
 use crate::emit::places::{place, repeated};
 use crate::emit::stage::Step;
 use crate::emit::sweeps::Sweeps;
-use crate::request::Level;
+use crate::request::{Level, Output, Request};
 use crate::trace::{Chain, Equal, Paddle, Placed, Rolled, Steps};
 
 /// The routine's items.
-pub(crate) fn items(rolled: &Rolled, level: Level, signature: &Signature) -> TokenStream {
+pub(crate) fn items(rolled: &Rolled, request: &Request, signature: &Signature) -> TokenStream {
+    let level = request.level;
     let at_origin = rolled.at_origin.iter().filter(|live| **live).count();
-    let sweeps: Vec<Sweeps> = rolled
-        .groups
-        .iter()
-        .map(|(group, steps)| Sweeps::new(group, steps, &rolled.at_origin))
-        .collect();
-    let driver = Driver { calls: sweeps.iter().map(Sweeps::call).collect(), at_origin };
+    let groups = rolled.groups.iter();
+    let sweeps: Vec<Sweeps> =
+        groups.map(|group| Sweeps::new(request, group, &rolled.at_origin)).collect();
+    let calls = sweeps.iter().map(Sweeps::call).collect();
+    let driver = Driver { calls, at_origin, beside: beside(request) };
     let of_groups = rolled.groups.iter().map(|(group, steps)| prepare(group, steps, level));
-    let of_main = quote!(let main: [R; 10] = R::gather_all(p, 0, 1););
+    let of_main = main_parameters(request);
     let base = store(&rolled.base, &format_ident!("main"), 1, &[], level);
     let (on_any, in_packs) = (driver.on_any_scalar(), driver.in_packs());
     let [sized, sized_for_packs] =
@@ -42,8 +43,28 @@ pub(crate) fn items(rolled: &Rolled, level: Level, signature: &Signature) -> Tok
         quote!(#constants #function)
     });
     let sweeps = sweeps.iter().map(Sweeps::functions);
-    let main_body = main_body(rolled, at_origin, signature.external);
+    let main_body = main_body(rolled, at_origin, request);
     quote!(#item #main_body #(#sweeps)* #(#steps)*)
+}
+
+/// What a right side writes beside accelerations.
+fn beside(request: &Request) -> Option<Beside> {
+    let topology = &request.topology;
+    (request.output == Output::RightSide).then(|| Beside {
+        beta: RightSideLayout::beta(topology),
+        tau: RightSideLayout::tau(topology),
+        power: RightSideLayout::power(topology),
+    })
+}
+
+/// Binds the parameters of the main body, and of a right side the external wrench.
+fn main_parameters(request: &Request) -> TokenStream {
+    if request.output != Output::RightSide {
+        return quote!(let main: [R; 10] = R::gather_all(p, 0, 1););
+    }
+    let external = RightSideLayout::external(&request.topology);
+    let places = (0..Layout::MAIN).chain(external).map(Literal::usize_unsuffixed);
+    quote!(let main = [#(p[#places]),*];)
 }
 
 /// From `p` to `k` for a group of appendages.
@@ -59,8 +80,20 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
             let terms = [(size, i), (1, a)];
             store(step, &format_ident!("{from}"), group.count, &terms, level)
         };
+        let laws = steps.law().map(|law| {
+            let hinges = group.shape.hinges();
+            repeated("i", hinges, false, |i| {
+                let at = place(
+                    group.law,
+                    &[(RightSideLayout::LAW * hinges, a), (RightSideLayout::LAW, i)],
+                );
+                let array = array("law", RightSideLayout::LAW, at);
+                let of_law = store(law, "law", i);
+                quote!(#array #of_law)
+            })
+        });
         let branch = array("branch", Layout::BRANCH, place(group.parameter, &[(stride, a)]));
-        match steps {
+        let rest = match steps {
             Steps::Chain(chain) => {
                 let Chain { start, outward, inward, root, first, .. } = chain.as_ref();
                 let of_branch = [start, root, first].map(|step| store(step, "branch", None));
@@ -81,7 +114,8 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
                 let of_branch = store(first, "branch", None);
                 quote!(#whole #of_whole #branch #of_branch)
             }
-        }
+        };
+        quote!(#laws #rest)
     })
 }
 
@@ -102,24 +136,45 @@ fn store(
 }
 
 /// The function for the main body.
-fn main_body(rolled: &Rolled, at_origin: usize, external: bool) -> TokenStream {
+fn main_body(rolled: &Rolled, at_origin: usize, request: &Request) -> TokenStream {
     let step = format_ident!("{}", rolled.base.traced.name);
     let constants = (rolled.base.traced.constants() > 0).then(|| {
         let start = Literal::usize_unsuffixed(rolled.base.start);
         quote!(P::gather_all(k, #start, 1),)
     });
-    let external = external.then(|| {
+    let of_state = request.external && request.output != Output::RightSide;
+    let external = of_state.then(|| {
         let places = (3..3 + EXTERNAL.size()).map(Literal::usize_unsuffixed);
         quote!(P::spread_all([#(x[#places]),*]),)
     });
+    let omega = omega_spread(request.output);
+    let write = match &rolled.attitude {
+        None => quote!(P::scatter_all(rates, out, 0, 1);),
+        Some(attitude) => {
+            let attitude = format_ident!("{}", attitude.traced.name);
+            let at = Literal::usize_unsuffixed(RightSideLayout::OMEGA.start);
+            quote! {
+                let attitude = P::spread_all([x[0], x[1], x[2], x[3]]);
+                P::scatter_all(#attitude(attitude, omega), out, 0, 1);
+                P::scatter_all([rates[0], rates[1], rates[2]], out, #at, 1);
+            }
+        }
+    };
+    let main = (0..6).map(Literal::usize_unsuffixed);
     let size = Literal::usize_unsuffixed(at_origin);
     quote! {
         /// The main body: its accelerations from what all appendages show at O.
         #[inline(always)]
-        fn main_body<S: Real, P: Pack<S>>(k: &[S], x: &[S], seen: [S; #size], out: &mut [S]) {
-            let omega = P::spread_all([x[0], x[1], x[2]]);
+        fn main_body<S: Real, P: Pack<S>>(
+            k: &[S],
+            x: &[S],
+            seen: [S; #size],
+            out: &mut [S],
+        ) -> [S; 6] {
+            let omega = #omega;
             let rates = #step(#constants omega, #external P::spread_all(seen));
-            P::scatter_all(rates, out, 0, 1);
+            #write
+            [#(rates[#main].sum()),*]
         }
     }
 }

@@ -46,7 +46,7 @@ fn commented(request: &Request) -> Result<Generated, CodegenError> {
             (items, split.evaluation(), split.preparation())
         }
         Equations::Rolled(steps) => {
-            let items = rolled::items(steps, *level, &signature);
+            let items = rolled::items(steps, request, &signature);
             (items, steps.evaluation(), steps.preparation())
         }
     };

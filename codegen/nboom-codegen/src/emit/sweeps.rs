@@ -1,17 +1,19 @@
 //! Functions that take one appendage, or several side by side, through the sweeps.
 
-use nboom_formulation::Layout;
 use nboom_formulation::stages::{AT_ORIGIN, ELIMINATED, PADDLE, SHOWN, TURNED};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::emit::comment::comment;
 use crate::emit::driver::{Call, saved};
+use crate::emit::hinges::{Hinges, omega_spread};
 use crate::emit::places::{place, repeated, slot};
+use crate::request::{Output, Request};
 use crate::trace::{Chain, Equal, Paddle, Placed, Steps};
 
 /// The sweeps of a group of equal appendages.
 pub(crate) struct Sweeps<'a> {
+    request: &'a Request,
     group: &'a Equal,
     steps: &'a Steps,
     /// Which numbers at O any group shows.
@@ -19,8 +21,17 @@ pub(crate) struct Sweeps<'a> {
 }
 
 impl<'a> Sweeps<'a> {
-    pub fn new(group: &'a Equal, steps: &'a Steps, at_origin: &'a [bool]) -> Self {
-        Self { group, steps, at_origin }
+    pub fn new(
+        request: &'a Request,
+        (group, steps): &'a (Equal, Steps),
+        at_origin: &'a [bool],
+    ) -> Self {
+        Self { request, group, steps, at_origin }
+    }
+
+    fn hinges(&self) -> Hinges<'a> {
+        let Request { topology, output, .. } = self.request;
+        Hinges { group: self.group, topology, output: *output }
     }
 
     /// How an evaluation calls them.
@@ -50,6 +61,7 @@ impl<'a> Sweeps<'a> {
             1 => format!("the appendage {shape}"),
             _ => format!("appendage `a` of {count} {shape} and those packed with it"),
         };
+        let power = (self.request.output == Output::RightSide).then(|| quote!(power: &mut S,));
         let in_about = format!(" Inward through {taken}; adds to `seen`.");
         let out_about = format!(" Outward through {taken}.");
         quote! {
@@ -61,13 +73,20 @@ impl<'a> Sweeps<'a> {
                 a: usize,
                 saved: &mut #saved,
                 seen: &mut [S; #seen],
+                #power
             ) {
                 #inward
             }
             #[doc = #out_about]
             #[inline(always)]
-            fn #out_name<S: Real, P: Pack<S>>(k: &[S], a: usize, saved: &#saved, out: &mut [S]) {
-                let main = P::spread_all([out[0], out[1], out[2], out[3], out[4], out[5]]);
+            fn #out_name<S: Real, P: Pack<S>>(
+                k: &[S],
+                a: usize,
+                saved: &#saved,
+                main: [S; 6],
+                out: &mut [S],
+            ) {
+                let main = P::spread_all(main);
                 #outward
             }
         }
@@ -93,24 +112,19 @@ impl<'a> Sweeps<'a> {
         constants.map(|k| (quote!(let link = #k;), quote!(link,))).unwrap_or_default()
     }
 
-    /// A number of hinge `i` in the state: β, τ or torque by `row`.
-    fn of_hinge(&self, row: usize, i: Option<&Ident>) -> TokenStream {
-        let (a, count) = (format_ident!("a"), self.group.count);
-        let start = Layout::STATE + Layout::HINGE * self.group.hinge + row * count;
-        let at = place(start, &[(Layout::HINGE * count, i), (1, Some(&a))]);
-        quote!(P::gather(x, #at))
-    }
-
     fn chain_in(&self, chain: &Chain) -> TokenStream {
         let Chain { start, outward, inward, root, .. } = chain;
-        let (angles, outward) = (self.angles(), self.links_outward(outward));
-        let (inward, add) = (self.links_inward(inward), self.add(root));
+        let (angles, laws) = (self.angles(), chain.law.as_ref().map(|law| self.laws(law)));
+        let outward = self.links_outward(outward);
+        let (inward, add) = (self.links_inward(inward, chain.law.is_some()), self.add(root));
+        let omega = omega_spread(self.request.output);
         let (start_, root_) = (name(start), name(root));
         let [k_start, k_root] = [start, root].map(|step| self.argument(step));
         quote! {
-            let omega = P::spread_all([x[0], x[1], x[2]]);
+            let omega = #omega;
             let (w, mut reached) = #start_(#k_start omega);
             #angles
+            #laws
             #outward
             #inward
             let shares = #root_(#k_root shown, [outer]);
@@ -122,7 +136,7 @@ impl<'a> Sweeps<'a> {
         let hinges = self.group.shape.hinges();
         let what = comment("Absolute angles, their sines and cosines.");
         let angles = repeated("i", hinges, false, |i| {
-            let (beta, slot) = (self.of_hinge(0, i), slot(i));
+            let (beta, slot) = (self.hinges().beta((0, i)), slot(i));
             quote!(alpha += #beta; angles[#slot] = alpha;)
         });
         let hinges = Literal::usize_unsuffixed(hinges);
@@ -135,12 +149,37 @@ impl<'a> Sweeps<'a> {
         }
     }
 
+    /// Torques about all hinges of an appendage, and their power.
+    fn laws(&self, step: &Placed) -> TokenStream {
+        let (hinges, law) = (self.group.shape.hinges(), name(step));
+        let what = comment("Torques of springs and dashpots, and their power.");
+        let laws = repeated("i", hinges, false, |i| {
+            let (bind, constants) = self.of_link(step, i);
+            let [beta, tau] = [self.hinges().beta((0, i)), self.hinges().tau((0, i))];
+            let slot = slot(i);
+            quote! {
+                #bind
+                let ([torque], [work]) = #law(#constants [#beta], [#tau]);
+                torques[#slot] = torque;
+                of_appendage += work;
+            }
+        });
+        let hinges = Literal::usize_unsuffixed(hinges);
+        quote! {
+            #what
+            let mut torques = [P::zero(); #hinges];
+            let mut of_appendage = P::zero();
+            #laws
+            *power += of_appendage.sum();
+        }
+    }
+
     fn links_outward(&self, step: &Placed) -> TokenStream {
         let (hinges, outward) = (self.group.shape.hinges(), name(step));
         let what = comment("Outward: links turned, their biases.");
         let links = repeated("i", hinges, false, |i| {
             let (bind, link) = self.of_link(step, i);
-            let (tau, slot) = (self.of_hinge(1, i), slot(i));
+            let (tau, slot) = (self.hinges().tau((0, i)), slot(i));
             quote! {
                 #bind
                 let (sin, cos) = turns[#slot];
@@ -156,12 +195,14 @@ impl<'a> Sweeps<'a> {
         }
     }
 
-    fn links_inward(&self, step: &Placed) -> TokenStream {
+    fn links_inward(&self, step: &Placed, has_laws: bool) -> TokenStream {
         let inward = name(step);
         let what = comment("Inward: hinges eliminated.");
         let links = repeated("i", self.group.shape.hinges(), true, |i| {
             let (bind, link) = self.of_link(step, i);
-            let (torque, slot) = (self.of_hinge(2, i), slot(i));
+            let slot = slot(i);
+            let torque =
+                if has_laws { quote!(torques[#slot]) } else { self.hinges().torque((0, i)) };
             quote! {
                 #bind
                 let torque = #torque;
@@ -181,14 +222,12 @@ impl<'a> Sweeps<'a> {
     fn chain_out(&self, chain: &Chain) -> TokenStream {
         let Chain { first, back, .. } = chain;
         let (first_, back_, k_first) = (name(first), name(back), self.argument(first));
-        let (a, count) = (format_ident!("a"), self.group.count);
-        let output = Layout::OUTPUT + self.group.hinge;
         let links = repeated("i", self.group.shape.hinges(), false, |i| {
-            let (at, slot) = (place(output, &[(count, i), (1, Some(&a))]), slot(i));
+            let (write, slot) = (self.hinges().write(&format_ident!("tau_dot"), (0, i)), slot(i));
             quote! {
                 let tau_dot;
                 ([tau_dot], turning, hinge) = #back_(saved[#slot], turning, hinge);
-                tau_dot.scatter(out, #at);
+                #write
             }
         });
         quote! {
@@ -198,14 +237,23 @@ impl<'a> Sweeps<'a> {
     }
 
     fn paddle_in(&self, paddle: &Paddle) -> TokenStream {
-        let Paddle { inward, .. } = paddle;
+        let Paddle { law, inward, .. } = paddle;
         let (inward_, k_inward) = (name(inward), self.argument(inward));
-        let start = Layout::STATE + Layout::HINGE * self.group.hinge;
-        let at = place(start, &[(1, Some(&format_ident!("a")))]);
-        let (count, add) = (Literal::usize_unsuffixed(self.group.count), self.add(inward));
+        let laws = law.as_ref().map(|law| self.laws(law));
+        let hinges = [0, 1].map(|number: usize| {
+            let (hinge, slot) = ((number, None), Literal::usize_unsuffixed(number));
+            let [beta, tau] = [self.hinges().beta(hinge), self.hinges().tau(hinge)];
+            let torque = match law {
+                Some(_) => quote!(torques[#slot]),
+                None => self.hinges().torque(hinge),
+            };
+            quote!(#beta, #tau, #torque)
+        });
+        let (omega, add) = (omega_spread(self.request.output), self.add(inward));
         quote! {
-            let omega = P::spread_all([x[0], x[1], x[2]]);
-            let hinges = P::gather_all(x, #at, #count);
+            let omega = #omega;
+            #laws
+            let hinges = [#(#hinges),*];
             let shares;
             (shares, saved.0, saved.1) = #inward_(#k_inward omega, hinges);
             #add
@@ -215,13 +263,13 @@ impl<'a> Sweeps<'a> {
     fn paddle_out(&self, paddle: &Paddle) -> TokenStream {
         let Paddle { first, back, .. } = paddle;
         let (first_, back_, k_first) = (name(first), name(back), self.argument(first));
-        let output = Layout::OUTPUT + self.group.hinge;
-        let at = place(output, &[(1, Some(&format_ident!("a")))]);
-        let count = Literal::usize_unsuffixed(self.group.count);
+        let names = [format_ident!("of_arm"), format_ident!("of_paddle")];
+        let [arm, outer] = [0, 1].map(|i| self.hinges().write(&names[i], (i, None)));
         quote! {
             let (turning, hinge) = #first_(#k_first main);
-            let tau_dot = #back_(saved.0, saved.1, turning, hinge);
-            P::scatter_all(tau_dot, out, #at, #count);
+            let [#(#names),*] = #back_(saved.0, saved.1, turning, hinge);
+            #arm
+            #outer
         }
     }
 

@@ -1,20 +1,21 @@
 //! What a routine assumes, in words.
 
-use nboom_formulation::Layout;
+use nboom_formulation::{Layout, RightSideLayout};
 use nboom_model::{Shape, Topology};
 
-use crate::Request;
+use crate::request::{Output, Request};
 
 impl Request {
     /// One phrase for each thing that the routine does not compute because of what it assumes.
     pub fn assumptions_in_words(&self) -> Vec<String> {
-        phrases(&self.topology, &self.assumptions, self.external)
+        phrases(self)
     }
 }
 
-fn phrases(topology: &Topology, assumptions: &[Option<f64>], external: bool) -> Vec<String> {
+fn phrases(request: &Request) -> Vec<String> {
+    let Request { topology, assumptions, .. } = request;
     let mut phrases = Vec::new();
-    if !external {
+    if !request.external {
         phrases.push("no external wrench on the main body".to_owned());
     }
     let fixed = assumptions.iter().flatten().count();
@@ -50,15 +51,30 @@ fn phrases(topology: &Topology, assumptions: &[Option<f64>], external: bool) -> 
             say(&found, places, format!("{phrase} of {count} of {of} links"));
         }
     }
-    phrases.extend(rest(topology, assumptions, &said));
+    if request.output == Output::RightSide {
+        let external = RightSideLayout::external(topology);
+        if !request.external {
+            external.clone().for_each(|at| said[at] = true);
+        }
+        if !request.has_lines() && topology.hinges() > 0 {
+            (external.end..assumptions.len()).for_each(|at| said[at] = true);
+            phrases.push("no force along a line".to_owned());
+        }
+    }
+    phrases.extend(rest(request, &said));
     phrases
 }
 
 /// What no phrase says: each number by its name, owners with the same ones together.
-fn rest(topology: &Topology, assumptions: &[Option<f64>], said: &[bool]) -> Vec<String> {
+fn rest(request: &Request, said: &[bool]) -> Vec<String> {
+    let Request { topology, assumptions, output, .. } = request;
     let mut found: Vec<(String, Vec<String>)> = Vec::new();
     let mut at = 0;
-    for (owner, names) in owners(topology) {
+    let mut owners = owners(topology);
+    if *output == Output::RightSide {
+        owners.extend(owners_of_forces(topology));
+    }
+    for (owner, names) in owners {
         let range = at..at + names.len();
         at = range.end;
         let named = range.zip(names).filter(|&(at, _)| !said[at]);
@@ -103,6 +119,28 @@ fn owners(topology: &Topology) -> Vec<(String, &'static [&'static str])> {
     }
     owners
 }
+
+/// Whose the numbers of [`Forces`](nboom_formulation::Forces) are, and what theirs are called.
+fn owners_of_forces(topology: &Topology) -> Vec<(String, &'static [&'static str])> {
+    let shapes = topology.shapes().iter().enumerate();
+    let hinges: Vec<String> = shapes
+        .flat_map(|(i, shape)| (1..=shape.hinges()).map(move |link| format!("{},{link}", i + 1)))
+        .collect();
+    let of =
+        |what: &str, names: &'static [&'static str]| -> Vec<(String, &'static [&'static str])> {
+            hinges.iter().map(|hinge| (format!("{what} {hinge}"), names)).collect()
+        };
+    let external = ("the external wrench".to_owned(), &WRENCH[..]);
+    [of("hinge", &LAW), vec![external], of("line", &LINE)].concat()
+}
+
+/// Torque about a hinge.
+const LAW: [&str; RightSideLayout::LAW] = ["q₁", "q₂", "A₂", "A₁", "A₀"];
+/// Moment and force.
+const WRENCH: [&str; RightSideLayout::EXTERNAL] = ["M_x", "M_y", "M_z", "F_x", "F_y", "F_z"];
+/// Ends of a line on the link and on the main body, force by powers of its length.
+const LINE: [&str; RightSideLayout::LINE] =
+    ["p_ξ", "p_η", "p_ζ", "o_x", "o_y", "o_z", "a₀", "a₁", "a₂", "a₃"];
 
 /// Mass, first moment and inertia about O.
 const MAIN: [&str; Layout::MAIN] =
@@ -178,6 +216,12 @@ mod tests {
         let found = phrases(&partly);
         assert!(found.contains(&"next hinge on the η axis of 3 of 4 links".to_owned()));
         assert_eq!(found[found.len() - 2..], rest);
+        let mut right_side = general.clone().for_right_side();
+        let expected = ["no external wrench on the main body", "no force along a line"];
+        assert_eq!(phrases(&right_side), expected);
+        right_side.assumptions[RightSideLayout::law(&topology, 1).start] = Some(0.0);
+        assert_eq!(phrases(&right_side)[2..], ["q₁ = 0 of hinge 1,2"]);
+        assert_eq!(phrases(&right_side.with_lines())[1..], ["q₁ = 0 of hinge 1,2"]);
         let parameters = vec![2.0; general.assumptions.len()];
         assert_eq!(phrases(&general.baked(&parameters))[1..], ["all 82 parameters"]);
     }

@@ -66,6 +66,17 @@ pub enum CodegenError {
         /// The most that is emitted.
         limit: usize,
     },
+    /// Lines push links of a satellite whose code is loops.
+    #[error(
+        "topology {topology}: the evaluation with lines that push links takes more than {limit} \
+         operations; only without lines it is emitted as loops"
+    )]
+    Lines {
+        /// The topology.
+        topology: String,
+        /// The most operations that are emitted.
+        limit: usize,
+    },
     /// A number of a scene is infinite or not a number.
     #[error("routine `{name}`: {value} found among the scene's numbers, finite ones expected")]
     Number {

@@ -1,12 +1,14 @@
 //! What the numbers of a satellite are called in generated code.
 
 use nboom_formulation::Layout;
-use nboom_formulation::stages::{BRANCH, EXTERNAL, LINK, MAIN, MAIN_RATES, OMEGA};
+use nboom_formulation::stages::{
+    ATTITUDE, ATTITUDE_RATE, BRANCH, EXTERNAL, LAW, LINE, LINK, MAIN, MAIN_RATES, OMEGA, POWER,
+};
 use nboom_model::{Shape, Topology};
 
 use crate::request::Output;
 
-/// Names of all numbers that a routine reads and writes, in the order of [`Layout`].
+/// Names of all numbers that a routine reads and writes, in the order of its layout.
 pub(crate) struct Names {
     pub parameters: Vec<String>,
     pub coordinates: Vec<String>,
@@ -27,6 +29,17 @@ impl Names {
                 hinges.push(owner);
             }
         }
+        match output {
+            Output::Accelerations => Self::of_accelerations(topology, parameters, &hinges),
+            Output::Equations => {
+                let names = Self::of_accelerations(topology, parameters, &hinges);
+                Self { outputs: Vec::new(), ..names }
+            }
+            Output::RightSide => Self::of_right_side(parameters, &hinges),
+        }
+    }
+
+    fn of_accelerations(topology: &Topology, parameters: Vec<String>, hinges: &[String]) -> Self {
         let mut coordinates = owned(&[OMEGA.numbers, EXTERNAL.numbers]);
         let mut outputs = owned(&[MAIN_RATES.numbers]);
         coordinates.resize(Layout::coordinates(topology), String::new());
@@ -38,9 +51,20 @@ impl Names {
             coordinates[torque] = format!("torque_{owner}");
             outputs[Layout::OUTPUT + place] = format!("tau_dot_{owner}");
         }
-        if output == Output::Equations {
-            outputs.clear();
-        }
+        Self { parameters, coordinates, outputs }
+    }
+
+    fn of_right_side(mut parameters: Vec<String>, hinges: &[String]) -> Self {
+        let of_hinges =
+            |name: &'static str| hinges.iter().map(move |hinge| format!("{name}_{hinge}"));
+        parameters.extend(hinges.iter().flat_map(|hinge| of_owner(LAW.numbers, hinge)));
+        parameters.extend(owned(&[EXTERNAL.numbers]));
+        parameters.extend(hinges.iter().flat_map(|hinge| of_owner(LINE.numbers, hinge)));
+        let mut coordinates = owned(&[ATTITUDE.numbers, OMEGA.numbers]);
+        coordinates.extend(of_hinges("beta").chain(of_hinges("tau")));
+        let mut outputs = owned(&[ATTITUDE_RATE.numbers, &MAIN_RATES.numbers[..3]]);
+        outputs.extend(of_hinges("beta_dot").chain(of_hinges("tau_dot")));
+        outputs.extend(owned(&[POWER.numbers]));
         Self { parameters, coordinates, outputs }
     }
 

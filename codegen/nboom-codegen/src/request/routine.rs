@@ -1,8 +1,8 @@
-use nboom_formulation::{Formulation, Layout};
+use nboom_formulation::{Formulation, Layout, RightSideLayout};
 use nboom_model::Topology;
 
-use crate::request::CodegenError;
 use crate::request::assumptions::links;
+use crate::request::{CodegenError, Output};
 
 /// The most hinges that `articulated` is generated for, as loops.
 pub const HINGE_LIMIT: usize = 1000;
@@ -25,37 +25,6 @@ impl Level {
         match self {
             Self::Exact => "exact",
             Self::Fast => "fast",
-        }
-    }
-}
-
-/// What an evaluation writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Output {
-    /// ω̇, a_O and τ̇, in the order of [`Layout`].
-    Accelerations,
-    /// The formulation's matrix row by row, then its right side, hinges appendage by appendage
-    /// (`Formulation::equations`).
-    Equations,
-}
-
-impl Output {
-    /// `accelerations` or `equations`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Accelerations => "accelerations",
-            Self::Equations => "equations",
-        }
-    }
-
-    /// How many numbers an evaluation writes.
-    pub fn size(self, topology: &Topology) -> usize {
-        match self {
-            Self::Accelerations => Layout::outputs(topology),
-            Self::Equations => {
-                let unknowns = 6 + topology.hinges();
-                unknowns * unknowns + unknowns
-            }
         }
     }
 }
@@ -101,6 +70,9 @@ impl Request {
     /// Code that also takes an external wrench on the main body.
     pub fn with_external_wrench(mut self) -> Self {
         self.external = true;
+        if self.output == Output::RightSide {
+            self.assumptions[RightSideLayout::external(&self.topology)].fill(None);
+        }
         self
     }
 
@@ -113,12 +85,48 @@ impl Request {
     /// Code for the matrix and the right side that the formulation solves.
     pub fn for_equations(mut self) -> Self {
         self.output = Output::Equations;
+        self.assumptions.truncate(Layout::parameters(&self.topology));
         self
+    }
+
+    /// Code for the right side of the differential equations of a mode, in the order of
+    /// [`RightSideLayout`]. Hinge laws are handed in, and so is an external wrench if accelerations
+    /// take one; lines are assumed not to push.
+    pub fn for_right_side(mut self) -> Self {
+        self.output = Output::RightSide;
+        let topology = &self.topology;
+        self.assumptions.truncate(Layout::parameters(topology));
+        self.assumptions.resize(RightSideLayout::parameters(topology), None);
+        if !self.external {
+            self.assumptions[RightSideLayout::external(topology)].fill(Some(0.0));
+        }
+        for hinge in 0..topology.hinges() {
+            self.assumptions[RightSideLayout::coefficients(topology, hinge)].fill(Some(0.0));
+        }
+        self
+    }
+
+    /// Code for a right side whose links may be pushed by lines.
+    pub fn with_lines(mut self) -> Self {
+        for hinge in 0..self.topology.hinges() {
+            self.assumptions[RightSideLayout::coefficients(&self.topology, hinge)].fill(None);
+        }
+        self
+    }
+
+    /// Whether a line may push a link.
+    pub(crate) fn has_lines(&self) -> bool {
+        let pushes = |hinge| {
+            let coefficients = RightSideLayout::coefficients(&self.topology, hinge);
+            self.assumptions[coefficients].iter().any(|assumed| *assumed != Some(0.0))
+        };
+        self.output == Output::RightSide && (0..self.topology.hinges()).any(pushes)
     }
 
     /// Assumes every parameter: code for one satellite.
     ///
-    /// `parameters` are the numbers that `nboom_formulation::Parameters::write` gives.
+    /// `parameters` are the numbers that `nboom_formulation::Parameters::write` gives, and for a right
+    /// side those of `nboom_formulation::Forces::write` after them.
     pub fn baked(mut self, parameters: &[f64]) -> Self {
         self.assumptions = parameters.iter().copied().map(Some).collect();
         self
@@ -148,7 +156,7 @@ impl Request {
         let Self { name, topology, formulation, output, assumptions, .. } = self;
         check_name(name)?;
         let of_topology = || topology.to_string();
-        let (found, expected) = (assumptions.len(), Layout::parameters(topology));
+        let (found, expected) = (assumptions.len(), output.parameters(topology));
         if found != expected {
             return Err(CodegenError::Parameters { topology: of_topology(), found, expected });
         }

@@ -23,7 +23,7 @@ const FEW_HINGES: usize = 10;
 const LOCK_STATES: usize = 32;
 
 /// Angles for which held hinges are welded to see which numbers are zero at any angle.
-const ANGLES: [f64; 2] = [0.723, -1.931];
+pub(crate) const ANGLES: [f64; 2] = [0.723, -1.931];
 
 impl Request {
     /// Code for a scene whose hinges are all free, with external wrench if the scene has a
@@ -124,14 +124,18 @@ pub(crate) fn name(word: &str, topology: &Topology) -> String {
 
 /// The scene with the hinges that are not `free` held, at different angles around `angle`.
 pub fn held(scene: &Scene, free: &[bool], angle: f64) -> WeldedTree<f64> {
+    let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
+    WeldedTree::new(scene, &mode_with(scene, free), &beta)
+}
+
+/// The mode in which the hinges that are not `free` are held.
+pub(crate) fn mode_with(scene: &Scene, free: &[bool]) -> Mode {
     let state = |&free: &bool| if free { HingeState::Free } else { HingeState::Locked };
-    let mode = Mode {
+    Mode {
         hinges: free.iter().map(state).collect(),
         thrust: scene.thrust.is_some(),
         ..Mode::at_start(scene)
-    };
-    let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
-    WeldedTree::new(scene, &mode, &beta)
+    }
 }
 
 /// The chains and paddles of a scene in which the hinges that are not `free` are held.
@@ -144,7 +148,7 @@ pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recogni
 }
 
 /// Which hinges are free in each state to look at; all free is not among them.
-fn combinations(scene: &Scene) -> Vec<Vec<bool>> {
+pub(crate) fn combinations(scene: &Scene) -> Vec<Vec<bool>> {
     let hinges = scene.bodies.len();
     if hinges <= FEW_HINGES {
         let free = |bits: usize| (0..hinges).map(|i| bits >> i & 1 == 1).collect();

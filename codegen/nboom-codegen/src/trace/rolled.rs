@@ -1,13 +1,14 @@
 //! Sweeps step by step: over links, and over equal appendages side by side.
 
 use nboom_expr::{Expr, Operations};
-use nboom_formulation::Layout;
 use nboom_formulation::stages::{
-    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, PADDLE, REACHED, SHOWN, Stage, TURNED,
+    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, PADDLE, POWER, REACHED, SHOWN, Stage, TORQUE,
+    TURNED,
 };
+use nboom_formulation::{Layout, RightSideLayout};
 use nboom_model::{Shape, Topology};
 
-use crate::request::Request;
+use crate::request::{Output, Request};
 use crate::trace::Traced;
 use crate::trace::stage::Masks;
 
@@ -17,6 +18,8 @@ pub(crate) struct Rolled {
     pub groups: Vec<(Equal, Steps)>,
     /// From what all appendages show at O to the accelerations of the main body.
     pub base: Placed,
+    /// The rate of change of the attitude, of a right side.
+    pub attitude: Option<Placed>,
     /// Which numbers at O any appendage shows.
     pub at_origin: Vec<bool>,
     /// How many constants are prepared.
@@ -32,6 +35,8 @@ pub(crate) struct Equal {
     pub parameter: usize,
     /// Hinges before.
     pub hinge: usize,
+    /// Where the laws of a right side begin.
+    pub law: usize,
 }
 
 /// The steps of an appendage.
@@ -42,6 +47,8 @@ pub(crate) enum Steps {
 
 /// The steps of a chain, in the order in which their constants stand.
 pub(crate) struct Chain {
+    /// The torque about a hinge, of a right side.
+    pub law: Option<Placed>,
     pub start: Placed,
     pub outward: Placed,
     pub inward: Placed,
@@ -52,6 +59,8 @@ pub(crate) struct Chain {
 
 /// The steps of a paddle, in the order in which their constants stand.
 pub(crate) struct Paddle {
+    /// The torque about a hinge, of a right side.
+    pub law: Option<Placed>,
     pub inward: Placed,
     pub first: Placed,
     pub back: Placed,
@@ -90,14 +99,33 @@ impl Equal {
         size: usize,
         repeats: usize,
     ) -> Vec<Option<f64>> {
-        let at = |appendage: usize, repeat: usize, i: usize| {
-            let start = self.parameter + appendage * self.parameters() + offset;
-            request.assumptions[start + repeat * Layout::LINK + i]
+        let start = |appendage: usize, repeat: usize| {
+            self.parameter + appendage * self.parameters() + offset + repeat * Layout::LINK
         };
+        self.common(request, start, size, repeats)
+    }
+
+    /// What is assumed of the law of every hinge.
+    fn of_laws(&self, request: &Request) -> Vec<Option<f64>> {
+        let hinges = self.shape.hinges();
+        let start = |appendage: usize, hinge: usize| {
+            self.law + (appendage * hinges + hinge) * RightSideLayout::LAW
+        };
+        self.common(request, start, RightSideLayout::LAW, hinges)
+    }
+
+    /// What is assumed of `size` numbers wherever they `start`, by appendage and repetition.
+    fn common(
+        &self,
+        request: &Request,
+        start: impl Fn(usize, usize) -> usize,
+        size: usize,
+        repeats: usize,
+    ) -> Vec<Option<f64>> {
         let common = |i: usize| {
-            let first = at(0, 0, i);
-            let same = |appendage| (0..repeats).all(|repeat| at(appendage, repeat, i) == first);
-            first.filter(|_| (0..self.count).all(same))
+            let at = |appendage, repeat| request.assumptions[start(appendage, repeat) + i];
+            let same = |appendage| (0..repeats).all(|repeat| at(appendage, repeat) == at(0, 0));
+            at(0, 0).filter(|_| (0..self.count).all(same))
         };
         (0..size).map(common).collect()
     }
@@ -107,9 +135,18 @@ impl Steps {
     fn all(&self) -> Vec<&Placed> {
         match self {
             Self::Chain(of) => {
-                vec![&of.start, &of.outward, &of.inward, &of.root, &of.first, &of.back]
+                let steps = [&of.start, &of.outward, &of.inward, &of.root, &of.first, &of.back];
+                of.law.iter().chain(steps).collect()
             }
-            Self::Paddle(of) => vec![&of.inward, &of.first, &of.back],
+            Self::Paddle(of) => of.law.iter().chain([&of.inward, &of.first, &of.back]).collect(),
+        }
+    }
+
+    /// The torque about a hinge, of a right side.
+    pub fn law(&self) -> Option<&Placed> {
+        match self {
+            Self::Chain(of) => of.law.as_ref(),
+            Self::Paddle(of) => of.law.as_ref(),
         }
     }
 
@@ -130,7 +167,8 @@ impl Rolled {
         let mut at_origin = vec![false; AT_ORIGIN.size()];
         let (mut parameter, mut hinge) = (Layout::MAIN, 0);
         for (shape, count) in request.topology.groups() {
-            let group = Equal { shape, count, parameter, hinge };
+            let law = RightSideLayout::law(&request.topology, hinge).start;
+            let group = Equal { shape, count, parameter, hinge, law };
             let steps = match shape {
                 Shape::Chain(links) => {
                     Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
@@ -144,20 +182,17 @@ impl Rolled {
             hinge += count * shape.hinges();
             groups.push((group, steps));
         }
-        let masks = Masks::from([
-            (AT_ORIGIN.name, at_origin.clone()),
-            (EXTERNAL.name, vec![request.external; EXTERNAL.size()]),
-        ]);
-        let main = &request.assumptions[..Layout::MAIN];
-        let base = Traced::new("main", &stages::base(), main, &masks).regrouped(request.level);
-        let base = places.place(base, 1);
-        Self { groups, base, at_origin, constants: places.constants }
+        let base = places.place(base(request, &at_origin), 1);
+        let attitude = (request.output == Output::RightSide)
+            .then(|| Traced::new("main", &stages::attitude(), &[], &Masks::new()))
+            .map(|traced| places.place(traced, 1));
+        Self { groups, base, attitude, at_origin, constants: places.constants }
     }
 
     /// All steps in the order in which their constants stand.
     pub fn steps(&self) -> Vec<&Placed> {
         let of_groups = self.groups.iter().flat_map(|(_, steps)| steps.all());
-        of_groups.chain([&self.base]).collect()
+        of_groups.chain([&self.base]).chain(&self.attitude).collect()
     }
 
     /// Operations of an evaluation.
@@ -198,6 +233,35 @@ impl Places {
     }
 }
 
+/// The step of the main body, with what any appendage shows at O.
+fn base(request: &Request, at_origin: &[bool]) -> Traced {
+    let masks = Masks::from([
+        (AT_ORIGIN.name, at_origin.to_vec()),
+        (EXTERNAL.name, vec![request.external; EXTERNAL.size()]),
+    ]);
+    let mut assumptions = request.assumptions[..Layout::MAIN].to_vec();
+    let stage = match request.output {
+        Output::RightSide => {
+            let external = RightSideLayout::external(&request.topology);
+            assumptions.extend(&request.assumptions[external]);
+            stages::base_in_mode()
+        }
+        Output::Accelerations | Output::Equations => stages::base(),
+    };
+    Traced::new("main", &stage, &assumptions, &masks).regrouped(request.level)
+}
+
+/// The torque about a hinge of a group, of a right side.
+fn law(request: &Request, group: &Equal, places: &mut Places) -> Option<Placed> {
+    let traced = || {
+        let law =
+            Traced::new(&group.prefix(), &stages::law(), &group.of_laws(request), &Masks::new());
+        law.passing_on(TORQUE, &[true]).passing_on(POWER, &[true])
+    };
+    let of_right_side = (request.output == Output::RightSide).then(traced);
+    of_right_side.map(|traced| places.place(traced, group.shape.hinges() * group.count))
+}
+
 fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) -> Chain {
     let prefix = group.prefix();
     let branch = group.assumptions(request, 0, Layout::BRANCH, 1);
@@ -219,6 +283,7 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
     let back = trace(&stages::back(), &[], &masks);
     let (once, each) = (group.count, links * group.count);
     Chain {
+        law: law(request, group, places),
         start: places.place(start, once),
         outward: places.place(outward, each),
         inward: places.place(inward, each),
@@ -240,6 +305,7 @@ fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Paddle {
     ]);
     let back = Traced::new(&prefix, &stages::paddle_back(), &[], &masks);
     Paddle {
+        law: law(request, group, places),
         inward: places.place(inward, group.count),
         first: places.place(first, group.count),
         back: places.place(back, group.count),

@@ -1,5 +1,5 @@
 use nboom_expr::Graph;
-use nboom_formulation::{Coordinates, Equations, Layout, Parameters};
+use nboom_formulation::{Coordinates, Equations, Forces, Layout, Parameters, right_side};
 
 use crate::request::{Output, Request};
 
@@ -9,25 +9,34 @@ use crate::request::{Output, Request};
 /// When equations are asked of a formulation that forms none.
 pub fn trace(request: &Request) -> Graph {
     let Request { topology, formulation, output, .. } = request;
-    let parameters = Layout::parameters(topology);
+    let parameters = request.assumptions.len();
     let mut inputs = request.assumptions.clone();
-    inputs.resize(parameters + Layout::coordinates(topology), None);
-    if !request.external {
+    inputs.resize(parameters + output.coordinates(topology), None);
+    if !request.external && *output != Output::RightSide {
         inputs[parameters + 3..parameters + 9].fill(Some(0.0));
     }
     Graph::trace_with(&inputs, |inputs| {
-        let (of_satellite, of_state) = inputs.split_at(parameters);
+        let (parameters, state) = inputs.split_at(parameters);
+        let (of_satellite, of_forces) = parameters.split_at(Layout::parameters(topology));
         let satellite = Parameters::read(topology, of_satellite.iter().copied());
-        let state = Coordinates::read(topology, of_state);
         match output {
             Output::Accelerations => {
+                let state = Coordinates::read(topology, state);
                 formulation.solve(topology, &satellite, &state).write(topology)
             }
             Output::Equations => {
+                let state = Coordinates::read(topology, state);
                 let found = formulation.equations(topology, &satellite, &state);
                 let Equations { mut matrix, forcing } = found.expect("the request was checked");
                 matrix.extend(forcing);
                 matrix
+            }
+            Output::RightSide => {
+                let mut forces = Forces::read(topology.hinges(), of_forces.iter().copied());
+                if !request.has_lines() {
+                    forces.lines.clear();
+                }
+                right_side(*formulation, topology, &satellite, &forces, state)
             }
         }
     })

@@ -54,9 +54,9 @@ pub mod routine_four_s3 {
             for a in 0..4 {
                 s3_in::<R, R>(k, x, a, &mut s3_saved[a], &mut seen);
             }
-            main_body::<R, R>(k, x, seen, out);
+            let main = main_body::<R, R>(k, x, seen, out);
             for a in 0..4 {
-                s3_out::<R, R>(k, a, &s3_saved[a], out);
+                s3_out::<R, R>(k, a, &s3_saved[a], main, out);
             }
         }
         #[inline(always)]
@@ -67,13 +67,13 @@ pub mod routine_four_s3 {
             let mut seen = [0.0; 27];
             let mut s3_saved_0 = [[I::Four::zero(); 6]; 3];
             s3_in::<f64, I::Four>(k, x, 0, &mut s3_saved_0, &mut seen);
-            main_body::<f64, I::One>(k, x, seen, out);
-            s3_out::<f64, I::Four>(k, 0, &s3_saved_0, out);
+            let main = main_body::<f64, I::One>(k, x, seen, out);
+            s3_out::<f64, I::Four>(k, 0, &s3_saved_0, main, out);
         }
     }
     /// The main body: its accelerations from what all appendages show at O.
     #[inline(always)]
-    fn main_body<S: Real, P: Pack<S>>(k: &[S], x: &[S], seen: [S; 27], out: &mut [S]) {
+    fn main_body<S: Real, P: Pack<S>>(k: &[S], x: &[S], seen: [S; 27], out: &mut [S]) -> [S; 6] {
         let omega = P::spread_all([x[0], x[1], x[2]]);
         let rates = main_base(
             P::gather_all(k, 252, 1),
@@ -82,6 +82,14 @@ pub mod routine_four_s3 {
             P::spread_all(seen),
         );
         P::scatter_all(rates, out, 0, 1);
+        [
+            rates[0].sum(),
+            rates[1].sum(),
+            rates[2].sum(),
+            rates[3].sum(),
+            rates[4].sum(),
+            rates[5].sum(),
+        ]
     }
     /// Inward through appendage `a` of 4 S3 and those packed with it; adds to `seen`.
     #[inline(always)]
@@ -126,8 +134,14 @@ pub mod routine_four_s3 {
     }
     /// Outward through appendage `a` of 4 S3 and those packed with it.
     #[inline(always)]
-    fn s3_out<S: Real, P: Pack<S>>(k: &[S], a: usize, saved: &[[P; 6]; 3], out: &mut [S]) {
-        let main = P::spread_all([out[0], out[1], out[2], out[3], out[4], out[5]]);
+    fn s3_out<S: Real, P: Pack<S>>(
+        k: &[S],
+        a: usize,
+        saved: &[[P; 6]; 3],
+        main: [S; 6],
+        out: &mut [S],
+    ) {
+        let main = P::spread_all(main);
         let (mut turning, mut hinge) = s3_first(P::gather_all(k, 204 + a, 4), main);
         for i in 0..3 {
             let tau_dot;

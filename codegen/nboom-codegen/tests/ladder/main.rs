@@ -8,7 +8,9 @@ mod satellite;
 use std::collections::BTreeSet;
 
 use nboom_codegen::{Level, Output, Request, trace};
-use nboom_formulation::{Coordinates, Equations, Formulation, Parameters};
+use nboom_formulation::{
+    Coordinates, Equations, Forces, Formulation, Layout, Parameters, right_side,
+};
 
 use satellite::Satellite;
 
@@ -18,14 +20,21 @@ const SATELLITES: u64 = 2000;
 /// What the formulation computes.
 fn closed_form(request: &Request, parameters: &[f64], state: &[f64]) -> Vec<f64> {
     let Request { topology, formulation, output, .. } = request;
-    let satellite = Parameters::read(topology, parameters.iter().copied());
-    let state = Coordinates::read(topology, state);
+    let (of_satellite, of_forces) = parameters.split_at(Layout::parameters(topology));
+    let satellite = Parameters::read(topology, of_satellite.iter().copied());
+    let coordinates = || Coordinates::read(topology, state);
     match output {
-        Output::Accelerations => formulation.solve(topology, &satellite, &state).write(topology),
+        Output::Accelerations => {
+            formulation.solve(topology, &satellite, &coordinates()).write(topology)
+        }
         Output::Equations => {
-            let found = formulation.equations(topology, &satellite, &state);
+            let found = formulation.equations(topology, &satellite, &coordinates());
             let Equations { matrix, forcing } = found.expect("it has equations");
             [matrix, forcing].concat()
+        }
+        Output::RightSide => {
+            let forces = Forces::read(topology.hinges(), of_forces.iter().copied());
+            right_side(*formulation, topology, &satellite, &forces, state)
         }
     }
 }
@@ -38,17 +47,17 @@ fn inputs(request: &Request, parameters: &[f64], state: &[f64]) -> Vec<f64> {
     };
     let mut inputs: Vec<f64> = parameters.iter().zip(&request.assumptions).map(assumed).collect();
     inputs.extend(state);
-    if !request.external {
+    if !request.external && request.output != Output::RightSide {
         inputs[parameters.len() + 3..parameters.len() + 9].fill(f64::NAN);
     }
     inputs
 }
 
-fn assert_recorded(seed: u64, request: &Request, satellite: &Satellite) {
+fn assert_recorded(seed: u64, request: &Request, parameters: &[f64], states: &[Vec<f64>]) {
     let graph = trace(request);
-    for state in &satellite.states {
-        let expected = closed_form(request, &satellite.parameters, state);
-        let found = graph.evaluate(&inputs(request, &satellite.parameters, state));
+    for state in states {
+        let expected = closed_form(request, parameters, state);
+        let found = graph.evaluate(&inputs(request, parameters, state));
         let same = expected.iter().all(|number| number.is_finite()) && found == expected;
         let Request { topology, formulation, output, external, .. } = request;
         let assumptions = request.assumptions.iter().flatten().count();
@@ -61,15 +70,31 @@ fn assert_recorded(seed: u64, request: &Request, satellite: &Satellite) {
     }
 }
 
+/// The request for a right side, with what is assumed of the forces.
+fn right_side_of(request: &Request, satellite: &Satellite) -> Request {
+    let mut request = request.clone().for_right_side();
+    let topology = &request.topology;
+    let of_forces = &mut request.assumptions[Layout::parameters(topology)..];
+    // Where nothing is assumed, it stays that no line pushes if none does.
+    if satellite.pushed_or_known() {
+        of_forces.copy_from_slice(&satellite.force_assumptions);
+    }
+    request
+}
+
 fn assert_all_recorded(formulation: Formulation) {
     for seed in 0..SATELLITES {
         let satellite = Satellite::random(seed);
-        let Satellite { topology, assumptions, external, .. } = satellite.clone();
+        let Satellite { topology, assumptions, external, parameters, states, .. } =
+            satellite.clone();
         let request = Request::new("Random", topology, Level::Exact).by(formulation);
         let request = Request { assumptions, external, ..request };
-        assert_recorded(seed, &request, &satellite);
+        assert_recorded(seed, &request, &parameters, &states);
+        let right_side = right_side_of(&request, &satellite);
+        let all = [&parameters[..], &satellite.forces].concat();
+        assert_recorded(seed, &right_side, &all, &satellite.variables);
         if formulation.has_equations() {
-            assert_recorded(seed, &request.for_equations(), &satellite);
+            assert_recorded(seed, &request.for_equations(), &parameters, &states);
         }
     }
 }

@@ -3,12 +3,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nboom_formulation::{Layout, Recognised, recognise};
+use nboom_elements::{HingeLaw, KickOffLaw};
+use nboom_formulation::{Forces, Layout, LinkLine, Recognised, RightSideLayout, recognise};
 use nboom_model::{
     Appendage, Hinge, HingeState, MassProperties, Mode, Mount, Scene, SceneDescription, Segment,
     Topology, WeldedTree,
 };
-use nboom_scalar::{Mat3, Sym3, Vec3};
+use nboom_scalar::{Mat3, Sym3, Vec3, Wrench};
 
 use crate::random::Rng;
 
@@ -26,16 +27,43 @@ pub struct Satellite {
     pub assumptions: Vec<Option<f64>>,
     pub external: bool,
     pub states: Vec<Vec<f64>>,
+    /// Numbers of what acts on it.
+    pub forces: Vec<f64>,
+    /// Some of them.
+    pub force_assumptions: Vec<Option<f64>>,
+    /// Attitude, ω, β and τ.
+    pub variables: Vec<Vec<f64>>,
 }
 
 impl Satellite {
+    /// Whether a line pushes a link, or something is assumed of the forces.
+    pub fn pushed_or_known(&self) -> bool {
+        let hinges = self.topology.hinges();
+        let forces = Forces::read(hinges, self.forces.iter().copied());
+        forces.lines != Forces::none(hinges).lines
+            || self.force_assumptions.iter().any(Option::is_some)
+    }
+
     pub fn random(seed: u64) -> Self {
         let dice = &mut Rng::new(seed);
         let (topology, held, mut parameters) = welded(dice);
         let assumptions = assumptions(dice, &topology, &mut parameters);
         let external = dice.chance(0.5);
         let states = (0..STATES).map(|_| state(dice, &topology, external)).collect();
-        Self { topology, held, parameters, assumptions, external, states }
+        let (forces, force_assumptions) = forces(dice, &topology, external);
+        let count = RightSideLayout::coordinates(&topology);
+        let variables = (0..STATES).map(|_| numbers(dice, count)).collect();
+        Self {
+            topology,
+            held,
+            parameters,
+            assumptions,
+            external,
+            states,
+            forces,
+            force_assumptions,
+            variables,
+        }
     }
 }
 
@@ -156,12 +184,43 @@ fn rigid_bodies(topology: &Topology) -> Vec<usize> {
 }
 
 /// Numbers of order one, some of them zero at times.
-fn state(dice: &mut Rng, topology: &Topology, external: bool) -> Vec<f64> {
+fn numbers(dice: &mut Rng, count: usize) -> Vec<f64> {
     let zeros = if dice.chance(0.3) { 0.5 } else { 0.0 };
     let mut number = |_| if dice.chance(zeros) { 0.0 } else { dice.between(-3.0, 3.0) };
-    let mut state: Vec<f64> = (0..Layout::coordinates(topology)).map(&mut number).collect();
+    (0..count).map(&mut number).collect()
+}
+
+fn state(dice: &mut Rng, topology: &Topology, external: bool) -> Vec<f64> {
+    let mut state = numbers(dice, Layout::coordinates(topology));
     if !external {
         state[3..9].fill(0.0);
     }
     state
+}
+
+/// Hinge laws, an external wrench and lines that push some links; of them nothing, that no line pushes,
+/// some numbers or all are assumed.
+fn forces(dice: &mut Rng, topology: &Topology, external: bool) -> (Vec<f64>, Vec<Option<f64>>) {
+    let mut forces = Forces::none(topology.hinges());
+    for law in &mut forces.laws {
+        *law = HingeLaw::of_numbers([(); 5].map(|()| dice.between(-1.0, 1.0)));
+    }
+    if external {
+        forces.external = Wrench { moment: dice.vector(1.0), force: dice.vector(1.0) };
+    }
+    let kind = dice.below(4);
+    for line in &mut forces.lines {
+        if kind == 1 || dice.chance(0.5) {
+            continue;
+        }
+        let law = KickOffLaw::new([(); 4].map(|()| dice.between(-1.0, 1.0)));
+        *line = LinkLine { point: dice.vector(1.0), main_body_point: dice.vector(1.0), law };
+    }
+    let numbers = forces.write();
+    let assumptions = match kind {
+        0 | 1 => vec![None; numbers.len()],
+        2 => numbers.iter().map(|&value| dice.chance(0.5).then_some(value)).collect(),
+        _ => numbers.iter().copied().map(Some).collect(),
+    };
+    (numbers, assumptions)
 }

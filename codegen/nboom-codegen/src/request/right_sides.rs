@@ -1,0 +1,105 @@
+//! Right sides of the differential equations of a scene's modes.
+
+use std::collections::BTreeMap;
+
+use nboom_elements::Elements;
+use nboom_formulation::{Forces, Layout, RightSideLayout, recognise};
+use nboom_model::{Mode, Scene, Topology};
+
+use crate::request::Request;
+use crate::request::scene::{ANGLES, combinations, held, mode_with};
+
+/// What acts in the modes of a topology, numbers of [`Forces`]; `None` where a right side has no place
+/// for what acts in one of them.
+type Cases = BTreeMap<Topology, Option<Vec<Vec<f64>>>>;
+
+impl Request {
+    /// The right sides beside requests for the `accelerations` of a scene's modes: for each request one
+    /// that assumes as much and that no line pushes a link. Where the scene has kick-off springs, there
+    /// is one more with lines for each request that assumes all numbers or none. Modes in which a right
+    /// side has no place for what acts have none.
+    pub fn right_sides(scene: &Scene, accelerations: &[Self]) -> Vec<Self> {
+        let all_free = vec![true; scene.bodies.len()];
+        let mut cases = Cases::new();
+        for free in combinations(scene).iter().chain([&all_free]) {
+            for angle in ANGLES {
+                note(&mut cases, scene, free, angle, false);
+            }
+        }
+        let mut pushed = Cases::new();
+        note(&mut pushed, scene, &all_free, 0.0, true);
+        let has_springs = scene.bodies.iter().any(|body| body.hinge.kick_off.is_some());
+        let mut requests = Vec::new();
+        for request in accelerations {
+            let of_topology = |cases: &Cases| cases.get(&request.topology).cloned().flatten();
+            requests.extend(of_topology(&cases).map(|cases| request.right_side(&cases)));
+            let whole_or_nothing = request.is_baked() || request.is_general();
+            if has_springs && whole_or_nothing {
+                requests.extend(of_topology(&pushed).map(|cases| request.pushed(&cases[0])));
+            }
+        }
+        requests
+    }
+
+    fn is_baked(&self) -> bool {
+        self.assumptions.iter().all(Option::is_some)
+    }
+
+    fn is_general(&self) -> bool {
+        self.assumptions.iter().all(Option::is_none)
+    }
+
+    /// No line pushes; numbers of laws are built in, or zeros that they have in all cases, or nothing.
+    fn right_side(&self, cases: &[Vec<f64>]) -> Self {
+        let mut request =
+            Self { name: format!("RightSide{}", self.name), ..self.clone() }.for_right_side();
+        let of_laws = RightSideLayout::external(&self.topology).start;
+        let start = Layout::parameters(&self.topology);
+        for (i, assumed) in request.assumptions[start..of_laws].iter_mut().enumerate() {
+            let value = cases[0][i];
+            let same = cases.iter().all(|case| case[i] == value);
+            let simple = !self.is_general() && same && value == 0.0;
+            *assumed = (self.is_baked() || simple).then_some(value + 0.0);
+        }
+        if self.is_baked() {
+            let of_lines = RightSideLayout::external(&self.topology).end;
+            for (i, assumed) in request.assumptions[of_lines..].iter_mut().enumerate() {
+                *assumed = Some(cases[0][of_lines - start + i]);
+            }
+        }
+        request
+    }
+
+    /// Lines push, with numbers at run time, so that the code is for modes in which some have let go, too;
+    /// where there is none, that is built in with all other numbers.
+    fn pushed(&self, case: &[f64]) -> Self {
+        let name = format!("Pushed{}", self.name);
+        if self.is_general() {
+            return Self { name, ..self.clone() }.for_right_side().with_lines();
+        }
+        let mut request = Self { name, ..self.right_side(&[case.to_vec()]) };
+        for hinge in 0..self.topology.hinges() {
+            let coefficients = RightSideLayout::coefficients(&self.topology, hinge);
+            if request.assumptions[coefficients].iter().any(|assumed| *assumed != Some(0.0)) {
+                request.assumptions[RightSideLayout::line(&self.topology, hinge)].fill(None);
+            }
+        }
+        request
+    }
+}
+
+/// Notes what acts on a scene in which the hinges that are not `free` are held at angles around `angle`,
+/// and lines push or do not.
+fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bool) {
+    let mut mode = Mode { thrust: false, ..mode_with(scene, free) };
+    let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
+    mode.pieces[..lines].fill(usize::from(!pushing));
+    let tree = held(scene, free, angle);
+    let Ok(recognised) = recognise(&tree) else { return };
+    let forces = Forces::of(&Elements::new(scene, &mode, &tree), &tree, &recognised);
+    let known = cases.entry(recognised.topology).or_insert_with(|| Some(Vec::new()));
+    match (known.as_mut(), forces) {
+        (Some(all), Some(forces)) => all.push(forces.write()),
+        _ => *known = None,
+    }
+}

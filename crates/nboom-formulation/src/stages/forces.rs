@@ -1,0 +1,77 @@
+//! Steps that a right side takes beside those of the accelerations.
+
+use nboom_elements::HingeLaw;
+use nboom_scalar::{Quaternion, Real, Wrench};
+
+use crate::base::AtOrigin;
+use crate::parameters::Reader;
+use crate::stages::{
+    AT_ORIGIN, EXTERNAL, Group, MAIN, MAIN_RATES, OMEGA, Stage, TAU, TORQUE, main_rates,
+};
+
+/// Attitude: χ, K̄.
+pub const ATTITUDE: Group = Group::new("attitude", &["chi", "kx", "ky", "kz"]);
+/// Rate of change of the attitude.
+pub const ATTITUDE_RATE: Group =
+    Group::new("attitude_rate", &["chi_dot", "kx_dot", "ky_dot", "kz_dot"]);
+/// Parameters of the torque about a hinge.
+pub const LAW: Group = Group::new("law", &["q1", "q2", "a2", "a1", "a0"]);
+/// Parameters of the line that pushes a link: its ends, and its force by powers of its length.
+pub const LINE: Group =
+    Group::new("line", &["px", "py", "pz", "ox", "oy", "oz", "f0", "f1", "f2", "f3"]);
+/// β of a hinge.
+pub const BETA: Group = Group::new("beta", &["beta"]);
+/// Power of the part of a hinge's torque that depends on its rate.
+pub const POWER: Group = Group::new("power", &["power"]);
+
+/// The rate of change of the attitude.
+pub fn attitude<R: Real>() -> Stage<R> {
+    Stage {
+        name: "attitude",
+        about: "The rate of change of the attitude.",
+        parameters: &[],
+        inputs: &[ATTITUDE, OMEGA],
+        outputs: &[ATTITUDE_RATE],
+        run: |numbers| {
+            let mut reader = Reader(numbers.iter().copied());
+            let attitude = Quaternion { scalar: reader.next(), vector: reader.vector() };
+            let Quaternion { scalar, vector } = attitude.rate(reader.vector());
+            vec![scalar, vector.x, vector.y, vector.z]
+        },
+    }
+}
+
+/// The torque about a hinge.
+pub fn law<R: Real>() -> Stage<R> {
+    Stage {
+        name: "law",
+        about: "The torque of spring and dashpot about a hinge, and the power of what depends on its rate.",
+        parameters: &[LAW],
+        inputs: &[BETA, TAU],
+        outputs: &[TORQUE, POWER],
+        run: |numbers| {
+            let mut reader = Reader(numbers.iter().copied());
+            let law = HingeLaw::of_numbers(std::array::from_fn(|_| reader.next()));
+            let (beta, tau) = (reader.next(), reader.next());
+            vec![law.torque(beta, tau), law.rate_torque(tau) * tau]
+        },
+    }
+}
+
+/// [`base`](super::base) with an external wrench that stays the same as long as the mode.
+pub fn base_in_mode<R: Real>() -> Stage<R> {
+    Stage {
+        name: "base",
+        about: "Accelerations of the main body from the sum of what all appendages show.",
+        parameters: &[MAIN, EXTERNAL],
+        inputs: &[OMEGA, AT_ORIGIN],
+        outputs: &[MAIN_RATES],
+        run: |numbers| {
+            let mut reader = Reader(numbers.iter().copied());
+            let main = reader.rigid();
+            let external = Wrench { moment: reader.vector(), force: reader.vector() };
+            let omega = reader.vector();
+            main_rates(&main, omega, &external, &AtOrigin::read(&mut reader))
+        },
+    }
+}

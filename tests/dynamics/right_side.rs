@@ -1,0 +1,209 @@
+//! The right side of a mode's differential equations, written as one function, against what a run
+//! composes of force elements, recursion and attitude.
+
+use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::formulation::{
+    Embedding, Forces, Formulation, HingeCoordinates, Parameters, Recognised, RightSideLayout,
+    right_side,
+};
+use nboom::model::{KickOffSpring, Scene, Topology};
+use nboom::scalar::Quaternion;
+
+use crate::random_scene::{Moment, Rng, all_acting};
+use crate::satellites::{Satellite, random};
+use crate::support::relative_error;
+
+const RANDOM_SATELLITES: u64 = 3000;
+
+/// Rounding of torques, which are sums of some dozen products.
+const ROUNDING: f64 = 1e-13;
+
+/// A random satellite of chains and paddles with every kind of spring and dashpot, on some of whose
+/// bodies kick-off springs push, its hinges anywhere.
+fn pushed(seed: u64) -> Moment {
+    let (of_seed, dice) = (random(seed), &mut Rng::new(seed ^ 0x9a5));
+    let mut description = (*of_seed.scene).clone();
+    let share = dice.between(0.0, 0.6);
+    for body in &mut description.bodies {
+        if body.inboard.is_some() {
+            // Hinges off the segment's axis, some of them along the hinge axis.
+            body.mount.point += dice.vector(0.3);
+        }
+        body.hinge.spring.quadratic = dice.between(-1.0, 1.0);
+        body.hinge.dashpot.rate_quadratic = dice.between(-0.3, 0.3);
+        body.hinge.dashpot.angle_linear = dice.between(-1.0, 0.0);
+        body.hinge.kick_off = dice.chance(share).then(|| KickOffSpring {
+            main_body_point: dice.vector(1.0),
+            body_point: dice.vector(1.0),
+            coefficients: [dice.between(1.0, 5.0), dice.between(-1.0, 1.0), 0.2, -0.05],
+            limit_length: dice.between(1.0, 5.0),
+        });
+    }
+    let scene = Scene::new(description).expect("random bodies are physical");
+    let mut mode = all_acting(&scene, of_seed.mode.hinges);
+    mode.thrust &= of_seed.mode.thrust;
+    for piece in &mut mode.pieces {
+        *piece = usize::from(dice.chance(0.3));
+    }
+    Moment { scene, mode, ..of_seed }
+}
+
+/// A satellite in a mode and a state, hinges in the order of its topology.
+struct Pushed {
+    satellite: Satellite,
+    recognised: Recognised,
+    dynamics: Recursive<f64>,
+    /// `None` where a right side has no place for what acts.
+    forces: Option<Forces<f64>>,
+    attitude: Quaternion<f64>,
+}
+
+impl Pushed {
+    fn random(seed: u64) -> Self {
+        let moment = pushed(seed);
+        let satellite = Satellite::of_moment(&moment);
+        let recognised = satellite.recognised();
+        let mut dynamics = Recursive::new(&moment.scene);
+        dynamics.set_mode(&moment.mode, &moment.beta);
+        let forces = Forces::of(dynamics.elements(), dynamics.tree(), &recognised);
+        let attitude = Rng::new(seed).attitude();
+        // As integration leaves it, not quite of norm 1.
+        let attitude = Quaternion { scalar: attitude.scalar * 1.01, ..attitude };
+        Self { satellite, recognised, dynamics, forces, attitude }
+    }
+
+    fn of_hinges(&self) -> [Vec<f64>; 3] {
+        let hinges = self.satellite.coordinates_of(&self.recognised).hinges;
+        let all = |of: fn(&HingeCoordinates<f64>) -> f64| hinges.iter().map(of).collect();
+        [all(|hinge| hinge.beta), all(|hinge| hinge.tau), all(|hinge| hinge.torque)]
+    }
+
+    fn variables(&self) -> Vec<f64> {
+        let [beta, tau, _] = self.of_hinges();
+        let mut y = vec![self.attitude.scalar];
+        y.extend(self.attitude.vector.to_array());
+        y.extend(self.satellite.coordinates.omega.to_array());
+        y.extend(beta.into_iter().chain(tau));
+        y
+    }
+
+    /// ẏ and the power, put together of force elements, recursion and attitude.
+    fn composed(&mut self) -> Vec<f64> {
+        let coordinates = &self.satellite.coordinates;
+        let of_links = |of: fn(&HingeCoordinates<f64>) -> f64| -> Vec<f64> {
+            coordinates.hinges.iter().map(of).collect()
+        };
+        let (beta, tau) = (of_links(|hinge| hinge.beta), of_links(|hinge| hinge.tau));
+        let motion = Motion { omega_body: coordinates.omega, beta: &beta, tau: &tau };
+        let mut found = Accelerations::for_hinges(beta.len());
+        self.dynamics.accelerations(&motion, &mut found);
+        let rate = self.attitude.rate(coordinates.omega);
+        let links = &self.recognised.links;
+        let mut rates = vec![rate.scalar];
+        rates.extend(rate.vector.to_array());
+        rates.extend(found.omega_dot_body.to_array());
+        rates.extend(links.iter().map(|&j| tau[j]));
+        rates.extend(links.iter().map(|&j| found.tau_dot[j]));
+        rates.push(self.dynamics.elements().rate_power(self.dynamics.free_hinges(), &tau));
+        rates
+    }
+}
+
+#[test]
+fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
+    let (mut lines, mut several) = (0, 0);
+    for seed in 0..RANDOM_SATELLITES {
+        let pushed = Pushed::random(seed);
+        let pushing = pushed.dynamics.elements().pushing().count();
+        let Some(forces) = &pushed.forces else {
+            several += 1;
+            continue;
+        };
+        let Recognised { topology, parameters, .. } = &pushed.recognised;
+        let [beta, tau, expected] = pushed.of_hinges();
+        let found = forces.torques(topology, parameters, [&beta, &tau]);
+        let error = relative_error(&found, &expected, 1.0);
+        assert!(error < ROUNDING, "seed {seed}, {topology}: {error:e}");
+        lines += pushing;
+    }
+    assert!(lines > 1000 && several > 50, "{lines} lines, {several} modes with two on one link");
+}
+
+#[test]
+fn all_formulations_give_the_right_side_that_a_run_composes() {
+    for seed in 0..RANDOM_SATELLITES {
+        let mut pushed = Pushed::random(seed);
+        let Some(forces) = pushed.forces.clone() else { continue };
+        let (y, expected) = (pushed.variables(), pushed.composed());
+        let Recognised { topology, parameters, .. } = &pushed.recognised;
+        for formulation in Formulation::ALL {
+            let found = right_side(formulation, topology, parameters, &forces, &y);
+            assert_eq!(found.len(), RightSideLayout::outputs(topology));
+            let same = |range: std::ops::Range<usize>| found[range.clone()] == expected[range];
+            assert!(same(RightSideLayout::ATTITUDE) && same(RightSideLayout::beta(topology)));
+            let power = RightSideLayout::power(topology);
+            let error = (found[power] - expected[power]).abs() / expected[power].abs().max(1.0);
+            assert!(error < ROUNDING, "seed {seed}, {topology}: power {error:e}");
+            let error = relative_error(&found[..power], &expected[..power], 0.0);
+            let allowed = pushed.satellite.allowed();
+            assert!(error < allowed, "seed {seed}, {topology}, {formulation}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn numbers_that_are_written_are_read_back_and_stand_where_the_layout_says() {
+    let pushed = (0..).map(Pushed::random).find(|pushed| {
+        let pushing = pushed.dynamics.elements().pushing().count();
+        pushed.forces.is_some() && pushing > 1 && pushed.dynamics.external().is_some()
+    });
+    let pushed = pushed.expect("there are infinitely many");
+    let forces = pushed.forces.expect("it was looked for");
+    let topology = &pushed.recognised.topology;
+    let all = [pushed.recognised.parameters.write(), forces.write()].concat();
+    assert_eq!(all.len(), RightSideLayout::parameters(topology));
+    let start = RightSideLayout::law(topology, 0).start;
+    assert_eq!(Forces::read(topology.hinges(), all[start..].iter().copied()), forces);
+    let external = &all[RightSideLayout::external(topology)];
+    assert_eq!(external[..3], forces.external.moment.to_array());
+    for hinge in 0..topology.hinges() {
+        assert_eq!(all[RightSideLayout::law(topology, hinge)], forces.laws[hinge].numbers());
+        let (line, law) = (&all[RightSideLayout::line(topology, hinge)], &forces.lines[hinge].law);
+        assert_eq!(line[..3], forces.lines[hinge].point.to_array());
+        assert_eq!(all[RightSideLayout::coefficients(topology, hinge)], law.numbers());
+    }
+}
+
+/// What is virtual stays at rest and shows nowhere.
+#[test]
+fn the_right_side_of_an_embedded_satellite_is_its_own() {
+    let outer: Topology = "4xS6_4xP".parse().expect("a topology");
+    for seed in 0..200 {
+        let pushed = Pushed::random(seed);
+        let Some(forces) = &pushed.forces else { continue };
+        let Recognised { topology: inner, parameters, .. } = &pushed.recognised;
+        let embedding = Embedding::new(inner, &outer).expect("it is larger");
+        let y = pushed.variables();
+        let form = Formulation::Articulated;
+        let expected = right_side(form, inner, parameters, forces, &y);
+        let mut wide = vec![0.0; RightSideLayout::coordinates(&outer)];
+        wide[..RightSideLayout::STATE].copy_from_slice(&y[..RightSideLayout::STATE]);
+        for of in [RightSideLayout::beta, RightSideLayout::tau] {
+            for (&hinge, value) in embedding.hinges().iter().zip(&y[of(inner)]) {
+                wide[of(&outer)][hinge] = *value;
+            }
+        }
+        let numbers = embedding.parameters(parameters, &[]);
+        let satellite = Parameters::read(&outer, numbers);
+        let forces = forces.embedded(&embedding);
+        let found = right_side(form, &outer, &satellite, &forces, &wide);
+        assert!(found.iter().all(|number| number.is_finite()));
+        let mut of_inner = found[..RightSideLayout::STATE].to_vec();
+        for of in [RightSideLayout::beta, RightSideLayout::tau] {
+            of_inner.extend(embedding.hinges().iter().map(|&hinge| found[of(&outer)][hinge]));
+        }
+        of_inner.push(found[RightSideLayout::power(&outer)]);
+        let error = relative_error(&of_inner, &expected, 0.0);
+        assert!(error < pushed.satellite.allowed(), "seed {seed}, {inner}: {error:e}");
+    }
+}
