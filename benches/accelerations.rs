@@ -85,11 +85,7 @@ fn right_sides(
     let topology = recognised.topology.to_string();
     let kernels: Vec<&Kernel> =
         nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == topology).collect();
-    let words: &[&str] = match kernels.len() {
-        4 => &["principal", "principal_lines", "general", "general_lines"],
-        _ => &["principal", "general"],
-    };
-    for (kernel, word) in kernels.into_iter().zip(words) {
+    for (kernel, word) in kernels.into_iter().zip(["principal", "general", "general_lines"]) {
         assert!(kernel.accepts(&numbers), "the scenes have principal axes");
         let (mut constants, mut out) = (vec![0.0; kernel.constants], vec![0.0; kernel.outputs]);
         kernel.prepare(&numbers, &mut constants);

@@ -95,8 +95,12 @@ impl Case {
     }
 
     fn run(&mut self) {
-        let options =
-            Options { samples: self.samples, kernels: nboom_routines::all(), ..Options::default() };
+        let options = Options {
+            samples: self.samples,
+            kernels: nboom_routines::for_runs(),
+            batches: nboom_routines::right_sides_of_eight(),
+            ..Options::default()
+        };
         let mut listener = Listener { detail: self.detail, stresses: self.stresses.clone() };
         let started = Instant::now();
         let summary = simulate(black_box(&self.scene), &options, &mut listener);

@@ -106,7 +106,11 @@ fn table(name: &str, scene: &Scene, order: Order) -> Worst {
     let mut dynamics = Recursive::<f64>::new(scene);
     let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
     let order_of_holding = order.hinges(scene);
-    let options = Options { kernels: nboom_routines::all(), ..Options::default() };
+    let options = Options {
+        kernels: nboom_routines::for_runs(),
+        batches: nboom_routines::right_sides_of_eight(),
+        ..Options::default()
+    };
     let repertoire = Repertoire::new(&options);
     let (mut worst, mut shortest) = (Worst::default(), [f64::INFINITY; 2]);
     for held in 0..=hinges {

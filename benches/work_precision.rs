@@ -37,7 +37,8 @@ fn main() {
         }
         let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join(deck);
         let scene = nboom::io::read_scene(&deck).expect("the deck is in the clone").scene;
-        let found = WorkPrecision::measure(&scene, nboom_routines::all(), SECONDS);
+        let routines = (nboom_routines::for_runs(), nboom_routines::right_sides_of_eight());
+        let found = WorkPrecision::measure(&scene, routines, SECONDS);
         let found = found.expect("the reference comes to its end");
         for (ending, text) in [("csv", found.csv()), ("svg", found.picture())] {
             let file = directory.join(format!("{name}.{ending}"));

@@ -78,9 +78,9 @@ const FEW_HINGES: usize = 4;
 /// The most hinges of a topology that has right sides: beyond that accelerations are nearly all of one.
 const MOST_HINGES: usize = 20;
 
-/// Right sides for topologies of the stock, without external wrench; those of few hinges once more
-/// with lines that push the links. Those that are also for eight states at once are `in_lanes`: of few
-/// hinges, for principal axes, without lines.
+/// Right sides for topologies of the stock, without external wrench; of few hinges one more that assumes
+/// nothing and takes lines that push the links. Those that are also for eight states at once are
+/// `in_lanes`: of few hinges, for principal axes, without lines.
 fn right_sides(in_lanes: bool) -> Vec<Request> {
     let mut requests = Vec::new();
     let topologies = stock().into_iter().map(Topology::new);
@@ -90,7 +90,7 @@ fn right_sides(in_lanes: bool) -> Vec<Request> {
             let name = name(&topology, principal);
             let request = Request::new(&name, topology.clone(), Level::Fast).for_right_side();
             let request = if principal { request.with_principal_axes() } else { request };
-            let pushed = (is_small && !in_lanes).then(|| {
+            let pushed = (is_small && !principal && !in_lanes).then(|| {
                 let name = format!("Pushed{name}");
                 Request { name, ..request.clone() }.with_lines()
             });

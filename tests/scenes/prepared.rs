@@ -20,7 +20,14 @@ fn assert_same(found: &(Collected, Summary), expected: &(Collected, Summary), na
 }
 
 fn options() -> [Options; 2] {
-    [tight(20), Options { kernels: nboom_routines::all(), ..tight(20) }]
+    [
+        tight(20),
+        Options {
+            kernels: nboom_routines::for_runs(),
+            batches: nboom_routines::right_sides_of_eight(),
+            ..tight(20)
+        },
+    ]
 }
 
 #[test]

@@ -31,7 +31,11 @@ fn check(from: &str, scene_of: impl Fn(&Reference) -> Scene) {
     for reference in Reference::all() {
         let scene = scene_of(&reference);
         let recursive = tight(reference.intervals());
-        let shipped = Options { kernels: nboom_routines::all(), ..recursive };
+        let shipped = Options {
+            kernels: nboom_routines::for_runs(),
+            batches: nboom_routines::right_sides_of_eight(),
+            ..recursive
+        };
         let (by_recursion, summary) = run(&scene, &recursive);
         agrees(&format!("from {from}, recursion"), &by_recursion, &reference);
         assert!(summary.selections.iter().all(|s| s.formulation == "recursive"), "{summary:?}");
@@ -69,6 +73,23 @@ fn gauss_agrees_with_the_references() {
         let (found, summary) = run(&reference.scene(), &options);
         println!("{} {summary:?}", reference.name);
         agrees("gauss", &found, &reference);
+    }
+}
+
+#[test]
+fn gauss_lanes_agrees_with_the_references_in_lanes_and_out_of_them() {
+    for reference in Reference::all() {
+        let options = Options { integrator: Method::GaussLanes, ..tight(reference.intervals()) };
+        let shipped = Options {
+            kernels: nboom_routines::for_runs(),
+            batches: nboom_routines::right_sides_of_eight(),
+            ..options
+        };
+        for (told, options) in [("gauss_lanes", options), ("gauss_lanes, as shipped", shipped)] {
+            let (found, summary) = run(&reference.scene(), &options);
+            println!("{} {summary:?}", reference.name);
+            agrees(told, &found, &reference);
+        }
     }
 }
 

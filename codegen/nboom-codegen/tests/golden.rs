@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use nboom_codegen::{
     CodegenError, HINGE_LIMIT, Level, Request, STRAIGHT_LIMIT, StressRequest, generate, source,
 };
-use nboom_formulation::{
-    Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout, articulated,
-};
+use nboom_formulation::{Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout};
 use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
     Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
@@ -185,7 +183,8 @@ fn is_the_closed_form<T: Routine>(request: &Request) {
         let (parameters, state) = (parameters::<T>(topology, case), state::<T>(case));
         let satellite = Parameters::read(topology, parameters.iter().copied());
         let coordinates = Coordinates::read(topology, &state);
-        let expected = articulated::solve(topology, &satellite, &coordinates).write(topology);
+        let expected =
+            Formulation::Articulated.solve(topology, &satellite, &coordinates).write(topology);
 
         let (mut constants, mut found) = (vec![0.0; T::CONSTANTS], vec![0.0; T::OUTPUTS]);
         T::prepare(&parameters, &mut constants);

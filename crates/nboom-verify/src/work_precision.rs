@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use nboom_formulation::Formulation;
 use nboom_model::Scene;
-use nboom_scalar::Kernel;
+use nboom_scalar::{Batch, Kernel};
 use nboom_sim::{
     Failure, Form, Method, Options, Path, Scales, Snapshot, Witness, differences, simulate,
 };
@@ -73,14 +73,15 @@ pub struct TimedRun {
 }
 
 impl WorkPrecision {
-    /// Runs `scene` in all ways that cover it, again and again for about so many `seconds` for each
-    /// code and integrator. A curve ends early where runs become long.
+    /// Runs `scene` in all ways that cover it, generated routines and those of them for eight states
+    /// included, again and again for about so many `seconds` for each code and integrator. A curve
+    /// ends early where runs become long.
     ///
     /// # Errors
     /// When a reference does not come to its end.
     pub fn measure(
         scene: &Scene,
-        kernels: &'static [Kernel],
+        routines: (&'static [Kernel], &'static [Batch]),
         seconds: f64,
     ) -> Result<Self, Failure> {
         let truth = Truth::of(scene)?;
@@ -88,12 +89,12 @@ impl WorkPrecision {
         let mut measured: Vec<(TimedRun, Options)> = Vec::new();
         let beginning = beginning(scene);
         let seconds = seconds / (TOLERANCES.count() * TURNS) as f64;
-        for (code, integrator) in combinations(kernels) {
-            if crawls(&beginning, &code.options(integrator, *TOLERANCES.start(), kernels)) {
+        for (code, integrator) in combinations(routines.0) {
+            if crawls(&beginning, &code.options(integrator, *TOLERANCES.start(), routines)) {
                 continue;
             }
             for exponent in TOLERANCES {
-                let options = code.options(integrator, exponent, kernels);
+                let options = code.options(integrator, exponent, routines);
                 // A run that does not come to the end will not at smaller tolerances either.
                 let Some(run) = timed(scene, code, &options, &truth, seconds) else { break };
                 measured.push((run, options));
@@ -207,7 +208,12 @@ impl Source {
         }
     }
 
-    fn options(self, integrator: Method, exponent: i32, kernels: &'static [Kernel]) -> Options {
+    fn options(
+        self,
+        integrator: Method,
+        exponent: i32,
+        (kernels, batches): (&'static [Kernel], &'static [Batch]),
+    ) -> Options {
         let (path, formulation) = match self {
             Self::Library(form) => (Path::Generic, Some(form)),
             Self::Generated(formulation) => (Path::Generated, Some(Form::Closed(formulation))),
@@ -222,6 +228,7 @@ impl Source {
             samples: 1,
             max_steps: MOST_STEPS,
             kernels,
+            batches,
             ..Options::default()
         }
     }

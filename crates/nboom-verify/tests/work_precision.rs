@@ -11,7 +11,7 @@ fn measured(center: Vec3<f64>, inertia: Sym3<f64>, omega: Vec3<f64>, end: f64) -
     let mut description = SceneDescription::at_rest("top", body, end);
     description.initial.omega_body = omega;
     let scene = Scene::new(description).expect("a physical body");
-    WorkPrecision::measure(&scene, &[], 1e-4).expect("free spin is easy")
+    WorkPrecision::measure(&scene, (&[], &[]), 1e-4).expect("free spin is easy")
 }
 
 /// About a principal axis through O and the mass centre, so that O stands still but for rounding; the
