@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
-use nboom::formulation::{Forces, Layout, Recognised, recognise};
+use nboom::formulation::{Forces, Recognised, recognise};
 use nboom::model::{HingeState, Mode, Scene};
 use nboom::scalar::{Dual, Eight, Kernel, Real, Routine};
 use nboom_routines::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
