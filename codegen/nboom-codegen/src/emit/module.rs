@@ -13,9 +13,6 @@ use crate::emit::text::formatted;
 use crate::request::{CodegenError, Level, Output, Request, StressRequest};
 use crate::trace::Equations;
 
-/// The most hinges of a right side that is compiled for eight states at once, too.
-const MOST_IN_LANES: usize = 20;
-
 /// Routines that stand together.
 #[derive(Clone, Debug, Default)]
 pub struct Module {
@@ -117,10 +114,8 @@ impl Module {
         let scalar = scalar(name, path)?;
         let count = Literal::usize_unsuffixed(listed.len());
         let names = listed.iter().map(|(name, _)| format_ident!("{name}"));
-        let in_lanes = |request: &&Request| {
-            request.output == Output::RightSide && request.topology.hinges() <= MOST_IN_LANES
-        };
-        let batched = self.routines.iter().filter(in_lanes).map(|r| format_ident!("{}", r.name));
+        let in_lanes = self.routines.iter().filter(|request| request.is_in_lanes());
+        let batched = in_lanes.map(|request| format_ident!("{}", request.name));
         let batched: Vec<_> = batched.collect();
         let batch_count = Literal::usize_unsuffixed(batched.len());
         Ok(quote! {
@@ -132,7 +127,7 @@ impl Module {
                 ALL.get_or_init(|| [#(#scalar::Kernel::of::<#names>()),*])
             }
 
-            /// The right sides of few hinges on eight states at once, ready to run on this processor.
+            /// Right sides on eight states at once, ready to run on this processor.
             #[allow(dead_code)]
             pub fn batches() -> &'static [#scalar::Batch] {
                 static ALL: ::std::sync::OnceLock<[#scalar::Batch; #batch_count]> =

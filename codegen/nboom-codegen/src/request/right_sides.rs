@@ -6,12 +6,15 @@ use nboom_elements::Elements;
 use nboom_formulation::{Forces, Layout, RightSideLayout, recognise};
 use nboom_model::{Mode, Scene, Topology};
 
-use crate::request::Request;
 use crate::request::scene::{ANGLES, combinations, held, mode_with};
+use crate::request::{Output, Request};
 
 /// What acts in the modes of a topology, numbers of [`Forces`]; `None` where a right side has no place
 /// for what acts in one of them.
 type Cases = BTreeMap<Topology, Option<Vec<Vec<f64>>>>;
+
+/// The most hinges of a right side that is compiled for eight states at once.
+const MOST_IN_LANES: usize = 20;
 
 impl Request {
     /// The right sides beside requests for the `accelerations` of a scene's modes: for each request one
@@ -39,6 +42,21 @@ impl Request {
             }
         }
         requests
+    }
+
+    /// Whether the code is compiled for eight states at once, too: that of right sides of few hinges that
+    /// assume something of the satellite and that no line pushes. Compilers take long for it.
+    pub(crate) fn is_in_lanes(&self) -> bool {
+        let topology = &self.topology;
+        let (of_satellite, hinges) = (Layout::parameters(topology), topology.hinges());
+        let is_pushed = || {
+            let coefficients = (0..hinges).flat_map(|i| RightSideLayout::coefficients(topology, i));
+            coefficients.into_iter().any(|at| self.assumptions[at] != Some(0.0))
+        };
+        self.output == Output::RightSide
+            && (1..=MOST_IN_LANES).contains(&hinges)
+            && self.assumptions[..of_satellite].iter().any(Option::is_some)
+            && !is_pushed()
     }
 
     fn is_baked(&self) -> bool {
