@@ -1,6 +1,7 @@
 //! Nanoseconds for the accelerations of one state: the recursive path, the generated routine in
 //! this processor's code, the same on eight states at once, and the same with one directional
-//! derivative, on the four satellites of `benches/scenes`.
+//! derivative, on the four satellites of `benches/scenes`; and for the right side of the differential
+//! equations in one routine, for few hinges also with lines that push the links.
 //!
 //! `cargo bench --bench accelerations` prints a line for each, with the shortest and the median
 //! of many samples and the ratio to the recursive path measured in the same run.
@@ -9,9 +10,9 @@ use std::hint::black_box;
 use std::path::Path;
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
-use nboom::formulation::recognise;
+use nboom::formulation::{Forces, Layout, Recognised, recognise};
 use nboom::model::{HingeState, Mode, Scene};
-use nboom::scalar::{Dual, Eight, Real, Routine};
+use nboom::scalar::{Dual, Eight, Kernel, Real, Routine};
 use nboom_routines::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
 use timing::{STATES, State, numbers, state, time};
 
@@ -58,6 +59,7 @@ fn measure(name: &str, scene: &Scene) {
         let label = format!("generated_articulated_{assumptions}_{}", kernel.instructions);
         report(name, &label, generated, recursive);
     }
+    right_sides(name, &dynamics, &recognised, recursive);
     let eight = eight_at_once(&topology, &parameters);
     report(name, "generated_articulated_principal_lanes8", eight, recursive);
     let dual = match topology.as_str() {
@@ -67,6 +69,37 @@ fn measure(name: &str, scene: &Scene) {
         _ => with_derivative::<Principal20S5>(&parameters),
     };
     report(name, "generated_articulated_principal_dual", dual, recursive);
+}
+
+/// The right side of a mode's differential equations: accelerations, hinge laws and attitude in one, and
+/// forces along lines where a routine takes them.
+fn right_sides(
+    name: &str,
+    dynamics: &Recursive<f64>,
+    recognised: &Recognised,
+    recursive: (f64, f64),
+) {
+    let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised);
+    let forces = forces.expect("the scenes have springs and dashpots alone");
+    let numbers = [recognised.parameters.write(), forces.write()].concat();
+    let topology = recognised.topology.to_string();
+    let kernels: Vec<&Kernel> =
+        nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == topology).collect();
+    for (kernel, word) in kernels.into_iter().zip(["principal", "general", "general_lines"]) {
+        assert!(kernel.accepts(&numbers), "the scenes have principal axes");
+        let (mut constants, mut out) = (vec![0.0; kernel.constants], vec![0.0; kernel.outputs]);
+        kernel.prepare(&numbers, &mut constants);
+        let y: Vec<Vec<f64>> = (0..STATES).map(|i| self::numbers(i, kernel.coordinates)).collect();
+        let generated = time(|i| {
+            kernel.evaluate(black_box(&constants), black_box(&y[i]), black_box(&mut out));
+        });
+        report(
+            name,
+            &format!("generated_right_side_{word}_{}", kernel.instructions),
+            generated,
+            recursive,
+        );
+    }
 }
 
 /// Time per state when eight are evaluated at once, each with parameters of its own.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use nboom_codegen::{Level, Module, Request};
-use nboom_formulation::{Formulation, Layout};
+use nboom_formulation::{Formulation, Layout, RightSideLayout};
 use nboom_model::Shape::{Chain, Paddle};
 use nboom_model::{Shape, Topology};
 
@@ -37,8 +37,13 @@ const OTHERS: [Formulation; 4] =
 fn main() {
     let directory = std::env::var_os("OUT_DIR").expect("cargo runs build scripts");
     let directory = PathBuf::from(directory);
-    let files =
-        [("stock.rs", accelerations()), ("equations.rs", equations()), ("exact.rs", exact())];
+    let files = [
+        ("stock.rs", accelerations()),
+        ("equations.rs", equations()),
+        ("right_sides.rs", right_sides()),
+        ("exact.rs", exact()),
+        ("exact_right_sides.rs", exact_right_sides()),
+    ];
     for (file, requests) in files {
         let code = Module::from(requests).text().expect("stock topologies can be generated");
         std::fs::write(directory.join(file), code).expect("the output directory can be written");
@@ -66,6 +71,28 @@ fn equations() -> Vec<Request> {
     with_equations(|formulation| s2_p("Equations", Level::Fast, formulation).for_equations())
 }
 
+/// The most hinges of a topology that has right sides with lines.
+const PUSHED_HINGES: usize = 4;
+
+/// Right sides for each topology of the stock, without external wrench; of few hinges one more that
+/// assumes nothing but takes lines that push the links.
+fn right_sides() -> Vec<Request> {
+    let mut requests = Vec::new();
+    for shapes in stock() {
+        let topology = Topology::new(shapes);
+        let request = |principal: bool| {
+            Request::new(&name(&topology, principal), topology.clone(), Level::Fast)
+                .for_right_side()
+        };
+        requests.extend([request(true).with_principal_axes(), request(false)]);
+        if (1..=PUSHED_HINGES).contains(&topology.hinges()) {
+            let pushed = request(false).with_lines();
+            requests.push(Request { name: format!("Pushed{}", pushed.name), ..pushed });
+        }
+    }
+    requests
+}
+
 /// Routines that keep the closed form's every rounding on `f64`, for the tests.
 fn exact() -> Vec<Request> {
     let satellite =
@@ -85,6 +112,35 @@ fn exact() -> Vec<Request> {
         with_equations(|formulation| s2_p("Equations", Level::Exact, formulation).for_equations());
     let unequal = unequal(satellite("RolledUnequal", vec![Chain(2); 4]));
     rolled.into_iter().chain([unequal]).chain(general).chain(principal).chain(equations).collect()
+}
+
+/// Right sides that keep every rounding.
+fn exact_right_sides() -> Vec<Request> {
+    let satellite = |name: &str, shapes: Vec<Shape>| {
+        Request::new(name, Topology::new(shapes), Level::Exact).for_right_side()
+    };
+    let mixed = vec![Chain(4), Chain(4), Chain(2), Chain(1), Paddle, Paddle];
+    vec![
+        satellite("RolledS3", vec![Chain(3); 4]).with_external_wrench(),
+        satellite("RolledP", vec![Paddle; 5]).with_external_wrench(),
+        satellite("RolledS30", vec![Chain(30)]),
+        satellite("RolledMixed", mixed),
+        unequal_laws(unequal(satellite("RolledUnequal", vec![Chain(2); 4]))),
+        satellite("StraightM", vec![]),
+        satellite("StraightS1P", vec![Chain(1), Paddle]).with_principal_axes(),
+        satellite("PushedS2P", vec![Chain(2), Paddle]).with_external_wrench().with_lines(),
+        satellite("PushedS3", vec![Chain(3)]).with_lines().by(Formulation::Relative),
+    ]
+}
+
+/// Assumes numbers of laws: one of all hinges, others of some.
+fn unequal_laws(mut request: Request) -> Request {
+    for hinge in 0..request.topology.hinges() {
+        let law = RightSideLayout::law(&request.topology, hinge);
+        request.assumptions[law.start] = Some(0.0);
+        request.assumptions[law.start + 1] = (hinge > 2).then_some(-0.5);
+    }
+    request
 }
 
 /// Assumes of some appendages and links what it does not of others, or other numbers.

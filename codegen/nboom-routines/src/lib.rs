@@ -21,6 +21,10 @@ mod of_equations {
     include!(concat!(env!("OUT_DIR"), "/equations.rs"));
 }
 
+mod of_right_sides {
+    include!(concat!(env!("OUT_DIR"), "/right_sides.rs"));
+}
+
 pub use stock::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
 
 /// The stock routines for accelerations: those of `articulated`, the more specialised one of each
@@ -45,6 +49,25 @@ pub fn equations() -> &'static [Kernel] {
             Kernel::of::<of_equations::SymmetricEquationsS2P>(),
         ]
     })
+}
+
+/// Right sides of the differential equations by `articulated`, without external wrench: those of each
+/// topology of [`all`], that for principal axes first, and for up to four hinges one that takes lines
+/// that push the links.
+///
+/// ```
+/// use nboom_formulation::RightSideLayout;
+/// let topology = "S2_P".parse()?;
+/// let of_topology = nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == "S2_P");
+/// assert!(of_topology.clone().count() == 3);
+/// for kernel in of_topology {
+///     assert_eq!(kernel.parameters, RightSideLayout::parameters(&topology));
+///     assert_eq!(kernel.coordinates, RightSideLayout::coordinates(&topology));
+/// }
+/// # Ok::<(), nboom_model::TopologyError>(())
+/// ```
+pub fn right_sides() -> &'static [Kernel] {
+    of_right_sides::kernels()
 }
 
 /// Calls a function of a routine's type for each routine that [`batches`] has, and gives the array
