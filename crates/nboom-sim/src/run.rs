@@ -143,6 +143,10 @@ impl<'a> Run<'a> {
         self.check_regular()?;
         self.check_lines()?;
         self.select()?;
+        if self.equations.variables.layout.has_momenta() {
+            // A lock-up leaves momenta; rates follow from them and not from its impulse.
+            self.equations.read(time, &self.variables, &mut self.situation.state);
+        }
         let controlled = self.equations.variables.layout.controlled();
         self.attitude_norm.put_back();
         let (stepper, equations) = (&mut self.stepper, &mut *self.equations);
