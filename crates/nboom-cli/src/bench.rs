@@ -60,7 +60,7 @@ pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, Cli
 
 /// The recursion first.
 fn rows(test_case: &TestCase, routines: &Routines, seconds: f64) -> Result<Vec<Row>, CliError> {
-    let codes = test_case.codes(routines.accelerations)?;
+    let codes = test_case.codes(routines.for_runs)?;
     let mut timed: Vec<(Label, usize, Times)> = Vec::new();
     for (label, mut code) in codes {
         timed.push((label, 1, time_of(&mut code, seconds)));
@@ -165,7 +165,7 @@ fn table(test_case: &TestCase, routines: &Routines, rows: &[Row]) -> String {
             "{columns} {lanes:>5} {least:>10.1} {median:>10.1} {of_recursive:>12.3}{routine}"
         ));
     }
-    test_case.not_covered(routines.accelerations).iter().map(not_covered).for_each(line);
+    test_case.not_covered(routines.for_runs).iter().map(not_covered).for_each(line);
     text
 }
 

@@ -49,7 +49,7 @@ fn generated_code(scene: &Scene) -> String {
 
 /// The code that a run begins with, and why, found by a run that ends where it starts.
 fn code_at_start(scene: &Scene, routines: &Routines) -> String {
-    let options = Options { kernels: routines.accelerations, ..Options::default() };
+    let options = Options { kernels: routines.for_runs, ..Options::default() };
     let instant = scene.ending_at(scene.initial.time);
     let instant = instant.expect("the initial time is not before itself");
     match simulate(&instant, &options, &mut Nobody) {

@@ -68,8 +68,8 @@ use terminal::{print, say};
 /// Generated routines that commands choose from.
 #[derive(Clone, Copy, Debug)]
 pub struct Routines {
-    /// Those for accelerations and right sides.
-    pub accelerations: &'static [Kernel],
+    /// Those that runs take, for accelerations and right sides, and for stresses.
+    pub for_runs: &'static [Kernel],
     /// Those for the matrix and the right side of a formulation.
     pub equations: &'static [Kernel],
     /// Those for accelerations of eight states at once.
@@ -83,7 +83,7 @@ pub struct Routines {
 #[cfg(feature = "generator")]
 pub fn execute(cli: &Cli) -> ExitCode {
     let routines = Routines {
-        accelerations: nboom_routines::for_runs(),
+        for_runs: nboom_routines::for_runs(),
         equations: nboom_routines::equations(),
         batches: nboom_routines::batches(),
         right_sides_of_eight: nboom_routines::right_sides_of_eight(),

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     refuse_idle(args, &file)?;
     let ignored = ignored(&file, Some(args));
     let file = SceneFile { scene: slips.scene(file.scene), ..file };
-    let kernels = if args.path == PathChoice::Generic { &[] } else { routines.accelerations };
+    let kernels = if args.path == PathChoice::Generic { &[] } else { routines.for_runs };
     let stresses = args.stresses.analysis(&file, slips, kernels)?;
     let warnings = check::warnings(&file).into_iter();
     let warnings = warnings.chain(never_released(&file.scene, args.end_time));
@@ -83,7 +83,7 @@ fn options(
         PathChoice::Generated => Path::Generated,
         PathChoice::Generic => Path::Generic,
     };
-    let (kernels, batches) = (routines.accelerations, routines.right_sides_of_eight);
+    let (kernels, batches) = (routines.for_runs, routines.right_sides_of_eight);
     let mut options = Options {
         samples,
         integrator,

@@ -12,7 +12,7 @@ use crate::{Cli, Routines, execute_with, refuse};
 pub fn simulator(
     words: impl IntoIterator<Item = OsString>,
     about: &'static str,
-    accelerations: &'static [Kernel],
+    for_runs: &'static [Kernel],
     right_sides_of_eight: &'static [Batch],
 ) -> ExitCode {
     let mut words: Vec<OsString> = words.into_iter().collect();
@@ -26,7 +26,7 @@ pub fn simulator(
     match command.try_get_matches_from(words).and_then(|found| Cli::from_arg_matches(&found)) {
         Ok(cli) => {
             let routines =
-                Routines { accelerations, equations: &[], batches: &[], right_sides_of_eight };
+                Routines { for_runs, equations: &[], batches: &[], right_sides_of_eight };
             execute_with(&cli, &routines)
         }
         Err(error) => refuse(&error),

@@ -16,8 +16,8 @@ pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, C
     output::check(&path, &args.scene.scene)?;
     let held = TestCase::with_held_hinges(&file.scene, args.states / 2, args.seed)?;
     let free = TestCase::new(file.scene, args.states - held.len(), args.seed)?;
-    let Routines { accelerations, equations, .. } = *routines;
-    let comparison = compare(&free, &held, accelerations, equations, args.tol)?;
+    let Routines { for_runs, equations, .. } = *routines;
+    let comparison = compare(&free, &held, for_runs, equations, args.tol)?;
     print(&table(&comparison))?;
     output::write(&path, &args.scene.scene, &comparison.json())?;
     let worst = comparison.worst();

@@ -16,11 +16,8 @@ pub(crate) fn work_precision(
     seconds: f64,
     directory: &Path,
 ) -> Result<String, CliError> {
-    let measured = WorkPrecision::measure(
-        scene,
-        (routines.accelerations, routines.right_sides_of_eight),
-        seconds,
-    );
+    let measured =
+        WorkPrecision::measure(scene, (routines.for_runs, routines.right_sides_of_eight), seconds);
     let failed = |error| CliError::Simulation { error, directory: None };
     let found = measured.map_err(|failure| failed(failure.error))?;
     write_file(&directory.join("work-precision.csv"), &found.csv())?;

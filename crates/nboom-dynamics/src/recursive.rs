@@ -145,6 +145,17 @@ impl<R: Real> Recursive<R> {
     /// The right side u₀ of B₀ (a_O, ω̇, τ̇) = u₀, gravity left out: 6 + free entries.
     pub fn forcing(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
         self.place(motion.beta);
+        self.forcing_in_place(motion, out);
+    }
+
+    /// B₀ and u₀ of one motion, as [`mass_matrix`](Self::mass_matrix) and [`forcing`](Self::forcing)
+    /// give them; the links are placed once.
+    pub fn equations(&mut self, motion: &Motion<'_, R>, matrix: &mut [R], forcing: &mut [R]) {
+        self.mass_matrix(motion.beta, matrix);
+        self.forcing_in_place(motion, forcing);
+    }
+
+    fn forcing_in_place(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
         let (of_base, torques) = out.split_at_mut(6);
         let load = self.load(motion, torques);
         let (tree, poses) = (&self.tree, &self.poses);

@@ -5,7 +5,7 @@ use nboom_model::{Shape, Topology};
 use nboom_scalar::{ArticulatedInertia, Mat3, Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::base::AtOrigin;
-use crate::chain::{self, Eliminated, Outward, Shown, Spin, Turned};
+use crate::chain::{self, Eliminated, OutboardShare, Outward, Spin, Turned};
 use crate::formulation::ClosedForm;
 use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
@@ -25,7 +25,7 @@ impl ClosedForm for Articulated {
         let omega = coordinates.omega;
         let mut seen = AtOrigin::nothing();
         let mut first = 0;
-        let mut appendages = Vec::new();
+        let mut appendages = Vec::with_capacity(parameters.branches.len());
         for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
             let hinges = &coordinates.hinges[first..first + shape.hinges()];
             let number = appendages.len() + 1;
@@ -40,7 +40,7 @@ impl ClosedForm for Articulated {
         total.add(&seen);
         R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
         let main = total.accelerations();
-        let mut tau_dot = Vec::new();
+        let mut tau_dot = Vec::with_capacity(coordinates.hinges.len());
         for (appendage, branch) in appendages.iter().zip(&parameters.branches) {
             appendage.back(branch, main, &mut tau_dot);
         }
@@ -52,7 +52,7 @@ impl ClosedForm for Articulated {
 struct Appendage<R> {
     /// Among the appendages, from 1.
     number: usize,
-    shown: Shown<R>,
+    share: OutboardShare<R>,
     first_torque: R,
     eliminated: Vec<Eliminated<R>>,
     paddle: Option<Paddle<R>>,
@@ -87,7 +87,7 @@ impl<R: Real> Appendage<R> {
         hinges: &[HingeCoordinates<R>],
     ) -> Self {
         let mut reached = start;
-        let mut turned: Vec<Turned<R>> = Vec::new();
+        let mut turned: Vec<Turned<R>> = Vec::with_capacity(hinges.len());
         for (i, (link, hinge)) in branch.links.iter().zip(hinges).enumerate() {
             R::remark(|| {
                 format!("Link {number},{}, outward: turned by its angle, its bias.", i + 1)
@@ -96,17 +96,17 @@ impl<R: Real> Appendage<R> {
             turned.push(link);
             reached = next;
         }
-        let mut shown = Shown::nothing();
-        let mut eliminated = Vec::new();
+        let mut share = OutboardShare::nothing();
+        let mut eliminated = Vec::with_capacity(hinges.len());
         for (i, link) in turned.iter().enumerate().rev() {
             R::remark(|| format!("Link {number},{}, inward: its hinge eliminated.", i + 1));
             let outer_torque = hinges.get(i + 1).map_or(R::zero(), |hinge| hinge.torque);
-            let (next, hinge) = chain::inward(link, hinges[i].torque - outer_torque, &shown);
-            shown = next;
+            let (next, hinge) = chain::inward(link, hinges[i].torque - outer_torque, &share);
+            share = next;
             eliminated.push(hinge);
         }
         eliminated.reverse();
-        Self { number, shown, first_torque: hinges[0].torque, eliminated, paddle: None }
+        Self { number, share, first_torque: hinges[0].torque, eliminated, paddle: None }
     }
 
     fn eliminate_paddle(
@@ -128,10 +128,10 @@ impl<R: Real> Appendage<R> {
         R::remark(|| format!("Paddle {number}: turned by its angles, its hinge eliminated."));
         let (inertia, wrench, paddle) = paddle::eliminate(spin, &branch.links[1].inertia, &rates);
         R::remark(|| format!("Arm {number}, inward: its hinge eliminated."));
-        let (shown, eliminated) = paddle::arm_inward(&arm, of_arm.torque, &inertia, wrench);
+        let (share, eliminated) = paddle::arm_inward(&arm, of_arm.torque, &inertia, wrench);
         Self {
             number,
-            shown,
+            share,
             first_torque: of_arm.torque,
             eliminated: vec![eliminated],
             paddle: Some(paddle),
@@ -139,7 +139,7 @@ impl<R: Real> Appendage<R> {
     }
 
     fn at_origin(&self, branch: &Branch<R>) -> AtOrigin<R> {
-        at_origin(&self.shown, self.first_torque, branch.point, &branch.rot_body_from_appendage)
+        at_origin(&self.share, self.first_torque, branch.point, &branch.rot_body_from_appendage)
     }
 
     fn back(&self, branch: &Branch<R>, main: Twist<R>, tau_dot: &mut Vec<R>) {
@@ -165,20 +165,20 @@ impl<R: Real> Appendage<R> {
 /// about ê₁ is the first hinge's torque.
 #[inline]
 pub fn at_origin<R: Real>(
-    shown: &Shown<R>,
+    share: &OutboardShare<R>,
     first_torque: R,
     point: Vec3<R>,
     rot: &Mat3<R>,
 ) -> AtOrigin<R> {
     let zero = R::zero();
-    let [yy, zz, yz] = shown.angular;
+    let [yy, zz, yz] = share.angular;
     let inertia = ArticulatedInertia {
         angular: Sym3 { xx: zero, yy, zz, xy: zero, xz: zero, yz },
-        coupling: Mat3 { rows: [Vec3::zero(), shown.coupling[0], shown.coupling[1]] },
-        linear: shown.linear,
+        coupling: Mat3 { rows: [Vec3::zero(), share.coupling[0], share.coupling[1]] },
+        linear: share.linear,
     };
-    let [m2, m3] = shown.moment;
-    let wrench = Wrench { moment: Vec3::new(first_torque, m2, m3), force: shown.force };
+    let [m2, m3] = share.moment;
+    let wrench = Wrench { moment: Vec3::new(first_torque, m2, m3), force: share.force };
     AtOrigin { inertia: inertia.seen_from(point), wrench: wrench.seen_from(point) }.rotated(rot)
 }
 

@@ -113,7 +113,7 @@ impl<R: Real> Turned<R> {
         inertia: &ArticulatedInertia<R>,
         wrench: Wrench<R>,
         torque: R,
-    ) -> (Shown<R>, Eliminated<R>) {
+    ) -> (OutboardShare<R>, Eliminated<R>) {
         let ArticulatedInertia { angular, coupling, linear } = inertia;
         let [u, b2, b3] = coupling.rows;
         let (u2, u3) = (angular.xy, angular.xz);
@@ -121,7 +121,7 @@ impl<R: Real> Turned<R> {
         let net_torque = torque - wrench.moment.x;
         let ratio = net_torque * inverse_pivot;
         let (s2, s3) = (u2 * inverse_pivot, u3 * inverse_pivot);
-        let shown = Shown {
+        let share = OutboardShare {
             angular: [angular.yy - u2 * s2, angular.zz - u3 * s3, angular.yz - u2 * s3],
             coupling: [b2 - u * s2, b3 - u * s3],
             linear: *linear - Sym3::outer(u) * inverse_pivot,
@@ -130,7 +130,7 @@ impl<R: Real> Turned<R> {
         };
         let eliminated =
             Eliminated { angular: [u2, u3], linear: u, inverse_pivot, net_torque, next: self.next };
-        (shown, eliminated)
+        (share, eliminated)
     }
 }
 
@@ -208,10 +208,10 @@ fn gyroscopic_moment<R: Real>(spin: &Spin<R>, sigma: R, k: &Sym3<R>) -> Vec3<R> 
     )
 }
 
-/// What a link and everything outboard show at its hinge: inertia over (ω̇₂, ω̇₃, a) and the
+/// What a link and everything outboard are at its hinge, once eliminated: articulated inertia over (ω̇₂, ω̇₃, a) and the
 /// wrench that is left at zero acceleration, without the moment about ê₁.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown<R> {
+pub struct OutboardShare<R> {
     /// Moments 2, 3 per ω̇₂, ω̇₃: entries 22, 33, 23.
     pub angular: [R; 3],
     /// Moments 2 and 3 per a.
@@ -224,7 +224,7 @@ pub struct Shown<R> {
     pub force: Vec3<R>,
 }
 
-impl<R: Real> Shown<R> {
+impl<R: Real> OutboardShare<R> {
     /// Nothing outboard.
     pub fn nothing() -> Self {
         Self {
@@ -254,8 +254,8 @@ pub struct Eliminated<R> {
 pub fn inward<R: Real>(
     link: &Turned<R>,
     net_torque: R,
-    outboard: &Shown<R>,
-) -> (Shown<R>, Eliminated<R>) {
+    outboard: &OutboardShare<R>,
+) -> (OutboardShare<R>, Eliminated<R>) {
     let [ly, lz] = link.next;
     let (b2, b3) = (outboard.coupling[0], outboard.coupling[1]);
     let m = &outboard.linear;
@@ -275,7 +275,7 @@ pub fn inward<R: Real>(
     let ratio = net_torque * inverse_pivot;
     let (s2, s3, s) = (u2 * inverse_pivot, u3 * inverse_pivot, u * inverse_pivot);
     let mass = link.mass;
-    let shown = Shown {
+    let share = OutboardShare {
         angular: [
             outboard.angular[0] + lz * (b2.x + moved[0].x) + own.yy - u2 * s2,
             outboard.angular[1] - ly * (b3.x + moved[1].x) + own.zz - u3 * s3,
@@ -301,7 +301,7 @@ pub fn inward<R: Real>(
     };
     let eliminated =
         Eliminated { angular: [u2, u3], linear: u, inverse_pivot, net_torque, next: link.next };
-    (shown, eliminated)
+    (share, eliminated)
 }
 
 /// One step of the way back: ε of the link, and the acceleration of the next hinge.

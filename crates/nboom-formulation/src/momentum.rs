@@ -79,7 +79,7 @@ pub fn momenta<R: Real>(
 ) -> Momenta<R> {
     R::remark(|| "Momenta of the velocities.".to_owned());
     let mut main = pose::momentum(&parameters.main, velocities.main);
-    let mut hinges = Vec::new();
+    let mut hinges = Vec::with_capacity(beta.len());
     for appendage in appendages(topology, parameters, beta, velocities) {
         main.add(appendage.about_origin());
         hinges.extend(appendage.hinges.iter().map(Carried::along_axis));
@@ -133,7 +133,7 @@ pub fn rates<R: Real>(
         moment: external.moment - omega.cross(moment) - velocity.cross(force),
         force: external.force - omega.cross(force),
     };
-    let mut hinges = Vec::new();
+    let mut hinges = Vec::with_capacity(beta.len());
     for appendage in appendages(topology, parameters, beta, velocities) {
         hinges.extend(appendage.hinges.iter().map(Carried::gyroscopic));
     }
@@ -219,7 +219,7 @@ fn carried<R: Real>(
     main: Twist<R>,
 ) -> Vec<Carried<R>> {
     let mut motion = main;
-    let mut hinges = Vec::new();
+    let mut hinges = Vec::with_capacity(links.len());
     for (link, &rate) in links.iter().zip(sigma) {
         let inboard = match shape {
             Shape::Chain(_) => main.angular,

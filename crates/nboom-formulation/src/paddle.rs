@@ -2,7 +2,7 @@
 
 use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
-use crate::chain::{Outward, Shown, Spin, Turned};
+use crate::chain::{OutboardShare, Outward, Spin, Turned};
 use crate::parameters::Reader;
 
 /// What eliminating the paddle's hinge leaves for the way back.
@@ -27,6 +27,7 @@ pub struct ArmRates<R> {
 }
 
 /// R_x(α₁) R_y(α₂) from sines and cosines: turns paddle components into appendage components.
+#[inline]
 pub(crate) fn rotation<R: Real>((s1, c1): (R, R), (s2, c2): (R, R)) -> Mat3<R> {
     Mat3::from_rows(
         Vec3::new(c2, R::zero(), s2),
@@ -75,7 +76,7 @@ pub fn arm_inward<R: Real>(
     torque: R,
     outboard: &ArticulatedInertia<R>,
     wrench: Wrench<R>,
-) -> (Shown<R>, crate::chain::Eliminated<R>) {
+) -> (OutboardShare<R>, crate::chain::Eliminated<R>) {
     let hinge_offset = arm.hinge_offset();
     let mut inertia = outboard.seen_from(hinge_offset);
     inertia.add(&arm.inertia());

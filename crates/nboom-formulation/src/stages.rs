@@ -7,7 +7,7 @@ use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Sym3, Twist, Ve
 
 use crate::articulated::{at_origin, first_hinge};
 use crate::base::AtOrigin;
-use crate::chain::{self, Eliminated, Outward, Shown, Spin, Turned};
+use crate::chain::{self, Eliminated, OutboardShare, Outward, Spin, Turned};
 use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Layout, Reader};
 
@@ -99,10 +99,10 @@ pub const TURNED: Group = Group::new(
         "fz",
     ],
 );
-/// What a link shows its inboard neighbour: moments 2 and 3 per ω̇₂, ω̇₃ and per a, force per a,
+/// The share of a link and everything outboard of it: moments 2 and 3 per ω̇₂, ω̇₃ and per a, force per a,
 /// moments 2 and 3, force.
-pub const SHOWN: Group = Group::new(
-    "shown",
+pub const OUTBOARD_SHARE: Group = Group::new(
+    "share",
     &[
         "ayy", "azz", "ayz", "byx", "byy", "byz", "bzx", "bzy", "bzz", "mxx", "myy", "mzz", "mxy",
         "mxz", "myz", "qy", "qz", "px", "py", "pz",
@@ -180,16 +180,16 @@ pub fn inward<R: Real>() -> Stage<R> {
         name: "inward",
         about: "A link's hinge eliminated: what it shows inboard, and what is left for the way back.",
         parameters: &[LINK],
-        inputs: &[TURNED, NET_TORQUE, SHOWN],
-        outputs: &[SHOWN, ELIMINATED],
+        inputs: &[TURNED, NET_TORQUE, OUTBOARD_SHARE],
+        outputs: &[OUTBOARD_SHARE, ELIMINATED],
         run: |numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let link = reader.link();
             let turned = Turned::read(&link, &mut reader);
             let net_torque = reader.next();
-            let outboard = Shown::read(&mut reader);
-            let (shown, eliminated) = chain::inward(&turned, net_torque, &outboard);
-            [shown.flat(), eliminated.flat()].concat()
+            let outboard = OutboardShare::read(&mut reader);
+            let (share, eliminated) = chain::inward(&turned, net_torque, &outboard);
+            [share.flat(), eliminated.flat()].concat()
         },
     }
 }
@@ -200,14 +200,14 @@ pub fn root<R: Real>() -> Stage<R> {
         name: "root",
         about: "What a chain shows at O, main-body axes.",
         parameters: &[BRANCH],
-        inputs: &[SHOWN, TORQUE],
+        inputs: &[OUTBOARD_SHARE, TORQUE],
         outputs: &[AT_ORIGIN],
         run: |numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let branch = reader.branch_without_links();
-            let shown = Shown::read(&mut reader);
+            let share = OutboardShare::read(&mut reader);
             let torque = reader.next();
-            at_origin(&shown, torque, branch.point, &branch.rot_body_from_appendage).flat()
+            at_origin(&share, torque, branch.point, &branch.rot_body_from_appendage).flat()
         },
     }
 }
@@ -304,8 +304,8 @@ pub fn paddle_in<R: Real>() -> Stage<R> {
             let rates =
                 ArmRates { arm: reached, beta: of_paddle.x, tau: of_paddle.y, torque: of_paddle.z };
             let (inertia, wrench, paddle) = paddle::eliminate(&spin, &link.inertia, &rates);
-            let (shown, eliminated) = paddle::arm_inward(&arm, torque, &inertia, wrench);
-            let seen = at_origin(&shown, torque, branch.point, &rot);
+            let (share, eliminated) = paddle::arm_inward(&arm, torque, &inertia, wrench);
+            let seen = at_origin(&share, torque, branch.point, &rot);
             [seen.flat(), eliminated.flat(), paddle.flat()].concat()
         },
     }
@@ -345,7 +345,7 @@ fn sym_read<R: Real>(reader: &mut Numbers<'_, R>) -> Sym3<R> {
     Sym3 { xx, yy, zz, xy, xz, yz }
 }
 
-impl<R: Real> Shown<R> {
+impl<R: Real> OutboardShare<R> {
     fn flat(&self) -> Vec<R> {
         let mut flat = self.angular.to_vec();
         self.coupling.iter().for_each(|row| flat.extend(row.to_array()));

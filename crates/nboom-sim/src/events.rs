@@ -1,6 +1,6 @@
 //! Instants in which something happens: when they come, and what they change.
 
-pub(crate) mod arc;
+pub(crate) mod angle_range;
 pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;

@@ -25,8 +25,7 @@ impl Dense {
     /// the matrix is not positive definite.
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>) -> &[f64] {
         let Self { dynamics, matrix, right } = self;
-        dynamics.mass_matrix(motion.beta, matrix);
-        dynamics.forcing(motion, right);
+        dynamics.equations(motion, matrix, right);
         let size = right.len();
         match MatRef::from_row_major_slice(matrix, size, size).llt(Side::Lower) {
             Ok(factors) => factors.solve_in_place(ColMut::from_slice_mut(right)),

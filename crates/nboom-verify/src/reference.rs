@@ -78,8 +78,7 @@ impl<R: Real> OneState<R> {
         let size = 6 + beta.len();
         let mut equations =
             Equations { matrix: vec![R::zero(); size * size], forcing: vec![R::zero(); size] };
-        dynamics.mass_matrix(&beta, &mut equations.matrix);
-        dynamics.forcing(&motion, &mut equations.forcing);
+        dynamics.equations(&motion, &mut equations.matrix, &mut equations.forcing);
         Self { accelerations: accelerations(dynamics, &motion), equations }
     }
 }

@@ -19,7 +19,7 @@ pub(crate) struct Call {
 /// Evaluations from calls of the groups' sweeps.
 pub(crate) struct Driver {
     pub calls: Vec<Call>,
-    /// How many numbers are shown at O.
+    /// How many numbers an appendage adds at O.
     pub at_origin: usize,
     /// What a right side has besides.
     pub beside: Option<Beside>,

@@ -1,6 +1,6 @@
 //! Functions that take one appendage, or several side by side, through the sweeps.
 
-use nboom_formulation::stages::{AT_ORIGIN, ELIMINATED, PADDLE, SHOWN, TURNED};
+use nboom_formulation::stages::{AT_ORIGIN, ELIMINATED, OUTBOARD_SHARE, PADDLE, TURNED};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -127,7 +127,7 @@ impl<'a> Sweeps<'a> {
             #laws
             #outward
             #inward
-            let shares = #root_(#k_root shown, [outer]);
+            let shares = #root_(#k_root share, [outer]);
             #add
         }
     }
@@ -206,15 +206,15 @@ impl<'a> Sweeps<'a> {
             quote! {
                 #bind
                 let torque = #torque;
-                (shown, saved[#slot]) = #inward(#link turned[#slot], [torque - outer], shown);
+                (share, saved[#slot]) = #inward(#link turned[#slot], [torque - outer], share);
                 outer = torque;
             }
         });
-        let size = Literal::usize_unsuffixed(step.traced.size(SHOWN));
+        let size = Literal::usize_unsuffixed(step.traced.size(OUTBOARD_SHARE));
         quote! {
             #what
             let mut outer = P::zero();
-            let mut shown = [P::zero(); #size];
+            let mut share = [P::zero(); #size];
             #links
         }
     }

@@ -2,8 +2,8 @@
 
 use nboom_expr::{Expr, Operations};
 use nboom_formulation::stages::{
-    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, PADDLE, POWER, REACHED, SHOWN, Stage, TORQUE,
-    TURNED,
+    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, OUTBOARD_SHARE, PADDLE, POWER, REACHED, Stage,
+    TORQUE, TURNED,
 };
 use nboom_formulation::{Layout, RightSideLayout};
 use nboom_model::{Shape, Topology};
@@ -274,9 +274,10 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
         trace(&stages::start(), &branch, &Masks::new()).passing_on(REACHED, outward.live(REACHED));
     let mut masks = Masks::from([
         (TURNED.name, outward.live(TURNED).to_vec()),
-        (SHOWN.name, vec![false; SHOWN.size()]),
+        (OUTBOARD_SHARE.name, vec![false; OUTBOARD_SHARE.size()]),
     ]);
-    let inward = settled(&mut masks, SHOWN, |masks| trace(&stages::inward(), &link, masks));
+    let inward =
+        settled(&mut masks, OUTBOARD_SHARE, |masks| trace(&stages::inward(), &link, masks));
     let root = trace(&stages::root(), &branch, &masks);
     let first = trace(&stages::first(), &branch, &Masks::new());
     masks.insert(ELIMINATED.name, inward.live(ELIMINATED).to_vec());

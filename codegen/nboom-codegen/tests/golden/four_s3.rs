@@ -120,14 +120,14 @@ pub mod routine_four_s3 {
         }
         // Inward: hinges eliminated.
         let mut outer = P::zero();
-        let mut shown = [P::zero(); 14];
+        let mut share = [P::zero(); 14];
         for i in (0..3).rev() {
             let link = P::gather_all(k, 132 + 8 * i + a, 4);
             let torque = P::gather(x, 17 + 12 * i + a);
-            (shown, saved[i]) = s3_inward(link, turned[i], [torque - outer], shown);
+            (share, saved[i]) = s3_inward(link, turned[i], [torque - outer], share);
             outer = torque;
         }
-        let shares = s3_root(P::gather_all(k, 156 + a, 4), shown, [outer]);
+        let shares = s3_root(P::gather_all(k, 156 + a, 4), share, [outer]);
         for i in 0..27 {
             seen[i] += shares[i].sum();
         }
@@ -228,12 +228,12 @@ pub mod routine_four_s3 {
         k: [R; 2],
         turned: [R; 13],
         net_torque: [R; 1],
-        shown: [R; 14],
+        share: [R; 14],
     ) -> ([R; 14], [R; 6]) {
         let [mass, jxx] = k;
         let [cy, cz, jyy, jzz, jyz, ly, lz, nx, ny, nz, fx, fy, fz] = turned;
         let [net_torque] = net_torque;
-        let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = shown;
+        let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = share;
         let t33 = (-lz).mul_add(myy, ly * myz);
         let t36 = (-lz).mul_add(myz, ly * mzz);
         let t38 = lz.mul_add(mxx, byx);
@@ -265,9 +265,9 @@ pub mod routine_four_s3 {
     }
     /// What a chain shows at O, main-body axes.
     #[inline(always)]
-    fn s3_root<R: Real>(k: [R; 12], shown: [R; 14], torque: [R; 1]) -> [R; 27] {
+    fn s3_root<R: Real>(k: [R; 12], share: [R; 14], torque: [R; 1]) -> [R; 27] {
         let [r11, r12, r13, r21, r22, r23, r31, r32, r33, dx, dy, dz] = k;
-        let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = shown;
+        let [ayy, azz, ayz, byx, bzx, mxx, myy, mzz, myz, qy, qz, px, py, pz] = share;
         let [torque] = torque;
         let t31 = (-dz).mul_add(myy, dy * myz);
         let t32 = (-dz).mul_add(myz, dy * mzz);

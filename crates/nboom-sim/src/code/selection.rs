@@ -24,9 +24,7 @@ impl Selection {
     pub const SERIES: &'static str = "series";
     /// The path of a run in which generated and library code both had their turns.
     pub const MIXED: &'static str = "mixed";
-}
 
-impl Selection {
     /// That of a mode whose momenta are integrated.
     pub(crate) fn of_momenta(since: f64) -> Self {
         let (path, formulation) = (Self::GENERIC, Formulation::Momentum.name());

@@ -35,8 +35,8 @@ impl PreparedMode {
 
     /// Whether it is this mode, with held hinges at these angles.
     pub fn is(&self, mode: &Mode, beta: &[f64]) -> bool {
-        let held = (0..beta.len()).filter(|&i| !mode.is_free(i));
-        self.mode == *mode && held.into_iter().all(|i| self.beta[i] == beta[i])
+        let is_held_there = |i: usize| mode.is_free(i) || self.beta[i] == beta[i];
+        self.mode == *mode && (0..beta.len()).all(is_held_there)
     }
 
     /// Chooses the code that computes accelerations from the time `since` on, unless it was chosen before.

@@ -6,7 +6,7 @@ use nboom_scalar::{Number, Real};
 
 use crate::equations::Equations;
 use crate::equations::state::State;
-use crate::events::arc::Arc;
+use crate::events::angle_range::AngleRange;
 use crate::events::event::EventKind;
 use crate::events::instant;
 use crate::events::side::{LockSide, Side};
@@ -17,7 +17,7 @@ pub(crate) struct Guard {
     pub kind: GuardKind,
     side: Side,
     /// The angles at which it keeps its side, of a line's length that one hinge changes.
-    arc: Option<Arc>,
+    range: Option<AngleRange>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,7 +148,7 @@ impl Guards {
                 let leaving = Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() };
                 let side = lock_sides[i].map_or(leaving, |side| Side::Known(side.sign()));
                 let kind = GuardKind::Lock { hinge: i, angle };
-                self.list.push(Guard { kind, side, arc: None });
+                self.list.push(Guard { kind, side, range: None });
             }
             if let Release::Angle { hinge: trigger, angle } = body.hinge.release
                 && mode.hinges[i] == HingeState::Unreleased
@@ -156,7 +156,7 @@ impl Guards {
             {
                 let side = Side::Known((state.beta[trigger].to_f64() - angle).signum());
                 let kind = GuardKind::Trigger { hinge: i, trigger, angle };
-                self.list.push(Guard { kind, side, arc: None });
+                self.list.push(Guard { kind, side, range: None });
             }
         }
         for bound in bounds(dynamics, mode) {
@@ -168,13 +168,13 @@ impl Guards {
             let side = if at_bound { leaving } else { Side::Known(sign) };
             let free = dynamics.free_hinges();
             let beta = |j: usize| state.beta[free[j]].to_f64();
-            let arc = match watched(kind, dynamics.elements()) {
+            let range = match watched(kind, dynamics.elements()) {
                 (Coordinate::Length(line), limit) if !at_bound => {
-                    Arc::of(dynamics, (line, limit), beta, sign)
+                    AngleRange::of(dynamics, (line, limit), beta, sign)
                 }
                 _ => None,
             };
-            self.list.push(Guard { kind, side, arc });
+            self.list.push(Guard { kind, side, range });
         }
     }
 
@@ -189,9 +189,9 @@ impl Guards {
         for i in 0..self.list.len() {
             let guard = self.list[i];
             let change = match watched(guard.kind, equations.entered.dynamics.elements()) {
-                _ if let Some(arc) = guard.arc => {
+                _ if let Some(range) = guard.range => {
                     let first = equations.variables.layout.beta().start;
-                    arc.left_by(&stepper.polynomial(first + arc.hinge))
+                    range.left_by(&stepper.polynomial(first + range.hinge))
                 }
                 (Coordinate::Length(line), limit) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)

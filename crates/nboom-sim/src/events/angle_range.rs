@@ -8,7 +8,7 @@ use nboom_scalar::Number;
 ///
 /// The square of the length is a + r cos(β − φ), so that the limit is a pair of angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Arc {
+pub(crate) struct AngleRange {
     /// Position among the free hinges.
     pub hinge: usize,
     low: f64,
@@ -16,10 +16,14 @@ pub(crate) struct Arc {
 }
 
 /// Closer than this to the longest or shortest length in units of r, a limit is as good as touched.
-const TOUCHED: f64 = 1e-6;
+const TOUCHED: f64 = 1e-4;
 
-impl Arc {
-    /// Of `line`, whose length is below (`side` < 0) or above `limit` with the hinge at `beta`. `None`
+/// Share of the square of the length below which the hinge hardly changes it. Beyond this and what is
+/// touched, the angles of the limit are known to a few 1e-12 radians, less than turns in an instant.
+const NO_RADIUS: f64 = 1e-2;
+
+impl AngleRange {
+    /// That of `line`, whose length is below (`side` < 0) or above `limit` with the hinge at `beta`. `None`
     /// where other hinges move the line too, and where rounding decides whether it comes to the limit.
     pub fn of<R: Number>(
         dynamics: &Recursive<R>,
@@ -31,13 +35,14 @@ impl Arc {
         let (Some((hinge, _)), None) = (path.next(), path.next()) else { return None };
         let squared =
             |angle: f64| dynamics.line_length_squared(line, |_| R::constant(angle)).to_f64();
-        let (at_zero, at_half) = (squared(0.0), squared(PI));
-        let mean = 0.5 * (at_zero + at_half);
-        let (along_cos, along_sin) = (0.5 * (at_zero - at_half), squared(FRAC_PI_2) - mean);
+        let (at_zero, at_pi) = (squared(0.0), squared(PI));
+        let mean = 0.5 * (at_zero + at_pi);
+        let (along_cos, along_sin) = (0.5 * (at_zero - at_pi), squared(FRAC_PI_2) - mean);
         let (radius, phase) = (along_cos.hypot(along_sin), along_sin.atan2(along_cos));
         let cosine = (limit * limit - mean) / radius;
+        let hardly_moves = radius <= NO_RADIUS * mean.max(limit * limit);
         // Beyond one the limit is out of reach; near one rounding tells.
-        if cosine.is_nan() || (cosine.abs() - 1.0).abs() < TOUCHED {
+        if hardly_moves || (cosine.abs() - 1.0).abs() < TOUCHED {
             return None;
         }
         let beta = beta(hinge);
@@ -54,7 +59,7 @@ impl Arc {
         (low < 0.0 && 0.0 < high).then_some(Self { hinge, low: beta + low, high: beta + high })
     }
 
-    /// Where on [0, 1] an angle leaves the arc.
+    /// Where on [0, 1] an angle leaves the range.
     pub fn left_by(&self, angle: &Bernstein) -> Option<f64> {
         let (low, high) = (angle.minus(self.low), angle.minus(self.high));
         let ends = [low.leaves_side(1.0), high.leaves_side(-1.0)];
