@@ -5,22 +5,22 @@ use nboom_scalar::Real;
 /// Solves a square system given row by row, taking unknowns and equations in the same `order`.
 pub(crate) fn solve<R: Real>(matrix: &[R], right: &[R], order: &[usize]) -> Vec<R> {
     let size = order.len();
-    let mut rows: Vec<Vec<R>> = order
-        .iter()
-        .map(|&row| order.iter().map(|&column| matrix[row * size + column]).collect())
-        .collect();
+    let mut rows = Vec::with_capacity(size * size);
+    for &row in order {
+        rows.extend(order.iter().map(|&column| matrix[row * size + column]));
+    }
     let mut right: Vec<R> = order.iter().map(|&row| right[row]).collect();
     let mut inverse_pivots = Vec::with_capacity(size);
     for k in 0..size {
-        let (done, below) = rows.split_at_mut(k + 1);
-        let pivot = &done[k];
+        let (done, below) = rows.split_at_mut((k + 1) * size);
+        let pivot = &done[k * size..];
         let inverse = R::one() / pivot[k];
         inverse_pivots.push(inverse);
         let of_pivot = right[k];
-        for (row, right) in below.iter_mut().zip(&mut right[k + 1..]) {
+        for (row, right) in below.chunks_exact_mut(size).zip(&mut right[k + 1..]) {
             let factor = row[k] * inverse;
-            for j in k + 1..size {
-                row[j] -= factor * pivot[j];
+            for (entry, &pivot) in row.iter_mut().zip(pivot).skip(k + 1) {
+                *entry -= factor * pivot;
             }
             *right -= factor * of_pivot;
         }
@@ -28,7 +28,7 @@ pub(crate) fn solve<R: Real>(matrix: &[R], right: &[R], order: &[usize]) -> Vec<
     for k in (0..size).rev() {
         let mut left = right[k];
         for j in k + 1..size {
-            left -= rows[k][j] * right[j];
+            left -= rows[k * size + j] * right[j];
         }
         right[k] = left * inverse_pivots[k];
     }
