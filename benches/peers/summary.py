@@ -110,23 +110,29 @@ def at(points, error):
     return min(least, math.exp((1 - share) * math.log(below[1]) + share * math.log(above[1])))
 
 
+# Our integrators in the tables, and what others are compared with.
+OURS = tuple(f"ours, `{name}`" for name in ("auto", "dop853", "gauss_lanes", "taylor"))
+BASES = [f"ours, `{name}`, compiled routine" for name in ("gauss_lanes", "dop853")]
+
+
 def whole_run_tables(directory):
     curves = whole_runs(directory)
     show = lambda time: "-" if time is None else f"{time:.0f}"
     wanted = [name for name in curves if not name.startswith("ours")]
-    wanted += [
-        name for name in curves if name.startswith("ours, `dop853`") or name.startswith("ours, `taylor`")
-    ]
+    wanted += [name for name in curves if name.startswith(OURS)]
     rows = [[name] + [show(at(curves[name], e)) for e in ERRORS] for name in wanted]
     times = table(["µs to an error of"] + [f"{e:.0e}" for e in ERRORS], rows)
-    base = "ours, `dop853`, compiled routine"
-    if base not in curves:
-        return times, "No compiled routine was measured.\n"
+    bases = [base for base in BASES if base in curves]
+    ratios = "\n".join(ratio_table(curves, wanted, base) for base in bases)
+    return times, ratios or "No compiled routine was measured.\n"
+
+
+def ratio_table(curves, wanted, base):
     ratio = lambda name, e: (at(curves[name], e), at(curves[base], e))
     cell = lambda pair: "-" if None in pair else f"{pair[0] / pair[1]:.2f}"
     others = [name for name in wanted if name != base]
     rows = [[name] + [cell(ratio(name, e)) for e in ERRORS] for name in others]
-    return times, table([f"times as long as {base}"] + [f"{e:.0e}" for e in ERRORS], rows)
+    return table([f"times as long as {base}"] + [f"{e:.0e}" for e in ERRORS], rows)
 
 
 def main():

@@ -40,8 +40,7 @@ fn main() {
     let files = [
         ("stock.rs", accelerations()),
         ("equations.rs", equations()),
-        ("right_sides_in_lanes.rs", right_sides(true)),
-        ("right_sides.rs", right_sides(false)),
+        ("right_sides.rs", right_sides()),
         ("exact.rs", exact()),
         ("exact_right_sides.rs", exact_right_sides()),
     ];
@@ -72,30 +71,35 @@ fn equations() -> Vec<Request> {
     with_equations(|formulation| s2_p("Equations", Level::Fast, formulation).for_equations())
 }
 
-/// The most hinges of a topology that has right sides with lines, and on eight states at once.
+/// The most hinges of a topology that has right sides with lines.
 const FEW_HINGES: usize = 4;
 
-/// The most hinges of a topology that has right sides: beyond that accelerations are nearly all of one.
-const MOST_HINGES: usize = 20;
+/// The most equal appendages of a topology that has right sides: with more, registers are full already.
+const MOST_EQUAL: usize = 4;
 
 /// Right sides for topologies of the stock, without external wrench; of few hinges one more that assumes
-/// nothing and takes lines that push the links. Those that are also for eight states at once are
-/// `in_lanes`: of few hinges, for principal axes, without lines.
-fn right_sides(in_lanes: bool) -> Vec<Request> {
+/// nothing and takes lines that push the links.
+///
+/// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
+/// eight states at once, too.
+fn right_sides() -> Vec<Request> {
     let mut requests = Vec::new();
     let topologies = stock().into_iter().map(Topology::new);
-    for topology in topologies.filter(|topology| topology.hinges() <= MOST_HINGES) {
-        let is_small = (1..=FEW_HINGES).contains(&topology.hinges());
+    let is_wanted = |topology: &Topology| topology.groups().iter().all(|&(_, n)| n <= MOST_EQUAL);
+    for topology in topologies.filter(is_wanted) {
+        let has_few = topology.hinges() <= FEW_HINGES;
         for principal in [true, false] {
             let name = name(&topology, principal);
             let request = Request::new(&name, topology.clone(), Level::Fast).for_right_side();
             let request = if principal { request.with_principal_axes() } else { request };
-            let pushed = (is_small && !principal && !in_lanes).then(|| {
+            let is_pushed = has_few && topology.hinges() > 0 && !principal;
+            let pushed = is_pushed.then(|| {
                 let name = format!("Pushed{name}");
                 Request { name, ..request.clone() }.with_lines()
             });
-            let wanted = Some(request).filter(|_| in_lanes == (is_small && principal));
-            requests.extend(wanted.into_iter().chain(pushed));
+            let on_eight = has_few || topology.shapes().len() == 1;
+            requests.push(if on_eight { request.on_eight_states() } else { request });
+            requests.extend(pushed);
         }
     }
     requests

@@ -25,10 +25,6 @@ mod of_right_sides {
     include!(concat!(env!("OUT_DIR"), "/right_sides.rs"));
 }
 
-mod of_right_sides_in_lanes {
-    include!(concat!(env!("OUT_DIR"), "/right_sides_in_lanes.rs"));
-}
-
 pub use stock::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
 
 /// The stock routines for accelerations: those of `articulated`, the more specialised one of each
@@ -61,15 +57,15 @@ pub fn for_runs() -> &'static [Kernel] {
     FOR_RUNS.get_or_init(|| [all(), right_sides()].concat())
 }
 
-/// Those of [`right_sides`] that are compiled for eight states at once, too: of one to four hinges, for
-/// principal axes, without lines.
+/// Those of [`right_sides`] that are compiled for eight states at once, too: of up to four hinges, and of
+/// single chains.
 pub fn right_sides_of_eight() -> &'static [Batch] {
-    of_right_sides_in_lanes::batches()
+    of_right_sides::batches()
 }
 
 /// Right sides of the differential equations by `articulated`, without external wrench: those of each
-/// topology of [`all`] with up to twenty hinges, and of up to four one more that takes lines that push the
-/// links.
+/// topology of [`all`] with up to four equal appendages, and of up to four hinges one more that takes lines
+/// that push the links.
 ///
 /// ```
 /// use nboom_formulation::RightSideLayout;
@@ -83,9 +79,7 @@ pub fn right_sides_of_eight() -> &'static [Batch] {
 /// # Ok::<(), nboom_model::TopologyError>(())
 /// ```
 pub fn right_sides() -> &'static [Kernel] {
-    static RIGHT_SIDES: OnceLock<Vec<Kernel>> = OnceLock::new();
-    let (of_few, others) = (of_right_sides_in_lanes::kernels, of_right_sides::kernels);
-    RIGHT_SIDES.get_or_init(|| [of_few(), others()].concat())
+    of_right_sides::kernels()
 }
 
 /// Calls a function of a routine's type for each routine that [`batches`] has, and gives the array

@@ -113,9 +113,9 @@ pub struct RunArgs {
     #[arg(long, value_name = "NAME", value_parser = choice::formulation)]
     pub formulation: Option<Form>,
 
-    /// Method of integration: auto takes dopri5 for loose tolerances, dop853 for tight ones, and
-    /// radau5 while the motion is stiff; taylor is for errors down to rounding, gauss for long free
-    /// spin, rkam the original's.
+    /// Method of integration: auto takes dopri5 for loose tolerances, dop853 for tight ones,
+    /// gauss_lanes where a smooth motion lasts, and radau5 while the motion is stiff; taylor is for
+    /// errors down to rounding, gauss for long free spin, rkam the original's.
     #[arg(long, value_name = "NAME", default_value = "auto",
           value_parser = choice::integrator)]
     pub integrator: Method,

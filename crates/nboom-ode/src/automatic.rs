@@ -1,184 +1,261 @@
 use std::ops::Range;
 
-use smooth::Smooth;
-
 use crate::method::Description;
-use crate::{Bernstein, Choice, Method, Radau, StepError, Stepper, System, Tolerance, Window};
-
-mod smooth;
+use crate::{
+    Bernstein, Choice, GaussLanes, Method, Radau, RungeKutta, StepError, Stepper, System,
+    Tolerance, Window,
+};
 
 /// The row of [`Method`]'s table.
 pub(crate) const DESCRIPTION: Description = Description {
     name: "auto",
-    about: "dopri5, dop853 or radau5, by tolerance and stiffness",
-    order: |tolerance| Automatic::smooth(tolerance).order(tolerance),
-    dense_order: |tolerance| Automatic::smooth(tolerance).dense_order(tolerance),
+    about: "dopri5, dop853, gauss_lanes or radau5, by tolerance, stiffness and code",
+    order: |tolerance| Automatic::explicit(tolerance).order(tolerance),
+    dense_order: |tolerance| Automatic::explicit(tolerance).dense_order(tolerance),
     keeps_invariants: false,
     stepper: |tolerance| Box::new(Automatic::new(tolerance)),
 };
 
-/// Takes the method that suits the tolerance, and Radau's implicit one while stability and not
-/// accuracy bounds its steps.
+/// Begins with the explicit method that suits the tolerance. Where the system takes eight states at once,
+/// stages side by side follow, once a motion has gone on for some steps; and Radau's implicit method
+/// while stability and not accuracy bounds steps.
 #[derive(Debug)]
 pub struct Automatic {
-    smooth: Smooth,
-    implicit: Radau,
-    is_stiff: bool,
+    explicit: Box<RungeKutta>,
+    /// Only for tolerances that it suits.
+    lanes: Option<Box<GaussLanes>>,
+    implicit: Box<Radau>,
+    active: Active,
     controlled: usize,
-    /// Steps in a row, less those that say otherwise, for which the other method would be better.
+    /// Steps of the explicit method since a start or a change.
+    explicit_steps: usize,
+    /// Whether the iteration of stages side by side has been slow since the last start.
+    lanes_were_slow: bool,
+    /// Steps in a row, less those that say otherwise, for which another method would be better.
     against: usize,
-    /// How many of these it takes to go back to the method for smooth motions.
+    /// How many of these it takes to go back from the implicit method.
     patience: usize,
     choice: Choice,
 }
 
+/// The method that takes the next step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Active {
+    Explicit,
+    Lanes,
+    Implicit,
+}
+
 /// From this relative tolerance on, the method of order 5 is cheaper than that of order 8.
 const LOOSE: f64 = 1e-5;
+/// Up to this relative tolerance, stages side by side are cheaper than an explicit method.
+const TIGHT: f64 = 1e-7;
+/// Explicit steps after which a motion is taken to go on for so long that stages side by side pay, if as
+/// many could follow.
+const SETTLED: usize = 12;
 /// Steps bounded by stability after which a problem counts as stiff, and steps in between that
 /// show the contrary (Hairer and Wanner, Section IV.2).
 const STIFF: usize = 15;
+/// Share of the stability limit beyond which a step counts as bounded by it: the tighter the
+/// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
+/// below a third of it.
+const NEAR: f64 = 0.7;
 /// The first step of a method may be this many times the last one of the other.
 const GROWTH: f64 = 10.0;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
 
 impl Automatic {
-    /// The methods with this tolerance; the one for smooth motions begins.
+    /// The methods with this tolerance.
     pub fn new(tolerance: Tolerance) -> Self {
-        let method = Self::smooth(tolerance);
-        let reason = match method {
-            Method::Dopri5 => "the tolerance is loose",
-            _ => "the tolerance is tight",
+        let explicit = match Self::explicit(tolerance) {
+            Method::Dopri5 => RungeKutta::dopri5(tolerance),
+            _ => RungeKutta::dop853(tolerance),
         };
-        Self::with_smooth(Choice { method, reason }, tolerance)
-    }
-
-    /// The methods with this tolerance, with this choice for smooth motions: one of
-    /// [`Method::Dopri5`], [`Method::Dop853`] and [`Method::GaussLanes`].
-    pub fn with_smooth(choice: Choice, tolerance: Tolerance) -> Self {
+        let is_tight = tolerance.relative <= TIGHT;
         Self {
-            choice,
-            smooth: Smooth::new(choice.method, tolerance),
-            implicit: Radau::new(tolerance),
-            is_stiff: false,
+            choice: Self::first(tolerance),
+            explicit: Box::new(explicit),
+            lanes: is_tight.then(|| Box::new(GaussLanes::new(tolerance))),
+            implicit: Box::new(Radau::new(tolerance)),
+            active: Active::Explicit,
             controlled: 0,
+            explicit_steps: 0,
+            lanes_were_slow: false,
             against: 0,
             patience: STIFF,
         }
     }
 
-    /// The method for smooth motions under a tolerance.
-    pub(crate) fn smooth(tolerance: Tolerance) -> Method {
+    /// The explicit method under a tolerance.
+    pub(crate) fn explicit(tolerance: Tolerance) -> Method {
         if tolerance.relative >= LOOSE { Method::Dopri5 } else { Method::Dop853 }
     }
 
-    fn active(&self) -> &dyn Stepper {
-        if self.is_stiff { &self.implicit } else { self.smooth.stepper() }
+    /// What runs begin with.
+    fn first(tolerance: Tolerance) -> Choice {
+        let method = Self::explicit(tolerance);
+        let reason = match method {
+            Method::Dopri5 => "the tolerance is loose",
+            _ => "the tolerance is tight",
+        };
+        Choice { method, reason }
     }
 
-    fn active_mut(&mut self) -> &mut dyn Stepper {
-        if self.is_stiff { &mut self.implicit } else { self.smooth.stepper_mut() }
-    }
-
-    fn active_window_mut(&mut self) -> &mut Window {
-        if self.is_stiff { self.implicit.window_mut() } else { self.smooth.window_mut() }
-    }
-
-    /// Whether the step just taken speaks for the other method.
-    fn is_against(&mut self) -> bool {
-        if self.is_stiff {
-            self.implicit.stiffness() < COST * self.smooth.limit()
-        } else {
-            self.smooth.is_held_back()
+    fn stepper(&self) -> &dyn Stepper {
+        match (self.active, &self.lanes) {
+            (Active::Lanes, Some(lanes)) => &**lanes,
+            (Active::Implicit, _) => &*self.implicit,
+            _ => &*self.explicit,
         }
     }
 
-    /// Goes on with the other method from where this one is.
-    fn change(&mut self, system: &mut dyn System) {
-        let Window { time, state, counts, next_step: usual, .. } = self.window().clone();
-        self.is_stiff = !self.is_stiff;
-        self.against = 0;
-        self.choice = if self.is_stiff {
-            self.active_window_mut().counts = counts;
-            let reason = "stability, not accuracy, bounded explicit steps";
-            Choice { reason, ..self.implicit.choice() }
-        } else {
-            self.active_window_mut().counts = counts;
-            self.patience *= 2;
-            let reason = "accuracy, not stability, bounds steps again";
-            Choice { reason, ..self.smooth.stepper().choice() }
-        };
+    fn stepper_mut(&mut self) -> &mut dyn Stepper {
+        match (self.active, &mut self.lanes) {
+            (Active::Lanes, Some(lanes)) => &mut **lanes,
+            (Active::Implicit, _) => &mut *self.implicit,
+            _ => &mut *self.explicit,
+        }
+    }
+
+    fn window_mut(&mut self) -> &mut Window {
+        match (self.active, &mut self.lanes) {
+            (Active::Lanes, Some(lanes)) => lanes.window_mut(),
+            (Active::Implicit, _) => self.implicit.window_mut(),
+            _ => self.explicit.window_mut(),
+        }
+    }
+
+    /// Whether the step just taken speaks against the method that took it.
+    fn is_against(&mut self) -> bool {
+        match (self.active, &self.lanes) {
+            (Active::Lanes, Some(lanes)) => lanes.is_held_back(),
+            (Active::Implicit, _) => {
+                self.implicit.stiffness() < COST * self.explicit.stability_limit()
+            }
+            _ => self.explicit.stiffness() > NEAR * self.explicit.stability_limit(),
+        }
+    }
+
+    /// The method that should take the next step instead, and why.
+    fn better(&self, system: &dyn System, limit: f64) -> Option<(Active, &'static str)> {
+        match self.active {
+            Active::Explicit if self.against >= STIFF => {
+                Some((Active::Implicit, "stability, not accuracy, bounded explicit steps"))
+            }
+            Active::Explicit => {
+                let Window { time, next_step, .. } = self.explicit.window();
+                let lasts = limit - time > SETTLED as f64 * next_step;
+                let pay = self.explicit_steps >= SETTLED && lasts && self.against == 0;
+                let may = self.lanes.is_some() && !self.lanes_were_slow;
+                let reason = "the motion goes on for long, and code takes eight stages at once";
+                (pay && may && system.takes_eight()).then_some((Active::Lanes, reason))
+            }
+            Active::Lanes => (self.against >= STIFF)
+                .then_some((Active::Explicit, "damping slowed the iteration of stages down")),
+            Active::Implicit => (self.against >= self.patience)
+                .then_some((Active::Explicit, "accuracy, not stability, bounds steps again")),
+        }
+    }
+
+    /// Goes on with another method from where this one is.
+    fn change(&mut self, system: &mut dyn System, to: Active, reason: &'static str) {
+        let Window { time, state, next_step: usual, .. } = self.window().clone();
+        match self.active {
+            Active::Lanes => self.lanes_were_slow = true,
+            Active::Implicit => self.patience *= 2,
+            Active::Explicit => {}
+        }
+        self.hand_over(to, reason);
         let controlled = self.controlled;
-        self.active_mut().start(system, time, &state, controlled);
-        let window = self.active_window_mut();
+        self.stepper_mut().start(system, time, &state, controlled);
+        let window = self.window_mut();
         window.next_step = window.next_step.min(GROWTH * usual);
+    }
+
+    /// Makes another method the active one, which goes on counting.
+    fn hand_over(&mut self, to: Active, reason: &'static str) {
+        let counts = self.window().counts;
+        (self.active, self.against, self.explicit_steps) = (to, 0, 0);
+        self.window_mut().counts = counts;
+        self.choice = Choice { method: self.stepper().choice().method, reason };
     }
 }
 
 impl Stepper for Automatic {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
-        (self.controlled, self.against) = (controlled, 0);
-        self.active_mut().start(system, t, y, controlled);
+        (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
+        self.stepper_mut().start(system, t, y, controlled);
     }
 
     fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
-        (self.controlled, self.against) = (controlled, 0);
-        self.active_mut().restart(system, t, y, controlled);
+        (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
+        self.lanes_were_slow = false;
+        if self.active == Active::Lanes {
+            self.hand_over(Active::Explicit, "an event began another motion");
+            self.stepper_mut().start(system, t, y, controlled);
+        } else {
+            self.stepper_mut().restart(system, t, y, controlled);
+        }
     }
 
     fn limit_steps(&mut self, longest: f64) {
-        self.smooth.stepper_mut().limit_steps(longest);
+        self.explicit.limit_steps(longest);
         self.implicit.limit_steps(longest);
+        if let Some(lanes) = &mut self.lanes {
+            lanes.limit_steps(longest);
+        }
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
-        if self.against >= if self.is_stiff { self.patience } else { STIFF } {
-            self.change(system);
+        if let Some((to, reason)) = self.better(system, limit) {
+            self.change(system, to, reason);
         }
-        self.active_mut().step(system, limit)?;
+        self.stepper_mut().step(system, limit)?;
         let against = self.is_against();
         self.against = if against { self.against + 1 } else { self.against.saturating_sub(2) };
+        self.explicit_steps += usize::from(self.active == Active::Explicit);
         Ok(())
     }
 
     fn prepare_dense(&mut self, system: &mut dyn System) {
-        self.active_mut().prepare_dense(system);
+        self.stepper_mut().prepare_dense(system);
     }
 
     fn interpolate(&self, fraction: f64, out: &mut [f64]) {
-        self.active().interpolate(fraction, out);
+        self.stepper().interpolate(fraction, out);
     }
 
     fn polynomial(&self, i: usize) -> Bernstein {
-        self.active().polynomial(i)
+        self.stepper().polynomial(i)
     }
 
     fn retake(&mut self, system: &mut dyn System, step: f64) {
-        self.active_mut().retake(system, step);
+        self.stepper_mut().retake(system, step);
     }
 
     fn move_end(&mut self, system: &mut dyn System, by: f64) -> bool {
-        self.active_mut().move_end(system, by)
+        self.stepper_mut().move_end(system, by)
     }
 
     fn advance(&mut self) {
-        self.active_mut().advance();
+        self.stepper_mut().advance();
     }
 
     fn scale(&mut self, range: Range<usize>, factor: f64) {
-        self.active_mut().scale(range, factor);
+        self.stepper_mut().scale(range, factor);
     }
 
     fn window(&self) -> &Window {
-        self.active().window()
+        self.stepper().window()
     }
 
     fn error_of(&self, i: usize) -> f64 {
-        self.active().error_of(i)
+        self.stepper().error_of(i)
     }
 
     fn last_evaluated(&self) -> &[f64] {
-        self.active().last_evaluated()
+        self.stepper().last_evaluated()
     }
 
     fn choice(&self) -> Choice {

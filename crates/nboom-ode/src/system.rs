@@ -32,6 +32,12 @@ pub trait System {
         false
     }
 
+    /// Whether [`derivatives`](Self::derivatives) takes eight states at once from now to the next start;
+    /// asked by [`Automatic`](crate::Automatic).
+    fn takes_eight(&self) -> bool {
+        false
+    }
+
     /// How variable `i` hangs together with the others; asked at a start, by implicit methods.
     fn role(&self, _i: usize) -> Role {
         Role::Coupled

@@ -1,10 +1,12 @@
 //! The method that chooses: which one it takes, and that it is right to.
 
-use nboom_ode::{Automatic, Choice, Method, RungeKutta, Stepper, System, Tolerance};
+use nboom_ode::{Automatic, Method, RungeKutta, Stepper, System, Tolerance};
 
 /// ẏ = −rate(t) (y − cos t) − sin t, which y = cos t solves; fast for `fast.0 < t < fast.1`.
 struct Drawn {
     fast: (f64, f64),
+    /// Whether it says that it takes eight states at once.
+    takes_eight: bool,
     /// How often it was evaluated.
     evaluations: usize,
 }
@@ -15,11 +17,18 @@ impl System for Drawn {
         let rate = if self.fast.0 < t && t < self.fast.1 { 1e5 } else { 1.0 };
         dy[0] = -rate * (y[0] - t.cos()) - t.sin();
     }
+
+    fn takes_eight(&self) -> bool {
+        self.takes_eight
+    }
 }
 
 /// Error at the end, evaluations, and the methods in the order in which they were taken.
 fn run(stepper: &mut dyn Stepper, fast: (f64, f64), end: f64) -> (f64, usize, Vec<Method>) {
-    let mut system = Drawn { fast, evaluations: 0 };
+    run_system(stepper, Drawn { fast, takes_eight: false, evaluations: 0 }, end)
+}
+
+fn run_system(stepper: &mut dyn Stepper, mut system: Drawn, end: f64) -> (f64, usize, Vec<Method>) {
     stepper.start(&mut system, 0.0, &[1.0], 1);
     let mut methods = vec![stepper.choice().method];
     let mut steps = 0;
@@ -82,29 +91,54 @@ fn the_explicit_method_comes_back_when_the_motion_is_smooth_again() {
     assert!(10 * evaluations < of_explicit, "{evaluations} {of_explicit}");
 }
 
-/// Begins with stages side by side.
-fn with_lanes(relative: f64) -> Automatic {
-    let choice = Choice { method: Method::GaussLanes, reason: "for this test" };
-    Automatic::with_smooth(choice, tolerance(relative))
+/// By the method that chooses, for a system that takes eight states at once.
+fn run_on_eight(relative: f64, fast: (f64, f64), end: f64) -> (f64, usize, Vec<Method>) {
+    let system = Drawn { fast, takes_eight: true, evaluations: 0 };
+    run_system(&mut Automatic::new(tolerance(relative)), system, end)
 }
 
 #[test]
-fn stages_side_by_side_are_left_where_their_iteration_is_slow() {
-    for relative in [1e-6, 1e-8, 1e-10, 1e-12] {
-        let (error, evaluations, methods) = run(&mut with_lanes(relative), (-1.0, 11.0), 10.0);
-        assert_eq!(methods, [Method::GaussLanes, Method::Radau5], "{relative}");
-        // As above.
-        assert!(error < relative.powf(2.0 / 3.0), "{relative}: {error}");
-        assert!(evaluations < 12_000, "{relative}: {evaluations}");
+fn stages_go_side_by_side_where_a_smooth_motion_goes_on_and_errors_are_small() {
+    for relative in [1e-3, 1e-6] {
+        let (.., methods) = run_on_eight(relative, (0.0, 0.0), 40.0);
+        assert_eq!(methods.len(), 1, "{relative}: {methods:?}");
+    }
+    for relative in [1e-8, 1e-12] {
+        let (error, _, methods) = run_on_eight(relative, (0.0, 0.0), 40.0);
+        assert_eq!(methods, [Method::Dop853, Method::GaussLanes], "{relative}");
+        // A step errs by the tolerance at most, and errors are drawn in within a time unit.
+        assert!(error < 10.0 * relative, "{relative}: {error}");
     }
 }
 
 #[test]
-fn stages_side_by_side_come_back_when_the_motion_is_smooth_again() {
-    let (error, evaluations, methods) = run(&mut with_lanes(1e-8), (2.0, 4.0), 40.0);
-    assert_eq!(methods, [Method::GaussLanes, Method::Radau5, Method::GaussLanes]);
-    assert!(error < 1e-8, "{error}");
-    assert!(evaluations < 12_000, "{evaluations}");
+fn stages_side_by_side_are_left_where_their_iteration_is_slow() {
+    for relative in [1e-8, 1e-10, 1e-12] {
+        let (error, evaluations, methods) = run_on_eight(relative, (1.5, 41.0), 40.0);
+        assert_eq!(methods.last(), Some(&Method::Radau5), "{relative}");
+        // As above.
+        assert!(error < relative.powf(2.0 / 3.0), "{relative}: {error}");
+        assert!(evaluations < 20_000, "{relative}: {evaluations}");
+    }
+}
+
+#[test]
+fn an_event_hands_stages_side_by_side_back_to_the_explicit_method() {
+    let mut system = Drawn { fast: (0.0, 0.0), takes_eight: true, evaluations: 0 };
+    let mut automatic = Automatic::new(tolerance(1e-9));
+    automatic.start(&mut system, 0.0, &[1.0], 1);
+    while automatic.choice().method != Method::GaussLanes {
+        automatic.step(&mut system, 100.0).expect("a bounded motion");
+        automatic.advance();
+    }
+    let (time, state) = (automatic.window().time, automatic.window().state.clone());
+    automatic.restart(&mut system, time, &state, 1);
+    assert_eq!(automatic.choice().method, Method::Dop853);
+    automatic.step(&mut system, 100.0).expect("a bounded motion");
+    automatic.advance();
+    let window = automatic.window();
+    assert!((window.state[0] - window.time.cos()).abs() < 1e-8);
+    assert_eq!(window.counts.evaluations, system.evaluations);
 }
 
 #[test]
@@ -120,7 +154,7 @@ fn work_is_counted_through_changes_of_method() {
 #[test]
 fn a_step_that_errs_too_much_is_not_taken_and_the_next_one_grows_no_further() {
     // The motion becomes fast so suddenly that steps have to be taken back.
-    let mut system = Drawn { fast: (2.0, 2.1), evaluations: 0 };
+    let mut system = Drawn { fast: (2.0, 2.1), takes_eight: false, evaluations: 0 };
     let mut stepper = RungeKutta::dopri5(tolerance(1e-8));
     stepper.start(&mut system, 0.0, &[1.0], 1);
     let mut rejected = 0;

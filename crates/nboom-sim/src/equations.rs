@@ -235,6 +235,10 @@ impl System for Equations {
         in_lanes
     }
 
+    fn takes_eight(&self) -> bool {
+        self.entered.takes_eight(&self.variables.layout)
+    }
+
     fn role(&self, i: usize) -> Role {
         self.variables.layout.role(i)
     }

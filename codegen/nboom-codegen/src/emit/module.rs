@@ -114,8 +114,8 @@ impl Module {
         let scalar = scalar(name, path)?;
         let count = Literal::usize_unsuffixed(listed.len());
         let names = listed.iter().map(|(name, _)| format_ident!("{name}"));
-        let in_lanes = self.routines.iter().filter(|request| request.is_in_lanes());
-        let batched = in_lanes.map(|request| format_ident!("{}", request.name));
+        let on_eight = self.routines.iter().filter(|request| request.on_eight_states);
+        let batched = on_eight.map(|request| format_ident!("{}", request.name));
         let batched: Vec<_> = batched.collect();
         let batch_count = Literal::usize_unsuffixed(batched.len());
         Ok(quote! {

@@ -6,15 +6,15 @@ use nboom_elements::Elements;
 use nboom_formulation::{Forces, Layout, RightSideLayout, recognise};
 use nboom_model::{Mode, Scene, Topology};
 
+use crate::request::Request;
 use crate::request::scene::{ANGLES, combinations, held, mode_with};
-use crate::request::{Output, Request};
 
 /// What acts in the modes of a topology, numbers of [`Forces`]; `None` where a right side has no place
 /// for what acts in one of them.
 type Cases = BTreeMap<Topology, Option<Vec<Vec<f64>>>>;
 
 /// The most hinges of a right side that is compiled for eight states at once.
-const MOST_IN_LANES: usize = 20;
+const MOST_ON_EIGHT_STATES: usize = 20;
 
 impl Request {
     /// The right sides beside requests for the `accelerations` of a scene's modes: for each request one
@@ -44,21 +44,6 @@ impl Request {
         requests
     }
 
-    /// Whether the code is compiled for eight states at once, too: that of right sides of few hinges that
-    /// assume something of the satellite and that no line pushes. Compilers take long for it.
-    pub(crate) fn is_in_lanes(&self) -> bool {
-        let topology = &self.topology;
-        let (of_satellite, hinges) = (Layout::parameters(topology), topology.hinges());
-        let is_pushed = || {
-            let coefficients = (0..hinges).flat_map(|i| RightSideLayout::coefficients(topology, i));
-            coefficients.into_iter().any(|at| self.assumptions[at] != Some(0.0))
-        };
-        self.output == Output::RightSide
-            && (1..=MOST_IN_LANES).contains(&hinges)
-            && self.assumptions[..of_satellite].iter().any(Option::is_some)
-            && !is_pushed()
-    }
-
     fn is_baked(&self) -> bool {
         self.assumptions.iter().all(Option::is_some)
     }
@@ -69,8 +54,10 @@ impl Request {
 
     /// No line pushes; numbers of laws are built in, or zeros that they have in all cases, or nothing.
     fn right_side(&self, cases: &[Vec<f64>]) -> Self {
-        let mut request =
-            Self { name: format!("RightSide{}", self.name), ..self.clone() }.for_right_side();
+        let name = format!("RightSide{}", self.name);
+        // What assumes nothing is taken where nothing else is; it is not worth compilers' time.
+        let on_eight_states = !self.is_general() && self.topology.hinges() <= MOST_ON_EIGHT_STATES;
+        let mut request = Self { name, on_eight_states, ..self.clone() }.for_right_side();
         let of_laws = RightSideLayout::external(&self.topology).start;
         let start = Layout::parameters(&self.topology);
         for (i, assumed) in request.assumptions[start..of_laws].iter_mut().enumerate() {
@@ -95,7 +82,8 @@ impl Request {
         if self.is_general() {
             return Self { name, ..self.clone() }.for_right_side().with_lines();
         }
-        let mut request = Self { name, ..self.right_side(&[case.to_vec()]) };
+        let right_side = self.right_side(&[case.to_vec()]);
+        let mut request = Self { name, on_eight_states: false, ..right_side };
         for hinge in 0..self.topology.hinges() {
             let coefficients = RightSideLayout::coefficients(&self.topology, hinge);
             if request.assumptions[coefficients].iter().any(|assumed| *assumed != Some(0.0)) {

@@ -48,6 +48,8 @@ pub struct Request {
     pub external: bool,
     /// How freely arithmetic may be rearranged.
     pub level: Level,
+    /// Whether the code is compiled for eight states at once, too, which takes compilers long.
+    pub on_eight_states: bool,
 }
 
 impl Request {
@@ -64,6 +66,7 @@ impl Request {
             assumptions,
             external: false,
             level,
+            on_eight_states: false,
         }
     }
 
@@ -103,6 +106,12 @@ impl Request {
         for hinge in 0..topology.hinges() {
             self.assumptions[RightSideLayout::coefficients(topology, hinge)].fill(Some(0.0));
         }
+        self
+    }
+
+    /// Code for a right side that is compiled for eight states at once, too.
+    pub fn on_eight_states(mut self) -> Self {
+        self.on_eight_states = true;
         self
     }
 

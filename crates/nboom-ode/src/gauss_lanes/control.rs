@@ -9,7 +9,7 @@ const MANY: usize = 9;
 /// Contraction at which a step is tried shorter.
 const SLOW: f64 = 0.7;
 /// Contraction at which methods without iterations, or with Newton's, are cheaper.
-const RATHER_SLOW: f64 = 0.35;
+const RATHER_SLOW: f64 = 0.2;
 /// Error that the iteration leaves, in units of the tolerance; what is left of all steps adds up.
 const CONVERGED: f64 = 0.1;
 

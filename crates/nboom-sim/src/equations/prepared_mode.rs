@@ -87,6 +87,12 @@ impl PreparedMode {
         }
     }
 
+    /// Whether there is code for eight states at once in `layout`.
+    pub fn takes_eight(&self, layout: &VariableLayout) -> bool {
+        let in_lanes = layout.unknowns == Unknowns::Velocities && !layout.thrust;
+        in_lanes && self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some())
+    }
+
     /// Writes ẏ of eight states to `dy`, if there is code for them in `layout`; returns whether there is.
     pub fn rates_of_eight(
         &mut self,
@@ -95,9 +101,9 @@ impl PreparedMode {
         y: &[Eight],
         dy: &mut [Eight],
     ) -> bool {
-        let in_lanes = layout.unknowns == Unknowns::Velocities && !layout.thrust;
+        let takes_eight = self.takes_eight(layout);
         let of_eight = self.right_sides.as_mut().and_then(|both| both.of_eight.as_mut());
-        let Some(right_side) = of_eight.filter(|_| in_lanes) else { return false };
+        let Some(right_side) = of_eight.filter(|_| takes_eight) else { return false };
         if part == Part::Coupled {
             let power = right_side.write(y, dy);
             if let [work] = &mut dy[layout.dashpot_work()] {
