@@ -180,10 +180,8 @@ macro_rules! wide {
 
             #[inline(always)]
             fn gather_apart(from: &[f64], at: usize, apart: usize) -> Self {
-                let mut lanes = [0.0; $lanes];
-                for i in 0..$lanes {
-                    lanes[i] = from[at + i * apart];
-                }
+                // Zeros to begin with would be written by a call.
+                let lanes: [f64; $lanes] = std::array::from_fn(|i| from[at + i * apart]);
                 Self::gather(&lanes, 0)
             }
 
