@@ -72,6 +72,24 @@ fn a_boom_that_keeps_turning_lets_go_and_engages_in_every_turn() {
 }
 
 #[test]
+fn a_spring_lets_go_at_the_same_length_from_wherever_it_is_shortest() {
+    for shortest in [0.3_f64, -0.4, 2.0] {
+        let mut hinge = with_spring(free(shortest, 1.0), FEEBLE);
+        let spring = hinge.kick_off.as_mut().expect("it has one");
+        spring.main_body_point = Vec3::new(0.0, A * shortest.cos(), A * shortest.sin());
+        let found = run(&scene(&[hinge], TAU), &tight(1)).0.happenings();
+        let [(DISENGAGES, _, lets_go), (ENGAGES, _, engages)] = found[..] else {
+            panic!("{found:?}")
+        };
+        let expected = [limit_angle(), TAU - limit_angle()];
+        for (time, expected) in [lets_go, engages].into_iter().zip(expected) {
+            // Two or three roundings of angles of order 10 at a rate of 1.
+            assert!((time - expected).abs() < 3.0 * ROUNDING, "{shortest}: {time} {expected}");
+        }
+    }
+}
+
+#[test]
 fn what_the_spring_pushes_is_its_energy() {
     let coefficients = [3.0, -0.5, 0.2, 0.1];
     let hinge = with_spring(free(0.3, 0.0), coefficients);

@@ -1,6 +1,6 @@
 //! A simulator that runs again and again: what it has prepared changes nothing.
 
-use nboom::model::{Scene, SceneDescription};
+use nboom::model::{Scene, SceneDescription, TorqueTable};
 use nboom::sim::{Options, Simulator, Summary};
 
 use crate::catalog::Reference;
@@ -43,32 +43,44 @@ fn every_run_of_a_simulator_is_that_of_a_new_one() {
     }
 }
 
-#[test]
-fn another_scene_leaves_nothing_of_the_one_before() {
-    let change = |scene: &Scene, how: &dyn Fn(&mut SceneDescription)| {
+/// Scenes that each differ from it in one thing.
+fn scenes_beside(scene: &Scene) -> Vec<Scene> {
+    let changes: [&dyn Fn(&mut SceneDescription); 8] = [
+        &|s| s.initial.omega_body.x += 0.25,
+        &|s| s.end_time *= 0.75,
+        &|s| s.bodies.iter_mut().for_each(|body| body.hinge.start.angle += 0.1),
+        &|s| s.main_body.mass *= 2.0,
+        &|s| s.bodies.iter_mut().for_each(|body| body.hinge.spring.linear *= 0.5),
+        &|s| s.thrust.iter_mut().for_each(|thrust| thrust.force = thrust.force * 1.5),
+        &|s| s.gravity.iter_mut().for_each(|gravity| gravity.acceleration *= 0.5),
+        &|s| {
+            let table = TorqueTable { hinge: 0, points: vec![[-10.0, 0.0], [10.0, 1.0]] };
+            s.torque_tables.extend((!s.bodies.is_empty()).then_some(table));
+        },
+    ];
+    let changed = |change: &&dyn Fn(&mut SceneDescription)| {
         let mut changed = SceneDescription::clone(scene);
-        how(&mut changed);
+        change(&mut changed);
         Scene::new(changed).expect("a physical scene")
     };
+    changes.iter().map(changed).collect()
+}
+
+#[test]
+fn another_scene_leaves_nothing_of_the_one_before() {
     for reference in Reference::all() {
+        let scene = reference.scene();
         for options in options() {
-            let scene = reference.scene();
-            let faster = change(&scene, &|s| s.initial.omega_body.x += 0.25);
-            let shorter = change(&scene, &|s| s.end_time *= 0.75);
-            let turned = change(&scene, &|s| {
-                if let Some(body) = s.bodies.last_mut() {
-                    body.hinge.start.angle += 0.1;
-                }
-            });
-            let heavier = change(&scene, &|s| s.main_body.mass *= 2.0);
-            let softer = change(&scene, &|s| {
-                s.bodies.iter_mut().for_each(|body| body.hinge.spring.linear *= 0.5);
-            });
+            let expected = run(&scene, &options);
             let mut simulator = Simulator::new(&scene, options);
-            for other in [&scene, &faster, &shorter, &turned, &heavier, &softer, &scene] {
-                simulator.set_scene(other);
-                let expected = run(other, &options);
-                assert_same(&next_run(&mut simulator), &expected, reference.name);
+            let mut assert_runs_as_new = |scene: &Scene, expected: &(Collected, Summary)| {
+                simulator.set_scene(scene);
+                assert_same(&next_run(&mut simulator), expected, reference.name);
+            };
+            assert_runs_as_new(&scene, &expected);
+            for other in scenes_beside(&scene) {
+                assert_runs_as_new(&other, &run(&other, &options));
+                assert_runs_as_new(&scene, &expected);
             }
         }
     }

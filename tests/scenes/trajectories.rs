@@ -144,11 +144,20 @@ fn events_are_told_in_time_order_and_leave_the_expected_state() {
 /// Momentum and energy drift like the trajectory itself, whose error at this tolerance is below
 /// 2e-11 in every scene.
 fn check_residuals(reference: &Reference) {
-    let (_, summary) = run(&reference.scene(), &tight(reference.intervals()));
-    let residuals = summary.conservation;
-    println!("{}: {residuals:?}", reference.name);
-    for residual in [residuals.linear_momentum, residuals.angular_momentum, residuals.energy] {
-        assert!(residual < 2e-11, "{}: {residuals:?}", reference.name);
+    let recursive = tight(reference.intervals());
+    let shipped = Options {
+        kernels: nboom_routines::for_runs(),
+        batches: nboom_routines::right_sides_of_eight(),
+        ..recursive
+    };
+    let lanes = Options { integrator: Method::GaussLanes, ..shipped };
+    for options in [recursive, shipped, lanes] {
+        let (_, summary) = run(&reference.scene(), &options);
+        let residuals = summary.conservation;
+        println!("{}, {}: {residuals:?}", reference.name, options.integrator);
+        for residual in [residuals.linear_momentum, residuals.angular_momentum, residuals.energy] {
+            assert!(residual < 2e-11, "{}: {residuals:?}", reference.name);
+        }
     }
 }
 

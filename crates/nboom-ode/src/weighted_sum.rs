@@ -50,3 +50,23 @@ impl WeightedSum<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_are_over_all_variables_whatever_their_number() {
+        let weights: &[(usize, f64)] = &[(0, 0.3), (2, -1.7)];
+        for size in (BLOCK..=12 * BLOCK).step_by(BLOCK) {
+            let stages: Vec<f64> = (0..3 * size).map(|i| (i as f64).sin()).collect();
+            let mut found = vec![f64::NAN; size];
+            sum_up(&stages, weights, 0.7, &mut found);
+            for (i, found) in found.into_iter().enumerate() {
+                let expected = 0.7 * (0.3 * stages[i] - 1.7 * stages[2 * size + i]);
+                // Products and sum are rounded once each.
+                assert!((found - expected).abs() < 4.0 * f64::EPSILON, "{i} of {size}");
+            }
+        }
+    }
+}

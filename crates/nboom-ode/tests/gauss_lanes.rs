@@ -175,6 +175,31 @@ fn a_step_is_taken_again_to_a_shorter_length_in_a_few_iterations() {
     assert!(most <= 4 * 8, "{most} evaluations");
 }
 
+/// Evaluations for a step of an orbit that is `share` as long as the one before, where the method goes on and
+/// where it starts anew.
+fn evaluations_of_a_step(share: f64) -> [usize; 2] {
+    let (mut system, step) = (WITH_ROLES, 0.5);
+    let [mut goes_on, mut starts] = [(); 2].map(|()| GaussLanes::new(tolerance(1e-10)));
+    goes_on.start(&mut system, 0.0, &orbit(0.2, 0.0), 4);
+    goes_on.retake(&mut system, step);
+    goes_on.advance();
+    starts.start(&mut system, step, &goes_on.window().state, 4);
+    [goes_on, starts].map(|mut stepper| {
+        let before = stepper.window().counts.evaluations;
+        stepper.retake(&mut system, share * step);
+        stepper.window().counts.evaluations - before
+    })
+}
+
+#[test]
+fn a_step_begins_with_the_polynomial_of_the_one_before() {
+    // One over all of the next step tells its slopes better than the slope at its start.
+    for share in [0.3, 0.6, 1.0] {
+        let [goes_on, starts] = evaluations_of_a_step(share);
+        assert!(goes_on < starts, "{share}: {goes_on} {starts}");
+    }
+}
+
 #[test]
 fn a_start_remembers_nothing() {
     let mut system = WITH_ROLES;

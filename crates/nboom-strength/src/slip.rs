@@ -126,3 +126,28 @@ impl FromIterator<Slip> for Slips {
         Self(slips.into_iter().fold(0, |set, slip| set | 1 << slip as u16))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_sections_is_asked_for_by_its_own_name_alone() {
+        let none = SectionSlips::default();
+        let of_sections = [
+            (Slip::TubeInertia, SectionSlips { tube_inertia: true, ..none }),
+            (Slip::TubeShear, SectionSlips { tube_shear: true, ..none }),
+            (Slip::ProductOfInertia, SectionSlips { product_of_inertia: true, ..none }),
+            (Slip::BendingSigns, SectionSlips { bending_signs: true, ..none }),
+            (Slip::TorsionArm, SectionSlips { torsion_arm: true, ..none }),
+            (Slip::ClosingWall, SectionSlips { closing_wall: true, ..none }),
+            (Slip::LevelShear, SectionSlips { level_shear: true, ..none }),
+            (Slip::VertexBefore, SectionSlips { vertex_before: true, ..none }),
+        ];
+        for slip in Slip::ALL {
+            let expected = of_sections.iter().find(|(of, _)| *of == slip);
+            let expected = expected.map_or(none, |(_, slips)| *slips);
+            assert_eq!(Slips::from_iter([slip]).of_sections(), expected, "{}", slip.name());
+        }
+    }
+}

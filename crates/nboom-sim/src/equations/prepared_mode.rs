@@ -105,10 +105,7 @@ impl PreparedMode {
         let of_eight = self.right_sides.as_mut().and_then(|both| both.of_eight.as_mut());
         let Some(right_side) = of_eight.filter(|_| takes_eight) else { return false };
         if part == Part::Coupled {
-            let power = right_side.write(y, dy);
-            if let [work] = &mut dy[layout.dashpot_work()] {
-                *work = power;
-            }
+            right_side.write(y, dy);
             return true;
         }
         attitude_rates(y, dy);

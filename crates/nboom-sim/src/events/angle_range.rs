@@ -66,3 +66,25 @@ impl AngleRange {
         ends.into_iter().flatten().reduce(f64::min)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_that_swings_beyond_both_ends_leaves_at_the_first() {
+        let range = AngleRange { hinge: 0, low: -1.0, high: 1.0 };
+        // c x (x − 1/2) (x − 1) swings to ∓1.5 where its slope is zero.
+        let first = 0.5 - 1.0 / 12.0_f64.sqrt();
+        let swinging = |sign: f64| {
+            let c = sign * 1.5 / (first * (first - 0.5) * (first - 1.0));
+            Bernstein::of_powers(&[0.0, 0.5 * c, -1.5 * c, c])
+        };
+        for angle in [swinging(1.0), swinging(-1.0)] {
+            let left = range.left_by(&angle).expect("it is beyond both");
+            assert!(left < first, "{left}");
+            // The ends are simple zeros, found to rounding.
+            assert!((angle.at(left).abs() - 1.0).abs() < 1e-12, "{left}");
+        }
+    }
+}

@@ -7,6 +7,7 @@ use nboom_ode::Stepper;
 use nboom_scalar::Vec3;
 
 use crate::equations::Equations;
+use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::variables::motion;
 use crate::run::record::{Detail, Snapshot};
 
@@ -105,7 +106,7 @@ impl Forces {
     }
 }
 
-/// Room for the motion at one time.
+/// Room for the motion at one time in any mode, so that none is made while steps are looked at.
 #[derive(Clone, Debug)]
 pub(crate) struct Room {
     variables: Vec<f64>,
@@ -119,10 +120,13 @@ pub(crate) struct Room {
 
 impl Room {
     pub fn new(scene: &Scene, elements: &Elements<f64>) -> Self {
-        let none = vec![0.0; scene.bodies.len()];
+        let free = scene.bodies.len();
+        let unknowns = Unknowns::Velocities;
+        let largest = VariableLayout { unknowns, free, thrust: true, dashpots: true };
+        let none = vec![0.0; free];
         Self {
-            variables: Vec::new(),
-            free_tau: Vec::new(),
+            variables: Vec::with_capacity(largest.len()),
+            free_tau: Vec::with_capacity(free),
             beta: none.clone(),
             tau: none.clone(),
             beta_ddot: none,

@@ -36,3 +36,34 @@ pub(super) fn without_springs_on_paddles(scene: &Scene) -> Scene {
     }
     Scene::new(description).expect("a scene is one without some of its springs")
 }
+
+#[cfg(test)]
+mod tests {
+    use nboom_model::{Appendage, Hinge, KickOffSpring, MassProperties, Mount, Segment};
+    use nboom_scalar::{Sym3, Vec3};
+
+    use super::*;
+
+    #[test]
+    fn a_spring_withholds_a_moment_from_every_hinge_inboard_of_its_own() {
+        let ball = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+        let spring = KickOffSpring {
+            main_body_point: Vec3::zero(),
+            body_point: Vec3::unit_y(),
+            coefficients: [1.0, 0.0, 0.0, 0.0],
+            limit_length: 1.0,
+        };
+        let segment = |kick_off| Segment {
+            length: 1.0,
+            mass_properties: ball,
+            hinge: Hinge { kick_off, ..Hinge::free() },
+        };
+        let mut description = SceneDescription::at_rest("a chain of three", ball, 1.0);
+        let segments = vec![segment(None), segment(None), segment(Some(spring))];
+        description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
+        let found = withheld(&Scene::new(description).expect("balls are bodies"));
+        // The force that belongs to α of a hinge is that of β less that of the next hinge's β.
+        let of = |outboard: usize, inboard: usize| Withheld { line: 2, outboard, inboard };
+        assert_eq!(found, [of(2, 1), of(1, 0)]);
+    }
+}

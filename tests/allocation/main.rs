@@ -1,64 +1,21 @@
 //! Evaluations and steps allocate nothing: a global allocator counts what each thread asks for.
 //!
 //! Setting a mode and starting an integration may allocate; everything between may not.
-#![allow(unsafe_code, reason = "a global allocator is an unsafe trait")]
 
-#[path = "support/random_scene.rs"]
+#[path = "../support/random_scene.rs"]
 mod random_scene;
 
-use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
-use std::cell::Cell;
+mod counting;
+mod runs;
 
+use counting::allocations;
 use nboom::dynamics::{Accelerations, Momenta, Motion, Recursive};
-use nboom::formulation::Formulation;
 use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom::model::{HingeState, Mode, Scene, SectionShape, SegmentStructure, Station, Structure};
 use nboom::ode::{Method, System, Tolerance};
 use nboom::scalar::{Real, Vec3};
-use nboom::sim::{Form, Options, Recorder, StepMotion, simulate};
-use nboom::strength::{Settings, StressAnalysis};
 use nboom_expr::{Expr, Graph};
 use nboom_series::Series;
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-fn count() {
-    ALLOCATIONS.with(|n| n.set(n.get() + 1));
-}
-
-// SAFETY: every call is passed on to the system's allocator as it comes; the counter beside it
-// is a constant-initialised thread local without a destructor, which itself never allocates.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller's promise is the one that is asked for.
-        unsafe { SystemAllocator.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { SystemAllocator.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: as above.
-        unsafe { SystemAllocator.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
-
-fn allocations(work: impl FnOnce()) -> usize {
-    let before = ALLOCATIONS.with(Cell::get);
-    work();
-    ALLOCATIONS.with(Cell::get) - before
-}
 
 /// A branching tree with every kind of force, and the mode in which all of them act.
 fn scene_and_mode() -> (Scene, Mode) {
@@ -169,50 +126,6 @@ fn loads_allocate_nothing() {
         0
     );
     assert!(found.hinge(0).force.norm() > 0.0);
-}
-
-/// Counts what an analysis asks for while it looks at steps, and the evaluations of the equations of motion
-/// and of the loads for it.
-struct Counted {
-    analysis: StressAnalysis,
-    steps: usize,
-    /// Of the steps after the first ones.
-    allocations: usize,
-}
-
-impl Recorder for Counted {
-    fn needs_steps(&self) -> bool {
-        true
-    }
-
-    fn step(&mut self, step: &mut dyn StepMotion) -> std::io::Result<()> {
-        let analysis = &mut self.analysis;
-        let count = allocations(|| analysis.step(step).expect("loads balance"));
-        self.steps += 1;
-        self.allocations += if self.steps > 2 { count } else { 0 };
-        Ok(())
-    }
-}
-
-#[test]
-fn looking_for_the_worst_of_a_step_allocates_nothing() {
-    let momentum = Some(Form::Closed(Formulation::Momentum));
-    [None, momentum].into_iter().for_each(looking_allocates_nothing);
-}
-
-fn looking_allocates_nothing(formulation: Option<Form>) {
-    let (scene, _) = scene_and_mode();
-    // Its dashpots feed energy, later.
-    let scene = scene.ending_at(0.3).expect("a time");
-    let analysis = StressAnalysis::new(&scene, &structure(&scene), Settings::default());
-    let mut counted =
-        Counted { analysis: analysis.expect("tubes are sections"), steps: 0, allocations: 0 };
-    let options =
-        Options { samples: 1, rtol: 1e-13, atol: 1e-15, formulation, ..Options::default() };
-    simulate(&scene, &options, &mut counted).expect("an ordinary motion");
-    assert!(counted.steps > 5, "{} steps", counted.steps);
-    assert_eq!(counted.allocations, 0, "in {} steps", counted.steps);
-    assert!(counted.analysis.envelope().iter().all(|worst| worst.driver.is_some()));
 }
 
 /// The rotational motion of a scene: ω, then β, then τ.
