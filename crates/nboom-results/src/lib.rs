@@ -18,6 +18,7 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
+mod composer;
 mod destination;
 mod directory;
 mod earlier;

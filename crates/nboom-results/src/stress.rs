@@ -5,6 +5,7 @@ use nboom_model::HingeLabel;
 use nboom_sim::{InstantMotion, Snapshot, StepMotion};
 use nboom_strength::{Cause, StressAnalysis, Worst, WorstHingeLoad};
 
+use crate::composer::{Composed, Composer, ComposerThread, Entry};
 use crate::number::{field, number};
 use crate::row_text::{RowText, load_fields, place_fields, stress_fields};
 use crate::rows::{self, LongTable, Output};
@@ -52,17 +53,13 @@ pub(crate) struct StressWriter {
     every: usize,
     samples: usize,
     hinges: Vec<HingeLabel>,
+    signs: StressSigns,
+    composer: ComposerThread,
     /// Where there are stations.
     stresses: Option<LongTable>,
     hinge_loads: LongTable,
     latch_impulses: LongTable,
-    /// Rows of stresses and of hinge loads after a lock-up whose peaks are still to come.
-    held: [Vec<u8>; 2],
-    text: RowText,
 }
-
-/// Most rows that are held \[bytes\]; more do not wait for peaks.
-const MOST_HELD: usize = 1 << 20;
 
 impl StressWriter {
     pub fn create(
@@ -73,16 +70,17 @@ impl StressWriter {
     ) -> Result<Self, ResultsError> {
         let table = |file: &str, header: &str| LongTable::create(directory, file, header);
         let stresses = analysis.has_stations().then(|| table(STRESS_FILE, STRESS_HEADER));
+        let composer = Composer::new(hinges.clone(), RowText::new(signs, &hinges));
         Ok(Self {
             directory: directory.to_owned(),
             stresses: stresses.transpose()?,
             hinge_loads: table(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
             latch_impulses: table(LATCH_IMPULSES_FILE, LATCH_IMPULSES_HEADER)?,
             analysis,
-            held: [Vec::new(), Vec::new()],
             every: every.max(1),
             samples: 0,
-            text: RowText::new(signs, &hinges),
+            composer: ComposerThread::start(composer).map_err(ResultsError::writing(directory))?,
+            signs,
             hinges,
         })
     }
@@ -92,30 +90,18 @@ impl StressWriter {
         self.samples.is_multiple_of(self.every)
     }
 
-    /// Computes the loads of an output time, if they are due; its rows wait for [`Self::write`].
+    /// Computes the loads of an output time, if they are due.
     pub fn sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         let due = self.is_due();
         self.samples += 1;
         let Some(detail) = snapshot.detail.as_ref().filter(|_| due) else { return Ok(()) };
-        let Self { directory, hinges, analysis, text, stresses, hinge_loads, held, .. } = self;
-        analysis.motion(snapshot, detail)?;
-        let [held_stresses, held_loads] = held;
-        let (of_stresses, of_loads) = if analysis.awaits_peaks() {
-            (stresses.is_some().then_some(held_stresses), held_loads)
-        } else {
-            (stresses.as_mut().map(|table| &mut table.lines), &mut hinge_loads.lines)
-        };
-        let composed = text.set_instant(snapshot.time, "").and_then(|()| {
-            if let Some(out) = of_stresses {
-                text.add_stresses(out, hinges, analysis.stresses())?;
-            }
-            text.add_hinge_loads(of_loads, analysis.hinge_loads())
-        });
-        composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
-        if self.held.iter().map(Vec::len).sum::<usize>() > MOST_HELD {
-            self.release();
-        }
-        Ok(())
+        let stresses = self.analysis.motion(snapshot, detail)?.to_vec();
+        self.compose(Entry::Sample {
+            time: snapshot.time,
+            waits: self.analysis.awaits_peaks(),
+            stresses,
+            hinge_loads: self.analysis.hinge_loads().to_vec(),
+        })
     }
 
     /// The largest loads of a step, for the envelopes.
@@ -124,44 +110,46 @@ impl StressWriter {
         self.tell_peaks()
     }
 
-    /// Computes both sides of an instant, and the impulses if hinges lock, whose rows wait for
-    /// [`Self::write`].
+    /// Computes both sides of an instant, and the impulses if hinges lock.
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), ResultsError> {
         self.analysis.instant(instant)?;
         self.tell_peaks()?;
-        let Self { directory, hinges, analysis, text, latch_impulses, .. } = self;
-        let written = analysis.latch_impulses().iter().try_for_each(|found| {
-            text.set_latch(instant.after.time, hinges[found.latch])?;
-            text.add_hinge_loads(&mut latch_impulses.lines, &found.hinges)
-        });
-        written.map_err(ResultsError::writing(&directory.join(LATCH_IMPULSES_FILE)))
+        let time = instant.after.time;
+        let latches = self.analysis.latch_impulses().to_vec().into_iter();
+        latches.map(|found| Entry::Latch(time, found)).try_for_each(|entry| self.compose(entry))
     }
 
-    /// Adds rows of peaks that have become known to what waits in memory.
     fn tell_peaks(&mut self) -> Result<(), ResultsError> {
-        let Self { directory, hinges, analysis, text, stresses, hinge_loads, .. } = self;
-        let peaks = analysis.settled();
-        let composed = peaks.iter().try_for_each(|peaks| {
-            text.set_instant(peaks.time, "lock_up")?;
-            if let Some(stresses) = stresses {
-                text.add_stresses(&mut stresses.lines, hinges, &peaks.stresses)?;
-            }
-            text.add_hinge_loads(&mut hinge_loads.lines, &peaks.hinge_loads)
-        });
-        composed.map_err(ResultsError::writing(&directory.join(STRESS_FILE)))?;
-        if !peaks.is_empty() {
-            self.release();
-        }
-        Ok(())
+        let settled = self.analysis.settled().into_iter();
+        settled.map(Entry::Peaks).try_for_each(|entry| self.compose(entry))
     }
 
-    /// Moves rows that were held to the others that wait.
-    fn release(&mut self) {
-        let Self { stresses, hinge_loads, held: [of_stresses, of_loads], .. } = self;
-        if let Some(stresses) = stresses {
-            stresses.lines.append(of_stresses);
+    /// Gives rows to the composer, and takes those that it has composed meanwhile; these wait for
+    /// [`Self::write`].
+    fn compose(&mut self, entry: Entry) -> Result<(), ResultsError> {
+        let is_doubtful = entry.is_doubtful();
+        if let Some(composed) = self.composer.add(entry) {
+            self.take(composed)?;
         }
-        hinge_loads.lines.append(of_loads);
+        // A number that is refused ends the run at its time.
+        if is_doubtful { self.take_rest() } else { Ok(()) }
+    }
+
+    /// Takes all that was given to the composer.
+    fn take_rest(&mut self) -> Result<(), ResultsError> {
+        let rest: Vec<Composed> = self.composer.rest().collect();
+        rest.into_iter().try_for_each(|composed| self.take(composed))
+    }
+
+    fn take(&mut self, Composed { mut lines, refused }: Composed) -> Result<(), ResultsError> {
+        if let Some(table) = &mut self.stresses {
+            table.lines.append(&mut lines.stresses);
+        }
+        self.hinge_loads.lines.append(&mut lines.hinge_loads);
+        self.latch_impulses.lines.append(&mut lines.latch_impulses);
+        refused.map_or(Ok(()), |(file, error)| {
+            Err(ResultsError::writing(&self.directory.join(file))(error))
+        })
     }
 
     /// Whether enough waits in memory to write it.
@@ -181,9 +169,10 @@ impl StressWriter {
     /// each station and hinge.
     pub fn finish(&mut self) -> Result<(), ResultsError> {
         let finished = self.analysis.finish();
-        self.tell_peaks()?;
-        self.release();
+        let told = self.tell_peaks().and_then(|()| self.compose(Entry::End));
+        let taken = self.take_rest();
         self.write()?;
+        told.and(taken)?;
         finished?;
         if self.stresses.is_some() {
             self.write_table(ENVELOPE_FILE, ENVELOPE_HEADER, |out| {
@@ -218,7 +207,7 @@ impl StressWriter {
         number(out, worst.time)?;
         self.event_fields(out, worst.cause)?;
         place_fields(out, worst.max_von_mises.place)?;
-        stress_fields(out, self.text.components(worst.max_von_mises.stress))?;
+        stress_fields(out, self.signs.components(worst.max_von_mises.stress))?;
         field(out, worst.max_von_mises.stress.von_mises())?;
         write!(out, ",{}", worst.driver.map_or(UNLOADED, |driver| driver.name()))?;
         match worst.margin {
