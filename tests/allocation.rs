@@ -8,6 +8,7 @@ mod random_scene;
 
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
+use std::path::Path;
 
 use nboom::dynamics::{Accelerations, Momenta, Motion, Recursive};
 use nboom::formulation::Formulation;
@@ -15,7 +16,7 @@ use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom::model::{HingeState, Mode, Scene, SectionShape, SegmentStructure, Station, Structure};
 use nboom::ode::{Method, System, Tolerance};
 use nboom::scalar::{Real, Vec3};
-use nboom::sim::{Form, Options, Recorder, StepMotion, simulate};
+use nboom::sim::{Form, Nobody, Options, Recorder, Simulator, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
 use nboom_expr::{Expr, Graph};
 use nboom_series::Series;
@@ -308,6 +309,46 @@ fn steps_of_a_method_allocate_nothing(method: Method) {
         std::hint::black_box(stepper.polynomial(0));
     });
     assert_eq!(polynomial, 0);
+}
+
+/// A deck of this repository.
+fn deck(path: &str) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    nboom::io::read_scene(&path).expect("a valid deck").scene
+}
+
+#[test]
+fn runs_after_the_first_allocate_nothing() {
+    let with_routines = Options {
+        kernels: nboom_routines::for_runs(),
+        batches: nboom_routines::right_sides_of_eight(),
+        ..Options::default()
+    };
+    for path in [
+        "examples/n-boom-1970.nml",
+        "tests/data/scenes/s06_gravity_thrust.nml",
+        "tests/data/scenes/s08_kickoff_disengage.nml",
+    ] {
+        for options in [Options::default(), with_routines] {
+            // Taylor's power series are made anew for each mode that is entered.
+            for integrator in Method::ALL.into_iter().filter(|&m| m != Method::Taylor) {
+                let options = Options { integrator, ..options };
+                let options = Options { rtol: 1e-6, atol: 1e-9, ..options };
+                later_runs_allocate_nothing(&deck(path), options, path);
+            }
+        }
+    }
+}
+
+fn later_runs_allocate_nothing(scene: &Scene, options: Options, name: &str) {
+    let mut simulator = Simulator::new(scene, options);
+    let first = simulator.run(&mut Nobody).expect("an ordinary motion").clone();
+    for _ in 0..2 {
+        let count = allocations(|| {
+            std::hint::black_box(simulator.run(&mut Nobody).expect("an ordinary motion"));
+        });
+        assert_eq!(count, 0, "{name}, {}, {first:?}", options.integrator);
+    }
 }
 
 /// Heat along a rod.

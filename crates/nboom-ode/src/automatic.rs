@@ -29,6 +29,8 @@ pub struct Automatic {
     against: usize,
     /// How many of these it takes to go back to the method for smooth motions.
     patience: usize,
+    /// The one for smooth motions, with which it begins.
+    first_choice: Choice,
     choice: Choice,
 }
 
@@ -57,6 +59,7 @@ impl Automatic {
     /// [`Method::Dopri5`], [`Method::Dop853`] and [`Method::GaussLanes`].
     pub fn with_smooth(choice: Choice, tolerance: Tolerance) -> Self {
         Self {
+            first_choice: choice,
             choice,
             smooth: Smooth::new(choice.method, tolerance),
             implicit: Radau::new(tolerance),
@@ -124,6 +127,13 @@ impl Stepper for Automatic {
     fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         (self.controlled, self.against) = (controlled, 0);
         self.active_mut().restart(system, t, y, controlled);
+    }
+
+    fn reset(&mut self) {
+        self.smooth.stepper_mut().reset();
+        self.implicit.reset();
+        (self.is_stiff, self.against, self.patience) = (false, 0, STIFF);
+        self.choice = self.first_choice;
     }
 
     fn limit_steps(&mut self, longest: f64) {

@@ -137,7 +137,7 @@ impl Guards {
         &mut self,
         scene: &Scene,
         mode: &Mode,
-        dynamics: &mut Recursive<R>,
+        dynamics: &Recursive<R>,
         state: &State<R>,
         lock_sides: &[Option<LockSide>],
         crossed: &[(usize, usize)],
@@ -208,7 +208,7 @@ impl Guards {
     }
 
     /// Notes on which side of zero each guard that had been leaving it is at `state`.
-    pub fn settle<R: Number>(&mut self, dynamics: &mut Recursive<R>, state: &State<R>) {
+    pub fn settle<R: Number>(&mut self, dynamics: &Recursive<R>, state: &State<R>) {
         for guard in &mut self.list {
             if let Side::Leaving { .. } = guard.side {
                 let value = read(guard.kind, dynamics, state).value.to_f64();
@@ -225,7 +225,7 @@ impl Guards {
     pub fn missed<R: Number>(
         &self,
         scene: &Scene,
-        dynamics: &mut Recursive<R>,
+        dynamics: &Recursive<R>,
         state: &State<R>,
         located: Option<GuardKind>,
     ) -> bool {
@@ -309,7 +309,7 @@ impl Guards {
 /// Value and rate of a guard at `state`.
 pub(crate) fn read<R: Number>(
     kind: GuardKind,
-    dynamics: &mut Recursive<R>,
+    dynamics: &Recursive<R>,
     state: &State<R>,
 ) -> Reading<R> {
     let (coordinate, bound) = watched(kind, dynamics.elements());
@@ -318,20 +318,20 @@ pub(crate) fn read<R: Number>(
 }
 
 /// The bounds of the pieces that hold in `mode` of all elements that can come to one.
-fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> Vec<Bound> {
-    let can_move = |coordinate| match coordinate {
+fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> impl Iterator<Item = Bound> {
+    let can_move = move |coordinate| match coordinate {
         Coordinate::Length(line) => dynamics.elements().lines()[line].link.is_some(),
         Coordinate::Angle(hinge) => mode.is_free(hinge),
     };
-    let moving = dynamics.elements().switched().iter().filter(|e| can_move(e.coordinate));
-    let of_element = |element: &Switched| {
+    let moving = dynamics.elements().switched().iter().filter(move |e| can_move(e.coordinate));
+    let of_element = move |element: &Switched| {
         let (id, piece) = (element.id, mode.pieces[element.id.index]);
         let below = piece.checked_sub(1).map(|number| (number, false));
         let above = (piece < element.bounds.len()).then_some((piece, true));
         let ends = below.into_iter().chain(above);
         ends.map(move |(number, rises)| Bound { element: id, number, rises })
     };
-    moving.flat_map(of_element).collect()
+    moving.flat_map(of_element)
 }
 
 /// What a guard watches, and the value that it waits for.
