@@ -9,6 +9,7 @@ use crate::equations::state::State;
 use crate::events::angle_range::AngleRange;
 use crate::events::event::EventKind;
 use crate::events::instant;
+use crate::events::line_path::LinePath;
 use crate::events::side::{LockSide, Side};
 
 /// A quantity whose change of sign is an event.
@@ -121,13 +122,12 @@ const BEYOND_ROUNDING: f64 = 1e-12;
 pub(crate) struct Guards {
     pub list: Vec<Guard>,
     interpolation: Interpolation,
-    /// The free hinges that move a line's end, each with its angle over the step.
-    path: Vec<(usize, Bernstein)>,
+    path: LinePath,
 }
 
 impl Guards {
     pub fn new() -> Self {
-        Self { list: Vec::new(), interpolation: Interpolation::new(), path: Vec::new() }
+        Self { list: Vec::new(), interpolation: Interpolation::new(), path: LinePath::default() }
     }
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
@@ -267,32 +267,20 @@ impl Guards {
         (line, limit): (usize, f64),
         side: Side,
     ) -> Option<f64> {
-        let (dynamics, first) =
-            (&equations.entered.dynamics, equations.variables.layout.beta().start);
-        self.path.clear();
-        let (mut turned, mut displaced) = (0.0, 0.0);
-        for (j, reach) in dynamics.line_reach(line) {
-            let angle = stepper.polynomial(first + j);
-            let excursion = angle.excursion();
-            turned += excursion;
-            displaced += excursion * reach;
-            self.path.push((j, angle));
-        }
-        let angle = |hinge: usize, fraction: f64| {
-            let of_hinge = self.path.iter().find(|(j, _)| *j == hinge);
-            of_hinge.expect("the path moves the line").1.at(fraction)
-        };
-        let squared = |x: f64| dynamics.line_length_squared(line, |j| angle(j, x));
-        let clearance = (squared(0.0).sqrt() - limit).abs();
-        if matches!(side, Side::Known(_)) && clearance > displaced {
+        let (dynamics, path) = (&equations.entered.dynamics, &mut self.path);
+        let first = equations.variables.layout.beta().start;
+        path.follow(dynamics, line, |hinge| stepper.polynomial(first + hinge));
+        if let Side::Known(sign) = side
+            && path.keeps_side(dynamics, limit, sign)
+        {
             return None;
         }
-        let pieces = (turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
+        let pieces = (path.turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
         let mut side = side;
         (0..pieces).find_map(|piece| {
             let values = std::array::from_fn(|i| {
                 let fraction = (piece as f64 + Interpolation::point(i)) / pieces as f64;
-                squared(fraction) - limit * limit
+                path.squared_at(dynamics, fraction) - limit * limit
             });
             let polynomial = self.interpolation.through(&values);
             let has_left = polynomial.excursion() > BEYOND_ROUNDING * limit * limit;
