@@ -1,12 +1,15 @@
 //! Runs: what is done in each step, from one event to the next.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use nboom::elements::Kind;
 use nboom::formulation::Formulation;
 use nboom::model::{HingeState, Release, Scene, SceneDescription};
 use nboom::ode::Method;
-use nboom::sim::{Event, EventKind, Form, Options, Recorder, Snapshot, StepMotion, simulate};
+use nboom::sim::{
+    Event, EventKind, Form, Nobody, Options, Recorder, Simulator, Snapshot, StepMotion, simulate,
+};
 use nboom::strength::{Settings, StressAnalysis};
 
 use crate::counting::{allocations, so_far};
@@ -117,5 +120,45 @@ fn looking_for_events_allocates_nothing() {
         let kinds = [EventKind::LockUp, EventKind::Release, EventKind::Rise(Kind::KickOff)];
         assert!(kinds.iter().all(|kind| watched.events.contains(kind)), "{:?}", watched.events);
         assert_eq!(watched.allocations, 0, "{integrator}, {} steps", watched.steps);
+    }
+}
+
+/// A deck of this repository.
+fn deck(path: &str) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    nboom::io::read_scene(&path).expect("a valid deck").scene
+}
+
+#[test]
+fn runs_after_the_first_allocate_nothing() {
+    let with_routines = Options {
+        kernels: nboom_routines::for_runs(),
+        batches: nboom_routines::right_sides_of_eight(),
+        ..Options::default()
+    };
+    for path in [
+        "examples/n-boom-1970.nml",
+        "tests/data/scenes/s06_gravity_thrust.nml",
+        "tests/data/scenes/s08_kickoff_disengage.nml",
+    ] {
+        for options in [Options::default(), with_routines] {
+            // Taylor's power series are made anew for each mode that is entered.
+            for integrator in Method::ALL.into_iter().filter(|&m| m != Method::Taylor) {
+                let options = Options { integrator, ..options };
+                let options = Options { rtol: 1e-6, atol: 1e-9, ..options };
+                later_runs_allocate_nothing(&deck(path), options, path);
+            }
+        }
+    }
+}
+
+fn later_runs_allocate_nothing(scene: &Scene, options: Options, name: &str) {
+    let mut simulator = Simulator::new(scene, options);
+    let first = simulator.run(&mut Nobody).expect("an ordinary motion").clone();
+    for _ in 0..2 {
+        let count = allocations(|| {
+            std::hint::black_box(simulator.run(&mut Nobody).expect("an ordinary motion"));
+        });
+        assert_eq!(count, 0, "{name}, {}, {first:?}", options.integrator);
     }
 }

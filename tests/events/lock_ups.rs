@@ -1,7 +1,7 @@
 //! When a hinge locks, and what it does to the others, against closed forms and, for joint
 //! lock-ups, against one lock-up after the other.
 
-use nboom::dynamics::Recursive;
+use nboom::dynamics::{self, Recursive};
 use nboom::model::{
     Appendage, Hinge, HingeLabel, HingeStart, HingeState, MassProperties, Mode, ModelWarning,
     Mount, Release, Scene, SceneDescription, Segment,
@@ -231,15 +231,16 @@ fn a_joint_lock_up_is_one_lock_up_after_the_other_with_latches_kept() {
     let scene = mirror_image(None, time);
     let before = run(&scene, &tight(1)).0.last().clone();
     let mut dynamics = Recursive::new(&scene);
-    let both = dynamics.lock_up(&before.beta, &before.tau, &[0, 1]).expect("regular");
+    let [mut one, mut two, mut both] = [(); 3].map(|()| dynamics::LockUp::of_none());
+    dynamics.lock_up(&before.beta, &before.tau, &[0, 1], &mut both).expect("regular");
     for (first, second) in [(0, 1), (1, 0)] {
         let mut dynamics = Recursive::new(&scene);
-        let one = dynamics.lock_up(&before.beta, &before.tau, &[first]).expect("regular");
+        dynamics.lock_up(&before.beta, &before.tau, &[first], &mut one).expect("regular");
         let mut mode = Mode::at_start(&scene);
         mode.hinges[first] = HingeState::Locked;
         dynamics.set_mode(&mode, &before.beta);
         let rate = before.tau[second] + one.delta_tau[second];
-        let two = dynamics.lock_up(&[before.beta[second]], &[rate], &[0]).expect("regular");
+        dynamics.lock_up(&[before.beta[second]], &[rate], &[0], &mut two).expect("regular");
         let change = one.delta_omega_body + two.delta_omega_body;
         // Rounding of two small linear systems.
         assert!((change - both.delta_omega_body).norm() < 1e-14);

@@ -2,7 +2,7 @@
 //! classical Runge-Kutta method, the guards looked at after each, and a change of sign closed in on
 //! by taking the step again. Of the run's own code it shares accelerations and impulses alone.
 
-use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::dynamics::{Accelerations, LockUp, Motion, Recursive};
 use nboom::model::{Hinge, HingeState, Mode, Release, Scene};
 use nboom::scalar::Vec3;
 use nboom::sim::EventKind;
@@ -193,9 +193,9 @@ impl<'a> Sampled<'a> {
         let motion = split(&motion);
         let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");
         let positions: Vec<usize> = locks.iter().map(position).collect();
-        let Ok(change) = self.dynamics.lock_up(motion.beta, motion.tau, &positions) else {
-            panic!("no impulse locks {locks:?}")
-        };
+        let mut change = LockUp::of_none();
+        let locked = self.dynamics.lock_up(motion.beta, motion.tau, &positions, &mut change);
+        assert_eq!(locked, Ok(()), "no impulse locks {locks:?}");
         self.omega += change.delta_omega_body;
         for (&i, change) in free.iter().zip(&change.delta_tau) {
             self.tau[i] += change;

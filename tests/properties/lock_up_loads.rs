@@ -27,7 +27,9 @@ fn lock(case: &Sliced) -> Option<Locked> {
     let locking: Vec<usize> = (0..free.len()).step_by(2).collect();
     locking.first()?;
     let (beta, tau) = (prepared.beta.clone(), prepared.tau.clone());
-    let lock_up = prepared.dynamics.lock_up(&beta, &tau, &locking).expect("bodies have inertia");
+    let mut lock_up = LockUp::of_none();
+    let locked = prepared.dynamics.lock_up(&beta, &tau, &locking, &mut lock_up);
+    locked.expect("bodies have inertia");
     let mut latches = vec![0.0; count];
     locking.iter().zip(&lock_up.impulses).for_each(|(&p, &impulse)| latches[free[p]] = impulse);
     let factored = prepared.mass_matrix().cholesky().expect("positive definite");

@@ -27,8 +27,9 @@ fn locked(moment: &Moment, hinges: &[usize]) -> (Moment, LockUp<f64>) {
     let free = prepared.dynamics.free_hinges().to_vec();
     let position = |i: &usize| free.iter().position(|j| j == i).expect("only free hinges lock");
     let positions: Vec<usize> = hinges.iter().map(position).collect();
-    let found = prepared.dynamics.lock_up(&prepared.beta, &prepared.tau, &positions);
-    let found = found.expect("a regular mass matrix");
+    let mut found = LockUp::of_none();
+    let locked = prepared.dynamics.lock_up(&prepared.beta, &prepared.tau, &positions, &mut found);
+    locked.expect("a regular mass matrix");
     let mut after = Moment {
         scene: moment.scene.clone(),
         mode: moment.mode.clone(),

@@ -1,6 +1,7 @@
 //! A simulator that runs again and again: what it has prepared changes nothing.
 
 use nboom::model::{Scene, SceneDescription, TorqueTable};
+use nboom::ode::Method;
 use nboom::sim::{Options, Simulator, Summary};
 
 use crate::catalog::Reference;
@@ -9,7 +10,7 @@ use crate::collect::{Collected, run, tight};
 fn next_run(simulator: &mut Simulator) -> (Collected, Summary) {
     let mut found = Collected::default();
     let summary = simulator.run(&mut found).expect("reference scenes run");
-    (found, summary)
+    (found, summary.clone())
 }
 
 /// Every number of every sample and event, and what the run says of itself.
@@ -38,6 +39,30 @@ fn every_run_of_a_simulator_is_that_of_a_new_one() {
             let mut simulator = Simulator::new(&reference.scene(), options);
             for _ in 0..3 {
                 assert_same(&next_run(&mut simulator), &expected, reference.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_simulator_can_be_sent_to_another_thread() {
+    fn sent<T: Send>(_: &T) {}
+    let reference = Reference::all().next().expect("there are scenes");
+    sent(&Simulator::new(&reference.scene(), Options::default()));
+}
+
+#[test]
+fn every_method_begins_anew() {
+    for reference in Reference::all().filter(|r| r.name.starts_with("s0")) {
+        for integrator in Method::ALL {
+            let options = Options { integrator, rtol: 1e-6, atol: 1e-9, ..tight(5) };
+            let scene = reference.scene();
+            let scene = scene.ending_at(0.3 * scene.end_time).expect("a time");
+            let expected = run(&scene, &options);
+            let mut simulator = Simulator::new(&scene, options);
+            for _ in 0..2 {
+                let name = format!("{}, {integrator}", reference.name);
+                assert_same(&next_run(&mut simulator), &expected, &name);
             }
         }
     }

@@ -1,11 +1,11 @@
-use nboom_scalar::{Number, Vec3, Wrench};
+use nboom_scalar::{Number, Real, Twist, Vec3, Wrench};
 
 use crate::{Recursive, ldl};
 
 /// The exact change of all velocities when hinges lock in one instant, Section 7.
 ///
 /// Positions, linear and angular momentum are unchanged; hinges that are held stay rigid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct LockUp<R> {
     /// Λ: impulsive torque at each locking hinge on the outboard side, positive along the axis.
     pub impulses: Vec<R>,
@@ -15,21 +15,76 @@ pub struct LockUp<R> {
     pub delta_velocity_body: Vec3<R>,
     /// Change of τ of the free hinges, the locking ones included \[rad/T\].
     pub delta_tau: Vec<R>,
-    /// What of this each impulsive torque contributes.
-    pub jumps: Vec<VelocityJump<R>>,
     /// Change of kinetic energy ½ Λ·τ, never positive (Carnot).
     pub delta_energy: R,
+    /// For each impulsive torque, what it changes of the main body's velocities.
+    of_main: Vec<Twist<R>>,
+    /// Likewise of τ of the free hinges, one torque after the other.
+    of_hinges: Vec<R>,
+    /// Rows of Eᵀ B₀⁻¹ E; there may be more rows than hinges that lock.
+    compliance: Vec<Vec<R>>,
+    inverse_pivots: Vec<R>,
 }
 
 /// The change of all velocities by one impulsive torque at a hinge.
-#[derive(Clone, Debug, PartialEq)]
-pub struct VelocityJump<R> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityJump<'a, R> {
     /// Of ω, main-body axes \[rad/T\].
     pub omega_body: Vec3<R>,
     /// Of V, inertial velocity of O, main-body axes \[L/T\].
     pub velocity_body: Vec3<R>,
     /// Of τ of the free hinges \[rad/T\].
-    pub tau: Vec<R>,
+    pub tau: &'a [R],
+}
+
+impl<R: Real> LockUp<R> {
+    /// That of no hinge.
+    pub fn of_none() -> Self {
+        Self {
+            impulses: Vec::new(),
+            delta_omega_body: Vec3::zero(),
+            delta_velocity_body: Vec3::zero(),
+            delta_tau: Vec::new(),
+            delta_energy: R::zero(),
+            of_main: Vec::new(),
+            of_hinges: Vec::new(),
+            compliance: Vec::new(),
+            inverse_pivots: Vec::new(),
+        }
+    }
+
+    /// What each impulsive torque contributes to the changes.
+    pub fn jumps(&self) -> impl Iterator<Item = VelocityJump<'_, R>> {
+        let of_hinges = self.of_hinges.chunks_exact(self.delta_tau.len().max(1));
+        self.of_main.iter().zip(of_hinges).map(|(of_main, tau)| VelocityJump {
+            omega_body: of_main.angular,
+            velocity_body: of_main.linear,
+            tau,
+        })
+    }
+
+    /// Makes it that of no hinge, with room for `locking` of the `free` hinges; nothing is
+    /// allocated where there was as much room before.
+    pub fn reset(&mut self, locking: usize, free: usize) {
+        (self.delta_omega_body, self.delta_velocity_body) = (Vec3::zero(), Vec3::zero());
+        self.delta_energy = R::zero();
+        self.of_main.clear();
+        self.of_main.resize(locking, Twist::zero());
+        for (buffer, size) in [
+            (&mut self.impulses, locking),
+            (&mut self.inverse_pivots, locking),
+            (&mut self.delta_tau, free),
+            (&mut self.of_hinges, locking * free),
+        ] {
+            buffer.clear();
+            buffer.resize(size, R::zero());
+        }
+        let rows = self.compliance.len().max(locking);
+        self.compliance.resize_with(rows, Vec::new);
+        for row in &mut self.compliance {
+            row.resize(locking, R::zero());
+        }
+    }
 }
 
 /// Why no impulse locks these hinges.
@@ -44,56 +99,64 @@ impl<R: Number> Recursive<R> {
     /// hinges; E picks the locking ones. `beta` and `tau` belong to the free hinges.
     ///
     /// # Errors
-    /// When Eᵀ B₀⁻¹ E is not positive definite.
+    /// When Eᵀ B₀⁻¹ E is not positive definite; `out` then has no meaning.
     pub fn lock_up(
         &mut self,
         beta: &[R],
         tau: &[R],
         locking: &[usize],
-    ) -> Result<LockUp<R>, LockUpError> {
+        out: &mut LockUp<R>,
+    ) -> Result<(), LockUpError> {
         self.factor(beta);
-        let responses: Vec<VelocityJump<R>> =
-            locking.iter().map(|&j| self.response_to(j)).collect();
-        let row = |&i: &usize| responses.iter().map(|response| response.tau[i]).collect();
-        let mut compliance: Vec<Vec<R>> = locking.iter().map(row).collect();
-        let mut impulses: Vec<R> = locking.iter().map(|&j| -tau[j]).collect();
-        let mut inverse_pivots = vec![R::zero(); locking.len()];
-        ldl::factor(&mut compliance, &mut inverse_pivots);
-        if !ldl::is_positive_definite(&inverse_pivots) {
+        let free = tau.len();
+        out.reset(locking.len(), free);
+        let LockUp { impulses, of_main, of_hinges, compliance, inverse_pivots, .. } = out;
+        for (k, &j) in locking.iter().enumerate() {
+            of_main[k] = self.response_to(j, &mut of_hinges[k * free..][..free]);
+            impulses[k] = -tau[j];
+        }
+        let rows = &mut compliance[..locking.len()];
+        for (row, &i) in rows.iter_mut().zip(locking) {
+            for (k, entry) in row.iter_mut().enumerate() {
+                *entry = of_hinges[k * free + i];
+            }
+        }
+        ldl::factor(rows, inverse_pivots);
+        if !ldl::is_positive_definite(inverse_pivots) {
             return Err(LockUpError);
         }
-        ldl::solve(&compliance, &inverse_pivots, &mut impulses);
-        let mut lock_up = LockUp {
-            impulses: Vec::new(),
-            delta_omega_body: Vec3::zero(),
-            delta_velocity_body: Vec3::zero(),
-            delta_tau: vec![R::zero(); tau.len()],
-            jumps: Vec::new(),
-            delta_energy: R::zero(),
-        };
-        for ((response, &impulse), &j) in responses.iter().zip(&impulses).zip(locking) {
-            let jump = VelocityJump {
-                omega_body: response.omega_body * impulse,
-                velocity_body: response.velocity_body * impulse,
-                tau: response.tau.iter().map(|&change| change * impulse).collect(),
-            };
-            lock_up.delta_omega_body += jump.omega_body;
-            lock_up.delta_velocity_body += jump.velocity_body;
-            lock_up.delta_energy += R::constant(0.5) * (impulse * tau[j]);
-            for (total, &change) in lock_up.delta_tau.iter_mut().zip(&jump.tau) {
-                *total += change;
-            }
-            lock_up.jumps.push(jump);
+        ldl::solve(rows, inverse_pivots, impulses);
+        for (k, &j) in locking.iter().enumerate() {
+            out.add_impulse(k, tau[j]);
         }
-        Ok(LockUp { impulses, ..lock_up })
+        Ok(())
     }
 
-    /// The velocity jump for a unit impulsive torque at link `j`: one column of B₀⁻¹.
-    pub(crate) fn response_to(&mut self, j: usize) -> VelocityJump<R> {
+    /// Writes the change of τ for a unit impulsive torque at link `j`, and returns that of the main
+    /// body's velocities: one column of B₀⁻¹.
+    pub(crate) fn response_to(&mut self, j: usize, tau: &mut [R]) -> Twist<R> {
         self.wrenches.fill(Wrench::zero());
-        let mut tau = vec![R::zero(); self.wrenches.len()];
+        tau.fill(R::zero());
         tau[j] = R::one();
-        let of_main = self.solve(Wrench::zero(), &mut tau);
-        VelocityJump { omega_body: of_main.angular, velocity_body: of_main.linear, tau }
+        self.solve(Wrench::zero(), tau)
+    }
+}
+
+impl<R: Number> LockUp<R> {
+    /// Adds what the impulsive torque `k` changes, of whose hinge the rate before is `tau`; its jump
+    /// is that for a unit torque so far.
+    fn add_impulse(&mut self, k: usize, tau: R) {
+        let impulse = self.impulses[k];
+        let of_main = &mut self.of_main[k];
+        *of_main = Twist { angular: of_main.angular * impulse, linear: of_main.linear * impulse };
+        self.delta_omega_body += of_main.angular;
+        self.delta_velocity_body += of_main.linear;
+        self.delta_energy += R::constant(0.5) * (impulse * tau);
+        let free = self.delta_tau.len();
+        let of_hinges = &mut self.of_hinges[k * free..][..free];
+        for (total, change) in self.delta_tau.iter_mut().zip(of_hinges) {
+            *change = *change * impulse;
+            *total += *change;
+        }
     }
 }

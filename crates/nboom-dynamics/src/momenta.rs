@@ -110,7 +110,10 @@ impl<R: Number> Recursive<R> {
             let rate = self.solve(moment, &mut tau).angular.dot(axis);
             largest = if rate.to_f64() > largest.to_f64() { rate } else { largest };
         }
-        let of_hinge = |j| R::one() / self.response_to(j).tau[j];
+        let of_hinge = |j: usize| {
+            self.response_to(j, &mut tau);
+            R::one() / tau[j]
+        };
         let hinges = (0..beta.len()).map(of_hinge).collect();
         EffectiveInertias { main: R::one() / largest, hinges }
     }

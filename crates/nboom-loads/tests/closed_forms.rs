@@ -1,6 +1,6 @@
 //! Loads of booms whose closed forms are in every book on beams.
 
-use nboom_dynamics::Recursive;
+use nboom_dynamics::{LockUp, Recursive};
 use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{
     Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mode, Mount, Scene,
@@ -159,7 +159,8 @@ fn lock_up_of_a_boom() {
 
     let mut dynamics = Recursive::new(&scene);
     dynamics.set_mode(&Mode::at_start(&scene), &[beta]);
-    let lock_up = dynamics.lock_up(&[beta], &[tau], &[0]).expect("the boom has inertia");
+    let mut lock_up = LockUp::of_none();
+    dynamics.lock_up(&[beta], &[tau], &[0], &mut lock_up).expect("the boom has inertia");
     assert!((lock_up.impulses[0] - latch).abs() < 1e-14 * latch);
     let jump = VelocityChange {
         origin_body: lock_up.delta_velocity_body,

@@ -35,6 +35,8 @@ pub struct Automatic {
     against: usize,
     /// How many of these it takes to go back from the implicit method.
     patience: usize,
+    /// Room for the variables that a method leaves to the next one.
+    handed_over: Vec<f64>,
     choice: Choice,
 }
 
@@ -74,7 +76,8 @@ impl Automatic {
         };
         let is_tight = tolerance.relative <= TIGHT;
         Self {
-            choice: Self::first(tolerance),
+            choice: Self::first(Self::explicit(tolerance)),
+            handed_over: Vec::new(),
             explicit: Box::new(explicit),
             lanes: is_tight.then(|| Box::new(GaussLanes::new(tolerance))),
             implicit: Box::new(Radau::new(tolerance)),
@@ -92,9 +95,8 @@ impl Automatic {
         if tolerance.relative >= LOOSE { Method::Dopri5 } else { Method::Dop853 }
     }
 
-    /// What runs begin with.
-    fn first(tolerance: Tolerance) -> Choice {
-        let method = Self::explicit(tolerance);
+    /// What runs begin with: this explicit method.
+    fn first(method: Method) -> Choice {
         let reason = match method {
             Method::Dopri5 => "the tolerance is loose",
             _ => "the tolerance is tight",
@@ -160,7 +162,9 @@ impl Automatic {
 
     /// Goes on with another method from where this one is.
     fn change(&mut self, system: &mut dyn System, to: Active, reason: &'static str) {
-        let Window { time, state, next_step: usual, .. } = self.window().clone();
+        let mut state = std::mem::take(&mut self.handed_over);
+        let &Window { time, state: ref present, next_step: usual, .. } = self.window();
+        state.clone_from(present);
         match self.active {
             Active::Lanes => self.lanes_were_slow = true,
             Active::Implicit => self.patience *= 2,
@@ -169,6 +173,7 @@ impl Automatic {
         self.hand_over(to, reason);
         let controlled = self.controlled;
         self.stepper_mut().start(system, time, &state, controlled);
+        self.handed_over = state;
         let window = self.window_mut();
         window.next_step = window.next_step.min(GROWTH * usual);
     }
@@ -197,6 +202,16 @@ impl Stepper for Automatic {
         } else {
             self.stepper_mut().restart(system, t, y, controlled);
         }
+    }
+
+    fn reset(&mut self) {
+        self.explicit.reset();
+        self.implicit.reset();
+        if let Some(lanes) = &mut self.lanes {
+            lanes.reset();
+        }
+        (self.active, self.lanes_were_slow, self.patience) = (Active::Explicit, false, STIFF);
+        self.choice = Self::first(self.explicit.choice().method);
     }
 
     fn limit_steps(&mut self, longest: f64) {

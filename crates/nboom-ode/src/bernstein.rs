@@ -94,6 +94,9 @@ impl Bernstein {
     ///
     /// Touching zero without going through is not a change of side.
     pub fn leaves_side(&self, side: f64) -> Option<f64> {
+        if self.coefficients().iter().all(|c| c * side >= 0.0) {
+            return None;
+        }
         let mut scaled = *self;
         scaled.coefficients.iter_mut().for_each(|c| *c *= side);
         scaled.first_negative(0.0, 1.0)

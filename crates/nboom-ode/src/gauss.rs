@@ -281,6 +281,10 @@ impl Stepper for Gauss {
         self.window.next_step = self.first_step(system).min(self.window.longest);
     }
 
+    fn reset(&mut self) {
+        self.window.reset();
+    }
+
     fn limit_steps(&mut self, longest: f64) {
         self.window.longest = longest;
     }

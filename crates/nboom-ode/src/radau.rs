@@ -284,10 +284,13 @@ impl Stepper for Radau {
             curves.clear();
             curves.resize(size, Collocation::default());
         }
-        self.step = 0.0;
-        (self.slope_is_known, self.jacobian) = (false, Age::Outdated);
+        (self.step, self.slope_is_known, self.jacobian) = (0.0, false, Age::Outdated);
         self.prepare(system);
         self.window.next_step = self.first_step().min(self.window.longest);
+    }
+
+    fn reset(&mut self) {
+        self.window.reset();
     }
 
     fn limit_steps(&mut self, longest: f64) {

@@ -298,6 +298,10 @@ impl Stepper for Rkam {
         self.window.next_step = step.clamp(shortest, longest);
     }
 
+    fn reset(&mut self) {
+        self.window.reset();
+    }
+
     fn limit_steps(&mut self, longest: f64) {
         for bound in [&mut self.settings.shortest, &mut self.settings.longest] {
             *bound = bound.min(longest);

@@ -241,6 +241,10 @@ impl Stepper for RungeKutta {
         self.window.next_step = first.min(self.window.longest);
     }
 
+    fn reset(&mut self) {
+        self.window.reset();
+    }
+
     fn limit_steps(&mut self, longest: f64) {
         self.window.longest = longest;
     }

@@ -7,7 +7,7 @@ use crate::{Bernstein, Counts, Method, StepError, System};
 /// [`step`](Self::step) finds a step that meets the tolerance; until
 /// [`advance`](Self::advance) makes its end the new start, its inside can be looked at and it
 /// can be taken again to another length.
-pub trait Stepper {
+pub trait Stepper: Send {
     /// Starts at (`t`, `y`) with nothing remembered of earlier steps. Only the first
     /// `controlled` variables decide on the step size.
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize);
@@ -17,6 +17,9 @@ pub trait Stepper {
     fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.start(system, t, y, controlled);
     }
+
+    /// Forgets all steps and what they have cost, as if it had just been made; its room stays.
+    fn reset(&mut self);
 
     /// Bounds steps from now on by `longest`, which a step may exceed by up to a hundredth to reach
     /// a limit. Without this call steps have any length.
@@ -129,6 +132,10 @@ impl Window {
     /// Length of the step.
     pub fn length(&self) -> f64 {
         self.end_time - self.time
+    }
+
+    pub(crate) fn reset(&mut self) {
+        (self.next_step, self.counts) = (0.0, Counts::default());
     }
 
     pub(crate) fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64]) {

@@ -140,6 +140,10 @@ impl Stepper for Taylor {
         self.expanded = false;
     }
 
+    fn reset(&mut self) {
+        self.window.reset();
+    }
+
     fn limit_steps(&mut self, longest: f64) {
         self.window.longest = longest;
     }

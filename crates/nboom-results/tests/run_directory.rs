@@ -78,7 +78,7 @@ fn event(time: f64, kind: EventKind, hinge: Option<usize>) -> Event {
 
 fn selection(since: f64, path: &'static str, formulation: &'static str, reason: &str) -> Selection {
     let evaluations = if path == "generated" { 72 } else { 24 };
-    Selection { since, path, formulation, reason: reason.to_owned(), evaluations }
+    Selection { since, path, formulation, reason: reason.into(), evaluations }
 }
 
 fn integration(since: f64, method: Method) -> Integration {

@@ -50,7 +50,7 @@ impl AccelerationCode {
         if options.integrator == Method::Taylor {
             let code = Self::recorded(scene, dynamics);
             let (path, (_, formulation)) = (Selection::SERIES, code.path_and_formulation());
-            let reason = "power series of these equations, as recorded".to_owned();
+            let reason = "power series of these equations, as recorded".into();
             return Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }));
         }
         let as_demanded = AS_DEMANDED.to_owned();
@@ -65,6 +65,7 @@ impl AccelerationCode {
             (Path::Auto, _) => whatever_fits(scene, dynamics, repertoire, options),
         };
         let (path, formulation) = code.path_and_formulation();
+        let reason = reason.into();
         Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }))
     }
 

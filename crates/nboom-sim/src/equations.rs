@@ -8,11 +8,10 @@ use nboom_series::Series;
 use crate::code::CodeError;
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
-use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::prepared_mode::PreparedMode;
 use crate::equations::rates::Rates;
-use crate::equations::sizes::Sizes;
+use crate::equations::sizes::{Sizes, reach};
 use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::equations::variables::Variables;
@@ -35,7 +34,9 @@ const MOST_MODES: usize = 63;
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
-    scene: Scene,
+    pub scene: Scene,
+    /// The mode in which the scene starts.
+    pub start: Mode,
     /// The mode that was entered last.
     pub entered: PreparedMode,
     /// Others that were entered.
@@ -44,10 +45,10 @@ pub(crate) struct Equations {
     pub variables: Variables<f64>,
     gravity: Vec3<f64>,
     total_mass: f64,
+    /// How far from O matter can be, about.
+    pub reach: f64,
     accelerations: Accelerations<f64>,
     rates: Rates<f64>,
-    /// Made when an integrator asks for it in the mode.
-    jacobian: Option<Jacobian>,
     /// Made when an integrator asks for it in the mode.
     series: Option<Series<f64>>,
     sizes: Sizes,
@@ -62,27 +63,23 @@ pub(crate) struct Equations {
 impl Equations {
     /// Those of `scene`, in the mode in which it starts.
     pub fn new(scene: &Scene, options: &Options) -> Self {
-        let layout = VariableLayout {
-            unknowns: Unknowns::Velocities,
-            free: 0,
-            thrust: false,
-            dashpots: false,
-        };
+        let layout = VariableLayout::of_no_hinges();
         // Bodies whose inertia turns otherwise than they do have no momenta.
         let rigid = scene.departures().turned.is_empty();
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
         Self {
             scene: scene.clone(),
-            entered: PreparedMode::new(Recursive::new(scene), &at_start, &state.beta),
+            entered: PreparedMode::new(Recursive::new(scene), &at_start, |i| state.beta[i]),
             others: Vec::new(),
             repertoire: Repertoire::new(options),
             variables: Variables::new(scene, layout, &state),
             gravity: gravity(scene),
             total_mass: scene.total_mass(),
+            reach: reach(scene),
+            start: at_start,
             accelerations: Accelerations::for_hinges(0),
             rates: Rates::new(scene, layout),
-            jacobian: None,
             series: None,
             sizes: Sizes::of(scene),
             evaluations: 0,
@@ -91,18 +88,23 @@ impl Equations {
         }
     }
 
-    /// Begins anew with `scene`, whose satellite is that of all runs so far, in the mode in which it
-    /// starts.
-    pub fn begin(&mut self, scene: &Scene) {
+    /// Takes another scene, whose satellite is that of all runs so far.
+    pub fn set_scene(&mut self, scene: &Scene) {
         self.scene.clone_from(scene);
-        (self.sizes, self.evaluations) = (Sizes::of(scene), 0);
-        let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
-        self.change_mode(&Mode::at_start(scene), &beta);
+        self.start = Mode::at_start(scene);
+    }
+
+    /// Begins anew in the mode in which the scene starts.
+    pub fn begin(&mut self) {
+        self.sizes.begin(&self.scene);
+        self.evaluations = 0;
+        let Self { scene, start, entered, others, .. } = self;
+        change_mode(entered, others, start, |i| scene.bodies[i].hinge.start.angle);
     }
 
     /// Goes on from `state` in `mode`; writes the variables to `y`.
-    pub fn enter(&mut self, scene: &Scene, mode: &Mode, state: &State, y: &mut Vec<f64>) {
-        self.change_mode(mode, &state.beta);
+    pub fn enter(&mut self, mode: &Mode, state: &mut State, y: &mut Vec<f64>) {
+        change_mode(&mut self.entered, &mut self.others, mode, |i| state.beta[i]);
         let elements = self.entered.dynamics.elements();
         let (thrust, torques) = (elements.thrust().is_some(), elements.torques());
         let free = self.entered.dynamics.free_hinges();
@@ -110,48 +112,32 @@ impl Equations {
         let free = free.len();
         let unknowns = self.unknowns(state, thrust);
         let layout = VariableLayout { unknowns, free, thrust, dashpots };
-        self.accelerations = Accelerations::for_hinges(free);
-        self.rates = Rates::new(scene, layout);
-        (self.jacobian, self.series) = (None, None);
-        self.variables = Variables::new(scene, layout, state);
+        self.accelerations.tau_dot.resize(free, 0.0);
+        self.rates.set_layout(layout);
+        self.series = None;
+        self.variables.begin(layout, state);
         self.variables.write(&mut self.entered.dynamics, y);
         self.size_up(state);
     }
 
-    /// Takes up `mode` with held hinges at `beta`, as it was prepared before if it was.
-    fn change_mode(&mut self, mode: &Mode, beta: &[f64]) {
-        if self.entered.is(mode, beta) {
-            return;
-        }
-        let next = match self.others.iter().position(|other| other.is(mode, beta)) {
-            Some(at) => self.others.swap_remove(at),
-            None => PreparedMode::new(self.entered.dynamics.clone(), mode, beta),
-        };
-        if self.others.len() == MOST_MODES {
-            self.others.remove(0);
-        }
-        self.others.push(std::mem::replace(&mut self.entered, next));
-    }
-
     /// What is integrated for rates in a mode that begins at `state`.
-    fn unknowns(&mut self, state: &State, thrust: bool) -> Unknowns {
+    fn unknowns(&mut self, state: &mut State, thrust: bool) -> Unknowns {
         // Springs, dashpots and uniform gravity exert no moment about the mass centre.
         if !self.momenta && (thrust || !self.momentum_for_rate) {
             return Unknowns::Velocities;
         }
         let angular = state.momenta.angular_inertial.unwrap_or_else(|| {
-            Totals::of(state, &state.invariants(&mut self.entered.dynamics))
-                .angular_momentum_inertial
+            let found = state.invariants(&mut self.entered.dynamics);
+            Totals::of(state, &found).angular_momentum_inertial
         });
         if self.momenta { Unknowns::Momenta(angular) } else { Unknowns::HingeRates(angular) }
     }
 
     /// Notes how fast `state` is, and how fast it soon will be.
-    fn size_up(&mut self, state: &State) {
+    fn size_up(&mut self, state: &mut State) {
         self.sizes.saw(&state.omega_body.to_array());
         self.sizes.saw(&state.tau);
-        let [beta, tau] = state.of_free(&self.entered.dynamics);
-        let motion = Motion { omega_body: state.omega_body, beta: &beta, tau: &tau };
+        let motion = state.motion(&self.entered.dynamics);
         self.entered.dynamics.accelerations(&motion, &mut self.accelerations);
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
         let angular = omega_dot_body.to_array().into_iter().chain(tau_dot.iter().copied());
@@ -159,7 +145,8 @@ impl Equations {
         let force = thrust.map_or(Vec3::zero(), |thrust| thrust.force);
         self.sizes.saw_accelerations(angular, force * (1.0 / self.total_mass));
         let has_momenta = self.variables.layout.has_momenta();
-        self.sizes.weigh(has_momenta.then(|| self.entered.dynamics.effective_inertias(&beta)));
+        self.sizes
+            .weigh(has_momenta.then(|| self.entered.dynamics.effective_inertias(motion.beta)));
     }
 
     /// The state that the variables `y` at time `t` stand for.
@@ -171,11 +158,11 @@ impl Equations {
     ///
     /// # Errors
     /// When the code that is demanded does not fit.
-    pub fn select(&mut self, scene: &Scene, options: &Options) -> Result<Selection, CodeError> {
-        let Self { entered, repertoire, variables, .. } = self;
+    pub fn select(&mut self, options: &Options) -> Result<Selection, CodeError> {
+        let Self { scene, entered, repertoire, variables, .. } = self;
         let since = variables.origin.time;
         if variables.layout.has_momenta() {
-            return Ok(Selection::of_momenta(since));
+            return Ok(entered.select_momenta(since));
         }
         entered.select(scene, repertoire, options, since)
     }
@@ -220,6 +207,27 @@ impl Equations {
     }
 }
 
+/// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the `others` if
+/// it is among them.
+fn change_mode(
+    entered: &mut PreparedMode,
+    others: &mut Vec<PreparedMode>,
+    mode: &Mode,
+    beta: impl Fn(usize) -> f64 + Copy,
+) {
+    if entered.is(mode, beta) {
+        return;
+    }
+    let next = match others.iter().position(|other| other.is(mode, beta)) {
+        Some(at) => others.swap_remove(at),
+        None => PreparedMode::new(entered.dynamics.clone(), mode, beta),
+    };
+    if others.len() == MOST_MODES {
+        others.remove(0);
+    }
+    others.push(std::mem::replace(entered, next));
+}
+
 impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let Self { variables, entered, rates, evaluations, .. } = self;
@@ -258,9 +266,8 @@ impl System for Equations {
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
         let free_fall = self.variables.free_fall(t).velocity;
-        let Self { scene, entered, variables: Variables { layout, origin, .. }, .. } = self;
-        let of_mode = || Jacobian::new(scene, &entered.mode, &origin.beta, *layout);
-        self.jacobian.get_or_insert_with(of_mode).write(free_fall, y, out);
+        let Self { scene, entered, variables, .. } = self;
+        entered.jacobian(scene).write(variables.layout, free_fall, y, out);
         true
     }
 

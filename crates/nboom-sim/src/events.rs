@@ -4,5 +4,6 @@ pub(crate) mod angle_range;
 pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;
+pub(crate) mod line_path;
 pub(crate) mod side;
 pub(crate) mod situation;

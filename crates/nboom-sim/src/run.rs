@@ -1,7 +1,7 @@
+use nboom_dynamics::Invariants;
 use nboom_model::Scene;
 use nboom_ode::Stepper;
 
-use crate::code::selection::Selection;
 use crate::equations::Equations;
 use crate::equations::attitude_norm::AttitudeNorm;
 use crate::equations::layout::VariableLayout;
@@ -10,13 +10,12 @@ use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::event::{Event, EventKind};
 use crate::events::guard::{GuardKind, read};
-use crate::events::instant::{self, Arrivals};
+use crate::events::instant;
 use crate::events::situation::Situation;
 use crate::options::Options;
 use crate::run::ledger::Ledger;
 use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
-use crate::run::verdict::Verdict;
 
 pub(crate) mod beforehand;
 pub(crate) mod conservation;
@@ -34,6 +33,7 @@ mod telling;
 
 use runaway::Resources;
 pub use simulator::Simulator;
+use simulator::Workspace;
 
 /// Runs `scene` from its initial to its end time and tells `recorder` on the way.
 ///
@@ -45,7 +45,7 @@ pub fn simulate(
     options: &Options,
     recorder: &mut dyn Recorder,
 ) -> Result<Summary, Failure> {
-    Simulator::new(scene, *options).run(recorder)
+    Simulator::new(scene, *options).run(recorder).cloned()
 }
 
 /// Corrections after which an event's time is as good as it gets.
@@ -54,128 +54,139 @@ const CORRECTIONS: usize = 8;
 struct Run<'a> {
     options: Options,
     recorder: &'a mut dyn Recorder,
-    situation: Situation<'a, f64>,
-    scratch: State,
-    /// Room for states between those of steps.
-    spare: Option<State>,
-    /// What the recorder was shown last.
-    seen: Snapshot,
     equations: &'a mut Equations,
-    stepper: Box<dyn Stepper>,
+    situation: &'a mut Situation<f64>,
+    /// Energy and momenta of the present state, once they have been asked for.
+    invariants: Option<Invariants<f64>>,
+    scratch: &'a mut State,
+    /// The state that is shown, which may be between those of steps.
+    shown: &'a mut State,
+    /// What the recorder was shown last.
+    seen: &'a mut Snapshot,
+    stepper: &'a mut dyn Stepper,
     ledger: Ledger,
-    variables: Vec<f64>,
+    variables: &'a mut Vec<f64>,
     next_sample: usize,
-    events: usize,
     /// When the last burst of events began, and how many there were since.
     burst: (f64, usize),
     /// Time and number of steps when progress was last looked at.
     pace: (f64, usize),
     resources: Resources,
-    selections: Vec<Selection>,
-    integrations: Vec<Integration>,
     attitude_norm: AttitudeNorm,
-    room: Room,
-    verdict: Verdict,
+    room: &'a mut Room,
+    summary: &'a mut Summary,
 }
 
 impl<'a> Run<'a> {
-    /// The beginning of `scene`, which `equations` are of.
+    /// The beginning of the scene of `equations`.
     fn new(
-        scene: &'a Scene,
         options: Options,
         equations: &'a mut Equations,
+        workspace: &'a mut Workspace,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
-        equations.begin(scene);
-        let situation = Situation::at_start(scene, &mut equations.entered.dynamics);
-        let Situation { state, mode, .. } = &situation;
-        let mut variables = Vec::new();
-        equations.enter(scene, mode, state, &mut variables);
-        let room = Room::new(scene, equations.entered.dynamics.elements());
+        let Workspace { situation, scratch, shown, seen, stepper, variables, room, summary } =
+            workspace;
+        stepper.reset();
+        equations.begin();
+        situation.begin(&equations.scene, &equations.start, &mut equations.entered.dynamics);
+        let Situation { state, mode, .. } = &mut *situation;
+        equations.enter(mode, state, variables);
+        let invariants = state.invariants(&mut equations.entered.dynamics);
+        summary.begin(&mode.hinges, &state.beta);
+        let start = equations.scene.initial.time;
         Self {
             options,
             recorder,
-            ledger: Ledger::new(scene, equations, state),
-            resources: Resources::of(scene, equations, state),
-            scratch: state.clone(),
-            spare: None,
-            seen: Snapshot::empty(),
-            verdict: Verdict::of(&mode.hinges, &state.beta),
+            ledger: Ledger::new(equations, state, &invariants),
+            resources: Resources::of(&equations.scene, &invariants),
+            invariants: Some(invariants),
+            scratch,
+            shown,
+            seen,
             situation,
             equations,
-            stepper: options.stepper(),
+            stepper: &mut **stepper,
             variables,
             next_sample: 0,
-            events: 0,
-            burst: (scene.initial.time, 0),
-            pace: (scene.initial.time, 0),
-            selections: Vec::new(),
-            integrations: Vec::new(),
+            burst: (start, 0),
+            pace: (start, 0),
             attitude_norm: AttitudeNorm::new(),
             room,
+            summary,
         }
     }
 
     fn complete(&mut self) -> Result<(), SimError> {
-        self.options
-            .check_span(self.situation.scene.end_time - self.situation.scene.initial.time)?;
-        let dynamics = &mut self.equations.entered.dynamics;
-        self.situation.watch(dynamics, &[]);
-        let mut arrivals = self.situation.arrivals_at_start(dynamics);
+        let Equations { scene, entered, .. } = &*self.equations;
+        self.options.check_span(scene.end_time - scene.initial.time)?;
+        self.situation.watch(scene, &entered.dynamics);
+        self.situation.arrive_at_start(scene, &entered.dynamics);
         loop {
-            self.pass_instant(&arrivals)?;
+            self.pass_instant()?;
             self.sample_here()?;
-            if self.situation.is_at_end() {
+            if self.situation.is_at_end(&self.equations.scene) {
                 return self.finish();
             }
             let located = self.integrate_to_next_instant()?;
-            arrivals = self.situation.arrivals(&mut self.equations.entered.dynamics, located);
+            let Equations { scene, entered, .. } = &*self.equations;
+            self.situation.arrive(scene, &entered.dynamics, located);
         }
     }
 
+    /// Energy and momenta of the present state.
+    fn invariants(&mut self) -> Invariants<f64> {
+        let Self { invariants, situation, equations, .. } = self;
+        let find = || situation.state.invariants(&mut equations.entered.dynamics);
+        *invariants.get_or_insert_with(find)
+    }
+
     /// Changes the mode as the instant demands and starts integration anew.
-    fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<(), SimError> {
-        let before = self.before_instant(arrivals)?;
-        let outcome = self.situation.pass(&mut self.equations.entered.dynamics, arrivals)?;
-        let Situation { scene, state, mode, .. } = &self.situation;
-        let (scene, time) = (*scene, state.time);
-        self.equations.enter(scene, mode, state, &mut self.variables);
+    fn pass_instant(&mut self) -> Result<(), SimError> {
+        let before = self.before_instant()?;
+        let Equations { scene, entered, .. } = &mut *self.equations;
+        self.situation.pass(scene, &mut entered.dynamics)?;
+        let Situation { state, mode, outcome, .. } = &mut *self.situation;
+        let (time, is_first) = (state.time, state.time <= scene.initial.time);
+        self.equations.enter(mode, state, self.variables);
+        let has_momenta = self.equations.variables.layout.has_momenta();
+        if has_momenta || !outcome.events.is_empty() {
+            self.invariants = None;
+        }
         self.check_regular()?;
         self.check_lines()?;
         self.select()?;
-        if self.equations.variables.layout.has_momenta() {
+        if has_momenta {
             // A lock-up leaves momenta; rates follow from them and not from its impulse.
-            self.equations.read(time, &self.variables, &mut self.situation.state);
+            self.equations.read(time, self.variables, &mut self.situation.state);
         }
         let controlled = self.equations.variables.layout.controlled();
         self.attitude_norm.put_back();
-        let (stepper, equations) = (&mut self.stepper, &mut *self.equations);
-        if time > scene.initial.time {
-            stepper.restart(equations, time, &self.variables, controlled);
+        if is_first {
+            self.stepper.start(self.equations, time, self.variables, controlled);
         } else {
-            stepper.start(equations, time, &self.variables, controlled);
+            self.stepper.restart(self.equations, time, self.variables, controlled);
         }
-        self.situation.watch(&mut self.equations.entered.dynamics, &outcome.crossed);
-        finite::check_instant(scene, time, &outcome.events, &outcome.jumps)?;
-        if !outcome.events.is_empty() {
-            self.tell_instant(before, outcome.jumps)?;
-        }
-        self.report(&outcome.events)?;
-        self.check_chatter(&outcome.events)
+        let Equations { scene, entered, .. } = &*self.equations;
+        self.situation.watch(scene, &entered.dynamics);
+        finite::check_instant(scene, time, &self.situation.outcome)?;
+        self.tell_instant(before)?;
+        self.report()?;
+        self.check_chatter()
     }
 
     /// Integrates until a guard changes sign, something is scheduled, or the end, and leaves the
     /// situation there. Returns the guard.
     fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
-        let limit = self.situation.limit();
+        let limit = self.situation.limit(&self.equations.scene);
         loop {
             self.step(limit)?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
             let guards = &mut self.situation.guards;
             if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
-                self.stepper.prepare_dense(&mut *self.equations);
+                self.stepper.prepare_dense(self.equations);
             }
-            let change = guards.first_change(self.equations, &*self.stepper);
+            let change = guards.first_change(self.equations, self.stepper);
             let full = self.stepper.window().length();
             if let Some((kind, fraction)) = change {
                 self.locate(kind, fraction * full, full);
@@ -183,8 +194,8 @@ impl<'a> Run<'a> {
             self.sample_within(full, self.stepper.window().end_time)?;
             self.tell_step(full)?;
             self.accept();
-            let Situation { state, guards, .. } = &mut self.situation;
-            guards.settle(&mut self.equations.entered.dynamics, state);
+            let Situation { state, guards, .. } = &mut *self.situation;
+            guards.settle(&self.equations.entered.dynamics, state);
             if change.is_some() || state.time >= limit {
                 return Ok(change.map(|(kind, _)| kind));
             }
@@ -195,7 +206,7 @@ impl<'a> Run<'a> {
         self.check_interrupt(self.situation.state.time)?;
         self.check_progress()?;
         self.check_growth()?;
-        let taken = self.stepper.step(&mut *self.equations, limit);
+        let taken = self.stepper.step(self.equations, limit);
         taken.map_err(|error| self.stopped(error))?;
         self.note_method();
         Ok(())
@@ -204,8 +215,9 @@ impl<'a> Run<'a> {
     /// Notes which method took the step, when that is a change.
     fn note_method(&mut self) {
         let (since, choice) = (self.stepper.window().time, self.stepper.choice());
-        if self.integrations.last().is_none_or(|last| last.choice.method != choice.method) {
-            self.integrations.push(Integration { since, choice });
+        let integrations = &mut self.summary.integrations;
+        if integrations.last().is_none_or(|last| last.choice.method != choice.method) {
+            integrations.push(Integration { since, choice });
         }
     }
 
@@ -216,18 +228,18 @@ impl<'a> Run<'a> {
         let mut step = guess;
         let mut last_correction = f64::INFINITY;
         for _ in 0..CORRECTIONS {
-            self.stepper.retake(&mut *self.equations, step);
+            self.stepper.retake(self.equations, step);
             let window = self.stepper.window();
             let time = window.end_time;
-            self.equations.read(time, &window.end_state, &mut self.scratch);
-            let reading = read(kind, &mut self.equations.entered.dynamics, &self.scratch);
+            self.equations.read(time, &window.end_state, self.scratch);
+            let reading = read(kind, &self.equations.entered.dynamics, self.scratch);
             let correction = -reading.value / reading.rate;
             let better = correction.abs() < 0.5 * last_correction;
             let matters = self.stepper.window().time + (step + correction) != time;
             if !(correction.is_finite() && better && matters) {
                 return;
             }
-            if self.stepper.move_end(&mut *self.equations, correction) {
+            if self.stepper.move_end(self.equations, correction) {
                 return;
             }
             last_correction = correction.abs();
@@ -249,18 +261,17 @@ impl<'a> Run<'a> {
         }
         let window = self.stepper.window();
         self.equations.read(window.time, &window.state, &mut self.situation.state);
+        self.invariants = None;
     }
 
     /// Whether `time` is before `other` and not in its instant, which the fastest motion of all makes.
     fn is_before(&self, time: f64, other: f64) -> bool {
-        time < other - instant::duration(self.situation.scene, time, self.equations.fastest())
+        time < other - instant::duration(&self.equations.scene, time, self.equations.fastest())
     }
 
     fn finish(&mut self) -> Result<(), SimError> {
-        let now = Totals::of(
-            &self.situation.state,
-            &self.situation.state.invariants(&mut self.equations.entered.dynamics),
-        );
+        let found = self.invariants();
+        let now = Totals::of(&self.situation.state, &found);
         let end = Event {
             time: self.situation.state.time,
             kind: EventKind::End,
@@ -269,53 +280,46 @@ impl<'a> Run<'a> {
             before: now,
             after: now,
         };
-        self.report(&[end])
+        self.situation.outcome.reset();
+        self.situation.outcome.events.push(end);
+        self.report()
     }
 
     /// Chooses the code for the mode, and notes when that is a change.
     fn select(&mut self) -> Result<(), SimError> {
-        let selection = self.equations.select(self.situation.scene, &self.options);
+        let selection = self.equations.select(&self.options);
         let selection =
             selection.map_err(|error| SimError::from_code(error, self.situation.state.time))?;
-        self.selections = self.counted_selections();
-        let same = |last: &Selection| {
-            let Selection { since, evaluations, .. } = *last;
-            Selection { since, evaluations, ..selection.clone() } == *last
-        };
-        if !self.selections.last().is_some_and(same) {
-            self.selections.push(selection);
+        self.count_evaluations();
+        let selections = &mut self.summary.selections;
+        if !selections.last().is_some_and(|last| last.is_same_code(&selection)) {
+            selections.push(selection);
         }
         Ok(())
     }
 
-    /// The selections so far, the last one with all evaluations since the others.
-    fn counted_selections(&self) -> Vec<Selection> {
-        let mut selections = self.selections.clone();
-        if let Some((last, others)) = selections.split_last_mut() {
+    /// Counts all evaluations since the selections before the last one for the last one.
+    fn count_evaluations(&mut self) {
+        if let Some((last, others)) = self.summary.selections.split_last_mut() {
             let before: usize = others.iter().map(|selection| selection.evaluations).sum();
             last.evaluations = self.equations.evaluations() - before;
         }
-        selections
     }
 
-    fn summary(&self) -> Summary {
+    /// Sums up how the run went.
+    fn sum_up(&mut self) {
+        self.count_evaluations();
+        let Self { situation: Situation { state, mode, .. }, summary, .. } = self;
         let counts = self.stepper.window().counts;
-        Summary {
-            end_time: self.situation.state.time,
-            steps_accepted: counts.accepted,
-            steps_rejected: counts.rejected,
-            evaluations: counts.evaluations,
-            events: self.events,
-            conservation: self.ledger.residuals(),
-            jacobians: counts.jacobians,
-            factorizations: counts.factorizations,
-            integrator: self.options.integrator.name(),
-            integrations: self.integrations.clone(),
-            selections: self.counted_selections(),
-            verdict: self
-                .verdict
-                .ending_with(&self.situation.mode.hinges, &self.situation.state.beta),
-            attitude_drift: self.attitude_norm.largest_drift,
-        }
+        summary.end_time = state.time;
+        summary.steps_accepted = counts.accepted;
+        summary.steps_rejected = counts.rejected;
+        summary.evaluations = counts.evaluations;
+        summary.jacobians = counts.jacobians;
+        summary.factorizations = counts.factorizations;
+        summary.conservation = self.ledger.residuals();
+        summary.integrator = self.options.integrator.name();
+        summary.attitude_drift = self.attitude_norm.largest_drift;
+        summary.verdict.end(&mode.hinges, &state.beta);
     }
 }

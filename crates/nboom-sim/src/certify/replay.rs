@@ -1,7 +1,7 @@
 //! A run in double-double that follows the events of a run on `f64`.
 
 use nboom_dynamics::Recursive;
-use nboom_model::Scene;
+use nboom_model::{Mode, Scene};
 use nboom_scalar::{DoubleDouble, Real};
 
 use crate::certify::expansion::{Accuracy, Expansion};
@@ -13,7 +13,7 @@ use crate::equations::variables::Variables;
 use crate::error::SimError;
 use crate::events::event::Event;
 use crate::events::guard::{GuardKind, Reading, read};
-use crate::events::instant::{self, Arrivals};
+use crate::events::instant;
 use crate::events::situation::Situation;
 use crate::run::record::Snapshot;
 use crate::run::snapshot;
@@ -31,13 +31,14 @@ const LOCATED: f64 = 1e-20;
 /// no other may have changed sign at the end of any step. Equations, guards and instants are those
 /// of every run.
 pub(crate) struct Replay<'a> {
+    scene: &'a Scene,
     guide: &'a [Event],
     accuracy: Accuracy,
     most_steps: usize,
     interrupted: &'a dyn Fn() -> bool,
     steps: usize,
     dynamics: Recursive<DoubleDouble>,
-    pub situation: Situation<'a, DoubleDouble>,
+    pub situation: Situation<DoubleDouble>,
     scratch: State<DoubleDouble>,
     sizes: Sizes,
     /// What has happened so far.
@@ -72,8 +73,10 @@ impl<'a> Replay<'a> {
         interrupted: &'a dyn Fn() -> bool,
     ) -> Self {
         let mut dynamics = Recursive::new(scene);
-        let situation = Situation::at_start(scene, &mut dynamics);
+        let mut situation = Situation::new(scene);
+        situation.begin(scene, &Mode::at_start(scene), &mut dynamics);
         Self {
+            scene,
             guide,
             accuracy,
             most_steps,
@@ -92,53 +95,53 @@ impl<'a> Replay<'a> {
     /// # Errors
     /// When the motion cannot be followed or an event not be located.
     pub fn complete(&mut self) -> Result<bool, SimError> {
-        let Self { situation, dynamics, .. } = self;
+        let Self { scene, situation, dynamics, .. } = self;
         dynamics.set_mode(&situation.mode, &situation.state.beta);
-        situation.watch(dynamics, &[]);
-        let mut arrivals = situation.arrivals_at_start(dynamics);
+        situation.watch(scene, dynamics);
+        situation.arrive_at_start(scene, dynamics);
         loop {
-            let crossed = self.pass_instant(&arrivals)?;
+            self.pass_instant()?;
             let kinds = |events: &[Event]| -> Vec<_> {
                 events.iter().map(|event| (event.kind, event.hinge)).collect()
             };
             if !kinds(self.guide).starts_with(&kinds(&self.events)) {
                 return Ok(false);
             }
-            if self.situation.is_at_end() {
+            if self.situation.is_at_end(self.scene) {
                 return Ok(self.events.len() == self.guide.len());
             }
-            let course = self.enter(&crossed);
+            let course = self.enter();
             let located = match self.follow(course)? {
                 Ending::Guard(kind) => Some(kind),
                 Ending::Schedule => None,
                 Ending::Astray => return Ok(false),
             };
-            arrivals = self.situation.arrivals(&mut self.dynamics, located);
+            self.situation.arrive(self.scene, &self.dynamics, located);
         }
     }
 
     /// What a recorder sees of the present state.
     pub fn snapshot(&mut self) -> Snapshot {
-        let Situation { scene, mode, state, .. } = &self.situation;
+        let Situation { mode, state, .. } = &mut self.situation;
+        let found = state.invariants(&mut self.dynamics);
         let mut seen = Snapshot::empty();
-        snapshot::write(scene, mode, state, &state.invariants(&mut self.dynamics), &mut seen);
+        snapshot::write(self.scene, mode, state, &found, &mut seen);
         seen
     }
 
-    /// Changes the mode as the instant demands; returns the elements that have passed a bound.
-    fn pass_instant(&mut self, arrivals: &Arrivals) -> Result<Vec<(usize, usize)>, SimError> {
-        let Self { situation, dynamics, .. } = self;
-        let outcome = situation.pass(dynamics, arrivals)?;
+    /// Changes the mode as the instant demands.
+    fn pass_instant(&mut self) -> Result<(), SimError> {
+        let Self { scene, situation, dynamics, .. } = self;
+        situation.pass(scene, dynamics)?;
         dynamics.set_mode(&situation.mode, &situation.state.beta);
-        self.events.extend(outcome.events);
-        Ok(outcome.crossed)
+        self.events.extend(&situation.outcome.events);
+        Ok(())
     }
 
     /// Takes up the mode at the present state.
-    fn enter(&mut self, crossed: &[(usize, usize)]) -> Course {
-        self.situation.watch(&mut self.dynamics, crossed);
-        let (dynamics, Situation { scene, state, mode, .. }) =
-            (&mut self.dynamics, &self.situation);
+    fn enter(&mut self) -> Course {
+        self.situation.watch(self.scene, &self.dynamics);
+        let Self { scene, dynamics, situation: Situation { state, mode, .. }, .. } = self;
         let thrust = dynamics.elements().thrust().is_some();
         let free = dynamics.free_hinges().len();
         let (unknowns, dashpots) = (Unknowns::Velocities, false);
@@ -152,7 +155,7 @@ impl<'a> Replay<'a> {
         self.sizes.write(&layout, &mut sizes);
         sizes.truncate(layout.controlled());
         let expansion = Expansion::new(&graph, &fixed, sizes, self.accuracy);
-        let variables = Variables::new(scene, layout, state);
+        let mut variables = Variables::new(scene, layout, state);
         let mut now = Vec::new();
         variables.write(dynamics, &mut now);
         Course { variables, expansion, then: now.clone(), now }
@@ -160,7 +163,7 @@ impl<'a> Replay<'a> {
 
     /// Goes on until the guide's next event, something scheduled, or the end.
     fn follow(&mut self, mut course: Course) -> Result<Ending, SimError> {
-        let limit = self.situation.limit();
+        let limit = self.situation.limit(self.scene);
         let (expected, awaited) = self.awaited();
         loop {
             let since_start = self.situation.state.time - course.variables.origin.time;
@@ -186,7 +189,7 @@ impl<'a> Replay<'a> {
             if let Some(ending) = ending {
                 return Ok(ending);
             }
-            self.situation.guards.settle(&mut self.dynamics, &self.situation.state);
+            self.situation.guards.settle(&self.dynamics, &self.situation.state);
         }
     }
 
@@ -225,9 +228,9 @@ impl<'a> Replay<'a> {
 
     /// How long an instant would last that a guard makes as fast as it is now.
     fn instant_of(&mut self, kind: GuardKind) -> f64 {
-        let reading = read(kind, &mut self.dynamics, &self.situation.state);
+        let reading = read(kind, &self.dynamics, &self.situation.state);
         let pace = kind.pace(self.dynamics.elements(), reading);
-        instant::duration(self.situation.scene, self.situation.state.time.to_f64(), pace)
+        instant::duration(self.scene, self.situation.state.time.to_f64(), pace)
     }
 
     /// When a guard is zero, as time since the present, by Newton's method.
@@ -241,7 +244,7 @@ impl<'a> Replay<'a> {
         let (mut since, mut last) = (exact(guess), f64::INFINITY);
         for _ in 0..CORRECTIONS {
             self.look(since, course);
-            let Reading { value, rate } = read(kind, &mut self.dynamics, &self.scratch);
+            let Reading { value, rate } = read(kind, &self.dynamics, &self.scratch);
             let correction = value / rate;
             let size = correction.to_f64().abs();
             let better = size < 0.5 * last;
@@ -251,13 +254,10 @@ impl<'a> Replay<'a> {
             since -= correction;
             last = size;
         }
-        if last
-            <= LOCATED
-                * reach.min(self.situation.scene.end_time - self.situation.scene.initial.time)
-        {
+        if last <= LOCATED * reach.min(self.scene.end_time - self.scene.initial.time) {
             return Ok(since);
         }
-        let hinge = self.situation.scene.label(kind.hinge());
+        let hinge = self.scene.label(kind.hinge());
         Err(SimError::NotLocated { time: self.scratch.time.to_f64(), hinge })
     }
 
@@ -279,12 +279,7 @@ impl<'a> Replay<'a> {
         self.look(since, course);
         std::mem::swap(&mut self.situation.state, &mut self.scratch);
         std::mem::swap(&mut course.now, &mut course.then);
-        !self.situation.guards.missed(
-            self.situation.scene,
-            &mut self.dynamics,
-            &self.situation.state,
-            awaited,
-        )
+        !self.situation.guards.missed(self.scene, &self.dynamics, &self.situation.state, awaited)
     }
 
     /// Refuses a step that leads nowhere.

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use nboom_formulation::Formulation;
 
 /// Which code computed accelerations from a time on.
@@ -10,7 +12,7 @@ pub struct Selection {
     /// Name of the formulation.
     pub formulation: &'static str,
     /// Which routine, or why none.
-    pub reason: String,
+    pub reason: Arc<str>,
     /// Evaluations of the accelerations that integration has asked of it.
     pub evaluations: usize,
 }
@@ -25,10 +27,16 @@ impl Selection {
     /// The path of a run in which generated and library code both had their turns.
     pub const MIXED: &'static str = "mixed";
 
+    /// Whether it is of the same code, for the same reason.
+    pub(crate) fn is_same_code(&self, other: &Self) -> bool {
+        let of = |selection: &'_ Self| (selection.path, selection.formulation);
+        of(self) == of(other) && self.reason == other.reason
+    }
+
     /// That of a mode whose momenta are integrated.
     pub(crate) fn of_momenta(since: f64) -> Self {
         let (path, formulation) = (Self::GENERIC, Formulation::Momentum.name());
-        Self { since, path, formulation, reason: AS_DEMANDED.to_owned(), evaluations: 0 }
+        Self { since, path, formulation, reason: AS_DEMANDED.into(), evaluations: 0 }
     }
 }
 
@@ -78,7 +86,7 @@ mod tests {
 
     fn of(selections: &[(&'static str, &'static str, usize)]) -> CodeOfRun {
         let selection = |&(path, formulation, evaluations)| {
-            let reason = String::new();
+            let reason = "".into();
             Selection { since: 0.0, path, formulation, reason, evaluations }
         };
         CodeOfRun::of(&selections.iter().map(selection).collect::<Vec<_>>())

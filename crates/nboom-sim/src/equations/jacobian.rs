@@ -10,7 +10,6 @@ use crate::equations::rates::Rates;
 ///
 /// They are exact whatever code computes the accelerations, as all code computes the same ones.
 pub(crate) struct Jacobian {
-    layout: VariableLayout,
     dynamics: Recursive<Dual<f64>>,
     rates: Rates<Dual<f64>>,
     variables: Vec<Dual<f64>>,
@@ -19,29 +18,33 @@ pub(crate) struct Jacobian {
 
 impl Jacobian {
     /// Of `mode`, in which held hinges have their angles in `beta` (all hinges).
-    pub fn new(scene: &Scene, mode: &Mode, beta: &[f64], layout: VariableLayout) -> Self {
+    pub fn new(scene: &Scene, mode: &Mode, beta: &[f64]) -> Self {
         let mut dynamics = Recursive::new(scene);
         let beta: Vec<Dual<f64>> = beta.iter().map(|&angle| Dual::constant(angle)).collect();
         dynamics.set_mode(mode, &beta);
-        Self {
-            layout,
-            rates: Rates::new(scene, layout),
-            dynamics,
-            variables: vec![Dual::zero(); layout.len()],
-            derivatives: vec![Dual::zero(); layout.len()],
-        }
+        let rates = Rates::new(scene, VariableLayout::of_no_hinges());
+        Self { rates, dynamics, variables: Vec::new(), derivatives: Vec::new() }
     }
 
-    /// Writes ∂ẏ/∂y at `y` to `out`, row by row; `free_fall` is the velocity of the mass centre
-    /// without thrust, inertial axes.
-    pub fn write(&mut self, free_fall: Vec3<f64>, y: &[f64], out: &mut [f64]) {
-        let size = self.layout.len();
+    /// Writes ∂ẏ/∂y at `y`, which stands as in `layout`, to `out`, row by row; `free_fall` is the velocity
+    /// of the mass centre without thrust, inertial axes.
+    pub fn write(
+        &mut self,
+        layout: VariableLayout,
+        free_fall: Vec3<f64>,
+        y: &[f64],
+        out: &mut [f64],
+    ) {
+        let size = layout.len();
+        self.rates.set_layout(layout);
+        self.variables.resize(size, Dual::zero());
+        self.derivatives.resize(size, Dual::zero());
         out.fill(0.0);
         for (variable, &value) in self.variables.iter_mut().zip(y) {
             *variable = Dual::constant(value);
         }
         // Nothing depends on the integrals that follow the controlled variables.
-        for column in 0..self.layout.controlled() {
+        for column in 0..layout.controlled() {
             self.variables[column] = Dual::variable(y[column]);
             self.differentiate(free_fall);
             for (row, rate) in self.derivatives.iter().enumerate() {
@@ -86,7 +89,7 @@ mod tests {
         };
         let options = Options { formulation, ..Options::default() };
         let (mut equations, mut y) = (Equations::new(&scene, &options), Vec::new());
-        equations.enter(&scene, &mode, &state, &mut y);
+        equations.enter(&mode, &mut state, &mut y);
         y.iter_mut().skip(equations.variables.layout.hinge_motion().end).for_each(|y| *y = 0.4);
         (equations, y)
     }

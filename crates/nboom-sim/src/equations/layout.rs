@@ -30,6 +30,11 @@ pub(crate) struct VariableLayout {
 impl VariableLayout {
     pub const ATTITUDE: Range<usize> = 0..4;
 
+    /// Of the velocities of a satellite whose hinges are held and on which nothing acts.
+    pub fn of_no_hinges() -> Self {
+        Self { unknowns: Unknowns::Velocities, free: 0, thrust: false, dashpots: false }
+    }
+
     pub fn omega(&self) -> Range<usize> {
         let start = Self::ATTITUDE.end;
         start..start + if self.unknowns == Unknowns::Velocities { 3 } else { 0 }

@@ -7,6 +7,7 @@ use crate::code::fit::Repertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{AccelerationCode, CodeError};
+use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::rates::Rates;
 use crate::options::Options;
@@ -22,21 +23,24 @@ pub(crate) struct PreparedMode {
     /// What computes all rates of change, if something does.
     right_sides: Option<RightSides>,
     selection: Option<Selection>,
+    /// Made when an integrator asks for it.
+    jacobian: Option<Jacobian>,
 }
 
 impl PreparedMode {
     /// The mode of the scene of `dynamics` in which held hinges are at `beta`.
-    pub fn new(mut dynamics: Recursive<f64>, mode: &Mode, beta: &[f64]) -> Self {
-        dynamics.set_mode(mode, beta);
-        let (mode, beta) = (mode.clone(), beta.to_vec());
+    pub fn new(mut dynamics: Recursive<f64>, mode: &Mode, beta: impl Fn(usize) -> f64) -> Self {
+        let beta: Vec<f64> = (0..mode.hinges.len()).map(beta).collect();
+        dynamics.set_mode(mode, &beta);
+        let mode = mode.clone();
         let code = AccelerationCode::Recursion;
-        Self { mode, beta, dynamics, code, right_sides: None, selection: None }
+        Self { mode, beta, dynamics, code, right_sides: None, selection: None, jacobian: None }
     }
 
     /// Whether it is this mode, with held hinges at these angles.
-    pub fn is(&self, mode: &Mode, beta: &[f64]) -> bool {
-        let is_held_there = |i: usize| mode.is_free(i) || self.beta[i] == beta[i];
-        self.mode == *mode && (0..beta.len()).all(is_held_there)
+    pub fn is(&self, mode: &Mode, beta: impl Fn(usize) -> f64) -> bool {
+        let is_held_there = |i: usize| mode.is_free(i) || self.beta[i] == beta(i);
+        self.mode == *mode && (0..self.beta.len()).all(is_held_there)
     }
 
     /// Chooses the code that computes accelerations from the time `since` on, unless it was chosen before.
@@ -60,6 +64,12 @@ impl PreparedMode {
         }
         (self.code, self.selection) = (code, Some(selection.clone()));
         Ok(selection)
+    }
+
+    /// Notes that momenta are integrated from the time `since` on.
+    pub fn select_momenta(&mut self, since: f64) -> Selection {
+        let selection = self.selection.get_or_insert_with(|| Selection::of_momenta(since));
+        Selection { since, ..selection.clone() }
     }
 
     /// Writes ẏ at `y` to `dy`, in the layout of `rates`; without thrust the mass centre would fall with the
@@ -120,6 +130,12 @@ impl PreparedMode {
             }
         }
         true
+    }
+
+    /// Derivatives of the equations of the mode, which is one of `scene`.
+    pub fn jacobian(&mut self, scene: &Scene) -> &mut Jacobian {
+        let Self { mode, beta, jacobian, .. } = self;
+        jacobian.get_or_insert_with(|| Jacobian::new(scene, mode, beta))
     }
 
     /// Accelerations: ω̇, a_O without gravity, τ̇.

@@ -26,6 +26,13 @@ impl<R: Real> Rates<R> {
         }
     }
 
+    /// Goes on with another mode of the scene.
+    pub fn set_layout(&mut self, layout: VariableLayout) {
+        self.layout = layout;
+        self.tau.resize(layout.free, R::zero());
+        self.accelerations.tau_dot.resize(layout.free, R::zero());
+    }
+
     /// Writes ẏ at `y` to `dy`. `dynamics` is in the same mode, `accelerate` computes accelerations
     /// there, and the mass centre would fall with the velocity `free_fall` (inertial axes) without
     /// thrust.

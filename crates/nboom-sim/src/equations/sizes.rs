@@ -21,11 +21,19 @@ pub(crate) struct Sizes {
 const START: f64 = 1e-3;
 
 impl Sizes {
-    /// At the beginning of `scene`: less than one radian in the whole run is no motion.
+    /// At the beginning of `scene`.
     pub fn of(scene: &Scene) -> Self {
         let point = scene.thrust.map_or(0.0, |thrust| thrust.point.norm());
-        let rate = 1.0 / (scene.end_time - scene.initial.time).max(f64::MIN_POSITIVE);
-        Self { length: reach(scene).max(point), rate, inertias: None }
+        let mut sizes = Self { length: reach(scene).max(point), rate: 0.0, inertias: None };
+        sizes.begin(scene);
+        sizes
+    }
+
+    /// Begins anew with `scene`, whose satellite is the same: less than one radian in the whole run is no
+    /// motion.
+    pub fn begin(&mut self, scene: &Scene) {
+        self.rate = 1.0 / (scene.end_time - scene.initial.time).max(f64::MIN_POSITIVE);
+        self.inertias = None;
     }
 
     /// The largest rate so far, or one radian in the whole run.

@@ -17,6 +17,8 @@ pub(crate) struct State<R = f64> {
     pub center: MassCenter<R>,
     pub work: Work<R>,
     pub momenta: Momenta<R>,
+    /// Room for β and τ of the free hinges.
+    free: [Vec<R>; 2],
 }
 
 /// Momenta as they were integrated; none of those that were not. No lock-up changes them.
@@ -77,32 +79,60 @@ impl<R: Number> Work<R> {
 impl<R: Number> State<R> {
     /// The initial state of `scene`, but for the mass centre, which is put at O.
     pub fn initial(scene: &Scene) -> Self {
+        let hinges = scene.bodies.len();
+        let mut state = Self {
+            time: R::zero(),
+            attitude: Quaternion { scalar: R::one(), vector: Vec3::zero() },
+            omega_body: Vec3::zero(),
+            beta: vec![R::zero(); hinges],
+            tau: vec![R::zero(); hinges],
+            center: MassCenter { position: Vec3::zero(), velocity: Vec3::zero() },
+            work: Work::none(),
+            momenta: Momenta::of_none(hinges),
+            free: [Vec::with_capacity(hinges), Vec::with_capacity(hinges)],
+        };
+        state.begin(scene);
+        state
+    }
+
+    /// Goes back to the [initial](Self::initial) state of `scene`, without allocation.
+    pub fn begin(&mut self, scene: &Scene) {
         let initial = &scene.initial;
         let Quaternion { scalar, vector } = initial.attitude;
         let attitude =
             Quaternion { scalar: R::constant(scalar), vector: Vec3::constant(vector) }.normalized();
-        let starts = || scene.bodies.iter().map(|body| body.hinge.start);
-        Self {
-            time: R::constant(initial.time),
-            attitude: from_non_negative_scalar(attitude),
-            omega_body: Vec3::constant(initial.omega_body),
-            beta: starts().map(|start| R::constant(start.angle)).collect(),
-            tau: starts().map(|start| R::constant(start.rate)).collect(),
-            center: MassCenter {
-                position: Vec3::constant(initial.position_inertial),
-                velocity: Vec3::constant(initial.velocity_inertial),
-            },
-            work: Work::none(),
-            momenta: Momenta::of_none(scene.bodies.len()),
+        self.time = R::constant(initial.time);
+        self.attitude = from_non_negative_scalar(attitude);
+        self.omega_body = Vec3::constant(initial.omega_body);
+        let hinges = self.beta.iter_mut().zip(&mut self.tau).zip(&scene.bodies);
+        for ((beta, tau), body) in hinges {
+            let start = body.hinge.start;
+            (*beta, *tau) = (R::constant(start.angle), R::constant(start.rate));
         }
+        self.center = MassCenter {
+            position: Vec3::constant(initial.position_inertial),
+            velocity: Vec3::constant(initial.velocity_inertial),
+        };
+        self.work = Work::none();
+        self.momenta.forget();
+    }
+
+    /// Makes it `other`, of the same scene, without allocation.
+    pub fn copy_from(&mut self, other: &Self) {
+        let Self { time, attitude, omega_body, beta, tau, center, work, momenta, .. } = other;
+        (self.time, self.attitude, self.omega_body) = (*time, *attitude, *omega_body);
+        (self.center, self.work) = (*center, *work);
+        self.beta.clone_from(beta);
+        self.tau.clone_from(tau);
+        self.momenta.angular_inertial = momenta.angular_inertial;
+        self.momenta.hinges.clone_from(&momenta.hinges);
     }
 
     /// Energy and momenta in main-body axes; `dynamics` is in the mode of the state.
-    pub fn invariants(&self, dynamics: &mut Recursive<R>) -> Invariants<R> {
-        let [beta, tau] = self.of_free(dynamics);
-        let motion = Motion { omega_body: self.omega_body, beta: &beta, tau: &tau };
+    pub fn invariants(&mut self, dynamics: &mut Recursive<R>) -> Invariants<R> {
         let to_inertial = self.attitude.to_matrix();
-        dynamics.invariants(&motion, to_inertial.transpose() * self.center.velocity)
+        let center_velocity = to_inertial.transpose() * self.center.velocity;
+        dynamics.invariants(&self.motion(dynamics), center_velocity)
     }
 
     /// Length of a line and its rate.
@@ -121,10 +151,14 @@ impl<R: Number> State<R> {
         }
     }
 
-    /// β and τ of the free hinges.
-    pub fn of_free(&self, dynamics: &Recursive<R>) -> [Vec<R>; 2] {
-        let free = |all: &[R]| dynamics.free_hinges().iter().map(|&i| all[i]).collect();
-        [free(&self.beta), free(&self.tau)]
+    /// The motion of the free hinges in the mode of `dynamics`.
+    pub fn motion(&mut self, dynamics: &Recursive<R>) -> Motion<'_, R> {
+        let Self { omega_body, beta, tau, free: [free_beta, free_tau], .. } = self;
+        for (all, of_free) in [(beta, &mut *free_beta), (tau, &mut *free_tau)] {
+            of_free.clear();
+            of_free.extend(dynamics.free_hinges().iter().map(|&i| all[i]));
+        }
+        Motion { omega_body: *omega_body, beta: free_beta, tau: free_tau }
     }
 }
 

@@ -26,21 +26,27 @@ impl<R: Number> Variables<R> {
         Self { layout, origin: origin.clone(), gravity: gravity(scene), total_mass, tau }
     }
 
+    /// Goes on with another mode of the scene, which begins at `origin`, without allocation.
+    pub fn begin(&mut self, layout: VariableLayout, origin: &State<R>) {
+        self.layout = layout;
+        self.origin.copy_from(origin);
+        self.tau.resize(layout.free, R::zero());
+    }
+
     /// Writes those with which the mode of `dynamics` begins.
-    pub fn write(&self, dynamics: &mut Recursive<R>, y: &mut Vec<R>) {
+    pub fn write(&mut self, dynamics: &mut Recursive<R>, y: &mut Vec<R>) {
         let Self { layout, origin, .. } = self;
-        let [beta, tau] = origin.of_free(dynamics);
         y.clear();
         y.push(origin.attitude.scalar);
         y.extend(origin.attitude.vector.to_array());
+        let motion = origin.motion(dynamics);
         if layout.unknowns == Unknowns::Velocities {
-            y.extend(origin.omega_body.to_array());
+            y.extend(motion.omega_body.to_array());
         }
-        y.extend(&beta);
-        y.extend(&tau);
+        y.extend(motion.beta);
+        y.extend(motion.tau);
         y.resize(layout.len(), R::zero());
         if layout.has_momenta() {
-            let motion = Motion { omega_body: origin.omega_body, beta: &beta, tau: &tau };
             let hinges = &mut y[layout.hinge_motion()];
             dynamics.momenta(&motion, hinges);
             for (pi, &i) in hinges.iter_mut().zip(dynamics.free_hinges()) {

@@ -9,6 +9,7 @@ use crate::equations::state::State;
 use crate::events::angle_range::AngleRange;
 use crate::events::event::EventKind;
 use crate::events::instant;
+use crate::events::line_path::LinePath;
 use crate::events::side::{LockSide, Side};
 
 /// A quantity whose change of sign is an event.
@@ -121,13 +122,12 @@ const BEYOND_ROUNDING: f64 = 1e-12;
 pub(crate) struct Guards {
     pub list: Vec<Guard>,
     interpolation: Interpolation,
-    /// The free hinges that move a line's end, each with its angle over the step.
-    path: Vec<(usize, Bernstein)>,
+    path: LinePath,
 }
 
 impl Guards {
     pub fn new() -> Self {
-        Self { list: Vec::new(), interpolation: Interpolation::new(), path: Vec::new() }
+        Self { list: Vec::new(), interpolation: Interpolation::new(), path: LinePath::default() }
     }
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
@@ -137,7 +137,7 @@ impl Guards {
         &mut self,
         scene: &Scene,
         mode: &Mode,
-        dynamics: &mut Recursive<R>,
+        dynamics: &Recursive<R>,
         state: &State<R>,
         lock_sides: &[Option<LockSide>],
         crossed: &[(usize, usize)],
@@ -211,7 +211,7 @@ impl Guards {
     }
 
     /// Notes on which side of zero each guard that had been leaving it is at `state`.
-    pub fn settle<R: Number>(&mut self, dynamics: &mut Recursive<R>, state: &State<R>) {
+    pub fn settle<R: Number>(&mut self, dynamics: &Recursive<R>, state: &State<R>) {
         for guard in &mut self.list {
             if let Side::Leaving { .. } = guard.side {
                 let value = read(guard.kind, dynamics, state).value.to_f64();
@@ -228,7 +228,7 @@ impl Guards {
     pub fn missed<R: Number>(
         &self,
         scene: &Scene,
-        dynamics: &mut Recursive<R>,
+        dynamics: &Recursive<R>,
         state: &State<R>,
         located: Option<GuardKind>,
     ) -> bool {
@@ -270,32 +270,20 @@ impl Guards {
         (line, limit): (usize, f64),
         side: Side,
     ) -> Option<f64> {
-        let (dynamics, first) =
-            (&equations.entered.dynamics, equations.variables.layout.beta().start);
-        self.path.clear();
-        let (mut turned, mut displaced) = (0.0, 0.0);
-        for (j, reach) in dynamics.line_reach(line) {
-            let angle = stepper.polynomial(first + j);
-            let excursion = angle.excursion();
-            turned += excursion;
-            displaced += excursion * reach;
-            self.path.push((j, angle));
-        }
-        let angle = |hinge: usize, fraction: f64| {
-            let of_hinge = self.path.iter().find(|(j, _)| *j == hinge);
-            of_hinge.expect("the path moves the line").1.at(fraction)
-        };
-        let squared = |x: f64| dynamics.line_length_squared(line, |j| angle(j, x));
-        let clearance = (squared(0.0).sqrt() - limit).abs();
-        if matches!(side, Side::Known(_)) && clearance > displaced {
+        let (dynamics, path) = (&equations.entered.dynamics, &mut self.path);
+        let first = equations.variables.layout.beta().start;
+        path.follow(dynamics, line, |hinge| stepper.polynomial(first + hinge));
+        if let Side::Known(sign) = side
+            && path.keeps_side(dynamics, limit, sign)
+        {
             return None;
         }
-        let pieces = (turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
+        let pieces = (path.turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
         let mut side = side;
         (0..pieces).find_map(|piece| {
             let values = std::array::from_fn(|i| {
                 let fraction = (piece as f64 + Interpolation::point(i)) / pieces as f64;
-                squared(fraction) - limit * limit
+                path.squared_at(dynamics, fraction) - limit * limit
             });
             let polynomial = self.interpolation.through(&values);
             let has_left = polynomial.excursion() > BEYOND_ROUNDING * limit * limit;
@@ -312,7 +300,7 @@ impl Guards {
 /// Value and rate of a guard at `state`.
 pub(crate) fn read<R: Number>(
     kind: GuardKind,
-    dynamics: &mut Recursive<R>,
+    dynamics: &Recursive<R>,
     state: &State<R>,
 ) -> Reading<R> {
     let (coordinate, bound) = watched(kind, dynamics.elements());
@@ -321,20 +309,20 @@ pub(crate) fn read<R: Number>(
 }
 
 /// The bounds of the pieces that hold in `mode` of all elements that can come to one.
-fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> Vec<Bound> {
-    let can_move = |coordinate| match coordinate {
+fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> impl Iterator<Item = Bound> {
+    let can_move = move |coordinate| match coordinate {
         Coordinate::Length(line) => dynamics.elements().lines()[line].link.is_some(),
         Coordinate::Angle(hinge) => mode.is_free(hinge),
     };
-    let moving = dynamics.elements().switched().iter().filter(|e| can_move(e.coordinate));
-    let of_element = |element: &Switched| {
+    let moving = dynamics.elements().switched().iter().filter(move |e| can_move(e.coordinate));
+    let of_element = move |element: &Switched| {
         let (id, piece) = (element.id, mode.pieces[element.id.index]);
         let below = piece.checked_sub(1).map(|number| (number, false));
         let above = (piece < element.bounds.len()).then_some((piece, true));
         let ends = below.into_iter().chain(above);
         ends.map(move |(number, rises)| Bound { element: id, number, rises })
     };
-    moving.flat_map(of_element).collect()
+    moving.flat_map(of_element)
 }
 
 /// What a guard watches, and the value that it waits for.

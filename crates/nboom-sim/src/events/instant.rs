@@ -1,4 +1,4 @@
-use nboom_dynamics::{Recursive, VelocityJump};
+use nboom_dynamics::{LockUp, Recursive, VelocityJump};
 use nboom_elements::{thrust_acts, thrust_change};
 use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
@@ -39,36 +39,50 @@ pub(crate) struct Arrivals {
     bounds: Vec<Bound>,
     /// What is scheduled until this long after belongs to the instant, too.
     duration: f64,
+    /// The guards on their way to zero, of which those that are not in the instant are left out.
+    coming: Vec<Coming>,
+}
+
+/// A guard on its way to zero.
+#[derive(Clone, Copy, Debug)]
+struct Coming {
+    /// How long before or after.
+    away: f64,
+    pace: f64,
+    /// Which one of the guards.
+    number: usize,
 }
 
 impl Arrivals {
-    /// The guards at zero: the one that ended the step, and those that reach zero within the
+    /// Notes the guards at zero: the one that ended the step, and those that reach zero within the
     /// same instant.
     pub fn find<R: Number>(
+        &mut self,
         scene: &Scene,
         guards: &Guards,
-        dynamics: &mut Recursive<R>,
+        dynamics: &Recursive<R>,
         state: &State<R>,
         located: Option<GuardKind>,
-    ) -> Self {
-        Self::within_an_instant(scene, guards, dynamics, state, |kind| located == Some(kind))
+    ) {
+        self.find_within_an_instant(scene, guards, dynamics, state, |kind| located == Some(kind));
     }
 
-    /// What the initial time itself brings: releases by an angle that holds already, and what reaches
-    /// zero within the same instant.
+    /// Notes what the initial time itself brings: releases by an angle that holds already, and what
+    /// reaches zero within the same instant.
     pub fn at_start<R: Number>(
+        &mut self,
         scene: &Scene,
         guards: &Guards,
-        dynamics: &mut Recursive<R>,
+        dynamics: &Recursive<R>,
         state: &State<R>,
-    ) -> Self {
+    ) {
         let holds = |i: usize| match scene.bodies[i].hinge.release {
             Release::Angle { hinge, angle } => {
                 (scene.bodies[hinge].hinge.start.angle - angle).abs() <= SAME_ANGLE
             }
             _ => false,
         };
-        let mut arrivals = Self::within_an_instant(
+        self.find_within_an_instant(
             scene,
             guards,
             dynamics,
@@ -76,48 +90,59 @@ impl Arrivals {
             |kind| matches!(kind, GuardKind::Trigger { hinge, .. } if holds(hinge)),
         );
         // Held hinges have no guards.
-        arrivals.triggered = (0..scene.bodies.len())
-            .filter(|&i| holds(i) || arrivals.triggered.contains(&i))
-            .collect();
-        arrivals
+        for i in (0..scene.bodies.len()).filter(|&i| holds(i)) {
+            if !self.triggered.contains(&i) {
+                self.triggered.push(i);
+            }
+        }
     }
 
-    /// The guards that are `here`, and those that arrive in the same instant.
-    fn within_an_instant<R: Number>(
+    /// Notes the guards that are `here`, and those that arrive in the same instant.
+    fn find_within_an_instant<R: Number>(
+        &mut self,
         scene: &Scene,
         guards: &Guards,
-        dynamics: &mut Recursive<R>,
+        dynamics: &Recursive<R>,
         state: &State<R>,
         here: impl Fn(GuardKind) -> bool,
-    ) -> Self {
-        let time = state.time.to_f64();
-        let mut coming: Vec<(f64, f64, GuardKind)> = Vec::new();
-        for guard in &guards.list {
+    ) {
+        let Self { locks, triggered, bounds, coming, .. } = self;
+        coming.clear();
+        for (number, guard) in guards.list.iter().enumerate() {
             let reading = read(guard.kind, dynamics, state);
             let away = if here(guard.kind) { Some(0.0) } else { guard.time_away(reading) };
             let pace = guard.kind.pace(dynamics.elements(), reading);
-            coming.extend(away.map(|away| (away, pace, guard.kind)));
+            coming.extend(away.map(|away| Coming { away, pace, number }));
         }
-        coming.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (mut arrived, mut fastest) = (Vec::new(), 0.0_f64);
-        for (away, pace, kind) in coming {
+        let time = state.time.to_f64();
+        coming.sort_unstable_by(|a, b| a.away.total_cmp(&b.away).then(a.number.cmp(&b.number)));
+        let (mut arrived, mut fastest) = (0, 0.0_f64);
+        for &Coming { away, pace, .. } in &*coming {
             let faster = fastest.max(pace);
             if away > duration(scene, time, faster) {
                 break;
             }
             fastest = faster;
-            arrived.push(kind);
+            arrived += 1;
         }
-        let mut arrivals = Self { duration: duration(scene, time, fastest), ..Self::default() };
-        for kind in guards.list.iter().map(|guard| guard.kind).filter(|kind| arrived.contains(kind))
-        {
-            match kind {
-                GuardKind::Lock { hinge, .. } => arrivals.locks.push(hinge),
-                GuardKind::Trigger { hinge, .. } => arrivals.triggered.push(hinge),
-                GuardKind::Bound(bound) => arrivals.bounds.push(bound),
+        self.duration = duration(scene, time, fastest);
+        coming.truncate(arrived);
+        coming.sort_unstable_by_key(|of| of.number);
+        locks.clear();
+        triggered.clear();
+        bounds.clear();
+        for of in &*coming {
+            match guards.list[of.number].kind {
+                GuardKind::Lock { hinge, .. } => locks.push(hinge),
+                GuardKind::Trigger { hinge, .. } => triggered.push(hinge),
+                GuardKind::Bound(bound) => bounds.push(bound),
             }
         }
-        arrivals
+    }
+
+    /// Whether nothing has arrived.
+    pub fn is_empty(&self) -> bool {
+        self.locks.is_empty() && self.triggered.is_empty() && self.bounds.is_empty()
     }
 
     /// Whether a hinge locks.
@@ -128,119 +153,168 @@ impl Arrivals {
 
 /// The result of an instant: events in the order in which they are reported, and the elements that
 /// have just passed a bound of their law, with the bound.
-pub(crate) struct Outcome {
+#[derive(Clone, Debug)]
+pub(crate) struct Outcome<R> {
     pub events: Vec<Event>,
     pub crossed: Vec<(usize, usize)>,
-    /// What each hinge that locks changes.
-    pub jumps: Vec<Jump>,
     /// The hinges that become free.
     pub released: Vec<usize>,
+    /// The hinges that were free before.
+    free: Vec<usize>,
+    /// The positions among these of the hinges that lock.
+    locking: Vec<usize>,
+    lock_up: LockUp<R>,
 }
 
-/// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force laws
-/// and thrust. `dynamics` is in the mode before and is left there.
-pub(crate) fn pass<R: Number>(
-    scene: &Scene,
-    dynamics: &mut Recursive<R>,
-    arrivals: &Arrivals,
-    state: &mut State<R>,
-    mode: &mut Mode,
-) -> Result<Outcome, SimError> {
-    let before = Totals::of(state, &state.invariants(dynamics));
-    let mut events = Vec::new();
-    let locked = lock(scene, dynamics, &arrivals.locks, state, mode)?;
-    let mut now = || Totals::of(state, &state.invariants(dynamics));
-    let after = if locked.is_empty() { before } else { now() };
-    let time = state.time.to_f64();
-    let event =
-        |kind, hinge, impulse, before: Totals| Event { time, kind, hinge, impulse, before, after };
-    for (jump, impulse) in &locked {
-        events.push(event(EventKind::LockUp, Some(jump.hinge), Some(*impulse), before));
-    }
-    let released = released(scene, mode, arrivals, time);
-    for &i in &released {
-        mode.hinges[i] = HingeState::Free;
-        events.push(event(EventKind::Release, Some(i), None, after));
-    }
-    let mut crossed = Vec::new();
-    for &bound in &arrivals.bounds {
-        let index = bound.element.index;
-        mode.pieces[index] = bound.next_piece();
-        crossed.push((index, bound.number));
-        let kind = GuardKind::Bound(bound);
-        events.push(event(kind.event(), Some(kind.hinge()), None, after));
-    }
-    if let Some(thrust) = thrust_switch(scene, mode, time + arrivals.duration) {
-        mode.thrust = thrust;
-        let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
-        events.push(event(kind, None, None, after));
-    }
-    let jumps = locked.into_iter().map(|(jump, _)| jump).collect();
-    Ok(Outcome { events, crossed, jumps, released })
-}
-
-/// Locks hinges with the exact change of all velocities; returns what each hinge contributes, and
-/// its impulse.
-fn lock<R: Number>(
-    scene: &Scene,
-    dynamics: &mut Recursive<R>,
-    locks: &[usize],
-    state: &mut State<R>,
-    mode: &mut Mode,
-) -> Result<Vec<(Jump, f64)>, SimError> {
-    let Some(&first) = locks.first() else { return Ok(Vec::new()) };
-    let free = dynamics.free_hinges().to_vec();
-    for &i in locks {
-        if let Some(angle) = scene.bodies[i].hinge.lock_angle {
-            state.beta[i] = R::constant(angle);
+impl<R: Number> Outcome<R> {
+    /// That of an instant in which nothing happens.
+    pub fn nothing() -> Self {
+        Self {
+            events: Vec::new(),
+            crossed: Vec::new(),
+            released: Vec::new(),
+            free: Vec::new(),
+            locking: Vec::new(),
+            lock_up: LockUp::of_none(),
         }
     }
-    let [beta, tau] = state.of_free(dynamics);
-    let position = |i: &usize| free.iter().position(|j| j == i);
-    let positions: Vec<usize> = locks.iter().filter_map(position).collect();
-    let (time, hinge) = (state.time.to_f64(), Some(scene.label(first)));
-    let lock_up =
-        dynamics.lock_up(&beta, &tau, &positions).map_err(|_| SimError::LockUp { time, hinge })?;
-    state.omega_body += lock_up.delta_omega_body;
-    for (&i, &change) in free.iter().zip(&lock_up.delta_tau) {
-        state.tau[i] += change;
-    }
-    state.work.lock_ups -= lock_up.delta_energy;
-    for &i in locks {
-        state.tau[i] = R::zero();
-        mode.hinges[i] = HingeState::Locked;
-    }
-    let jump = |(&hinge, jump): (&usize, &VelocityJump<R>)| {
-        let mut tau = vec![0.0; state.tau.len()];
-        for (&i, change) in free.iter().zip(&jump.tau) {
-            tau[i] = change.to_f64();
+
+    /// Makes it that of an instant in which nothing happens.
+    pub fn reset(&mut self) {
+        self.events.clear();
+        self.crossed.clear();
+        for hinges in [&mut self.released, &mut self.free, &mut self.locking] {
+            hinges.clear();
         }
-        let (velocity_body, omega_body) = (jump.velocity_body.to_f64(), jump.omega_body.to_f64());
-        Jump { hinge, velocity_body, omega_body, tau }
-    };
-    let jumps = locks.iter().zip(&lock_up.jumps).map(jump);
-    let impulses = lock_up.impulses.iter().map(|impulse| impulse.to_f64());
-    Ok(jumps.zip(impulses).collect())
+        self.lock_up.reset(0, 0);
+    }
+
+    /// What each hinge that locks changes, for the hinges that were [free](Self::free_before).
+    pub fn velocity_jumps(&self) -> impl Iterator<Item = VelocityJump<'_, R>> {
+        self.lock_up.jumps()
+    }
+
+    /// The hinges that were free before a lock-up.
+    pub fn free_before(&self) -> &[usize] {
+        &self.free
+    }
+
+    /// What each hinge that locks changes, for all hinges.
+    pub fn jumps(&self, hinges: usize) -> impl Iterator<Item = Jump> {
+        self.locking.iter().zip(self.lock_up.jumps()).map(move |(&position, jump)| {
+            let mut tau = vec![0.0; hinges];
+            for (&i, change) in self.free.iter().zip(jump.tau) {
+                tau[i] = change.to_f64();
+            }
+            let (velocity_body, omega_body) =
+                (jump.velocity_body.to_f64(), jump.omega_body.to_f64());
+            Jump { hinge: self.free[position], velocity_body, omega_body, tau }
+        })
+    }
+
+    /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force laws
+    /// and thrust. `dynamics` is in the mode before and is left there.
+    pub fn pass(
+        &mut self,
+        scene: &Scene,
+        dynamics: &mut Recursive<R>,
+        arrivals: &Arrivals,
+        state: &mut State<R>,
+        mode: &mut Mode,
+    ) -> Result<(), SimError> {
+        self.reset();
+        let time = state.time.to_f64();
+        let due = |i: &usize| is_due(scene, mode, arrivals, time, *i);
+        self.released.extend((0..scene.bodies.len()).filter(due));
+        let thrust = thrust_switch(scene, mode, time + arrivals.duration);
+        if arrivals.is_empty() && self.released.is_empty() && thrust.is_none() {
+            return Ok(());
+        }
+        let before = totals(state, dynamics);
+        self.lock(scene, dynamics, &arrivals.locks, state, mode)?;
+        let after = if self.locking.is_empty() { before } else { totals(state, dynamics) };
+        let Self { events, crossed, released, free, locking, lock_up } = self;
+        let event = |kind, hinge, impulse: Option<R>, before: Totals| {
+            let impulse = impulse.map(Number::to_f64);
+            Event { time, kind, hinge, impulse, before, after }
+        };
+        for (&position, &impulse) in locking.iter().zip(&lock_up.impulses) {
+            events.push(event(EventKind::LockUp, Some(free[position]), Some(impulse), before));
+        }
+        for &i in &*released {
+            mode.hinges[i] = HingeState::Free;
+            events.push(event(EventKind::Release, Some(i), None, after));
+        }
+        for &bound in &arrivals.bounds {
+            let index = bound.element.index;
+            mode.pieces[index] = bound.next_piece();
+            crossed.push((index, bound.number));
+            let kind = GuardKind::Bound(bound);
+            events.push(event(kind.event(), Some(kind.hinge()), None, after));
+        }
+        if let Some(thrust) = thrust {
+            mode.thrust = thrust;
+            let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
+            events.push(event(kind, None, None, after));
+        }
+        Ok(())
+    }
+
+    /// Locks hinges with the exact change of all velocities.
+    fn lock(
+        &mut self,
+        scene: &Scene,
+        dynamics: &mut Recursive<R>,
+        locks: &[usize],
+        state: &mut State<R>,
+        mode: &mut Mode,
+    ) -> Result<(), SimError> {
+        let Self { free, locking, lock_up, .. } = self;
+        let Some(&first) = locks.first() else { return Ok(()) };
+        free.extend(dynamics.free_hinges());
+        locking.extend(locks.iter().filter_map(|i| free.iter().position(|j| j == i)));
+        for &i in locks {
+            if let Some(angle) = scene.bodies[i].hinge.lock_angle {
+                state.beta[i] = R::constant(angle);
+            }
+        }
+        let (time, hinge) = (state.time.to_f64(), Some(scene.label(first)));
+        let motion = state.motion(dynamics);
+        let locked = dynamics.lock_up(motion.beta, motion.tau, locking, lock_up);
+        locked.map_err(|_| SimError::LockUp { time, hinge })?;
+        state.omega_body += lock_up.delta_omega_body;
+        for (&i, &change) in free.iter().zip(&lock_up.delta_tau) {
+            state.tau[i] += change;
+        }
+        state.work.lock_ups -= lock_up.delta_energy;
+        for &i in locks {
+            state.tau[i] = R::zero();
+            mode.hinges[i] = HingeState::Locked;
+        }
+        Ok(())
+    }
 }
 
-/// The unreleased hinges whose release is due.
-fn released(scene: &Scene, mode: &Mode, arrivals: &Arrivals, time: f64) -> Vec<usize> {
+fn totals<R: Number>(state: &mut State<R>, dynamics: &mut Recursive<R>) -> Totals {
+    let found = state.invariants(dynamics);
+    Totals::of(state, &found)
+}
+
+/// Whether the hinge `i` is unreleased and its release is due.
+fn is_due(scene: &Scene, mode: &Mode, arrivals: &Arrivals, time: f64, i: usize) -> bool {
     let locked_at = |hinge: usize, angle: f64| {
         let lock_angle = scene.bodies[hinge].hinge.lock_angle;
         arrivals.locks.contains(&hinge)
             && lock_angle.is_some_and(|at| (at - angle).abs() <= SAME_ANGLE)
     };
-    let due = |i: &usize| {
-        mode.hinges[*i] == HingeState::Unreleased
-            && match scene.bodies[*i].hinge.release {
-                Release::Time(at) => at <= time + arrivals.duration,
-                Release::Angle { hinge, angle } => {
-                    arrivals.triggered.contains(i) || locked_at(hinge, angle)
-                }
-                Release::Never => false,
+    mode.hinges[i] == HingeState::Unreleased
+        && match scene.bodies[i].hinge.release {
+            Release::Time(at) => at <= time + arrivals.duration,
+            Release::Angle { hinge, angle } => {
+                arrivals.triggered.contains(&i) || locked_at(hinge, angle)
             }
-    };
-    (0..scene.bodies.len()).filter(due).collect()
+            Release::Never => false,
+        }
 }
 
 /// Whether the thrust is on from the end of an instant on, if that is a change.

@@ -11,79 +11,94 @@ use crate::events::side::LockSide;
 
 /// Where a motion has come to: its state and mode, and what may end the mode.
 ///
-/// `dynamics`, which its methods borrow, are those of the scene in the same mode.
-pub(crate) struct Situation<'a, R> {
-    pub scene: &'a Scene,
+/// `scene` and `dynamics`, which its methods borrow, are always those of the motion; `dynamics` are in
+/// the same mode.
+pub(crate) struct Situation<R> {
     pub state: State<R>,
     pub mode: Mode,
     pub guards: Guards,
     /// The side of its lock angle that each hinge was last known to be on; none of a hinge without
     /// a lock angle, or on it since it became free.
     lock_sides: Vec<Option<LockSide>>,
+    /// What has arrived in the present instant.
+    pub arrivals: Arrivals,
+    /// What the last instant has changed.
+    pub outcome: Outcome<R>,
 }
 
-impl<'a, R: Number> Situation<'a, R> {
-    /// At the beginning of `scene`, before the first instant; nothing is watched yet. `dynamics` is in
-    /// the mode in which the scene starts.
-    pub fn at_start(scene: &'a Scene, dynamics: &mut Recursive<R>) -> Self {
-        let (mut state, mut mode) = (State::initial(scene), Mode::at_start(scene));
-        put_mass_center(dynamics, &mut state);
+impl<R: Number> Situation<R> {
+    /// With room for motions of `scene`; [`begin`](Self::begin) puts it at their beginning.
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            state: State::initial(scene),
+            mode: Mode::at_start(scene),
+            guards: Guards::new(),
+            lock_sides: vec![None; scene.bodies.len()],
+            arrivals: Arrivals::default(),
+            outcome: Outcome::nothing(),
+        }
+    }
+
+    /// Goes to the beginning of `scene`, before the first instant; nothing is watched yet. `dynamics` is
+    /// in the mode `start`, in which the scene starts.
+    pub fn begin(&mut self, scene: &Scene, start: &Mode, dynamics: &mut Recursive<R>) {
+        let Self { state, mode, lock_sides, outcome, .. } = self;
+        outcome.reset();
+        state.begin(scene);
+        mode.hinges.clone_from(&start.hinges);
+        mode.pieces.clone_from(&start.pieces);
+        put_mass_center(dynamics, state);
         for (piece, element) in mode.pieces.iter_mut().zip(dynamics.elements().switched()) {
             let [value, _] = state.coordinate(dynamics, element.coordinate);
             *piece = element.piece_at(value);
         }
         mode.thrust = scene.thrust.is_some_and(|f| thrust_acts(&f, scene.initial.time));
-        let lock_side = |i: usize| LockSide::of(scene, i, state.beta[i]);
-        let lock_sides = (0..scene.bodies.len()).map(lock_side).collect();
-        Self { scene, state, mode, guards: Guards::new(), lock_sides }
+        for (i, side) in lock_sides.iter_mut().enumerate() {
+            *side = LockSide::of(scene, i, state.beta[i]);
+        }
     }
 
-    /// Watches all that may end the mode; `crossed` has the elements that are at a bound of their
-    /// law just now, and which.
-    pub fn watch(&mut self, dynamics: &mut Recursive<R>, crossed: &[(usize, usize)]) {
-        let Self { scene, state, mode, guards, lock_sides } = self;
-        guards.set(scene, mode, dynamics, state, lock_sides, crossed);
+    /// Watches all that may end the mode.
+    pub fn watch(&mut self, scene: &Scene, dynamics: &Recursive<R>) {
+        let Self { state, mode, guards, lock_sides, outcome, .. } = self;
+        guards.set(scene, mode, dynamics, state, lock_sides, &outcome.crossed);
     }
 
-    /// What the initial time itself brings.
-    pub fn arrivals_at_start(&self, dynamics: &mut Recursive<R>) -> Arrivals {
-        Arrivals::at_start(self.scene, &self.guards, dynamics, &self.state)
+    /// Notes what the initial time itself brings.
+    pub fn arrive_at_start(&mut self, scene: &Scene, dynamics: &Recursive<R>) {
+        self.arrivals.at_start(scene, &self.guards, dynamics, &self.state);
     }
 
-    /// What arrives in the present instant, which `located` ended the step for.
-    pub fn arrivals(&self, dynamics: &mut Recursive<R>, located: Option<GuardKind>) -> Arrivals {
-        Arrivals::find(self.scene, &self.guards, dynamics, &self.state, located)
+    /// Notes what arrives in the present instant, which `located` ended the step for.
+    pub fn arrive(&mut self, scene: &Scene, dynamics: &Recursive<R>, located: Option<GuardKind>) {
+        self.arrivals.find(scene, &self.guards, dynamics, &self.state, located);
     }
 
-    /// Goes through the instant of `arrivals`; `dynamics` stays in the mode before.
+    /// Goes through the instant of what has arrived; `dynamics` stays in the mode before.
     ///
     /// # Errors
     /// When hinges cannot lock.
-    pub fn pass(
-        &mut self,
-        dynamics: &mut Recursive<R>,
-        arrivals: &Arrivals,
-    ) -> Result<Outcome, SimError> {
+    pub fn pass(&mut self, scene: &Scene, dynamics: &mut Recursive<R>) -> Result<(), SimError> {
         for (hinge, side) in self.lock_sides.iter_mut().enumerate() {
             *side = self.guards.lock_side(hinge).or(*side);
         }
-        let Self { scene, state, mode, .. } = self;
-        let outcome = instant::pass(scene, dynamics, arrivals, state, mode)?;
+        let Self { state, mode, arrivals, outcome, .. } = self;
+        outcome.pass(scene, dynamics, arrivals, state, mode)?;
         for &hinge in &outcome.released {
-            self.lock_sides[hinge] = LockSide::of(scene, hinge, self.state.beta[hinge]);
+            self.lock_sides[hinge] = LockSide::of(scene, hinge, state.beta[hinge]);
         }
-        Ok(outcome)
+        Ok(())
     }
 
     /// The next time at which the scene itself changes the mode, or its end.
-    pub fn limit(&self) -> f64 {
-        let scheduled = instant::next_scheduled(self.scene, &self.mode, self.state.time.to_f64());
-        scheduled.min(self.scene.end_time)
+    pub fn limit(&self, scene: &Scene) -> f64 {
+        let scheduled = instant::next_scheduled(scene, &self.mode, self.state.time.to_f64());
+        scheduled.min(scene.end_time)
     }
 
     /// Whether the end time is reached.
-    pub fn is_at_end(&self) -> bool {
-        self.state.time.to_f64() >= self.scene.end_time
+    pub fn is_at_end(&self, scene: &Scene) -> bool {
+        self.state.time.to_f64() >= scene.end_time
     }
 }
 

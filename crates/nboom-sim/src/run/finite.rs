@@ -5,7 +5,7 @@ use nboom_scalar::Vec3;
 
 use crate::equations::totals::Totals;
 use crate::error::SimError;
-use crate::events::event::{Event, Jump};
+use crate::events::instant::Outcome;
 use crate::run::record::{Detail, Snapshot};
 
 /// Refuses a snapshot that has a number beyond all numbers, by name and hinge.
@@ -39,18 +39,19 @@ pub(crate) fn check_snapshot(scene: &Scene, snapshot: &Snapshot) -> Result<(), S
 pub(crate) fn check_instant(
     scene: &Scene,
     time: f64,
-    events: &[Event],
-    jumps: &[Jump],
+    outcome: &Outcome<f64>,
 ) -> Result<(), SimError> {
     let check = Check { scene, time };
-    for event in events {
+    for event in &outcome.events {
         let impulse = event.impulse.unwrap_or(0.0);
         check.of(event.hinge, "impulse", impulse.is_finite())?;
         check.totals(&event.before)?;
         check.totals(&event.after)?;
     }
-    for jump in jumps {
-        check.hinges(&[("jump of the rate", &jump.tau)])?;
+    for jump in outcome.velocity_jumps() {
+        let position = jump.tau.iter().position(|change| !change.is_finite());
+        let hinge = position.map(|j| outcome.free_before()[j]);
+        check.of(hinge, "jump of the rate", hinge.is_none())?;
         check.vectors(&[
             ("jump of the velocity", jump.velocity_body),
             ("jump of the angular rate", jump.omega_body),

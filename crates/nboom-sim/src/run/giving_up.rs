@@ -5,7 +5,6 @@ use nboom_ode::StepError;
 
 use super::Run;
 use crate::error::SimError;
-use crate::events::event::Event;
 use crate::events::situation::Situation;
 
 /// A torque whose square is no number any more.
@@ -35,7 +34,7 @@ impl Run<'_> {
     pub(super) fn check_progress(&mut self) -> Result<(), SimError> {
         let counts = self.stepper.window().counts;
         let (time, steps) = (self.stepper.window().time, counts.accepted + counts.rejected);
-        let span = self.situation.scene.end_time - self.situation.scene.initial.time;
+        let span = self.equations.scene.end_time - self.equations.scene.initial.time;
         let (since, steps_then) = self.pace;
         let crawls = steps - steps_then >= PACE_STEPS && time - since < PACE_SPAN * span;
         let used_up = steps >= self.options.max_steps;
@@ -69,7 +68,7 @@ impl Run<'_> {
         let error_of = |position: usize| self.stepper.error_of(start + position);
         let free = self.equations.entered.dynamics.free_hinges();
         let largest = (0..free.len()).max_by(|&a, &b| error_of(a).total_cmp(&error_of(b)));
-        largest.map(|position| self.situation.scene.label(free[position]))
+        largest.map(|position| self.equations.scene.label(free[position]))
     }
 
     /// The hinge that keeps the stepper from going on: one whose torque is beyond bounds, else
@@ -91,29 +90,29 @@ impl Run<'_> {
             StepError::NotFinite { .. } | StepError::NoSeries { .. } => f64::INFINITY,
         };
         let counts = largest.filter(|&position| error_of(position) >= COUNTS * of_all);
-        without_bound.or(counts).map(|position| self.situation.scene.label(free[position]))
+        without_bound.or(counts).map(|position| self.equations.scene.label(free[position]))
     }
 
     /// Refuses a mode in which a link has no inertia about its hinge.
     pub(super) fn check_regular(&mut self) -> Result<(), SimError> {
-        let [beta, _] = self.situation.state.of_free(&self.equations.entered.dynamics);
-        match self.equations.entered.dynamics.singular_hinge(&beta) {
+        let dynamics = &mut self.equations.entered.dynamics;
+        match dynamics.singular_hinge(self.situation.state.motion(dynamics).beta) {
             None => Ok(()),
             Some(hinge) => Err(SimError::SingularMassMatrix {
                 time: self.situation.state.time,
-                hinge: hinge.map(|i| self.situation.scene.label(i)),
+                hinge: hinge.map(|i| self.equations.scene.label(i)),
             }),
         }
     }
 
     /// Refuses a mode in which a force acts along a line that moves and has no length.
     pub(super) fn check_lines(&mut self) -> Result<(), SimError> {
-        let Self { situation: Situation { scene, state, .. }, equations, .. } = self;
+        let Self { situation: Situation { state, .. }, equations, .. } = self;
         for line in 0..equations.entered.dynamics.elements().lines().len() {
             let [length, _] = state.line_length(&equations.entered.dynamics, line);
             let line = &equations.entered.dynamics.elements().lines()[line];
             if line.acts && line.link.is_some() && length <= NO_LENGTH * line.size {
-                let (time, hinge) = (state.time, scene.label(line.hinge));
+                let (time, hinge) = (state.time, equations.scene.label(line.hinge));
                 return Err(SimError::NoDirection { time, hinge, element: line.kind.names().name });
             }
         }
@@ -122,21 +121,22 @@ impl Run<'_> {
 
     /// Gives up a run whose events follow one another without the time getting on, or are too
     /// many in all.
-    pub(super) fn check_chatter(&mut self, events: &[Event]) -> Result<(), SimError> {
-        let (start, time) = (self.situation.scene.initial.time, self.situation.state.time);
+    pub(super) fn check_chatter(&mut self) -> Result<(), SimError> {
+        let events = &self.situation.outcome.events;
+        let (start, time) = (self.equations.scene.initial.time, self.situation.state.time);
         let (since, count) = self.burst;
-        let goes_on = time - since > CHATTER_SPAN * (self.situation.scene.end_time - start);
+        let goes_on = time - since > CHATTER_SPAN * (self.equations.scene.end_time - start);
         self.burst =
             if goes_on { (time, events.len()) } else { (since, count + events.len().max(1)) };
         let (since, events_since) = self.burst;
-        let too_many = if events_since >= CHATTER_EVENTS + self.situation.scene.bodies.len() {
+        let too_many = if events_since >= CHATTER_EVENTS + self.equations.scene.bodies.len() {
             Some((since, events_since))
         } else {
-            (self.events >= self.options.max_events).then_some((start, self.events))
+            (self.summary.events >= self.options.max_events).then_some((start, self.summary.events))
         };
         let Some((since, count)) = too_many else { return Ok(()) };
         let hinge =
-            events.last().and_then(|event| event.hinge).map(|i| self.situation.scene.label(i));
+            events.last().and_then(|event| event.hinge).map(|i| self.equations.scene.label(i));
         Err(SimError::Chatter { time, hinge, events: count, within: time - since })
     }
 }

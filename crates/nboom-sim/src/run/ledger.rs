@@ -1,10 +1,8 @@
 use nboom_dynamics::Invariants;
 use nboom_elements::gravity_potential;
-use nboom_model::Scene;
 use nboom_scalar::Vec3;
 
 use crate::equations::Equations;
-use crate::equations::sizes::reach;
 use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
@@ -28,17 +26,18 @@ pub(crate) struct Ledger {
 }
 
 impl Ledger {
-    pub fn new(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
-        let start = Totals::of(state, &state.invariants(&mut equations.entered.dynamics));
-        let Potential { sum: potential, .. } = potential(scene, equations, state);
+    /// At `state`, whose invariants are given.
+    pub fn new(equations: &Equations, state: &State, invariants: &Invariants<f64>) -> Self {
+        let start = Totals::of(state, invariants);
+        let Potential { sum: potential, .. } = potential(equations, state);
         Self {
             start_time: state.time,
             start,
             start_energy: start.kinetic_energy + potential,
             residuals: Conservation::default(),
             scales: Conservation::default(),
-            mass: scene.total_mass(),
-            reach: reach(scene),
+            mass: equations.scene.total_mass(),
+            reach: equations.reach,
         }
     }
 
@@ -63,21 +62,20 @@ impl Ledger {
     /// When an energy or a momentum is not finite, so that nothing can be said about it.
     pub fn check(
         &mut self,
-        scene: &Scene,
-        equations: &mut Equations,
+        equations: &Equations,
         state: &State,
         invariants: &Invariants<f64>,
     ) -> Result<(), SimError> {
         let now = Totals::of(state, invariants);
         let work = &state.work;
-        let weight = equations.gravity() * scene.total_mass();
+        let weight = equations.gravity() * self.mass;
         let impulse = weight * (state.time - self.start_time) + work.thrust_impulse;
         let linear = now.linear_momentum_inertial - self.start.linear_momentum_inertial - impulse;
         let angular = now.angular_momentum_inertial
             - self.start.angular_momentum_inertial
             - work.thrust_angular_impulse;
-        let potential = potential(scene, equations, state);
-        let check = Check { scene, time: state.time };
+        let potential = potential(equations, state);
+        let check = Check { scene: &equations.scene, time: state.time };
         check.of(potential.beyond, "potential energy", potential.beyond.is_none())?;
         let energy = now.kinetic_energy + potential.sum - work.dashpots - work.thrust
             + work.lock_ups
@@ -117,14 +115,14 @@ impl Potential {
     }
 }
 
-fn potential(scene: &Scene, equations: &mut Equations, state: &State) -> Potential {
+fn potential(equations: &Equations, state: &State) -> Potential {
     let mut found = Potential { sum: 0.0, scale: 0.0, beyond: None };
     let laws = equations.entered.dynamics.elements().torques();
     for (i, (law, &beta)) in laws.iter().zip(&state.beta).enumerate() {
         found.add(law.potential(beta), Some(i));
     }
     if equations.gravity() != Vec3::zero() {
-        found.add(gravity_potential(scene, state.center.position), None);
+        found.add(gravity_potential(&equations.scene, state.center.position), None);
     }
     for line in 0..equations.entered.dynamics.elements().lines().len() {
         let [length, _] = state.line_length(&equations.entered.dynamics, line);

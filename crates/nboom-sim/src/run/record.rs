@@ -234,6 +234,33 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// That of a run before its beginning.
+    pub(crate) fn empty() -> Self {
+        Self {
+            end_time: 0.0,
+            steps_accepted: 0,
+            steps_rejected: 0,
+            evaluations: 0,
+            events: 0,
+            conservation: Conservation::default(),
+            jacobians: 0,
+            factorizations: 0,
+            attitude_drift: 0.0,
+            integrator: "",
+            integrations: Vec::new(),
+            selections: Vec::new(),
+            verdict: Verdict { hinges: Vec::new(), largest_impulse: None },
+        }
+    }
+
+    /// Begins anew with hinges that are in these states and at these angles.
+    pub(crate) fn begin(&mut self, hinges: &[HingeState], beta: &[f64]) {
+        self.events = 0;
+        self.integrations.clear();
+        self.selections.clear();
+        self.verdict.begin(hinges, beta);
+    }
+
     /// What stands for all code that computed accelerations.
     pub fn code(&self) -> CodeOfRun {
         CodeOfRun::of(&self.selections)

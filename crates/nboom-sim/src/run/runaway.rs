@@ -1,11 +1,10 @@
 //! When a motion runs away: its energy grows beyond all that the scene has, and its end is out of reach.
 
+use nboom_dynamics::Invariants;
 use nboom_elements::stored;
 use nboom_model::Scene;
 
 use super::Run;
-use crate::equations::Equations;
-use crate::equations::state::State;
 use crate::error::{Feeds, SimError};
 use crate::events::situation::Situation;
 
@@ -29,15 +28,15 @@ pub(super) struct Resources {
 }
 
 impl Resources {
-    pub fn of(scene: &Scene, equations: &mut Equations, state: &State) -> Self {
-        let energy = stored(scene) + turning(scene, equations, state);
+    /// At the initial time, with these energies and momenta.
+    pub fn of(scene: &Scene, invariants: &Invariants<f64>) -> Self {
+        let energy = stored(scene) + turning(scene, invariants);
         Self { energy, looked_at: 0 }
     }
 }
 
 /// Kinetic energy about the mass centre.
-fn turning(scene: &Scene, equations: &mut Equations, state: &State) -> f64 {
-    let found = state.invariants(&mut equations.entered.dynamics);
+fn turning(scene: &Scene, found: &Invariants<f64>) -> f64 {
     found.kinetic_energy - 0.5 * found.linear_momentum.norm_squared() / scene.total_mass()
 }
 
@@ -50,7 +49,7 @@ impl Run<'_> {
             return Ok(());
         }
         self.resources.looked_at = steps;
-        let is_far = self.situation.scene.end_time - window.time > TOO_FAR * window.next_step;
+        let is_far = self.equations.scene.end_time - window.time > TOO_FAR * window.next_step;
         match self.runaway().filter(|_| is_far) {
             Some(runaway) => Err(runaway),
             None => Ok(()),
@@ -59,9 +58,10 @@ impl Run<'_> {
 
     /// That the motion runs away, if it does, and what feeds it most.
     pub(super) fn runaway(&mut self) -> Option<SimError> {
-        let Self { situation: Situation { scene, state, .. }, equations, .. } = self;
-        let growth =
-            turning(scene, equations, state) / (self.resources.energy + state.work.thrust.abs());
+        let found = self.invariants();
+        let Self { situation: Situation { state, .. }, equations, .. } = self;
+        let scene = &equations.scene;
+        let growth = turning(scene, &found) / (self.resources.energy + state.work.thrust.abs());
         if growth.is_nan() || growth <= GROWTH {
             return None;
         }

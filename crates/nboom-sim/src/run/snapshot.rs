@@ -1,4 +1,4 @@
-use nboom_dynamics::{Invariants, Motion};
+use nboom_dynamics::Invariants;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Number, Quaternion, Vec3};
 
@@ -46,18 +46,16 @@ pub(crate) fn write<R: Number>(
 /// Writes accelerations and forces of `state` to `out`, in the mode that `equations` are in;
 /// `mass_center_body` is S̄.
 pub(crate) fn write_detail(
-    scene: &Scene,
     equations: &mut Equations,
-    state: &State,
+    state: &mut State,
     mass_center_body: Vec3<f64>,
     room: &mut Room,
     out: &mut Detail,
 ) {
-    let [free_beta, free_tau] = state.of_free(&equations.entered.dynamics);
-    let motion = Motion { omega_body: state.omega_body, beta: &free_beta, tau: &free_tau };
     let Room { beta, tau, beta_ddot, forces, .. } = room;
     beta.copy_from_slice(&state.beta);
     tau.copy_from_slice(&state.tau);
+    let motion = state.motion(&equations.entered.dynamics);
     beta_ddot.fill(0.0);
     let accelerations = equations.accelerations(&motion);
     out.omega_dot_body = accelerations.omega_dot_body;
@@ -65,8 +63,8 @@ pub(crate) fn write_detail(
     equations.spread(&motion, [beta, tau, beta_ddot]);
     out.beta_ddot.clone_from(beta_ddot);
     out.alpha_ddot.clone_from(beta_ddot);
-    scene.accumulate_along_appendages(&mut out.alpha_ddot);
-    forces.set(&mut equations.entered.dynamics, [beta, tau], &free_beta);
+    equations.scene.accumulate_along_appendages(&mut out.alpha_ddot);
+    forces.set(&mut equations.entered.dynamics, [beta, tau], motion.beta);
     out.hinge_torque.clone_from(&forces.torque);
     out.lines.clone_from(&forces.lines);
     out.mass_center_body = mass_center_body;

@@ -3,10 +3,7 @@
 use nboom_dynamics::Invariants;
 
 use super::Run;
-use crate::equations::state::State;
 use crate::error::SimError;
-use crate::events::event::{Event, Jump};
-use crate::events::instant::Arrivals;
 use crate::events::situation::Situation;
 use crate::run::finite;
 use crate::run::record::{Detail, InstantMotion, Snapshot};
@@ -15,7 +12,7 @@ use crate::run::step_motion::DenseStep;
 
 impl Run<'_> {
     pub(super) fn sample_time(&self) -> f64 {
-        let (start, end) = (self.situation.scene.initial.time, self.situation.scene.end_time);
+        let (start, end) = (self.equations.scene.initial.time, self.equations.scene.end_time);
         let share = self.next_sample as f64 / self.options.samples as f64;
         match self.next_sample {
             n if n > self.options.samples => f64::INFINITY,
@@ -31,12 +28,10 @@ impl Run<'_> {
             let time = self.sample_time();
             self.variables.resize(self.equations.variables.layout.len(), 0.0);
             let fraction = (time - self.stepper.window().time) / full;
-            self.stepper.interpolate(fraction, &mut self.variables);
-            let spare = self.spare.take();
-            let mut state = spare.unwrap_or_else(|| self.situation.state.clone());
-            self.equations.read(time, &self.variables, &mut state);
-            self.sample(&state)?;
-            self.spare = Some(state);
+            self.stepper.interpolate(fraction, self.variables);
+            self.equations.read(time, self.variables, self.shown);
+            let found = self.shown.invariants(&mut self.equations.entered.dynamics);
+            self.sample(&found)?;
         }
         Ok(())
     }
@@ -49,49 +44,53 @@ impl Run<'_> {
         let Self { situation, equations, stepper, room, recorder, .. } = self;
         let mode = &situation.mode;
         let time = stepper.window().end_time;
-        let mut step = DenseStep::new(&mode.hinges, equations, &**stepper, full, room);
+        let mut step = DenseStep::new(&mode.hinges, equations, *stepper, full, room);
         recorder.step(&mut step).map_err(|source| SimError::Record { time, source })
     }
 
     /// Records the output time that the present instant coincides with, if there is one.
     pub(super) fn sample_here(&mut self) -> Result<(), SimError> {
         while !self.is_before(self.situation.state.time, self.sample_time()) {
-            let state = State { time: self.sample_time(), ..self.situation.state.clone() };
-            self.sample(&state)?;
+            let time = self.sample_time();
+            let found = self.show_present();
+            self.shown.time = time;
+            self.sample(&found)?;
         }
         Ok(())
     }
 
-    fn sample(&mut self, state: &State) -> Result<(), SimError> {
-        self.check_interrupt(state.time)?;
+    /// Shows the present state; returns its energy and momenta.
+    fn show_present(&mut self) -> Invariants<f64> {
+        self.shown.copy_from(&self.situation.state);
+        self.invariants()
+    }
+
+    /// Records an output time at the state shown, whose energy and momenta are `found`.
+    fn sample(&mut self, found: &Invariants<f64>) -> Result<(), SimError> {
+        let time = self.shown.time;
+        self.check_interrupt(time)?;
         self.next_sample += 1;
-        self.look(state)?;
-        let kept = self.recorder.sample(&self.seen);
-        kept.map_err(|source| SimError::Record { time: state.time, source })
+        self.look(found)?;
+        let kept = self.recorder.sample(self.seen);
+        kept.map_err(|source| SimError::Record { time, source })
     }
 
-    /// Enters `state` in the ledger and sees all of it that the recorder wants.
-    fn look(&mut self, state: &State) -> Result<(), SimError> {
-        let found = state.invariants(&mut self.equations.entered.dynamics);
-        self.ledger.check(self.situation.scene, self.equations, state, &found)?;
-        self.see(state, &found, self.recorder.needs_detail())
+    /// Enters the state shown in the ledger and sees all of it that the recorder wants.
+    fn look(&mut self, found: &Invariants<f64>) -> Result<(), SimError> {
+        self.ledger.check(self.equations, self.shown, found)?;
+        self.see(found, self.recorder.needs_detail())
     }
 
-    fn see(
-        &mut self,
-        state: &State,
-        found: &Invariants<f64>,
-        detailed: bool,
-    ) -> Result<(), SimError> {
-        let Self { situation: Situation { scene, mode, .. }, equations, seen, room, .. } = self;
-        snapshot::write(scene, mode, state, found, seen);
+    fn see(&mut self, found: &Invariants<f64>, detailed: bool) -> Result<(), SimError> {
+        let Self { situation, equations, shown, seen, room, .. } = self;
+        snapshot::write(&equations.scene, &situation.mode, shown, found, seen);
         if detailed {
             let detail = seen.detail.get_or_insert_with(Detail::empty);
-            snapshot::write_detail(scene, equations, state, found.mass_center, room, detail);
+            snapshot::write_detail(equations, shown, found.mass_center, room, detail);
         } else {
             seen.detail = None;
         }
-        let window = self.stepper.window();
+        let (scene, window) = (&equations.scene, self.stepper.window());
         seen.steps = window.counts.accepted;
         seen.next_step = window.next_step.min(scene.end_time - scene.initial.time);
         finite::check_snapshot(scene, seen)
@@ -99,48 +98,42 @@ impl Run<'_> {
 
     /// The present motion in detail.
     fn motion_here(&mut self) -> Result<Snapshot, SimError> {
-        let state = self.situation.state.clone();
-        let found = state.invariants(&mut self.equations.entered.dynamics);
-        self.see(&state, &found, true)?;
+        let found = self.show_present();
+        self.see(&found, true)?;
         Ok(self.seen.clone())
     }
 
     /// The motion before an instant, if there is one and the recorder wants it.
-    pub(super) fn before_instant(
-        &mut self,
-        arrivals: &Arrivals,
-    ) -> Result<Option<Snapshot>, SimError> {
-        let has_moved =
-            self.situation.state.time > self.situation.scene.initial.time || arrivals.lock();
+    pub(super) fn before_instant(&mut self) -> Result<Option<Snapshot>, SimError> {
+        let Situation { state, arrivals, .. } = &self.situation;
+        let has_moved = state.time > self.equations.scene.initial.time || arrivals.lock();
         if !(has_moved && self.recorder.needs_instants()) {
             return Ok(None);
         }
         self.motion_here().map(Some)
     }
 
-    pub(super) fn tell_instant(
-        &mut self,
-        before: Option<Snapshot>,
-        jumps: Vec<Jump>,
-    ) -> Result<(), SimError> {
-        if !self.recorder.needs_instants() {
+    pub(super) fn tell_instant(&mut self, before: Option<Snapshot>) -> Result<(), SimError> {
+        if self.situation.outcome.events.is_empty() || !self.recorder.needs_instants() {
             return Ok(());
         }
+        let jumps = self.situation.outcome.jumps(self.equations.scene.bodies.len()).collect();
         let (time, after) = (self.situation.state.time, self.motion_here()?);
         let kept = self.recorder.instant(&InstantMotion { before, jumps, after });
         kept.map_err(|source| SimError::Record { time, source })
     }
 
-    pub(super) fn report(&mut self, events: &[Event]) -> Result<(), SimError> {
-        if events.is_empty() {
+    /// Records the events of the instant just passed.
+    pub(super) fn report(&mut self) -> Result<(), SimError> {
+        if self.situation.outcome.events.is_empty() {
             return Ok(());
         }
-        let state = self.situation.state.clone();
-        self.look(&state)?;
-        for event in events {
-            self.events += 1;
-            self.verdict.note(event);
-            let kept = self.recorder.event(event, &self.seen);
+        let found = self.show_present();
+        self.look(&found)?;
+        for event in &self.situation.outcome.events {
+            self.summary.events += 1;
+            self.summary.verdict.note(event);
+            let kept = self.recorder.event(event, self.seen);
             kept.map_err(|source| SimError::Record { time: event.time, source })?;
         }
         Ok(())

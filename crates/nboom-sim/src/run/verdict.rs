@@ -34,11 +34,13 @@ pub struct LockUpImpulse {
 }
 
 impl Verdict {
-    /// Before anything has happened to as many hinges.
-    pub(crate) fn of(hinges: &[HingeState], beta: &[f64]) -> Self {
+    /// Begins anew, before anything has happened to as many hinges.
+    pub(crate) fn begin(&mut self, hinges: &[HingeState], beta: &[f64]) {
         let hinge =
             |(&state, &angle): (&HingeState, &f64)| HingeVerdict { state, since: None, angle };
-        Self { hinges: hinges.iter().zip(beta).map(hinge).collect(), largest_impulse: None }
+        self.hinges.clear();
+        self.hinges.extend(hinges.iter().zip(beta).map(hinge));
+        self.largest_impulse = None;
     }
 
     /// Notes an event.
@@ -53,12 +55,10 @@ impl Verdict {
         }
     }
 
-    /// What it is when the hinges are left in these states at these angles.
-    pub(crate) fn ending_with(&self, hinges: &[HingeState], beta: &[f64]) -> Self {
-        let mut ended = self.clone();
-        for (hinge, (&state, &angle)) in ended.hinges.iter_mut().zip(hinges.iter().zip(beta)) {
+    /// Notes that the hinges are left in these states at these angles.
+    pub(crate) fn end(&mut self, hinges: &[HingeState], beta: &[f64]) {
+        for (hinge, (&state, &angle)) in self.hinges.iter_mut().zip(hinges.iter().zip(beta)) {
             (hinge.state, hinge.angle) = (state, angle);
         }
-        ended
     }
 }

@@ -61,7 +61,7 @@ fn lock_ups(events: &[Event]) -> usize {
 
 /// Energy with what lock-ups have taken away, and the angular momentum along inertial axes.
 fn conserved(replay: &mut Replay<'_>) -> [DoubleDouble; 4] {
-    let Replay { situation: Situation { scene, state, .. }, dynamics, .. } = replay;
+    let Replay { scene, situation: Situation { state, .. }, dynamics, .. } = replay;
     let found = state.invariants(dynamics);
     let laws = scene.bodies.iter().map(|b| HingeLaw::new(&b.hinge.spring, &b.hinge.dashpot));
     let potentials = laws.zip(&state.beta).map(|(law, &beta)| law.potential(beta));
