@@ -144,8 +144,7 @@ impl Guards {
     ) {
         self.list.clear();
         // Steps that look for events allocate nothing.
-        self.path.clear();
-        self.path.reserve(dynamics.free_hinges().len());
+        self.path.make_room(dynamics.free_hinges().len());
         for (i, body) in scene.bodies.iter().enumerate() {
             if let Some(angle) = body.hinge.lock_angle.filter(|_| mode.is_free(i)) {
                 let leaving = Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() };

@@ -34,6 +34,12 @@ struct Turning {
 }
 
 impl LinePath {
+    /// Makes room for so many hinges that move a line.
+    pub fn make_room(&mut self, hinges: usize) {
+        self.hinges.clear();
+        self.hinges.reserve(hinges);
+    }
+
     /// Takes up `line` over a step in which `angle` gives the angle of each free hinge.
     pub fn follow(
         &mut self,
