@@ -58,6 +58,8 @@ const SETTLED: usize = 12;
 /// Steps bounded by stability after which a problem counts as stiff, and steps in between that
 /// show the contrary (Hairer and Wanner, Section IV.2).
 const STIFF: usize = 15;
+/// Likewise of stages side by side whose iteration is slow; such a step costs several explicit ones.
+const SLOW: usize = 4;
 /// Share of the stability limit beyond which a step counts as bounded by it: the tighter the
 /// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
 /// below a third of it.
@@ -153,7 +155,7 @@ impl Automatic {
                 let reason = "the motion goes on for long, and code takes eight stages at once";
                 (pay && may && system.takes_eight()).then_some((Active::Lanes, reason))
             }
-            Active::Lanes => (self.against >= STIFF)
+            Active::Lanes => (self.against >= SLOW)
                 .then_some((Active::Explicit, "damping slowed the iteration of stages down")),
             Active::Implicit => (self.against >= self.patience)
                 .then_some((Active::Explicit, "accuracy, not stability, bounds steps again")),
