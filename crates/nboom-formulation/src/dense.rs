@@ -19,7 +19,7 @@ pub(crate) fn solve<R: Real>(matrix: &[R], right: &[R], order: &[usize]) -> Vec<
         let of_pivot = right[k];
         for (row, right) in below.chunks_exact_mut(size).zip(&mut right[k + 1..]) {
             let factor = row[k] * inverse;
-            for (entry, &pivot) in row.iter_mut().zip(pivot).skip(k + 1) {
+            for (entry, &pivot) in row[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
                 *entry -= factor * pivot;
             }
             *right -= factor * of_pivot;
