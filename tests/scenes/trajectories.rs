@@ -116,6 +116,19 @@ fn runs_take_right_sides_on_one_state_and_on_eight_where_there_are_some() {
     assert!(of_eight.contains(&"s02_single_boom"), "{of_eight:?}");
 }
 
+/// The method that chooses takes stages side by side where a mode has code for eight states.
+#[test]
+fn stages_go_side_by_side_by_default_where_code_takes_eight_states() {
+    let reference = Reference::all().find(|r| r.name == "s11_long_spin").expect("a long motion");
+    let methods = |batches| {
+        let kernels = nboom_routines::for_runs();
+        let (_, summary) = run(&reference.scene(), &Options { kernels, batches, ..tight(20) });
+        summary.integrations.iter().map(|i| i.choice.method).collect::<Vec<_>>()
+    };
+    assert!(methods(nboom_routines::right_sides_of_eight()).contains(&Method::GaussLanes));
+    assert!(!methods(&[]).contains(&Method::GaussLanes));
+}
+
 #[test]
 fn runs_by_power_series_agree_with_the_references() {
     for reference in Reference::all() {

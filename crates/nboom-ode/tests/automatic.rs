@@ -123,6 +123,23 @@ fn stages_side_by_side_are_left_where_their_iteration_is_slow() {
 }
 
 #[test]
+fn stages_do_not_go_side_by_side_where_a_motion_soon_ends() {
+    let steps = |end: f64| run_on_eight(1e-9, (0.0, 0.0), end).2;
+    let mut alone = RungeKutta::dop853(tolerance(1e-9));
+    let mut system = Drawn { fast: (0.0, 0.0), takes_eight: true, evaluations: 0 };
+    alone.start(&mut system, 0.0, &[1.0], 1);
+    let mut times = Vec::new();
+    for _ in 0..40 {
+        alone.step(&mut system, 100.0).expect("a bounded motion");
+        alone.advance();
+        times.push(alone.window().time);
+    }
+    // After twelve steps there is room for six more, or for 27.
+    assert_eq!(steps(times[17]), [Method::Dop853]);
+    assert_eq!(steps(times[38]), [Method::Dop853, Method::GaussLanes]);
+}
+
+#[test]
 fn an_event_hands_stages_side_by_side_back_to_the_explicit_method() {
     let mut system = Drawn { fast: (0.0, 0.0), takes_eight: true, evaluations: 0 };
     let mut automatic = Automatic::new(tolerance(1e-9));

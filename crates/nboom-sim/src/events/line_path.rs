@@ -117,17 +117,15 @@ impl LinePath {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use nboom_model::{HingeState, Mode};
+    use rand_xoshiro::SplitMix64;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-    /// Numbers between 0 and 1 without a pattern.
-    struct Dice(u64);
+    use super::*;
 
-    impl Dice {
-        fn roll(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (self.0 >> 11) as f64 / (1u64 << 53) as f64
-        }
+    /// A number from 0 to below 1.
+    fn below_one(numbers: &mut SplitMix64) -> f64 {
+        (numbers.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// The recursion of the sample deck with all hinges free.
@@ -143,23 +141,25 @@ mod tests {
 
     #[test]
     fn a_length_that_keeps_its_side_stays_there() {
-        let (dynamics, dice, mut path) = (sample_deck(), &mut Dice(1), LinePath::default());
+        let (dynamics, mut path) = (sample_deck(), LinePath::default());
+        let mut numbers = SplitMix64::seed_from_u64(1);
+        let mut random = || below_one(&mut numbers);
         let (mut by_slopes, mut of_several) = (0, 0);
         for _ in 0..2000 {
             for line in 0..dynamics.elements().lines().len() {
-                let size = 0.5 * dice.roll();
+                let size = 0.5 * random();
                 let angles: Vec<Bernstein> = dynamics
                     .free_hinges()
                     .iter()
                     .map(|_| {
-                        let start = 6.0 * dice.roll() - 3.0;
-                        let mut turned = || start + size * (2.0 * dice.roll() - 1.0);
+                        let start = 6.0 * random() - 3.0;
+                        let mut turned = || start + size * (2.0 * random() - 1.0);
                         Bernstein::new(&std::array::from_fn::<f64, 8, _>(|_| turned()))
                     })
                     .collect();
                 path.follow(&dynamics, line, |j| angles[j]);
                 let length = path.squared.sqrt();
-                let limit = length * (0.5 + dice.roll());
+                let limit = length * (0.5 + random());
                 let sign = (length - limit).signum();
                 if !path.keeps_side(&dynamics, limit, sign) {
                     continue;
