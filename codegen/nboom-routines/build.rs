@@ -78,7 +78,7 @@ const FEW_HINGES: usize = 4;
 const MOST_EQUAL: usize = 4;
 
 /// Right sides for topologies of the stock, without external wrench; of few hinges one more that assumes
-/// nothing and takes lines that push the links.
+/// nothing and takes an external wrench, which a thrust is, and lines that push the links.
 ///
 /// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
 /// eight states at once, too.
@@ -92,10 +92,10 @@ fn right_sides() -> Vec<Request> {
             let name = name(&topology, principal);
             let request = Request::new(&name, topology.clone(), Level::Fast).for_right_side();
             let request = if principal { request.with_principal_axes() } else { request };
-            let is_pushed = has_few && topology.hinges() > 0 && !principal;
-            let pushed = is_pushed.then(|| {
+            let pushed = (has_few && !principal).then(|| {
                 let name = format!("Pushed{name}");
-                Request { name, ..request.clone() }.with_lines()
+                let request = Request { name, ..request.clone() }.with_external_wrench();
+                if topology.hinges() > 0 { request.with_lines() } else { request }
             });
             let on_eight = has_few || topology.shapes().len() == 1;
             requests.push(if on_eight { request.on_eight_states() } else { request });

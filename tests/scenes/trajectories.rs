@@ -43,6 +43,9 @@ fn check(from: &str, scene_of: impl Fn(&Reference) -> Scene) {
         agrees(&format!("from {from}, as shipped"), &as_shipped, &reference);
         // A stock routine fits every mode of every one of these scenes.
         assert!(summary.selections.iter().all(|s| s.path == "generated"), "{summary:?}");
+        // And that of its whole right side, thrust and kick-off springs included.
+        let is_whole = |reason: &str| reason.contains("; whole right side");
+        assert!(summary.selections.iter().all(|s| is_whole(&s.reason)), "{summary:?}");
         routines.extend(summary.selections.into_iter().map(|s| s.reason));
         // Other operations leave other roundings; with the same ones it is the same code.
         let rounded_alike = as_shipped.samples == by_recursion.samples;

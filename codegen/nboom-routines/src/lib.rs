@@ -64,8 +64,8 @@ pub fn right_sides_of_eight() -> &'static [Batch] {
 }
 
 /// Right sides of the differential equations by `articulated`, without external wrench: those of each
-/// topology of [`all`] with up to four equal appendages, and of up to four hinges one more that takes lines
-/// that push the links.
+/// topology of [`all`] with up to four equal appendages, and of up to four hinges one more that takes an
+/// external wrench and lines that push the links.
 ///
 /// ```
 /// use nboom_formulation::RightSideLayout;

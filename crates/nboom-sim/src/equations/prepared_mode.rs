@@ -57,10 +57,16 @@ impl PreparedMode {
         if let Some(selection) = &self.selection {
             return Ok(Selection { since, ..selection.clone() });
         }
-        let (code, selection) =
+        let (code, mut selection) =
             AccelerationCode::choose(scene, &self.dynamics, repertoire, options, since)?;
         if let AccelerationCode::Generated(_) = code {
             self.right_sides = RightSides::fit(&self.dynamics, repertoire, options.batches);
+            let told = match &self.right_sides {
+                Some(RightSides { of_eight: Some(_), .. }) => "whole right side, also of eight states",
+                Some(RightSides { of_eight: None, .. }) => "whole right side",
+                None => "accelerations only",
+            };
+            selection.reason = format!("{}; {told}", selection.reason).into();
         }
         (self.code, self.selection) = (code, Some(selection.clone()));
         Ok(selection)
