@@ -169,7 +169,7 @@ impl<'a> Replay<'a> {
             let since_start = self.situation.state.time - course.variables.origin.time;
             let reach = course.expansion.expand(since_start, &course.now);
             self.check_step(reach)?;
-            let remaining = exact(limit) - self.situation.state.time;
+            let remaining = limit - self.situation.state.time;
             let guess = expected - self.situation.state.time.to_f64();
             let is_near = guess <= reach;
             let first =

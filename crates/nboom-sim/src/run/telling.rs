@@ -106,7 +106,8 @@ impl Run<'_> {
     /// The motion before an instant, if there is one and the recorder wants it.
     pub(super) fn before_instant(&mut self) -> Result<Option<Snapshot>, SimError> {
         let Situation { state, arrivals, .. } = &self.situation;
-        let has_moved = state.time > self.equations.scene.initial.time || arrivals.lock();
+        let has_moved =
+            state.time > self.equations.scene.initial.time || !arrivals.locks().is_empty();
         if !(has_moved && self.recorder.needs_instants()) {
             return Ok(None);
         }
