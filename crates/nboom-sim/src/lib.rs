@@ -52,6 +52,7 @@ pub use events::event::{Event, EventKind, Jump};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, OptionError, Options, Path};
 pub use run::beforehand::check_start;
+pub use run::bodies::BodyMotion;
 pub use run::conservation::{Conservation, PoorConservation};
 pub use run::record::{
     Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,

@@ -18,6 +18,7 @@ use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
 
 pub(crate) mod beforehand;
+pub(crate) mod bodies;
 pub(crate) mod conservation;
 pub(crate) mod finite;
 pub(crate) mod ledger;
