@@ -142,7 +142,7 @@ impl<'a> Replay<'a> {
     fn enter(&mut self) -> Course {
         self.situation.watch(self.scene, &self.dynamics);
         let Self { scene, dynamics, situation: Situation { state, mode, .. }, .. } = self;
-        let thrust = dynamics.elements().thrust().is_some();
+        let thrust = dynamics.external().is_some();
         let free = dynamics.free_hinges().len();
         let (unknowns, dashpots) = (Unknowns::Velocities, false);
         let layout = VariableLayout { unknowns, free, thrust, dashpots };

@@ -146,6 +146,11 @@ impl Arrivals {
         self.locks.is_empty() && self.triggered.is_empty() && self.bounds.is_empty()
     }
 
+    /// How long the instant lasts.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
     /// The hinges that lock.
     pub fn locks(&self) -> &[usize] {
         &self.locks

@@ -95,7 +95,17 @@ impl<R: Number> Situation<R> {
         Ok(())
     }
 
-    /// The next time at which the scene itself changes the mode, or its end.
+    /// Whether a control law is to be asked in the present instant.
+    pub fn is_sampled(&self) -> bool {
+        self.schedule.sample <= self.state.time.to_f64() + self.arrivals.duration()
+    }
+
+    /// Notes when a control law is asked next.
+    pub fn sample_at(&mut self, time: f64) {
+        self.schedule.sample = time;
+    }
+
+    /// The next time at which the scene itself changes the mode or a control law is asked, or its end.
     pub fn limit(&self, scene: &Scene) -> R {
         self.schedule.next(scene, &self.mode, self.state.time.to_f64())
     }

@@ -60,7 +60,7 @@ impl Run<'_> {
     }
 
     /// Shows the present state; returns its energy and momenta.
-    fn show_present(&mut self) -> Invariants<f64> {
+    pub(super) fn show_present(&mut self) -> Invariants<f64> {
         self.shown.copy_from(&self.situation.state);
         self.invariants()
     }
@@ -81,7 +81,7 @@ impl Run<'_> {
         self.see(found, self.recorder.needs_detail())
     }
 
-    fn see(&mut self, found: &Invariants<f64>, detailed: bool) -> Result<(), SimError> {
+    pub(super) fn see(&mut self, found: &Invariants<f64>, detailed: bool) -> Result<(), SimError> {
         let Self { situation, equations, shown, seen, room, .. } = self;
         snapshot::write(&equations.scene, &situation.mode, shown, found, seen);
         if detailed {
