@@ -8,7 +8,8 @@ use nboom::formulation::Formulation;
 use nboom::model::{HingeState, Release, Scene, SceneDescription};
 use nboom::ode::Method;
 use nboom::sim::{
-    Event, EventKind, Form, Nobody, Options, Recorder, Simulator, Snapshot, StepMotion, simulate,
+    Commands, Control, Event, EventKind, Form, Nobody, Options, OwnLaw, Recorder, Simulator,
+    Snapshot, StepMotion, simulate,
 };
 use nboom::strength::{Settings, StressAnalysis};
 
@@ -160,5 +161,31 @@ fn later_runs_allocate_nothing(scene: &Scene, options: Options, name: &str) {
             std::hint::black_box(simulator.run(&mut Nobody).expect("an ordinary motion"));
         });
         assert_eq!(count, 0, "{name}, {}, {first:?}", options.integrator);
+    }
+}
+
+#[test]
+fn later_runs_under_a_control_law_allocate_nothing() {
+    let scene = deck("tests/data/scenes/s06_gravity_thrust.nml");
+    let kernels = nboom_routines::for_runs();
+    let own = OwnLaw::new(0, |beta: f64, tau: f64| -0.1 * beta.sin() - 0.1 * tau);
+    for mut simulator in [
+        Simulator::new(&scene, Options::default()),
+        Simulator::new(&scene, Options { kernels, ..Options::default() }),
+        Simulator::under_laws(&scene, Options::default(), vec![own]),
+    ] {
+        let mut run = || {
+            let mut law = |seen: &Snapshot, commands: &mut Commands| {
+                commands.hinge_torques_mut()[0] = (3.0 * seen.time).sin();
+                commands.main_body.force.x = (seen.time - 0.5).max(0.0);
+            };
+            let control = Control { period: 0.1, law: &mut law };
+            simulator
+                .run_controlled(control, &mut Nobody)
+                .expect("an ordinary motion")
+                .steps_accepted
+        };
+        let steps = run();
+        assert_eq!(allocations(|| assert_eq!(run(), steps)), 0, "{steps} steps");
     }
 }

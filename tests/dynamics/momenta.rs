@@ -82,7 +82,7 @@ fn rates_of_the_momenta_are_their_derivatives_along_the_motion() {
         let mut hinges = vec![0.0; tau.len()];
         let angular_body = dynamics.momenta(&motion, &mut hinges);
         let center = dynamics.invariants(&motion, Vec3::zero()).mass_center;
-        let thrust = dynamics.elements().thrust().copied();
+        let thrust = moment.scene.thrust.filter(|_| moment.mode.thrust);
         let momenta = Momenta { angular_body, beta: &beta, hinges: &hinges };
         let (mut back, mut rates) = (tau.clone(), tau.clone());
         dynamics.momentum_rates(&momenta, &mut back, &mut rates);

@@ -12,6 +12,7 @@ mod random_scene;
 mod rotors;
 mod sampled;
 
+mod after_lock;
 mod crossings;
 mod error_bound;
 mod failures;

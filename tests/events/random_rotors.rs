@@ -10,13 +10,17 @@ use crate::rotors::{BOOM, HUB, free, locking_at, scene, waiting};
 
 const END: f64 = 4.0;
 
-/// Hinges of which some turn, some wait for a time, an angle or a lock angle of an earlier one.
+/// Hinges of which some turn, some wait for a time, an angle, a lock angle or a lock-up of an earlier one.
 fn hinges(dice: &mut Rng) -> Vec<Hinge> {
     let mut hinges: Vec<Hinge> = Vec::new();
     for i in 0..6 {
         let hinge = match (i, dice.between(0.0, 1.0)) {
             (0 | 1, _) => free(dice.between(-1.0, 1.0), dice.between(-2.0, 2.0)),
             (_, roll) if roll < 0.3 => waiting(Release::Time(dice.between(0.0, END))),
+            (_, roll) if roll > 0.8 => {
+                let delay = if dice.chance(0.3) { 0.0 } else { dice.between(0.0, 1.0) };
+                waiting(Release::AfterLock { hinge: dice.below(i), delay })
+            }
             (_, roll) => {
                 let trigger = dice.below(i);
                 let lock = hinges[trigger].lock_angle.filter(|_| roll < 0.6);
@@ -39,6 +43,7 @@ struct Exact<'a> {
     beta: Vec<f64>,
     tau: Vec<f64>,
     states: Vec<HingeState>,
+    locked_at: Vec<f64>,
     events: Vec<(EventKind, Option<usize>, f64)>,
 }
 
@@ -52,6 +57,7 @@ impl<'a> Exact<'a> {
             beta: start(|hinge| hinge.start.angle),
             tau: start(|hinge| hinge.start.rate),
             states: hinges.iter().map(|hinge| hinge.start.state).collect(),
+            locked_at: vec![f64::INFINITY; hinges.len()],
             events: Vec::new(),
         }
     }
@@ -75,6 +81,7 @@ impl<'a> Exact<'a> {
             _ if self.states[i] != HingeState::Unreleased => f64::INFINITY,
             Release::Time(at) => at,
             Release::Angle { hinge, angle } => self.reaches(hinge, angle),
+            Release::AfterLock { hinge, delay } => self.locked_at[hinge] + delay,
             Release::Never => f64::INFINITY,
         }
     }
@@ -93,6 +100,11 @@ impl<'a> Exact<'a> {
                 all.clone().filter(|&i| times[i] - next < 1e-11).collect()
             };
             self.lock(&due(&locks));
+            let follows = |i: usize| match self.hinges[i].release {
+                Release::AfterLock { .. } => self.release_time(i),
+                _ => releases[i],
+            };
+            let releases: Vec<f64> = all.clone().map(follows).collect();
             for i in due(&releases) {
                 self.states[i] = HingeState::Free;
                 self.events.push((EventKind::Release, Some(i), next));
@@ -116,6 +128,7 @@ impl<'a> Exact<'a> {
             moment += BOOM;
             momentum += BOOM * (self.hub_rate + self.tau[i]);
             self.states[i] = HingeState::Locked;
+            self.locked_at[i] = self.time;
             self.events.push((EventKind::LockUp, Some(i), self.time));
         }
         let change = momentum / moment - self.hub_rate;
@@ -132,7 +145,7 @@ impl<'a> Exact<'a> {
 #[test]
 fn random_rotors_have_the_events_of_the_closed_form() {
     let mut dice = Rng::new(1970);
-    let (mut locks, mut releases, mut joint) = (0, 0, 0);
+    let (mut locks, mut releases, mut followers, mut joint) = (0, 0, 0, 0);
     for case in 0..400 {
         let hinges = hinges(&mut dice);
         let mut exact = Exact::new(&hinges);
@@ -155,8 +168,14 @@ fn random_rotors_have_the_events_of_the_closed_form() {
         }
         locks += events.iter().filter(|event| event.0 == EventKind::LockUp).count();
         releases += events.iter().filter(|event| event.0 == EventKind::Release).count();
+        let follows = |event: &&(EventKind, Option<usize>, f64)| {
+            let by = event.1.map(|i| hinges[i].release);
+            event.0 == EventKind::Release && matches!(by, Some(Release::AfterLock { .. }))
+        };
+        followers += events.iter().filter(follows).count();
         joint += events.windows(2).filter(|pair| pair[0].2 == pair[1].2).count();
     }
     println!("{locks} lock-ups, {releases} releases, {joint} in one instant with another event");
     assert!(locks > 200 && releases > 300 && joint > 30, "{locks}, {releases}, {joint}");
+    assert!(followers > 50, "{followers} after a lock-up");
 }

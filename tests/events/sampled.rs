@@ -32,6 +32,8 @@ pub struct Sampled<'a> {
     omega: Vec3<f64>,
     beta: Vec<f64>,
     tau: Vec<f64>,
+    /// When each hinge locked; infinite of one that has not.
+    locked_at: Vec<f64>,
     /// Guards of the mode with the sign each has; zero until it has left zero.
     guards: Vec<(Guard, f64)>,
     pub events: Vec<Happening>,
@@ -50,6 +52,7 @@ impl<'a> Sampled<'a> {
             omega: scene.initial.omega_body,
             beta: start(|hinge| hinge.start.angle),
             tau: start(|hinge| hinge.start.rate),
+            locked_at: vec![f64::INFINITY; scene.bodies.len()],
             guards: Vec::new(),
             events: Vec::new(),
         };
@@ -203,6 +206,7 @@ impl<'a> Sampled<'a> {
         for &i in locks {
             (self.beta[i], self.tau[i]) = (self.lock_angle(i), 0.0);
             self.mode.hinges[i] = HingeState::Locked;
+            self.locked_at[i] = self.time;
             self.events.push((EventKind::LockUp, Some(i), self.time));
         }
     }
@@ -210,14 +214,16 @@ impl<'a> Sampled<'a> {
     /// Releases what is due; whether there was anything.
     fn release(&mut self, crossed: &[Guard], locks: &[usize]) -> bool {
         let at_start = self.time == self.scene.initial.time;
+        let now = self.time + ONE_INSTANT;
         let due = |i: &usize| match self.scene.bodies[*i].hinge.release {
             _ if self.mode.hinges[*i] != HingeState::Unreleased => false,
-            Release::Time(at) => at <= self.time + ONE_INSTANT,
+            Release::Time(at) => at <= now,
             Release::Angle { hinge, angle } => {
                 let passed = |g: &Guard| matches!(g, Guard::Trigger { hinge, .. } if hinge == i);
                 let holds = (self.beta[hinge] - angle).abs() < 1e-12;
                 crossed.iter().any(passed) || (holds && (at_start || locks.contains(&hinge)))
             }
+            Release::AfterLock { hinge, delay } => self.locked_at[hinge] + delay <= now,
             Release::Never => false,
         };
         let due: Vec<usize> = (0..self.beta.len()).filter(due).collect();
@@ -236,7 +242,9 @@ impl<'a> Sampled<'a> {
     fn next_scheduled(&self) -> f64 {
         let releases =
             (0..self.beta.len()).filter_map(|i| match self.scene.bodies[i].hinge.release {
-                Release::Time(at) if self.mode.hinges[i] == HingeState::Unreleased => Some(at),
+                _ if self.mode.hinges[i] != HingeState::Unreleased => None,
+                Release::Time(at) => Some(at),
+                Release::AfterLock { hinge, delay } => Some(self.locked_at[hinge] + delay),
                 _ => None,
             });
         let thrust = self.scene.thrust.iter().flat_map(|thrust| [thrust.on, thrust.off]);

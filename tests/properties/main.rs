@@ -13,6 +13,7 @@ mod newton_euler;
 #[path = "../support/random_scene.rs"]
 mod random_scene;
 
+mod bodies;
 mod evaluations;
 mod loads;
 mod lock_up_loads;

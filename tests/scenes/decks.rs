@@ -24,6 +24,7 @@ fn numbers_of(body: &Body, initial_time: f64) -> Vec<Vec<f64>> {
         // Whatever is not after the initial time is the initial time.
         Release::Time(at) => vec![at.max(initial_time)],
         Release::Angle { hinge, angle } => vec![hinge as f64, angle],
+        Release::AfterLock { hinge, delay } => vec![hinge as f64, delay],
         Release::Never => Vec::new(),
     };
     let mut groups = vec![

@@ -18,6 +18,7 @@ mod scaled;
 mod catalog;
 mod code;
 mod compare;
+mod control;
 mod decks;
 mod embedding;
 mod event_times;

@@ -122,6 +122,10 @@ fn release(scene: &Scene, release: Release) -> String {
         Release::Angle { hinge, angle } => {
             format!("released when hinge {} passes {}", scene.label(hinge), degrees(angle))
         }
+        Release::AfterLock { hinge, delay } => {
+            let delay = short(delay, 10);
+            format!("released {delay} after hinge {} locks", scene.label(hinge))
+        }
         Release::Never => "never released".to_owned(),
     }
 }

@@ -57,7 +57,7 @@ impl<R: Real> Recursive<R> {
     ///
     /// π̇ = torque + (ω̄ × ā)·H̄ + (v̄ × ā)·p̄ − (ā × d̄)·F̄ / m_T, with ā the hinge axis, ω̄ and v̄ the
     /// motion of the hinge relative to the mass centre, H̄, p̄ and d̄ the momenta and the first moment of
-    /// everything outboard about the hinge, and F̄ the thrust.
+    /// everything outboard about the hinge, and F̄ the force from outside.
     pub fn momentum_rates(
         &mut self,
         momenta: &Momenta<'_, R>,
@@ -73,8 +73,8 @@ impl<R: Real> Recursive<R> {
             *rate += twist.angular.cross(pose.axis).dot(outboard.moment)
                 + twist.linear.cross(pose.axis).dot(outboard.force);
         }
-        if let Some(thrust) = self.elements.thrust() {
-            let of_center = thrust.force * (R::one() / R::constant(self.scene.total_mass()));
+        if let Some(external) = self.elements.external() {
+            let of_center = external.force * (R::one() / R::constant(self.scene.total_mass()));
             self.twists.fill(Twist { angular: Vec3::zero(), linear: of_center });
             self.carry_momenta();
             for (rate, (pose, left_behind)) in

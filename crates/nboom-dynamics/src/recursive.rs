@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use nboom_elements::Elements;
+use nboom_elements::{Commands, Elements};
 use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
@@ -106,6 +106,11 @@ impl<R: Real> Recursive<R> {
         self.wrenches = vec![Wrench::zero(); links];
     }
 
+    /// Holds `commands` in place of those that were held, until the mode is set anew.
+    pub fn command(&mut self, commands: &Commands) {
+        self.elements.command(&self.scene, commands);
+    }
+
     /// The hinges that turn in this mode, as numbered in the scene, ascending.
     pub fn free_hinges(&self) -> &[usize] {
         &self.free
@@ -123,13 +128,25 @@ impl<R: Real> Recursive<R> {
 
     /// The external wrench on the main body about O, main-body axes, when there is one.
     pub fn external(&self) -> Option<Wrench<R>> {
-        self.elements.thrust().map(|thrust| thrust.wrench)
+        self.elements.external()
     }
 
     /// Accelerations by articulated bodies: ω̇, a_O without gravity, τ̇.
     pub fn accelerations(&mut self, motion: &Motion<'_, R>, out: &mut Accelerations<R>) {
+        self.accelerations_with(|_, _| {}, motion, out);
+    }
+
+    /// [Accelerations](Self::accelerations) with further torques: `add` adds them to those about the free
+    /// hinges, which it gets with their numbers in the scene.
+    pub fn accelerations_with(
+        &mut self,
+        add: impl FnOnce(&[usize], &mut [R]),
+        motion: &Motion<'_, R>,
+        out: &mut Accelerations<R>,
+    ) {
         self.factor(motion.beta);
         let main = self.load(motion, &mut out.tau_dot);
+        add(&self.free, &mut out.tau_dot);
         let of_main = self.solve(main, &mut out.tau_dot);
         out.omega_dot_body = of_main.angular;
         out.origin_body = of_main.linear;
@@ -222,8 +239,8 @@ impl<R: Real> Recursive<R> {
             main.add(Wrench::of_force(line.main_body_point, force));
         }
         elements.withhold(poses, torques);
-        if let Some(thrust) = elements.thrust() {
-            main.subtract(thrust.wrench);
+        if let Some(external) = elements.external() {
+            main.subtract(external);
         }
         main
     }

@@ -1,21 +1,26 @@
 //! The one place that lists the force elements.
 
 use nboom_model::{Hinge, Mode, Scene, WeldedTree};
-use nboom_scalar::Real;
+use nboom_scalar::{Real, Vec3, Wrench};
 
 use crate::{Coordinate, Line, Names, Placed, Switched};
 
+mod commands;
 mod gravity;
 mod hinge_law;
 mod kick_off;
+mod own_law;
 mod thrust;
 mod torque_table;
 mod withheld;
 
+pub use commands::{Commands, Reach};
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
 pub use kick_off::KickOffLaw;
-pub use thrust::{ThrustForce, thrust_acts, thrust_change};
+pub use own_law::{OwnLaw, OwnLaws};
+use thrust::ThrustForce;
+pub use thrust::{thrust_acts, thrust_change};
 use torque_table::TablePiece;
 use withheld::WithheldMoment;
 
@@ -120,6 +125,10 @@ pub struct Elements<R> {
     lines: Vec<Line<R>>,
     withheld: Vec<WithheldMoment<R>>,
     thrust: Option<ThrustForce<R>>,
+    /// What a control law commands on the main body.
+    commanded: Option<Wrench<R>>,
+    /// Thrust and command together.
+    external: Option<Wrench<R>>,
     switched: Vec<Switched>,
 }
 
@@ -127,11 +136,14 @@ impl<R: Real> Elements<R> {
     /// Those of `scene` in `mode`, whose links are those of `tree`.
     pub fn new(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Self {
         let lines = Line::all(scene, mode, tree);
+        let thrust = scene.thrust.filter(|_| mode.thrust).map(|thrust| ThrustForce::new(&thrust));
         Self {
             torques: HingeTorque::all(scene, mode),
             withheld: WithheldMoment::all(scene, mode, tree, &lines),
             lines,
-            thrust: scene.thrust.filter(|_| mode.thrust).map(|thrust| ThrustForce::new(&thrust)),
+            external: thrust.map(|thrust| thrust.wrench),
+            thrust,
+            commanded: None,
             switched: Switched::all(scene),
         }
     }
@@ -152,9 +164,49 @@ impl<R: Real> Elements<R> {
         self.lines.iter().filter(|line| line.acts).filter_map(|line| Some((line.link?, line)))
     }
 
-    /// The thrust, while it is on.
-    pub fn thrust(&self) -> Option<&ThrustForce<R>> {
-        self.thrust.as_ref()
+    /// Holds `commands` in place of those that it held; `scene` is that of the elements.
+    ///
+    /// A torque that is held is a constant part of the law of its hinge, with a potential.
+    pub fn command(&mut self, scene: &Scene, commands: &Commands) {
+        let hinges = scene.bodies.iter().map(|body| &body.hinge);
+        let of_hinges = self.torques.iter_mut().zip(hinges.zip(commands.hinge_torques()));
+        for (torque, (hinge, &commanded)) in of_hinges {
+            let law = HingeLaw::new(&hinge.spring, &hinge.dashpot);
+            torque.law = law.with_constant(R::constant(commanded));
+        }
+        self.commanded = commands::held(commands);
+        let thrust = self.thrust.map(|thrust| thrust.wrench);
+        self.external = sum(thrust, self.commanded, |a, b| Wrench {
+            moment: a.moment + b.moment,
+            force: a.force + b.force,
+        });
+    }
+
+    /// What acts on the main body from outside, about O along main-body axes, if anything does: the
+    /// thrust while it is on, and what a control law commands.
+    #[inline]
+    pub fn external(&self) -> Option<Wrench<R>> {
+        self.external
+    }
+
+    /// Power of what acts on the main body from outside, when O moves with `origin_velocity` and the
+    /// body turns at `omega_body`; main-body axes.
+    pub fn external_power(&self, origin_velocity: Vec3<R>, omega_body: Vec3<R>) -> R {
+        let of_thrust = self.thrust.map(|thrust| {
+            let at_point = origin_velocity + omega_body.cross(thrust.point);
+            thrust.force.dot(at_point)
+        });
+        let of_command = self
+            .commanded
+            .map(|Wrench { moment, force }| force.dot(origin_velocity) + moment.dot(omega_body));
+        sum(of_thrust, of_command, |a, b| a + b).unwrap_or(R::zero())
+    }
+
+    /// Moment about `point` of what acts on the main body from outside; main-body axes, from O.
+    pub fn external_moment_about(&self, point: Vec3<R>) -> Vec3<R> {
+        let of_thrust = self.thrust.map(|thrust| (thrust.point - point).cross(thrust.force));
+        let of_command = self.commanded.map(|Wrench { moment, force }| moment - point.cross(force));
+        sum(of_thrust, of_command, |a, b| a + b).unwrap_or(Vec3::zero())
     }
 
     /// The elements with several pieces to their law.
@@ -188,6 +240,14 @@ impl<R: Real> Elements<R> {
         let hinges = free.iter().map(|&hinge| &self.torques[hinge]).zip(tau);
         let power = hinges.map(|(law, &tau)| law.rate_torque(tau) * tau);
         power.fold(R::zero(), |sum, of_hinge| sum + of_hinge)
+    }
+}
+
+/// The sum of two things of which either may be absent.
+fn sum<T>(a: Option<T>, b: Option<T>, add: impl FnOnce(T, T) -> T) -> Option<T> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(add(a, b)),
+        (a, b) => a.or(b),
     }
 }
 

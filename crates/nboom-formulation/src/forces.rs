@@ -181,8 +181,8 @@ impl Forces<f64> {
         for (law, &link) in forces.laws.iter_mut().zip(&recognised.links) {
             *law = *elements.torques()[tree.links[link].hinge].law()?;
         }
-        if let Some(thrust) = elements.thrust() {
-            forces.external = thrust.wrench;
+        if let Some(external) = elements.external() {
+            forces.external = external;
         }
         for (link, line) in elements.pushing() {
             let hinge = recognised.links.iter().position(|&other| other == link)?;

@@ -83,6 +83,16 @@ pub enum ModelError {
         /// How many hinges there are.
         count: usize,
     },
+    /// A hinge is to be released before the lock-up that it waits for.
+    #[error(
+        "segment {label}: release {delay} time units after a lock-up found, zero or more expected"
+    )]
+    ReleaseDelay {
+        /// The hinge.
+        label: HingeLabel,
+        /// The given delay.
+        delay: f64,
+    },
     /// A hinge that starts held has a rate.
     #[error("segment {label}: rate {rate} found, zero expected of a hinge that starts held")]
     HeldRate {
@@ -260,6 +270,7 @@ fn find_in_hinge(
     let release_finite = match hinge.release {
         Release::Time(time) => !time.is_nan(),
         Release::Angle { angle, .. } => angle.is_finite(),
+        Release::AfterLock { delay, .. } => delay.is_finite(),
         Release::Never => true,
     };
     let finite_points = |points: &[Vec3<f64>]| points.iter().all(|p| p.is_finite());
@@ -281,10 +292,15 @@ fn find_in_hinge(
     ];
     let bad = checks.into_iter().filter(|(ok, _)| !ok);
     errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: name, quantity }));
-    if let Release::Angle { hinge: trigger, .. } = hinge.release
+    if let Some(trigger) = hinge.release.trigger()
         && (trigger >= count || trigger == i)
     {
         errors.push(ModelError::Trigger { label, trigger: trigger + 1, count });
+    }
+    if let Release::AfterLock { delay, .. } = hinge.release
+        && delay < 0.0
+    {
+        errors.push(ModelError::ReleaseDelay { label, delay });
     }
     if hinge.start.state != HingeState::Free && hinge.start.rate != 0.0 {
         errors.push(ModelError::HeldRate { label, rate: hinge.start.rate });

@@ -72,6 +72,14 @@ pub enum Release {
         /// The relative angle of that hinge \[rad\].
         angle: f64,
     },
+    /// When hinge number `hinge` has been locked for `delay` \[T\]; with a delay of zero in the instant
+    /// in which it locks. A hinge that starts locked counts as locked at the initial time.
+    AfterLock {
+        /// Index of the hinge that locks, from 0.
+        hinge: usize,
+        /// Time from its lock-up to the release \[T\], zero or more.
+        delay: f64,
+    },
     /// Not during the run.
     Never,
 }
@@ -124,6 +132,16 @@ pub struct Hinge {
     pub lock_angle: Option<f64>,
     /// Angle, rate and state at the initial time.
     pub start: HingeStart,
+}
+
+impl Release {
+    /// Index of the hinge that it waits for, from 0.
+    pub fn trigger(self) -> Option<usize> {
+        match self {
+            Self::Angle { hinge, .. } | Self::AfterLock { hinge, .. } => Some(hinge),
+            Self::Time(_) | Self::Never => None,
+        }
+    }
 }
 
 impl Hinge {

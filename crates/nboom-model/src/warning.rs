@@ -10,9 +10,9 @@ use crate::{HingeLabel, Scene};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ModelWarning {
-    /// These hinges wait for each other's angles, and none can move first.
+    /// These hinges wait for each other's angles or lock-ups, and none can move first.
     ReleaseCircle(Vec<HingeLabel>),
-    /// This hinge waits for the angle of a hinge that never turns.
+    /// This hinge waits for the angle or the lock-up of a hinge that never turns.
     TriggerNeverTurns {
         /// The waiting hinge.
         hinge: HingeLabel,
@@ -21,6 +21,13 @@ pub enum ModelWarning {
     },
     /// This hinge waits for an angle beyond that at which the other one locks.
     TriggerLocksBefore {
+        /// The waiting hinge.
+        hinge: HingeLabel,
+        /// The hinge it waits for.
+        trigger: HingeLabel,
+    },
+    /// This hinge waits for the lock-up of a hinge that has no lock angle.
+    TriggerNeverLocks {
         /// The waiting hinge.
         hinge: HingeLabel,
         /// The hinge it waits for.
@@ -105,6 +112,9 @@ impl fmt::Display for ModelWarning {
                 f,
                 "hinge {hinge} waits for an angle of hinge {trigger}, which locks before it comes there"
             ),
+            Self::TriggerNeverLocks { hinge, trigger } => {
+                write!(f, "hinge {hinge} waits for hinge {trigger} to lock, which never does")
+            }
             Self::LockedElsewhere(hinge) => {
                 write!(f, "hinge {hinge} starts locked, but not at its lock angle, and stays there")
             }

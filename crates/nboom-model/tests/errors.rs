@@ -35,7 +35,7 @@ fn numbers_that_are_none_are_refused() {
     let nan = f64::NAN;
     let bad = Vec3::new(0.0, nan, 0.0);
     type Change = fn(&mut SceneDescription, f64, Vec3<f64>);
-    let cases: [(&str, Change); 14] = [
+    let cases: [(&str, Change); 15] = [
         ("initial time", |s, nan, _| s.initial.time = nan),
         ("initial position", |s, _, bad| s.initial.position_inertial = bad),
         ("initial velocity", |s, _, bad| s.initial.velocity_inertial = bad),
@@ -50,6 +50,9 @@ fn numbers_that_are_none_are_refused() {
         ("hinge dashpot", |s, nan, _| s.bodies[1].hinge.dashpot.rate_quadratic = nan),
         ("lock angle", |s, nan, _| s.bodies[1].hinge.lock_angle = Some(nan)),
         ("release", |s, nan, _| s.bodies[1].hinge.release = Release::Time(nan)),
+        ("release", |s, delay, _| {
+            s.bodies[1].hinge.release = Release::AfterLock { hinge: 0, delay };
+        }),
     ];
     for (quantity, change) in cases {
         let found = told(|scene| change(scene, nan, bad));
@@ -66,10 +69,18 @@ fn what_contradicts_itself_is_refused() {
             scene.bodies[1].hinge.release = Release::Angle { hinge, angle: 0.1 };
         }
     };
+    let after_lock = |hinge: usize, delay: f64| {
+        move |s: &mut SceneDescription| {
+            s.bodies[1].hinge.release = Release::AfterLock { hinge, delay };
+        }
+    };
     assert_eq!(told(waits_for(0)), [""; 0]);
+    assert_eq!(told(after_lock(0, 0.0)), [""; 0]);
     for (found, words) in [
         (told(waits_for(1)), "release by hinge number 2 found, another of the 2 hinges"),
         (told(waits_for(2)), "release by hinge number 3 found, another of the 2 hinges"),
+        (told(after_lock(1, 0.5)), "release by hinge number 2 found, another of the 2 hinges"),
+        (told(after_lock(0, -0.5)), "release -0.5 time units after a lock-up found, zero or more"),
         (told(|s| s.end_time = -1.0), "end time -1 found, a time not before the initial time 0"),
         (told(|s| s.thrust.as_mut().expect("given").off = 0.1), "thrust from 0.2 to 0.1 found"),
         (told(|s| s.gravity.as_mut().expect("given").up = Vec3::unit_z() * 1.1), "of length 1.1"),

@@ -1,6 +1,7 @@
 //! Which code computes accelerations in a mode.
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_elements::OwnLaws;
 use nboom_formulation::Formulation;
 use nboom_model::Scene;
 use nboom_ode::Method;
@@ -21,6 +22,8 @@ pub(crate) mod selection;
 #[derive(Clone, Debug)]
 pub(crate) enum AccelerationCode {
     Recursion,
+    /// The recursion under hinge laws of the program's own as well.
+    UnderOwnLaws(OwnLaws),
     ClosedForm(ClosedForm<f64>),
     Generated(Generated),
 }
@@ -69,16 +72,24 @@ impl AccelerationCode {
         Ok((code, Selection { since, path, formulation, reason, evaluations: 0 }))
     }
 
+    /// The recursion under hinge laws of the program's own, which no other code knows, for a mode that
+    /// begins at `since`.
+    pub fn under_own_laws(own: &OwnLaws, since: f64) -> (Self, Selection) {
+        let code = Self::UnderOwnLaws(own.clone());
+        let (path, formulation) = code.path_and_formulation();
+        let reason = "hinge laws of the program's own act".into();
+        (code, Selection { since, path, formulation, reason, evaluations: 0 })
+    }
+
     /// The equations that power series are taken of, for what is told beside.
     pub fn recorded(scene: &Scene, dynamics: &Recursive<f64>) -> Self {
-        let (tree, external) = (dynamics.tree(), dynamics.external());
-        let form = ClosedForm::fit(scene, tree, external, Formulation::Articulated);
+        let form = ClosedForm::fit(scene, dynamics.tree(), Formulation::Articulated);
         form.map_or(Self::Recursion, Self::ClosedForm)
     }
 
     fn path_and_formulation(&self) -> (&'static str, &'static str) {
         match self {
-            Self::Recursion => (Selection::GENERIC, Form::Recursive.name()),
+            Self::Recursion | Self::UnderOwnLaws(_) => (Selection::GENERIC, Form::Recursive.name()),
             Self::ClosedForm(form) => (Selection::GENERIC, form.formulation().name()),
             Self::Generated(routine) => {
                 (Selection::GENERATED, routine.routine().kernel.formulation)
@@ -95,10 +106,24 @@ impl AccelerationCode {
     ) {
         match self {
             Self::Recursion => dynamics.accelerations(motion, out),
+            Self::UnderOwnLaws(own) => under_own_laws(own, dynamics, motion, out),
             Self::ClosedForm(form) => form.accelerations(dynamics, motion, out),
             Self::Generated(routine) => routine.accelerations(dynamics, motion, out),
         }
     }
+}
+
+/// Accelerations by the recursion under hinge laws of the program's own as well.
+pub(crate) fn under_own_laws(
+    own: &OwnLaws,
+    dynamics: &mut Recursive<f64>,
+    motion: &Motion<'_, f64>,
+    out: &mut Accelerations<f64>,
+) {
+    let add = |free: &[usize], torques: &mut [f64]| {
+        own.add_torques(free, [motion.beta, motion.tau], torques);
+    };
+    dynamics.accelerations_with(add, motion, out);
 }
 
 fn generated(
@@ -121,7 +146,7 @@ fn library(
     match form {
         None | Some(Form::Recursive) => Ok((AccelerationCode::Recursion, reason)),
         Some(Form::Closed(formulation)) => {
-            let form = ClosedForm::fit(scene, dynamics.tree(), dynamics.external(), formulation)?;
+            let form = ClosedForm::fit(scene, dynamics.tree(), formulation)?;
             Ok((AccelerationCode::ClosedForm(form), reason))
         }
     }

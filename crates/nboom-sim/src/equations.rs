@@ -1,13 +1,13 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_elements::gravity;
+use nboom_elements::{Commands, OwnLaws, gravity};
 use nboom_model::{Mode, Scene};
 use nboom_ode::{Part, Role, System};
 use nboom_scalar::{Eight, Vec3};
 use nboom_series::Series;
 
-use crate::code::CodeError;
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
+use crate::code::{CodeError, under_own_laws};
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::prepared_mode::PreparedMode;
 use crate::equations::rates::Rates;
@@ -42,6 +42,10 @@ pub(crate) struct Equations {
     /// Others that were entered.
     others: Vec<PreparedMode>,
     repertoire: Repertoire,
+    /// Hinge laws of the program's own.
+    pub own: OwnLaws,
+    /// What a control law commands; they act from the next time a mode is entered.
+    pub commands: Commands,
     pub variables: Variables<f64>,
     gravity: Vec3<f64>,
     total_mass: f64,
@@ -61,18 +65,22 @@ pub(crate) struct Equations {
 }
 
 impl Equations {
-    /// Those of `scene`, in the mode in which it starts.
-    pub fn new(scene: &Scene, options: &Options) -> Self {
+    /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as well.
+    pub fn new(scene: &Scene, own: OwnLaws, options: &Options) -> Self {
         let layout = VariableLayout::of_no_hinges();
         // Bodies whose inertia turns otherwise than they do have no momenta.
         let rigid = scene.departures().turned.is_empty();
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
+        let commands = Commands::none(scene.bodies.len());
+        let dynamics = Recursive::new(scene);
         Self {
             scene: scene.clone(),
-            entered: PreparedMode::new(Recursive::new(scene), &at_start, |i| state.beta[i]),
+            entered: PreparedMode::new(dynamics, &at_start, &commands, |i| state.beta[i]),
             others: Vec::new(),
             repertoire: Repertoire::new(options),
+            own,
+            commands,
             variables: Variables::new(scene, layout, &state),
             gravity: gravity(scene),
             total_mass: scene.total_mass(),
@@ -98,17 +106,20 @@ impl Equations {
     pub fn begin(&mut self) {
         self.sizes.begin(&self.scene);
         self.evaluations = 0;
-        let Self { scene, start, entered, others, .. } = self;
-        change_mode(entered, others, start, |i| scene.bodies[i].hinge.start.angle);
+        self.commands.clear();
+        let Self { scene, start, entered, others, commands, .. } = self;
+        change_mode(entered, others, start, commands, |i| scene.bodies[i].hinge.start.angle);
     }
 
-    /// Goes on from `state` in `mode`; writes the variables to `y`.
+    /// Goes on from `state` in `mode`, under the commands; writes the variables to `y`.
     pub fn enter(&mut self, mode: &Mode, state: &mut State, y: &mut Vec<f64>) {
-        change_mode(&mut self.entered, &mut self.others, mode, |i| state.beta[i]);
-        let elements = self.entered.dynamics.elements();
-        let (thrust, torques) = (elements.thrust().is_some(), elements.torques());
-        let free = self.entered.dynamics.free_hinges();
-        let dashpots = free.iter().any(|&i| torques[i].depends_on_rate());
+        let Self { entered, others, commands, own, .. } = self;
+        change_mode(entered, others, mode, commands, |i| state.beta[i]);
+        let elements = entered.dynamics.elements();
+        let (thrust, torques) = (elements.external().is_some(), elements.torques());
+        let free = entered.dynamics.free_hinges();
+        let works = |&i: &usize| torques[i].depends_on_rate() || own.act_about(i);
+        let dashpots = free.iter().any(works);
         let free = free.len();
         let unknowns = self.unknowns(state, thrust);
         let layout = VariableLayout { unknowns, free, thrust, dashpots };
@@ -138,11 +149,12 @@ impl Equations {
         self.sizes.saw(&state.omega_body.to_array());
         self.sizes.saw(&state.tau);
         let motion = state.motion(&self.entered.dynamics);
-        self.entered.dynamics.accelerations(&motion, &mut self.accelerations);
+        let Self { entered, own, accelerations, .. } = self;
+        under_own_laws(own, &mut entered.dynamics, &motion, accelerations);
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
         let angular = omega_dot_body.to_array().into_iter().chain(tau_dot.iter().copied());
-        let thrust = self.entered.dynamics.elements().thrust();
-        let force = thrust.map_or(Vec3::zero(), |thrust| thrust.force);
+        let external = self.entered.dynamics.external();
+        let force = external.map_or(Vec3::zero(), |external| external.force);
         self.sizes.saw_accelerations(angular, force * (1.0 / self.total_mass));
         let has_momenta = self.variables.layout.has_momenta();
         self.sizes
@@ -159,12 +171,12 @@ impl Equations {
     /// # Errors
     /// When the code that is demanded does not fit.
     pub fn select(&mut self, options: &Options) -> Result<Selection, CodeError> {
-        let Self { scene, entered, repertoire, variables, .. } = self;
+        let Self { scene, entered, own, repertoire, variables, .. } = self;
         let since = variables.origin.time;
         if variables.layout.has_momenta() {
             return Ok(entered.select_momenta(since));
         }
-        entered.select(scene, repertoire, options, since)
+        entered.select(scene, own, repertoire, options, since)
     }
 
     /// Accelerations without gravity in the mode that was entered.
@@ -185,10 +197,10 @@ impl Equations {
 
     /// The acceleration of the mass centre, inertial axes.
     pub fn center_acceleration(&self, state: &State) -> Vec3<f64> {
-        let thrust = self.entered.dynamics.elements().thrust().map_or(Vec3::zero(), |thrust| {
-            state.attitude.to_matrix() * thrust.force * (1.0 / self.total_mass)
+        let external = self.entered.dynamics.external().map_or(Vec3::zero(), |external| {
+            state.attitude.to_matrix() * external.force * (1.0 / self.total_mass)
         });
-        self.gravity + thrust
+        self.gravity + external
     }
 
     /// The largest rate so far.
@@ -208,24 +220,26 @@ impl Equations {
 }
 
 /// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the `others` if
-/// it is among them.
+/// it is among them, and holds `commands` there.
 fn change_mode(
     entered: &mut PreparedMode,
     others: &mut Vec<PreparedMode>,
     mode: &Mode,
+    commands: &Commands,
     beta: impl Fn(usize) -> f64 + Copy,
 ) {
-    if entered.is(mode, beta) {
-        return;
+    let is_it = |prepared: &PreparedMode| prepared.is(mode, commands, beta);
+    if !is_it(entered) {
+        let next = match others.iter().position(is_it) {
+            Some(at) => others.swap_remove(at),
+            None => PreparedMode::new(entered.dynamics.clone(), mode, commands, beta),
+        };
+        if others.len() == MOST_MODES {
+            others.remove(0);
+        }
+        others.push(std::mem::replace(entered, next));
     }
-    let next = match others.iter().position(|other| other.is(mode, beta)) {
-        Some(at) => others.swap_remove(at),
-        None => PreparedMode::new(entered.dynamics.clone(), mode, beta),
-    };
-    if others.len() == MOST_MODES {
-        others.remove(0);
-    }
-    others.push(std::mem::replace(entered, next));
+    entered.command(commands);
 }
 
 impl System for Equations {
@@ -265,17 +279,21 @@ impl System for Equations {
     }
 
     fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> bool {
+        if !self.own.is_empty() {
+            return false;
+        }
         let free_fall = self.variables.free_fall(t).velocity;
-        let Self { scene, entered, variables, .. } = self;
-        entered.jacobian(scene).write(variables.layout, free_fall, y, out);
+        let Self { scene, entered, commands, variables, .. } = self;
+        entered.jacobian(scene, commands).write(variables.layout, free_fall, y, out);
         true
     }
 
     fn series(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> bool {
         self.evaluations += 1;
         self.series.take_if(|series| series.order() != order);
-        let Self { scene, entered, variables, .. } = self;
-        let of_mode = || Series::new(&series::graph(scene, &entered.mode, variables), &[], order);
+        let Self { scene, entered, commands, variables, .. } = self;
+        let graph = || series::graph(scene, &entered.mode, commands, variables);
+        let of_mode = || Series::new(&graph(), &[], order);
         self.series.get_or_insert_with(of_mode).write(t, y, out);
         true
     }

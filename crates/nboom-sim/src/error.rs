@@ -81,6 +81,22 @@ pub enum SimError {
         /// What is not covered.
         source: NotCovered,
     },
+    /// Code is demanded that does not know the hinge laws of the program's own.
+    #[error(
+        "{demanded} found, library code of the recursion expected under hinge laws of the program's own"
+    )]
+    OwnLaws {
+        /// What is demanded.
+        demanded: &'static str,
+    },
+    /// A hinge law of the program's own is of a hinge that the scene has not.
+    #[error("own hinge law: hinge number {hinge} found, one of the {count} hinges expected")]
+    OwnLawHinge {
+        /// Number of the hinge, from 1.
+        hinge: usize,
+        /// How many hinges there are.
+        count: usize,
+    },
     /// No impulse locks these hinges.
     #[error("at time {}, {}: no impulse locks this hinge; the mass matrix is singular", moment(.time), place(.hinge))]
     LockUp {

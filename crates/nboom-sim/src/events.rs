@@ -5,5 +5,6 @@ pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;
 pub(crate) mod line_path;
+pub(crate) mod schedule;
 pub(crate) mod side;
 pub(crate) mod situation;

@@ -6,6 +6,9 @@
 //! joint impulse. The translation of the system mass centre is not integrated but known in
 //! closed form, unless the thrust is on.
 //!
+//! A program may bring a control law that is asked at a sample rate ([`Control`]) and hinge laws of its
+//! own ([`OwnLaw`]), and look at the motion of each body ([`Snapshot::bodies`]).
+//!
 //! Files, clocks and terminals are other crates' business; see [`Recorder`].
 //!
 //! ```
@@ -49,10 +52,13 @@ pub use code::selection::{CodeOfRun, Selection};
 pub use equations::totals::Totals;
 pub use error::{Feeds, SimError};
 pub use events::event::{Event, EventKind, Jump};
+pub use nboom_elements::{Commands, OwnLaw};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, OptionError, Options, Path};
 pub use run::beforehand::check_start;
+pub use run::bodies::BodyMotion;
 pub use run::conservation::{Conservation, PoorConservation};
+pub use run::control::Control;
 pub use run::record::{
     Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,
 };

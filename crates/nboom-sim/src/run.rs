@@ -18,7 +18,9 @@ use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
 
 pub(crate) mod beforehand;
+pub(crate) mod bodies;
 pub(crate) mod conservation;
+pub(crate) mod control;
 pub(crate) mod finite;
 pub(crate) mod ledger;
 pub(crate) mod record;
@@ -31,6 +33,7 @@ mod runaway;
 mod simulator;
 mod telling;
 
+use control::{Control, Sampling};
 use runaway::Resources;
 pub use simulator::Simulator;
 use simulator::Workspace;
@@ -54,6 +57,7 @@ const CORRECTIONS: usize = 8;
 struct Run<'a> {
     options: Options,
     recorder: &'a mut dyn Recorder,
+    sampling: Option<Sampling<'a>>,
     equations: &'a mut Equations,
     situation: &'a mut Situation<f64>,
     /// Energy and momenta of the present state, once they have been asked for.
@@ -83,6 +87,7 @@ impl<'a> Run<'a> {
         options: Options,
         equations: &'a mut Equations,
         workspace: &'a mut Workspace,
+        control: Option<Control<'a>>,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
         let Workspace { situation, scratch, shown, seen, stepper, variables, room, summary } =
@@ -90,14 +95,18 @@ impl<'a> Run<'a> {
         stepper.reset();
         equations.begin();
         situation.begin(&equations.scene, &equations.start, &mut equations.entered.dynamics);
+        let start = equations.scene.initial.time;
+        if control.is_some() {
+            situation.sample_at(start);
+        }
         let Situation { state, mode, .. } = &mut *situation;
         equations.enter(mode, state, variables);
         let invariants = state.invariants(&mut equations.entered.dynamics);
         summary.begin(&mode.hinges, &state.beta);
-        let start = equations.scene.initial.time;
         Self {
             options,
             recorder,
+            sampling: control.map(Sampling::new),
             ledger: Ledger::new(equations, state, &invariants),
             resources: Resources::of(&equations.scene, &invariants),
             invariants: Some(invariants),
@@ -120,6 +129,8 @@ impl<'a> Run<'a> {
     fn complete(&mut self) -> Result<(), SimError> {
         let Equations { scene, entered, .. } = &*self.equations;
         self.options.check_span(scene.end_time - scene.initial.time)?;
+        self.check_period()?;
+        self.check_own_laws()?;
         self.situation.watch(scene, &entered.dynamics);
         self.situation.arrive_at_start(scene, &entered.dynamics);
         loop {
@@ -153,6 +164,7 @@ impl<'a> Run<'a> {
         if has_momenta || !outcome.events.is_empty() {
             self.invariants = None;
         }
+        self.ask_control()?;
         self.check_regular()?;
         self.check_lines()?;
         self.select()?;

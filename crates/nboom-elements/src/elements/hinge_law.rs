@@ -36,6 +36,11 @@ impl<R: Real> HingeLaw<R> {
         Self { q1, q2, a2, a1, a0 }
     }
 
+    /// The law with a constant torque beside it.
+    pub fn with_constant(self, torque: R) -> Self {
+        Self { a0: self.a0 + torque, ..self }
+    }
+
     /// q₁, q₂, A₂, A₁, A₀.
     pub fn numbers(&self) -> [R; 5] {
         [self.q1, self.q2, self.a2, self.a1, self.a0]

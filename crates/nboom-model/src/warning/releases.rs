@@ -10,18 +10,23 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
         if starts_locked_elsewhere(&scene.bodies[i].hinge) {
             warnings.push(ModelWarning::LockedElsewhere(scene.label(i)));
         }
-        let Some((trigger, angle)) = waits_for(scene, i) else { continue };
+        let Some(trigger) = waits_for(scene, i) else { continue };
         let circle = circle_from(scene, i);
         let (hinge, of_trigger) = (scene.label(i), &scene.bodies[trigger].hinge);
+        let release = scene.bodies[i].hinge.release;
         if circle.first() == Some(&i) && circle.iter().min() == Some(&i) {
             let labels = circle.iter().map(|&j| scene.label(j)).collect();
             warnings.push(ModelWarning::ReleaseCircle(labels));
         } else if !of_trigger.can_turn() {
             let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerNeverTurns { hinge, trigger });
-        } else if locks_before(of_trigger, angle) {
+        } else if matches!(release, Release::Angle { angle, .. } if locks_before(of_trigger, angle))
+        {
             let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
+        } else if matches!(release, Release::AfterLock { .. } if of_trigger.lock_angle.is_none()) {
+            let trigger = scene.label(trigger);
+            warnings.push(ModelWarning::TriggerNeverLocks { hinge, trigger });
         }
     }
     warnings
@@ -41,25 +46,26 @@ fn locks_before(hinge: &Hinge, angle: f64) -> bool {
     hinge.lock_angle.is_some_and(between)
 }
 
-/// The hinge that an unreleased hinge `i` waits for, and the angle, unless that one starts at it.
-fn waits_for(scene: &Scene, i: usize) -> Option<(usize, f64)> {
+/// The hinge that an unreleased hinge `i` waits for, unless that one starts at the angle or in the state
+/// that is waited for.
+fn waits_for(scene: &Scene, i: usize) -> Option<usize> {
     let hinge = &scene.bodies[i].hinge;
-    match hinge.release {
-        Release::Angle { hinge: trigger, angle }
-            if hinge.start.state == HingeState::Unreleased
-                && scene.bodies[trigger].hinge.start.angle != angle =>
-        {
-            Some((trigger, angle))
-        }
-        _ => None,
-    }
+    let trigger =
+        hinge.release.trigger().filter(|_| hinge.start.state == HingeState::Unreleased)?;
+    let start = scene.bodies[trigger].hinge.start;
+    let waits = match hinge.release {
+        Release::Angle { angle, .. } => start.angle != angle,
+        Release::AfterLock { .. } => start.state != HingeState::Locked,
+        Release::Time(_) | Release::Never => false,
+    };
+    waits.then_some(trigger)
 }
 
 /// The hinges met by following triggers from `start` until one comes round again; empty when
 /// the chain ends.
 fn circle_from(scene: &Scene, start: usize) -> Vec<usize> {
     let mut seen = vec![start];
-    while let Some((next, _)) = waits_for(scene, seen[seen.len() - 1]) {
+    while let Some(next) = waits_for(scene, seen[seen.len() - 1]) {
         if let Some(position) = seen.iter().position(|&j| j == next) {
             return seen.split_off(position);
         }

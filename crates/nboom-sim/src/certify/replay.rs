@@ -142,7 +142,7 @@ impl<'a> Replay<'a> {
     fn enter(&mut self) -> Course {
         self.situation.watch(self.scene, &self.dynamics);
         let Self { scene, dynamics, situation: Situation { state, mode, .. }, .. } = self;
-        let thrust = dynamics.elements().thrust().is_some();
+        let thrust = dynamics.external().is_some();
         let free = dynamics.free_hinges().len();
         let (unknowns, dashpots) = (Unknowns::Velocities, false);
         let layout = VariableLayout { unknowns, free, thrust, dashpots };
@@ -169,7 +169,7 @@ impl<'a> Replay<'a> {
             let since_start = self.situation.state.time - course.variables.origin.time;
             let reach = course.expansion.expand(since_start, &course.now);
             self.check_step(reach)?;
-            let remaining = exact(limit) - self.situation.state.time;
+            let remaining = limit - self.situation.state.time;
             let guess = expected - self.situation.state.time.to_f64();
             let is_near = guess <= reach;
             let first =

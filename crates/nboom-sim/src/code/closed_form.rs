@@ -31,14 +31,13 @@ pub struct NotCovered {
 }
 
 impl<R: Real> ClosedForm<R> {
-    /// The closed form for the mode of `tree`, with what acts on the main body from outside.
+    /// The closed form for the mode of `tree`.
     ///
     /// # Errors
     /// When the formulation does not cover it.
     pub fn fit(
         scene: &Scene,
         tree: &WeldedTree<f64>,
-        external: Option<Wrench<R>>,
         formulation: Formulation,
     ) -> Result<Self, NotCovered> {
         formulation.covers(tree).map_err(|link| NotCovered {
@@ -56,7 +55,7 @@ impl<R: Real> ClosedForm<R> {
         let at_rest = HingeCoordinates { beta: R::zero(), tau: R::zero(), torque: R::zero() };
         let coordinates = Coordinates {
             omega: Vec3::zero(),
-            external: external.unwrap_or(Wrench::zero()),
+            external: Wrench::zero(),
             hinges: vec![at_rest; links.len()],
         };
         let torques = vec![R::zero(); links.len()];
@@ -78,6 +77,7 @@ impl<R: Real> ClosedForm<R> {
         dynamics.hinge_forces(motion, &mut self.torques);
         let x = &mut self.coordinates;
         x.omega = motion.omega_body;
+        x.external = dynamics.external().unwrap_or(Wrench::zero());
         for (hinge, &j) in x.hinges.iter_mut().zip(&self.links) {
             let (beta, tau, torque) = (motion.beta[j], motion.tau[j], self.torques[j]);
             *hinge = HingeCoordinates { beta, tau, torque };

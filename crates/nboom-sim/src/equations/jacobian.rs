@@ -1,4 +1,5 @@
 use nboom_dynamics::Recursive;
+use nboom_elements::Commands;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Dual, Real, Vec3};
 
@@ -24,6 +25,11 @@ impl Jacobian {
         dynamics.set_mode(mode, &beta);
         let rates = Rates::new(scene, VariableLayout::of_no_hinges());
         Self { rates, dynamics, variables: Vec::new(), derivatives: Vec::new() }
+    }
+
+    /// Holds `commands` in place of those that it held.
+    pub fn command(&mut self, commands: &Commands) {
+        self.dynamics.command(commands);
     }
 
     /// Writes ∂ẏ/∂y at `y`, which stands as in `layout`, to `out`, row by row; `free_fall` is the velocity
@@ -67,6 +73,7 @@ mod tests {
     use crate::equations::Equations;
     use crate::equations::state::State;
     use crate::options::{Form, Options};
+    use nboom_elements::OwnLaws;
     use nboom_formulation::Formulation;
     use nboom_model::HingeState;
     use nboom_ode::System;
@@ -88,7 +95,8 @@ mod tests {
             thrust: scene.thrust.is_some(),
         };
         let options = Options { formulation, ..Options::default() };
-        let (mut equations, mut y) = (Equations::new(&scene, &options), Vec::new());
+        let (mut equations, mut y) =
+            (Equations::new(&scene, OwnLaws::default(), &options), Vec::new());
         equations.enter(&mode, &mut state, &mut y);
         y.iter_mut().skip(equations.variables.layout.hinge_motion().end).for_each(|y| *y = 0.4);
         (equations, y)

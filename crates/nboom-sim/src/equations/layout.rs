@@ -18,7 +18,8 @@ pub(crate) enum Unknowns {
 /// unless it follows from the angular momentum, angles of the free hinges and their rates or
 /// momenta, and only where needed the thrust's displacement and velocity of the mass centre (6),
 /// the work of dashpots (1), and the work (1) and angular impulse (3) of the thrust. The impulse
-/// comes before all work where the rate follows from it.
+/// comes before all work where the rate follows from it. What a control law commands on the main body
+/// counts as thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct VariableLayout {
     pub unknowns: Unknowns,

@@ -1,4 +1,5 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
+use nboom_elements::{Commands, OwnLaws, Reach};
 use nboom_model::{Mode, Scene};
 use nboom_ode::Part;
 use nboom_scalar::{Eight, Quaternion, Vec3};
@@ -17,6 +18,8 @@ pub(crate) struct PreparedMode {
     pub mode: Mode,
     /// β of every hinge; those of held ones are built in.
     beta: Vec<f64>,
+    /// What a control law acts on, for which not all code has a place.
+    reach: Reach,
     pub dynamics: Recursive<f64>,
     /// What computes accelerations, once it has been chosen.
     code: AccelerationCode,
@@ -28,19 +31,44 @@ pub(crate) struct PreparedMode {
 }
 
 impl PreparedMode {
-    /// The mode of the scene of `dynamics` in which held hinges are at `beta`.
-    pub fn new(mut dynamics: Recursive<f64>, mode: &Mode, beta: impl Fn(usize) -> f64) -> Self {
+    /// The mode of the scene of `dynamics` in which held hinges are at `beta`, for what `commands` act on.
+    pub fn new(
+        mut dynamics: Recursive<f64>,
+        mode: &Mode,
+        commands: &Commands,
+        beta: impl Fn(usize) -> f64,
+    ) -> Self {
         let beta: Vec<f64> = (0..mode.hinges.len()).map(beta).collect();
         dynamics.set_mode(mode, &beta);
-        let mode = mode.clone();
-        let code = AccelerationCode::Recursion;
-        Self { mode, beta, dynamics, code, right_sides: None, selection: None, jacobian: None }
+        Self {
+            mode: mode.clone(),
+            beta,
+            reach: commands.reach(),
+            dynamics,
+            code: AccelerationCode::Recursion,
+            right_sides: None,
+            selection: None,
+            jacobian: None,
+        }
     }
 
-    /// Whether it is this mode, with held hinges at these angles.
-    pub fn is(&self, mode: &Mode, beta: impl Fn(usize) -> f64) -> bool {
+    /// Whether it is this mode, with held hinges at these angles, and for what `commands` act on.
+    pub fn is(&self, mode: &Mode, commands: &Commands, beta: impl Fn(usize) -> f64) -> bool {
         let is_held_there = |i: usize| mode.is_free(i) || self.beta[i] == beta(i);
-        self.mode == *mode && (0..self.beta.len()).all(is_held_there)
+        self.mode == *mode
+            && self.reach == commands.reach()
+            && (0..self.beta.len()).all(is_held_there)
+    }
+
+    /// Holds `commands`, which act on what it is [for](Self::is), in place of those that it held.
+    pub fn command(&mut self, commands: &Commands) {
+        if self.reach == Reach::Nothing {
+            return;
+        }
+        self.dynamics.command(commands);
+        if let Some(jacobian) = &mut self.jacobian {
+            jacobian.command(commands);
+        }
     }
 
     /// Chooses the code that computes accelerations from the time `since` on, unless it was chosen before.
@@ -50,6 +78,7 @@ impl PreparedMode {
     pub fn select(
         &mut self,
         scene: &Scene,
+        own: &OwnLaws,
         repertoire: &Repertoire,
         options: &Options,
         since: f64,
@@ -57,10 +86,16 @@ impl PreparedMode {
         if let Some(selection) = &self.selection {
             return Ok(Selection { since, ..selection.clone() });
         }
-        let (code, mut selection) =
-            AccelerationCode::choose(scene, &self.dynamics, repertoire, options, since)?;
+        let (code, mut selection) = if own.is_empty() {
+            AccelerationCode::choose(scene, &self.dynamics, repertoire, options, since)?
+        } else {
+            AccelerationCode::under_own_laws(own, since)
+        };
         if let AccelerationCode::Generated(_) = code {
-            self.right_sides = RightSides::fit(&self.dynamics, repertoire, options.batches);
+            // Hinge laws are built into right sides.
+            if self.reach == Reach::Nothing {
+                self.right_sides = RightSides::fit(&self.dynamics, repertoire, options.batches);
+            }
             let told = match &self.right_sides {
                 Some(RightSides { of_eight: Some(_), .. }) => "whole right side, also of eight states",
                 Some(RightSides { of_eight: None, .. }) => "whole right side",
@@ -99,6 +134,12 @@ impl PreparedMode {
                         code.accelerations(dynamics, motion, out);
                     };
                 rates.write(dynamics, accelerate, free_fall, y, dy);
+                if let (AccelerationCode::UnderOwnLaws(own), [work]) =
+                    (code, &mut dy[rates.layout.dashpot_work()])
+                {
+                    let motion = [&y[rates.layout.beta()], &y[rates.layout.hinge_motion()]];
+                    *work += own.power(dynamics.free_hinges(), motion);
+                }
             }
         }
     }
@@ -138,10 +179,16 @@ impl PreparedMode {
         true
     }
 
-    /// Derivatives of the equations of the mode, which is one of `scene`.
-    pub fn jacobian(&mut self, scene: &Scene) -> &mut Jacobian {
-        let Self { mode, beta, jacobian, .. } = self;
-        jacobian.get_or_insert_with(|| Jacobian::new(scene, mode, beta))
+    /// Derivatives of the equations of the mode, which is one of `scene`, under `commands`, which it holds.
+    pub fn jacobian(&mut self, scene: &Scene, commands: &Commands) -> &mut Jacobian {
+        let Self { mode, beta, reach, jacobian, .. } = self;
+        jacobian.get_or_insert_with(|| {
+            let mut jacobian = Jacobian::new(scene, mode, beta);
+            if *reach != Reach::Nothing {
+                jacobian.command(commands);
+            }
+            jacobian
+        })
     }
 
     /// Accelerations: ω̇, a_O without gravity, τ̇.

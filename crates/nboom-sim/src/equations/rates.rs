@@ -1,5 +1,4 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_elements::ThrustForce;
 use nboom_model::Scene;
 use nboom_scalar::{Real, Vec3};
 
@@ -68,9 +67,8 @@ impl<R: Real> Rates<R> {
         if let [work] = &mut dy[layout.dashpot_work()] {
             *work = dynamics.elements().rate_power(dynamics.free_hinges(), motion.tau);
         }
-        if let Some(&thrust) = dynamics.elements().thrust() {
-            let center = (*total_mass, free_fall);
-            write_thrust(layout, dynamics, thrust, (&motion, center), y, dy);
+        if layout.thrust {
+            write_external(layout, dynamics, (&motion, (*total_mass, free_fall)), y, dy);
         }
     }
 
@@ -88,35 +86,34 @@ impl<R: Real> Rates<R> {
         if let [work] = &mut dy[layout.dashpot_work()] {
             *work = power;
         }
-        if let Some(&thrust) = dynamics.elements().thrust() {
+        if layout.thrust {
             let omega_body = Vec3::new(y[4], y[5], y[6]);
             let (beta, tau) = (&y[layout.beta()], &y[layout.hinge_motion()]);
             let motion = Motion { omega_body, beta, tau };
-            write_thrust(layout, dynamics, thrust, (&motion, (*total_mass, free_fall)), y, dy);
+            write_external(layout, dynamics, (&motion, (*total_mass, free_fall)), y, dy);
         }
     }
 }
 
-fn write_thrust<R: Real>(
+fn write_external<R: Real>(
     layout: &VariableLayout,
     dynamics: &mut Recursive<R>,
-    thrust: ThrustForce<R>,
     (motion, (total_mass, free_fall)): (&Motion<'_, R>, (R, Vec3<R>)),
     y: &[R],
     dy: &mut [R],
 ) {
-    let ThrustForce { point, force: force_body, .. } = thrust;
     let to_inertial = attitude(y).normalized().to_matrix();
-    let force = to_inertial * force_body;
     let displacement = layout.thrust_motion().start;
     let added = &y[displacement + 3..][..3];
     let velocity = free_fall + Vec3::new(added[0], added[1], added[2]);
     let found = dynamics.invariants(motion, to_inertial.transpose_mul(velocity));
-    let at_point = found.origin_velocity + motion.omega_body.cross(point);
-    let moment = to_inertial * (point - found.mass_center).cross(force_body);
+    let elements = dynamics.elements();
+    let force = to_inertial * elements.external().map_or(Vec3::zero(), |wrench| wrench.force);
+    let moment = to_inertial * elements.external_moment_about(found.mass_center);
     let acceleration = force * (R::one() / total_mass);
     dy[displacement..][..3].copy_from_slice(added);
     dy[displacement + 3..][..3].copy_from_slice(&acceleration.to_array());
-    dy[layout.thrust_work().start] = force_body.dot(at_point);
+    dy[layout.thrust_work().start] =
+        elements.external_power(found.origin_velocity, motion.omega_body);
     dy[layout.angular_impulse()].copy_from_slice(&moment.to_array());
 }

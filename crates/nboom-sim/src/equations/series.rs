@@ -1,5 +1,5 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_elements::gravity;
+use nboom_elements::{Commands, Reach, gravity};
 use nboom_expr::{Expr, Graph};
 use nboom_formulation::Formulation;
 use nboom_model::{Mode, Scene, WeldedTree};
@@ -15,15 +15,23 @@ use crate::equations::variables::Variables;
 ///
 /// Of all code for the accelerations, the articulated closed form has the smallest graph; where
 /// it does not cover the mode, the recursion is recorded. All compute the same ones.
-pub(crate) fn graph(scene: &Scene, mode: &Mode, variables: &Variables<f64>) -> Graph {
+pub(crate) fn graph(
+    scene: &Scene,
+    mode: &Mode,
+    commands: &Commands,
+    variables: &Variables<f64>,
+) -> Graph {
     let Variables { layout, origin, .. } = variables;
     Graph::trace(layout.len() + 1, |inputs| {
         let (y, t) = (&inputs[..layout.len()], inputs[layout.len()]);
         let mut dynamics = Recursive::new(scene);
         let beta: Vec<Expr> = origin.beta.iter().map(|&angle| Expr::constant(angle)).collect();
         dynamics.set_mode(mode, &beta);
+        if commands.reach() != Reach::Nothing {
+            dynamics.command(commands);
+        }
         let tree = WeldedTree::new(scene, mode, &origin.beta);
-        let form = ClosedForm::fit(scene, &tree, dynamics.external(), Formulation::Articulated);
+        let form = ClosedForm::fit(scene, &tree, Formulation::Articulated);
         let center_velocity = Vec3::constant(origin.center.velocity);
         let since = t - Expr::constant(origin.time);
         let free_fall = center_velocity + gravity(scene) * since;

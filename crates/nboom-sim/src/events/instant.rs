@@ -1,5 +1,5 @@
 use nboom_dynamics::{LockUp, Recursive, VelocityJump};
-use nboom_elements::{thrust_acts, thrust_change};
+use nboom_elements::thrust_acts;
 use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
@@ -8,6 +8,7 @@ use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::{Bound, GuardKind, Guards, read};
+use crate::events::schedule::Schedule;
 
 /// Angle \[rad\] through which the fastest arriving hinge turns in one instant; for a line, its
 /// change of length as a share of the length at which it arrives.
@@ -145,9 +146,14 @@ impl Arrivals {
         self.locks.is_empty() && self.triggered.is_empty() && self.bounds.is_empty()
     }
 
-    /// Whether a hinge locks.
-    pub fn lock(&self) -> bool {
-        !self.locks.is_empty()
+    /// How long the instant lasts.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// The hinges that lock.
+    pub fn locks(&self) -> &[usize] {
+        &self.locks
     }
 }
 
@@ -218,13 +224,17 @@ impl<R: Number> Outcome<R> {
         &mut self,
         scene: &Scene,
         dynamics: &mut Recursive<R>,
-        arrivals: &Arrivals,
+        (arrivals, schedule): (&Arrivals, &Schedule<R>),
         state: &mut State<R>,
         mode: &mut Mode,
     ) -> Result<(), SimError> {
         self.reset();
         let time = state.time.to_f64();
-        let due = |i: &usize| is_due(scene, mode, arrivals, time, *i);
+        let due = |i: &usize| {
+            mode.hinges[*i] == HingeState::Unreleased
+                && (schedule.releases_by(time + arrivals.duration, *i)
+                    || is_triggered(scene, arrivals, *i))
+        };
         self.released.extend((0..scene.bodies.len()).filter(due));
         let thrust = thrust_switch(scene, mode, time + arrivals.duration);
         if arrivals.is_empty() && self.released.is_empty() && thrust.is_none() {
@@ -300,36 +310,23 @@ fn totals<R: Number>(state: &mut State<R>, dynamics: &mut Recursive<R>) -> Total
     Totals::of(state, &found)
 }
 
-/// Whether the hinge `i` is unreleased and its release is due.
-fn is_due(scene: &Scene, mode: &Mode, arrivals: &Arrivals, time: f64, i: usize) -> bool {
+/// Whether the angle has arrived that releases hinge `i`.
+fn is_triggered(scene: &Scene, arrivals: &Arrivals, i: usize) -> bool {
     let locked_at = |hinge: usize, angle: f64| {
         let lock_angle = scene.bodies[hinge].hinge.lock_angle;
         arrivals.locks.contains(&hinge)
             && lock_angle.is_some_and(|at| (at - angle).abs() <= SAME_ANGLE)
     };
-    mode.hinges[i] == HingeState::Unreleased
-        && match scene.bodies[i].hinge.release {
-            Release::Time(at) => at <= time + arrivals.duration,
-            Release::Angle { hinge, angle } => {
-                arrivals.triggered.contains(&i) || locked_at(hinge, angle)
-            }
-            Release::Never => false,
+    match scene.bodies[i].hinge.release {
+        Release::Angle { hinge, angle } => {
+            arrivals.triggered.contains(&i) || locked_at(hinge, angle)
         }
+        Release::Time(_) | Release::AfterLock { .. } | Release::Never => false,
+    }
 }
 
 /// Whether the thrust is on from the end of an instant on, if that is a change.
 fn thrust_switch(scene: &Scene, mode: &Mode, end: f64) -> Option<bool> {
     let on = thrust_acts(&scene.thrust?, end);
     (on != mode.thrust).then_some(on)
-}
-
-/// The next time after `time` at which the scene itself changes the mode.
-pub(crate) fn next_scheduled(scene: &Scene, mode: &Mode, time: f64) -> f64 {
-    let release = |(i, state): (usize, &HingeState)| match scene.bodies[i].hinge.release {
-        Release::Time(at) if *state == HingeState::Unreleased => at,
-        _ => f64::INFINITY,
-    };
-    let releases = mode.hinges.iter().enumerate().map(release);
-    let thrust = scene.thrust.map(|thrust| thrust_change(&thrust, mode.thrust));
-    releases.chain(thrust).filter(|&at| at > time).fold(f64::INFINITY, f64::min)
 }

@@ -6,7 +6,8 @@ use nboom_scalar::{Number, Vec3};
 use crate::equations::state::{MassCenter, State};
 use crate::error::SimError;
 use crate::events::guard::{GuardKind, Guards};
-use crate::events::instant::{self, Arrivals, Outcome};
+use crate::events::instant::{Arrivals, Outcome};
+use crate::events::schedule::Schedule;
 use crate::events::side::LockSide;
 
 /// Where a motion has come to: its state and mode, and what may end the mode.
@@ -20,6 +21,7 @@ pub(crate) struct Situation<R> {
     /// The side of its lock angle that each hinge was last known to be on; none of a hinge without
     /// a lock angle, or on it since it became free.
     lock_sides: Vec<Option<LockSide>>,
+    schedule: Schedule<R>,
     /// What has arrived in the present instant.
     pub arrivals: Arrivals,
     /// What the last instant has changed.
@@ -34,6 +36,7 @@ impl<R: Number> Situation<R> {
             mode: Mode::at_start(scene),
             guards: Guards::new(),
             lock_sides: vec![None; scene.bodies.len()],
+            schedule: Schedule::new(scene),
             arrivals: Arrivals::default(),
             outcome: Outcome::nothing(),
         }
@@ -42,8 +45,9 @@ impl<R: Number> Situation<R> {
     /// Goes to the beginning of `scene`, before the first instant; nothing is watched yet. `dynamics` is
     /// in the mode `start`, in which the scene starts.
     pub fn begin(&mut self, scene: &Scene, start: &Mode, dynamics: &mut Recursive<R>) {
-        let Self { state, mode, lock_sides, outcome, .. } = self;
+        let Self { state, mode, lock_sides, schedule, outcome, .. } = self;
         outcome.reset();
+        schedule.begin(scene);
         state.begin(scene);
         mode.hinges.clone_from(&start.hinges);
         mode.pieces.clone_from(&start.pieces);
@@ -82,18 +86,28 @@ impl<R: Number> Situation<R> {
         for (hinge, side) in self.lock_sides.iter_mut().enumerate() {
             *side = self.guards.lock_side(hinge).or(*side);
         }
-        let Self { state, mode, arrivals, outcome, .. } = self;
-        outcome.pass(scene, dynamics, arrivals, state, mode)?;
+        let Self { state, mode, schedule, arrivals, outcome, .. } = self;
+        schedule.note_lock_ups(scene, arrivals.locks(), state.time);
+        outcome.pass(scene, dynamics, (arrivals, schedule), state, mode)?;
         for &hinge in &outcome.released {
             self.lock_sides[hinge] = LockSide::of(scene, hinge, state.beta[hinge]);
         }
         Ok(())
     }
 
-    /// The next time at which the scene itself changes the mode, or its end.
-    pub fn limit(&self, scene: &Scene) -> f64 {
-        let scheduled = instant::next_scheduled(scene, &self.mode, self.state.time.to_f64());
-        scheduled.min(scene.end_time)
+    /// Whether a control law is to be asked in the present instant.
+    pub fn is_sampled(&self) -> bool {
+        self.schedule.sample <= self.state.time.to_f64() + self.arrivals.duration()
+    }
+
+    /// Notes when a control law is asked next.
+    pub fn sample_at(&mut self, time: f64) {
+        self.schedule.sample = time;
+    }
+
+    /// The next time at which the scene itself changes the mode or a control law is asked, or its end.
+    pub fn limit(&self, scene: &Scene) -> R {
+        self.schedule.next(scene, &self.mode, self.state.time.to_f64())
     }
 
     /// Whether the end time is reached.

@@ -41,6 +41,17 @@ impl Ledger {
         }
     }
 
+    /// Takes the potential energy of `state` out of the balance, until it is [taken up](Self::take_up)
+    /// again: commands that change it do no work in an instant.
+    pub fn set_aside(&mut self, equations: &Equations, state: &State) {
+        self.start_energy -= potential(equations, state).sum;
+    }
+
+    /// Takes the potential energy of `state` into the balance.
+    pub fn take_up(&mut self, equations: &Equations, state: &State) {
+        self.start_energy += potential(equations, state).sum;
+    }
+
     pub fn residuals(&self) -> Conservation {
         let (found, scales) = (&self.residuals, &self.scales);
         // All of the energy in one motion, of a point for linear momentum.

@@ -56,8 +56,12 @@ impl Run<'_> {
         }
     }
 
-    /// That the motion runs away, if it does, and what feeds it most.
+    /// That the motion runs away, if it does, and what feeds it most. Laws of a program's own may
+    /// feed it as they like.
     pub(super) fn runaway(&mut self) -> Option<SimError> {
+        if self.sampling.is_some() || !self.equations.own.is_empty() {
+            return None;
+        }
         let found = self.invariants();
         let Self { situation: Situation { state, .. }, equations, .. } = self;
         let scene = &equations.scene;

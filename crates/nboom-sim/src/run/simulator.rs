@@ -1,8 +1,9 @@
-use nboom_elements::Elements;
+use nboom_elements::{Elements, OwnLaw, OwnLaws};
 use nboom_model::{Body, Hinge, Scene};
 use nboom_ode::Stepper;
 
 use super::Run;
+use super::control::Control;
 use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::events::situation::Situation;
@@ -52,19 +53,31 @@ impl Workspace {
 impl Simulator {
     /// Prepares `scene` to be run with `options`.
     pub fn new(scene: &Scene, options: Options) -> Self {
-        let equations = Equations::new(scene, &options);
+        Self::under_laws(scene, options, Vec::new())
+    }
+
+    /// Prepares `scene` to be run with `options` under hinge laws of the program's own as well.
+    ///
+    /// The recursion computes all accelerations, as no other code knows these laws; implicit methods take
+    /// differences for derivatives. Runs that demand other code are refused.
+    pub fn under_laws(scene: &Scene, options: Options, laws: Vec<OwnLaw>) -> Self {
+        Self::under(scene, options, OwnLaws::new(laws))
+    }
+
+    fn under(scene: &Scene, options: Options, own: OwnLaws) -> Self {
+        let equations = Equations::new(scene, own, &options);
         let elements = equations.entered.dynamics.elements();
         let workspace = Workspace::new(scene, elements, &options);
         Self { options, equations, workspace }
     }
 
-    /// Takes another scene. What was prepared stays if it differs in its initial state and its times
-    /// alone; else its modes are prepared as they come.
+    /// Takes another scene, under the program's own laws that the simulator has. What was prepared stays if
+    /// it differs in its initial state and its times alone; else its modes are prepared as they come.
     pub fn set_scene(&mut self, scene: &Scene) {
         if is_same_satellite(&self.equations.scene, scene) {
             self.equations.set_scene(scene);
         } else {
-            *self = Self::new(scene, self.options);
+            *self = Self::under(scene, self.options, self.equations.own.clone());
         }
     }
 
@@ -74,8 +87,33 @@ impl Simulator {
     /// When the motion cannot be followed to the end or the recorder refuses; what was recorded
     /// until then stands, and the failure says how far the run came.
     pub fn run(&mut self, recorder: &mut dyn Recorder) -> Result<&Summary, Failure> {
+        self.run_under(None, recorder)
+    }
+
+    /// Runs the scene as [`run`](Self::run) does, under a control law.
+    ///
+    /// Integration starts anew at each sample, since commands jump there; in between all is smooth. No
+    /// event tells of a sample.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run), and when the period is no time in which the run comes to its end or a
+    /// command is not finite.
+    pub fn run_controlled(
+        &mut self,
+        control: Control<'_>,
+        recorder: &mut dyn Recorder,
+    ) -> Result<&Summary, Failure> {
+        self.run_under(Some(control), recorder)
+    }
+
+    fn run_under(
+        &mut self,
+        control: Option<Control<'_>>,
+        recorder: &mut dyn Recorder,
+    ) -> Result<&Summary, Failure> {
         let Self { options, equations, workspace } = self;
-        let mut run = Run::new(*options, equations, workspace, recorder);
+        let control = control.map(|Control { period, law }| Control { period, law });
+        let mut run = Run::new(*options, equations, workspace, control, recorder);
         let completed = run.complete();
         run.sum_up();
         let summary = &self.workspace.summary;

@@ -64,7 +64,8 @@ pub(crate) fn write_detail(
     out.beta_ddot.clone_from(beta_ddot);
     out.alpha_ddot.clone_from(beta_ddot);
     equations.scene.accumulate_along_appendages(&mut out.alpha_ddot);
-    forces.set(&mut equations.entered.dynamics, [beta, tau], motion.beta);
+    let Equations { entered, own, .. } = equations;
+    forces.set(&mut entered.dynamics, own, [beta, tau], motion.beta);
     out.hinge_torque.clone_from(&forces.torque);
     out.lines.clone_from(&forces.lines);
     out.mass_center_body = mass_center_body;

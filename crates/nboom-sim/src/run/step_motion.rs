@@ -1,7 +1,7 @@
 //! Steps as they are shown to recorders that search each of them for the worst value.
 
 use nboom_dynamics::Recursive;
-use nboom_elements::{Elements, LineReading};
+use nboom_elements::{Elements, LineReading, OwnLaws};
 use nboom_model::{HingeState, Scene};
 use nboom_ode::Stepper;
 use nboom_scalar::Vec3;
@@ -88,12 +88,16 @@ impl Forces {
     pub fn set(
         &mut self,
         dynamics: &mut Recursive<f64>,
+        own: &OwnLaws,
         [beta, tau]: [&[f64]; 2],
         free_beta: &[f64],
     ) {
         let laws = dynamics.elements().torques().iter().zip(beta.iter().zip(tau));
         for (torque, (law, (&b, &t))) in self.torque.iter_mut().zip(laws) {
             *torque = law.torque(b, t);
+        }
+        for law in own.iter() {
+            self.torque[law.hinge] += law.torque(beta[law.hinge], tau[law.hinge]);
         }
         if self.lines.is_empty() {
             return;
@@ -181,7 +185,8 @@ impl StepMotion for DenseStep<'_> {
         let found = equations.accelerations(&motion);
         let (omega_dot_body, origin_acceleration_body) = (found.omega_dot_body, found.origin_body);
         equations.spread(&motion, [beta, tau, beta_ddot]);
-        forces.set(&mut equations.entered.dynamics, [beta, tau], motion.beta);
+        let Equations { entered, own, .. } = &mut **equations;
+        forces.set(&mut entered.dynamics, own, [beta, tau], motion.beta);
         MotionAt {
             time,
             hinges,

@@ -60,7 +60,7 @@ impl Run<'_> {
     }
 
     /// Shows the present state; returns its energy and momenta.
-    fn show_present(&mut self) -> Invariants<f64> {
+    pub(super) fn show_present(&mut self) -> Invariants<f64> {
         self.shown.copy_from(&self.situation.state);
         self.invariants()
     }
@@ -81,7 +81,7 @@ impl Run<'_> {
         self.see(found, self.recorder.needs_detail())
     }
 
-    fn see(&mut self, found: &Invariants<f64>, detailed: bool) -> Result<(), SimError> {
+    pub(super) fn see(&mut self, found: &Invariants<f64>, detailed: bool) -> Result<(), SimError> {
         let Self { situation, equations, shown, seen, room, .. } = self;
         snapshot::write(&equations.scene, &situation.mode, shown, found, seen);
         if detailed {
@@ -106,7 +106,8 @@ impl Run<'_> {
     /// The motion before an instant, if there is one and the recorder wants it.
     pub(super) fn before_instant(&mut self) -> Result<Option<Snapshot>, SimError> {
         let Situation { state, arrivals, .. } = &self.situation;
-        let has_moved = state.time > self.equations.scene.initial.time || arrivals.lock();
+        let has_moved =
+            state.time > self.equations.scene.initial.time || !arrivals.locks().is_empty();
         if !(has_moved && self.recorder.needs_instants()) {
             return Ok(None);
         }

@@ -113,6 +113,27 @@ fn neither_the_order_nor_the_tolerance_matters() {
     }
 }
 
+/// The time of a release that follows a lock-up has the digits of the lock-up's, not those of an `f64`.
+#[test]
+fn a_release_that_follows_a_lock_up_is_as_exact_as_that() {
+    let mut description = SceneDescription::clone(&unfolding());
+    let delay = 0.1;
+    description.bodies[3].hinge.release = Release::AfterLock { hinge: 0, delay };
+    let scene = Scene::new(description).expect("bodies are physical");
+    let guide = guide(&scene);
+    let release = guide.iter().position(|event| event.kind == EventKind::Release).expect("one");
+    let before = conserved(&mut Replay::new(&scene, &guide, Accuracy::REFERENCE, 1000, &|| false));
+    let mut replay = replay(&scene, &guide, Accuracy::REFERENCE);
+    let after = conserved(&mut replay);
+    // As in the test above.
+    let change = ((after[0] - before[0]) / before[0]).to_f64().abs();
+    assert!(change < 1e-26, "{change:e}");
+    let locked = replay.events.iter().find(|event| event.hinge == Some(0)).expect("it locks");
+    let off = replay.events[release].time - (locked.time + delay);
+    // Each of the times is rounded once.
+    assert!(off.abs() <= 2.0 * f64::EPSILON, "{off:e}");
+}
+
 #[test]
 fn an_event_that_the_guide_misses_is_noticed() {
     let scene = unfolding();

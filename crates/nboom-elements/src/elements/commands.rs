@@ -1,0 +1,62 @@
+use nboom_scalar::{Real, Vec3, Wrench};
+
+/// What a control law commands: torques about hinges and a wrench on the main body, all of them
+/// constant while they are held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Commands {
+    hinge_torques: Box<[f64]>,
+    /// Force on the main body, and moment about O; main-body axes.
+    pub main_body: Wrench<f64>,
+}
+
+impl Commands {
+    /// Nothing, for a scene with this many hinges.
+    pub fn none(hinges: usize) -> Self {
+        Self { hinge_torques: vec![0.0; hinges].into(), main_body: Wrench::zero() }
+    }
+
+    /// Commands nothing.
+    pub fn clear(&mut self) {
+        self.hinge_torques.fill(0.0);
+        self.main_body = Wrench::zero();
+    }
+
+    /// Torque about each hinge of the scene, positive when it increases β. A held hinge bears it.
+    pub fn hinge_torques(&self) -> &[f64] {
+        &self.hinge_torques
+    }
+
+    /// The torques to be set.
+    pub fn hinge_torques_mut(&mut self) -> &mut [f64] {
+        &mut self.hinge_torques
+    }
+
+    /// What they act on.
+    pub fn reach(&self) -> Reach {
+        if self.main_body != Wrench::zero() {
+            Reach::MainBody
+        } else if self.hinge_torques.iter().any(|&torque| torque != 0.0) {
+            Reach::Hinges
+        } else {
+            Reach::Nothing
+        }
+    }
+}
+
+/// What commands act on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Nothing is commanded.
+    Nothing,
+    /// Torques about hinges alone.
+    Hinges,
+    /// A wrench on the main body, and any torques.
+    MainBody,
+}
+
+/// The wrench on the main body while it is held.
+pub(super) fn held<R: Real>(commands: &Commands) -> Option<Wrench<R>> {
+    let Wrench { moment, force } = commands.main_body;
+    (commands.reach() == Reach::MainBody)
+        .then(|| Wrench { moment: Vec3::constant(moment), force: Vec3::constant(force) })
+}

@@ -1,0 +1,85 @@
+use nboom_model::{MassProperties, Scene};
+use nboom_scalar::{Mat3, Vec3};
+
+use crate::run::record::Snapshot;
+
+/// How one body moves and what momentum it has; all vectors along inertial axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyMotion {
+    /// Turns body components into inertial ones.
+    pub rot_inertial_from_body: Mat3<f64>,
+    /// Position of its mass centre.
+    pub mass_center_inertial: Vec3<f64>,
+    /// Velocity of its mass centre.
+    pub velocity_inertial: Vec3<f64>,
+    /// Angular rate \[rad/T\].
+    pub omega_inertial: Vec3<f64>,
+    /// Linear momentum.
+    pub linear_momentum_inertial: Vec3<f64>,
+    /// Angular momentum about its own mass centre.
+    pub own_angular_momentum_inertial: Vec3<f64>,
+}
+
+impl BodyMotion {
+    /// Angular momentum about `point`, a fixed point given by its inertial position.
+    pub fn angular_momentum_about(&self, point: Vec3<f64>) -> Vec3<f64> {
+        let arm = self.mass_center_inertial - point;
+        self.own_angular_momentum_inertial + arm.cross(self.linear_momentum_inertial)
+    }
+
+    fn new(body: &MassProperties, at_origin: &Placed) -> Self {
+        let Placed { rot, origin, velocity, omega } = *at_origin;
+        let arm = rot * body.center_of_mass;
+        let velocity_inertial = velocity + omega.cross(arm);
+        Self {
+            rot_inertial_from_body: rot,
+            mass_center_inertial: origin + arm,
+            velocity_inertial,
+            omega_inertial: omega,
+            linear_momentum_inertial: velocity_inertial * body.mass,
+            own_angular_momentum_inertial: rot * (body.inertia * rot.transpose_mul(omega)),
+        }
+    }
+}
+
+/// Where the origin of a body is and how it moves, inertial axes.
+#[derive(Clone, Copy)]
+struct Placed {
+    /// Turns body components into inertial ones.
+    rot: Mat3<f64>,
+    origin: Vec3<f64>,
+    velocity: Vec3<f64>,
+    omega: Vec3<f64>,
+}
+
+impl Snapshot {
+    /// The motion of each body of `scene`, of which this is a snapshot: the main body first, then those
+    /// outboard of the hinges.
+    ///
+    /// Their momenta sum up to those of the snapshot, unless the scene has
+    /// [`Departures`](nboom_model::Departures).
+    pub fn bodies(&self, scene: &Scene) -> Vec<BodyMotion> {
+        let rot = self.attitude.to_matrix();
+        let main = Placed {
+            rot,
+            origin: self.position_inertial,
+            velocity: self.velocity_inertial,
+            omega: rot * self.omega_body,
+        };
+        let mut placed: Vec<Placed> = Vec::with_capacity(scene.bodies.len());
+        for (body, (&beta, &tau)) in scene.bodies.iter().zip(self.beta.iter().zip(&self.tau)) {
+            let inboard = body.inboard.map_or(main, |i| placed[i]);
+            let arm = inboard.rot * body.mount.point;
+            let rot_at_zero = inboard.rot * body.mount.rot_inboard_from_hinge;
+            placed.push(Placed {
+                rot: rot_at_zero * Mat3::about_axis(body.axis, beta),
+                origin: inboard.origin + arm,
+                velocity: inboard.velocity + inboard.omega.cross(arm),
+                omega: inboard.omega + rot_at_zero * body.axis * tau,
+            });
+        }
+        let hinged = scene.bodies.iter().zip(&placed);
+        let hinged = hinged.map(|(body, at)| BodyMotion::new(&body.mass_properties, at));
+        std::iter::once(BodyMotion::new(&scene.main_body, &main)).chain(hinged).collect()
+    }
+}
