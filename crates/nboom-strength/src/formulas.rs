@@ -41,12 +41,12 @@ impl Formulas {
         self.stresses(&load, [a, b, c, d, e, f]).max_von_mises()
     }
 
-    /// An upper bound of the von Mises stress under these numbers, cheaper than
-    /// [`max_von_mises_of`](Self::max_von_mises_of), which it equals for formulas of 1970.
-    pub fn bound(&self, numbers: [f64; 6]) -> f64 {
+    /// Whether bounds show that the von Mises stress under these numbers is nowhere above `level`;
+    /// cheaper than [`max_von_mises_of`](Self::max_von_mises_of), but for formulas of 1970.
+    pub fn is_at_most(&self, level: f64, numbers: [f64; 6]) -> bool {
         match self {
-            Self::Right(section) => section.described_by(numbers).bound(),
-            Self::Of1970(_) => self.max_von_mises_of(numbers).stress.von_mises(),
+            Self::Right(section) => section.described_by(numbers).is_at_most(level),
+            Self::Of1970(_) => self.max_von_mises_of(numbers).stress.von_mises() <= level,
         }
     }
 

@@ -76,34 +76,25 @@ impl Gauge {
     }
 
     /// A cheap upper bound of the quantity for these numbers.
-    pub fn rough_bound(&self, numbers: &[f64; 6]) -> f64 {
+    pub fn bound(&self, numbers: &[f64; 6]) -> f64 {
         self.gains.iter().zip(numbers).map(|(gain, number)| gain * number.abs()).sum()
     }
 
-    /// An upper bound of the quantity for these numbers, cheaper than its value.
-    pub fn close_bound(&self, numbers: &[f64; 6]) -> f64 {
-        match &self.measure {
-            Measure::Stress(formulas) => formulas.bound(*numbers),
-            Measure::Force | Measure::Moment => self.value(numbers),
-        }
-    }
-
-    /// Whether the quantity for these numbers is at most `level`; stops as soon as that is known.
+    /// Whether bounds show that the quantity for these numbers is at most `level`.
     pub fn is_at_most(&self, level: f64, numbers: &[f64; 6]) -> bool {
-        self.is_bounded_by(level, numbers) || self.value(numbers) <= level
+        self.bound(numbers) <= level
+            || match &self.measure {
+                Measure::Stress(formulas) => formulas.is_at_most(level, *numbers),
+                Measure::Force | Measure::Moment => self.value(numbers) <= level,
+            }
     }
 
-    /// The quantity for these numbers if it is above `level`; stops as soon as it is known not to
-    /// be.
+    /// The quantity for these numbers if it is above `level`.
     pub fn above(&self, level: f64, numbers: &[f64; 6]) -> Option<f64> {
-        if self.is_bounded_by(level, numbers) {
+        if self.is_at_most(level, numbers) {
             return None;
         }
         Some(self.value(numbers)).filter(|value| *value > level)
-    }
-
-    fn is_bounded_by(&self, level: f64, numbers: &[f64; 6]) -> bool {
-        self.rough_bound(numbers) <= level || self.close_bound(numbers) <= level
     }
 
     /// The contribution of each of `parts` of a load to the quantity under the whole load, as a

@@ -210,8 +210,7 @@ impl Search {
         if stays_below(gauge, &coefficients, &tails, enough) {
             return Verdict::Done;
         }
-        let left_out: f64 = tails.iter().map(|tail| gauge.close_bound(tail)).sum();
-        if left_out > enough - loaded.largest(g) {
+        if left_out(gauge, &tails) > enough - loaded.largest(g) {
             return Verdict::TooLong;
         }
         let curve = Curve { basis: &self.fine, places: &self.places, gauge };
@@ -234,15 +233,17 @@ fn row_mut(rows: &mut [f64], width: usize, k: usize) -> &mut [f64] {
     &mut rows[k * width..(k + 1) * width]
 }
 
-/// Whether a gauge is at most `level` for polynomials with these coefficients, and what they leave
-/// out, over all of their interval.
+/// Whether bounds show that a gauge is at most `level` for polynomials with these coefficients, and
+/// what they leave out, over all of their interval.
 fn stays_below(gauge: &Gauge, coefficients: &[[f64; 6]], tails: &[[f64; 6]], level: f64) -> bool {
-    let rough_level = level - tails.iter().map(|tail| gauge.rough_bound(tail)).sum::<f64>();
-    if coefficients.iter().all(|coefficient| gauge.rough_bound(coefficient) <= rough_level) {
-        return true;
-    }
-    let level = level - tails.iter().map(|tail| gauge.close_bound(tail)).sum::<f64>();
-    coefficients.iter().all(|coefficient| gauge.is_at_most(level, coefficient))
+    let level = level - left_out(gauge, tails);
+    // Loads that grow decide at the end.
+    coefficients.iter().rev().all(|coefficient| gauge.is_at_most(level, coefficient))
+}
+
+/// An upper bound of the gauge of all of these.
+fn left_out(gauge: &Gauge, tails: &[[f64; 6]]) -> f64 {
+    tails.iter().map(|tail| gauge.bound(tail)).sum()
 }
 
 /// A gauge of polynomials in time.
