@@ -177,19 +177,12 @@ impl StressAnalysis {
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
     pub fn step(&mut self, step: &mut dyn StepMotion) -> Result<(), StrengthError> {
-        let Self { search, finder, pulses, worst, at_lock_up, .. } = self;
+        let Self { search, finder, pulses, worst, .. } = self;
         search_step(search, step, finder, pulses, worst)?;
-        let span = step.span();
-        self.reached = span[1];
-        if self.pending.is_some() {
-            let span = span.map(|time| time - pulses.since);
-            search_pulses(search, span, pulses, at_lock_up)?;
-            pulses.forget_until(span[1]);
-            if self.pulses.is_empty() {
-                self.settle();
-            }
-        }
-        Ok(())
+        let [_, end] = step.span();
+        self.reached = end;
+        let u = end - self.pulses.since;
+        if self.pulses.end() <= u { self.settle(u) } else { Ok(()) }
     }
 
     /// Both sides of an instant with events, for the envelope. The pulses of hinges that lock start
@@ -225,7 +218,7 @@ impl StressAnalysis {
         if self.pulse_constants.is_none() {
             return Ok(());
         }
-        self.settle();
+        self.settle(after.time - self.pulses.since)?;
         self.pending = Some(after.time);
         self.start_pulses(instant, sides)
     }
@@ -250,10 +243,13 @@ impl StressAnalysis {
         Ok(())
     }
 
-    /// Reports the peaks of the last lock-up, unless they were reported before.
-    fn settle(&mut self) {
-        let Some(time) = self.pending.take() else { return };
-        let Self { search, at_lock_up, stations, worst, .. } = self;
+    /// Searches and reports the peaks of the last lock-up, whose pulses are over or another one's begin
+    /// at `u`, unless they were reported before.
+    fn settle(&mut self, u: f64) -> Result<(), StrengthError> {
+        let Some(time) = self.pending.take() else { return Ok(()) };
+        let Self { search, pulses, at_lock_up, stations, worst, .. } = self;
+        search_pulses(search, u, pulses, at_lock_up)?;
+        pulses.forget_until(u);
         worst.merge(at_lock_up);
         let none = (Wrench::zero(), [0.0; 6]);
         let of_record = |g| at_lock_up.get(g).map_or(none, |found| (found.load, found.numbers));
@@ -264,6 +260,7 @@ impl StressAnalysis {
         let hinge_loads = moments.map(|g| of_record(g).0).collect();
         at_lock_up.forget();
         self.settled.push(LockUpPeaks { time, stresses, hinge_loads });
+        Ok(())
     }
 
     /// Whether the peaks of a lock-up are still to come.
@@ -281,12 +278,7 @@ impl StressAnalysis {
     /// # Errors
     /// None are to be expected.
     pub fn finish(&mut self) -> Result<(), StrengthError> {
-        let Self { search, pulses, at_lock_up, reached, .. } = self;
-        let end = pulses.end();
-        search_pulses(search, [*reached - pulses.since, end], pulses, at_lock_up)?;
-        pulses.forget_until(end);
-        self.settle();
-        Ok(())
+        self.settle(self.pulses.end())
     }
 
     /// Load and stresses of every station at the last output time.
