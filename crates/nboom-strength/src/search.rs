@@ -216,7 +216,8 @@ impl Search {
         let curve = Curve { basis: &self.fine, places: &self.places, gauge };
         let (mut largest, mut at) = (loaded.largest(g), None);
         let slack = loaded.largest_of_kind(g) * ROUNDING;
-        curve.climb(&coefficients, [0.0, 1.0], 0, slack, &mut (&mut largest, &mut at));
+        let found = &mut (&mut largest, &mut at);
+        curve.climb(&coefficients, &values, [0.0, 1.0], 0, slack, found);
         if let Some(x) = at {
             let weights = nodes::weights(&self.places, x);
             self.between.fill(0.0);
@@ -269,7 +270,7 @@ struct Curve<'a> {
 
 impl Curve<'_> {
     /// Raises `largest`, and sets its place, to the largest value of the gauge over a part of the
-    /// interval.
+    /// interval, where the polynomials have these coefficients and these numbers at the places.
     ///
     /// The square of a gauge is smooth wherever the place of the largest stress does not jump; the
     /// largest value of a polynomial through it is then the result. Where the place jumps the
@@ -278,6 +279,7 @@ impl Curve<'_> {
     fn climb(
         &self,
         coefficients: &[[f64; 6]; FINE],
+        numbers: &[[f64; 6]; FINE],
         [from, to]: [f64; 2],
         cuts: usize,
         slack: f64,
@@ -290,11 +292,7 @@ impl Curve<'_> {
                 (*found.0, *found.1) = (value, Some(time(x)));
             }
         };
-        if cuts > 0 && stays_below(gauge, coefficients, &[], *found.0 * (1.0 + TOLERANCE) + slack) {
-            return;
-        }
-        let values: [f64; FINE] =
-            std::array::from_fn(|k| gauge.value(&nodes::value(coefficients, places[k])));
+        let values: [f64; FINE] = std::array::from_fn(|k| gauge.value(&numbers[k]));
         places.iter().zip(values).for_each(|(&x, value)| raise(value, x, found));
         let unit = *found.0;
         let squares = values.map(|value| [(value / unit).powi(2)]);
@@ -307,8 +305,11 @@ impl Curve<'_> {
             return;
         }
         let middle = 0.5 * (from + to);
-        let [left, right] = nodes::halves(coefficients);
-        self.climb(&left, [from, middle], cuts + 1, slack, found);
-        self.climb(&right, [middle, to], cuts + 1, slack, found);
+        for (half, part) in nodes::halves(coefficients).iter().zip([[from, middle], [middle, to]]) {
+            if !stays_below(gauge, half, &[], *found.0 * (1.0 + TOLERANCE) + slack) {
+                let numbers = places.map(|x| nodes::value(half, x));
+                self.climb(half, &numbers, part, cuts + 1, slack, found);
+            }
+        }
     }
 }
