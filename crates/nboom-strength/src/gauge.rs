@@ -1,16 +1,20 @@
 //! Quantities whose largest values are searched.
 
+use std::sync::Arc;
+
 use nboom_loads::LoadSet;
 use nboom_scalar::{Vec3, Wrench};
 use nboom_sections::PointStress;
 
+use crate::StationLoad;
 use crate::formulas::Formulas;
+use crate::station::Station;
 
 /// What a gauge measures.
 #[derive(Clone, Debug)]
 pub(crate) enum Measure {
     /// The largest von Mises stress in a section.
-    Stress(Formulas),
+    Stress(Arc<Formulas>),
     /// The magnitude of a hinge's force.
     Force,
     /// The magnitude of a hinge's moment.
@@ -35,10 +39,11 @@ pub(crate) struct Gauge {
 
 impl Gauge {
     /// The stress of a station, as counted over all segments.
-    pub fn of_station(station: usize, loads: &LoadSet, formulas: Formulas) -> Self {
+    pub fn of_station(station: usize, loads: &LoadSet, at: &Station) -> Self {
         let load = loads.station_at(station);
-        let numbers = if formulas.are_of_1970() { load } else { loads.stress_at(station) };
-        Self::new(Measure::Stress(formulas), load, numbers)
+        let of_loads = at.formulas.are_of_1970();
+        let numbers = if of_loads { load } else { loads.stress_at(station) };
+        Self::new(Measure::Stress(Arc::clone(&at.formulas)), load, numbers)
     }
 
     /// Force and moment of a hinge.
@@ -63,6 +68,11 @@ impl Gauge {
     /// Its load in a row of loads.
     pub fn load(&self, row: &[f64]) -> Wrench<f64> {
         wrench(six(row, self.load))
+    }
+
+    /// Load and numbers of its station in a row of loads.
+    pub fn station_load(&self, row: &[f64]) -> StationLoad {
+        StationLoad { load: self.load(row), numbers: self.numbers(row) }
     }
 
     /// The quantity for these numbers.
