@@ -243,17 +243,7 @@ fn stays_below(gauge: &Gauge, coefficients: &[[f64; 6]], tails: &[[f64; 6]], lev
     // Loads that grow decide at the end.
     let places = (0..=degree).rev();
     places.clone().map(|i| (i, 1.0)).all(is_below)
-        || left_out > 0.0 && places.map(|i| (i, share_left_out(degree, i))).all(is_below)
-}
-
-/// What the polynomial of degree `n` through Chebyshev points leaves out, as a share of the tails, is at
-/// most 4n² x (1 − x): it vanishes at the ends. This is coefficient `i` of that in Bernstein's basis.
-///
-/// It consists of differences T₍ₙ₊ₘ₎ − T₍ₙ₋ₘ₎ of Chebyshev's polynomials, of which each coefficient
-/// beyond the last makes one. In cos ϑ = 2x − 1 they are 2 sin nϑ sin mϑ, of the magnitude 2 and at most
-/// 2nm sin² ϑ; m counts as n, though what has m = 1 is largest.
-fn share_left_out(n: usize, i: usize) -> f64 {
-    (4 * n * i * (n - i)) as f64 / (n - 1) as f64
+        || left_out > 0.0 && places.map(|i| (i, nodes::share_left_out(degree, i))).all(is_below)
 }
 
 /// An upper bound of the gauge of all of these.
