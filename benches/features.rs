@@ -37,7 +37,11 @@ impl Recorder for Listener {
 
     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
         if let (Some(stresses), Some(detail)) = (&mut self.stresses, &snapshot.detail) {
-            black_box(stresses.motion(snapshot, detail).map_err(std::io::Error::other)?);
+            stresses.motion(snapshot, detail).map_err(std::io::Error::other)?;
+            let found = stresses.stations().stresses(stresses.station_loads());
+            found.for_each(|stress| {
+                black_box(stress);
+            });
         }
         black_box(snapshot);
         Ok(())

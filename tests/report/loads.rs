@@ -40,7 +40,7 @@ fn printed_load(block: &str) -> Wrench<f64> {
     Wrench { force: vector("P_printed"), moment: vector("Q_printed") }
 }
 
-/// Loads of all stations in the printed motion.
+/// Loads and stresses of all stations in the printed motion.
 fn loads(slips: Slips) -> Vec<StationStress> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/n-boom-1970.nml");
     let file = nboom::io::read_scene(&path).expect("the sample deck is valid");
@@ -61,7 +61,8 @@ fn loads(slips: Slips) -> Vec<StationStress> {
     let mut analysis = StressAnalysis::new(&scene, &structure, settings).expect("sections");
     let (found, _) = run(&scene, &tight(1));
     let at = &found.samples[0];
-    analysis.motion(at, detail(at)).expect("loads balance").to_vec()
+    analysis.motion(at, detail(at)).expect("loads balance");
+    analysis.stations().stresses(analysis.station_loads()).collect()
 }
 
 fn load(of: &[StationStress], segment: usize, station: usize) -> Wrench<f64> {

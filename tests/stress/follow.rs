@@ -10,7 +10,7 @@ use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{
     Event, EventKind, InstantMotion, Options, Recorder, Snapshot, StepMotion, simulate,
 };
-use nboom::strength::{Settings, StationStress, StrengthError, StressAnalysis};
+use nboom::strength::{Settings, StationLoad, StationStress, StrengthError, StressAnalysis};
 
 pub const MASS: f64 = 3.0;
 pub const LENGTH: f64 = 2.0;
@@ -70,6 +70,10 @@ pub fn analysis(scene: &Scene, settings: Settings) -> Result<StressAnalysis, Str
     StressAnalysis::new(scene, &structure, settings)
 }
 
+fn stresses(analysis: &StressAnalysis, loads: &[StationLoad]) -> Vec<StationStress> {
+    analysis.stations().stresses(loads).collect()
+}
+
 /// Everything that a run and its stresses tell.
 pub struct Follow {
     pub analysis: StressAnalysis,
@@ -100,7 +104,8 @@ impl Follow {
         simulate(scene, &options, &mut follow).expect("a smooth motion");
         follow.analysis.finish().expect("finite loads");
         let settled = follow.analysis.settled().into_iter();
-        follow.at_lock_ups = settled.map(|peaks| peaks.stresses).collect();
+        let analysis = &follow.analysis;
+        follow.at_lock_ups = settled.map(|peaks| stresses(analysis, &peaks.stations)).collect();
         follow
     }
 }
@@ -116,8 +121,8 @@ impl Recorder for Follow {
 
     fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         let detail = snapshot.detail.as_ref().expect("detail was asked for");
-        let found = self.analysis.motion(snapshot, detail).map_err(io::Error::other)?;
-        self.at_samples.push(found.to_vec());
+        self.analysis.motion(snapshot, detail).map_err(io::Error::other)?;
+        self.at_samples.push(stresses(&self.analysis, self.analysis.station_loads()));
         self.samples.push(snapshot.clone());
         Ok(())
     }

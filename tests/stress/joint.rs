@@ -58,7 +58,7 @@ impl Follow {
         simulate(&scene, &options, &mut follow).expect("a smooth motion");
         follow.analysis.finish().expect("finite loads");
         let settled = follow.analysis.settled();
-        let loads = settled.iter().flat_map(|peaks| &peaks.stresses);
+        let loads = settled.iter().flat_map(|peaks| &peaks.stations);
         follow.moments = loads.map(|at| at.load.moment.x).collect();
         follow
     }

@@ -211,7 +211,7 @@ impl Recorder for Stressed {
     }
     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
         let detail = snapshot.detail.as_ref().expect("it was asked for");
-        self.0.motion(snapshot, detail).map(drop).map_err(std::io::Error::other)
+        self.0.motion(snapshot, detail).map_err(std::io::Error::other)
     }
     fn instant(&mut self, instant: &InstantMotion) -> std::io::Result<()> {
         self.0.instant(instant).map(drop).map_err(std::io::Error::other)

@@ -1,6 +1,6 @@
 //! Rows of the tables of loads, composed by a thread of its own while the motion goes on.
 //!
-//! The thread composes text and touches no file, so files are written where and in the order that
+//! The thread finds stresses, composes text and touches no file, so files are written where and in the order that
 //! the run says. It answers block by block, and what it is told last is asked for only when two
 //! more blocks are complete: what is in the tables at any time does not depend on how fast it is.
 //! Only an entry with a number that may be refused is asked for at once.
@@ -12,7 +12,7 @@ use std::thread;
 
 use nboom_model::HingeLabel;
 use nboom_scalar::Wrench;
-use nboom_strength::{LatchImpulses, LockUpPeaks, StationStress};
+use nboom_strength::{LatchImpulses, LockUpPeaks, StationLoad, Stations};
 
 use crate::row_text::RowText;
 use crate::{LATCH_IMPULSES_FILE, STRESS_FILE};
@@ -23,7 +23,7 @@ const BLOCK: usize = 256;
 /// Most blocks that are with the thread.
 const AHEAD: usize = 2;
 
-/// Numbers below this have stresses that can be written.
+/// Loads and von Mises stresses below this are of numbers that can be written.
 const LARGE: f64 = 1e150;
 
 /// Most rows that are held \[bytes\]; more do not wait for peaks.
@@ -33,7 +33,7 @@ const MOST_HELD: usize = 1 << 20;
 #[derive(Debug)]
 pub(crate) enum Entry {
     /// Loads at an output time; those that wait follow the peaks of the last lock-up.
-    Sample { time: f64, waits: bool, stresses: Vec<StationStress>, hinge_loads: Vec<Wrench<f64>> },
+    Sample { time: f64, waits: bool, stations: Vec<StationLoad>, hinge_loads: Vec<Wrench<f64>> },
     /// Peaks of a lock-up, now that they are known.
     Peaks(LockUpPeaks),
     /// What a latch does at a time.
@@ -44,21 +44,24 @@ pub(crate) enum Entry {
 
 impl Entry {
     fn rows(&self) -> usize {
-        let rows = |stresses: &[StationStress], loads: &[_]| 5 * stresses.len() + loads.len();
+        let rows = |stations: &[StationLoad], loads: &[_]| 5 * stations.len() + loads.len();
         match self {
-            Self::Sample { stresses, hinge_loads, .. } => rows(stresses, hinge_loads),
-            Self::Peaks(peaks) => rows(&peaks.stresses, &peaks.hinge_loads),
+            Self::Sample { stations, hinge_loads, .. } => rows(stations, hinge_loads),
+            Self::Peaks(peaks) => rows(&peaks.stations, &peaks.hinge_loads),
             Self::Latch(_, impulses) => impulses.hinges.len(),
             Self::End => 0,
         }
     }
 
-    /// Whether it may have a number that cannot be written.
-    pub fn is_doubtful(&self) -> bool {
+    /// Whether it may have a number that cannot be written, or stresses of loads at `all` stations that
+    /// cannot.
+    pub fn is_doubtful(&self, all: &Stations) -> bool {
         match self {
-            Self::Sample { stresses, hinge_loads, .. }
-            | Self::Peaks(LockUpPeaks { stresses, hinge_loads, .. }) => {
-                stresses.iter().any(has_large_stress) || hinge_loads.iter().any(is_large)
+            Self::Sample { stations, hinge_loads, .. }
+            | Self::Peaks(LockUpPeaks { stations, hinge_loads, .. }) => {
+                let is_bounded = all.bound(stations) < LARGE;
+                let of_stations = stations.iter().map(|station| &station.load);
+                !is_bounded || of_stations.chain(hinge_loads).any(is_large)
             }
             Self::Latch(_, impulses) => impulses.hinges.iter().any(is_large),
             Self::End => false,
@@ -69,13 +72,6 @@ impl Entry {
 fn is_large(load: &Wrench<f64>) -> bool {
     let numbers = [load.force, load.moment].map(|vector| vector.to_array());
     !numbers.iter().flatten().all(|number| number.abs() < LARGE)
-}
-
-fn has_large_stress(station: &StationStress) -> bool {
-    let points = station.axis_points.iter().flatten().chain([&station.max_von_mises]);
-    let mut numbers = points
-        .flat_map(|point| [point.stress.normal, point.stress.shear_xi, point.stress.shear_zeta]);
-    is_large(&station.load) || !numbers.all(|number| number.abs() < LARGE)
 }
 
 /// Whole rows of each table.
@@ -98,6 +94,7 @@ pub(crate) struct Composed {
 #[derive(Debug)]
 pub(crate) struct Composer {
     hinges: Vec<HingeLabel>,
+    stations: Stations,
     text: RowText,
     lines: Lines,
     /// Rows of stresses and of hinge loads after a lock-up whose peaks are still to come.
@@ -105,8 +102,9 @@ pub(crate) struct Composer {
 }
 
 impl Composer {
-    pub fn new(hinges: Vec<HingeLabel>, text: RowText) -> Self {
-        Self { hinges, text, lines: Lines::default(), held: [Vec::new(), Vec::new()] }
+    pub fn new(hinges: Vec<HingeLabel>, stations: Stations, text: RowText) -> Self {
+        let held = [Vec::new(), Vec::new()];
+        Self { hinges, stations, text, lines: Lines::default(), held }
     }
 
     fn compose(&mut self, block: &[Entry]) -> Composed {
@@ -119,9 +117,9 @@ impl Composer {
     }
 
     fn add(&mut self, entry: &Entry) -> io::Result<()> {
-        let Self { hinges, text, lines, held } = self;
+        let Self { hinges, stations: all, text, lines, held } = self;
         match entry {
-            Entry::Sample { time, waits, stresses, hinge_loads } => {
+            Entry::Sample { time, waits, stations, hinge_loads } => {
                 let [held_stresses, held_loads] = held;
                 let (of_stresses, of_loads) = if *waits {
                     (held_stresses, held_loads)
@@ -129,15 +127,15 @@ impl Composer {
                     (&mut lines.stresses, &mut lines.hinge_loads)
                 };
                 text.set_instant(*time, "")?;
-                text.add_stresses(of_stresses, hinges, stresses)?;
+                text.add_stresses(of_stresses, hinges, all.stresses(stations))?;
                 text.add_hinge_loads(of_loads, hinge_loads)?;
                 if self.held.iter().map(Vec::len).sum::<usize>() > MOST_HELD {
                     self.release();
                 }
             }
-            Entry::Peaks(LockUpPeaks { time, stresses, hinge_loads }) => {
+            Entry::Peaks(LockUpPeaks { time, stations, hinge_loads }) => {
                 text.set_instant(*time, "lock_up")?;
-                text.add_stresses(&mut lines.stresses, hinges, stresses)?;
+                text.add_stresses(&mut lines.stresses, hinges, all.stresses(stations))?;
                 text.add_hinge_loads(&mut lines.hinge_loads, hinge_loads)?;
                 self.release();
             }
@@ -222,11 +220,18 @@ mod tests {
     use super::*;
     use crate::{StressSigns, fixture};
     use nboom_scalar::Vec3;
-    use nboom_sections::{Point, PointStress, Stress};
+    use nboom_sections::{AtStation, Section, Tube};
+    use nboom_strength::Slips;
+
+    /// One, with a tube.
+    fn stations() -> Stations {
+        let here = Section::Tube(Tube::new(1.0, 0.1).expect("a tube"));
+        Stations::new(vec![AtStation { segment: 0, station: 0, here }], Slips::default())
+    }
 
     fn composer() -> Composer {
         let hinges = fixture::labels();
-        Composer::new(hinges.clone(), RowText::new(StressSigns::default(), &hinges))
+        Composer::new(hinges.clone(), stations(), RowText::new(StressSigns::default(), &hinges))
     }
 
     fn loads(size: f64) -> Vec<Wrench<f64>> {
@@ -234,11 +239,11 @@ mod tests {
     }
 
     fn sample(time: f64, waits: bool) -> Entry {
-        Entry::Sample { time, waits, stresses: Vec::new(), hinge_loads: loads(1.0) }
+        Entry::Sample { time, waits, stations: Vec::new(), hinge_loads: loads(1.0) }
     }
 
     fn peaks(time: f64) -> Entry {
-        Entry::Peaks(LockUpPeaks { time, stresses: Vec::new(), hinge_loads: loads(2.0) })
+        Entry::Peaks(LockUpPeaks { time, stations: Vec::new(), hinge_loads: loads(2.0) })
     }
 
     /// Time and event of each row of hinge loads, without repetition.
@@ -298,27 +303,25 @@ mod tests {
 
     #[test]
     fn whatever_may_be_refused_is_doubtful() {
-        let entry = |size: f64| {
-            Entry::Peaks(LockUpPeaks { time: 1.0, stresses: Vec::new(), hinge_loads: loads(size) })
+        let stations = stations();
+        let is_doubtful = |size: f64| {
+            let hinge_loads = loads(size);
+            let peaks = LockUpPeaks { time: 1.0, stations: Vec::new(), hinge_loads };
+            Entry::Peaks(peaks).is_doubtful(&stations)
         };
-        assert!([f64::NAN, -f64::INFINITY, f64::MAX].map(entry).iter().all(Entry::is_doubtful));
-        assert!(!entry(1e6).is_doubtful());
-        let mut stress = Stress { normal: 0.0, shear_xi: 0.0, shear_zeta: -f64::MAX };
-        assert!(!stress.von_mises().is_finite() || !stress.principal()[0].is_finite());
-        for is_doubtful in [true, false] {
-            let point = PointStress { place: Point::ORIGIN, wall: None, stress };
-            let stresses = vec![StationStress {
-                segment: 0,
-                station: 0,
-                load: loads(1.0)[0],
-                axis_points: [None; 4],
-                max_von_mises: point,
-            }];
+        assert!([f64::NAN, -f64::INFINITY, f64::MAX].map(is_doubtful).iter().all(|doubt| *doubt));
+        assert!(!is_doubtful(1e6));
+        // A stress that can be written, with an equivalent one that cannot.
+        for (shear, is_doubtful) in [(-f64::MAX, true), (1e149, false)] {
+            let numbers = [0.0, 0.0, 0.0, shear, 0.0, 0.0];
+            let loaded = vec![StationLoad { load: loads(1.0)[0], numbers }];
+            let can_be_written = stations
+                .stresses(&loaded)
+                .all(|found| found.max_von_mises.stress.von_mises().is_finite());
+            assert!(can_be_written != is_doubtful);
             let hinge_loads = Vec::new();
-            let entry = Entry::Sample { time: 1.0, waits: false, stresses, hinge_loads };
-            assert_eq!(entry.is_doubtful(), is_doubtful);
-            stress.shear_zeta = 1e149;
-            assert!(stress.von_mises().is_finite() && stress.principal()[0].is_finite());
+            let entry = Entry::Sample { time: 1.0, waits: false, stations: loaded, hinge_loads };
+            assert_eq!(entry.is_doubtful(&stations), is_doubtful);
         }
     }
 }

@@ -63,7 +63,7 @@ impl RowText {
         &mut self,
         out: &mut Vec<u8>,
         hinges: &[HingeLabel],
-        stations: &[StationStress],
+        stations: impl Iterator<Item = StationStress>,
     ) -> io::Result<()> {
         let mut row = 0;
         for station in stations {

@@ -70,7 +70,8 @@ impl StressWriter {
     ) -> Result<Self, ResultsError> {
         let table = |file: &str, header: &str| LongTable::create(directory, file, header);
         let stresses = analysis.has_stations().then(|| table(STRESS_FILE, STRESS_HEADER));
-        let composer = Composer::new(hinges.clone(), RowText::new(signs, &hinges));
+        let text = RowText::new(signs, &hinges);
+        let composer = Composer::new(hinges.clone(), analysis.stations().clone(), text);
         Ok(Self {
             directory: directory.to_owned(),
             stresses: stresses.transpose()?,
@@ -95,11 +96,11 @@ impl StressWriter {
         let due = self.is_due();
         self.samples += 1;
         let Some(detail) = snapshot.detail.as_ref().filter(|_| due) else { return Ok(()) };
-        let stresses = self.analysis.motion(snapshot, detail)?.to_vec();
+        self.analysis.motion(snapshot, detail)?;
         self.compose(Entry::Sample {
             time: snapshot.time,
             waits: self.analysis.awaits_peaks(),
-            stresses,
+            stations: self.analysis.station_loads().to_vec(),
             hinge_loads: self.analysis.hinge_loads().to_vec(),
         })
     }
@@ -127,7 +128,7 @@ impl StressWriter {
     /// Gives rows to the composer, and takes those that it has composed meanwhile; these wait for
     /// [`Self::write`].
     fn compose(&mut self, entry: Entry) -> Result<(), ResultsError> {
-        let is_doubtful = entry.is_doubtful();
+        let is_doubtful = entry.is_doubtful(self.analysis.stations());
         if let Some(composed) = self.composer.add(entry) {
             self.take(composed)?;
         }

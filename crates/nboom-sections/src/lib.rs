@@ -30,6 +30,7 @@
 mod error;
 mod harmonics;
 mod max_von_mises;
+mod ordinates;
 mod outline;
 mod point;
 mod polygon;

@@ -1,6 +1,7 @@
 use nboom_scalar::{Vec3, Wrench};
 
-use crate::max_von_mises::{bound, max_von_mises};
+use crate::max_von_mises::max_von_mises;
+use crate::ordinates::Ordinates;
 use crate::{
     Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Stress, Wall,
     WallStress, outline, shear_flow,
@@ -15,6 +16,7 @@ pub struct Polygon {
     properties: Properties,
     signed_area: f64,
     axis_points: Box<[Option<(usize, f64)>; 4]>,
+    ordinates: Ordinates,
 }
 
 impl Polygon {
@@ -46,7 +48,13 @@ impl Polygon {
         let axes = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
         let axis_point = |(xi, zeta)| axis_point(&walls, centroid, Point { xi, zeta });
         let axis_points = Box::new(axes.map(axis_point));
-        Ok(Self { walls, properties, signed_area, axis_points })
+        let ordinates = Ordinates::NONE;
+        let mut polygon = Self { walls, properties, signed_area, axis_points, ordinates };
+        let number = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+        polygon.ordinates = Ordinates::new(polygon.walls.len(), |j, wall| {
+            polygon.described_by(std::array::from_fn(|i| number(i, j))).wall(wall)
+        });
+        Ok(polygon)
     }
 
     /// Its walls, in their order.
@@ -190,13 +198,17 @@ impl PolygonStresses<'_> {
 
     /// The wall, from 0, and the place on it where the von Mises stress is largest.
     pub fn max_von_mises(&self) -> (usize, f64) {
-        max_von_mises((0..self.polygon.walls.len()).map(|wall| self.wall(wall)))
+        let (_, squares) = self.polygon.ordinates.squares(self.numbers());
+        max_von_mises(squares)
     }
 
-    /// An upper bound of the von Mises stress, cheaper than the search for the largest.
-    pub fn bound(&self) -> f64 {
-        let walls = 0..self.polygon.walls.len();
-        walls.map(|wall| bound(&self.wall(wall))).fold(0.0, f64::max)
+    /// Whether bounds show that the von Mises stress is nowhere above `level`; cheaper than the search
+    /// for the largest, and seldom undecided.
+    pub fn is_at_most(&self, level: f64) -> bool {
+        let (unit, mut squares) = self.polygon.ordinates.squares(self.numbers());
+        let level = level / unit;
+        let is_level = level >= 0.0 && unit.is_finite();
+        is_level && squares.all(|square| square.is_at_most(level * level))
     }
 
     /// The stress on the point's wall where it is nearest to the point.

@@ -142,11 +142,12 @@ impl SectionStresses<'_> {
         }
     }
 
-    /// An upper bound of the von Mises stress, cheaper than [`max_von_mises`](Self::max_von_mises).
-    pub fn bound(&self) -> f64 {
+    /// Whether bounds show that the von Mises stress is nowhere above `level`; cheaper than
+    /// [`max_von_mises`](Self::max_von_mises), and seldom undecided.
+    pub fn is_at_most(&self, level: f64) -> bool {
         match self {
-            Self::Tube(stresses) => stresses.bound(),
-            Self::Polygon(stresses) => stresses.bound(),
+            Self::Tube(stresses) => stresses.is_at_most(level),
+            Self::Polygon(stresses) => stresses.is_at_most(level),
         }
     }
 

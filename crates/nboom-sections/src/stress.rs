@@ -50,7 +50,7 @@ impl Stress {
 const SAFE_SQUARES: std::ops::Range<f64> = 1e-270..1e300;
 
 /// √(a² + b² + …), also where squares overflow or vanish.
-fn norm<const N: usize>(components: [f64; N]) -> f64 {
+pub(crate) fn norm<const N: usize>(components: [f64; N]) -> f64 {
     let squares: f64 = components.iter().map(|c| c * c).sum();
     if SAFE_SQUARES.contains(&squares) {
         return squares.sqrt();

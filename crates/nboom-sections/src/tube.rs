@@ -3,6 +3,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nboom_scalar::Wrench;
 
 use crate::harmonics::Harmonics;
+use crate::stress::norm;
 use crate::{Point, PointStress, Properties, SecondMoments, SectionError, SectionWarning, Stress};
 
 /// A circular tube around the η axis.
@@ -147,10 +148,11 @@ impl TubeStresses {
         PointStress { place, wall: None, stress }
     }
 
-    /// An upper bound of the von Mises stress, cheaper than the search for the largest.
-    pub fn bound(&self) -> f64 {
-        let most = |[a, b, c]: [f64; 3]| a.abs() + b.hypot(c);
-        most(self.normal).hypot(3.0_f64.sqrt() * most(self.shear))
+    /// Whether the von Mises stress is nowhere above `level`; a bound may show that without a search.
+    pub fn is_at_most(&self, level: f64) -> bool {
+        let most = |[a, b, c]: [f64; 3]| a.abs() + norm([b, c]);
+        let bound = norm([most(self.normal), 3.0_f64.sqrt() * most(self.shear)]);
+        bound <= level || self.at(self.max_von_mises()).stress.von_mises() <= level
     }
 
     /// The θ at which the von Mises stress is largest, from 0 to 2π.

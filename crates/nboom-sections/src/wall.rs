@@ -1,4 +1,4 @@
-use crate::max_von_mises::max_von_mises;
+use crate::max_von_mises::{Square, max_von_mises};
 use crate::shear_flow::UnitFlows;
 use crate::{Point, Stress};
 
@@ -83,12 +83,22 @@ impl WallStress {
 
     /// Where the von Mises stress is largest.
     pub fn max_von_mises(&self) -> f64 {
-        let (_, x) = max_von_mises(std::iter::once(*self));
+        let (normal, shear) = (self.normal_ordinates(), self.shear_ordinates());
+        let unit = normal.iter().chain(&shear).fold(f64::MIN_POSITIVE, |most, c| most.max(c.abs()));
+        let square = Square { normal: normal.map(|c| c / unit), shear: shear.map(|c| c / unit) };
+        let (_, x) = max_von_mises(std::iter::once(square));
         x
     }
 
-    /// The largest magnitude of a coefficient.
-    pub(crate) fn largest_coefficient(&self) -> f64 {
-        self.normal.iter().chain(&self.shear).fold(0.0, |most: f64, c| most.max(c.abs()))
+    /// Coefficients of the normal stress in Bernstein's basis, the values at both ends.
+    pub(crate) fn normal_ordinates(&self) -> [f64; 2] {
+        let [a, b] = self.normal;
+        [a, a + b]
+    }
+
+    /// Coefficients of the shear stress in Bernstein's basis.
+    pub(crate) fn shear_ordinates(&self) -> [f64; 3] {
+        let [a, b, c] = self.shear;
+        [a, a + 0.5 * b, a + b + c]
     }
 }

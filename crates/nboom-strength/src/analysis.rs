@@ -6,16 +6,15 @@ use nboom_sim::{Detail, InstantMotion, MotionAt, Snapshot, StepMotion};
 
 use crate::envelope::driver;
 use crate::finder::LoadFinder;
-use crate::formulas::Formulas;
-use crate::gauge::{Gauge, Measure};
+use crate::gauge::Gauge;
 use crate::piece::{search_pulses, search_step};
 use crate::pulse::Pulses;
 use crate::record::{Record, Records};
 use crate::search::Search;
-use crate::station::{StationPlace, set_stresses};
+use crate::station::Station;
 use crate::{
-    HingeQuantity, LatchImpulses, LockUpPeaks, Settings, Slip, StationStress, StrengthError, Worst,
-    WorstHingeLoad,
+    HingeQuantity, LatchImpulses, LockUpPeaks, Settings, Slip, StationLoad, Stations,
+    StrengthError, Worst, WorstHingeLoad,
 };
 
 /// Share of the largest stress below which that of a station is rounding.
@@ -32,7 +31,7 @@ pub struct StressAnalysis {
     /// `None` without a structure.
     pulse_constants: Option<Vec<f64>>,
     finder: LoadFinder,
-    stations: Vec<StationPlace>,
+    stations: Stations,
     search: Search,
     pulses: Pulses,
     /// End of the last step or instant.
@@ -46,7 +45,7 @@ pub struct StressAnalysis {
     settled: Vec<LockUpPeaks>,
     /// Loads of the motion at one time.
     row: Vec<f64>,
-    stresses: Vec<StationStress>,
+    station_loads: Vec<StationLoad>,
     hinge_loads: Vec<Wrench<f64>>,
     latch_impulses: Vec<LatchImpulses>,
 }
@@ -97,11 +96,9 @@ impl StressAnalysis {
         let hands_on = settings.slips.contains(Slip::LoadTransfer);
         let finder = LoadFinder::new(scene, labels.clone(), equations, hands_on);
         let loads = finder.load_set();
-        let (mut stations, mut gauges) = (Vec::new(), Vec::new());
-        for (i, AtStation { segment, station, here }) in sections.into_iter().enumerate() {
-            stations.push(StationPlace { segment, station });
-            gauges.push(Gauge::of_station(i, &loads, Formulas::new(here, settings.slips)));
-        }
+        let stations = Stations::new(sections, settings.slips);
+        let of_station = |(i, at): (usize, &Station)| Gauge::of_station(i, &loads, at);
+        let mut gauges: Vec<Gauge> = stations.iter().enumerate().map(of_station).collect();
         gauges.extend((0..labels.len()).flat_map(|hinge| Gauge::of_hinge(hinge, &loads)));
         let records = Records::new(&gauges);
         Ok(Self {
@@ -118,7 +115,7 @@ impl StressAnalysis {
             row: vec![0.0; loads.count()],
             search: Search::new(gauges, loads.count()),
             finder,
-            stresses: Vec::new(),
+            station_loads: Vec::new(),
             hinge_loads: Vec::new(),
             latch_impulses: Vec::new(),
         })
@@ -137,7 +134,12 @@ impl StressAnalysis {
 
     /// Whether there are stations, and so stresses.
     pub fn has_stations(&self) -> bool {
-        !self.stations.is_empty()
+        self.stations.iter().len() > 0
+    }
+
+    /// The stations, which find stresses.
+    pub fn stations(&self) -> &Stations {
+        &self.stations
     }
 
     /// Instruction set of the generated code that finds the loads, if any does.
@@ -145,17 +147,13 @@ impl StressAnalysis {
         self.finder.loads.generated_for()
     }
 
-    /// Loads and stresses of the motion at an output time. Output times are within a step or
-    /// instant, which the envelope covers; only a run of no length adds its one output time to the
-    /// envelope here.
+    /// Finds the loads of the motion at an output time. Output times are within a step or instant,
+    /// which the envelope covers; only a run of no length adds its one output time to the envelope
+    /// here.
     ///
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
-    pub fn motion(
-        &mut self,
-        snapshot: &Snapshot,
-        detail: &Detail,
-    ) -> Result<&[StationStress], StrengthError> {
+    pub fn motion(&mut self, snapshot: &Snapshot, detail: &Detail) -> Result<(), StrengthError> {
         self.finder.write(&MotionAt::of(snapshot, detail), &mut self.row)?;
         if self.reached == f64::NEG_INFINITY {
             let acting = self.pulses.acting(snapshot.time);
@@ -163,13 +161,13 @@ impl StressAnalysis {
                 self.worst.look(&self.search.gauges, (acting, snapshot.time), &self.row);
             });
         }
-        let Self { search, stations, row, stresses, hinge_loads, labels, .. } = self;
-        let of_row = |gauge: &Gauge| (gauge.load(row), gauge.numbers(row));
-        set_stresses(stresses, stations, &search.gauges, |g| of_row(&search.gauges[g]));
+        let Self { search, stations, row, station_loads, hinge_loads, .. } = self;
+        let (of_stations, of_hinges) = search.gauges.split_at(stations.iter().len());
+        station_loads.clear();
+        station_loads.extend(of_stations.iter().map(|gauge| gauge.station_load(row)));
         hinge_loads.clear();
-        let forces = &search.gauges[stations.len()..];
-        hinge_loads.extend((0..labels.len()).map(|i| forces[2 * i].load(row)));
-        Ok(&self.stresses)
+        hinge_loads.extend(of_hinges.iter().step_by(2).map(|force| force.load(row)));
+        Ok(())
     }
 
     /// The largest loads of a step, for the envelope.
@@ -177,19 +175,12 @@ impl StressAnalysis {
     /// # Errors
     /// When the loads contradict the motion, or are no numbers.
     pub fn step(&mut self, step: &mut dyn StepMotion) -> Result<(), StrengthError> {
-        let Self { search, finder, pulses, worst, at_lock_up, .. } = self;
+        let Self { search, finder, pulses, worst, .. } = self;
         search_step(search, step, finder, pulses, worst)?;
-        let span = step.span();
-        self.reached = span[1];
-        if self.pending.is_some() {
-            let span = span.map(|time| time - pulses.since);
-            search_pulses(search, span, pulses, at_lock_up)?;
-            pulses.forget_until(span[1]);
-            if self.pulses.is_empty() {
-                self.settle();
-            }
-        }
-        Ok(())
+        let [_, end] = step.span();
+        self.reached = end;
+        let u = end - self.pulses.since;
+        if self.pulses.end() <= u { self.settle(u) } else { Ok(()) }
     }
 
     /// Both sides of an instant with events, for the envelope. The pulses of hinges that lock start
@@ -225,7 +216,7 @@ impl StressAnalysis {
         if self.pulse_constants.is_none() {
             return Ok(());
         }
-        self.settle();
+        self.settle(after.time - self.pulses.since)?;
         self.pending = Some(after.time);
         self.start_pulses(instant, sides)
     }
@@ -250,20 +241,22 @@ impl StressAnalysis {
         Ok(())
     }
 
-    /// Reports the peaks of the last lock-up, unless they were reported before.
-    fn settle(&mut self) {
-        let Some(time) = self.pending.take() else { return };
-        let Self { search, at_lock_up, stations, worst, .. } = self;
+    /// Searches and reports the peaks of the last lock-up, whose pulses are over or another one's begin
+    /// at `u`, unless they were reported before.
+    fn settle(&mut self, u: f64) -> Result<(), StrengthError> {
+        let Some(time) = self.pending.take() else { return Ok(()) };
+        let Self { search, pulses, at_lock_up, stations, worst, .. } = self;
+        search_pulses(search, u, pulses, at_lock_up)?;
+        pulses.forget_until(u);
         worst.merge(at_lock_up);
-        let none = (Wrench::zero(), [0.0; 6]);
-        let of_record = |g| at_lock_up.get(g).map_or(none, |found| (found.load, found.numbers));
-        let mut stresses = Vec::new();
-        set_stresses(&mut stresses, stations, &search.gauges, of_record);
-        let moments = (stations.len()..search.gauges.len())
-            .filter(|&g| matches!(search.gauges[g].measure, Measure::Moment));
-        let hinge_loads = moments.map(|g| of_record(g).0).collect();
+        let of_record = |g| at_lock_up.get(g).map_or(StationLoad::none(), Record::station_load);
+        let (first, end) = (stations.iter().len(), search.gauges.len());
+        let of_stations = (0..first).map(of_record).collect();
+        let moments = (first..end).skip(1).step_by(2);
+        let hinge_loads = moments.map(|g| of_record(g).load).collect();
         at_lock_up.forget();
-        self.settled.push(LockUpPeaks { time, stresses, hinge_loads });
+        self.settled.push(LockUpPeaks { time, stations: of_stations, hinge_loads });
+        Ok(())
     }
 
     /// Whether the peaks of a lock-up are still to come.
@@ -281,17 +274,12 @@ impl StressAnalysis {
     /// # Errors
     /// None are to be expected.
     pub fn finish(&mut self) -> Result<(), StrengthError> {
-        let Self { search, pulses, at_lock_up, reached, .. } = self;
-        let end = pulses.end();
-        search_pulses(search, [*reached - pulses.since, end], pulses, at_lock_up)?;
-        pulses.forget_until(end);
-        self.settle();
-        Ok(())
+        self.settle(self.pulses.end())
     }
 
-    /// Load and stresses of every station at the last output time.
-    pub fn stresses(&self) -> &[StationStress] {
-        &self.stresses
+    /// Load of every station at the last output time.
+    pub fn station_loads(&self) -> &[StationLoad] {
+        &self.station_loads
     }
 
     /// Force and moment that each hinge exerts on its outboard body, about the hinge point, segment
@@ -308,16 +296,15 @@ impl StressAnalysis {
     /// The worst of each station so far; nothing before the first motion.
     pub fn envelope(&self) -> Vec<Worst> {
         let stations = self.stations.iter().enumerate();
-        stations.filter_map(|(g, place)| self.worst_of(g, place)).collect()
+        stations.filter_map(|(g, at)| self.worst_of(g, at)).collect()
     }
 
-    fn worst_of(&self, g: usize, place: &StationPlace) -> Option<Worst> {
+    fn worst_of(&self, g: usize, at: &Station) -> Option<Worst> {
         let Record { value, time, cause, load, numbers } = *self.worst.get(g)?;
-        let Measure::Stress(formulas) = &self.search.gauges[g].measure else { return None };
-        let max_von_mises = formulas.max_von_mises_of(numbers);
+        let max_von_mises = at.formulas.max_von_mises_of(numbers);
         let has_load = value > ROUNDING * self.worst.largest_of_kind(g);
-        let (segment, station) = (self.labels[place.segment], place.station);
-        let driver = has_load.then(|| driver(formulas, &load, &max_von_mises));
+        let (segment, station) = (self.labels[at.segment], at.station);
+        let driver = has_load.then(|| driver(&at.formulas, &load, &max_von_mises));
         let margin = self.settings.margin(value).filter(|_| has_load);
         Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margin })
     }
@@ -325,7 +312,7 @@ impl StressAnalysis {
     /// The largest force and the largest moment of each hinge so far; nothing before the first motion.
     pub fn hinge_envelope(&self) -> Vec<WorstHingeLoad> {
         let of_hinge = |(i, hinge): (usize, &HingeLabel)| {
-            let first = self.stations.len() + 2 * i;
+            let first = self.stations.iter().len() + 2 * i;
             let hinge = *hinge;
             HingeQuantity::ALL.into_iter().enumerate().filter_map(move |(j, quantity)| {
                 let Record { time, cause, load, .. } = *self.worst.get(first + j)?;

@@ -21,11 +21,15 @@ impl Formulas {
         }
     }
 
-    /// The stresses that `numbers` describe, those under `load`.
-    pub fn stresses(&self, load: &Wrench<f64>, numbers: [f64; 6]) -> Stresses<'_> {
+    /// The stresses that `numbers` describe; by formulas of 1970, those under the load of these P and Q.
+    pub fn stresses(&self, numbers: [f64; 6]) -> Stresses<'_> {
         match self {
             Self::Right(section) => Stresses::Right(section.described_by(numbers)),
-            Self::Of1970(original) => Stresses::Of1970(original, *load),
+            Self::Of1970(original) => {
+                let [px, py, pz, qx, qy, qz] = numbers;
+                let (force, moment) = (Vec3::new(px, py, pz), Vec3::new(qx, qy, qz));
+                Stresses::Of1970(original, Wrench { force, moment })
+            }
         }
     }
 
@@ -34,19 +38,17 @@ impl Formulas {
         matches!(self, Self::Of1970(_))
     }
 
-    /// Where the von Mises stress is largest: under P and Q by formulas of 1970, otherwise for the
-    /// stresses that the numbers describe.
-    pub fn max_von_mises_of(&self, [a, b, c, d, e, f]: [f64; 6]) -> PointStress {
-        let load = Wrench { force: Vec3::new(a, b, c), moment: Vec3::new(d, e, f) };
-        self.stresses(&load, [a, b, c, d, e, f]).max_von_mises()
+    /// Where the von Mises stress is largest.
+    pub fn max_von_mises_of(&self, numbers: [f64; 6]) -> PointStress {
+        self.stresses(numbers).max_von_mises()
     }
 
-    /// An upper bound of the von Mises stress under these numbers, cheaper than
-    /// [`max_von_mises_of`](Self::max_von_mises_of), which it equals for formulas of 1970.
-    pub fn bound(&self, numbers: [f64; 6]) -> f64 {
+    /// Whether bounds show that the von Mises stress under these numbers is nowhere above `level`;
+    /// cheaper than [`max_von_mises_of`](Self::max_von_mises_of), but for formulas of 1970.
+    pub fn is_at_most(&self, level: f64, numbers: [f64; 6]) -> bool {
         match self {
-            Self::Right(section) => section.described_by(numbers).bound(),
-            Self::Of1970(_) => self.max_von_mises_of(numbers).stress.von_mises(),
+            Self::Right(section) => section.described_by(numbers).is_at_most(level),
+            Self::Of1970(_) => self.max_von_mises_of(numbers).stress.von_mises() <= level,
         }
     }
 

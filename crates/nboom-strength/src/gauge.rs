@@ -1,16 +1,20 @@
 //! Quantities whose largest values are searched.
 
+use std::sync::Arc;
+
 use nboom_loads::LoadSet;
 use nboom_scalar::{Vec3, Wrench};
 use nboom_sections::PointStress;
 
+use crate::StationLoad;
 use crate::formulas::Formulas;
+use crate::station::Station;
 
 /// What a gauge measures.
 #[derive(Clone, Debug)]
 pub(crate) enum Measure {
     /// The largest von Mises stress in a section.
-    Stress(Formulas),
+    Stress(Arc<Formulas>),
     /// The magnitude of a hinge's force.
     Force,
     /// The magnitude of a hinge's moment.
@@ -35,10 +39,11 @@ pub(crate) struct Gauge {
 
 impl Gauge {
     /// The stress of a station, as counted over all segments.
-    pub fn of_station(station: usize, loads: &LoadSet, formulas: Formulas) -> Self {
+    pub fn of_station(station: usize, loads: &LoadSet, at: &Station) -> Self {
         let load = loads.station_at(station);
-        let numbers = if formulas.are_of_1970() { load } else { loads.stress_at(station) };
-        Self::new(Measure::Stress(formulas), load, numbers)
+        let of_loads = at.formulas.are_of_1970();
+        let numbers = if of_loads { load } else { loads.stress_at(station) };
+        Self::new(Measure::Stress(Arc::clone(&at.formulas)), load, numbers)
     }
 
     /// Force and moment of a hinge.
@@ -65,6 +70,11 @@ impl Gauge {
         wrench(six(row, self.load))
     }
 
+    /// Load and numbers of its station in a row of loads.
+    pub fn station_load(&self, row: &[f64]) -> StationLoad {
+        StationLoad { load: self.load(row), numbers: self.numbers(row) }
+    }
+
     /// The quantity for these numbers.
     pub fn value(&self, numbers: &[f64; 6]) -> f64 {
         let Wrench { force, moment } = wrench(*numbers);
@@ -76,34 +86,25 @@ impl Gauge {
     }
 
     /// A cheap upper bound of the quantity for these numbers.
-    pub fn rough_bound(&self, numbers: &[f64; 6]) -> f64 {
+    pub fn bound(&self, numbers: &[f64; 6]) -> f64 {
         self.gains.iter().zip(numbers).map(|(gain, number)| gain * number.abs()).sum()
     }
 
-    /// An upper bound of the quantity for these numbers, cheaper than its value.
-    pub fn close_bound(&self, numbers: &[f64; 6]) -> f64 {
-        match &self.measure {
-            Measure::Stress(formulas) => formulas.bound(*numbers),
-            Measure::Force | Measure::Moment => self.value(numbers),
-        }
-    }
-
-    /// Whether the quantity for these numbers is at most `level`; stops as soon as that is known.
+    /// Whether bounds show that the quantity for these numbers is at most `level`.
     pub fn is_at_most(&self, level: f64, numbers: &[f64; 6]) -> bool {
-        self.is_bounded_by(level, numbers) || self.value(numbers) <= level
+        self.bound(numbers) <= level
+            || match &self.measure {
+                Measure::Stress(formulas) => formulas.is_at_most(level, *numbers),
+                Measure::Force | Measure::Moment => self.value(numbers) <= level,
+            }
     }
 
-    /// The quantity for these numbers if it is above `level`; stops as soon as it is known not to
-    /// be.
+    /// The quantity for these numbers if it is above `level`.
     pub fn above(&self, level: f64, numbers: &[f64; 6]) -> Option<f64> {
-        if self.is_bounded_by(level, numbers) {
+        if self.is_at_most(level, numbers) {
             return None;
         }
         Some(self.value(numbers)).filter(|value| *value > level)
-    }
-
-    fn is_bounded_by(&self, level: f64, numbers: &[f64; 6]) -> bool {
-        self.rough_bound(numbers) <= level || self.close_bound(numbers) <= level
     }
 
     /// The contribution of each of `parts` of a load to the quantity under the whole load, as a

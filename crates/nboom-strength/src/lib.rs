@@ -29,4 +29,4 @@ pub use error::StrengthError;
 pub use pulse::PulseShape;
 pub use settings::Settings;
 pub use slip::{Slip, Slips};
-pub use station::{LockUpPeaks, StationStress};
+pub use station::{LockUpPeaks, StationLoad, StationStress, Stations};

@@ -61,6 +61,16 @@ impl<const N: usize> Basis<N> {
     }
 }
 
+/// Coefficient `i` in Bernstein's basis of 32n x (1 − x), which bounds what a polynomial of degree `n`
+/// leaves out, as a share of its [`Basis::tails`]: that vanishes at both ends.
+///
+/// Of a term a T₍ₙ₊ₘ₎ of Chebyshev's series it leaves out a (T₍ₙ₊ₘ₎ − T₍ₙ₋ₘ₎) = −2a sin nϑ sin mϑ, where
+/// cos ϑ = 2x − 1: at most 8nm |a| x (1 − x). If coefficients fall to half from one to the next, all
+/// terms leave out four times as much as the first, whose a is among the tails.
+pub(crate) fn share_left_out(n: usize, i: usize) -> f64 {
+    (32 * i * (n - i)) as f64 / (n - 1) as f64
+}
+
 /// Barycentric weights: their sum with the values at the fine points is the value at `x` of the
 /// polynomial through these.
 pub(crate) fn weights(places: &[f64; FINE], x: f64) -> [f64; FINE] {
@@ -168,5 +178,36 @@ mod tests {
         assert!((a.abs() - 1.0).abs() < 1e-13 && (b - 3.0).abs() < 1e-13, "{a} {b}");
         let [[a], [b]] = Basis::<COARSE>::new().tails(&[[1.0], [2.0], [3.0], [2.0], [1.0]]);
         assert!(a.abs() < 1e-15 && b.abs() < 1.0, "{a} {b}");
+    }
+
+    /// Of a function whose coefficients in Chebyshev's basis fall to half from one to the next.
+    fn check_what_is_left_out<const N: usize>() {
+        let degree = N - 1;
+        let curve = |x: f64| {
+            let angle = (2.0 * x - 1.0).acos();
+            let term = |m: usize| 0.5_f64.powi(m as i32) * ((degree + m) as f64 * angle).cos();
+            (1..=degree).map(term).sum::<f64>()
+        };
+        let basis = Basis::<N>::new();
+        let values: [[f64; 1]; N] = std::array::from_fn(|k| [curve(place::<N>(k))]);
+        let coefficients = basis.coefficients(&values);
+        let tails: f64 = basis.tails(&values).iter().map(|[tail]| tail.abs()).sum();
+        let mut closest = 0.0_f64;
+        for step in 1..1000 {
+            let x = f64::from(step) / 1000.0;
+            let sum = |c: &dyn Fn(usize) -> f64| -> f64 {
+                (0..N).map(|i| c(i) * bernstein(degree, i, x)).sum()
+            };
+            let left_out = (curve(x) - sum(&|i| coefficients[i][0])).abs();
+            closest = closest.max(left_out / (tails * sum(&|i| share_left_out(degree, i))));
+        }
+        // It is a bound, and not far from what it bounds.
+        assert!(closest < 1.0 && closest > 0.7, "{closest}");
+    }
+
+    #[test]
+    fn what_is_left_out_vanishes_at_the_ends() {
+        check_what_is_left_out::<COARSE>();
+        check_what_is_left_out::<FINE>();
     }
 }

@@ -72,28 +72,40 @@ pub(crate) fn search_step(
     })
 }
 
-/// Searches the largest loads of pulses between two times, on the loads that represent the motion.
+/// Searches the largest loads of pulses from the last instant in which a hinge locked to `end`, on the
+/// loads that represent the motion.
 ///
 /// # Errors
 /// None are to be expected.
 pub(crate) fn search_pulses(
     search: &mut Search,
-    span: [f64; 2],
+    end: f64,
     pulses: &Pulses,
     records: &mut Records,
 ) -> Result<(), StrengthError> {
+    let span = [0.0, end.min(pulses.end())];
+    // Ends come first: little is larger in between.
+    for_each_of_pulses(pulses, span, |ends, loads, acting| {
+        search.at_ends(ends, &mut Piece { motion: OfMotion::Standing(loads), acting, records })
+    })?;
+    for_each_of_pulses(pulses, span, |ends, loads, acting| {
+        // Along a line a norm is largest at an end.
+        if acting.share_a_course() {
+            return Ok(());
+        }
+        search.over(ends, &mut Piece { motion: OfMotion::Standing(loads), acting, records })
+    })
+}
+
+/// Looks at every piece with the loads that represent the motion and the pulses that act on them.
+fn for_each_of_pulses(
+    pulses: &Pulses,
+    span: [f64; 2],
+    mut look: impl FnMut([f64; 2], &[f64], Acting<'_>) -> Result<(), StrengthError>,
+) -> Result<(), StrengthError> {
     for_each_piece(pulses, span, |from, to| {
         pulses.sides(from).try_for_each(|side| {
-            pulses.acting(from).try_for_each(|acting| {
-                let motion = OfMotion::Standing(&side.loads);
-                let mut piece = Piece { motion, acting, records };
-                // Along a line a norm is largest at an end.
-                if acting.share_a_course() {
-                    search.at_ends([from, to], &mut piece)
-                } else {
-                    search.over([from, to], &mut piece)
-                }
-            })
+            pulses.acting(from).try_for_each(|acting| look([from, to], &side.loads, acting))
         })
     })
 }

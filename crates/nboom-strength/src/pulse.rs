@@ -94,10 +94,6 @@ impl Pulses {
         Self { shape, since: 0.0, active: Vec::new(), sides: Vec::new() }
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.active.is_empty()
-    }
-
     /// Counts from the instant at `time`.
     pub fn start_at(&mut self, time: f64) {
         let passed = time - self.since;

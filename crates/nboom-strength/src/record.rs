@@ -2,9 +2,9 @@
 
 use nboom_scalar::Wrench;
 
-use crate::Cause;
 use crate::gauge::{Gauge, Measure};
 use crate::pulse::Acting;
+use crate::{Cause, StationLoad};
 
 /// The largest value of one gauge, and its cause.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,13 @@ pub(crate) struct Record {
     pub load: Wrench<f64>,
     /// The numbers of the gauge.
     pub numbers: [f64; 6],
+}
+
+impl Record {
+    /// Load and numbers of a station.
+    pub fn station_load(&self) -> StationLoad {
+        StationLoad { load: self.load, numbers: self.numbers }
+    }
 }
 
 /// Those of all gauges.

@@ -210,14 +210,14 @@ impl Search {
         if stays_below(gauge, &coefficients, &tails, enough) {
             return Verdict::Done;
         }
-        let left_out: f64 = tails.iter().map(|tail| gauge.close_bound(tail)).sum();
-        if left_out > enough - loaded.largest(g) {
+        if left_out(gauge, &tails) > enough - loaded.largest(g) {
             return Verdict::TooLong;
         }
         let curve = Curve { basis: &self.fine, places: &self.places, gauge };
         let (mut largest, mut at) = (loaded.largest(g), None);
         let slack = loaded.largest_of_kind(g) * ROUNDING;
-        curve.climb(&coefficients, [0.0, 1.0], 0, slack, &mut (&mut largest, &mut at));
+        let found = &mut (&mut largest, &mut at);
+        curve.climb(&coefficients, &values, [0.0, 1.0], 0, slack, found);
         if let Some(x) = at {
             let weights = nodes::weights(&self.places, x);
             self.between.fill(0.0);
@@ -234,15 +234,21 @@ fn row_mut(rows: &mut [f64], width: usize, k: usize) -> &mut [f64] {
     &mut rows[k * width..(k + 1) * width]
 }
 
-/// Whether a gauge is at most `level` for polynomials with these coefficients, and what they leave
-/// out, over all of their interval.
+/// Whether bounds show that a gauge is at most `level` for polynomials with these coefficients, and
+/// what they leave out, over all of their interval.
 fn stays_below(gauge: &Gauge, coefficients: &[[f64; 6]], tails: &[[f64; 6]], level: f64) -> bool {
-    let rough_level = level - tails.iter().map(|tail| gauge.rough_bound(tail)).sum::<f64>();
-    if coefficients.iter().all(|coefficient| gauge.rough_bound(coefficient) <= rough_level) {
-        return true;
-    }
-    let level = level - tails.iter().map(|tail| gauge.close_bound(tail)).sum::<f64>();
-    coefficients.iter().all(|coefficient| gauge.is_at_most(level, coefficient))
+    let (left_out, degree) = (left_out(gauge, tails), coefficients.len() - 1);
+    let is_below =
+        |(i, share): (usize, f64)| gauge.is_at_most(level - share * left_out, &coefficients[i]);
+    // Loads that grow decide at the end.
+    let places = (0..=degree).rev();
+    places.clone().map(|i| (i, 1.0)).all(is_below)
+        || left_out > 0.0 && places.map(|i| (i, nodes::share_left_out(degree, i))).all(is_below)
+}
+
+/// An upper bound of the gauge of all of these.
+fn left_out(gauge: &Gauge, tails: &[[f64; 6]]) -> f64 {
+    tails.iter().map(|tail| gauge.bound(tail)).sum()
 }
 
 /// A gauge of polynomials in time.
@@ -254,7 +260,7 @@ struct Curve<'a> {
 
 impl Curve<'_> {
     /// Raises `largest`, and sets its place, to the largest value of the gauge over a part of the
-    /// interval.
+    /// interval, where the polynomials have these coefficients and these numbers at the places.
     ///
     /// The square of a gauge is smooth wherever the place of the largest stress does not jump; the
     /// largest value of a polynomial through it is then the result. Where the place jumps the
@@ -263,6 +269,7 @@ impl Curve<'_> {
     fn climb(
         &self,
         coefficients: &[[f64; 6]; FINE],
+        numbers: &[[f64; 6]; FINE],
         [from, to]: [f64; 2],
         cuts: usize,
         slack: f64,
@@ -275,11 +282,7 @@ impl Curve<'_> {
                 (*found.0, *found.1) = (value, Some(time(x)));
             }
         };
-        if cuts > 0 && stays_below(gauge, coefficients, &[], *found.0 * (1.0 + TOLERANCE) + slack) {
-            return;
-        }
-        let values: [f64; FINE] =
-            std::array::from_fn(|k| gauge.value(&nodes::value(coefficients, places[k])));
+        let values: [f64; FINE] = std::array::from_fn(|k| gauge.value(&numbers[k]));
         places.iter().zip(values).for_each(|(&x, value)| raise(value, x, found));
         let unit = *found.0;
         let squares = values.map(|value| [(value / unit).powi(2)]);
@@ -292,8 +295,11 @@ impl Curve<'_> {
             return;
         }
         let middle = 0.5 * (from + to);
-        let [left, right] = nodes::halves(coefficients);
-        self.climb(&left, [from, middle], cuts + 1, slack, found);
-        self.climb(&right, [middle, to], cuts + 1, slack, found);
+        for (half, part) in nodes::halves(coefficients).iter().zip([[from, middle], [middle, to]]) {
+            if !stays_below(gauge, half, &[], *found.0 * (1.0 + TOLERANCE) + slack) {
+                let numbers = places.map(|x| nodes::value(half, x));
+                self.climb(half, &numbers, part, cuts + 1, slack, found);
+            }
+        }
     }
 }

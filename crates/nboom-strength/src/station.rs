@@ -1,15 +1,29 @@
 //! Stresses of stations at one time.
 
+use std::sync::Arc;
+
 use nboom_scalar::Wrench;
-use nboom_sections::PointStress;
+use nboom_sections::{AtStation, PointStress, Section};
 
-use crate::gauge::{Gauge, Measure};
+use crate::Slips;
+use crate::formulas::Formulas;
 
-/// Which station a gauge is for.
-#[derive(Clone, Debug)]
-pub(crate) struct StationPlace {
-    pub segment: usize,
-    pub station: usize,
+/// Load of one station at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StationLoad {
+    /// Force and moment on the part outboard of the station, about the point on the η axis,
+    /// segment axes.
+    pub load: Wrench<f64>,
+    /// The numbers that describe its stresses, see
+    /// [`SectionStresses::numbers`](nboom_sections::SectionStresses::numbers); with formulas of 1970
+    /// those of the load.
+    pub numbers: [f64; 6],
+}
+
+impl StationLoad {
+    pub(crate) fn none() -> Self {
+        Self { load: Wrench::zero(), numbers: [0.0; 6] }
+    }
 }
 
 /// Load and stresses of one station at one time.
@@ -28,6 +42,13 @@ pub struct StationStress {
     pub max_von_mises: PointStress,
 }
 
+impl StationStress {
+    /// Stresses at the axis points and where the von Mises stress is largest.
+    pub fn points(&self) -> impl Iterator<Item = &PointStress> {
+        self.axis_points.iter().flatten().chain([&self.max_von_mises])
+    }
+}
+
 /// The largest loads on either side of a lock-up, by its pulses and those that still lasted, until
 /// they ended or the next hinge locked.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,26 +56,107 @@ pub struct LockUpPeaks {
     /// When the hinge or hinges locked.
     pub time: f64,
     /// When the von Mises stress of each station was largest.
-    pub stresses: Vec<StationStress>,
+    pub stations: Vec<StationLoad>,
     /// When the moment of each hinge was largest: force and moment that it exerts on its outboard body,
     /// about the hinge point, segment axes.
     pub hinge_loads: Vec<Wrench<f64>>,
 }
 
-/// The stresses of all stations under the load and numbers of each gauge.
-pub(crate) fn set_stresses(
-    stresses: &mut Vec<StationStress>,
-    stations: &[StationPlace],
-    gauges: &[Gauge],
-    of: impl Fn(usize) -> (Wrench<f64>, [f64; 6]),
-) {
-    stresses.clear();
-    for (g, (at, gauge)) in stations.iter().zip(gauges).enumerate() {
-        let Measure::Stress(formulas) = &gauge.measure else { continue };
-        let (load, numbers) = of(g);
-        let axis_points = formulas.stresses(&load, numbers).axis_points();
-        let (segment, station, max_von_mises) =
-            (at.segment, at.station, formulas.max_von_mises_of(numbers));
-        stresses.push(StationStress { segment, station, load, axis_points, max_von_mises });
+/// All stations of a structure, segment by segment, outboard ones first. A copy finds stresses of loads
+/// that it is given, in any thread.
+#[derive(Clone, Debug)]
+pub struct Stations(Vec<Station>);
+
+#[derive(Clone, Debug)]
+pub(crate) struct Station {
+    /// The segment, as its hinge is numbered in the scene.
+    pub segment: usize,
+    /// From 0, outboard ones first.
+    pub station: usize,
+    pub formulas: Arc<Formulas>,
+    /// The largest von Mises stress at a point of [`StationStress`] under each number alone, if it is 1.
+    gains: [f64; 6],
+}
+
+impl Station {
+    fn new(AtStation { segment, station, here }: AtStation<Section>, slips: Slips) -> Self {
+        let formulas = Arc::new(Formulas::new(here, slips));
+        let mut new = Self { segment, station, formulas, gains: [0.0; 6] };
+        new.gains = std::array::from_fn(|j| {
+            let numbers = std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
+            let stresses = new.stresses(&StationLoad { numbers, ..StationLoad::none() });
+            stresses.points().map(|point| point.stress.von_mises()).fold(0.0, f64::max)
+        });
+        new
+    }
+
+    fn stresses(&self, of: &StationLoad) -> StationStress {
+        let StationLoad { load, numbers } = *of;
+        let stresses = self.formulas.stresses(numbers);
+        StationStress {
+            segment: self.segment,
+            station: self.station,
+            load,
+            axis_points: stresses.axis_points(),
+            max_von_mises: stresses.max_von_mises(),
+        }
+    }
+
+    /// An upper bound of the von Mises stress at each point of [`StationStress`], since it is a norm.
+    fn bound(&self, of: &StationLoad) -> f64 {
+        self.gains.iter().zip(&of.numbers).map(|(gain, number)| gain * number.abs()).sum()
+    }
+}
+
+impl Stations {
+    /// Those with these sections, by the right formulas but for `slips`.
+    pub fn new(sections: Vec<AtStation<Section>>, slips: Slips) -> Self {
+        Self(sections.into_iter().map(|at| Station::new(at, slips)).collect())
+    }
+
+    pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = &Station> {
+        self.0.iter()
+    }
+
+    /// The stresses of all stations under their loads.
+    pub fn stresses(&self, loads: &[StationLoad]) -> impl Iterator<Item = StationStress> {
+        self.0.iter().zip(loads).map(|(station, load)| station.stresses(load))
+    }
+
+    /// An upper bound of all von Mises stresses under these loads; cheaper than the stresses.
+    pub fn bound(&self, loads: &[StationLoad]) -> f64 {
+        self.0.iter().zip(loads).map(|(station, load)| station.bound(load)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nboom_sections::{Point, Polygon, Tube};
+
+    #[test]
+    fn no_stress_exceeds_the_bound() {
+        let corners = [(2.0, 1.0), (-1.0, 1.5), (-1.0, -1.0), (1.0, -1.0), (0.5, 0.5)];
+        let corners = corners.map(|(xi, zeta)| Point { xi, zeta });
+        let polygon = Polygon::new(&corners, &[0.02, 0.03, 0.01, 0.02, 0.02]).expect("a polygon");
+        let tube = Tube::new(1.0, 0.1).expect("a tube");
+        for slips in [Slips::default(), Slips::all()] {
+            for here in [Section::Tube(tube), Section::Polygon(polygon.clone())] {
+                let stations =
+                    Stations::new(vec![AtStation { segment: 0, station: 0, here }], slips);
+                // Numbers of all signs.
+                for case in 0..64 {
+                    let number = |i: usize| [2.0, -3.0][case >> i & 1] + i as f64;
+                    let numbers = std::array::from_fn(number);
+                    let loads = [StationLoad { numbers, ..StationLoad::none() }];
+                    let bound = stations.bound(&loads);
+                    for stresses in stations.stresses(&loads) {
+                        let mut found = stresses.points().map(|point| point.stress.von_mises());
+                        // A few roundings.
+                        assert!(found.all(|found| found <= bound * (1.0 + 1e-14)), "{stresses:?}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -81,9 +81,14 @@ proptest! {
         let factor = 10.0_f64.powi(power);
         let scaled = Wrench { force: load.force * factor, moment: load.moment * factor };
         for section in [section, tube] {
-            let found = section.stresses(&scaled).max_von_mises().stress.von_mises() / factor;
+            let stresses = section.stresses(&scaled);
+            let found = stresses.max_von_mises().stress.von_mises() / factor;
             let right = section.stresses(&load).max_von_mises().stress.von_mises();
             prop_assert!((found - right).abs() <= ROUNDING * right, "{found} and {right}");
+            prop_assert!(!stresses.is_at_most((1.0 - ROUNDING) * right * factor));
+            // Far more than what bounds may leave open.
+            prop_assert!(stresses.is_at_most(1.5 * right * factor));
+            prop_assert!(!stresses.is_at_most(-right * factor) && !stresses.is_at_most(f64::NAN));
         }
     }
 
