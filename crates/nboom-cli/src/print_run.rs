@@ -87,7 +87,7 @@ impl Account<'_> {
     }
 
     fn headings(&self) -> Vec<String> {
-        let units = self.run.units;
+        let units = &self.run.units;
         vec![
             format!("time [{}]", units.time()),
             "event".to_owned(),
@@ -130,7 +130,7 @@ impl Account<'_> {
             let (name, magnitude) = (worst.quantity.name(), short(worst.magnitude(), 5));
             format!("{name} {magnitude} {unit} in hinge {}", worst.hinge)
         };
-        let units = self.run.units;
+        let units = &self.run.units;
         let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
         Some(format!("hinge loads   at most {force}, {moment}"))
     }
@@ -226,10 +226,9 @@ fn aligned(rows: &[Vec<String>]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nboom_model::{
+    use nboom_model::{UnitSystem, 
         Appendage, Hinge, HingeState, MassProperties, Mount, SceneDescription, Segment,
     };
-    use nboom_results::UnitSystem;
     use nboom_scalar::{Sym3, Vec3};
     use nboom_sim::{
         Choice, Conservation, HingeVerdict, Integration, Method, Options, Summary, Verdict,

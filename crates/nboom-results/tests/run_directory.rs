@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use nboom_model::{
+use nboom_model::{UnitSystem,
     Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, SectionShape,
     Segment, SegmentStructure, Station, Structure,
 };
 use nboom_results::{
-    Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables, UnitSystem,
+    Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables,
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{

@@ -3,7 +3,8 @@ use nboom_scalar::{Mat3, Quaternion, Vec3};
 
 use super::builder::Builder;
 use super::values::plain;
-use super::{angles, shown};
+use super::shown;
+use crate::angles;
 
 /// Deviation from a rotation, or from length 1, that counts as rounding in the deck.
 const ROTATION_TOLERANCE: f64 = 1e-6;

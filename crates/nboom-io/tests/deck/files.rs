@@ -66,7 +66,7 @@ fn a_missing_file_and_a_directory() {
 
 #[test]
 fn an_empty_file_lacks_its_groups() {
-    let Err(InputError::Deck(errors)) = Scratch::new("empty.nml", b"").read() else {
+    let Err(InputError::Content(errors)) = Scratch::new("empty.nml", b"").read() else {
         panic!("errors expected");
     };
     let symbols: Vec<_> = errors.iter().map(|e| (&*e.symbol, e.line, e.column)).collect();
@@ -89,7 +89,7 @@ fn other_encodings_only_in_comments() {
     let comment = comment.replace("ß", "Ä");
     assert!(Scratch::new("latin-comment.nml", &latin(&comment)).read().is_ok());
     let card = SMALL_DECK.replace("EMM=100.0,", "EMM=10Ä.0,");
-    let Err(InputError::Deck(errors)) = Scratch::new("latin-card.nml", &latin(&card)).read() else {
+    let Err(InputError::Content(errors)) = Scratch::new("latin-card.nml", &latin(&card)).read() else {
         panic!("errors expected");
     };
     assert_eq!((errors.len(), errors[0].line, errors[0].column), (1, 14, 8));
