@@ -201,6 +201,10 @@ pub struct CheckArgs {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArgs,
+
+    /// Also draw the scene, as it starts and with all hinges latched, with the axes of all bodies.
+    #[arg(long, value_name = "FILE.svg")]
+    pub picture: Option<PathBuf>,
 }
 
 /// Options of `nboom verify`.

@@ -32,6 +32,7 @@ mod list;
 #[cfg(feature = "generator")]
 mod new;
 mod output;
+mod picture;
 mod print_run;
 mod print_scene;
 mod progress;

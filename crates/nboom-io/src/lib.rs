@@ -104,6 +104,8 @@ pub struct SceneFile {
     /// What stresses need, when the file asks for stresses: a deck by `INSTR` above zero and its stress
     /// groups, a scene by stations.
     pub structure: Option<Structure>,
+    /// What it is written in.
+    pub format: Format,
     /// What a scene says about its results and parameters.
     pub settings: SceneSettings,
     /// Files that a scene includes.

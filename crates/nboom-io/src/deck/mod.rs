@@ -22,7 +22,7 @@ use nboom_model::{Scene, Structure};
 
 use crate::diagnostic::Report;
 use crate::source::sha256;
-use crate::{InputError, SceneFile, SceneSettings};
+use crate::{Format, InputError, SceneFile, SceneSettings};
 use builder::Builder;
 use values::{Sizes, Values};
 
@@ -53,6 +53,7 @@ pub fn parse_deck(file: &str, text: &str, name: &str) -> Result<SceneFile, Input
                 warnings: report.warnings,
                 legacy,
                 structure,
+                format: Format::Nml,
                 settings: SceneSettings::default(),
                 included: Vec::new(),
                 sha256,

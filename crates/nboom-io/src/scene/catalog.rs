@@ -96,7 +96,7 @@ static MAIN_BODY: TableKind = table(
     "The body that carries all others. Its origin is the point O, its axes are those of all \
      positions on it.",
     &[
-        required("mass", Number, "Mass."),
+        required("mass", Number, "Mass of the main body."),
         optional("mass_centre", Numbers(3), "Mass centre, from O; by default O."),
         required("inertia", Inertia(&INERTIA), "Inertia about the mass centre."),
     ],
@@ -168,7 +168,7 @@ static BODY: TableKind = table(
     &[
         required("name", Text, "What messages, releases and other bodies call it; unique."),
         optional("on", Text, "Name of the inboard body; by default the main body."),
-        required("mass", Number, "Mass."),
+        required("mass", Number, "Mass of the body."),
         required("mass_centre", Numbers(3), "Mass centre, from the hinge, body axes."),
         required("inertia", Inertia(&INERTIA), "Inertia about the mass centre, body axes."),
         optional(

@@ -2,6 +2,8 @@
 //!
 //! An expression has numbers, parameters `$name`, `+`, `-`, `*`, `/` and brackets.
 
+use crate::diagnostic::quoted;
+
 /// Deepest nesting of brackets and signs.
 const DEEPEST: usize = 100;
 
@@ -58,8 +60,10 @@ impl Parser<'_, '_> {
     }
 
     fn error(&self, expected: &str) -> ExpressionError {
-        let found = match self.text[self.at..].chars().next() {
-            Some(c) => format!("`{}`", if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }),
+        let rest = &self.text[self.at..];
+        let word = rest.find(|c: char| !c.is_alphanumeric()).unwrap_or(rest.len());
+        let found = match rest.chars().next() {
+            Some(c) => quoted(&rest[..word.max(c.len_utf8())]),
             None => "the end".to_owned(),
         };
         ExpressionError { at: self.at, found, expected: expected.to_owned() }
@@ -181,7 +185,7 @@ mod tests {
             ("2 *", 3, "the end", "a number"),
             ("2 3", 2, "`3`", "an operator"),
             ("(2", 2, "the end", "`)`"),
-            ("2 * heavy", 4, "`h`", "a number"),
+            ("2 * heavy", 4, "`heavy`", "a number"),
             ("1 + $m", 5, "`$m`", "`$k`"),
             ("$", 1, "the end", "the name"),
         ];

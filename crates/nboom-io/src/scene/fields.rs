@@ -100,12 +100,14 @@ impl Reader<'_, '_> {
         table: &'t Table,
         at: &Place,
     ) -> Fields<'t> {
+        let names: Vec<String> = kind.keys.iter().flat_map(Key::names).collect();
+        let mut meant = Vec::new();
         for Entry { key, key_at, .. } in &table.0 {
             if kind.key(key).is_none() {
-                let names: Vec<String> = kind.keys.iter().flat_map(Key::names).collect();
-                let help = suggest::nearest(key, names.iter().map(String::as_str));
+                let near = suggest::nearest(key, names.iter().map(String::as_str));
+                meant.extend(near.and_then(|near| kind.key(near)).map(|key| key.name));
                 let found = format!("{} in {}", quoted(key), kind.name);
-                let expected = "a key of this table";
+                let (expected, help) = ("a key of this table", near.map(suggest::question));
                 self.report.error_with_help(self.sources, key_at, key, &found, expected, help);
             }
         }
@@ -116,9 +118,10 @@ impl Reader<'_, '_> {
                 let found = format!("{} beside {}", quoted(&second.key), quoted(&given[0].key));
                 self.error(&second.key_at, &second.key, &found, "one of them");
             }
-            if given.is_empty() && key.is_required {
-                let found = format!("{} without it", kind.name);
-                self.error(at, &key.names().join(" or "), &found, key.about);
+            // A key that is nearly there has been told.
+            if given.is_empty() && key.is_required && !meant.contains(&key.name) {
+                let found = format!("none in {}", kind.name);
+                self.error(at, &key.names().join(" or "), &found, &in_a_sentence(key.about));
             }
         }
         let fields = Fields { kind, table, at: at.clone() };
@@ -183,7 +186,7 @@ impl Reader<'_, '_> {
         let text = self.text(fields, key)?;
         let found = choices.iter().find(|choice| choice.eq_ignore_ascii_case(text)).copied();
         if found.is_none() {
-            let help = suggest::nearest(text, choices.iter().copied());
+            let help = suggest::nearest(text, choices.iter().copied()).map(suggest::question);
             let expected = format!("one of {}", choices.join(", "));
             let at = fields.place(key);
             self.report.error_with_help(self.sources, &at, key, &quoted(text), &expected, help);
@@ -372,6 +375,14 @@ impl Reader<'_, '_> {
         };
         Some(Sym3 { xx, yy, zz, xy, xz, yz })
     }
+}
+
+/// A sentence without its point and with a small first letter, unless it begins with a name.
+fn in_a_sentence(about: &str) -> String {
+    let (first, rest) = about.split_at(about.chars().next().map_or(0, char::len_utf8));
+    let is_name = about.starts_with("Young") || about.starts_with("Poisson");
+    let first = if is_name { first.to_owned() } else { first.to_lowercase() };
+    first + rest.strip_suffix('.').unwrap_or(rest)
 }
 
 fn in_radians(value: f64, ending: &str) -> f64 {

@@ -26,7 +26,7 @@ use nboom_scalar::{Sym3, Vec3};
 
 use crate::diagnostic::{Report, quoted};
 use crate::source::sha256;
-use crate::{InputError, LegacySettings, SceneFile, SceneSettings};
+use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
 use fields::{Fields, Reader};
 use include::Parts;
 use model_error::Responsible;
@@ -82,6 +82,7 @@ pub fn parse_scene(
                     warnings: report.warnings,
                     legacy: LegacySettings { stress_interval, ..LegacySettings::default() },
                     structure,
+                    format: Format::Toml,
                     settings,
                     included: parts.included,
                     sha256,

@@ -42,6 +42,7 @@ impl Responsible<'_> {
             _ => (body.place("repeat"), "repeat", None),
         };
         let (found, expected) = phrases(&error.defect.to_string());
+        let help = help.map(suggest::question);
         reader.report.error_with_help(reader.sources, &at, symbol, &found, &expected, help);
     }
 

@@ -73,7 +73,7 @@ fn unknown<'n>(name: &str, known: impl Iterator<Item = &'n str> + Clone) -> (Str
     names.sort_unstable();
     let found = format!("`${name}`, which is no parameter");
     let expected = match (suggest::nearest(name, known), &names[..]) {
-        (Some(help), _) => format!("a parameter; {help}"),
+        (Some(near), _) => format!("a parameter; {}", suggest::question(near)),
         (None, []) => "a parameter; the scene has no table [parameters]".to_owned(),
         (None, few @ ([_] | [_, _] | [_, _, _])) => format!("one of {}", few.join(", ")),
         (None, _) => "a parameter of the table [parameters]".to_owned(),

@@ -78,7 +78,7 @@ impl Reader<'_, '_> {
         if let Some(material) = materials.get(name) {
             return Some(*material);
         }
-        let help = suggest::nearest(name, materials.keys().map(String::as_str));
+        let help = suggest::nearest(name, materials.keys().map(String::as_str)).map(suggest::question);
         let (at, expected) = (body.place("material"), "the name of a table [materials.NAME]");
         self.report.error_with_help(self.sources, &at, "material", &quoted(name), expected, help);
         None

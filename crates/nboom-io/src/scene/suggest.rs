@@ -3,14 +3,26 @@
 /// Least likeness, from 0 to 1, of words that may be meant for each other.
 const LIKE: f64 = 0.8;
 
-/// A question with the known name that is nearest to an unknown one, if one is near.
-pub(crate) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<String> {
+/// Longer words are nobody's slip of a key, and likeness takes the square of the length \[bytes\].
+const LONGEST: usize = 64;
+
+/// The known name that is nearest to an unknown one, if one is near; of equally near ones the first.
+pub(crate) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let name = name.to_lowercase();
-    // Longer words are nobody's slip of a key, and likeness takes the square of the length.
-    if name.len() > 64 {
+    if name.len() > LONGEST {
         return None;
     }
-    let like = known.map(|known| (strsim::jaro_winkler(&name, &known.to_lowercase()), known));
-    let best = like.filter(|(like, _)| *like >= LIKE).max_by(|a, b| a.0.total_cmp(&b.0));
-    best.map(|(_, known)| format!("did you mean `{known}`?"))
+    let mut best = None;
+    for known in known {
+        let like = strsim::jaro_winkler(&name, &known.to_lowercase());
+        if like >= best.map_or(LIKE, |(most, _)| most) && best.is_none_or(|(most, _)| like > most) {
+            best = Some((like, known));
+        }
+    }
+    best.map(|(_, known)| known)
+}
+
+/// Whether that was meant.
+pub(crate) fn question(name: &str) -> String {
+    format!("did you mean `{name}`?")
 }

@@ -64,7 +64,8 @@ pub(crate) fn parse(file: usize, sources: &Sources, report: &mut Report<'_>) -> 
     for error in &errors {
         let bytes = error.span().unwrap_or(text.len()..text.len());
         let message = error.message().lines().next().unwrap_or_default();
-        report.error_at(sources, &Place { file, bytes }, "scene", message, "TOML");
+        let (found, expected) = message.split_once(", expected ").unwrap_or((message, "TOML"));
+        report.error_at(sources, &Place { file, bytes }, "scene", found, expected);
         if report.is_full() {
             break;
         }

@@ -139,27 +139,34 @@ fn hinge(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
         lines.optional("release", of_release(scene, release));
     }
     if [spring.quadratic, spring.linear] != [0.0; 2] {
-        let (stiffness, quadratic) = (number(0.0 - spring.linear), number(spring.quadratic));
-        let rest = angle("rest", 0.0 - spring.preload_angle);
-        lines.value("spring", format!("{{ stiffness = {stiffness}, quadratic = {quadratic}, {rest} }}"));
+        let numbers = [("stiffness", 0.0 - spring.linear), ("quadratic", spring.quadratic)];
+        lines.value("spring", law(&numbers, spring.preload_angle, 1));
     }
-    let coefficients =
-        [dashpot.rate_linear, dashpot.rate_quadratic, dashpot.angle_linear, dashpot.angle_quadratic];
-    if coefficients != [0.0; 4] {
-        let [damping, rate_squared, by_angle, angle_squared] = coefficients;
-        let [damping, rate_squared] = [0.0 - damping, rate_squared].map(number);
-        let [by_angle, angle_squared] = [by_angle, angle_squared].map(number);
-        let rest = angle("rest", 0.0 - dashpot.preload_angle);
-        let value = format!(
-            "{{ damping = {damping}, rate_squared = {rate_squared}, angle = {by_angle}, \
-             angle_squared = {angle_squared}, {rest} }}"
-        );
-        lines.value("damper", value);
+    let numbers = [
+        ("damping", 0.0 - dashpot.rate_linear),
+        ("rate_squared", dashpot.rate_quadratic),
+        ("angle", dashpot.angle_linear),
+        ("angle_squared", dashpot.angle_quadratic),
+    ];
+    if numbers.iter().any(|(_, number)| *number != 0.0) {
+        lines.value("damper", law(&numbers, dashpot.preload_angle, 0));
     }
     if let Some(table) = scene.torque_tables.iter().find(|table| table.hinge == i) {
         let points: Vec<String> = table.points.iter().map(|&point| list(point)).collect();
         lines.value("torque_rad", format!("[{}]", points.join(", ")));
     }
+}
+
+/// The numbers of a law that are not zero, and the first `required` ones in any case.
+fn law(numbers: &[(&str, f64)], preload_angle: f64, required: usize) -> String {
+    let is_told = |(i, (_, number)): &(usize, &(&str, f64))| *i < required || *number != 0.0;
+    let told = numbers.iter().enumerate().filter(is_told);
+    let mut parts: Vec<String> =
+        told.map(|(_, (key, value))| format!("{key} = {}", number(*value))).collect();
+    if preload_angle != 0.0 {
+        parts.push(angle("rest", -preload_angle));
+    }
+    format!("{{ {} }}", parts.join(", "))
 }
 
 fn of_release(scene: &Scene, release: &Release) -> Option<String> {

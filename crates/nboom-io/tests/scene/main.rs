@@ -2,8 +2,10 @@
 
 mod examples;
 mod messages;
+mod robustness;
 mod rules;
 mod written;
+mod wrong;
 
 use nboom_io::{InputError, ReadOptions, SceneFile, parse_scene};
 

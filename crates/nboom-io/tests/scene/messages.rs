@@ -13,9 +13,8 @@ fn everything_that_is_wrong_is_said_at_once() {
         + &body("boom", "colour = 3", "latch_deg = 0\nlatch_rad = 0.0");
     let errors = wrong(&text);
     let expected = [
-        "a.toml:2:1: end: found run without it, expected Time at which the run ends.",
         "a.toml:3:1: ende: found `ende` in run, expected a key of this table; did you mean `end`?",
-        "a.toml:6:9: mass: found `h`, expected a number, a parameter `$name` or `(`",
+        "a.toml:6:9: mass: found `heavy`, expected a number, a parameter `$name` or `(`",
         "a.toml:14:1: colour: found `colour` in body, expected a key of this table",
         "a.toml:20:1: latch_rad: found `latch_rad` beside `latch_deg`, expected one of them",
     ];
