@@ -169,6 +169,9 @@ impl<'f> Report<'f> {
         let lines: Vec<&str> = text.lines().collect();
         for diagnostic in self.errors.iter_mut().chain(&mut self.warnings) {
             let Some(line) = lines.get(diagnostic.line - 1) else { continue };
+            if line.len() > 4 * LONGEST_LINE {
+                continue;
+            }
             let ends = |c: char| c.is_whitespace() || c == ',';
             let rest = line.chars().skip(diagnostic.column - 1);
             let marked = rest.take_while(|&c| !ends(c)).count();
@@ -211,8 +214,12 @@ fn located(
 
 /// The line, unless it is empty or too long to be shown.
 fn excerpt(line: &str, column: usize, marked: usize) -> Option<Excerpt> {
+    // A character has at most four bytes; longer lines are not even counted.
+    if line.trim().is_empty() || line.len() > 4 * LONGEST_LINE {
+        return None;
+    }
     let length = line.chars().count();
-    if line.trim().is_empty() || length > LONGEST_LINE || column > length + 1 {
+    if length > LONGEST_LINE || column > length + 1 {
         return None;
     }
     let visible = |c: char| match c {

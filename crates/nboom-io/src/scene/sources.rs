@@ -50,10 +50,16 @@ impl Sources {
         let line_end = lines.get(line + 1).map_or(text.len(), |next| next - 1);
         let of_line = text[lines[line]..line_end].trim_end_matches('\r');
         let end = floor(text, place.bytes.end).clamp(start, lines[line] + of_line.len());
-        let column = text[lines[line]..start].chars().count() + 1;
-        let marked = text[start.min(end)..end].chars().count();
+        let column = characters(&text[lines[line]..start]) + 1;
+        let marked = characters(&text[start.min(end)..end]);
         (Position { line: line + 1, column }, of_line, marked)
     }
+}
+
+/// How many characters a text has; quick, since a line may be as long as a file.
+fn characters(text: &str) -> usize {
+    let starts_one = |byte: &&u8| (**byte as i8) >= -0x40;
+    text.as_bytes().iter().filter(starts_one).count()
 }
 
 /// The last boundary between characters up to a byte.

@@ -47,7 +47,7 @@ fn errors_name_the_file() {
 
 #[test]
 fn other_endings_are_refused_with_what_is_accepted() {
-    for name in ["scene.toml", "scene", "nml"] {
+    for name in ["scene.json", "scene", "nml"] {
         let file = Scratch::new(name, SMALL_DECK.as_bytes());
         let error = file.read().unwrap_err();
         assert!(matches!(error, InputError::NotAScene { .. }));

@@ -27,6 +27,7 @@ pub fn body(name: &str, more: &str, hinge: &str) -> String {
     )
 }
 
+/// Reads a scene that is no file.
 pub fn read(text: &str) -> Result<SceneFile, InputError> {
     parse_scene("a.toml", text, "a", None, &ReadOptions::default())
 }
