@@ -27,8 +27,8 @@ pub(crate) fn expand(input: TokenStream, folder: &Path) -> Result<TokenStream> {
         write_scene(&read)
     } else {
         // Comments of a deck may have bytes that are not UTF-8.
-        let bytes =
-            std::fs::read(&path).map_err(|error| refused(format!("{}: {error}", path.display())))?;
+        let bytes = std::fs::read(&path)
+            .map_err(|error| refused(format!("{}: {error}", path.display())))?;
         String::from_utf8_lossy(&bytes).into_owned()
     };
     let (scene, structure) = (&read.scene, read.structure.as_ref());

@@ -324,7 +324,10 @@ mod tests {
 
     #[test]
     fn samples_have_limits() {
-        assert_eq!(run_args(&["--samples", "10000000"]).map(|a| a.samples).ok(), Some(Some(10_000_000)));
+        assert_eq!(
+            run_args(&["--samples", "10000000"]).map(|a| a.samples).ok(),
+            Some(Some(10_000_000))
+        );
         for wrong in ["0", "10000001", "-1", "2.5", "many"] {
             assert_eq!(run_args(&["--samples", wrong]).map_err(|e| e.exit_code()).err(), Some(2));
         }

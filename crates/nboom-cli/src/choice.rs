@@ -2,13 +2,12 @@
 
 #[cfg(feature = "generator")]
 use nboom_formulation::Formulation;
-#[cfg(feature = "generator")]
-use nboom_package::Level;
 use nboom_io::Format;
 use nboom_model::UnitSystem;
+#[cfg(feature = "generator")]
+use nboom_package::Level;
 use nboom_sim::{Form, Method, OptionError, Options, Reference};
 use nboom_strength::PulseShape;
-
 
 /// Why the value of an option is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

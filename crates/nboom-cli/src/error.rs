@@ -57,7 +57,9 @@ pub enum CliError {
         option: &'static str,
     },
     /// An option about stresses is given for a scene without stations.
-    #[error("{option}: scene {scene} has no stations, of a deck stress groups with INSTR > 0, expected")]
+    #[error(
+        "{option}: scene {scene} has no stations, of a deck stress groups with INSTR > 0, expected"
+    )]
     NoStations {
         /// The option.
         option: &'static str,

@@ -57,10 +57,10 @@ use nboom_scalar::{Batch, Kernel};
 
 pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, SectionArgs, VerifyArgs};
 pub use choice::ChoiceError;
-pub use convert::ConvertArgs;
-pub use error::CliError;
 #[cfg(feature = "generator")]
 pub use compile::CompileArgs;
+pub use convert::ConvertArgs;
+pub use error::CliError;
 #[cfg(feature = "generator")]
 pub use generate::GenerateArgs;
 #[cfg(feature = "generator")]

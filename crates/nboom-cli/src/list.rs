@@ -21,12 +21,18 @@ pub(crate) fn text(routines: &Routines) -> String {
         text.push('\n');
     };
     let row = |name: &str, about: &str| (name.to_owned(), about.to_owned());
-    chapter("formulations (--formulation)", Form::all().map(|form| row(form.name(), form.about())).collect());
+    chapter(
+        "formulations (--formulation)",
+        Form::all().map(|form| row(form.name(), form.about())).collect(),
+    );
     let methods = Method::ALL.into_iter().map(|method| row(method.name(), method.about()));
     chapter("integrators (--integrator)", methods.collect());
     let tables = all_tables(&SCENE);
     let laws = LAWS.iter().filter_map(|law| tables.iter().find(|table| table.name == *law));
-    let torque = tables.iter().flat_map(|table| table.keys).find(|key| matches!(key.holds, Holds::AnglePairs));
+    let torque = tables
+        .iter()
+        .flat_map(|table| table.keys)
+        .find(|key| matches!(key.holds, Holds::AnglePairs));
     let laws = laws.map(|kind: &&TableKind| row(kind.name, kind.about));
     chapter("laws", laws.chain(torque.map(|key| row(key.name, key.about))).collect());
     let hinge = "turns about one axis of any direction; bodies may branch";

@@ -18,7 +18,8 @@ const AXIS: f64 = 0.16;
 
 /// The drawing, as a file in SVG.
 pub(crate) fn svg(scene: &Scene) -> String {
-    let postures = [("at the start", Posture::at_start(scene)), ("latched", Posture::locked(scene))];
+    let postures =
+        [("at the start", Posture::at_start(scene)), ("latched", Posture::locked(scene))];
     let points = postures.iter().flat_map(|(_, posture)| posture.hinges.iter());
     let points = points.flat_map(|hinge| [hinge.point, hinge.tip]).chain([Vec3::zero()]);
     let view = View::of(points.map(projected).collect());
@@ -100,7 +101,12 @@ impl Drawing<'_> {
             let label = scene.name_of(i).map_or_else(|| scene.label(i).to_string(), str::to_owned);
             let (x, y) = self.view.place((place.point + place.tip) * 0.5);
             let label = escaped(&label);
-            let _ = writeln!(self.text, "<text x=\"{:.1}\" y=\"{:.1}\">{label}</text>", x + 8.0, y - 6.0);
+            let _ = writeln!(
+                self.text,
+                "<text x=\"{:.1}\" y=\"{:.1}\">{label}</text>",
+                x + 8.0,
+                y - 6.0
+            );
         }
     }
 

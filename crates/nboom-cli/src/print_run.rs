@@ -226,8 +226,8 @@ fn aligned(rows: &[Vec<String>]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nboom_model::{UnitSystem, 
-        Appendage, Hinge, HingeState, MassProperties, Mount, SceneDescription, Segment,
+    use nboom_model::{
+        Appendage, Hinge, HingeState, MassProperties, Mount, SceneDescription, Segment, UnitSystem,
     };
     use nboom_scalar::{Sym3, Vec3};
     use nboom_sim::{

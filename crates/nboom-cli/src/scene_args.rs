@@ -38,10 +38,8 @@ impl SceneArgs {
     /// # Errors
     /// When it cannot be read or is wrong, and when only one of `-` and `--format` is there.
     pub(crate) fn read(&self) -> Result<SceneFile, CliError> {
-        let options = ReadOptions {
-            set: self.set.clone(),
-            includes_from_anywhere: self.include_anywhere,
-        };
+        let options =
+            ReadOptions { set: self.set.clone(), includes_from_anywhere: self.include_anywhere };
         match (self.scene == Path::new(STANDARD_INPUT), self.format) {
             (false, None) => Ok(read_scene_with(&self.scene, &options)?),
             (true, Some(format)) => {

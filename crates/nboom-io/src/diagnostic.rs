@@ -192,13 +192,7 @@ impl<'f> Report<'f> {
     }
 }
 
-fn located(
-    sources: &Sources,
-    at: &Place,
-    symbol: &str,
-    found: &str,
-    expected: &str,
-) -> Diagnostic {
+fn located(sources: &Sources, at: &Place, symbol: &str, found: &str, expected: &str) -> Diagnostic {
     let (Position { line, column }, text, marked) = sources.locate(at);
     Diagnostic {
         file: sources.name(at.file).to_owned(),

@@ -117,7 +117,11 @@ impl Scene {
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
         let departures = Departures::default();
-        if errors.is_empty() { Ok(Self { description, labels, names: Vec::new(), departures }) } else { Err(errors) }
+        if errors.is_empty() {
+            Ok(Self { description, labels, names: Vec::new(), departures })
+        } else {
+            Err(errors)
+        }
     }
 
     /// The scene with another end of the run.

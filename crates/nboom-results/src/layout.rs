@@ -5,7 +5,6 @@ use std::io::{self, Write};
 
 use nboom_scalar::Vec3;
 
-
 /// Unit labels in the listing's capitals.
 pub(crate) struct Units {
     pub(crate) length: String,

@@ -3,8 +3,8 @@ use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
 use nboom_strength::PulseShape;
 use serde::Serialize;
 
-use crate::verdict::{VerdictKeys, WorstLoads};
 use crate::StressSigns;
+use crate::verdict::{VerdictKeys, WorstLoads};
 
 /// What is known about a run before it starts.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use nboom_model::{UnitSystem,
+use nboom_model::{
     Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, SectionShape,
-    Segment, SegmentStructure, Station, Structure,
+    Segment, SegmentStructure, Station, Structure, UnitSystem,
 };
 use nboom_results::{
     Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables,

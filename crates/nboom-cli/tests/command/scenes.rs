@@ -20,7 +20,8 @@ fn results(place: &Place, scene: &str, output: &str) -> Vec<(String, Vec<u8>)> {
     let run = place.nboom(&["run", scene, "-o", output, "--quiet", "--samples", "20"]);
     assert_eq!(code(&run), 0, "{scene}: {}", stderr(&run));
     let files = fs::read_dir(place.path(output)).expect("results");
-    let names = files.map(|file| file.expect("an entry").file_name().into_string().expect("a name"));
+    let names =
+        files.map(|file| file.expect("an entry").file_name().into_string().expect("a name"));
     let mut tables: Vec<String> = names.filter(|name| name.ends_with(".csv")).collect();
     tables.sort();
     let read = |name: String| {

@@ -1,7 +1,7 @@
 //! The tables of a scene and their keys.
 
 use super::keys::Holds::{
-    AnglePairs, Angle, Angles, Choice, ChoiceOr, Count, Direction, Inertia, Named, NamedNumbers,
+    Angle, AnglePairs, Angles, Choice, ChoiceOr, Count, Direction, Inertia, Named, NamedNumbers,
     Number, Numbers, Rows, Table, Tables, Text, Texts,
 };
 use super::keys::{Holds, Key, TableKind};
@@ -34,62 +34,90 @@ pub(crate) const UNIT_SETS: &[&str] = &["none", "SI", "ft-lbf-s", "in-lbf-s"];
 pub(crate) const STATES: &[&str] = &["free", "held", "locked"];
 
 /// A scene.
-pub static SCENE: TableKind = table("scene", "What a file of a scene contains.", &[
-    optional("name", Text, "What the scene is called; by default the name of the file."),
-    optional(
-        "units",
-        ChoiceOr(UNIT_SETS, &UNITS),
-        "The units of all numbers, which must be consistent: SI, ft-lbf-s, in-lbf-s, none (the \
+pub static SCENE: TableKind = table(
+    "scene",
+    "What a file of a scene contains.",
+    &[
+        optional("name", Text, "What the scene is called; by default the name of the file."),
+        optional(
+            "units",
+            ChoiceOr(UNIT_SETS, &UNITS),
+            "The units of all numbers, which must be consistent: SI, ft-lbf-s, in-lbf-s, none (the \
          default), or a table with labels. They name numbers in results and convert none.",
-    ),
-    optional(
-        "include",
-        Texts,
-        "Files with further parameters, materials and bodies, relative to this one.",
-    ),
-    optional(
-        "parameters",
-        NamedNumbers,
-        "Numbers for expressions: \"$name\", with + - * / and brackets, stands for a number \
+        ),
+        optional(
+            "include",
+            Texts,
+            "Files with further parameters, materials and bodies, relative to this one.",
+        ),
+        optional(
+            "parameters",
+            NamedNumbers,
+            "Numbers for expressions: \"$name\", with + - * / and brackets, stands for a number \
          anywhere. The command line sets them with --set name=value.",
-    ),
-    required("run", Table(&RUN), "When the run starts and ends."),
-    optional("output", Table(&OUTPUT), "What is written."),
-    required("main_body", Table(&MAIN_BODY), "The body that carries all others."),
-    optional("initial", Table(&INITIAL), "Motion of the main body at the start; by default at rest."),
-    optional("gravity", Table(&GRAVITY), "Uniform gravity."),
-    optional("thrust", Table(&THRUST), "A thrust fixed in the main body."),
-    optional("materials", Named(&MATERIAL), "Materials by name."),
-    optional("body", Tables(&BODY), "The hinged bodies."),
-]);
+        ),
+        required("run", Table(&RUN), "When the run starts and ends."),
+        optional("output", Table(&OUTPUT), "What is written."),
+        required("main_body", Table(&MAIN_BODY), "The body that carries all others."),
+        optional(
+            "initial",
+            Table(&INITIAL),
+            "Motion of the main body at the start; by default at rest.",
+        ),
+        optional("gravity", Table(&GRAVITY), "Uniform gravity."),
+        optional("thrust", Table(&THRUST), "A thrust fixed in the main body."),
+        optional("materials", Named(&MATERIAL), "Materials by name."),
+        optional("body", Tables(&BODY), "The hinged bodies."),
+    ],
+);
 
 /// A file that a scene includes.
-pub(crate) static PART: TableKind = table("included file", "What an included file contains.", &[
-    optional("include", Texts, "Files with further parameters, materials and bodies."),
-    optional("parameters", NamedNumbers, "Numbers for expressions."),
-    optional("materials", Named(&MATERIAL), "Materials by name."),
-    optional("body", Tables(&BODY), "Hinged bodies."),
-]);
+pub(crate) static PART: TableKind = table(
+    "included file",
+    "What an included file contains.",
+    &[
+        optional("include", Texts, "Files with further parameters, materials and bodies."),
+        optional("parameters", NamedNumbers, "Numbers for expressions."),
+        optional("materials", Named(&MATERIAL), "Materials by name."),
+        optional("body", Tables(&BODY), "Hinged bodies."),
+    ],
+);
 
-static UNITS: TableKind = table("units", "Labels of units of the scene's own.", &[
-    required("length", Text, "Label of lengths."),
-    required("time", Text, "Label of times."),
-    required("force", Text, "Label of forces."),
-]);
+static UNITS: TableKind = table(
+    "units",
+    "Labels of units of the scene's own.",
+    &[
+        required("length", Text, "Label of lengths."),
+        required("time", Text, "Label of times."),
+        required("force", Text, "Label of forces."),
+    ],
+);
 
-static RUN: TableKind = table("run", "When the run starts and ends.", &[
-    optional("start", Number, "Initial time; by default 0."),
-    required("end", Number, "Time at which the run ends."),
-]);
+static RUN: TableKind = table(
+    "run",
+    "When the run starts and ends.",
+    &[
+        optional("start", Number, "Initial time; by default 0."),
+        required("end", Number, "Time at which the run ends."),
+    ],
+);
 
-static OUTPUT: TableKind = table("output", "What is written.", &[
-    optional(
-        "samples",
-        Count,
-        "Output times after the initial one, uniform to the end; by default 200.",
-    ),
-    optional("stress_every", Count, "Stresses at every so many output times; by default at all."),
-]);
+static OUTPUT: TableKind = table(
+    "output",
+    "What is written.",
+    &[
+        optional(
+            "samples",
+            Count,
+            "Output times after the initial one, uniform to the end; by default 200.",
+        ),
+        optional(
+            "stress_every",
+            Count,
+            "Stresses at every so many output times; by default at all.",
+        ),
+    ],
+);
 
 static MAIN_BODY: TableKind = table(
     "main_body",
@@ -116,12 +144,20 @@ static INERTIA: TableKind = table(
     ],
 );
 
-static INITIAL: TableKind = table("initial", "Motion of the main body at the start.", &[
-    optional("attitude", Table(&AXES), "How its axes stand to the inertial ones; by default alike."),
-    optional("rate", Angles, "Angular rate, main-body axes; by default zero."),
-    optional("position", Numbers(3), "Inertial position of O; by default the inertial origin."),
-    optional("velocity", Numbers(3), "Inertial velocity of O, inertial axes; by default zero."),
-]);
+static INITIAL: TableKind = table(
+    "initial",
+    "Motion of the main body at the start.",
+    &[
+        optional(
+            "attitude",
+            Table(&AXES),
+            "How its axes stand to the inertial ones; by default alike.",
+        ),
+        optional("rate", Angles, "Angular rate, main-body axes; by default zero."),
+        optional("position", Numbers(3), "Inertial position of O; by default the inertial origin."),
+        optional("velocity", Numbers(3), "Inertial velocity of O, inertial axes; by default zero."),
+    ],
+);
 
 static AXES: TableKind = choice(
     "axes",
@@ -139,27 +175,40 @@ static AXES: TableKind = choice(
     &["euler_xyx", "turn", "columns", "quaternion"],
 );
 
-static TURN: TableKind = table("turn", "A turn about an axis by the right hand.", &[
-    required("about", Direction, "The axis."),
-    required("by", Angle, "The angle."),
-]);
+static TURN: TableKind = table(
+    "turn",
+    "A turn about an axis by the right hand.",
+    &[required("about", Direction, "The axis."), required("by", Angle, "The angle.")],
+);
 
-static GRAVITY: TableKind = table("gravity", "Uniform gravity.", &[
-    required("acceleration", Number, "Magnitude of the acceleration."),
-    required("up", Direction, "Direction away from the attracting body, inertial axes."),
-]);
+static GRAVITY: TableKind = table(
+    "gravity",
+    "Uniform gravity.",
+    &[
+        required("acceleration", Number, "Magnitude of the acceleration."),
+        required("up", Direction, "Direction away from the attracting body, inertial axes."),
+    ],
+);
 
-static THRUST: TableKind = table("thrust", "A thrust fixed in the main body.", &[
-    required("force", Numbers(3), "Force on the main body, its axes."),
-    required("point", Numbers(3), "Where it acts, from O, main-body axes."),
-    required("from", Number, "Time at which it starts."),
-    required("until", Number, "Time at which it stops."),
-]);
+static THRUST: TableKind = table(
+    "thrust",
+    "A thrust fixed in the main body.",
+    &[
+        required("force", Numbers(3), "Force on the main body, its axes."),
+        required("point", Numbers(3), "Where it acts, from O, main-body axes."),
+        required("from", Number, "Time at which it starts."),
+        required("until", Number, "Time at which it stops."),
+    ],
+);
 
-static MATERIAL: TableKind = table("material", "An isotropic material.", &[
-    required("youngs_modulus", Number, "Young's modulus, positive."),
-    optional("poissons_ratio", Number, "Poisson's ratio; by default 0.3."),
-]);
+static MATERIAL: TableKind = table(
+    "material",
+    "An isotropic material.",
+    &[
+        required("youngs_modulus", Number, "Young's modulus, positive."),
+        optional("poissons_ratio", Number, "Poisson's ratio; by default 0.3."),
+    ],
+);
 
 static BODY: TableKind = table(
     "body",
@@ -191,7 +240,11 @@ static BODY: TableKind = table(
             Number,
             "Impulse over peak of the lock-up pulse of its hinge, a time; needed with stations.",
         ),
-        optional("station", Tables(&STATION), "Where stresses are wanted, outboard before inboard."),
+        optional(
+            "station",
+            Tables(&STATION),
+            "Where stresses are wanted, outboard before inboard.",
+        ),
     ],
 );
 
@@ -201,7 +254,11 @@ static HINGE: TableKind = table(
      things are deployed and start at the stowed angle, or the reverse.",
     &[
         required("at", Numbers(3), "Where it is on the inboard body, from its origin, its axes."),
-        required("axis", Direction, "Direction of its axis, body axes; angles follow the right hand."),
+        required(
+            "axis",
+            Direction,
+            "Direction of its axis, body axes; angles follow the right hand.",
+        ),
         optional("axes", Table(&AXES), "Turns the body's axes at angle zero."),
         optional("start", Angle, "Angle at the start; by default 0."),
         optional("rate", Angle, "Rate at the start, of a free hinge; by default 0."),
@@ -227,7 +284,11 @@ static RELEASE: TableKind = choice(
     "When a held hinge becomes free.",
     &[
         optional("at", Number, "At this time."),
-        optional("when", Text, "When the hinge of this body passes the angle `passes`, either way."),
+        optional(
+            "when",
+            Text,
+            "When the hinge of this body passes the angle `passes`, either way.",
+        ),
         optional("passes", Angle, "That angle; with `when`."),
     ],
     &["at", "when"],
@@ -263,15 +324,23 @@ static KICK_OFF: TableKind = table(
     &[
         required("main_body_end", Numbers(3), "Its end on the main body, from O."),
         required("end", Numbers(3), "Its end on this body, from the hinge, body axes."),
-        required("force", Numbers(4), "Force a + b x + c x² + d x³ at the length x, as [a, b, c, d]."),
+        required(
+            "force",
+            Numbers(4),
+            "Force a + b x + c x² + d x³ at the length x, as [a, b, c, d].",
+        ),
         required("limit", Number, "Length from which on it does not push."),
     ],
 );
 
-static REPEAT: TableKind = table("repeat", "Several bodies evenly about an axis through O.", &[
-    required("count", Count, "How many, the first where it is written."),
-    required("about", Direction, "The axis, main-body axes."),
-]);
+static REPEAT: TableKind = table(
+    "repeat",
+    "Several bodies evenly about an axis through O.",
+    &[
+        required("count", Count, "How many, the first where it is written."),
+        required("about", Direction, "The axis, main-body axes."),
+    ],
+);
 
 static STATION: TableKind = table(
     "station",
@@ -280,7 +349,11 @@ static STATION: TableKind = table(
     &[
         required("at", Number, "Distance from the hinge along y."),
         required("mass", Number, "Mass of the slice; may be 0."),
-        optional("mass_centre", Numbers(3), "Mass centre of the slice, from the hinge; by default there."),
+        optional(
+            "mass_centre",
+            Numbers(3),
+            "Mass centre of the slice, from the hinge; by default there.",
+        ),
         optional("inertia", Inertia(&INERTIA), "Inertia of the slice about it; by default 0."),
         required("section", Table(&SECTION), "The thin walls."),
     ],
@@ -300,7 +373,11 @@ static SECTION: TableKind = choice(
     &["tube", "polygon"],
 );
 
-static TUBE: TableKind = table("tube", "A circular tube.", &[
-    required("radius", Number, "To the middle of the wall."),
-    required("thickness", Number, "Of the wall."),
-]);
+static TUBE: TableKind = table(
+    "tube",
+    "A circular tube.",
+    &[
+        required("radius", Number, "To the middle of the wall."),
+        required("thickness", Number, "Of the wall."),
+    ],
+);

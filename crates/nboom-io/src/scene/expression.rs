@@ -15,10 +15,13 @@ pub(crate) struct ExpressionError {
     pub expected: String,
 }
 
+/// The value of a parameter by its name, or what was found and expected in its place.
+pub(crate) type Lookup<'l> = dyn FnMut(&str) -> Result<f64, (String, String)> + 'l;
+
 /// The value of an expression; `parameter` has that of each name, or says why it has none.
-pub(crate) fn evaluate(
+pub(crate) fn evaluate<'l>(
     text: &str,
-    parameter: &mut dyn FnMut(&str) -> Result<f64, (String, String)>,
+    parameter: &'l mut Lookup<'l>,
 ) -> Result<f64, ExpressionError> {
     let mut parser = Parser { text, at: 0, depth: 0, parameter };
     let value = parser.sum()?;
@@ -43,7 +46,7 @@ struct Parser<'t, 'p> {
     text: &'t str,
     at: usize,
     depth: usize,
-    parameter: &'p mut dyn FnMut(&str) -> Result<f64, (String, String)>,
+    parameter: &'p mut Lookup<'p>,
 }
 
 impl Parser<'_, '_> {
@@ -135,7 +138,9 @@ impl Parser<'_, '_> {
         let rest = &self.text[self.at..];
         let is_exponent_sign = |at: usize| at > 0 && matches!(rest.as_bytes()[at - 1], b'e' | b'E');
         let is_of_number = |at: usize, c: char| {
-            c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E') || "+-".contains(c) && is_exponent_sign(at)
+            c.is_ascii_digit()
+                || matches!(c, '.' | 'e' | 'E')
+                || "+-".contains(c) && is_exponent_sign(at)
         };
         let end = rest.char_indices().find(|&(at, c)| !is_of_number(at, c));
         let length = end.map_or(rest.len(), |(at, _)| at);

@@ -40,7 +40,8 @@ impl<'t> Fields<'t> {
     /// The entry of a key, and its ending if it is one of an angle.
     fn entry(&self, key: &str) -> Option<(&'t Entry, &'static str)> {
         let with = |ending: &'static str| {
-            let entry = self.table.0.iter().find(|entry| entry.key.strip_suffix(ending) == Some(key));
+            let entry =
+                self.table.0.iter().find(|entry| entry.key.strip_suffix(ending) == Some(key));
             entry.map(|entry| (entry, ending))
         };
         self.table.get(key).map(|entry| (entry, "")).or_else(|| ENDINGS.into_iter().find_map(with))
@@ -199,12 +200,7 @@ impl Reader<'_, '_> {
     }
 
     /// A whole number from 1 to `most`.
-    pub fn count(
-        &mut self,
-        fields: &Fields<'_>,
-        key: &'static str,
-        most: usize,
-    ) -> Option<usize> {
+    pub fn count(&mut self, fields: &Fields<'_>, key: &'static str, most: usize) -> Option<usize> {
         let number = self.number(fields, key)?;
         if number.fract() == 0.0 && (1.0..=most as f64).contains(&number) {
             return Some(number as usize);
@@ -258,7 +254,11 @@ impl Reader<'_, '_> {
     }
 
     /// An angle as it is given, and whether it is in degrees.
-    pub fn angle_as_given(&mut self, fields: &Fields<'_>, key: &'static str) -> Option<(f64, bool)> {
+    pub fn angle_as_given(
+        &mut self,
+        fields: &Fields<'_>,
+        key: &'static str,
+    ) -> Option<(f64, bool)> {
         let (entry, ending) = fields.entry(key)?;
         Some((self.number_in(&entry.key, &entry.node)?, ending == ENDINGS[0]))
     }
@@ -300,7 +300,11 @@ impl Reader<'_, '_> {
         self.numbers(fields, key).map(Vec3::from)
     }
 
-    pub fn rows<const N: usize>(&mut self, fields: &Fields<'_>, key: &'static str) -> Vec<[f64; N]> {
+    pub fn rows<const N: usize>(
+        &mut self,
+        fields: &Fields<'_>,
+        key: &'static str,
+    ) -> Vec<[f64; N]> {
         fields.node(key).map_or_else(Vec::new, |node| self.rows_in(key, node))
     }
 
@@ -310,7 +314,12 @@ impl Reader<'_, '_> {
                 rows.iter().filter_map(|row| self.numbers_in(symbol, row)).collect()
             }
             other => {
-                self.error(&node.at, symbol, other.kind(), &format!("a list of lists of {N} numbers"));
+                self.error(
+                    &node.at,
+                    symbol,
+                    other.kind(),
+                    &format!("a list of lists of {N} numbers"),
+                );
                 Vec::new()
             }
         }
@@ -343,7 +352,8 @@ impl Reader<'_, '_> {
         let expected = "\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\" or three numbers";
         let (found, vector) = match &node.value {
             Value::Text(text) => {
-                let (sign, name) = text.strip_prefix('-').map_or((1.0, text.as_str()), |n| (-1.0, n));
+                let (sign, name) =
+                    text.strip_prefix('-').map_or((1.0, text.as_str()), |n| (-1.0, n));
                 let axis = ["x", "y", "z"].iter().position(|axis| axis.eq_ignore_ascii_case(name));
                 let unit = |axis| [0, 1, 2].map(|i| if i == axis { sign } else { 0.0 });
                 (quoted(text), axis.map(|axis| Vec3::from(unit(axis))))

@@ -44,7 +44,12 @@ impl Reader<'_, '_> {
         let is_held = state != HingeState::Free;
         if state != HingeState::Unreleased && hinge.has("release") {
             let found = format!("a release of a hinge that starts {}", word(state));
-            self.error(&hinge.place("release"), "release", &found, "state = \"held\", or no release");
+            self.error(
+                &hinge.place("release"),
+                "release",
+                &found,
+                "state = \"held\", or no release",
+            );
         }
         let rate = self.angle(hinge, "rate").unwrap_or(0.0);
         if is_held && rate != 0.0 {

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::ReadOptions;
 use super::catalog::{PART, SCENE};
 use super::keys::TableKind;
 use super::sources::{Place, Sources};
 use super::tree::{self, Entry, Node, Table, Value};
-use super::ReadOptions;
 use crate::diagnostic::{Report, quoted};
 use crate::source::{LARGEST, read_text};
 
@@ -35,8 +35,10 @@ impl Parts {
         let mut parts = Self { tables: Vec::new(), included: Vec::new() };
         let main = sources.add(file, text.to_owned());
         let mut folders = vec![folder.map(Path::to_owned)];
-        let mut known: Vec<PathBuf> =
-            folder.and_then(|folder| folder.join(file_name(file)).canonicalize().ok()).into_iter().collect();
+        let mut known: Vec<PathBuf> = folder
+            .and_then(|folder| folder.join(file_name(file)).canonicalize().ok())
+            .into_iter()
+            .collect();
         parts.add(main, sources, report);
         let mut next = 0;
         while next < parts.tables.len() && report.errors.is_empty() {
@@ -79,7 +81,9 @@ impl Parts {
         sources: &Sources,
         report: &mut Report<'_>,
     ) -> Vec<(String, Place)> {
-        let Some(Entry { node, .. }) = self.tables[part].0.get("include") else { return Vec::new() };
+        let Some(Entry { node, .. }) = self.tables[part].0.get("include") else {
+            return Vec::new();
+        };
         let nodes = match &node.value {
             Value::List(nodes) => &nodes[..],
             Value::Text(_) => std::slice::from_ref(node),
@@ -130,7 +134,8 @@ fn admitted(
     known: &[PathBuf],
     options: &ReadOptions,
 ) -> Result<(PathBuf, String), (String, String)> {
-    let found = |error: std::io::Error| (format!("which cannot be read: {error}"), "a file".to_owned());
+    let found =
+        |error: std::io::Error| (format!("which cannot be read: {error}"), "a file".to_owned());
     let canonical = fs::canonicalize(path).map_err(found)?;
     let home = fs::canonicalize(of_scene).map_err(found)?;
     if !canonical.starts_with(&home) && !options.includes_from_anywhere {
@@ -143,8 +148,7 @@ fn admitted(
     if known.len() >= MOST_FILES {
         return Err(("one more file".to_owned(), format!("at most {MOST_FILES} files")));
     }
-    let text = read_text(&canonical, LARGEST).map_err(|error| {
-        (format!("which cannot be read: {error}"), "a text file".to_owned())
-    })?;
+    let text = read_text(&canonical, LARGEST)
+        .map_err(|error| (format!("which cannot be read: {error}"), "a text file".to_owned()))?;
     Ok((canonical, text))
 }

@@ -27,15 +27,15 @@ use nboom_scalar::{Sym3, Vec3};
 use crate::diagnostic::{Report, quoted};
 use crate::source::sha256;
 use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
+pub use catalog::SCENE;
 use fields::{Fields, Reader};
 use include::Parts;
+pub use keys::{Holds, Key, TableKind, all_tables};
 use model_error::Responsible;
 use parameters::Parameters;
-pub(crate) use sources::{Place, Sources};
-pub use catalog::SCENE;
 pub use schema::schema;
+pub(crate) use sources::{Place, Sources};
 pub use write::write_scene;
-pub use keys::{Holds, Key, TableKind, all_tables};
 
 /// Most output times of a run.
 const MOST_SAMPLES: usize = 10_000_000;
@@ -71,27 +71,29 @@ pub fn parse_scene(
     let mut report = Report::new(file);
     let parts = Parts::read((file, text), folder, options, &mut sources, &mut report);
     // What follows from half of a text would only confuse.
-    if report.errors.is_empty() {
-        if let Some(found) = assemble(&parts, name, options, &sources, &mut report) {
-            report.sort();
-            if report.errors.is_empty() {
-                let sha256 = sha256(parts.all_text(&sources).as_bytes());
-                let Found { scene, structure, settings, stress_interval } = found;
-                return Ok(SceneFile {
-                    scene,
-                    warnings: report.warnings,
-                    legacy: LegacySettings { stress_interval, ..LegacySettings::default() },
-                    structure,
-                    format: Format::Toml,
-                    settings,
-                    included: parts.included,
-                    sha256,
-                });
-            }
-        }
-    }
+    let found = if report.errors.is_empty() {
+        assemble(&parts, name, options, &sources, &mut report)
+    } else {
+        None
+    };
     report.sort();
-    Err(InputError::Content(report.errors))
+    match found {
+        Some(Found { scene, structure, settings, stress_interval }) if report.errors.is_empty() => {
+            let sha256 = sha256(parts.all_text(&sources).as_bytes());
+            let legacy = LegacySettings { stress_interval, ..LegacySettings::default() };
+            Ok(SceneFile {
+                scene,
+                warnings: report.warnings,
+                legacy,
+                structure,
+                format: Format::Toml,
+                settings,
+                included: parts.included,
+                sha256,
+            })
+        }
+        _ => Err(InputError::Content(report.errors)),
+    }
 }
 
 struct Found {

@@ -62,7 +62,11 @@ impl Responsible<'_> {
         reader.error(&table.place(symbol), symbol, &found, &expected);
     }
 
-    fn responsible(&self, scene: &SceneDescription, error: &ModelError) -> (Fields<'_>, &'static str) {
+    fn responsible(
+        &self,
+        scene: &SceneDescription,
+        error: &ModelError,
+    ) -> (Fields<'_>, &'static str) {
         let outer = |key: &str| self.root.inner(key).unwrap_or_else(|| self.root.clone());
         let body = |label: &HingeLabel| self.body(index_of(scene, *label));
         let hinge = |label: &HingeLabel| {

@@ -22,7 +22,8 @@ impl Parameters {
 
     /// All of them, by name.
     pub fn all(&self) -> Vec<(String, f64)> {
-        let mut all: Vec<_> = self.values.iter().map(|(name, value)| (name.clone(), *value)).collect();
+        let mut all: Vec<_> =
+            self.values.iter().map(|(name, value)| (name.clone(), *value)).collect();
         all.sort_by(|a, b| a.0.cmp(&b.0));
         all
     }

@@ -31,7 +31,8 @@ fn table(kind: &TableKind) -> Value {
         conditions.extend(condition(key));
     }
     if !kind.one_of.is_empty() {
-        let given = |name: &&str| one_of_names(&kind.key_called(name).map(Key::names).unwrap_or_default());
+        let given =
+            |name: &&str| one_of_names(&kind.key_called(name).map(Key::names).unwrap_or_default());
         let choices: Vec<Value> = kind.one_of.iter().map(given).collect();
         conditions.push(json!({ "oneOf": choices }));
     }
@@ -53,7 +54,9 @@ fn condition(key: &Key) -> Option<Value> {
     match (&names[..], key.is_required) {
         ([name], true) => Some(json!({ "required": [name] })),
         ([_], false) => None,
-        (_, true) => Some(json!({ "oneOf": names.iter().map(|n| json!({ "required": [n] })).collect::<Vec<_>>() })),
+        (_, true) => Some(
+            json!({ "oneOf": names.iter().map(|n| json!({ "required": [n] })).collect::<Vec<_>>() }),
+        ),
         (_, false) => Some(json!({ "not": { "required": names } })),
     }
 }
@@ -93,6 +96,8 @@ fn of_value(holds: &Holds) -> Value {
         Holds::Tables(kind) => json!({ "type": "array", "items": reference(kind) }),
         Holds::Named(kind) => json!({ "type": "object", "additionalProperties": reference(kind) }),
         Holds::NamedNumbers => json!({ "type": "object", "additionalProperties": number() }),
-        Holds::ChoiceOr(choices, kind) => json!({ "anyOf": [{ "enum": choices }, reference(kind)] }),
+        Holds::ChoiceOr(choices, kind) => {
+            json!({ "anyOf": [{ "enum": choices }, reference(kind)] })
+        }
     }
 }

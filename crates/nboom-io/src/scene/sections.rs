@@ -20,8 +20,16 @@ impl Reader<'_, '_> {
         let [length, time, force] = ["length", "time", "force"]
             .map(|key| self.text(&labels, key).unwrap_or_default().to_owned());
         for (key, label) in [("length", &length), ("time", &time), ("force", &force)] {
-            if label.trim().is_empty() || label.contains([',', '"']) || label.contains(char::is_control) {
-                self.error(&labels.place(key), key, "no label", "a label without commas and quotes");
+            if label.trim().is_empty()
+                || label.contains([',', '"'])
+                || label.contains(char::is_control)
+            {
+                self.error(
+                    &labels.place(key),
+                    key,
+                    "no label",
+                    "a label without commas and quotes",
+                );
             }
         }
         Some(UnitSystem::Custom { length, time, force })

@@ -78,7 +78,8 @@ impl Reader<'_, '_> {
         if let Some(material) = materials.get(name) {
             return Some(*material);
         }
-        let help = suggest::nearest(name, materials.keys().map(String::as_str)).map(suggest::question);
+        let help =
+            suggest::nearest(name, materials.keys().map(String::as_str)).map(suggest::question);
         let (at, expected) = (body.place("material"), "the name of a table [materials.NAME]");
         self.report.error_with_help(self.sources, &at, "material", &quoted(name), expected, help);
         None
@@ -99,7 +100,8 @@ impl Reader<'_, '_> {
 
     fn section(&mut self, fields: &Fields<'_>) -> Option<SectionShape> {
         if let Some(tube) = self.table(fields, "tube") {
-            let (radius, thickness) = (self.number(&tube, "radius"), self.number(&tube, "thickness"));
+            let (radius, thickness) =
+                (self.number(&tube, "radius"), self.number(&tube, "thickness"));
             let shape = SectionShape::Tube { radius: radius?, thickness: thickness? };
             self.check_walls(fields, &shape);
             return Some(shape);

@@ -35,7 +35,8 @@ impl Reader<'_, '_> {
     }
 
     fn gravity(&mut self, fields: &Fields<'_>) -> Option<Gravity> {
-        let (acceleration, up) = (self.number(fields, "acceleration"), self.direction(fields, "up"));
+        let (acceleration, up) =
+            (self.number(fields, "acceleration"), self.direction(fields, "up"));
         let (acceleration, up) = (acceleration?, up?);
         if acceleration < 0.0 {
             let expected = "none below zero; turn `up` round";

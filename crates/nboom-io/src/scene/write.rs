@@ -3,8 +3,8 @@
 mod lines;
 
 use nboom_model::{
-    Body, Hinge, HingeState, MassProperties, Release, Scene, SectionShape, SegmentStructure, Station,
-    Structure, UnitSystem,
+    Body, Hinge, HingeState, MassProperties, Release, Scene, SectionShape, SegmentStructure,
+    Station, Structure, UnitSystem,
 };
 use nboom_scalar::{Mat3, Vec3};
 
@@ -110,7 +110,8 @@ fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
     if let Some(spring) = &body.hinge.kick_off {
         let [from, to] = [spring.main_body_point, spring.body_point].map(vector);
         let (force, limit) = (list(spring.coefficients), number(spring.limit_length));
-        let value = format!("{{ main_body_end = {from}, end = {to}, force = {force}, limit = {limit} }}");
+        let value =
+            format!("{{ main_body_end = {from}, end = {to}, force = {force}, limit = {limit} }}");
         lines.value("kick_off", value);
     }
 }

@@ -89,7 +89,8 @@ fn other_encodings_only_in_comments() {
     let comment = comment.replace("ß", "Ä");
     assert!(Scratch::new("latin-comment.nml", &latin(&comment)).read().is_ok());
     let card = SMALL_DECK.replace("EMM=100.0,", "EMM=10Ä.0,");
-    let Err(InputError::Content(errors)) = Scratch::new("latin-card.nml", &latin(&card)).read() else {
+    let Err(InputError::Content(errors)) = Scratch::new("latin-card.nml", &latin(&card)).read()
+    else {
         panic!("errors expected");
     };
     assert_eq!((errors.len(), errors[0].line, errors[0].column), (1, 14, 8));

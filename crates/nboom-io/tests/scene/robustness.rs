@@ -10,9 +10,30 @@ const N_BOOM: &str = include_str!("../../../../examples/n-boom.toml");
 
 /// Pieces of text that mean something somewhere.
 const WORDS: [&str; 24] = [
-    "[[body]]\n", "[body.hinge]\n", "[[body.station]]\n", "name = \"a\"\n", "on = \"a\"\n", "[", "]",
-    "{", "}", "=", "\"", "'''", "\n", ",", "$", "1e999", "-", "nan", "inf", "0x10", "1979-05-27", "true",
-    "repeat = { count = 3, about = \"x\" }\n", "include = [\"a.toml\"]\n",
+    "[[body]]\n",
+    "[body.hinge]\n",
+    "[[body.station]]\n",
+    "name = \"a\"\n",
+    "on = \"a\"\n",
+    "[",
+    "]",
+    "{",
+    "}",
+    "=",
+    "\"",
+    "'''",
+    "\n",
+    ",",
+    "$",
+    "1e999",
+    "-",
+    "nan",
+    "inf",
+    "0x10",
+    "1979-05-27",
+    "true",
+    "repeat = { count = 3, about = \"x\" }\n",
+    "include = [\"a.toml\"]\n",
 ];
 
 /// A change of a text: at a place, so many characters are replaced by a word.

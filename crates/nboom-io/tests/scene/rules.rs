@@ -43,8 +43,7 @@ fn springs_and_dampers_have_the_sign_that_people_expect() {
         + dashpot.angle_quadratic * stretch * stretch
         + dashpot.angle_linear * stretch;
     let from_rest: f64 = angle - 1.0;
-    let expected =
-        0.2 * rate * rate - 0.1 * rate + 0.4 * from_rest * from_rest + 0.3 * from_rest;
+    let expected = 0.2 * rate * rate - 0.1 * rate + 0.4 * from_rest * from_rest + 0.3 * from_rest;
     // Sums in another order.
     assert!((torque - expected).abs() < 1e-15);
 }

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
-use nboom_model::{Dashpot, Hinge, HingeState, Release, SceneDescription, Spring};
 use nboom_io::{SceneFile, read_scene, write_scene};
+use nboom_model::{Dashpot, Hinge, HingeState, Release, SceneDescription, Spring};
 
 use super::read;
 
@@ -56,7 +56,8 @@ fn survives(file: &SceneFile) {
 
 #[test]
 fn decks_become_scenes_of_the_same_numbers() {
-    let decks = ["examples", "tests/data/scenes", "benches/scenes"].map(|folder| files(folder, "nml"));
+    let decks =
+        ["examples", "tests/data/scenes", "benches/scenes"].map(|folder| files(folder, "nml"));
     let decks: Vec<PathBuf> = decks.concat();
     assert!(decks.len() > 20, "{decks:?}");
     for deck in decks {
