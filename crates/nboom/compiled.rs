@@ -1,4 +1,6 @@
-use nboom_io::{InputError, parse_deck};
+use std::path::Path;
+
+use nboom_io::{Format, InputError, ReadOptions, SceneFile, parse};
 use nboom_model::{Scene, Structure};
 use nboom_scalar::Kernel;
 
@@ -29,7 +31,8 @@ impl CompiledScene {
         self.name
     }
 
-    /// The text of the scene's file.
+    /// The text of the scene: of a deck its file, of a scene in TOML what stands for it and all files
+    /// that it includes.
     pub const fn text(&self) -> &'static str {
         self.text
     }
@@ -39,7 +42,7 @@ impl CompiledScene {
     /// # Errors
     /// None unless the program was compiled with another version of the reader.
     pub fn scene(&self) -> Result<Scene, InputError> {
-        parse_deck(self.file, self.text, self.name).map(|file| file.scene)
+        self.read().map(|file| file.scene)
     }
 
     /// The scene's stations and slices, if it has any.
@@ -47,7 +50,13 @@ impl CompiledScene {
     /// # Errors
     /// As [`scene`](Self::scene).
     pub fn structure(&self) -> Result<Option<Structure>, InputError> {
-        parse_deck(self.file, self.text, self.name).map(|file| file.structure)
+        self.read().map(|file| file.structure)
+    }
+
+    fn read(&self) -> Result<SceneFile, InputError> {
+        let path = Path::new(self.file);
+        let format = Format::of(path).ok_or_else(|| InputError::NotAScene { path: path.into() })?;
+        parse(format, (self.file, self.text), self.name, None, &ReadOptions::default())
     }
 
     /// Routines for this scene: with its numbers built in, with numbers at run time, and for states

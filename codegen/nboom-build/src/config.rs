@@ -245,7 +245,10 @@ impl Config {
             }
             Source::Scene { path, numbers } => {
                 println!("cargo::rerun-if-changed={}", path.display());
-                let SceneFile { scene, structure, .. } = read_scene(path)?;
+                let SceneFile { scene, structure, included, .. } = read_scene(path)?;
+                for path in &included {
+                    println!("cargo::rerun-if-changed={}", path.display());
+                }
                 let mut routines = vec![Request::of_scene(&scene, *numbers, self.level)?];
                 if self.lock_states {
                     routines.extend(Request::lock_states(&scene, self.level)?);

@@ -5,14 +5,15 @@ use std::path::Path;
 
 use nboom_codegen::{Level, Module};
 use nboom_formulation::Formulation;
+use nboom_io::{Format, write_scene};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{LitStr, Result};
 
 use crate::SCALAR;
 
-/// An expression of type `nboom::CompiledScene`. The file is also included as it is, which lets
-/// the compiler know that the program depends on it.
+/// An expression of type `nboom::CompiledScene`. The files of the scene are also included as they are,
+/// which lets the compiler know that the program depends on them.
 ///
 /// # Errors
 /// At the literal: everything that is wrong with the file, or why nothing can be generated.
@@ -21,20 +22,27 @@ pub(crate) fn expand(input: TokenStream, folder: &Path) -> Result<TokenStream> {
     let refused = |message: String| syn::Error::new(literal.span(), message);
     let path = folder.join(literal.value());
     let read = nboom_io::read_scene(&path).map_err(|error| refused(with_causes(&error)))?;
-    // Comments of a deck may have bytes that are not UTF-8.
-    let bytes =
-        std::fs::read(&path).map_err(|error| refused(format!("{}: {error}", path.display())))?;
-    let text = String::from_utf8_lossy(&bytes);
+    let text = if Format::of(&path) == Some(Format::Toml) {
+        // Included files are not there when the program runs.
+        write_scene(&read)
+    } else {
+        // Comments of a deck may have bytes that are not UTF-8.
+        let bytes = std::fs::read(&path)
+            .map_err(|error| refused(format!("{}: {error}", path.display())))?;
+        String::from_utf8_lossy(&bytes).into_owned()
+    };
     let (scene, structure) = (&read.scene, read.structure.as_ref());
     let module = Module::of_simulator(scene, structure, Formulation::Articulated, Level::Fast);
     let routines = module.and_then(|module| module.at(SCALAR).tokens());
     let routines = routines.map_err(|error| refused(error.to_string()))?;
-    let Some(absolute) = path.to_str() else {
+    let files = std::iter::once(&path).chain(&read.included);
+    let files: Option<Vec<&str>> = files.map(|path| path.to_str()).collect();
+    let Some(files) = files else {
         return Err(refused(format!("{}: the path is not UTF-8", path.display())));
     };
     let name = &scene.name;
     Ok(quote! {{
-        const _: &[u8] = ::core::include_bytes!(#absolute);
+        #(const _: &[u8] = ::core::include_bytes!(#files);)*
         mod routines { #routines }
         ::nboom::CompiledScene::new(#literal, #name, #text, routines::kernels)
     }})
@@ -73,7 +81,7 @@ mod tests {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
         let message = refusal(folder, "\"nowhere.nml\"");
         assert!(message.contains("nowhere.nml: the file cannot be read: "), "{message}");
-        assert!(refusal(folder, "\"Cargo.toml\"").contains("expected a deck NAME.nml"));
+        assert!(refusal(folder, "\"Cargo.toml\"").contains("a deck NAME.nml"));
     }
 
     #[test]

@@ -2,14 +2,12 @@ use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
-#[cfg(feature = "generator")]
-use nboom_formulation::Formulation;
-#[cfg(feature = "generator")]
-use nboom_package::Level;
-use nboom_results::UnitSystem;
+use nboom_model::UnitSystem;
 use nboom_sim::{Form, Method, Reference};
 
-use crate::{SceneArgs, SlipArgs, StressArgs, choice};
+#[cfg(feature = "generator")]
+use crate::{CompileArgs, GenerateArgs, NewArgs};
+use crate::{ConvertArgs, SceneArgs, SlipArgs, StressArgs, choice};
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 done; 1 a comparison failed (verify, \
@@ -61,6 +59,21 @@ pub enum Command {
     /// the time. The time of the recursion includes the springs and dashpots of the hinges; other
     /// code gets their torques as input.
     Bench(BenchArgs),
+    #[cfg(feature = "generator")]
+    /// Write a commented scene to start from.
+    ///
+    /// KIND is boom, wing, gimbal or n-boom. A file that exists is left alone.
+    New(NewArgs),
+    /// Write a scene in another format.
+    ///
+    /// The ending of each name says its format: .nml is a legacy deck, .toml a scene. A deck becomes a
+    /// scene with the same motion, to the last bit. A scene with parameters and includes becomes one
+    /// that stands alone.
+    Convert(ConvertArgs),
+    /// Print the JSON schema of scenes, for editors.
+    Schema,
+    /// List formulations, integrators, laws, joints, outputs and stock routines.
+    List,
     /// Compute properties and stresses of cross sections.
     ///
     /// FILE is JSON with a list `cases`. A section has an id, and kind "circular" with R and t, or
@@ -103,10 +116,10 @@ pub struct RunArgs {
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
 
-    /// Output times after the initial one, uniform to the end time; they never change the steps.
-    #[arg(long, value_name = "N", default_value = "200", value_parser = samples_parser(),
-          allow_negative_numbers = true)]
-    pub samples: usize,
+    /// Output times after the initial one, uniform to the end time; they never change the steps. By
+    /// default as many as the scene says, or 200.
+    #[arg(long, value_name = "N", value_parser = samples_parser(), allow_negative_numbers = true)]
+    pub samples: Option<usize>,
 
     /// Form of the equations of motion: report, relative, symmetric, articulated, momentum or
     /// recursive; by default articulated in generated code, recursive in library code.
@@ -148,9 +161,10 @@ pub struct RunArgs {
     #[arg(long, value_name = "T", value_parser = choice::finite, allow_negative_numbers = true)]
     pub end_time: Option<f64>,
 
-    /// Labels of the units: none, SI, ft-lbf-s or in-lbf-s; no number is converted.
-    #[arg(long, value_name = "NAME", default_value = "none", value_parser = choice::units)]
-    pub units: UnitSystem,
+    /// Labels of the units: none, SI, ft-lbf-s or in-lbf-s, instead of the scene's; no number is
+    /// converted.
+    #[arg(long, value_name = "NAME", value_parser = choice::units)]
+    pub units: Option<UnitSystem>,
 
     /// Also write listing.txt, a printout at the output times and at every event.
     #[arg(long)]
@@ -187,82 +201,10 @@ pub struct CheckArgs {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArgs,
-}
 
-/// Options of `nboom generate`.
-#[cfg(feature = "generator")]
-#[derive(Args, Debug)]
-pub struct GenerateArgs {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
-
-    /// Directory of the crate, created if needed.
-    #[arg(short, long, value_name = "DIR")]
-    pub output: PathBuf,
-
-    /// Take the satellite's numbers from the scene; without it they are handed in, and only zeros
-    /// of the scene are assumed.
-    #[arg(long)]
-    pub baked: bool,
-
-    /// Form of the equations of motion: report, relative, symmetric, articulated or momentum.
-    #[arg(long, value_name = "NAME", default_value = "articulated",
-          value_parser = choice::closed_form)]
-    pub formulation: Formulation,
-
-    /// How freely arithmetic may be rearranged: exact keeps every rounding of the closed form, fast
-    /// fuses products and sums.
-    #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
-    pub level: Level,
-
-    /// Also generate the formulation's matrix and right side: report, relative or symmetric.
-    #[arg(long)]
-    pub equations: bool,
-
-    /// Also generate states with held hinges: all topologies with up to 10 hinges; with more, those
-    /// in which all appendages are held in step; at most 32.
-    #[arg(long)]
-    pub lock_states: bool,
-
-    /// Also generate the loads and stresses of all stations, with all numbers of the scene built in.
-    #[arg(long)]
-    pub stresses: bool,
-
-    /// Write nothing; exit with 1 if the crate differs from what would be written.
-    #[arg(long)]
-    pub check: bool,
-}
-
-/// Options of `nboom compile`.
-#[cfg(feature = "generator")]
-#[derive(Args, Debug)]
-pub struct CompileArgs {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
-
-    /// The program to build; only a simulator that this command has built is replaced.
-    #[arg(short, long, value_name = "BINARY")]
-    pub output: PathBuf,
-
-    /// Form of the equations of motion: report, relative, symmetric, articulated or momentum.
-    #[arg(long, value_name = "NAME", default_value = "articulated",
-          value_parser = choice::closed_form)]
-    pub formulation: Formulation,
-
-    /// How freely arithmetic may be rearranged: exact keeps every rounding of the closed form, fast
-    /// fuses products and sums.
-    #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
-    pub level: Level,
-
-    /// Folder to build in; by default nboom in $XDG_CACHE_HOME or in ~/.cache.
-    #[arg(long, value_name = "DIR")]
-    pub work: Option<PathBuf>,
-
-    /// Build with the crates that cargo has already downloaded, without network.
-    #[arg(long)]
-    pub offline: bool,
+    /// Also draw the scene, as it starts and with all hinges latched, with the axes of all bodies.
+    #[arg(long, value_name = "FILE.svg")]
+    pub picture: Option<PathBuf>,
 }
 
 /// Options of `nboom verify`.
@@ -375,15 +317,17 @@ mod tests {
     fn defaults_are_those_of_a_run() {
         let args = run_args(&[]).expect("a scene is enough");
         let defaults = Options::default();
-        assert_eq!(args.samples, defaults.samples);
         assert_eq!((args.rtol, args.atol), (defaults.rtol, defaults.atol));
         assert_eq!((args.max_step, args.max_events), (None, defaults.max_events));
-        assert_eq!(args.units, UnitSystem::None);
+        assert_eq!((args.samples, args.units), (None, None));
     }
 
     #[test]
     fn samples_have_limits() {
-        assert_eq!(run_args(&["--samples", "10000000"]).map(|a| a.samples).ok(), Some(10_000_000));
+        assert_eq!(
+            run_args(&["--samples", "10000000"]).map(|a| a.samples).ok(),
+            Some(Some(10_000_000))
+        );
         for wrong in ["0", "10000001", "-1", "2.5", "many"] {
             assert_eq!(run_args(&["--samples", wrong]).map_err(|e| e.exit_code()).err(), Some(2));
         }

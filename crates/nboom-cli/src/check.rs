@@ -4,7 +4,7 @@ use nboom_results::with_causes;
 use nboom_sim::{Nobody, Options, simulate};
 
 use crate::ignored::ignored;
-use crate::{CheckArgs, CliError, Routines, SceneArgs, print_scene, say};
+use crate::{CheckArgs, CliError, Routines, SceneArgs, output, picture, print_scene, say};
 
 /// Reads a scene and returns what it contains for standard output.
 pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {
@@ -16,6 +16,9 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let generated = "";
     let ignored = ignored(&file, None).map_or_else(String::new, |line| line + "\n");
     let (text, code) = (print_scene::text(scene), code_at_start(scene, routines));
+    if let Some(path) = &args.picture {
+        output::write(path, &args.scene.scene, &picture::svg(scene))?;
+    }
     Ok(format!("{text}{ignored}{generated}{code}\n"))
 }
 

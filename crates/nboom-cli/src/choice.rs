@@ -2,13 +2,12 @@
 
 #[cfg(feature = "generator")]
 use nboom_formulation::Formulation;
+use nboom_io::Format;
+use nboom_model::UnitSystem;
 #[cfg(feature = "generator")]
 use nboom_package::Level;
-use nboom_results::UnitSystem;
 use nboom_sim::{Form, Method, OptionError, Options, Reference};
 use nboom_strength::PulseShape;
-
-use crate::SceneFormat;
 
 /// Why the value of an option is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,6 +28,9 @@ pub enum ChoiceError {
     /// A tolerance or a length of time is zero or negative.
     #[error("a number above zero expected")]
     NotPositive,
+    /// The text is not NAME=VALUE.
+    #[error("NAME=VALUE expected, a parameter and a number")]
+    NotAnAssignment,
     /// The number is below 1 or above 2.
     #[error("a number from 1 to 2 expected")]
     NotAnAmplification,
@@ -65,14 +67,20 @@ pub(crate) fn reference(name: &str) -> Result<Reference, ChoiceError> {
     Reference::named(name).ok_or(ChoiceError::Unknown { available })
 }
 
-pub(crate) fn scene_format(name: &str) -> Result<SceneFormat, ChoiceError> {
-    let available = SceneFormat::ALL.map(SceneFormat::name).into();
-    let found = SceneFormat::ALL.into_iter().find(|format| format.name() == name);
+pub(crate) fn scene_format(name: &str) -> Result<Format, ChoiceError> {
+    let available = Format::ALL.map(Format::name).into();
+    let found = Format::ALL.into_iter().find(|format| format.name() == name);
     found.ok_or(ChoiceError::Unknown { available })
 }
 
+/// NAME=VALUE, a parameter of a scene.
+pub(crate) fn parameter(text: &str) -> Result<(String, f64), ChoiceError> {
+    let (name, value) = text.split_once('=').ok_or(ChoiceError::NotAnAssignment)?;
+    Ok((name.trim().to_owned(), finite(value.trim())?))
+}
+
 pub(crate) fn units(name: &str) -> Result<UnitSystem, ChoiceError> {
-    let names = || UnitSystem::ALL.map(UnitSystem::name).into();
+    let names = || UnitSystem::NAMED.map(|units| units.name()).into();
     UnitSystem::from_name(name).ok_or_else(|| ChoiceError::Unknown { available: names() })
 }
 

@@ -1,11 +1,44 @@
 use std::io::{self, IsTerminal};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use nboom_package::{Build, Built, Progress, compile as build};
+use nboom_formulation::Formulation;
+use nboom_package::{Build, Built, Level, Progress, compile as build};
 
 use crate::format::{count, short};
-use crate::{CliError, CompileArgs, check, say};
+use crate::{CliError, SceneArgs, check, choice, say};
+
+/// Options of `nboom compile`.
+#[derive(Args, Debug)]
+pub struct CompileArgs {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// The program to build; only a simulator that this command has built is replaced.
+    #[arg(short, long, value_name = "BINARY")]
+    pub output: PathBuf,
+
+    /// Form of the equations of motion: report, relative, symmetric, articulated or momentum.
+    #[arg(long, value_name = "NAME", default_value = "articulated",
+          value_parser = choice::closed_form)]
+    pub formulation: Formulation,
+
+    /// How freely arithmetic may be rearranged: exact keeps every rounding of the closed form, fast
+    /// fuses products and sums.
+    #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
+    pub level: Level,
+
+    /// Folder to build in; by default nboom in $XDG_CACHE_HOME or in ~/.cache.
+    #[arg(long, value_name = "DIR")]
+    pub work: Option<PathBuf>,
+
+    /// Build with the crates that cargo has already downloaded, without network.
+    #[arg(long)]
+    pub offline: bool,
+}
 
 /// Builds a simulator around the scene's routines, and returns the text for standard output.
 pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {

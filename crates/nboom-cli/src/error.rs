@@ -20,7 +20,7 @@ pub enum CliError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// Standard input is the scene, but no format is given.
-    #[error("-: --format nml expected, which says what standard input is")]
+    #[error("-: --format toml or --format nml expected, which says what standard input is")]
     NoFormat,
     /// A format is given, but the scene is a file.
     #[error(
@@ -57,7 +57,9 @@ pub enum CliError {
         option: &'static str,
     },
     /// An option about stresses is given for a scene without stations.
-    #[error("{option}: scene {scene} has no stations, stress groups with INSTR > 0 expected")]
+    #[error(
+        "{option}: scene {scene} has no stations, of a deck stress groups with INSTR > 0, expected"
+    )]
     NoStations {
         /// The option.
         option: &'static str,
@@ -94,6 +96,19 @@ pub enum CliError {
          results, DIR.partial, marked incomplete"
     )]
     WithinStep,
+    /// The output of a conversion is not a scene by its name.
+    #[error("{}: found a name without the ending .toml, expected NAME.toml", path.display())]
+    NoScene {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that would be made is there already.
+    #[cfg(feature = "generator")]
+    #[error("{}: found a file of this name, expected none; -o names another one", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
     /// A command would overwrite what it reads.
     #[error("{}: found the input, expected another file for the output", path.display())]
     OutputIsInput {
@@ -148,6 +163,9 @@ impl CliError {
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
             Self::NoFormat | Self::VainFormat { .. } => 2,
+            Self::NoScene { .. } => 2,
+            #[cfg(feature = "generator")]
+            Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
             Self::NotWithTaylor { .. } | Self::NoStresses { .. } => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
@@ -177,7 +195,7 @@ impl CliError {
     /// The message for the user, one line for each error.
     pub fn lines(&self) -> Vec<String> {
         match self {
-            Self::Input(error @ InputError::Deck(_)) => {
+            Self::Input(error @ InputError::Content(_)) => {
                 error.to_string().lines().map(str::to_owned).collect()
             }
             Self::Sections(error @ SectionFileError::Sections(_)) => {

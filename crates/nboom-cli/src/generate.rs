@@ -1,6 +1,54 @@
-use nboom_package::{Choices, Numbers, Written, generate as write, is_current};
+use std::path::PathBuf;
 
-use crate::{CliError, GenerateArgs, check};
+use clap::Args;
+use nboom_formulation::Formulation;
+use nboom_package::{Choices, Level, Numbers, Written, generate as write, is_current};
+
+use crate::{CliError, SceneArgs, check, choice};
+
+/// Options of `nboom generate`.
+#[derive(Args, Debug)]
+pub struct GenerateArgs {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Directory of the crate, created if needed.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+
+    /// Take the satellite's numbers from the scene; without it they are handed in, and only zeros
+    /// of the scene are assumed.
+    #[arg(long)]
+    pub baked: bool,
+
+    /// Form of the equations of motion: report, relative, symmetric, articulated or momentum.
+    #[arg(long, value_name = "NAME", default_value = "articulated",
+          value_parser = choice::closed_form)]
+    pub formulation: Formulation,
+
+    /// How freely arithmetic may be rearranged: exact keeps every rounding of the closed form, fast
+    /// fuses products and sums.
+    #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
+    pub level: Level,
+
+    /// Also generate the formulation's matrix and right side: report, relative or symmetric.
+    #[arg(long)]
+    pub equations: bool,
+
+    /// Also generate states with held hinges: all topologies with up to 10 hinges; with more, those
+    /// in which all appendages are held in step; at most 32.
+    #[arg(long)]
+    pub lock_states: bool,
+
+    /// Also generate the loads and stresses of all stations, with all numbers of the scene built in.
+    #[arg(long)]
+    pub stresses: bool,
+
+    /// Write nothing; exit with 1 if the crate differs from what would be written.
+    #[arg(long)]
+    pub check: bool,
+}
 
 /// Writes a crate with the scene's routines, or compares one, and returns the text for standard
 /// output.

@@ -1,7 +1,7 @@
 //! Settings without effect in a run: options that are refused, and settings that are accepted but
 //! reported as ignored.
 
-use nboom_io::{LegacySettings, SceneFile};
+use nboom_io::{Format, LegacySettings, SceneFile};
 use nboom_sim::{Method, Options};
 use nboom_strength::PulseShape;
 
@@ -47,7 +47,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
         (for_rkam, "they steer --integrator rkam"),
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),
         (words("NOPLT=0", file.legacy.plots == Some(true)), "nothing is plotted"),
-        (words("XNU, E", stresses), "no stress depends on them"),
+        (words("XNU, E", stresses && file.format == Format::Nml), "no stress depends on them"),
         (words("--no-report", args.is_some_and(|args| args.no_report)), "no report is written"),
         (tolerances, "EU1 of the deck bounds the errors of rkam"),
         (slips, "nothing in this run shows these slips of 1970"),

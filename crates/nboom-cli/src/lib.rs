@@ -10,7 +10,7 @@
 //!
 //! let cli = Cli::try_parse_from(["nboom", "run", "boom.nml", "--samples", "10"])?;
 //! let Command::Run(args) = cli.command else { panic!("run was asked for") };
-//! assert_eq!(args.samples, 10);
+//! assert_eq!(args.samples, Some(10));
 //! # Ok::<(), clap::Error>(())
 //! ```
 
@@ -21,13 +21,18 @@ mod check;
 mod choice;
 #[cfg(feature = "generator")]
 mod compile;
+mod convert;
 mod error;
 mod format;
 #[cfg(feature = "generator")]
 mod generate;
 mod ignored;
 mod interrupt;
+mod list;
+#[cfg(feature = "generator")]
+mod new;
 mod output;
+mod picture;
 mod print_run;
 mod print_scene;
 mod progress;
@@ -51,12 +56,17 @@ use std::process::ExitCode;
 use nboom_scalar::{Batch, Kernel};
 
 pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, SectionArgs, VerifyArgs};
-#[cfg(feature = "generator")]
-pub use args::{CompileArgs, GenerateArgs};
 pub use choice::ChoiceError;
+#[cfg(feature = "generator")]
+pub use compile::CompileArgs;
+pub use convert::ConvertArgs;
 pub use error::CliError;
+#[cfg(feature = "generator")]
+pub use generate::GenerateArgs;
+#[cfg(feature = "generator")]
+pub use new::{Kind, NewArgs};
 pub use reference::reference;
-pub use scene_args::{SceneArgs, SceneFormat};
+pub use scene_args::SceneArgs;
 pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 pub use slips::SlipArgs;
@@ -98,6 +108,11 @@ pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
         Command::Check(args) => check::check(args, routines),
         Command::Verify(args) => verify::verify(args, routines),
         Command::Bench(args) => bench::bench(args, routines),
+        #[cfg(feature = "generator")]
+        Command::New(args) => new::new(args),
+        Command::Convert(args) => convert::convert(args),
+        Command::Schema => Ok(format!("{:#}\n", nboom_io::schema())),
+        Command::List => Ok(list::text(routines)),
         Command::Section(args) => section::section(args),
         #[cfg(feature = "generator")]
         Command::Generate(args) => generate::generate(args),

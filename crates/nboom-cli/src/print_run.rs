@@ -87,7 +87,7 @@ impl Account<'_> {
     }
 
     fn headings(&self) -> Vec<String> {
-        let units = self.run.units;
+        let units = &self.run.units;
         vec![
             format!("time [{}]", units.time()),
             "event".to_owned(),
@@ -130,7 +130,7 @@ impl Account<'_> {
             let (name, magnitude) = (worst.quantity.name(), short(worst.magnitude(), 5));
             format!("{name} {magnitude} {unit} in hinge {}", worst.hinge)
         };
-        let units = self.run.units;
+        let units = &self.run.units;
         let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
         Some(format!("hinge loads   at most {force}, {moment}"))
     }
@@ -227,9 +227,8 @@ fn aligned(rows: &[Vec<String>]) -> Vec<String> {
 mod tests {
     use super::*;
     use nboom_model::{
-        Appendage, Hinge, HingeState, MassProperties, Mount, SceneDescription, Segment,
+        Appendage, Hinge, HingeState, MassProperties, Mount, SceneDescription, Segment, UnitSystem,
     };
-    use nboom_results::UnitSystem;
     use nboom_scalar::{Sym3, Vec3};
     use nboom_sim::{
         Choice, Conservation, HingeVerdict, Integration, Method, Options, Summary, Verdict,

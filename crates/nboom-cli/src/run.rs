@@ -29,7 +29,10 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let warnings = warnings.chain(never_released(&file.scene, args.end_time));
     let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
     let scene = with_end_time(file.scene, args.end_time)?;
+    let samples = args.samples.or(file.settings.samples);
     let options = options(args, routines, &file.legacy)?;
+    let options = Options { samples: samples.unwrap_or(options.samples), ..options };
+    let units = args.units.clone().or(file.settings.units).unwrap_or_default();
     let interrupt = Interrupt::watch()?;
     check_start(&scene, &options).map_err(CliError::Start)?;
     if !args.quiet {
@@ -40,7 +43,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         warnings,
         print_interval: file.legacy.print_interval.unwrap_or(1),
         input_sha256: Some(file.sha256),
-        ..RunDescription::new(&scene, &options, args.units)
+        ..RunDescription::new(&scene, &options, units)
     };
     let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };
     let stresses = stresses.map(|analysis| (analysis, tables));
@@ -74,7 +77,7 @@ fn options(
     routines: &Routines,
     legacy: &LegacySettings,
 ) -> Result<Options, CliError> {
-    let RunArgs { samples, integrator, rtol, atol, max_events, formulation, .. } = *args;
+    let RunArgs { integrator, rtol, atol, max_events, formulation, .. } = *args;
     let path = match args.path {
         PathChoice::Generated if formulation == Some(Form::Recursive) => {
             return Err(CliError::GeneratedRecursion);
@@ -85,7 +88,6 @@ fn options(
     };
     let (kernels, batches) = (routines.for_runs, routines.right_sides_of_eight);
     let mut options = Options {
-        samples,
         integrator,
         rtol,
         atol,

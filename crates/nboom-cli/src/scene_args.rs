@@ -4,39 +4,29 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use nboom_io::{SceneFile, read_scene, read_scene_from};
+use nboom_io::{Format, ReadOptions, SceneFile, read_scene_from, read_scene_with};
 
 use crate::{CliError, choice};
 
 /// Where a scene is read.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArgs {
-    /// Legacy deck, a file NAME.nml; - for standard input, of the format that --format says.
+    /// A scene, a file NAME.toml, or a legacy deck NAME.nml; - for standard input, of the format
+    /// that --format says.
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
 
-    /// What standard input is: nml, a legacy deck. The scene's name is then stdin.
+    /// What standard input is: toml, a scene, or nml, a legacy deck. The scene's name is then stdin.
     #[arg(long, value_name = "NAME", value_parser = choice::scene_format)]
-    pub format: Option<SceneFormat>,
-}
+    pub format: Option<Format>,
 
-/// What a scene is written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SceneFormat {
-    /// A legacy deck.
-    Nml,
-}
+    /// A value for a parameter of the scene; may be given for each one.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = choice::parameter)]
+    pub set: Vec<(String, f64)>,
 
-impl SceneFormat {
-    /// Every format.
-    pub const ALL: [Self; 1] = [Self::Nml];
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nml => "nml",
-        }
-    }
+    /// Let the scene include files outside of its folder.
+    #[arg(long)]
+    pub include_anywhere: bool,
 }
 
 /// The argument for standard input.
@@ -48,9 +38,13 @@ impl SceneArgs {
     /// # Errors
     /// When it cannot be read or is wrong, and when only one of `-` and `--format` is there.
     pub(crate) fn read(&self) -> Result<SceneFile, CliError> {
+        let options =
+            ReadOptions { set: self.set.clone(), includes_from_anywhere: self.include_anywhere };
         match (self.scene == Path::new(STANDARD_INPUT), self.format) {
-            (false, None) => Ok(read_scene(&self.scene)?),
-            (true, Some(SceneFormat::Nml)) => Ok(read_scene_from(io::stdin().lock(), "stdin")?),
+            (false, None) => Ok(read_scene_with(&self.scene, &options)?),
+            (true, Some(format)) => {
+                Ok(read_scene_from(io::stdin().lock(), format, "stdin", &options)?)
+            }
             (true, None) => Err(CliError::NoFormat),
             (false, Some(format)) => {
                 Err(CliError::VainFormat { path: self.scene.clone(), format: format.name() })

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use crate::Diagnostic;
 use crate::diagnostic::MOST_KEPT;
 
-/// Most errors of a deck that the message shows.
+/// Most errors that the message shows.
 const MOST_SHOWN: usize = 50;
 
 /// Why a file is not a scene.
@@ -26,11 +26,20 @@ pub enum InputError {
         /// The path.
         path: PathBuf,
     },
-    /// The file's name does not say that it is a deck.
-    #[error("{}: found a name without the ending .nml, expected a deck NAME.nml", path.display())]
+    /// The file's name does not say what it is.
+    #[error(
+        "{}: found a name without a known ending, expected a scene NAME.toml or a deck NAME.nml",
+        path.display()
+    )]
     NotAScene {
         /// The file.
         path: PathBuf,
+    },
+    /// A parameter is given for a deck.
+    #[error("{file}: --set with a deck found, a scene in TOML with parameters expected")]
+    NoParameters {
+        /// The deck.
+        file: String,
     },
     /// The file is too long.
     #[error("{}: found more than {limit} bytes, expected at most that many", path.display())]
@@ -48,15 +57,15 @@ pub enum InputError {
         /// Where, in bytes from 0.
         offset: usize,
     },
-    /// Everything that is wrong with a deck, in the order of its lines; reading stops at the
+    /// Everything that is wrong with a deck or a scene, in the order of its lines; reading stops at the
     /// thousandth error.
     #[error("{}", listing(.0))]
-    Deck(Vec<Diagnostic>),
+    Content(Vec<Diagnostic>),
 }
 
 /// The first errors, one to a line, and how many more there are.
 fn listing(diagnostics: &[Diagnostic]) -> String {
-    let shown = diagnostics.iter().take(MOST_SHOWN).map(Diagnostic::to_string);
+    let shown = diagnostics.iter().take(MOST_SHOWN).map(Diagnostic::drawn);
     let mut text = shown.collect::<Vec<_>>().join("\n");
     let more = diagnostics.len().saturating_sub(MOST_SHOWN);
     if more > 0 {
@@ -78,8 +87,10 @@ mod tests {
             symbol: "EMM".to_owned(),
             found: "a".to_owned(),
             expected: "b".to_owned(),
+            excerpt: None,
+            help: None,
         };
-        InputError::Deck((1..=count).map(diagnostic).collect()).to_string()
+        InputError::Content((1..=count).map(diagnostic).collect()).to_string()
     }
 
     #[test]

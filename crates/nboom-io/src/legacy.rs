@@ -23,3 +23,12 @@ pub struct LegacySettings {
     /// `NOPLT`: whether plots are wanted.
     pub plots: Option<bool>,
 }
+
+impl LegacySettings {
+    /// Whether the integrator of 1970 is steered by any of them.
+    pub fn has_integrator_settings(&self) -> bool {
+        let steps = [self.first_step, self.min_step, self.max_step];
+        let errors = [self.upper_error, self.lower_error];
+        steps.iter().chain(&errors).any(Option::is_some) || self.max_steps.is_some()
+    }
+}

@@ -6,19 +6,55 @@ use sha2::{Digest, Sha256};
 
 use crate::InputError;
 
-/// The longest deck that is read \[bytes\].
-const LARGEST_DECK: u64 = 16 << 20;
+/// The longest file of a scene that is read \[bytes\].
+pub(crate) const LARGEST: u64 = 16 << 20;
 
-/// The text of a deck's file, and the hash of its bytes.
-pub(crate) fn read_deck(path: &Path) -> Result<(String, String), InputError> {
-    check_file(path)?;
-    check_ending(path)?;
-    hashed(path, read_bytes(path, LARGEST_DECK)?)
+/// What a scene is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// TOML.
+    Toml,
+    /// A deck of the 1970 program.
+    Nml,
 }
 
-/// The text of a deck from any reader, and the hash of its bytes; `path` stands for it in messages.
+impl Format {
+    /// Every format.
+    pub const ALL: [Self; 2] = [Self::Toml, Self::Nml];
+
+    /// The name on the command line, and the ending of files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Toml => "toml",
+            Self::Nml => "nml",
+        }
+    }
+
+    /// The format of a file by its ending, letter case ignored.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?;
+        Self::ALL.into_iter().find(|format| ending.eq_ignore_ascii_case(format.name()))
+    }
+}
+
+/// Format and text of a scene's file, and the hash of its bytes.
+pub(crate) fn read_file(path: &Path) -> Result<(Format, String, String), InputError> {
+    check_file(path)?;
+    let format = Format::of(path);
+    let format = format.ok_or_else(|| InputError::NotAScene { path: path.to_owned() })?;
+    let (text, sha256) = hashed(path, read_bytes(path, LARGEST)?)?;
+    Ok((format, text, sha256))
+}
+
+/// The folder of a file.
+pub(crate) fn folder(path: &Path) -> &Path {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
+/// The text of a scene from any reader, and the hash of its bytes; `path` stands for it in messages.
 pub(crate) fn read_stream(path: &Path, reader: impl Read) -> Result<(String, String), InputError> {
-    hashed(path, read_limited(path, reader, LARGEST_DECK)?)
+    hashed(path, read_limited(path, reader, LARGEST)?)
 }
 
 fn hashed(path: &Path, bytes: Vec<u8>) -> Result<(String, String), InputError> {
@@ -65,11 +101,6 @@ fn check_file(path: &Path) -> Result<u64, InputError> {
     } else {
         Err(InputError::NotAFile { path: path.to_owned() })
     }
-}
-
-fn check_ending(path: &Path) -> Result<(), InputError> {
-    let is_deck = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nml"));
-    if is_deck { Ok(()) } else { Err(InputError::NotAScene { path: path.to_owned() }) }
 }
 
 fn check_length(path: &Path, length: u64, limit: u64) -> Result<(), InputError> {

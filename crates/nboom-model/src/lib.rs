@@ -26,6 +26,7 @@
 
 mod appendage;
 mod departures;
+mod draft;
 mod environment;
 mod error;
 mod hinge;
@@ -38,11 +39,15 @@ mod skipped;
 mod structure;
 mod structure_error;
 mod topology;
+mod units;
 mod warning;
 mod welded;
 
 pub use appendage::{Appendage, Segment};
 pub use departures::{Departures, TurnOrder, TurnedInertia, Withheld};
+pub use draft::{
+    BodyDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat, Resolved, SceneDraft,
+};
 pub use environment::{Gravity, InitialMotion, Thrust};
 pub use error::{BodyName, ModelError};
 pub use hinge::{
@@ -57,5 +62,6 @@ pub use skipped::skipped;
 pub use structure::{SLICE_TOLERANCE, SectionShape, SegmentStructure, Station, Structure, Vertex};
 pub use structure_error::{StructureDefect, StructureError, StructurePlace};
 pub use topology::{Shape, Topology, TopologyError};
+pub use units::UnitSystem;
 pub use warning::ModelWarning;
 pub use welded::{Link, Member, WeldedTree};

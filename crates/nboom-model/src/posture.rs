@@ -1,4 +1,4 @@
-use nboom_scalar::Vec3;
+use nboom_scalar::{Mat3, Vec3};
 
 use crate::{Hinge, HingeState, Mode, Scene, WeldedTree};
 
@@ -16,6 +16,8 @@ pub struct HingePlace {
     pub point: Vec3<f64>,
     /// Unit vector along its axis.
     pub axis: Vec3<f64>,
+    /// The body's x, y and z axes, as columns.
+    pub body_axes: Mat3<f64>,
     /// The outer end of the body.
     pub tip: Vec3<f64>,
     /// The body's point of the kick-off spring; the hinge where there is none.
@@ -34,6 +36,7 @@ impl Posture {
             HingePlace {
                 point,
                 axis: rot * body.axis,
+                body_axes: rot,
                 tip: point + rot * body.tip,
                 kick_off: point + rot * kick_off,
             }

@@ -98,6 +98,8 @@ impl SceneDescription {
 pub struct Scene {
     description: SceneDescription,
     labels: Vec<HingeLabel>,
+    /// Those of the bodies, if they have any.
+    names: Vec<String>,
     departures: Departures,
 }
 
@@ -115,7 +117,11 @@ impl Scene {
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
         let departures = Departures::default();
-        if errors.is_empty() { Ok(Self { description, labels, departures }) } else { Err(errors) }
+        if errors.is_empty() {
+            Ok(Self { description, labels, names: Vec::new(), departures })
+        } else {
+            Err(errors)
+        }
     }
 
     /// The scene with another end of the run.
@@ -124,7 +130,22 @@ impl Scene {
     /// When that time is not finite or before the initial one.
     pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
         let scene = Self::new(SceneDescription { end_time, ..self.description.clone() })?;
-        Ok(scene.with_departures(self.departures.clone()))
+        Ok(Self { names: self.names.clone(), ..scene.with_departures(self.departures.clone()) })
+    }
+
+    /// Names the hinged bodies, for people.
+    ///
+    /// # Panics
+    /// When there is not one name for each.
+    #[must_use]
+    pub fn with_names(self, names: Vec<String>) -> Self {
+        assert_eq!(names.len(), self.bodies.len(), "one name for each body");
+        Self { names, ..self }
+    }
+
+    /// The name of hinged body `i`, if it has one.
+    pub fn name_of(&self, i: usize) -> Option<&str> {
+        self.names.get(i).map(String::as_str)
     }
 
     /// Replaces the departures of the scene's motion.

@@ -117,6 +117,14 @@ impl Structure {
     }
 }
 
+impl Default for SegmentStructure {
+    /// Of a segment whose hinge never locks and of which no loads are wanted.
+    fn default() -> Self {
+        let (pulse_constant, youngs_modulus, poissons_ratio) = (1.0, 1.0, 0.0);
+        Self { pulse_constant, poissons_ratio, youngs_modulus, stations: Vec::new() }
+    }
+}
+
 impl SegmentStructure {
     /// Mass properties of everything of this segment that is outboard of each station, from the
     /// slices: eqs. (13.1) to (13.3), corrected: note 26.

@@ -299,7 +299,7 @@ fn open_listing(
     hinges: Vec<HingeLabel>,
 ) -> Result<ListingWriter<Output>, ResultsError> {
     open(directory, LISTING_FILE, |out| {
-        let listing = ListingWriter::new(out, &run.scene, hinges, run.units)?;
+        let listing = ListingWriter::new(out, &run.scene, hinges, run.units.clone())?;
         Ok(listing.thinned(run.print_interval))
     })
 }

@@ -1,10 +1,9 @@
 //! Columns and numbers of the listing.
 
+use nboom_model::UnitSystem;
 use std::io::{self, Write};
 
 use nboom_scalar::Vec3;
-
-use crate::UnitSystem;
 
 /// Unit labels in the listing's capitals.
 pub(crate) struct Units {
@@ -18,8 +17,8 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub(crate) fn of(system: UnitSystem) -> Self {
-        let time = if system == UnitSystem::None { "T" } else { "SEC" }.to_owned();
+    pub(crate) fn of(system: &UnitSystem) -> Self {
+        let time = if *system == UnitSystem::None { "T" } else { "SEC" }.to_owned();
         let force = system.force().to_uppercase();
         let torque = system.torque().to_uppercase();
         Self {

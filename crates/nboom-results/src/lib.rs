@@ -40,7 +40,6 @@ mod states;
 mod stress;
 mod summary;
 mod trust;
-mod units;
 mod verdict;
 mod whole;
 
@@ -64,6 +63,5 @@ pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;
 pub use summary::{RunDescription, StressDescription, SummaryFile};
-pub use units::UnitSystem;
 pub use verdict::WorstLoads;
 pub use whole::write_file;

@@ -1,12 +1,12 @@
 use std::io::{self, Write};
 
 use nboom_elements::Kind;
-use nboom_model::HingeLabel;
+use nboom_model::{HingeLabel, UnitSystem};
 use nboom_scalar::Vec3;
 use nboom_sim::{Detail, Event, EventKind, Snapshot};
 
 use crate::layout::{Columns, Units, number};
-use crate::{UnitSystem, euler_angles, event_order};
+use crate::{euler_angles, event_order};
 
 const HINGE_MOTION: Columns = Columns { first: 8, others: 20 };
 const HINGE_FORCES: Columns = Columns { first: 8, others: 30 };
@@ -103,7 +103,7 @@ impl<W: Write> ListingWriter<W> {
             write!(self.out, " {}", self.hinges[i])?;
         }
         if let Some(impulse) = event.impulse {
-            let unit = Units::of(self.units).angular_momentum;
+            let unit = Units::of(&self.units).angular_momentum;
             write!(self.out, "   IMPULSIVE TORQUE {} ({unit})", number(impulse))?;
         }
         writeln!(self.out)
@@ -111,7 +111,7 @@ impl<W: Write> ListingWriter<W> {
 
     fn write_block(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         let detail = snapshot.detail.as_ref().expect("a listing asks for details");
-        let units = Units::of(self.units);
+        let units = Units::of(&self.units);
         if !self.hinges.is_empty() {
             self.write_hinge_motion(snapshot, detail, &units)?;
             self.write_hinge_forces(snapshot, detail, &units)?;

@@ -1,10 +1,10 @@
-use nboom_model::{HingeLabel, Scene};
+use nboom_model::{HingeLabel, Scene, UnitSystem};
 use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
 use nboom_strength::PulseShape;
 use serde::Serialize;
 
+use crate::StressSigns;
 use crate::verdict::{VerdictKeys, WorstLoads};
-use crate::{StressSigns, UnitSystem};
 
 /// What is known about a run before it starts.
 #[derive(Clone, Debug, PartialEq)]

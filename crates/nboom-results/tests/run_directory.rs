@@ -5,10 +5,10 @@ use std::path::Path;
 
 use nboom_model::{
     Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, SectionShape,
-    Segment, SegmentStructure, Station, Structure,
+    Segment, SegmentStructure, Station, Structure, UnitSystem,
 };
 use nboom_results::{
-    Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables, UnitSystem,
+    Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables,
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{

@@ -41,6 +41,14 @@ impl Form {
         }
     }
 
+    /// What it is, in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Recursive => "articulated bodies, of any tree; library code",
+            Self::Closed(formulation) => formulation.about(),
+        }
+    }
+
     /// The form with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::all().find(|form| form.name() == name)

@@ -1,6 +1,7 @@
 //! The binary as its users meet it: exit codes, messages and files.
 
 mod certificate;
+mod scenes;
 mod standard_input;
 mod told;
 mod verdict;

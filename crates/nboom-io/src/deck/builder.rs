@@ -1,10 +1,10 @@
 use nboom_model::{Appendage, MassProperties, Mount, SceneDescription, SegmentStructure};
 use nboom_scalar::{Sym3, Vec3};
 
-use super::angles;
 use super::layout::AppendageSegments;
 use super::shown;
 use super::values::{Key, Sizes, Values, plain};
+use crate::angles;
 use crate::diagnostic::Report;
 
 /// Share of an inertia's largest entry by which it may fail to be symmetric.

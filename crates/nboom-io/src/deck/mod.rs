@@ -1,6 +1,5 @@
 //! The NAMELIST deck: text to tokens to values to a scene.
 
-mod angles;
 mod assignment;
 mod builder;
 mod group;
@@ -23,11 +22,12 @@ use nboom_model::{Scene, Structure};
 
 use crate::diagnostic::Report;
 use crate::source::sha256;
-use crate::{InputError, SceneFile};
+use crate::{Format, InputError, SceneFile, SceneSettings};
 use builder::Builder;
 use values::{Sizes, Values};
 
 pub use hinges::NEVER;
+pub(crate) use model_error::phrases;
 pub use symbols::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
 pub use values::LARGEST_COUNT;
 
@@ -37,19 +37,29 @@ pub use values::LARGEST_COUNT;
 /// the symbols, and what their absence means; angles become radians.
 ///
 /// # Errors
-/// [`InputError::Deck`] with everything that is wrong, in the order of the lines.
+/// [`InputError::Content`] with everything that is wrong, in the order of the lines.
 pub fn parse_deck(file: &str, text: &str, name: &str) -> Result<SceneFile, InputError> {
     let mut report = Report::new(file);
     let values = group::read(text, &mut report);
     required::check(&values, &mut report);
     let parts = values.sizes.and_then(|sizes| assemble(name, &values, sizes, &mut report));
     report.sort();
+    report.add_excerpts(text);
     match parts {
         Some((scene, legacy, structure)) if report.errors.is_empty() => {
             let sha256 = sha256(text.as_bytes());
-            Ok(SceneFile { scene, warnings: report.warnings, legacy, structure, sha256 })
+            Ok(SceneFile {
+                scene,
+                warnings: report.warnings,
+                legacy,
+                structure,
+                format: Format::Nml,
+                settings: SceneSettings::default(),
+                included: Vec::new(),
+                sha256,
+            })
         }
-        _ => Err(InputError::Deck(report.errors)),
+        _ => Err(InputError::Content(report.errors)),
     }
 }
 
@@ -75,7 +85,7 @@ fn assemble(name: &str, values: &Values, sizes: Sizes, report: &mut Report<'_>) 
 }
 
 /// A number as messages show it.
-fn shown(value: f64) -> String {
+pub(crate) fn shown(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || (1e-4..1e15).contains(&size) {
         value.to_string()

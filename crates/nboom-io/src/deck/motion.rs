@@ -2,8 +2,9 @@ use nboom_model::{Gravity, InitialMotion, Thrust};
 use nboom_scalar::{Mat3, Quaternion, Vec3};
 
 use super::builder::Builder;
+use super::shown;
 use super::values::plain;
-use super::{angles, shown};
+use crate::angles;
 
 /// Deviation from a rotation, or from length 1, that counts as rounding in the deck.
 const ROTATION_TOLERANCE: f64 = 1e-6;

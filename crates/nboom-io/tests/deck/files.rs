@@ -47,7 +47,7 @@ fn errors_name_the_file() {
 
 #[test]
 fn other_endings_are_refused_with_what_is_accepted() {
-    for name in ["scene.toml", "scene", "nml"] {
+    for name in ["scene.json", "scene", "nml"] {
         let file = Scratch::new(name, SMALL_DECK.as_bytes());
         let error = file.read().unwrap_err();
         assert!(matches!(error, InputError::NotAScene { .. }));
@@ -66,7 +66,7 @@ fn a_missing_file_and_a_directory() {
 
 #[test]
 fn an_empty_file_lacks_its_groups() {
-    let Err(InputError::Deck(errors)) = Scratch::new("empty.nml", b"").read() else {
+    let Err(InputError::Content(errors)) = Scratch::new("empty.nml", b"").read() else {
         panic!("errors expected");
     };
     let symbols: Vec<_> = errors.iter().map(|e| (&*e.symbol, e.line, e.column)).collect();
@@ -89,7 +89,8 @@ fn other_encodings_only_in_comments() {
     let comment = comment.replace("ß", "Ä");
     assert!(Scratch::new("latin-comment.nml", &latin(&comment)).read().is_ok());
     let card = SMALL_DECK.replace("EMM=100.0,", "EMM=10Ä.0,");
-    let Err(InputError::Deck(errors)) = Scratch::new("latin-card.nml", &latin(&card)).read() else {
+    let Err(InputError::Content(errors)) = Scratch::new("latin-card.nml", &latin(&card)).read()
+    else {
         panic!("errors expected");
     };
     assert_eq!((errors.len(), errors[0].line, errors[0].column), (1, 14, 8));

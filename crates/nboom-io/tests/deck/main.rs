@@ -45,7 +45,7 @@ fn read(deck: &str) -> SceneFile {
 /// The errors of a deck; panics when there are none.
 fn errors(deck: &str) -> Vec<Diagnostic> {
     match parse_deck("a.nml", deck, "a") {
-        Err(InputError::Deck(errors)) => errors,
+        Err(InputError::Content(errors)) => errors,
         other => panic!("{other:?} found, errors expected"),
     }
 }

@@ -1,5 +1,5 @@
 /// A consistent set of units, for labels only: no number is ever converted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum UnitSystem {
     /// Unknown units; the labels are the letters L, T and F.
     #[default]
@@ -10,77 +10,87 @@ pub enum UnitSystem {
     FtLbfS,
     /// Inch, second, pound of force.
     InLbfS,
+    /// Labels of the scene's own.
+    Custom {
+        /// Of a length.
+        length: String,
+        /// Of a time.
+        time: String,
+        /// Of a force.
+        force: String,
+    },
 }
 
 impl UnitSystem {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::None, Self::Si, Self::FtLbfS, Self::InLbfS];
+    /// Those that have a name.
+    pub const NAMED: [Self; 4] = [Self::None, Self::Si, Self::FtLbfS, Self::InLbfS];
 
     /// The name used in files and on the command line.
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             Self::None => "none",
             Self::Si => "SI",
             Self::FtLbfS => "ft-lbf-s",
             Self::InLbfS => "in-lbf-s",
+            Self::Custom { .. } => "custom",
         }
     }
 
     /// The set of that name, letter case ignored.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|units| units.name().eq_ignore_ascii_case(name))
+        Self::NAMED.into_iter().find(|units| units.name().eq_ignore_ascii_case(name))
     }
 
     /// Label of a length.
-    pub fn length(self) -> &'static str {
+    pub fn length(&self) -> &str {
         match self {
             Self::None => "L",
             Self::Si => "m",
             Self::FtLbfS => "ft",
             Self::InLbfS => "in",
+            Self::Custom { length, .. } => length,
         }
     }
 
     /// Label of a time.
-    pub fn time(self) -> &'static str {
+    pub fn time(&self) -> &str {
         match self {
             Self::None => "T",
             Self::Si | Self::FtLbfS | Self::InLbfS => "s",
+            Self::Custom { time, .. } => time,
         }
     }
 
     /// Label of a force.
-    pub fn force(self) -> &'static str {
+    pub fn force(&self) -> &str {
         match self {
             Self::None => "F",
             Self::Si => "N",
             Self::FtLbfS | Self::InLbfS => "lbf",
+            Self::Custom { force, .. } => force,
         }
     }
 
     /// Label of an energy.
-    pub fn energy(self) -> String {
-        match self {
-            Self::Si => "J".to_owned(),
-            Self::None | Self::FtLbfS | Self::InLbfS => self.torque(),
-        }
+    pub fn energy(&self) -> String {
+        if *self == Self::Si { "J".to_owned() } else { self.torque() }
     }
 
     /// Label of a torque.
-    pub fn torque(self) -> String {
-        match self {
-            Self::Si => "N m".to_owned(),
-            _ => format!("{} {}", self.length(), self.force()),
+    pub fn torque(&self) -> String {
+        if *self == Self::Si {
+            return "N m".to_owned();
         }
+        format!("{} {}", self.length(), self.force())
     }
 
     /// Label of a linear momentum or an impulsive force.
-    pub fn momentum(self) -> String {
+    pub fn momentum(&self) -> String {
         format!("{} {}", self.force(), self.time())
     }
 
     /// Label of an angular momentum or an impulsive torque.
-    pub fn angular_momentum(self) -> String {
+    pub fn angular_momentum(&self) -> String {
         format!("{} {}", self.torque(), self.time())
     }
 }
@@ -91,10 +101,17 @@ mod tests {
 
     #[test]
     fn names_lead_back_to_their_sets() {
-        for units in UnitSystem::ALL {
+        for units in UnitSystem::NAMED {
             assert_eq!(UnitSystem::from_name(units.name()), Some(units));
         }
         assert_eq!(UnitSystem::from_name("si"), Some(UnitSystem::Si));
         assert_eq!(UnitSystem::from_name("cubits"), None);
+    }
+
+    #[test]
+    fn labels_of_a_scene_make_up_the_others() {
+        let [length, time, force] = ["mm", "ms", "kN"].map(str::to_owned);
+        let units = UnitSystem::Custom { length, time, force };
+        assert_eq!(units.angular_momentum(), "mm kN ms");
     }
 }

@@ -21,7 +21,14 @@ fn about_y(degrees: f64) -> Mat3<f64> {
     Mat3::from_rows(Vec3::new(c, 0.0, s), Vec3::unit_y(), Vec3::new(-s, 0.0, c))
 }
 
-fn sin_cos(degrees: f64) -> (f64, f64) {
+/// The rotation about a unit vector by an angle with this sine and cosine, Rodrigues' formula.
+pub(crate) fn rotation_about(axis: Vec3<f64>, (s, c): (f64, f64)) -> Mat3<f64> {
+    let along = axis.outer(axis);
+    along + (Mat3::identity() + along * -1.0) * c + Mat3::skew(axis) * s
+}
+
+/// Sine and cosine of an angle in degrees; exact for quarter turns.
+pub(crate) fn sin_cos(degrees: f64) -> (f64, f64) {
     let quarters = degrees.rem_euclid(360.0) / 90.0;
     if quarters == 0.0 {
         (0.0, 1.0)

@@ -1,0 +1,168 @@
+//! Scenes in TOML, from the first word to the results.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::{Place, code, stderr, stdout};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn files_of(folder: &str) -> Vec<PathBuf> {
+    let files = fs::read_dir(root().join(folder)).expect("the folder is in the clone");
+    let paths = files.map(|file| file.expect("an entry").path());
+    paths.filter(|path| path.extension().is_some_and(|e| e == "nml")).collect()
+}
+
+/// Runs a file, and returns the bytes of its tables by name.
+fn results(place: &Place, scene: &str, output: &str) -> Vec<(String, Vec<u8>)> {
+    let run = place.nboom(&["run", scene, "-o", output, "--quiet", "--samples", "20"]);
+    assert_eq!(code(&run), 0, "{scene}: {}", stderr(&run));
+    let files = fs::read_dir(place.path(output)).expect("results");
+    let names =
+        files.map(|file| file.expect("an entry").file_name().into_string().expect("a name"));
+    let mut tables: Vec<String> = names.filter(|name| name.ends_with(".csv")).collect();
+    tables.sort();
+    let read = |name: String| {
+        let bytes = fs::read(place.path(output).join(&name)).expect("a table");
+        (name, bytes)
+    };
+    tables.into_iter().map(read).collect()
+}
+
+#[test]
+fn a_converted_deck_gives_the_same_bytes() {
+    let place = Place::new();
+    let decks = ["examples", "tests/data/scenes"].map(files_of).concat();
+    assert!(decks.len() > 10);
+    for deck in decks {
+        let deck = deck.to_str().expect("a path");
+        let converted = place.nboom(&["convert", deck, "-o", "converted.toml"]);
+        assert_eq!(code(&converted), 0, "{deck}: {}", stderr(&converted));
+        let before = results(&place, deck, "before");
+        assert!(before.iter().any(|(name, _)| name == "states.csv"));
+        // Named, for the assertion would print all bytes.
+        for ((name, before), (_, after)) in
+            before.iter().zip(results(&place, "converted.toml", "after"))
+        {
+            assert!(*before == after, "{name} of {deck}");
+        }
+    }
+}
+
+#[test]
+fn every_kind_of_new_scene_runs() {
+    let place = Place::new();
+    for kind in ["boom", "wing", "gimbal", "n-boom"] {
+        let file = format!("{kind}.toml");
+        let made = place.nboom(&["new", kind]);
+        assert_eq!(code(&made), 0, "{}", stderr(&made));
+        assert!(stdout(&made).contains(&file), "{}", stdout(&made));
+        let check = place.nboom(&["check", &file]);
+        assert_eq!((code(&check), stderr(&check)), (0, String::new()), "{kind}");
+        let run = place.nboom(&["run", &file]);
+        assert_eq!(code(&run), 0, "{kind}: {}", stderr(&run));
+        let hinges = place.summary(&format!("out/{kind}"))["verdict"]["hinges"].clone();
+        let states: Vec<&str> = hinges
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|hinge| hinge["state"].as_str().expect("a word"))
+            .collect();
+        let expected = if kind == "gimbal" { "free" } else { "locked" };
+        assert!(states.iter().all(|state| *state == expected), "{kind}: {states:?}");
+        // A second time nothing is overwritten.
+        let again = place.nboom(&["new", kind]);
+        assert_eq!(code(&again), 2);
+        assert!(stderr(&again).contains("-o names another one"), "{}", stderr(&again));
+    }
+}
+
+#[test]
+fn parameters_are_set_on_the_command_line() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
+    let latch = |set: &[&str]| {
+        let args = [&["run", "boom.toml", "--quiet"], set].concat();
+        let run = place.nboom(&args);
+        assert_eq!(code(&run), 0, "{}", stderr(&run));
+        let hinges = place.summary("out/boom")["verdict"]["hinges"].clone();
+        hinges[0]["time"].as_f64().expect("a latch")
+    };
+    let (soft, stiff) = (latch(&[]), latch(&["--set", "stiffness=6"]));
+    assert!(stiff < soft, "{stiff} and {soft}");
+    assert_eq!(latch(&["--set", "stiffness=6", "--set", "stiffness=1.5"]), soft, "the last counts");
+    for (set, told) in [
+        ("stifness=6", "did you mean `stiffness`?"),
+        ("stiffness", "NAME=VALUE expected"),
+        ("stiffness=hard", "a number expected"),
+    ] {
+        let refused = place.nboom(&["run", "boom.toml", "--set", set]);
+        assert_eq!(code(&refused), 2, "{set}");
+        assert!(stderr(&refused).contains(told), "{}", stderr(&refused));
+    }
+    let deck = place.nboom(&["run", "boom.nml", "--set", "stiffness=6"]);
+    assert_eq!(code(&deck), 2);
+    assert!(stderr(&deck).contains("a scene in TOML with parameters expected"));
+}
+
+#[test]
+fn a_wrong_scene_is_told_with_its_line() {
+    let place = Place::new();
+    place.write("wrong.toml", "[run]\nend = 1.0\n\n[main_body]\nmas = 3.0\ninertia = [1, 1, 1]\n");
+    let check = place.nboom(&["check", "wrong.toml"]);
+    assert_eq!(code(&check), 2);
+    let told = stderr(&check);
+    assert!(told.contains("wrong.toml:5:1: mas: found `mas` in main_body"), "{told}");
+    assert!(told.contains("did you mean `mass`?") && told.contains("5 | mas = 3.0"), "{told}");
+    assert!(told.contains("| ^^^"), "{told}");
+}
+
+#[test]
+fn included_files_stay_in_the_folder_of_the_scene() {
+    let place = Place::new();
+    fs::create_dir(place.path("inner")).expect("writable");
+    let bus = "[run]\nend = 1.0\n\n[main_body]\nmass = \"$m\"\ninertia = [1, 1, 1]\n";
+    place.write("inner/scene.toml", &format!("include = [\"../outside.toml\"]\n{bus}"));
+    place.write("outside.toml", "[parameters]\nm = 3.0\n");
+    let refused = place.nboom(&["check", "inner/scene.toml"]);
+    assert_eq!(code(&refused), 2);
+    assert!(stderr(&refused).contains("which lies elsewhere"), "{}", stderr(&refused));
+    let allowed = place.nboom(&["check", "inner/scene.toml", "--include-anywhere"]);
+    assert_eq!(code(&allowed), 0, "{}", stderr(&allowed));
+    // A circle of includes ends.
+    place.write("outside.toml", "include = [\"inner/scene.toml\"]\n[parameters]\nm = 3.0\n");
+    let circle = place.nboom(&["check", "inner/scene.toml", "--include-anywhere"]);
+    assert_eq!(code(&circle), 2);
+    assert!(stderr(&circle).contains("which is part of the scene already"), "{}", stderr(&circle));
+}
+
+/// As the schema says: every key of every example is in it.
+#[test]
+fn the_schema_knows_all_examples() {
+    let place = Place::new();
+    let printed = place.nboom(&["schema"]);
+    let schema: serde_json::Value = serde_json::from_str(&stdout(&printed)).expect("JSON");
+    for kind in ["boom", "wing", "gimbal", "n-boom"] {
+        let text = fs::read_to_string(root().join(format!("examples/{kind}.toml")));
+        let scene: toml::Value = toml::from_str(&text.expect("an example")).expect("TOML");
+        let scene = serde_json::to_value(scene).expect("a tree");
+        let validator = jsonschema::validator_for(&schema).expect("a schema");
+        let errors: Vec<String> =
+            validator.iter_errors(&scene).map(|error| error.to_string()).collect();
+        assert!(errors.is_empty(), "{kind}: {errors:?}");
+        // It would refuse a slip.
+        let mut wrong = scene;
+        wrong["body"][0]["mas"] = 3.0.into();
+        assert!(!validator.is_valid(&wrong));
+    }
+}
+
+#[test]
+fn the_list_names_what_a_run_can_take() {
+    let list = stdout(&Place::new().nboom(&["list"]));
+    for name in ["articulated", "gauss_lanes", "kick_off", "hinge", "states.csv", "S2_P"] {
+        assert!(list.contains(&format!("\n  {name}")), "{name}: {list}");
+    }
+}

@@ -1,0 +1,385 @@
+//! The tables of a scene and their keys.
+
+use super::keys::Holds::{
+    Angle, AnglePairs, Angles, Choice, ChoiceOr, Count, Direction, Inertia, Named, NamedNumbers,
+    Number, Numbers, Rows, Table, Tables, Text, Texts,
+};
+use super::keys::{Holds, Key, TableKind};
+
+const fn optional(name: &'static str, holds: Holds, about: &'static str) -> Key {
+    Key { name, holds, is_required: false, about }
+}
+
+const fn required(name: &'static str, holds: Holds, about: &'static str) -> Key {
+    Key { name, holds, is_required: true, about }
+}
+
+const fn table(name: &'static str, about: &'static str, keys: &'static [Key]) -> TableKind {
+    TableKind { name, about, keys, one_of: &[] }
+}
+
+const fn choice(
+    name: &'static str,
+    about: &'static str,
+    keys: &'static [Key],
+    one_of: &'static [&'static str],
+) -> TableKind {
+    TableKind { name, about, keys, one_of }
+}
+
+/// The names of the unit sets.
+pub(crate) const UNIT_SETS: &[&str] = &["none", "SI", "ft-lbf-s", "in-lbf-s"];
+
+/// The states in which a hinge may start.
+pub(crate) const STATES: &[&str] = &["free", "held", "locked"];
+
+/// A scene.
+pub static SCENE: TableKind = table(
+    "scene",
+    "What a file of a scene contains.",
+    &[
+        optional("name", Text, "What the scene is called; by default the name of the file."),
+        optional(
+            "units",
+            ChoiceOr(UNIT_SETS, &UNITS),
+            "The units of all numbers, which must be consistent: SI, ft-lbf-s, in-lbf-s, none (the \
+         default), or a table with labels. They name numbers in results and convert none.",
+        ),
+        optional(
+            "include",
+            Texts,
+            "Files with further parameters, materials and bodies, relative to this one.",
+        ),
+        optional(
+            "parameters",
+            NamedNumbers,
+            "Numbers for expressions: \"$name\", with + - * / and brackets, stands for a number \
+         anywhere. The command line sets them with --set name=value.",
+        ),
+        required("run", Table(&RUN), "When the run starts and ends."),
+        optional("output", Table(&OUTPUT), "What is written."),
+        required("main_body", Table(&MAIN_BODY), "The body that carries all others."),
+        optional(
+            "initial",
+            Table(&INITIAL),
+            "Motion of the main body at the start; by default at rest.",
+        ),
+        optional("gravity", Table(&GRAVITY), "Uniform gravity."),
+        optional("thrust", Table(&THRUST), "A thrust fixed in the main body."),
+        optional("materials", Named(&MATERIAL), "Materials by name."),
+        optional("body", Tables(&BODY), "The hinged bodies."),
+    ],
+);
+
+/// A file that a scene includes.
+pub(crate) static PART: TableKind = table(
+    "included file",
+    "What an included file contains.",
+    &[
+        optional("include", Texts, "Files with further parameters, materials and bodies."),
+        optional("parameters", NamedNumbers, "Numbers for expressions."),
+        optional("materials", Named(&MATERIAL), "Materials by name."),
+        optional("body", Tables(&BODY), "Hinged bodies."),
+    ],
+);
+
+static UNITS: TableKind = table(
+    "units",
+    "Labels of units of the scene's own.",
+    &[
+        required("length", Text, "Label of lengths."),
+        required("time", Text, "Label of times."),
+        required("force", Text, "Label of forces."),
+    ],
+);
+
+static RUN: TableKind = table(
+    "run",
+    "When the run starts and ends.",
+    &[
+        optional("start", Number, "Initial time; by default 0."),
+        required("end", Number, "Time at which the run ends."),
+    ],
+);
+
+static OUTPUT: TableKind = table(
+    "output",
+    "What is written.",
+    &[
+        optional(
+            "samples",
+            Count,
+            "Output times after the initial one, uniform to the end; by default 200.",
+        ),
+        optional(
+            "stress_every",
+            Count,
+            "Stresses at every so many output times; by default at all.",
+        ),
+    ],
+);
+
+static MAIN_BODY: TableKind = table(
+    "main_body",
+    "The body that carries all others. Its origin is the point O, its axes are those of all \
+     positions on it.",
+    &[
+        required("mass", Number, "Mass of the main body."),
+        optional("mass_centre", Numbers(3), "Mass centre, from O; by default O."),
+        required("inertia", Inertia(&INERTIA), "Inertia about the mass centre."),
+    ],
+);
+
+static INERTIA: TableKind = table(
+    "inertia",
+    "Moments and products of inertia about the mass centre, body axes. Products have the sign of \
+     the tensor: xy is the integral of −x y dm.",
+    &[
+        required("xx", Number, "Moment about x."),
+        required("yy", Number, "Moment about y."),
+        required("zz", Number, "Moment about z."),
+        optional("xy", Number, "Product of x and y; by default 0."),
+        optional("xz", Number, "Product of x and z; by default 0."),
+        optional("yz", Number, "Product of y and z; by default 0."),
+    ],
+);
+
+static INITIAL: TableKind = table(
+    "initial",
+    "Motion of the main body at the start.",
+    &[
+        optional(
+            "attitude",
+            Table(&AXES),
+            "How its axes stand to the inertial ones; by default alike.",
+        ),
+        optional("rate", Angles, "Angular rate, main-body axes; by default zero."),
+        optional("position", Numbers(3), "Inertial position of O; by default the inertial origin."),
+        optional("velocity", Numbers(3), "Inertial velocity of O, inertial axes; by default zero."),
+    ],
+);
+
+static AXES: TableKind = choice(
+    "axes",
+    "A rotation, in one of four ways.",
+    &[
+        optional(
+            "euler_xyx",
+            Angles,
+            "Three turns: about x, then about the new y, then about the new x.",
+        ),
+        optional("turn", Table(&TURN), "One turn about an axis."),
+        optional("columns", Rows(3), "The turned x, y and z axes as three lists of three numbers."),
+        optional("quaternion", Numbers(4), "Unit quaternion, scalar first."),
+    ],
+    &["euler_xyx", "turn", "columns", "quaternion"],
+);
+
+static TURN: TableKind = table(
+    "turn",
+    "A turn about an axis by the right hand.",
+    &[required("about", Direction, "The axis."), required("by", Angle, "The angle.")],
+);
+
+static GRAVITY: TableKind = table(
+    "gravity",
+    "Uniform gravity.",
+    &[
+        required("acceleration", Number, "Magnitude of the acceleration."),
+        required("up", Direction, "Direction away from the attracting body, inertial axes."),
+    ],
+);
+
+static THRUST: TableKind = table(
+    "thrust",
+    "A thrust fixed in the main body.",
+    &[
+        required("force", Numbers(3), "Force on the main body, its axes."),
+        required("point", Numbers(3), "Where it acts, from O, main-body axes."),
+        required("from", Number, "Time at which it starts."),
+        required("until", Number, "Time at which it stops."),
+    ],
+);
+
+static MATERIAL: TableKind = table(
+    "material",
+    "An isotropic material.",
+    &[
+        required("youngs_modulus", Number, "Young's modulus, positive."),
+        optional("poissons_ratio", Number, "Poisson's ratio; by default 0.3."),
+    ],
+);
+
+static BODY: TableKind = table(
+    "body",
+    "A rigid body on a hinge. Its origin is the hinge. Its axes are parallel to those of its \
+     inboard body when the hinge angle is zero, unless hinge.axes turns them.",
+    &[
+        required("name", Text, "What messages, releases and other bodies call it; unique."),
+        optional("on", Text, "Name of the inboard body; by default the main body."),
+        required("mass", Number, "Mass of the body."),
+        required("mass_centre", Numbers(3), "Mass centre, from the hinge, body axes."),
+        required("inertia", Inertia(&INERTIA), "Inertia about the mass centre, body axes."),
+        optional(
+            "tip",
+            Numbers(3),
+            "The outer end, from the hinge, body axes; for pictures only. By default twice as far as \
+             the mass centre.",
+        ),
+        required("hinge", Table(&HINGE), "The hinge that joins it to its inboard body."),
+        optional("kick_off", Table(&KICK_OFF), "A spring that pushes it off the main body."),
+        optional(
+            "repeat",
+            Table(&REPEAT),
+            "Makes several of it, with all that is outboard of it, evenly about an axis; for a body on \
+             the main body. Copies are called \"name 1\", \"name 2\", …",
+        ),
+        optional("material", Text, "Name of its material; needed with stations."),
+        optional(
+            "pulse_constant",
+            Number,
+            "Impulse over peak of the lock-up pulse of its hinge, a time; needed with stations.",
+        ),
+        optional(
+            "station",
+            Tables(&STATION),
+            "Where stresses are wanted, outboard before inboard.",
+        ),
+    ],
+);
+
+static HINGE: TableKind = table(
+    "hinge",
+    "A hinge. Angles are relative to the inboard body and zero as the body is drawn: write where \
+     things are deployed and start at the stowed angle, or the reverse.",
+    &[
+        required("at", Numbers(3), "Where it is on the inboard body, from its origin, its axes."),
+        required(
+            "axis",
+            Direction,
+            "Direction of its axis, body axes; angles follow the right hand.",
+        ),
+        optional("axes", Table(&AXES), "Turns the body's axes at angle zero."),
+        optional("start", Angle, "Angle at the start; by default 0."),
+        optional("rate", Angle, "Rate at the start, of a free hinge; by default 0."),
+        optional(
+            "state",
+            Choice(STATES),
+            "How it starts; by default held if it has a release, else free.",
+        ),
+        optional("release", Table(&RELEASE), "When a held hinge becomes free; by default never."),
+        optional("latch", Angle, "Angle at which it locks for good; by default it never does."),
+        optional("spring", Table(&SPRING), "A spring about its axis."),
+        optional("damper", Table(&DAMPER), "A damper about its axis."),
+        optional(
+            "torque",
+            AnglePairs,
+            "Torque by angle as a list of pairs, smooth between them; positive opens to larger angles.",
+        ),
+    ],
+);
+
+static RELEASE: TableKind = choice(
+    "release",
+    "When a held hinge becomes free.",
+    &[
+        optional("at", Number, "At this time."),
+        optional(
+            "when",
+            Text,
+            "When the hinge of this body passes the angle `passes`, either way.",
+        ),
+        optional("passes", Angle, "That angle; with `when`."),
+        optional("after", Text, "After the hinge of this body has latched."),
+        optional("by", Number, "How long after; with `after`; by default 0, at the same instant."),
+    ],
+    &["at", "when", "after"],
+);
+
+static SPRING: TableKind = table(
+    "spring",
+    "Torque −stiffness (β − rest) + quadratic (β − rest)² at the angle β.",
+    &[
+        required("stiffness", Number, "Torque per radian, positive if it drives towards rest."),
+        optional("rest", Angle, "Angle without torque; by default 0."),
+        optional("quadratic", Number, "Torque per square radian; by default 0."),
+    ],
+);
+
+static DAMPER: TableKind = table(
+    "damper",
+    "Torque −damping τ + rate_squared τ² + angle (β − rest) + angle_squared (β − rest)² at the angle β \
+     and the rate τ.",
+    &[
+        optional("damping", Number, "Torque per rate, positive if it brakes; by default 0."),
+        optional("rate_squared", Number, "Torque per squared rate; by default 0."),
+        optional("angle", Number, "Torque per radian; by default 0."),
+        optional("angle_squared", Number, "Torque per square radian; by default 0."),
+        optional("rest", Angle, "Angle from which these two count; by default 0."),
+    ],
+);
+
+static KICK_OFF: TableKind = table(
+    "kick_off",
+    "A spring between the main body and this one. Its force depends on its length and ends at a \
+     limit.",
+    &[
+        required("main_body_end", Numbers(3), "Its end on the main body, from O."),
+        required("end", Numbers(3), "Its end on this body, from the hinge, body axes."),
+        required(
+            "force",
+            Numbers(4),
+            "Force a + b x + c x² + d x³ at the length x, as [a, b, c, d].",
+        ),
+        required("limit", Number, "Length from which on it does not push."),
+    ],
+);
+
+static REPEAT: TableKind = table(
+    "repeat",
+    "Several bodies evenly about an axis through O.",
+    &[
+        required("count", Count, "How many, the first where it is written."),
+        required("about", Direction, "The axis, main-body axes."),
+    ],
+);
+
+static STATION: TableKind = table(
+    "station",
+    "A section across the body's y axis, and the slice of the body from it to the next station \
+     outboard. The last station is at the hinge.",
+    &[
+        required("at", Number, "Distance from the hinge along y."),
+        required("mass", Number, "Mass of the slice; may be 0."),
+        optional(
+            "mass_centre",
+            Numbers(3),
+            "Mass centre of the slice, from the hinge; by default there.",
+        ),
+        optional("inertia", Inertia(&INERTIA), "Inertia of the slice about it; by default 0."),
+        required("section", Table(&SECTION), "The thin walls."),
+    ],
+);
+
+static SECTION: TableKind = choice(
+    "section",
+    "A closed thin-walled section.",
+    &[
+        optional("tube", Table(&TUBE), "A circular tube."),
+        optional(
+            "polygon",
+            Rows(3),
+            "Corners in order, each [x, z, thickness of the wall to the next one], from the y axis.",
+        ),
+    ],
+    &["tube", "polygon"],
+);
+
+static TUBE: TableKind = table(
+    "tube",
+    "A circular tube.",
+    &[
+        required("radius", Number, "To the middle of the wall."),
+        required("thickness", Number, "Of the wall."),
+    ],
+);

@@ -1,0 +1,201 @@
+//! Scenes in TOML: text to a tree to words to a scene.
+
+mod axes;
+mod bodies;
+mod catalog;
+mod expression;
+mod fields;
+mod hinges;
+mod include;
+mod keys;
+mod model_error;
+mod parameters;
+mod schema;
+mod sections;
+mod sources;
+mod stations;
+mod suggest;
+mod surroundings;
+mod tree;
+mod write;
+
+use std::path::Path;
+
+use nboom_model::{MassProperties, Scene, SceneDraft, Structure};
+use nboom_scalar::{Sym3, Vec3};
+
+use crate::diagnostic::{Report, quoted};
+use crate::source::sha256;
+use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
+pub use catalog::SCENE;
+use fields::{Fields, Reader};
+use include::Parts;
+pub use keys::{Holds, Key, TableKind, all_tables};
+use model_error::Responsible;
+use parameters::Parameters;
+pub use schema::schema;
+pub(crate) use sources::{Place, Sources};
+pub use write::write_scene;
+
+/// Most output times of a run.
+const MOST_SAMPLES: usize = 10_000_000;
+
+/// Longest name of a scene \[bytes\].
+const LONGEST_NAME: usize = 200;
+
+/// How a scene in TOML is read.
+#[derive(Clone, Debug, Default)]
+pub struct ReadOptions {
+    /// Parameters that take the place of the scene's own values.
+    pub set: Vec<(String, f64)>,
+    /// Whether included files may lie outside of the scene's folder.
+    pub includes_from_anywhere: bool,
+}
+
+/// Reads the text of a scene in TOML. [`SCENE`] has its tables and keys.
+///
+/// `file` is the file's name for messages; the scene is called `name` unless it says otherwise. Files that
+/// it includes lie in `folder`; without a folder it may include none. Degrees end here: a scene has
+/// radians.
+///
+/// # Errors
+/// [`InputError::Content`] with everything that is wrong, in the order of the lines.
+pub fn parse_scene(
+    file: &str,
+    text: &str,
+    name: &str,
+    folder: Option<&Path>,
+    options: &ReadOptions,
+) -> Result<SceneFile, InputError> {
+    let mut sources = Sources::default();
+    let mut report = Report::new(file);
+    let parts = Parts::read((file, text), folder, options, &mut sources, &mut report);
+    // What follows from half of a text would only confuse.
+    let found = if report.errors.is_empty() {
+        assemble(&parts, name, options, &sources, &mut report)
+    } else {
+        None
+    };
+    report.sort();
+    match found {
+        Some(Found { scene, structure, settings, stress_interval }) if report.errors.is_empty() => {
+            let sha256 = sha256(parts.all_text(&sources).as_bytes());
+            let legacy = LegacySettings { stress_interval, ..LegacySettings::default() };
+            Ok(SceneFile {
+                scene,
+                warnings: report.warnings,
+                legacy,
+                structure,
+                format: Format::Toml,
+                settings,
+                included: parts.included,
+                sha256,
+            })
+        }
+        _ => Err(InputError::Content(report.errors)),
+    }
+}
+
+struct Found {
+    scene: Scene,
+    structure: Option<Structure>,
+    settings: SceneSettings,
+    /// Output times from one computation of stresses to the next.
+    stress_interval: usize,
+}
+
+/// The parts of a scene. Wrong parts are reported; stand-ins allow checks of the rest.
+fn assemble(
+    parts: &Parts,
+    name: &str,
+    options: &ReadOptions,
+    sources: &Sources,
+    report: &mut Report<'_>,
+) -> Option<Found> {
+    let entries: Vec<_> = parts.entries("parameters").collect();
+    let parameters = Parameters::read(&entries, &options.set, sources, report);
+    let mut reader = Reader { sources, report, parameters: &parameters };
+    reader.check_set(&options.set);
+    let roots: Vec<Fields<'_>> =
+        parts.iter().map(|(kind, table, at)| reader.fields(kind, table, at)).collect();
+    let root = &roots[0];
+    let name = reader.scene_name(root).unwrap_or(name);
+    let (settings, stress_interval) = reader.settings(root);
+    let scene = reader.surroundings(root, name);
+    let mut materials = stations::Materials::new();
+    roots.iter().for_each(|root| reader.materials(root, &mut materials));
+    let tables: Vec<Fields<'_>> =
+        roots.iter().flat_map(|root| reader.tables(root, "body")).collect();
+    let bodies = tables.iter().map(|fields| reader.body(fields, &materials)).collect();
+    let draft = SceneDraft { scene, bodies };
+    let mut responsible = Responsible { root, bodies: &tables, of_draft: Vec::new() };
+    let resolved = match draft.resolve() {
+        Ok(resolved) => resolved,
+        Err(errors) => {
+            errors.iter().for_each(|error| responsible.report_draft(&mut reader, &draft, error));
+            return None;
+        }
+    };
+    responsible.of_draft = resolved.of_draft;
+    // Stand-ins for what is wrong may be wrong themselves.
+    if !reader.report.errors.is_empty() {
+        return None;
+    }
+    let description = resolved.description.clone();
+    let scene = match Scene::new(description) {
+        Ok(scene) => scene.with_names(resolved.names),
+        Err(errors) => {
+            let description = &resolved.description;
+            errors.iter().for_each(|error| responsible.report(&mut reader, description, error));
+            return None;
+        }
+    };
+    let structure = responsible.structure(&mut reader, &scene, resolved.structures);
+    Some(Found { scene, structure, settings, stress_interval })
+}
+
+impl Reader<'_, '_> {
+    /// The scene's own name, which becomes that of a folder.
+    fn scene_name<'t>(&mut self, root: &Fields<'t>) -> Option<&'t str> {
+        let name = self.text(root, "name")?;
+        let is_file_name = !name.trim().is_empty()
+            && name.len() <= LONGEST_NAME
+            && !name.contains(['/', '\\', ':'])
+            && !name.contains(char::is_control)
+            && !name.starts_with('.');
+        if !is_file_name {
+            let expected = "the name of a folder: no / \\ : and no dot first";
+            self.error(&root.place("name"), "name", &quoted(name), expected);
+        }
+        Some(name)
+    }
+
+    /// What the scene says about its results, and at how many output times stresses are computed once.
+    fn settings(&mut self, root: &Fields<'_>) -> (SceneSettings, usize) {
+        let units = self.units(root);
+        let (mut samples, mut stress_every) = (None, 1);
+        if let Some(output) = self.table(root, "output") {
+            samples = self.count(&output, "samples", MOST_SAMPLES);
+            stress_every = self.count(&output, "stress_every", MOST_SAMPLES).unwrap_or(1);
+        }
+        (SceneSettings { units, samples, parameters: self.parameters.all() }, stress_every)
+    }
+
+    /// Reports parameters on the command line that the scene does not have.
+    fn check_set(&mut self, set: &[(String, f64)]) {
+        for (name, value) in set {
+            if self.parameters.get(name).is_none() {
+                let (found, expected) = self.parameters.unknown(name);
+                self.error(&Place::default(), "--set", &found, &expected);
+            } else if !value.is_finite() {
+                let found = format!("{name} = {value}");
+                self.error(&Place::default(), "--set", &found, "a finite number");
+            }
+        }
+    }
+}
+
+/// A body that stands for one of which something is missing.
+fn any_body() -> MassProperties {
+    MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0))
+}

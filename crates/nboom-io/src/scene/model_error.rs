@@ -1,0 +1,198 @@
+//! Which place of a scene is responsible for an error found later.
+
+use nboom_model::{
+    BodyName, DraftDefect, DraftError, HingeLabel, MassDefect, ModelError, Scene, SceneDescription,
+    SceneDraft, SegmentStructure, Structure, StructureDefect, StructureError,
+};
+
+use super::fields::{Fields, Reader};
+use super::suggest;
+use crate::deck::phrases;
+
+/// The tables of a scene by what they describe.
+pub(super) struct Responsible<'t> {
+    pub root: &'t Fields<'t>,
+    /// Those of the bodies of the draft.
+    pub bodies: &'t [Fields<'t>],
+    /// For each body of the scene, which one of the draft it is.
+    pub of_draft: Vec<usize>,
+}
+
+impl Responsible<'_> {
+    pub fn report_draft(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        draft: &SceneDraft,
+        error: &DraftError,
+    ) {
+        let body = &self.bodies[error.body];
+        let names = || draft.bodies.iter().map(|body| body.name.as_str());
+        let (at, symbol, help) = match &error.defect {
+            DraftDefect::NameTaken(_) => (body.place("name"), "name", None),
+            DraftDefect::Inboard { name, .. } => {
+                let known = names().chain(["main_body"]);
+                (body.place("on"), "on", suggest::nearest(name, known))
+            }
+            DraftDefect::Circle => (body.place("on"), "on", None),
+            DraftDefect::Trigger { name, .. } => {
+                let release = body.inner("hinge").and_then(|hinge| hinge.inner("release"));
+                let key = if release.as_ref().is_some_and(|table| table.has("after")) {
+                    "after"
+                } else {
+                    "when"
+                };
+                let at = release.map_or_else(|| body.at.clone(), |table| table.place(key));
+                (at, key, suggest::nearest(name, names()))
+            }
+            _ => (body.place("repeat"), "repeat", None),
+        };
+        let (found, expected) = phrases(&error.defect.to_string());
+        let help = help.map(suggest::question);
+        reader.report.error_with_help(reader.sources, &at, symbol, &found, &expected, help);
+    }
+
+    /// Reports an error of the scene.
+    pub fn report(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        scene: &SceneDescription,
+        error: &ModelError,
+    ) {
+        let (table, symbol) = self.responsible(scene, error);
+        let message = match error {
+            ModelError::Mass { defect, .. } => defect.to_string(),
+            other => other.to_string(),
+        };
+        let (found, expected) = phrases(&message);
+        reader.error(&table.place(symbol), symbol, &found, &expected);
+    }
+
+    fn responsible(
+        &self,
+        scene: &SceneDescription,
+        error: &ModelError,
+    ) -> (Fields<'_>, &'static str) {
+        let outer = |key: &str| self.root.inner(key).unwrap_or_else(|| self.root.clone());
+        let body = |label: &HingeLabel| self.body(index_of(scene, *label));
+        let hinge = |label: &HingeLabel| {
+            let body = body(label);
+            body.inner("hinge").unwrap_or(body)
+        };
+        match error {
+            ModelError::Mass { body: name, defect } => {
+                let table = match name {
+                    BodyName::MainBody => outer("main_body"),
+                    BodyName::Segment(label) => body(label),
+                };
+                (table, if matches!(defect, MassDefect::Mass(_)) { "mass" } else { "inertia" })
+            }
+            ModelError::NotFinite { body: BodyName::Segment(label), quantity } => match *quantity {
+                "hinge point or outer end" => (hinge(label), "at"),
+                "kick-off spring" => (body(label), "kick_off"),
+                _ => (hinge(label), "start"),
+            },
+            ModelError::NotFinite { quantity, .. } => match *quantity {
+                "gravity" => (outer("gravity"), "acceleration"),
+                "thrust" | "thrust time" => (outer("thrust"), "force"),
+                "initial time" | "end time" => (outer("run"), "end"),
+                _ => (outer("initial"), "rate"),
+            },
+            ModelError::Axis { label, .. } => (hinge(label), "axis"),
+            ModelError::MountRotation { label, .. } => (hinge(label), "axes"),
+            ModelError::HeldRate { label, .. } => (hinge(label), "rate"),
+            ModelError::Trigger { label, .. } => (hinge(label), "release"),
+            ModelError::TablePoints { table, .. } => {
+                let number = scene.torque_tables.get(table - 1).map_or(0, |table| table.hinge);
+                let body = self.body(number);
+                (body.inner("hinge").unwrap_or(body), "torque")
+            }
+            ModelError::ThrustTimes { .. } => (outer("thrust"), "until"),
+            // The end of the run, and whatever words cannot say.
+            _ => (outer("run"), "end"),
+        }
+    }
+
+    fn body(&self, number: usize) -> Fields<'_> {
+        let draft = self.of_draft.get(number).copied();
+        draft.and_then(|draft| self.bodies.get(draft)).unwrap_or(self.root).clone()
+    }
+
+    /// The structure of the scene, if a body has stations. The motion follows the bodies; slices that
+    /// differ from them give a warning.
+    pub fn structure(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        scene: &Scene,
+        structures: Vec<Option<SegmentStructure>>,
+    ) -> Option<Structure> {
+        if structures.iter().all(Option::is_none) {
+            return None;
+        }
+        for (i, structure) in structures.iter().enumerate() {
+            if structure.is_none() && scene.bodies[i].hinge.lock_angle.is_some() {
+                let expected = "its pulse_constant, since stresses are wanted";
+                let (body, found) = (self.body(i), "a body whose hinge latches without it");
+                reader.error(&body.at, "pulse_constant", found, expected);
+            }
+        }
+        if !reader.report.errors.is_empty() {
+            return None;
+        }
+        let segments = structures.into_iter().map(Option::unwrap_or_default).collect();
+        match Structure::with_differing_slices(scene, segments) {
+            Ok((structure, differences)) => {
+                for difference in &differences {
+                    self.report_structure(reader, scene, difference, Report::Warning);
+                }
+                Some(structure)
+            }
+            Err(errors) => {
+                for error in &errors {
+                    self.report_structure(reader, scene, error, Report::Error);
+                }
+                None
+            }
+        }
+    }
+
+    fn report_structure(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        scene: &Scene,
+        error: &StructureError,
+        report: Report,
+    ) {
+        let StructureError::Segment { place, defect } = error else { return };
+        let body = self.body(index_of(scene, place.segment));
+        let station = place.station.and_then(|number| body.nth("station", number));
+        let (table, symbol) = match (defect, station) {
+            (StructureDefect::PulseConstant(_), _) => (body, "pulse_constant"),
+            (StructureDefect::YoungsModulus(_), _) => (body, "material"),
+            (StructureDefect::Order { .. } | StructureDefect::NotAtHinge(_), Some(table)) => {
+                (table, "at")
+            }
+            (StructureDefect::SliceMass(_), Some(table)) => (table, "mass"),
+            (_, Some(table)) => (table, "section"),
+            (_, None) => (body, "station"),
+        };
+        let (found, expected) = phrases(&defect.to_string());
+        let at = table.place(symbol);
+        match report {
+            Report::Error => reader.error(&at, symbol, &found, &expected),
+            Report::Warning => {
+                reader.report.warn_at(reader.sources, &at, symbol, &found, &expected);
+            }
+        }
+    }
+}
+
+enum Report {
+    Error,
+    Warning,
+}
+
+/// Which body of a scene this hinge carries.
+fn index_of(scene: &SceneDescription, label: HingeLabel) -> usize {
+    let roots = (0..scene.bodies.len()).filter(|&i| scene.bodies[i].inboard.is_none());
+    roots.take(label.appendage + 1).last().unwrap_or_default() + label.segment
+}

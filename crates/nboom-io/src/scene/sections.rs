@@ -1,0 +1,60 @@
+//! Units and cross sections in words.
+
+use nboom_model::{SectionShape, UnitSystem};
+use nboom_sections::Section;
+
+use super::catalog::UNIT_SETS;
+use super::fields::{Fields, Reader};
+use crate::deck::phrases;
+
+impl Reader<'_, '_> {
+    /// The units that the scene states.
+    pub fn units(&mut self, root: &Fields<'_>) -> Option<UnitSystem> {
+        if !root.has("units") {
+            return None;
+        }
+        if root.inner("units").is_none() {
+            return self.choice(root, "units", UNIT_SETS).and_then(UnitSystem::from_name);
+        }
+        let labels = self.table(root, "units")?;
+        let [length, time, force] = ["length", "time", "force"]
+            .map(|key| self.text(&labels, key).unwrap_or_default().to_owned());
+        for (key, label) in [("length", &length), ("time", &time), ("force", &force)] {
+            if label.trim().is_empty()
+                || label.contains([',', '"'])
+                || label.contains(char::is_control)
+            {
+                self.error(
+                    &labels.place(key),
+                    key,
+                    "no label",
+                    "a label without commas and quotes",
+                );
+            }
+        }
+        Some(UnitSystem::Custom { length, time, force })
+    }
+
+    /// Reports what is wrong with the walls of a section, and where thin-wall theory may not hold.
+    pub fn check_walls(&mut self, fields: &Fields<'_>, shape: &SectionShape) {
+        let symbol = match shape {
+            SectionShape::Tube { .. } => "tube",
+            SectionShape::Polygon(_) => "polygon",
+        };
+        let at = fields.place(symbol);
+        match Section::of_shape(shape) {
+            Ok(section) => {
+                for warning in section.warnings() {
+                    let (found, expected) = phrases(&warning.to_string());
+                    self.report.warn_at(self.sources, &at, symbol, &found, &expected);
+                }
+            }
+            Err(errors) => {
+                for error in errors {
+                    let (found, expected) = phrases(&error.to_string());
+                    self.error(&at, symbol, &found, &expected);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Materials, sections and stations in words.
+
+use std::collections::HashMap;
+
+use nboom_model::{MassProperties, SectionShape, SegmentStructure, Station, Vertex};
+use nboom_scalar::{Sym3, Vec3};
+
+use super::fields::{Fields, Reader};
+use super::suggest;
+use crate::diagnostic::quoted;
+
+/// Materials by name.
+pub(super) type Materials = HashMap<String, Material>;
+
+/// A material; of a wrong one the numbers are right ones.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Material {
+    youngs_modulus: f64,
+    poissons_ratio: f64,
+}
+
+/// Poisson's ratio of most metals.
+const USUAL_POISSONS_RATIO: f64 = 0.3;
+
+impl Material {
+    const ANY: Self = Self { youngs_modulus: 1.0, poissons_ratio: USUAL_POISSONS_RATIO };
+}
+
+impl Reader<'_, '_> {
+    /// Adds the materials of one file.
+    pub fn materials(&mut self, root: &Fields<'_>, materials: &mut Materials) {
+        let Some(kind) = root.kind.key_called("materials").and_then(|key| key.holds.table()) else {
+            return;
+        };
+        for entry in self.named(root, "materials") {
+            let Some(fields) = self.open(kind, &entry.key, &entry.node) else { continue };
+            let youngs_modulus = self.number(&fields, "youngs_modulus");
+            let poissons_ratio = self.number(&fields, "poissons_ratio");
+            let material = Material {
+                youngs_modulus: youngs_modulus.unwrap_or(Material::ANY.youngs_modulus),
+                poissons_ratio: poissons_ratio.unwrap_or(USUAL_POISSONS_RATIO),
+            };
+            if materials.insert(entry.key.clone(), material).is_some() {
+                self.error(&entry.key_at, &entry.key, "a material twice", "each name once");
+            }
+        }
+    }
+
+    /// What stresses need of a body, if it has stations or says it.
+    pub fn structure(
+        &mut self,
+        body: &Fields<'_>,
+        materials: &Materials,
+    ) -> Option<SegmentStructure> {
+        let stations: Vec<Station> = self
+            .tables(body, "station")
+            .iter()
+            .filter_map(|station| self.station(station))
+            .collect();
+        let material = self.material(body, materials);
+        let pulse_constant = self.number(body, "pulse_constant");
+        if stations.is_empty() && pulse_constant.is_none() {
+            return None;
+        }
+        for key in ["material", "pulse_constant"] {
+            if !stations.is_empty() && !body.has(key) {
+                let expected = body.kind.key_called(key).map_or("", |key| key.about);
+                self.error(&body.at, key, "a body with stations without it", expected);
+            }
+        }
+        let Material { youngs_modulus, poissons_ratio } = material.unwrap_or(Material::ANY);
+        let pulse_constant = pulse_constant.unwrap_or(1.0);
+        Some(SegmentStructure { pulse_constant, poissons_ratio, youngs_modulus, stations })
+    }
+
+    fn material(&mut self, body: &Fields<'_>, materials: &Materials) -> Option<Material> {
+        let name = self.text(body, "material")?;
+        if let Some(material) = materials.get(name) {
+            return Some(*material);
+        }
+        let help =
+            suggest::nearest(name, materials.keys().map(String::as_str)).map(suggest::question);
+        let (at, expected) = (body.place("material"), "the name of a table [materials.NAME]");
+        self.report.error_with_help(self.sources, &at, "material", &quoted(name), expected, help);
+        None
+    }
+
+    fn station(&mut self, fields: &Fields<'_>) -> Option<Station> {
+        let distance_from_hinge = self.number(fields, "at");
+        let mass = self.number(fields, "mass").unwrap_or(0.0);
+        let mass_centre = self.vector(fields, "mass_centre").unwrap_or_else(Vec3::zero);
+        let inertia = self.inertia(fields, "inertia").unwrap_or_else(Sym3::zero);
+        let section = self.table(fields, "section").and_then(|section| self.section(&section));
+        Some(Station {
+            distance_from_hinge: distance_from_hinge?,
+            slice: MassProperties::new(mass, mass_centre, inertia),
+            section: section?,
+        })
+    }
+
+    fn section(&mut self, fields: &Fields<'_>) -> Option<SectionShape> {
+        if let Some(tube) = self.table(fields, "tube") {
+            let (radius, thickness) =
+                (self.number(&tube, "radius"), self.number(&tube, "thickness"));
+            let shape = SectionShape::Tube { radius: radius?, thickness: thickness? };
+            self.check_walls(fields, &shape);
+            return Some(shape);
+        }
+        let corners = self.rows::<3>(fields, "polygon");
+        let vertex = |[xi, zeta, thickness]: [f64; 3]| Vertex { xi, zeta, thickness };
+        let shape = SectionShape::Polygon(corners.into_iter().map(vertex).collect());
+        self.check_walls(fields, &shape);
+        Some(shape)
+    }
+}

@@ -1,0 +1,238 @@
+//! A scene as TOML text: what is read from it is the scene again, to the last bit.
+
+mod lines;
+
+use nboom_model::{
+    Body, Hinge, HingeState, MassProperties, Release, Scene, SectionShape, SegmentStructure,
+    Station, Structure, UnitSystem,
+};
+use nboom_scalar::{Mat3, Vec3};
+
+use crate::SceneFile;
+use lines::{Lines, angle, inertia, list, number, text, vector};
+
+/// The text of a scene. Comments, parameters, includes and repetitions of the file that it was read
+/// from are not in it, nor are a deck's settings of the integrator and printer of 1970.
+pub fn write_scene(file: &SceneFile) -> String {
+    let SceneFile { scene, structure, settings, legacy, .. } = file;
+    let mut lines = Lines::default();
+    lines.value("name", text(&scene.name));
+    if let Some(units) = &settings.units {
+        lines.value("units", of_units(units));
+    }
+    lines.table("run");
+    if scene.initial.time != 0.0 {
+        lines.value("start", number(scene.initial.time));
+    }
+    lines.value("end", number(scene.end_time));
+    if settings.samples.is_some() || legacy.stress_interval > 1 {
+        lines.table("output");
+        lines.optional("samples", settings.samples.map(|samples| samples.to_string()));
+        let every = Some(legacy.stress_interval).filter(|every| *every > 1);
+        lines.optional("stress_every", every.map(|every| every.to_string()));
+    }
+    lines.table("main_body");
+    mass_properties(&mut lines, &scene.main_body);
+    surroundings(&mut lines, scene);
+    let materials = materials(structure.as_ref());
+    for (i, [youngs_modulus, poissons_ratio]) in materials.iter().enumerate() {
+        lines.table(&format!("materials.{}", material_name(i)));
+        lines.value("youngs_modulus", number(*youngs_modulus));
+        lines.value("poissons_ratio", number(*poissons_ratio));
+    }
+    for (i, of_body) in scene.bodies.iter().enumerate() {
+        let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
+        body(&mut lines, scene, i, of_body);
+        segment.into_iter().for_each(|segment| strength(&mut lines, segment, &materials));
+        lines.table("body.hinge");
+        hinge(&mut lines, scene, i, of_body);
+        segment.into_iter().for_each(|segment| stations(&mut lines, segment));
+    }
+    lines.text
+}
+
+fn of_units(units: &UnitSystem) -> String {
+    match units {
+        UnitSystem::Custom { length, time, force } => {
+            let [length, time, force] = [length, time, force].map(|label| text(label));
+            format!("{{ length = {length}, time = {time}, force = {force} }}")
+        }
+        named => text(named.name()),
+    }
+}
+
+fn mass_properties(lines: &mut Lines, properties: &MassProperties) {
+    lines.value("mass", number(properties.mass));
+    lines.value("mass_centre", vector(properties.center_of_mass));
+    lines.value("inertia", inertia(&properties.inertia));
+}
+
+fn surroundings(lines: &mut Lines, scene: &Scene) {
+    let initial = &scene.initial;
+    lines.table("initial");
+    let [x, y, z] = initial.attitude.vector.to_array();
+    let quaternion = list([initial.attitude.scalar, x, y, z]);
+    lines.value("attitude", format!("{{ quaternion = {quaternion} }}"));
+    let rates = initial.omega_body.to_array();
+    let degrees = rates.map(lines::in_degrees);
+    match degrees {
+        [Some(x), Some(y), Some(z)] => lines.value("rate_deg", list([x, y, z])),
+        _ => lines.value("rate_rad", list(rates)),
+    }
+    lines.value("position", vector(initial.position_inertial));
+    lines.value("velocity", vector(initial.velocity_inertial));
+    if let Some(gravity) = &scene.gravity {
+        lines.table("gravity");
+        lines.value("acceleration", number(gravity.acceleration));
+        lines.value("up", vector(gravity.up));
+    }
+    if let Some(thrust) = &scene.thrust {
+        lines.table("thrust");
+        lines.value("force", vector(thrust.force));
+        lines.value("point", vector(thrust.point));
+        lines.value("from", number(thrust.on));
+        lines.value("until", number(thrust.off));
+    }
+}
+
+/// The name of a body; one without is called by its hinge's numbers.
+fn name_of(scene: &Scene, i: usize) -> String {
+    let numbered = || format!("segment {}", scene.label(i));
+    scene.name_of(i).map_or_else(numbered, str::to_owned)
+}
+
+fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
+    lines.tables("body");
+    lines.value("name", text(&name_of(scene, i)));
+    lines.optional("on", body.inboard.map(|inboard| text(&name_of(scene, inboard))));
+    mass_properties(lines, &body.mass_properties);
+    lines.value("tip", vector(body.tip));
+    if let Some(spring) = &body.hinge.kick_off {
+        let [from, to] = [spring.main_body_point, spring.body_point].map(vector);
+        let (force, limit) = (list(spring.coefficients), number(spring.limit_length));
+        let value =
+            format!("{{ main_body_end = {from}, end = {to}, force = {force}, limit = {limit} }}");
+        lines.value("kick_off", value);
+    }
+}
+
+fn hinge(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
+    let Hinge { spring, dashpot, release, lock_angle, start, .. } = &body.hinge;
+    lines.value("at", vector(body.mount.point));
+    lines.value("axis", direction(body.axis));
+    let axes = body.mount.rot_inboard_from_hinge;
+    if axes != Mat3::identity() {
+        let columns = [0, 1, 2].map(|j| vector(axes.column(j))).join(", ");
+        lines.value("axes", format!("{{ columns = [{columns}] }}"));
+    }
+    let state = match start.state {
+        HingeState::Free => "free",
+        HingeState::Unreleased => "held",
+        HingeState::Locked => "locked",
+    };
+    lines.value("state", text(state));
+    lines.line(angle("start", start.angle));
+    if start.rate != 0.0 {
+        lines.line(angle("rate", start.rate));
+    }
+    lock_angle.iter().for_each(|&lock| lines.line(angle("latch", lock)));
+    if start.state == HingeState::Unreleased {
+        lines.optional("release", of_release(scene, release));
+    }
+    if [spring.quadratic, spring.linear] != [0.0; 2] {
+        let numbers = [("stiffness", 0.0 - spring.linear), ("quadratic", spring.quadratic)];
+        lines.value("spring", law(&numbers, spring.preload_angle, 1));
+    }
+    let numbers = [
+        ("damping", 0.0 - dashpot.rate_linear),
+        ("rate_squared", dashpot.rate_quadratic),
+        ("angle", dashpot.angle_linear),
+        ("angle_squared", dashpot.angle_quadratic),
+    ];
+    if numbers.iter().any(|(_, number)| *number != 0.0) {
+        lines.value("damper", law(&numbers, dashpot.preload_angle, 0));
+    }
+    if let Some(table) = scene.torque_tables.iter().find(|table| table.hinge == i) {
+        let points: Vec<String> = table.points.iter().map(|&point| list(point)).collect();
+        lines.value("torque_rad", format!("[{}]", points.join(", ")));
+    }
+}
+
+/// The numbers of a law that are not zero, and the first `required` ones in any case.
+fn law(numbers: &[(&str, f64)], preload_angle: f64, required: usize) -> String {
+    let is_told = |(i, (_, number)): &(usize, &(&str, f64))| *i < required || *number != 0.0;
+    let told = numbers.iter().enumerate().filter(is_told);
+    let mut parts: Vec<String> =
+        told.map(|(_, (key, value))| format!("{key} = {}", number(*value))).collect();
+    if preload_angle != 0.0 {
+        parts.push(angle("rest", -preload_angle));
+    }
+    format!("{{ {} }}", parts.join(", "))
+}
+
+fn of_release(scene: &Scene, release: &Release) -> Option<String> {
+    match release {
+        Release::Time(time) => Some(format!("{{ at = {} }}", number(*time))),
+        Release::Angle { hinge, angle: passes } => {
+            let (when, passes) = (text(&name_of(scene, *hinge)), angle("passes", *passes));
+            Some(format!("{{ when = {when}, {passes} }}"))
+        }
+        Release::AfterLock { hinge, delay } => {
+            let after = text(&name_of(scene, *hinge));
+            Some(format!("{{ after = {after}, by = {} }}", number(*delay)))
+        }
+        Release::Never => None,
+    }
+}
+
+fn direction(axis: Vec3<f64>) -> String {
+    let names = ["x", "y", "z"].into_iter().zip([Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z()]);
+    let named = names.into_iter().find_map(|(name, unit)| {
+        let sign = if axis == unit { "" } else { "-" };
+        (axis == unit || axis == unit * -1.0).then(|| text(&format!("{sign}{name}")))
+    });
+    named.unwrap_or_else(|| vector(axis))
+}
+
+/// Young's modulus and Poisson's ratio of the materials, each once.
+fn materials(structure: Option<&Structure>) -> Vec<[f64; 2]> {
+    let mut materials: Vec<[f64; 2]> = Vec::new();
+    for segment in structure.iter().flat_map(|structure| structure.segments()) {
+        let material = [segment.youngs_modulus, segment.poissons_ratio];
+        if !segment.stations.is_empty() && !materials.contains(&material) {
+            materials.push(material);
+        }
+    }
+    materials
+}
+
+fn material_name(i: usize) -> String {
+    format!("material_{}", i + 1)
+}
+
+fn strength(lines: &mut Lines, segment: &SegmentStructure, materials: &[[f64; 2]]) {
+    lines.value("pulse_constant", number(segment.pulse_constant));
+    let own = [segment.youngs_modulus, segment.poissons_ratio];
+    let material = materials.iter().position(|material| *material == own);
+    lines.optional("material", material.map(|i| text(&material_name(i))));
+}
+
+fn stations(lines: &mut Lines, segment: &SegmentStructure) {
+    for Station { distance_from_hinge, slice, section } in &segment.stations {
+        lines.tables("body.station");
+        lines.value("at", number(*distance_from_hinge));
+        mass_properties(lines, slice);
+        let walls = match section {
+            SectionShape::Tube { radius, thickness } => {
+                let [radius, thickness] = [*radius, *thickness].map(number);
+                format!("{{ tube = {{ radius = {radius}, thickness = {thickness} }} }}")
+            }
+            SectionShape::Polygon(vertices) => {
+                let row = |v: &nboom_model::Vertex| list([v.xi, v.zeta, v.thickness]);
+                let rows: Vec<String> = vertices.iter().map(row).collect();
+                format!("{{ polygon = [{}] }}", rows.join(", "))
+            }
+        };
+        lines.value("section", walls);
+    }
+}

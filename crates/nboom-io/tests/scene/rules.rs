@@ -1,0 +1,131 @@
+use nboom_io::{ReadOptions, parse_scene};
+use nboom_model::{HingeState, Release, UnitSystem};
+use nboom_scalar::{Mat3, Vec3};
+
+use super::{BUS, body, right};
+
+#[test]
+fn what_is_left_out_has_the_default_that_people_expect() {
+    let file = right(&(BUS.to_owned() + &body("boom", "", "")));
+    let (scene, hinge) = (&file.scene, file.scene.bodies[0].hinge);
+    assert_eq!(scene.name, "a");
+    assert_eq!((scene.initial.time, scene.end_time), (0.0, 10.0));
+    assert_eq!(scene.main_body.center_of_mass, Vec3::zero());
+    assert_eq!((hinge.start.state, hinge.start.angle), (HingeState::Free, 0.0));
+    assert_eq!((hinge.release, hinge.lock_angle), (Release::Never, None));
+    assert_eq!(scene.bodies[0].mount.rot_inboard_from_hinge, Mat3::identity());
+    assert_eq!(scene.bodies[0].tip, Vec3::unit_y() * 2.0);
+    assert_eq!((file.settings.units, file.structure), (None, None));
+}
+
+#[test]
+fn a_hinge_with_a_release_is_held() {
+    let release = "release = { at = 1.0 }";
+    let hinge = right(&(BUS.to_owned() + &body("boom", "", release))).scene.bodies[0].hinge;
+    assert_eq!(hinge.start.state, HingeState::Unreleased);
+    assert_eq!(hinge.release, Release::Time(1.0));
+}
+
+#[test]
+fn a_release_waits_for_a_time_an_angle_or_a_latch() {
+    let released = |release: &str| {
+        let text = BUS.to_owned()
+            + &body("one", "", "latch_deg = 90")
+            + &body("two", "", &format!("release = {release}"));
+        right(&text).scene.bodies[1].hinge.release
+    };
+    assert_eq!(released("{ at = 0.5 }"), Release::Time(0.5));
+    let angle = 45.0_f64.to_radians();
+    let passes = released("{ when = \"one\", passes_deg = 45.0 }");
+    assert_eq!(passes, Release::Angle { hinge: 0, angle });
+    let after = released("{ after = \"one\", by = 2.0 }");
+    assert_eq!(after, Release::AfterLock { hinge: 0, delay: 2.0 });
+    assert_eq!(released("{ after = \"one\" }"), Release::AfterLock { hinge: 0, delay: 0.0 });
+}
+
+#[test]
+fn springs_and_dampers_have_the_sign_that_people_expect() {
+    let laws = "spring = { stiffness = 2.0, rest_deg = 30.0, quadratic = 0.5 }\n\
+                damper = { damping = 0.1, rate_squared = 0.2, angle = 0.3, angle_squared = 0.4, rest_rad = 1.0 }";
+    let hinge = right(&(BUS.to_owned() + &body("boom", "", laws))).scene.bodies[0].hinge;
+    let (spring, dashpot) = (hinge.spring, hinge.dashpot);
+    let (angle, rate) = (0.7, -0.3);
+    let stretch = angle + spring.preload_angle;
+    let torque = spring.quadratic * stretch * stretch + spring.linear * stretch;
+    let from_rest = angle - 30.0_f64.to_radians();
+    assert_eq!(torque, 0.5 * from_rest * from_rest - 2.0 * from_rest);
+    let stretch: f64 = angle + dashpot.preload_angle;
+    let torque = dashpot.rate_quadratic * rate * rate
+        + dashpot.rate_linear * rate
+        + dashpot.angle_quadratic * stretch * stretch
+        + dashpot.angle_linear * stretch;
+    let from_rest: f64 = angle - 1.0;
+    let expected = 0.2 * rate * rate - 0.1 * rate + 0.4 * from_rest * from_rest + 0.3 * from_rest;
+    // Sums in another order.
+    assert!((torque - expected).abs() < 1e-15);
+}
+
+#[test]
+fn a_direction_is_a_name_or_numbers_of_any_length() {
+    let axis = |text: &str| {
+        let body = body("boom", "", "").replace("axis = \"x\"", &format!("axis = {text}"));
+        right(&(BUS.to_owned() + &body)).scene.bodies[0].axis
+    };
+    assert_eq!(axis("\"-z\""), Vec3::unit_z() * -1.0);
+    assert_eq!(axis("[0, 3e200, -4e200]"), Vec3::new(0.0, 0.6, -0.8));
+    assert_eq!(axis("[0.6, 0.0, 0.8]"), Vec3::new(0.6, 0.0, 0.8));
+}
+
+#[test]
+fn rotations_are_said_in_four_ways() {
+    let axes = |text: &str| {
+        let file = right(&(BUS.to_owned() + &body("boom", "", &format!("axes = {{ {text} }}"))));
+        file.scene.bodies[0].mount.rot_inboard_from_hinge
+    };
+    let quarter = Mat3::from_columns(Vec3::unit_y(), Vec3::unit_x() * -1.0, Vec3::unit_z());
+    assert_eq!(axes("turn = { about = \"z\", by_deg = 90 }"), quarter);
+    assert_eq!(axes("columns = [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]"), quarter);
+    assert_eq!(axes("euler_xyx_deg = [90, 90, -90]"), quarter);
+    let near = |other: Mat3<f64>| (other - quarter).rows.iter().all(|row| row.norm() < 1e-15);
+    assert!(near(axes("quaternion = [0.7071067811865476, 0, 0, 0.7071067811865476]")));
+    assert!(near(axes("turn = { about = [0, 0, 2], by_rad = \"3.141592653589793 / 2\" }")));
+}
+
+#[test]
+fn parameters_stand_for_numbers_and_the_caller_sets_them() {
+    let text = "[parameters]\nk = 2.0\nk_total = \"2 * $k\"\n".to_owned()
+        + BUS
+        + &body("boom", "", "spring = { stiffness = \"$k_total / 4\" }");
+    let stiffness = |set: &[(&str, f64)]| {
+        let set = set.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        let options = ReadOptions { set, ..ReadOptions::default() };
+        let file = parse_scene("a.toml", &text, "a", None, &options).expect("a right scene");
+        -file.scene.bodies[0].hinge.spring.linear
+    };
+    assert_eq!(stiffness(&[]), 1.0);
+    assert_eq!(stiffness(&[("k", 4.0)]), 2.0);
+    assert_eq!(stiffness(&[("k_total", 12.0)]), 3.0);
+}
+
+#[test]
+fn bodies_come_in_any_order_and_branch_anywhere() {
+    let text = BUS.to_owned()
+        + &body("leaf", "on = \"middle\"", "")
+        + &body("root", "", "")
+        + &body("other leaf", "on = \"middle\"", "")
+        + &body("middle", "on = \"root\"", "");
+    let scene = right(&text).scene;
+    let names: Vec<_> = (0..4).map(|i| scene.name_of(i).expect("a name")).collect();
+    assert_eq!(names, ["root", "middle", "leaf", "other leaf"]);
+    let inboard: Vec<_> = scene.bodies.iter().map(|body| body.inboard).collect();
+    assert_eq!(inboard, [None, Some(0), Some(1), Some(1)]);
+}
+
+#[test]
+fn units_are_labels() {
+    let units = |text: &str| right(&(text.to_owned() + BUS)).settings.units;
+    assert_eq!(units("units = \"si\"\n"), Some(UnitSystem::Si));
+    let [length, time, force] = ["mm", "ms", "kN"].map(str::to_owned);
+    let custom = units("units = { length = \"mm\", time = \"ms\", force = \"kN\" }\n");
+    assert_eq!(custom, Some(UnitSystem::Custom { length, time, force }));
+}

@@ -1,0 +1,213 @@
+//! A scene in words: bodies refer to each other by name, and one may stand for several about an axis.
+
+mod names;
+mod repeat;
+
+use nboom_scalar::Vec3;
+
+use crate::{
+    Body, Hinge, MassProperties, Mount, Release, SceneDescription, SegmentStructure, TorqueTable,
+};
+use names::Names;
+
+pub use repeat::Repeat;
+
+/// A scene in words, not yet resolved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneDraft {
+    /// Everything but the hinged bodies and their torque tables, of which it has none.
+    pub scene: SceneDescription,
+    /// The hinged bodies, in any order.
+    pub bodies: Vec<BodyDraft>,
+}
+
+/// A hinged body in words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyDraft {
+    /// What others call it; unique.
+    pub name: String,
+    /// The inboard body; `None` is the main body.
+    pub on: Option<String>,
+    /// Where the hinge sits on the inboard body.
+    pub mount: Mount,
+    /// Unit vector along the hinge axis, body axes.
+    pub axis: Vec3<f64>,
+    /// Mass properties, from the hinge, body axes.
+    pub mass_properties: MassProperties,
+    /// The outer end, from the hinge, body axes.
+    pub tip: Vec3<f64>,
+    /// What acts about the hinge, and how it starts and locks; `release` takes the place of its own.
+    pub hinge: Hinge,
+    /// When the hinge becomes free, if it starts unreleased.
+    pub release: ReleaseDraft,
+    /// Points of a torque over the hinge angle, see [`TorqueTable`]; none without such a torque.
+    pub torque_table: Vec<[f64; 2]>,
+    /// Of a body on the main body: how often it is there, with all that is outboard of it.
+    pub repeat: Option<Repeat>,
+    /// Material, lock-up pulse and stations.
+    pub structure: Option<SegmentStructure>,
+}
+
+/// A release that names the hinge it waits for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReleaseDraft {
+    /// At this time \[T\].
+    At(f64),
+    /// When the hinge of the body `when` passes the relative angle `passes` \[rad\] either way.
+    Passes {
+        /// Name of the body.
+        when: String,
+        /// The angle.
+        passes: f64,
+    },
+    /// Some time after the hinge of another body has locked.
+    AfterLock {
+        /// Name of the body.
+        after: String,
+        /// How long after \[T\].
+        by: f64,
+    },
+    /// Not during the run.
+    Never,
+}
+
+impl BodyDraft {
+    /// A body on the main body with a free hinge at `point`, about `axis` (a unit vector), main-body
+    /// axes.
+    pub fn new(
+        name: &str,
+        mass_properties: MassProperties,
+        point: Vec3<f64>,
+        axis: Vec3<f64>,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            on: None,
+            mount: Mount::at(point),
+            axis,
+            mass_properties,
+            tip: Vec3::zero(),
+            hinge: Hinge::free(),
+            release: ReleaseDraft::Never,
+            torque_table: Vec::new(),
+            repeat: None,
+            structure: None,
+        }
+    }
+}
+
+/// Something wrong with the words of a body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{defect}")]
+pub struct DraftError {
+    /// Which body of the draft, from 0.
+    pub body: usize,
+    /// What is wrong.
+    pub defect: DraftDefect,
+}
+
+/// What is wrong with the words of a body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DraftDefect {
+    /// Another body, or a copy of one, has the name.
+    #[error("name `{0}` of two bodies found, a name of its own expected")]
+    NameTaken(String),
+    /// No body has the name of the inboard body.
+    #[error("inboard body `{name}` found, {expected} expected")]
+    Inboard {
+        /// The unknown name.
+        name: String,
+        /// What would have been right.
+        expected: String,
+    },
+    /// The inboard bodies lead back to the body itself.
+    #[error("inboard bodies in a circle found, a way to the main body expected")]
+    Circle,
+    /// No hinge has the name that the release waits for, or it is the hinge itself.
+    #[error("release by `{name}` found, {expected} expected")]
+    Trigger {
+        /// The name.
+        name: String,
+        /// What would have been right.
+        expected: String,
+    },
+    /// A body is repeated that is not on the main body.
+    #[error("repetition of a body on `{0}` found, one of a body on the main body expected")]
+    RepeatOutboard(String),
+    /// A repetition about an axis on which the body lies.
+    #[error(
+        "repetition about an axis through hinge and outer end found, bodies in places of their own expected"
+    )]
+    RepeatOverlap,
+    /// More bodies than a scene may have.
+    #[error("{0} bodies with all repetitions found, at most {MOST_BODIES} expected")]
+    Count(usize),
+}
+
+/// Most bodies of a scene in words.
+pub const MOST_BODIES: usize = 10_000;
+
+/// What a draft means.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resolved {
+    /// The scene, bodies branch by branch.
+    pub description: SceneDescription,
+    /// For each body, its name; copies are numbered from 1.
+    pub names: Vec<String>,
+    /// For each body, which one of the draft it is, from 0.
+    pub of_draft: Vec<usize>,
+    /// For each body, its structure.
+    pub structures: Vec<Option<SegmentStructure>>,
+}
+
+impl SceneDraft {
+    /// The scene that the words mean, branch by branch, in the order of the draft where it is free.
+    ///
+    /// # Errors
+    /// Everything that is wrong with names, references and repetitions.
+    pub fn resolve(&self) -> Result<Resolved, Vec<DraftError>> {
+        let names = Names::of(&self.bodies)?;
+        let mut description = self.scene.clone();
+        let (mut structures, mut of_draft) = (Vec::new(), Vec::new());
+        let mut errors = Vec::new();
+        for (i, place) in names.places.iter().enumerate() {
+            let draft = &self.bodies[place.draft];
+            let release = match names.release(place, &draft.release) {
+                Ok(Release::Angle { hinge, .. } | Release::AfterLock { hinge, .. }) if hinge == i => Err(DraftDefect::Trigger {
+                    name: draft.name.clone(),
+                    expected: "another body".to_owned(),
+                }),
+                other => other,
+            };
+            let release = release.unwrap_or_else(|defect| {
+                errors.push(DraftError { body: place.draft, defect });
+                Release::Never
+            });
+            let mut body = Body {
+                inboard: place.inboard,
+                mount: draft.mount,
+                axis: draft.axis,
+                mass_properties: draft.mass_properties,
+                tip: draft.tip,
+                hinge: Hinge { release, ..draft.hinge },
+            };
+            if let (Some(copy), Some(repeat)) = (place.copy, names.repeat(&self.bodies, place)) {
+                repeat.place(copy, place.inboard.is_none(), &mut body);
+            }
+            if !draft.torque_table.is_empty() {
+                let points = draft.torque_table.clone();
+                description.torque_tables.push(TorqueTable { hinge: i, points });
+            }
+            description.bodies.push(body);
+            structures.push(draft.structure.clone());
+            of_draft.push(place.draft);
+        }
+        errors.dedup();
+        if errors.is_empty() {
+            Ok(Resolved { description, names: names.all(), of_draft, structures })
+        } else {
+            Err(errors)
+        }
+    }
+}

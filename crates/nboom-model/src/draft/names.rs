@@ -1,0 +1,177 @@
+use std::collections::HashMap;
+
+use super::{BodyDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat};
+use crate::Release;
+
+/// A body of the scene, as the draft has it.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub draft: usize,
+    /// The body of the draft that it hangs on the main body by; itself perhaps.
+    pub root: usize,
+    /// Which copy it is, from 0, if its root is repeated.
+    pub copy: Option<usize>,
+    /// Index in the scene.
+    pub inboard: Option<usize>,
+    name: String,
+}
+
+/// All bodies of the scene, branch by branch, inboard before outboard, and what they are called.
+pub(super) struct Names {
+    pub places: Vec<Place>,
+    by_name: HashMap<String, usize>,
+    /// For each body of the draft, those of the scene, copy after copy.
+    of_draft: Vec<Vec<usize>>,
+    /// For each name of the draft, its body there.
+    in_draft: HashMap<String, usize>,
+}
+
+impl Names {
+    pub fn of(bodies: &[BodyDraft]) -> Result<Self, Vec<DraftError>> {
+        let mut errors = Vec::new();
+        let mut error = |body, defect| errors.push(DraftError { body, defect });
+        let mut in_draft = HashMap::new();
+        for (i, body) in bodies.iter().enumerate() {
+            if in_draft.insert(body.name.clone(), i).is_some() {
+                error(i, DraftDefect::NameTaken(body.name.clone()));
+            }
+        }
+        let mut outboard = vec![Vec::new(); bodies.len()];
+        let mut on_main_body = Vec::new();
+        for (i, body) in bodies.iter().enumerate() {
+            let Some(inboard) = &body.on else {
+                on_main_body.push(i);
+                continue;
+            };
+            match in_draft.get(inboard) {
+                Some(&at) => outboard[at].push(i),
+                None => error(i, unknown_inboard(inboard, &in_draft)),
+            }
+            if body.repeat.is_some() {
+                error(i, DraftDefect::RepeatOutboard(inboard.clone()));
+            }
+        }
+        for &root in &on_main_body {
+            if bodies[root].repeat.is_some_and(|repeat| repeat.overlaps(&bodies[root])) {
+                error(root, DraftDefect::RepeatOverlap);
+            }
+        }
+        let reached = reach(&on_main_body, &outboard);
+        let circling = (0..bodies.len()).filter(|&i| {
+            !reached[i] && bodies[i].on.as_ref().is_some_and(|name| in_draft.contains_key(name))
+        });
+        // Bodies outboard of one that has no place are not in a circle.
+        if errors.is_empty() {
+            errors.extend(circling.map(|body| DraftError { body, defect: DraftDefect::Circle }));
+        }
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let places = places(bodies, &on_main_body, &outboard)?;
+        let mut of_draft = vec![Vec::new(); bodies.len()];
+        let mut by_name = HashMap::new();
+        for (i, place) in places.iter().enumerate() {
+            of_draft[place.draft].push(i);
+            if by_name.insert(place.name.clone(), i).is_some() {
+                let defect = DraftDefect::NameTaken(place.name.clone());
+                errors.push(DraftError { body: place.draft, defect });
+            }
+        }
+        if errors.is_empty() {
+            Ok(Self { places, by_name, of_draft, in_draft })
+        } else {
+            Err(errors)
+        }
+    }
+
+    /// For each body of the scene, its name.
+    pub fn all(self) -> Vec<String> {
+        self.places.into_iter().map(|place| place.name).collect()
+    }
+
+    /// How the appendage of a body is repeated.
+    pub fn repeat(&self, bodies: &[BodyDraft], place: &Place) -> Option<Repeat> {
+        bodies[place.root].repeat
+    }
+
+    /// The release of a body, with the hinge that it waits for. Within a repeated appendage a name is that of
+    /// the same copy.
+    pub fn release(&self, place: &Place, release: &ReleaseDraft) -> Result<Release, DraftDefect> {
+        match release {
+            ReleaseDraft::At(time) => Ok(Release::Time(*time)),
+            ReleaseDraft::Never => Ok(Release::Never),
+            ReleaseDraft::Passes { when, passes } => {
+                let hinge = self.hinge(place, when)?;
+                Ok(Release::Angle { hinge, angle: *passes })
+            }
+            ReleaseDraft::AfterLock { after, by } => {
+                Ok(Release::AfterLock { hinge: self.hinge(place, after)?, delay: *by })
+            }
+        }
+    }
+
+    fn hinge(&self, place: &Place, name: &str) -> Result<usize, DraftDefect> {
+        let drafted = self.in_draft.get(name).map(|&draft| &self.of_draft[draft]);
+        let beside = drafted.and_then(|copies| {
+            let is_beside = |&&i: &&usize| {
+                let other = &self.places[i];
+                (other.root, other.copy) == (place.root, place.copy)
+            };
+            copies.iter().find(is_beside)
+        });
+        let found = beside.or_else(|| self.by_name.get(name)).copied();
+        found.ok_or_else(|| DraftDefect::Trigger {
+            name: name.to_owned(),
+            expected: match drafted.and_then(|copies| copies.first()) {
+                Some(&first) => format!("the name of one copy, as `{}`", self.places[first].name),
+                None => "the name of another body".to_owned(),
+            },
+        })
+    }
+}
+
+fn unknown_inboard(name: &str, in_draft: &HashMap<String, usize>) -> DraftDefect {
+    let expected = if in_draft.is_empty() { "the main body" } else { "the name of another body" };
+    DraftDefect::Inboard { name: name.to_owned(), expected: expected.to_owned() }
+}
+
+/// Which bodies have a way to the main body.
+fn reach(on_main_body: &[usize], outboard: &[Vec<usize>]) -> Vec<bool> {
+    let mut reached = vec![false; outboard.len()];
+    let mut next = on_main_body.to_vec();
+    while let Some(i) = next.pop() {
+        reached[i] = true;
+        next.extend(&outboard[i]);
+    }
+    reached
+}
+
+/// The bodies of the scene, appendage by appendage.
+fn places(
+    bodies: &[BodyDraft],
+    on_main_body: &[usize],
+    outboard: &[Vec<usize>],
+) -> Result<Vec<Place>, Vec<DraftError>> {
+    let mut places: Vec<Place> = Vec::new();
+    for &root in on_main_body {
+        let copies = bodies[root].repeat.map_or(1, |repeat| repeat.count);
+        for number in 0..copies {
+            let copy = bodies[root].repeat.map(|_| number);
+            // The next body, and where its inboard one is.
+            let mut next = vec![(root, None)];
+            while let Some((draft, inboard)) = next.pop() {
+                if places.len() == MOST_BODIES {
+                    let defect = DraftDefect::Count(MOST_BODIES + 1);
+                    return Err(vec![DraftError { body: draft, defect }]);
+                }
+                let name = match copy {
+                    Some(number) => format!("{} {}", bodies[draft].name, number + 1),
+                    None => bodies[draft].name.clone(),
+                };
+                next.extend(outboard[draft].iter().rev().map(|&i| (i, Some(places.len()))));
+                places.push(Place { draft, root, copy, inboard, name });
+            }
+        }
+    }
+    Ok(places)
+}
