@@ -29,4 +29,5 @@ mod stiff;
 mod tolerance;
 mod trajectories;
 mod trust;
+mod unit_sets;
 mod units;
