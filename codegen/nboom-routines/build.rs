@@ -77,8 +77,8 @@ const FEW_HINGES: usize = 4;
 /// The most equal appendages of a topology that has right sides: with more, registers are full already.
 const MOST_EQUAL: usize = 4;
 
-/// Right sides for topologies of the stock, without external wrench; of few hinges one more that assumes
-/// nothing and takes an external wrench, which a thrust is, and lines that push the links.
+/// Right sides for topologies of the stock, without external wrench; of few hinges two more that
+/// assume nothing: one takes lines that push the links, the other an external wrench, which a thrust is.
 ///
 /// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
 /// eight states at once, too.
@@ -92,14 +92,14 @@ fn right_sides() -> Vec<Request> {
             let name = name(&topology, principal);
             let request = Request::new(&name, topology.clone(), Level::Fast).for_right_side();
             let request = if principal { request.with_principal_axes() } else { request };
-            let pushed = (has_few && !principal).then(|| {
-                let name = format!("Pushed{name}");
-                let request = Request { name, ..request.clone() }.with_external_wrench();
-                if topology.hinges() > 0 { request.with_lines() } else { request }
-            });
+            let general = || request.clone();
+            let named = |kind: &str| Request { name: format!("{kind}{name}"), ..general() };
+            let is_pushed = has_few && !principal && topology.hinges() > 0;
+            let pushed = is_pushed.then(|| named("Pushed").with_lines());
+            let thrust = (has_few && !principal).then(|| named("Thrust").with_external_wrench());
             let on_eight = has_few || topology.shapes().len() == 1;
             requests.push(if on_eight { request.on_eight_states() } else { request });
-            requests.extend(pushed);
+            requests.extend(pushed.into_iter().chain(thrust));
         }
     }
     requests

@@ -99,7 +99,8 @@ fn four_sets_of_units_have_one_motion() {
         let (found, _) = run(&file.scene, &tight(60));
         let events: Vec<_> =
             found.happenings().iter().map(|(kind, _, at)| (*kind, at / time)).collect();
-        let angles: Vec<f64> = found.samples.iter().flat_map(|sample| sample.beta.clone()).collect();
+        let angles: Vec<f64> =
+            found.samples.iter().flat_map(|sample| sample.beta.clone()).collect();
         let places: Vec<f64> = found
             .samples
             .iter()
@@ -113,10 +114,13 @@ fn four_sets_of_units_have_one_motion() {
         };
         // The tolerance of the steps is 1e-12, and numbers of other units are rounded otherwise.
         let near = |a: &[f64], b: &[f64]| {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-11 * (1.0 + b.abs()))
+            a.len() == b.len()
+                && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-11 * (1.0 + b.abs()))
         };
-        let kinds = |events: &[(EventKind, f64)]| events.iter().map(|event| event.0).collect::<Vec<_>>();
-        let times = |events: &[(EventKind, f64)]| events.iter().map(|event| event.1).collect::<Vec<_>>();
+        let kinds =
+            |events: &[(EventKind, f64)]| events.iter().map(|event| event.0).collect::<Vec<_>>();
+        let times =
+            |events: &[(EventKind, f64)]| events.iter().map(|event| event.1).collect::<Vec<_>>();
         assert_eq!(kinds(&events), kinds(expected), "{units}");
         assert!(near(&times(&events), &times(expected)), "{units}: {events:?} {expected:?}");
         assert!(near(&angles, expected_angles) && near(&places, expected_places), "{units}");

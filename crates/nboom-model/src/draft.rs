@@ -174,10 +174,14 @@ impl SceneDraft {
         for (i, place) in names.places.iter().enumerate() {
             let draft = &self.bodies[place.draft];
             let release = match names.release(place, &draft.release) {
-                Ok(Release::Angle { hinge, .. } | Release::AfterLock { hinge, .. }) if hinge == i => Err(DraftDefect::Trigger {
-                    name: draft.name.clone(),
-                    expected: "another body".to_owned(),
-                }),
+                Ok(Release::Angle { hinge, .. } | Release::AfterLock { hinge, .. })
+                    if hinge == i =>
+                {
+                    Err(DraftDefect::Trigger {
+                        name: draft.name.clone(),
+                        expected: "another body".to_owned(),
+                    })
+                }
                 other => other,
             };
             let release = release.unwrap_or_else(|defect| {

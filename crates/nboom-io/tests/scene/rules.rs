@@ -129,3 +129,17 @@ fn units_are_labels() {
     let custom = units("units = { length = \"mm\", time = \"ms\", force = \"kN\" }\n");
     assert_eq!(custom, Some(UnitSystem::Custom { length, time, force }));
 }
+
+/// Counted from the first by the right hand.
+#[test]
+fn copies_follow_each_other_by_the_right_hand() {
+    let text = BUS.to_owned() + &body("boom", "repeat = { count = 3, about = \"x\" }", "");
+    let scene = right(&text).scene;
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let angle = f64::to_radians(120.0 * i as f64);
+        let place = Vec3::new(0.0, angle.cos(), angle.sin()) * 2.0;
+        assert!((body.mount.point - place).norm() < 1e-15, "{i}: {:?}", body.mount.point);
+        let outwards = body.mount.rot_inboard_from_hinge * Vec3::unit_y();
+        assert!((outwards * 2.0 - place).norm() < 1e-15, "{i}: {outwards:?}");
+    }
+}

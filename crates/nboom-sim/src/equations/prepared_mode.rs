@@ -97,7 +97,9 @@ impl PreparedMode {
                 self.right_sides = RightSides::fit(&self.dynamics, repertoire, options.batches);
             }
             let told = match &self.right_sides {
-                Some(RightSides { of_eight: Some(_), .. }) => "whole right side, also of eight states",
+                Some(RightSides { of_eight: Some(_), .. }) => {
+                    "whole right side, also of eight states"
+                }
                 Some(RightSides { of_eight: None, .. }) => "whole right side",
                 None => "accelerations only",
             };
