@@ -11,7 +11,7 @@ const SLOW: f64 = 0.7;
 /// Contraction at which methods without iterations, or with Newton's, are cheaper.
 const RATHER_SLOW: f64 = 0.2;
 /// Error that the iteration leaves, in units of the tolerance; what is left of all steps adds up.
-const CONVERGED: f64 = 0.1;
+const CONVERGED: f64 = 0.03;
 
 /// The fixed-point iteration of a step.
 #[derive(Clone, Copy, Debug)]
@@ -151,4 +151,4 @@ pub(super) fn error_of_end(last_terms: [f64; 2], magnitude: f64, per_tolerance: 
 
 const FALL: f64 = 7.0;
 /// Set by trials, so that errors inside steps are within about ten tolerances.
-const SHARE: f64 = 0.01;
+const SHARE: f64 = 0.0065;
