@@ -2,7 +2,8 @@ use std::ops::Range;
 
 use collocation::{Collocation, dot};
 use control::{
-    HALF, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, error_of_end, factor,
+    CLEARLY, HALF, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, TELLING,
+    error_of_end, factor,
 };
 use dense::{Dense, Taken};
 use end_slopes::EndSlopes;
@@ -134,24 +135,37 @@ impl GaussLanes {
         }
     }
 
-    /// Iterates the stages; returns whether they converged.
+    /// Iterates the stages; returns whether they converge. A step that is clearly to be refused is left
+    /// half-way.
     fn iterate(&mut self, system: &mut dyn System, step: f64, most: usize) -> bool {
         self.guess(system, step);
-        let Self { collocation, window, stages, lost, per_tolerance, iteration, .. } = self;
-        let start = Start { state: &window.state, lost, step };
-        let (times, mean_of) = (collocation.times(window.time, step), self.count.max(1) as f64);
-        stages.place(start, collocation);
-        iteration.begin(step);
+        let times = self.collocation.times(self.window.time, step);
+        let start = Start { state: &self.window.state, lost: &self.lost, step };
+        self.stages.place(start, self.collocation);
+        self.iteration.begin(step);
         loop {
-            stages.evaluate(system, &times);
-            window.counts.evaluations += STAGES;
-            let squares = stages.absorb(start, per_tolerance, collocation);
-            let square = dot(&collocation.weights.0, &squares) / mean_of;
-            match iteration.note(square.sqrt(), most) {
+            self.stages.evaluate(system, &times);
+            self.window.counts.evaluations += STAGES;
+            let start = Start { state: &self.window.state, lost: &self.lost, step };
+            let squares = self.stages.absorb(start, &self.per_tolerance, self.collocation);
+            let square = dot(&self.collocation.weights.0, &squares) / self.count.max(1) as f64;
+            match self.iteration.note(square.sqrt(), most) {
+                Progress::Converging if most == MOST && self.iteration.count == TELLING => {
+                    if self.error() > CLEARLY * REFUSED {
+                        return true;
+                    }
+                }
                 Progress::Converging => {}
                 progress => return progress == Progress::Converged,
             }
         }
+    }
+
+    /// Mean error of the step, in units of the tolerance.
+    fn error(&self) -> f64 {
+        let controlled = &self.stages.variables.evaluated[..self.count];
+        let sum: f64 = controlled.iter().map(|&i| self.error_at_end(i)).sum();
+        sum / self.count.max(1) as f64
     }
 
     /// Error of an evaluated variable, in units of the tolerance.
@@ -168,9 +182,7 @@ impl GaussLanes {
         if !self.iterate(system, step, MOST) {
             return Err(HALF);
         }
-        let controlled = &self.stages.variables.evaluated[..self.count];
-        let sum: f64 = controlled.iter().map(|&i| self.error_at_end(i)).sum();
-        let error = sum / self.count.max(1) as f64;
+        let error = self.error();
         if error.is_nan() || error > REFUSED {
             return Err(factor(error).min(SHORTER));
         }
