@@ -13,7 +13,7 @@ use std::time::Instant;
 use nboom::dynamics::{Motion, Recursive};
 use nboom::formulation::recognise;
 use nboom::model::{HingeState, Mode, Scene};
-use nboom::ode::{Counts, GaussLanes, Part, Role, RungeKutta, Stepper, System, Tolerance};
+use nboom::ode::{Counts, GaussLanes, RungeKutta, Stepper, System, Tolerance};
 use nboom::scalar::{Batch, Eight, Kernel, Vec3};
 use nboom::sim::{Options, Repertoire};
 
@@ -122,18 +122,15 @@ impl System for Satellite {
         }
     }
 
-    fn derivatives(&mut self, part: Part, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
+    fn derivatives(&mut self, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
         if !self.has_lanes {
             return false;
         }
-        if part == Part::Followers {
-            for lane in 0..8 {
-                let rates = attitude_rate(std::array::from_fn(|i| y[i].0[lane]));
-                for (rate, dy) in rates.into_iter().zip(&mut dy[..ATTITUDE]) {
-                    dy.0[lane] = rate;
-                }
+        for lane in 0..8 {
+            let rates = attitude_rate(std::array::from_fn(|i| y[i].0[lane]));
+            for (rate, dy) in rates.into_iter().zip(&mut dy[..ATTITUDE]) {
+                dy.0[lane] = rate;
             }
-            return true;
         }
         let x = &mut self.batch_coordinates;
         x[..3].copy_from_slice(&y[OMEGA..BETA]);
@@ -152,12 +149,8 @@ impl System for Satellite {
         true
     }
 
-    fn role(&self, i: usize) -> Role {
-        match i {
-            0..ATTITUDE => Role::Follower,
-            BETA..TAU => Role::Integral(i + HINGES),
-            _ => Role::Coupled,
-        }
+    fn rate_of(&self, i: usize) -> Option<usize> {
+        (BETA..TAU).contains(&i).then_some(i + HINGES)
     }
 
     fn sizes(&mut self, _y: &[f64], sizes: &mut [f64]) {

@@ -2,7 +2,8 @@ use std::ops::Range;
 
 use collocation::{Collocation, dot};
 use control::{
-    HALF, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, error_of_end, factor,
+    CLEARLY, HALF, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, TELLING,
+    error_of_end, factor,
 };
 use dense::{Dense, Taken};
 use end_slopes::EndSlopes;
@@ -11,7 +12,7 @@ use stages::{Stages, Start};
 
 use crate::gauss::coefficients::STAGES;
 use crate::method::Description;
-use crate::{Bernstein, Choice, Method, Part, StepError, Stepper, System, Tolerance, Window};
+use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod collocation;
 mod control;
@@ -34,12 +35,10 @@ pub(crate) const DESCRIPTION: Description = Description {
 ///
 /// The stages follow from fixed-point iterations, which begin with the polynomial of the step before
 /// or, when a step is taken again, its own. Variables that are integrals of others are integrated
-/// anew in each iteration; followers are iterated when the others have converged ([`Role`]). The
-/// step follows from the last Legendre coefficients of the derivative.
+/// anew in each iteration ([`System::rate_of`]). The step follows from the last Legendre coefficients
+/// of the derivative.
 ///
 /// Stiff damping slows the iteration down, so that steps become as short as in explicit methods.
-///
-/// [`Role`]: crate::Role
 #[derive(Clone, Debug)]
 pub struct GaussLanes {
     collocation: &'static Collocation,
@@ -48,14 +47,15 @@ pub struct GaussLanes {
     window: Window,
     stages: Stages,
     ends: EndSlopes,
+    /// How many of the evaluated variables are controlled; they come first.
+    count: usize,
     /// One over the error allowed, zero for variables that are not controlled.
     per_tolerance: Vec<f64>,
     /// What rounding has taken from the variables at the start and the end of the step.
     lost: Vec<f64>,
     end_lost: Vec<f64>,
     iteration: Iteration,
-    of_followers: Iteration,
-    /// K of the last step that was solved, over `curve`.
+    /// K of the last step that was solved, over `curve`, but of integrals.
     known: Vec<Eight>,
     curve: Curve,
     history: History,
@@ -86,11 +86,11 @@ impl GaussLanes {
             window: Window::default(),
             stages: Stages::default(),
             ends: EndSlopes::default(),
+            count: 0,
             per_tolerance: Vec::new(),
             lost: Vec::new(),
             end_lost: Vec::new(),
             iteration: Iteration::new(tolerance.relative),
-            of_followers: Iteration::new(tolerance.relative),
             known: Vec::new(),
             curve: Curve::default(),
             history: History::default(),
@@ -135,39 +135,40 @@ impl GaussLanes {
         }
     }
 
-    /// Iterates the stages of a part; returns whether they converged.
-    fn iterate(&mut self, system: &mut dyn System, part: Part, step: f64, most: usize) -> bool {
-        let Self { collocation, window, stages, lost, per_tolerance, .. } = self;
-        let iteration = match part {
-            Part::Coupled => &mut self.iteration,
-            Part::Followers => &mut self.of_followers,
-        };
-        let start = Start { state: &window.state, lost, per_tolerance };
-        let times = collocation.times(window.time, step);
-        let members = stages.roles.of(part);
-        let controlled = members.iter().filter(|&&i| i < self.controlled).count();
-        let mean = 1.0 / (controlled.max(1) as f64).sqrt();
-        iteration.begin(step);
+    /// Iterates the stages; returns whether they converge. A step that is clearly to be refused is left
+    /// half-way.
+    fn iterate(&mut self, system: &mut dyn System, step: f64, most: usize) -> bool {
+        self.guess(system, step);
+        let times = self.collocation.times(self.window.time, step);
+        let start = Start { state: &self.window.state, lost: &self.lost, step };
+        self.stages.place(start, self.collocation);
+        self.iteration.begin(step);
         loop {
-            stages.place(part, step, &start, collocation);
-            window.counts.evaluations += stages.evaluate(system, &[part], &times);
-            let change = mean * stages.absorb(part, step, &start);
-            let progress = iteration.note(change, most);
-            if progress != Progress::Converging {
-                stages.place(part, step, &start, collocation);
-                return progress == Progress::Converged;
+            self.stages.evaluate(system, &times);
+            self.window.counts.evaluations += STAGES;
+            let start = Start { state: &self.window.state, lost: &self.lost, step };
+            let squares = self.stages.absorb(start, &self.per_tolerance, self.collocation);
+            let square = dot(&self.collocation.weights.0, &squares) / self.count.max(1) as f64;
+            match self.iteration.note(square.sqrt(), most) {
+                Progress::Converging if most == MOST && self.iteration.count == TELLING => {
+                    if self.error() > CLEARLY * REFUSED {
+                        return true;
+                    }
+                }
+                Progress::Converging => {}
+                progress => return progress == Progress::Converged,
             }
         }
     }
 
-    /// Mean error of a part, in units of the tolerance.
-    fn error_of_part(&self, part: Part) -> f64 {
-        let members = self.stages.roles.of(part).iter().filter(|&&i| i < self.controlled);
-        let add = |(sum, count): (f64, f64), &i: &usize| (sum + self.error_at_end(i), count + 1.0);
-        let (sum, count) = members.fold((0.0, 0.0), add);
-        if count > 0.0 { sum / count } else { 0.0 }
+    /// Mean error of the step, in units of the tolerance.
+    fn error(&self) -> f64 {
+        let controlled = &self.stages.variables.evaluated[..self.count];
+        let sum: f64 = controlled.iter().map(|&i| self.error_at_end(i)).sum();
+        sum / self.count.max(1) as f64
     }
 
+    /// Error of an evaluated variable, in units of the tolerance.
     fn error_at_end(&self, i: usize) -> f64 {
         let slopes = &self.stages.slopes[i].0;
         let terms = self.collocation.last_terms.map(|row| dot(&row.0, slopes));
@@ -178,20 +179,12 @@ impl GaussLanes {
     /// Tries a step; returns its error or, if that is too large, by how much the step should be
     /// shorter.
     fn attempt(&mut self, system: &mut dyn System, step: f64) -> Result<f64, f64> {
-        self.guess(system, step);
-        let mut error = 0.0_f64;
-        for part in [Part::Coupled, Part::Followers] {
-            if self.stages.roles.of(part).is_empty() {
-                continue;
-            }
-            if !self.iterate(system, part, step, MOST) {
-                return Err(HALF);
-            }
-            let of_part = self.error_of_part(part);
-            if of_part.is_nan() || of_part > REFUSED {
-                return Err(factor(of_part).min(SHORTER));
-            }
-            error = error.max(of_part);
+        if !self.iterate(system, step, MOST) {
+            return Err(HALF);
+        }
+        let error = self.error();
+        if error.is_nan() || error > REFUSED {
+            return Err(factor(error).min(SHORTER));
         }
         Ok(error)
     }
@@ -200,9 +193,15 @@ impl GaussLanes {
     fn keep(&mut self, step: f64) {
         self.known.copy_from_slice(&self.stages.slopes);
         self.curve = Curve { length: step, from: 0.0 };
-        for (i, slopes) in self.known.iter().enumerate() {
-            let increment = self.lost[i] + dot(&self.collocation.weights.0, &slopes.0);
-            self.end_lost[i] = self.window.end_after(i, increment);
+        let Self { collocation, window, stages, lost, end_lost, known, .. } = self;
+        for &i in &stages.variables.evaluated {
+            let increment = lost[i] + dot(&collocation.weights.0, &known[i].0);
+            end_lost[i] = window.end_after(i, increment);
+        }
+        for &(i, rate) in &stages.variables.integrals {
+            let inner = dot(&collocation.weights_twice.0, &known[rate].0);
+            let increment = lost[i] + step * (window.state[rate] + lost[rate] + inner);
+            end_lost[i] = window.end_after(i, increment);
         }
     }
 
@@ -239,7 +238,8 @@ impl GaussLanes {
             return StepError::NotFinite { time, variable };
         }
         let larger = |&a: &usize, &b: &usize| self.error_at_end(a).total_cmp(&self.error_at_end(b));
-        let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
+        let evaluated = &self.stages.variables.evaluated[..self.count];
+        let variable = evaluated.iter().copied().max_by(larger).unwrap_or(0);
         StepError::Underflow { time, step, variable }
     }
 }
@@ -256,6 +256,8 @@ impl Stepper for GaussLanes {
         self.window.start(system, t, y);
         let size = y.len();
         self.stages.start(system, size);
+        let evaluated = &self.stages.variables.evaluated;
+        self.count = evaluated.iter().filter(|&&i| i < controlled).count();
         self.ends.reset(size);
         self.dense.start(y);
         for buffer in [&mut self.lost, &mut self.end_lost, &mut self.per_tolerance] {
@@ -265,7 +267,6 @@ impl Stepper for GaussLanes {
         self.known.clear();
         self.known.resize(size, Eight::default());
         self.iteration = Iteration::new(self.tolerance.relative);
-        self.of_followers = self.iteration;
         (self.curve, self.history) = (Curve::default(), History::default());
         self.measure(system);
         self.window.next_step = self.first_step(system).min(self.window.longest);
@@ -313,25 +314,20 @@ impl Stepper for GaussLanes {
         let Window { time, state, .. } = &*window;
         let (weights, step) = (&collocation.weights, curve.length);
         let taken = Taken { time: *time, step, state, known, ends, weights };
-        let evaluations = self.dense.prepare(system, stages, taken);
-        self.window.counts.evaluations += evaluations;
+        self.dense.prepare(system, stages, taken);
+        self.window.counts.evaluations += STAGES;
     }
 
     fn interpolate(&self, fraction: f64, out: &mut [f64]) {
-        self.dense.interpolate(&self.stages.roles, fraction, out);
+        self.dense.interpolate(&self.stages.variables, fraction, out);
     }
 
     fn polynomial(&self, i: usize) -> Bernstein {
-        self.dense.polynomial(&self.stages.roles, i)
+        self.dense.polynomial(&self.stages.variables, i)
     }
 
     fn retake(&mut self, system: &mut dyn System, step: f64) {
-        self.guess(system, step);
-        for part in [Part::Coupled, Part::Followers] {
-            if !self.stages.roles.of(part).is_empty() {
-                self.iterate(system, part, step, MOST_RETAKEN);
-            }
-        }
+        self.iterate(system, step, MOST_RETAKEN);
         self.keep(step);
         self.window.end_time = self.window.time + step;
         self.ends.forget_end();

@@ -54,5 +54,5 @@ pub use radau::Radau;
 pub use rkam::{Bound, Rkam, RkamSettings};
 pub use runge_kutta::RungeKutta;
 pub use stepper::{Choice, Stepper, Window};
-pub use system::{Counts, Part, Role, System, Tolerance};
+pub use system::{Counts, System, Tolerance};
 pub use taylor::Taylor;

@@ -26,9 +26,9 @@ pub trait System {
     }
 
     /// Writes f(t, y) of eight states to `dy` and returns `true`; a system that returns `false`
-    /// leaves it to the method to take one state after the other. What is written for other
-    /// variables than those of `part` is not read. Only [`GaussLanes`](crate::GaussLanes) asks.
-    fn derivatives(&mut self, _part: Part, _t: &Eight, _y: &[Eight], _dy: &mut [Eight]) -> bool {
+    /// leaves it to the method to take one state after the other. What is written for integrals
+    /// ([`rate_of`](Self::rate_of)) is not read. Only [`GaussLanes`](crate::GaussLanes) asks.
+    fn derivatives(&mut self, _t: &Eight, _y: &[Eight], _dy: &mut [Eight]) -> bool {
         false
     }
 
@@ -38,32 +38,11 @@ pub trait System {
         false
     }
 
-    /// How variable `i` hangs together with the others; asked at a start, by implicit methods.
-    fn role(&self, _i: usize) -> Role {
-        Role::Coupled
+    /// The variable that is the derivative of variable `i`, as the rate of an angle is; asked at a start,
+    /// by implicit methods. That variable has no such variable itself.
+    fn rate_of(&self, _i: usize) -> Option<usize> {
+        None
     }
-}
-
-/// How a variable hangs together with the others.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Role {
-    /// Any derivative may depend on it, and its own on all variables but followers.
-    #[default]
-    Coupled,
-    /// Its derivative is the coupled variable of this number, as of an angle and its rate; any
-    /// derivative may depend on it.
-    Integral(usize),
-    /// Only derivatives of followers depend on it; its own may depend on all variables.
-    Follower,
-}
-
-/// Which derivatives are asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// Those of coupled variables; values of followers are out of date.
-    Coupled,
-    /// Those of followers.
-    Followers,
 }
 
 /// Error allowed in a step: `absolute · size + relative · |y|` for each variable, whose natural

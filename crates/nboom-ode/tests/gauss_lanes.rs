@@ -1,8 +1,6 @@
 //! Gauss's method with its stages side by side, against closed forms.
 
-use std::ops::Range;
-
-use nboom_ode::{Counts, GaussLanes, Part, Role, Stepper, System, Tolerance};
+use nboom_ode::{Counts, GaussLanes, Stepper, System, Tolerance};
 use nboom_scalar::Eight;
 
 fn tolerance(relative: f64) -> Tolerance {
@@ -29,14 +27,14 @@ fn follow(
 #[derive(Clone, Copy)]
 struct Kepler {
     /// Whether it says that its place is the integral of its velocity.
-    tells_roles: bool,
+    tells_rates: bool,
     /// Whether it takes eight states at once.
     has_lanes: bool,
     states_seen: usize,
 }
 
-const PLAIN: Kepler = Kepler { tells_roles: false, has_lanes: false, states_seen: 0 };
-const WITH_ROLES: Kepler = Kepler { tells_roles: true, ..PLAIN };
+const PLAIN: Kepler = Kepler { tells_rates: false, has_lanes: false, states_seen: 0 };
+const WITH_RATES: Kepler = Kepler { tells_rates: true, ..PLAIN };
 
 fn attraction([x, y]: [f64; 2]) -> [f64; 2] {
     let squared = x * x + y * y;
@@ -51,11 +49,10 @@ impl System for Kepler {
         [dy[2], dy[3]] = attraction([y[0], y[1]]);
     }
 
-    fn derivatives(&mut self, part: Part, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
+    fn derivatives(&mut self, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
         if !self.has_lanes {
             return false;
         }
-        assert_eq!(part, Part::Coupled, "it has no followers");
         self.states_seen += 8;
         (dy[0], dy[1]) = (y[2], y[3]);
         for lane in 0..8 {
@@ -64,8 +61,8 @@ impl System for Kepler {
         true
     }
 
-    fn role(&self, i: usize) -> Role {
-        if self.tells_roles && i < 2 { Role::Integral(i + 2) } else { Role::Coupled }
+    fn rate_of(&self, i: usize) -> Option<usize> {
+        (self.tells_rates && i < 2).then_some(i + 2)
     }
 }
 
@@ -90,7 +87,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 fn errors_inside_steps_and_at_their_ends_follow_the_tolerance() {
     for relative in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
         for (e, begin) in [(0.05, 0.0), (0.2, 1.0), (0.35, 2.0), (0.5, -3.0), (0.6, 2.5)] {
-            let (mut stepper, mut system) = (GaussLanes::new(tolerance(relative)), WITH_ROLES);
+            let (mut stepper, mut system) = (GaussLanes::new(tolerance(relative)), WITH_RATES);
             stepper.start(&mut system, begin, &orbit(e, begin), 4);
             let (mut inside, mut at_end) = (0.0_f64, 0.0_f64);
             let mut y = [0.0; 4];
@@ -125,28 +122,28 @@ fn one_state_after_the_other_and_eight_at_once_give_the_same_bits() {
         assert_eq!(counts.evaluations, system.states_seen);
         (seen, counts)
     };
-    for tells_roles in [false, true] {
-        let scalar = Kepler { tells_roles, ..PLAIN };
+    for tells_rates in [false, true] {
+        let scalar = Kepler { tells_rates, ..PLAIN };
         assert_eq!(run(scalar), run(Kepler { has_lanes: true, ..scalar }));
     }
 }
 
 #[test]
-fn roles_change_the_way_to_a_solution_and_not_the_solution() {
+fn rates_change_the_way_to_a_solution_and_not_the_solution() {
     let end = |mut system: Kepler| {
         let mut stepper = GaussLanes::new(tolerance(1e-12));
         stepper.start(&mut system, 0.0, &orbit(0.4, 0.0), 4);
         let counts = follow(&mut stepper, &mut system, 9.0, |_| ());
         (stepper.window().state.clone(), counts.evaluations)
     };
-    let ((plain, more), (with_roles, fewer)) = (end(PLAIN), end(WITH_ROLES));
-    assert!(distance(&plain, &with_roles) < 1e-10, "{plain:?} {with_roles:?}");
+    let ((plain, more), (with_rates, fewer)) = (end(PLAIN), end(WITH_RATES));
+    assert!(distance(&plain, &with_rates) < 1e-10, "{plain:?} {with_rates:?}");
     assert!(fewer < more, "{fewer} {more}");
 }
 
 #[test]
 fn a_step_is_taken_again_to_a_shorter_length_in_a_few_iterations() {
-    let (mut stepper, mut system) = (GaussLanes::new(tolerance(1e-10)), WITH_ROLES);
+    let (mut stepper, mut system) = (GaussLanes::new(tolerance(1e-10)), WITH_RATES);
     stepper.start(&mut system, 0.0, &orbit(0.4, 0.0), 4);
     let (mut most, mut y) = (0, [0.0; 4]);
     while stepper.window().time < 9.0 {
@@ -178,7 +175,7 @@ fn a_step_is_taken_again_to_a_shorter_length_in_a_few_iterations() {
 /// Evaluations for a step of an orbit that is `share` as long as the one before, where the method goes on and
 /// where it starts anew.
 fn evaluations_of_a_step(share: f64) -> [usize; 2] {
-    let (mut system, step) = (WITH_ROLES, 0.5);
+    let (mut system, step) = (WITH_RATES, 0.5);
     let [mut goes_on, mut starts] = [(); 2].map(|()| GaussLanes::new(tolerance(1e-10)));
     goes_on.start(&mut system, 0.0, &orbit(0.2, 0.0), 4);
     goes_on.retake(&mut system, step);
@@ -202,7 +199,7 @@ fn a_step_begins_with_the_polynomial_of_the_one_before() {
 
 #[test]
 fn a_start_remembers_nothing() {
-    let mut system = WITH_ROLES;
+    let mut system = WITH_RATES;
     let (first, second) = (orbit(0.5, 0.0), orbit(0.1, 2.0));
     let after = |stepper: &mut GaussLanes, system: &mut Kepler| {
         stepper.start(system, 0.5, &second, 4);
@@ -217,12 +214,10 @@ fn a_start_remembers_nothing() {
     assert_eq!((state, count - before), (expected, fresh));
 }
 
-/// A free body of these principal moments of inertia: attitude, then angular velocity. The attitude
-/// follows.
+/// A free body of these principal moments of inertia: attitude, then angular velocity.
 struct Body;
 
 const MOMENTS: [f64; 3] = [1.0, 2.0, 2.6];
-const ATTITUDE: Range<usize> = 0..4;
 
 impl System for Body {
     fn derivative(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) {
@@ -235,10 +230,6 @@ impl System for Body {
         dy[4] = (b - c) / a * q * r;
         dy[5] = (c - a) / b * r * p;
         dy[6] = (a - b) / c * p * q;
-    }
-
-    fn role(&self, i: usize) -> Role {
-        if ATTITUDE.contains(&i) { Role::Follower } else { Role::Coupled }
     }
 }
 
@@ -309,7 +300,7 @@ fn a_free_body_turns_as_elliptic_functions_do_and_keeps_its_momentum() {
 }
 
 #[test]
-fn the_order_is_sixteen_with_followers_too() {
+fn the_order_is_sixteen() {
     let error = |count: u32| {
         let mut stepper = GaussLanes::new(tolerance(1e-15));
         stepper.start(&mut Body, 0.0, &AT_START, 7);
@@ -330,7 +321,7 @@ fn the_order_is_sixteen_with_followers_too() {
 #[test]
 fn the_tightest_tolerance_is_met_to_rounding() {
     for relative in [1e-14, 1e-15] {
-        let (mut stepper, mut system) = (GaussLanes::new(tolerance(relative)), WITH_ROLES);
+        let (mut stepper, mut system) = (GaussLanes::new(tolerance(relative)), WITH_RATES);
         stepper.start(&mut system, 0.0, &orbit(0.2, 0.0), 4);
         let counts = follow(&mut stepper, &mut system, 12.0, |_| ());
         let error = distance(&stepper.window().state, &orbit(0.2, 12.0));
@@ -348,8 +339,8 @@ impl System for Waiting {
         (dy[0], dy[1]) = (y[1], 0.0);
     }
 
-    fn role(&self, i: usize) -> Role {
-        if i == 0 { Role::Integral(1) } else { Role::Coupled }
+    fn rate_of(&self, i: usize) -> Option<usize> {
+        (i == 0).then_some(1)
     }
 }
 

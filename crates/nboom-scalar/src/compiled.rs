@@ -139,11 +139,58 @@ pub fn vectorised<W: Work>(work: W) {
     work.carry_out();
 }
 
+/// Work on numbers of eight states, each of which stands in one scalar.
+pub trait WorkOnEight {
+    /// What it finds.
+    type Output;
+
+    /// Does it; to be inlined, with all that it calls.
+    fn carry_out<R: EightNumbers>(self) -> Self::Output;
+}
+
+/// Does `work` in the registers of this processor, products and sums fused where it can. Results do
+/// not depend on how many numbers a register holds.
+pub fn in_registers<W: WorkOnEight>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    match InstructionSet::of_this_processor() {
+        InstructionSet::Avx512 => {
+            #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+            fn inlined<W: WorkOnEight>(work: W) -> W::Output {
+                work.carry_out::<crate::Avx8>()
+            }
+            // SAFETY: the processor has the features.
+            return unsafe { inlined(work) };
+        }
+        InstructionSet::Avx2 => {
+            #[target_feature(enable = "avx2,fma")]
+            fn inlined<W: WorkOnEight>(work: W) -> W::Output {
+                work.carry_out::<crate::Pair<crate::Avx4>>()
+            }
+            // SAFETY: the processor has the features.
+            return unsafe { inlined(work) };
+        }
+        InstructionSet::Portable => {}
+    }
+    work.carry_out::<PortableEight>()
+}
+
 /// Eight `f64` one after the other and nothing else, any of which may be any number.
 ///
 /// # Safety
 /// A type of another content or layout would be read from memory that holds [`Eight`].
-pub(crate) unsafe trait EightNumbers: Real {}
+pub unsafe trait EightNumbers: Real {
+    /// Reads them.
+    #[inline(always)]
+    fn load(from: &Eight) -> Self {
+        as_registers(std::slice::from_ref(from))[0]
+    }
+
+    /// Writes them.
+    #[inline(always)]
+    fn store(self, to: &mut Eight) {
+        as_registers_mut(std::slice::from_mut(to))[0] = self;
+    }
+}
 
 // SAFETY: arrays of eight in all but name; pairs are `repr(C)`, registers of one field
 // `repr(transparent)`.
@@ -171,4 +218,45 @@ pub(crate) fn as_registers_mut<R: EightNumbers>(numbers: &mut [Eight]) -> &mut [
     const { assert!(align_of::<R>() <= align_of::<Eight>()) };
     // SAFETY: size and alignment are as just asserted, and `R` is eight numbers.
     unsafe { std::slice::from_raw_parts_mut(numbers.as_mut_ptr().cast(), numbers.len()) }
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::*;
+
+    /// Sums of products, and a function of each number.
+    struct Sums<'a>(&'a [Eight; 3]);
+
+    impl WorkOnEight for Sums<'_> {
+        type Output = Eight;
+
+        #[inline(always)]
+        fn carry_out<R: EightNumbers>(self) -> Eight {
+            let [a, b, c] = self.0.map(|numbers| R::load(&numbers));
+            let mut found = Eight::default();
+            (a.mul_add(b, c) / b - (a * a).sqrt()).store(&mut found);
+            found
+        }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    fn in_two_registers(work: Sums<'_>) -> Eight {
+        work.carry_out::<crate::Pair<crate::Avx4>>()
+    }
+
+    #[test]
+    fn results_do_not_depend_on_how_many_numbers_a_register_holds() {
+        let numbers = |scale: f64| Eight(std::array::from_fn(|i| scale * (0.3 + i as f64)));
+        let all = [numbers(0.7), numbers(-1.9), numbers(13.0)];
+        let found = in_registers(Sums(&all));
+        if InstructionSet::of_this_processor() >= InstructionSet::Avx2 {
+            // SAFETY: the processor has the features.
+            assert_eq!(unsafe { in_two_registers(Sums(&all)) }, found);
+        }
+        for lane in 0..8 {
+            let [a, b, c] = all.map(|of_all| of_all.0[lane]);
+            let expected = (a * b + c) / b - a;
+            assert!((found.0[lane] - expected).abs() < 1e-14 * expected.abs().max(c.abs()));
+        }
+    }
 }

@@ -34,7 +34,7 @@ mod vector;
 mod wide;
 
 pub use batch::{Batch, Eight};
-pub use compiled::{Work, vectorised};
+pub use compiled::{EightNumbers, Work, WorkOnEight, in_registers, vectorised};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use instructions::InstructionSet;

@@ -1,7 +1,7 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, gravity};
 use nboom_model::{Mode, Scene};
-use nboom_ode::{Part, Role, System};
+use nboom_ode::System;
 use nboom_scalar::{Eight, Vec3};
 use nboom_series::Series;
 
@@ -250,10 +250,10 @@ impl System for Equations {
         entered.rates(rates, free_fall, y, dy);
     }
 
-    fn derivatives(&mut self, part: Part, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
+    fn derivatives(&mut self, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
         let Self { variables, entered, evaluations, .. } = self;
-        let in_lanes = entered.rates_of_eight(&variables.layout, part, y, dy);
-        *evaluations += if in_lanes && part == Part::Coupled { 8 } else { 0 };
+        let in_lanes = entered.rates_of_eight(&variables.layout, y, dy);
+        *evaluations += if in_lanes { 8 } else { 0 };
         in_lanes
     }
 
@@ -261,8 +261,8 @@ impl System for Equations {
         self.entered.takes_eight(&self.variables.layout)
     }
 
-    fn role(&self, i: usize) -> Role {
-        self.variables.layout.role(i)
+    fn rate_of(&self, i: usize) -> Option<usize> {
+        self.variables.layout.rate_of(i)
     }
 
     fn sizes(&mut self, y: &[f64], sizes: &mut [f64]) {

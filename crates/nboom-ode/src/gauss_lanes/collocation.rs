@@ -1,6 +1,6 @@
 use std::sync::OnceLock;
 
-use nboom_scalar::Eight;
+use nboom_scalar::{Eight, EightNumbers};
 
 use crate::gauss::coefficients::{Coefficients, STAGES};
 
@@ -11,11 +11,15 @@ pub(super) type Columns<const N: usize> = [Eight; N];
 #[derive(Clone, Debug)]
 pub(super) struct Collocation {
     /// cᵢ on [0, 1].
-    nodes: Eight,
+    pub nodes: Eight,
     /// bᵢ.
     pub weights: Eight,
+    /// bᵢ (1 − cᵢ), the weights of integrals of integrals.
+    pub weights_twice: Eight,
     /// aᵢⱼ.
     pub stages: Columns<STAGES>,
+    /// Its square.
+    pub stages_twice: Columns<STAGES>,
     /// From K to the Legendre coefficients of h u̇, u the collocation polynomial.
     pub spectrum: Columns<STAGES>,
     /// From K to the last of these coefficients and to the one before.
@@ -36,10 +40,14 @@ impl Collocation {
         };
         let spectrum = columns(&|i, j| spectrum[i][j]);
         let row = |i: usize| Eight(spectrum.map(|column| column.0[i]));
+        let stages = columns(&|i, j| 0.5 + couplings[i][j]);
+        let entry = |i: usize, j: usize| (0..STAGES).map(|k| stages[k].0[i] * stages[j].0[k]).sum();
         Self {
             nodes: Eight(nodes),
             weights: Eight(weights),
-            stages: columns(&|i, j| 0.5 + couplings[i][j]),
+            weights_twice: Eight(std::array::from_fn(|i| weights[i] * (1.0 - nodes[i]))),
+            stages_twice: std::array::from_fn(|j| Eight(std::array::from_fn(|i| entry(i, j)))),
+            stages,
             last_terms: [row(STAGES - 1), row(STAGES - 2)],
             spectrum,
         }
@@ -53,35 +61,36 @@ impl Collocation {
     /// What turns the K of one step into those of the polynomial's continuation over another, which
     /// begins at the fraction `from` of it and is `ratio` times as long.
     #[inline(always)]
-    pub fn continuation(&self, from: f64, ratio: f64) -> Columns<STAGES> {
-        let at = self.nodes.0.map(|c| 2.0 * (from + ratio * c) - 1.0);
+    pub fn continuation<R: EightNumbers>(&self, from: f64, ratio: f64) -> [R; STAGES] {
+        let number = R::constant;
+        let at = R::load(&self.nodes).mul_add(number(2.0 * ratio), number(2.0 * from - 1.0));
         // `ratio` times two successive polynomials at all nodes.
-        let (mut before, mut p) = ([0.0; STAGES], [ratio; STAGES]);
-        let mut columns = [Eight::default(); STAGES];
+        let (mut before, mut p) = (R::zero(), number(ratio));
+        let mut columns = [R::zero(); STAGES];
         for k in 0..STAGES {
             for (column, spectrum) in columns.iter_mut().zip(&self.spectrum) {
-                for i in 0..STAGES {
-                    column.0[i] += p[i] * spectrum.0[k];
-                }
+                *column = p.mul_add(number(spectrum.0[k]), *column);
             }
             let n = k as f64;
-            for i in 0..STAGES {
-                let next = ((2.0 * n + 1.0) * at[i] * p[i] - n * before[i]) / (n + 1.0);
-                (before[i], p[i]) = (p[i], next);
-            }
+            let [up, down] = [(2.0 * n + 1.0) / (n + 1.0), n / (n + 1.0)].map(number);
+            (before, p) = (p, up * at * p - down * before);
         }
         columns
     }
 }
 
+/// The columns of a matrix in registers.
+#[inline(always)]
+pub(super) fn load<R: EightNumbers, const N: usize>(columns: &Columns<N>) -> [R; N] {
+    std::array::from_fn(|j| R::load(&columns[j]))
+}
+
 /// The product of a matrix and a vector.
 #[inline(always)]
-pub(super) fn product<const N: usize>(columns: &Columns<N>, x: &[f64; N]) -> [f64; STAGES] {
-    let mut sum = [0.0; STAGES];
-    for (column, x) in columns.iter().zip(x) {
-        for i in 0..STAGES {
-            sum[i] += column.0[i] * x;
-        }
+pub(super) fn product<R: EightNumbers, const N: usize>(columns: &[R; N], x: &[f64; N]) -> R {
+    let mut sum = R::zero();
+    for j in 0..N {
+        sum = columns[j].mul_add(R::constant(x[j]), sum);
     }
     sum
 }

@@ -11,7 +11,7 @@ const SLOW: f64 = 0.7;
 /// Contraction at which methods without iterations, or with Newton's, are cheaper.
 const RATHER_SLOW: f64 = 0.2;
 /// Error that the iteration leaves, in units of the tolerance; what is left of all steps adds up.
-const CONVERGED: f64 = 0.1;
+const CONVERGED: f64 = 0.015;
 
 /// The fixed-point iteration of a step.
 #[derive(Clone, Copy, Debug)]
@@ -80,6 +80,10 @@ impl Iteration {
 /// How much the error of a step may exceed the tolerance before it is tried again. As it goes with
 /// the sixteenth power of the step, a little too much is cheaper than another try.
 pub(super) const REFUSED: f64 = 20.0;
+/// After so many iterations the error is known well enough to refuse a step that exceeds what is refused
+/// by this factor.
+pub(super) const TELLING: usize = 4;
+pub(super) const CLEARLY: f64 = 4.0;
 /// The share of the step that would just do.
 const SAFETY: f64 = 0.9;
 /// Limits of the change of step size, in general and in the first steps from a start.
@@ -151,4 +155,4 @@ pub(super) fn error_of_end(last_terms: [f64; 2], magnitude: f64, per_tolerance: 
 
 const FALL: f64 = 7.0;
 /// Set by trials, so that errors inside steps are within about ten tolerances.
-const SHARE: f64 = 0.01;
+const SHARE: f64 = 0.0065;

@@ -1,10 +1,10 @@
-use nboom_scalar::{Eight, Work, vectorised};
+use nboom_scalar::{Eight, EightNumbers, Work, WorkOnEight, in_registers, vectorised};
 use rule::{KNOWN, MIDDLE, NODES, Rule, Spectrum, integrals, node, second_integrals};
 
-use super::collocation::{Collocation, dot, product};
-use super::stages::{Roles, Stages};
+use super::collocation::{Collocation, dot, load, product};
+use super::stages::{Stages, Variables};
 use crate::gauss::coefficients::STAGES;
-use crate::{Bernstein, Part, System};
+use crate::{Bernstein, System};
 
 mod rule;
 
@@ -63,38 +63,32 @@ impl Dense {
         self.spectra.resize(state.len(), [0.0; NODES]);
     }
 
-    /// Finds the polynomials of a step; returns how many evaluations it took.
-    pub fn prepare(
-        &mut self,
-        system: &mut dyn System,
-        stages: &mut Stages,
-        taken: Taken<'_>,
-    ) -> usize {
+    /// Finds the polynomials of a step.
+    pub fn prepare(&mut self, system: &mut dyn System, stages: &mut Stages, taken: Taken<'_>) {
         let Self { rule, step, state, spectra } = self;
         *step = taken.step;
         state.copy_from_slice(taken.state);
         let times = Eight(rule.nodes.0.map(|x| taken.time + x * taken.step));
-        let (roles, values) = (&stages.roles, &mut stages.values[..]);
-        vectorised(Place { rule, taken, roles, values });
-        let count = stages.evaluate(system, &[Part::Coupled, Part::Followers], &times);
-        let (roles, derivatives) = (&stages.roles, &stages.derivatives[..]);
-        vectorised(Fit { rule, taken, roles, derivatives, spectra });
-        count
+        let (variables, values) = (&stages.variables, &mut stages.values[..]);
+        in_registers(Place { rule, taken, variables, values });
+        stages.evaluate(system, &times);
+        let (variables, derivatives) = (&stages.variables, &stages.derivatives[..]);
+        vectorised(Fit { rule, taken, variables, derivatives, spectra });
     }
 
-    pub fn interpolate(&self, roles: &Roles, x: f64, out: &mut [f64]) {
+    pub fn interpolate(&self, variables: &Variables, x: f64, out: &mut [f64]) {
         let (first, second): (Spectrum, Spectrum) = (integrals(x), second_integrals(x));
-        for i in roles.evaluated() {
+        for &i in &variables.evaluated {
             out[i] = self.state[i] + dot(&self.spectra[i], &first);
         }
-        for &(i, of) in &roles.integrals {
+        for &(i, of) in &variables.integrals {
             let inner = dot(&self.spectra[of], &second);
             out[i] = self.state[i] + self.step * (x * self.state[of] + inner);
         }
     }
 
-    pub fn polynomial(&self, roles: &Roles, i: usize) -> Bernstein {
-        let integral = roles.integrals.iter().find(|&&(angle, _)| angle == i);
+    pub fn polynomial(&self, variables: &Variables, i: usize) -> Bernstein {
+        let integral = variables.integrals.iter().find(|&&(angle, _)| angle == i);
         let of = integral.map_or(i, |&(_, rate)| rate);
         let mut found = [0.0; NODES + 2];
         for (row, c) in self.rule.bernstein.iter().zip(&self.spectra[of]) {
@@ -124,24 +118,27 @@ fn integrate(coefficients: &mut [f64], start: f64, scale: f64) {
 struct Place<'a> {
     rule: &'a Rule,
     taken: Taken<'a>,
-    roles: &'a Roles,
+    variables: &'a Variables,
     values: &'a mut [Eight],
 }
 
-impl Work for Place<'_> {
+impl WorkOnEight for Place<'_> {
+    type Output = ();
+
     #[inline(always)]
-    fn carry_out(self) {
-        let Self { rule, taken, roles, values } = self;
-        for i in roles.evaluated() {
-            let increments = product(&rule.once, &taken.of(i));
-            values[i] = Eight(increments.map(|increment| taken.state[i] + increment));
+    fn carry_out<R: EightNumbers>(self) {
+        let Self { rule, taken, variables, values } = self;
+        let matrix = load::<R, KNOWN>(&rule.once);
+        for &i in &variables.evaluated {
+            let increment = product(&matrix, &taken.of(i));
+            (R::constant(taken.state[i]) + increment).store(&mut values[i]);
         }
-        for &(i, of) in &roles.integrals {
-            let inner = product(&rule.twice, &taken.of(of));
-            for lane in 0..STAGES {
-                let increment = rule.nodes.0[lane] * taken.state[of] + inner[lane];
-                values[i].0[lane] = taken.state[i] + taken.step * increment;
-            }
+        let (matrix, nodes) = (load::<R, KNOWN>(&rule.twice), R::load(&rule.nodes));
+        for &(i, rate) in &variables.integrals {
+            let inner = product(&matrix, &taken.of(rate));
+            let mean_rate = nodes.mul_add(R::constant(taken.state[rate]), inner);
+            let value = mean_rate.mul_add(R::constant(taken.step), R::constant(taken.state[i]));
+            value.store(&mut values[i]);
         }
     }
 }
@@ -150,7 +147,7 @@ impl Work for Place<'_> {
 struct Fit<'a> {
     rule: &'a Rule,
     taken: Taken<'a>,
-    roles: &'a Roles,
+    variables: &'a Variables,
     derivatives: &'a [Eight],
     spectra: &'a mut [Spectrum],
 }
@@ -158,8 +155,8 @@ struct Fit<'a> {
 impl Work for Fit<'_> {
     #[inline(always)]
     fn carry_out(self) {
-        let Self { rule, taken, roles, derivatives, spectra } = self;
-        for i in roles.evaluated() {
+        let Self { rule, taken, variables, derivatives, spectra } = self;
+        for &i in &variables.evaluated {
             let mut values = [0.0; NODES];
             let [start, end] = taken.ends;
             (values[0], values[NODES - 1]) = (taken.step * start[i], taken.step * end[i]);

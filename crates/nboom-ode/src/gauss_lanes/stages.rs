@@ -1,78 +1,59 @@
-use nboom_scalar::{Eight, Work, vectorised};
+use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
 
-use super::collocation::{Collocation, Columns, product};
+use super::collocation::{Collocation, load, product};
+use crate::System;
 use crate::gauss::coefficients::STAGES;
-use crate::{Part, Role, System};
 
 /// The stages of a step side by side: for each variable one number of each.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stages {
-    pub roles: Roles,
-    /// K = h f(Y).
+    pub variables: Variables,
+    /// K = h f(Y), but of integrals.
     pub slopes: Vec<Eight>,
     /// Y.
     pub values: Vec<Eight>,
-    /// f(Y).
+    /// f(Y), but of integrals.
     pub derivatives: Vec<Eight>,
     /// One state and its derivative, for systems that take one at a time.
     pub argument: Vec<f64>,
     pub derivative: Vec<f64>,
 }
 
-/// Variables by their role.
+/// How variables follow from derivatives.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Roles {
-    coupled: Vec<usize>,
-    /// Each with the variable that is its derivative.
+pub(super) struct Variables {
+    /// Those whose derivatives are evaluated.
+    pub evaluated: Vec<usize>,
+    /// Those whose derivative is such a variable, each with that.
     pub integrals: Vec<(usize, usize)>,
-    pub followers: Vec<usize>,
 }
 
-impl Roles {
-    pub fn of(&self, part: Part) -> &[usize] {
-        match part {
-            Part::Coupled => &self.coupled,
-            Part::Followers => &self.followers,
-        }
-    }
-
-    /// Variables whose derivatives are evaluated.
-    pub fn evaluated(&self) -> impl Iterator<Item = usize> {
-        self.coupled.iter().chain(&self.followers).copied()
-    }
-
-    fn integrals_of(&self, part: Part) -> &[(usize, usize)] {
-        if part == Part::Coupled { &self.integrals } else { &[] }
-    }
-
+impl Variables {
     fn assign(&mut self, system: &dyn System, size: usize) {
-        self.coupled.clear();
+        self.evaluated.clear();
         self.integrals.clear();
-        self.followers.clear();
         for i in 0..size {
-            match system.role(i) {
-                Role::Coupled => self.coupled.push(i),
-                Role::Integral(of) => self.integrals.push((i, of)),
-                Role::Follower => self.followers.push(i),
+            match system.rate_of(i) {
+                Some(rate) => self.integrals.push((i, rate)),
+                None => self.evaluated.push(i),
             }
         }
-        debug_assert!(self.integrals.iter().all(|(_, of)| self.coupled.contains(of)));
+        debug_assert!(self.integrals.iter().all(|(_, rate)| self.evaluated.contains(rate)));
     }
 }
 
-/// Where a step begins, and what its errors are measured in.
+/// Where a step begins, and how long it is.
 #[derive(Clone, Copy)]
 pub(super) struct Start<'a> {
     pub state: &'a [f64],
     /// What rounding has taken from the variables.
     pub lost: &'a [f64],
-    /// One over the error allowed, zero for variables that are not controlled.
-    pub per_tolerance: &'a [f64],
+    pub step: f64,
 }
 
 impl Stages {
     pub fn start(&mut self, system: &dyn System, size: usize) {
-        self.roles.assign(system, size);
+        self.variables.assign(system, size);
         for buffer in [&mut self.slopes, &mut self.values, &mut self.derivatives] {
             buffer.clear();
             buffer.resize(size, Eight::default());
@@ -83,14 +64,11 @@ impl Stages {
         }
     }
 
-    /// Evaluates derivatives at the values; returns how many evaluations it took, followers'
-    /// in lanes not counted.
-    pub fn evaluate(&mut self, system: &mut dyn System, parts: &[Part], times: &Eight) -> usize {
-        let Self { roles, values, derivatives, argument, derivative, .. } = self;
-        let there_are = |part: &&Part| !roles.of(**part).is_empty();
-        let mut in_lanes = |&part: &Part| system.derivatives(part, times, values, derivatives);
-        if parts.iter().filter(there_are).all(&mut in_lanes) {
-            return if parts.contains(&Part::Coupled) { STAGES } else { 0 };
+    /// Evaluates derivatives at the values.
+    pub fn evaluate(&mut self, system: &mut dyn System, times: &Eight) {
+        let Self { values, derivatives, argument, derivative, .. } = self;
+        if system.derivatives(times, values, derivatives) {
+            return;
         }
         for (lane, &time) in times.0.iter().enumerate() {
             for (one, of_all) in argument.iter_mut().zip(&*values) {
@@ -101,106 +79,36 @@ impl Stages {
                 of_all.0[lane] = *one;
             }
         }
-        STAGES
-    }
-
-    /// Takes the derivatives of a part for its slopes; returns the largest change of a stage, as root
-    /// of the sum of squares over the controlled variables, in units of the tolerance.
-    pub fn absorb(&mut self, part: Part, step: f64, start: &Start<'_>) -> f64 {
-        let Self { roles, slopes, derivatives, .. } = self;
-        let (mut change, per_tolerance) = (0.0, start.per_tolerance);
-        let members = roles.of(part);
-        vectorised(Absorb {
-            members,
-            step,
-            per_tolerance,
-            derivatives,
-            slopes,
-            change: &mut change,
-        });
-        change.sqrt()
-    }
-
-    /// Puts the stages of a part where their slopes place them.
-    pub fn place(&mut self, part: Part, step: f64, start: &Start<'_>, collocation: &Collocation) {
-        let Self { roles, slopes, values, .. } = self;
-        let (members, integrals) = (roles.of(part), roles.integrals_of(part));
-        let matrix = &collocation.stages;
-        vectorised(Place { members, integrals, step, start: *start, matrix, slopes, values });
     }
 
     /// Guesses slopes from those of another step, whose polynomial is continued from a fraction of it
     /// over `ratio` times its length.
     pub fn predict(&mut self, known: &[Eight], from: f64, ratio: f64, collocation: &Collocation) {
-        let Self { roles, slopes, .. } = self;
-        vectorised(Predict { roles, known, from, ratio, collocation, slopes });
+        let Self { variables, slopes, .. } = self;
+        in_registers(Predict { variables, known, from, ratio, collocation, slopes });
     }
-}
 
-struct Absorb<'a> {
-    members: &'a [usize],
-    step: f64,
-    per_tolerance: &'a [f64],
-    derivatives: &'a [Eight],
-    slopes: &'a mut [Eight],
-    /// The largest sum of squares of a stage.
-    change: &'a mut f64,
-}
-
-impl Work for Absorb<'_> {
-    #[inline(always)]
-    fn carry_out(self) {
-        let mut squares = [0.0; STAGES];
-        for &i in self.members {
-            let (weight, derivative) = (self.per_tolerance[i], &self.derivatives[i]);
-            let slopes = &mut self.slopes[i];
-            for lane in 0..STAGES {
-                let slope = self.step * derivative.0[lane];
-                let change = (slope - slopes.0[lane]) * weight;
-                squares[lane] += change * change;
-                slopes.0[lane] = slope;
-            }
-        }
-        // Not a number stays what it is.
-        let larger = |a: f64, b: f64| if b <= a { a } else { b };
-        *self.change = squares.into_iter().fold(0.0, larger);
+    /// Puts the stages where their slopes place them.
+    pub fn place(&mut self, start: Start<'_>, collocation: &Collocation) {
+        let Self { variables, slopes, values, .. } = self;
+        in_registers(Place { variables, start, collocation, slopes, values });
     }
-}
 
-struct Place<'a> {
-    members: &'a [usize],
-    integrals: &'a [(usize, usize)],
-    step: f64,
-    start: Start<'a>,
-    matrix: &'a Columns<STAGES>,
-    slopes: &'a mut [Eight],
-    values: &'a mut [Eight],
-}
-
-impl Place<'_> {
-    #[inline(always)]
-    fn place(&mut self, i: usize) {
-        let (state, lost) = (self.start.state[i], self.start.lost[i]);
-        let increments = product(self.matrix, &self.slopes[i].0);
-        self.values[i] = Eight(increments.map(|increment| state + (lost + increment)));
-    }
-}
-
-impl Work for Place<'_> {
-    #[inline(always)]
-    fn carry_out(mut self) {
-        for &i in self.members {
-            self.place(i);
-        }
-        for &(i, of) in self.integrals {
-            self.slopes[i] = Eight(self.values[of].0.map(|rate| self.step * rate));
-            self.place(i);
-        }
+    /// Takes the derivatives for its slopes and places the stages there; returns the change of each
+    /// stage's slopes, as the sum of squares over all variables, each by its part of `weights`.
+    pub fn absorb(
+        &mut self,
+        start: Start<'_>,
+        weights: &[f64],
+        collocation: &Collocation,
+    ) -> [f64; STAGES] {
+        let Self { variables, slopes, values, derivatives, .. } = self;
+        in_registers(Absorb { variables, start, collocation, weights, derivatives, slopes, values })
     }
 }
 
 struct Predict<'a> {
-    roles: &'a Roles,
+    variables: &'a Variables,
     known: &'a [Eight],
     from: f64,
     ratio: f64,
@@ -208,12 +116,75 @@ struct Predict<'a> {
     slopes: &'a mut [Eight],
 }
 
-impl Work for Predict<'_> {
+impl WorkOnEight for Predict<'_> {
+    type Output = ();
+
     #[inline(always)]
-    fn carry_out(self) {
-        let matrix = self.collocation.continuation(self.from, self.ratio);
-        for i in self.roles.evaluated() {
-            self.slopes[i] = Eight(product(&matrix, &self.known[i].0));
+    fn carry_out<R: EightNumbers>(self) {
+        let matrix = self.collocation.continuation::<R>(self.from, self.ratio);
+        for &i in &self.variables.evaluated {
+            product(&matrix, &self.known[i].0).store(&mut self.slopes[i]);
         }
+    }
+}
+
+struct Place<'a> {
+    variables: &'a Variables,
+    start: Start<'a>,
+    collocation: &'a Collocation,
+    slopes: &'a [Eight],
+    values: &'a mut [Eight],
+}
+
+impl WorkOnEight for Place<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let Self { variables, start: Start { state, lost, step }, collocation, slopes, values } =
+            self;
+        let matrix = load::<R, STAGES>(&collocation.stages);
+        for &i in &variables.evaluated {
+            let increment = R::constant(lost[i]) + product(&matrix, &slopes[i].0);
+            (R::constant(state[i]) + increment).store(&mut values[i]);
+        }
+        let matrix = load::<R, STAGES>(&collocation.stages_twice);
+        let (nodes, step) = (R::load(&collocation.nodes), R::constant(step));
+        for &(i, rate) in &variables.integrals {
+            let inner = product(&matrix, &slopes[rate].0);
+            let mean_rate = nodes.mul_add(R::constant(state[rate] + lost[rate]), inner);
+            let increment = step.mul_add(mean_rate, R::constant(lost[i]));
+            (R::constant(state[i]) + increment).store(&mut values[i]);
+        }
+    }
+}
+
+struct Absorb<'a> {
+    variables: &'a Variables,
+    start: Start<'a>,
+    collocation: &'a Collocation,
+    weights: &'a [f64],
+    derivatives: &'a [Eight],
+    slopes: &'a mut [Eight],
+    values: &'a mut [Eight],
+}
+
+impl WorkOnEight for Absorb<'_> {
+    type Output = [f64; STAGES];
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) -> [f64; STAGES] {
+        let Self { variables, start, collocation, weights, derivatives, slopes, values } = self;
+        let (step, mut squares) = (R::constant(start.step), R::zero());
+        for &i in &variables.evaluated {
+            let slope = step * R::load(&derivatives[i]);
+            let change = (slope - R::load(&slopes[i])) * R::constant(weights[i]);
+            squares = change.mul_add(change, squares);
+            slope.store(&mut slopes[i]);
+        }
+        Place { variables, start, collocation, slopes, values }.carry_out::<R>();
+        let mut of_stages = Eight::default();
+        squares.store(&mut of_stages);
+        of_stages.0
     }
 }

@@ -1,6 +1,5 @@
 use std::ops::Range;
 
-use nboom_ode::Role;
 use nboom_scalar::Vec3;
 
 /// What is integrated for the rates of the main body and of the free hinges.
@@ -93,23 +92,12 @@ impl VariableLayout {
         if self.thrust { 3 } else { 0 }
     }
 
-    /// How a variable hangs together with the others.
-    pub fn role(&self, i: usize) -> Role {
-        let (beta, motion) = (self.beta(), self.hinge_motion());
+    /// The variable that is the derivative of variable `i`, if there is one.
+    pub fn rate_of(&self, i: usize) -> Option<usize> {
+        let beta = self.beta();
         let rates_are_variables = !self.has_momenta();
-        if beta.contains(&i) && rates_are_variables {
-            return Role::Integral(motion.start + i - beta.start);
-        }
-        // Where rates follow from momenta, they depend on the attitude.
-        let is_coupled = self.omega().contains(&i) || beta.contains(&i) || motion.contains(&i);
-        let depends = self.unknowns == Unknowns::Velocities;
-        if is_coupled
-            || !depends && (Self::ATTITUDE.contains(&i) || self.angular_impulse().contains(&i))
-        {
-            Role::Coupled
-        } else {
-            Role::Follower
-        }
+        (rates_are_variables && beta.contains(&i))
+            .then(|| self.hinge_motion().start + i - beta.start)
     }
 
     pub fn len(&self) -> usize {

@@ -1,8 +1,7 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, Reach};
 use nboom_model::{Mode, Scene};
-use nboom_ode::Part;
-use nboom_scalar::{Eight, Quaternion, Vec3};
+use nboom_scalar::{Eight, Vec3};
 
 use crate::code::fit::Repertoire;
 use crate::code::right_side::RightSides;
@@ -156,27 +155,18 @@ impl PreparedMode {
     pub fn rates_of_eight(
         &mut self,
         layout: &VariableLayout,
-        part: Part,
         y: &[Eight],
         dy: &mut [Eight],
     ) -> bool {
-        let takes_eight = self.takes_eight(layout);
-        let of_eight = self.right_sides.as_mut().and_then(|both| both.of_eight.as_mut());
-        let Some(right_side) = of_eight.filter(|_| takes_eight) else { return false };
-        if part == Part::Coupled {
-            right_side.write(y, dy);
-            return true;
+        if !self.takes_eight(layout) {
+            return false;
         }
-        attitude_rates(y, dy);
+        let Some(RightSides { of_eight: Some(right_side), .. }) = &mut self.right_sides else {
+            return false;
+        };
+        let power = right_side.write(y, dy);
         if let [work] = &mut dy[layout.dashpot_work()] {
-            let free = self.dynamics.free_hinges();
-            let torques = self.dynamics.elements().torques();
-            *work = Eight::default();
-            for (&hinge, rates) in free.iter().zip(&y[layout.hinge_motion()]) {
-                for (power, &tau) in work.0.iter_mut().zip(&rates.0) {
-                    *power += torques[hinge].rate_torque(tau) * tau;
-                }
-            }
+            *work = power;
         }
         true
     }
@@ -196,17 +186,5 @@ impl PreparedMode {
     /// Accelerations: ω̇, a_O without gravity, τ̇.
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>, out: &mut Accelerations<f64>) {
         self.code.accelerations(&mut self.dynamics, motion, out);
-    }
-}
-
-/// Writes the rates of the attitudes of eight states, whose variables begin with attitude and ω.
-fn attitude_rates(y: &[Eight], dy: &mut [Eight]) {
-    for lane in 0..8 {
-        let [w, x, y, z, p, q, r] = std::array::from_fn(|i| y[i].0[lane]);
-        let rate = Quaternion { scalar: w, vector: Vec3::new(x, y, z) }.rate(Vec3::new(p, q, r));
-        dy[0].0[lane] = rate.scalar;
-        for (of_all, one) in dy[1..4].iter_mut().zip(rate.vector.to_array()) {
-            of_all.0[lane] = one;
-        }
     }
 }
