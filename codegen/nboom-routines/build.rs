@@ -78,7 +78,8 @@ const FEW_HINGES: usize = 4;
 const MOST_EQUAL: usize = 4;
 
 /// Right sides for topologies of the stock, without external wrench; of few hinges two more that
-/// assume nothing: one takes lines that push the links, the other an external wrench, which a thrust is.
+/// assume nothing: one takes an external wrench, which a thrust is, the other lines that push the links, and
+/// of fewer hinges the wrench, too.
 ///
 /// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
 /// eight states at once, too.
@@ -95,7 +96,12 @@ fn right_sides() -> Vec<Request> {
             let general = || request.clone();
             let named = |kind: &str| Request { name: format!("{kind}{name}"), ..general() };
             let is_pushed = has_few && !principal && topology.hinges() > 0;
-            let pushed = is_pushed.then(|| named("Pushed").with_lines());
+            // With more hinges, lines and a wrench together take too much straight code.
+            let takes_both = topology.hinges() < FEW_HINGES;
+            let pushed = is_pushed.then(|| {
+                let pushed = named("Pushed").with_lines();
+                if takes_both { pushed.with_external_wrench() } else { pushed }
+            });
             let thrust = (has_few && !principal).then(|| named("Thrust").with_external_wrench());
             let on_eight = has_few || topology.shapes().len() == 1;
             requests.push(if on_eight { request.on_eight_states() } else { request });

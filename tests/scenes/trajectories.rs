@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use nboom::model::Scene;
+use nboom::scalar::{Batch, Isa, Kernel, Real, Routine};
 use nboom::sim::{Method, Options};
 
 use crate::catalog::{AT_REST, Reference};
@@ -104,7 +105,8 @@ fn runs_take_right_sides_where_there_are_some() {
             let options = Options { integrator: Method::Dop853, kernels, ..tight(20) };
             run(&reference.scene(), &options).0.samples
         };
-        let (whole, accelerations) = (told(nboom_routines::for_runs()), told(nboom_routines::all()));
+        let (whole, accelerations) =
+            (told(nboom_routines::for_runs()), told(nboom_routines::all()));
         assert!(whole != accelerations, "{}", reference.name);
     }
 }
@@ -142,7 +144,8 @@ impl Routine for Still {
 fn stages_are_computed_by_code_for_eight_states_where_there_is_some() {
     let reference = Reference::all().find(|r| r.name == "s01_rigid_body").expect("a rigid body");
     let of_thrust = |kernel: &&Kernel| kernel.result != "right_side" || kernel.external;
-    let kernels: Vec<Kernel> = nboom_routines::for_runs().iter().filter(of_thrust).copied().collect();
+    let kernels: Vec<Kernel> =
+        nboom_routines::for_runs().iter().filter(of_thrust).copied().collect();
     let attitude = |batches: Vec<Batch>| {
         let (kernels, batches) = (kernels.clone().leak(), batches.leak());
         let options = Options { integrator: Method::GaussLanes, kernels, batches, ..tight(20) };

@@ -232,7 +232,10 @@ fn a_compiled_scene_finds_its_stresses_in_its_own_code() {
         stressed.0.envelope().iter().map(of_station).collect()
     };
     let (generated, library) = (worst(SAMPLE.kernels()), worst(&[]));
-    assert_eq!(generated.len(), structure.segments().iter().map(|s| s.stations.len()).sum::<usize>());
+    assert_eq!(
+        generated.len(),
+        structure.segments().iter().map(|s| s.stations.len()).sum::<usize>()
+    );
     for (generated, library) in generated.iter().zip(library) {
         // The same motion, and no more than rounding in some hundred operations.
         assert!((generated - library).abs() < 1e-12 * library, "{generated} {library}");

@@ -1,6 +1,6 @@
 //! A table of a scene that is being read: values by key, each error at its place.
 
-use nboom_scalar::{Sym3, Vec3};
+use nboom_scalar::Vec3;
 
 use super::expression;
 use super::keys::{ENDINGS, Key, TableKind};
@@ -68,7 +68,7 @@ impl<'t> Fields<'t> {
         }
     }
 
-    fn node(&self, key: &str) -> Option<&'t Node> {
+    pub(super) fn node(&self, key: &str) -> Option<&'t Node> {
         self.entry(key).map(|(entry, _)| &entry.node)
     }
 }
@@ -325,7 +325,11 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn numbers_in<const N: usize>(&mut self, symbol: &str, node: &Node) -> Option<[f64; N]> {
+    pub(super) fn numbers_in<const N: usize>(
+        &mut self,
+        symbol: &str,
+        node: &Node,
+    ) -> Option<[f64; N]> {
         let expected = format!("a list of {N} numbers");
         let Value::List(nodes) = &node.value else {
             self.error(&node.at, symbol, node.value.kind(), &expected);
@@ -345,46 +349,6 @@ impl Reader<'_, '_> {
         }
         are_right.then_some(numbers)
     }
-
-    /// A unit vector: an axis by name, or three numbers of any length but zero.
-    pub fn direction(&mut self, fields: &Fields<'_>, key: &'static str) -> Option<Vec3<f64>> {
-        let node = fields.node(key)?;
-        let expected = "\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\" or three numbers";
-        let (found, vector) = match &node.value {
-            Value::Text(text) => {
-                let (sign, name) =
-                    text.strip_prefix('-').map_or((1.0, text.as_str()), |n| (-1.0, n));
-                let axis = ["x", "y", "z"].iter().position(|axis| axis.eq_ignore_ascii_case(name));
-                let unit = |axis| [0, 1, 2].map(|i| if i == axis { sign } else { 0.0 });
-                (quoted(text), axis.map(|axis| Vec3::from(unit(axis))))
-            }
-            Value::List(_) => {
-                let vector = Vec3::from(self.numbers_in(key, node)?);
-                ("a vector without direction".to_owned(), unit_vector(vector))
-            }
-            other => (other.kind().to_owned(), None),
-        };
-        if vector.is_none() {
-            self.error(&node.at, key, &found, expected);
-        }
-        vector
-    }
-
-    /// An inertia: three moments, or a table.
-    pub fn inertia(&mut self, fields: &Fields<'_>, key: &'static str) -> Option<Sym3<f64>> {
-        let node = fields.node(key)?;
-        if matches!(node.value, Value::List(_)) {
-            let [xx, yy, zz] = self.numbers_in(key, node)?;
-            return Some(Sym3::diagonal(xx, yy, zz));
-        }
-        let table = self.table(fields, key)?;
-        let moments = ["xx", "yy", "zz"].map(|key| self.number(&table, key));
-        let products = ["xy", "xz", "yz"].map(|key| self.number(&table, key).unwrap_or(0.0));
-        let ([Some(xx), Some(yy), Some(zz)], [xy, xz, yz]) = (moments, products) else {
-            return None;
-        };
-        Some(Sym3 { xx, yy, zz, xy, xz, yz })
-    }
 }
 
 /// A sentence without its point and with a small first letter, unless it begins with a name.
@@ -397,18 +361,4 @@ fn in_a_sentence(about: &str) -> String {
 
 fn in_radians(value: f64, ending: &str) -> f64 {
     if ending == ENDINGS[0] { value.to_radians() } else { value }
-}
-
-/// The vector with length 1; one that has this length but for rounding is left alone.
-fn unit_vector(vector: Vec3<f64>) -> Option<Vec3<f64>> {
-    let largest = vector.to_array().into_iter().fold(0.0, |most: f64, c| most.max(c.abs()));
-    if largest == 0.0 {
-        return None;
-    }
-    if (vector.norm_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
-        return Some(vector);
-    }
-    let scaled = vector.map(|c| c / largest);
-    let length = scaled.norm();
-    Some(scaled.map(|c| c / length))
 }

@@ -17,6 +17,7 @@ mod stations;
 mod suggest;
 mod surroundings;
 mod tree;
+mod vectors;
 mod write;
 
 use std::path::Path;
