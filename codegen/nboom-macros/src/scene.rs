@@ -81,7 +81,7 @@ mod tests {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
         let message = refusal(folder, "\"nowhere.nml\"");
         assert!(message.contains("nowhere.nml: the file cannot be read: "), "{message}");
-        assert!(refusal(folder, "\"Cargo.toml\"").contains("a deck NAME.nml"));
+        assert!(refusal(folder, "\"src/lib.rs\"").contains("a deck NAME.nml"));
     }
 
     #[test]

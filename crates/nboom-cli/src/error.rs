@@ -192,12 +192,10 @@ impl CliError {
         }
     }
 
-    /// The message for the user, one line for each error.
+    /// The message for the user, a piece for each error.
     pub fn lines(&self) -> Vec<String> {
         match self {
-            Self::Input(error @ InputError::Content(_)) => {
-                error.to_string().lines().map(str::to_owned).collect()
-            }
+            Self::Input(error @ InputError::Content(_)) => error.messages(),
             Self::Sections(error @ SectionFileError::Sections(_)) => {
                 error.to_string().lines().map(str::to_owned).collect()
             }

@@ -1,4 +1,3 @@
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use crate::Diagnostic;
@@ -6,6 +5,9 @@ use crate::diagnostic::MOST_KEPT;
 
 /// Most errors that the message shows.
 const MOST_SHOWN: usize = 50;
+
+/// Most errors that it shows with their lines.
+const MOST_DRAWN: usize = 10;
 
 /// Why a file is not a scene.
 #[derive(Debug, thiserror::Error)]
@@ -59,20 +61,33 @@ pub enum InputError {
     },
     /// Everything that is wrong with a deck or a scene, in the order of its lines; reading stops at the
     /// thousandth error.
-    #[error("{}", listing(.0))]
+    #[error("{}", listing(.0).join("\n"))]
     Content(Vec<Diagnostic>),
 }
 
-/// The first errors, one to a line, and how many more there are.
-fn listing(diagnostics: &[Diagnostic]) -> String {
-    let shown = diagnostics.iter().take(MOST_SHOWN).map(Diagnostic::drawn);
-    let mut text = shown.collect::<Vec<_>>().join("\n");
+impl InputError {
+    /// The message, in pieces: one for each of the first errors of the content, and how many more there
+    /// are. The first ten come with their lines.
+    pub fn messages(&self) -> Vec<String> {
+        match self {
+            Self::Content(diagnostics) => listing(diagnostics),
+            other => vec![other.to_string()],
+        }
+    }
+}
+
+fn listing(diagnostics: &[Diagnostic]) -> Vec<String> {
+    let shown = diagnostics.iter().take(MOST_SHOWN).enumerate();
+    let told = |(i, one): (usize, &Diagnostic)| {
+        if i < MOST_DRAWN { one.drawn() } else { one.to_string() }
+    };
+    let mut messages: Vec<String> = shown.map(told).collect();
     let more = diagnostics.len().saturating_sub(MOST_SHOWN);
     if more > 0 {
         let at_least = if diagnostics.len() >= MOST_KEPT { "at least " } else { "" };
-        let _ = write!(text, "\nand {at_least}{more} more");
+        messages.push(format!("and {at_least}{more} more"));
     }
-    text
+    messages
 }
 
 #[cfg(test)]

@@ -78,8 +78,8 @@ fn a_format_goes_with_standard_input_alone() {
     let place = Place::new();
     for (words, told) in [
         (&["run", "-"][..], "--format nml expected"),
-        (&["run", "-", "--format", "toml"], "unknown name, nml expected"),
-        (&["check", "-", "--format", "urdf"], "unknown name, nml expected"),
+        (&["run", "-", "--format", "toml"], "stdin:2:2: scene: found invalid unquoted key"),
+        (&["check", "-", "--format", "urdf"], "unknown name, toml, nml expected"),
         (&["run", "boom.nml", "--format", "nml"], "expected - for standard input"),
     ] {
         let output = fed(&place, BOOM, words);

@@ -77,7 +77,7 @@ fn one_wrong_piece() {
         refuse(&place, &told, words);
         // Each error says where it is, with line and column.
         let message = place.nboom(&["check", "deck.nml"]).stderr();
-        for line in message.lines() {
+        for line in message.lines().filter(|line| line.starts_with("error: ")) {
             let place = line.strip_prefix("error: deck.nml:").and_then(|rest| {
                 let mut numbers = rest.split(':');
                 Some((

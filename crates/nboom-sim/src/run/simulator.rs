@@ -6,6 +6,7 @@ use super::Run;
 use super::control::Control;
 use crate::equations::Equations;
 use crate::equations::state::State;
+use crate::error::SimError;
 use crate::events::situation::Situation;
 use crate::options::Options;
 use crate::run::record::{Failure, Recorder, Snapshot, Summary};
@@ -116,7 +117,11 @@ impl Simulator {
         let mut run = Run::new(*options, equations, workspace, control, recorder);
         let completed = run.complete();
         run.sum_up();
-        let summary = &self.workspace.summary;
+        let summary = &mut self.workspace.summary;
+        if let Err(SimError::Interrupted { time }) = completed {
+            // An output time within a step, whose end is not the state yet.
+            summary.end_time = time;
+        }
         match completed {
             Ok(()) => Ok(summary),
             Err(error) => Err(Failure { error, summary: Box::new(summary.clone()) }),
