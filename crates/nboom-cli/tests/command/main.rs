@@ -244,13 +244,18 @@ fn a_body_whose_moments_overflow_is_wrong_input() {
 }
 
 #[test]
-fn every_error_of_a_deck_has_a_line() {
+fn every_error_of_a_deck_is_told_with_its_card() {
     let place = Place::new();
     let wrong = BOOM.replace("INSTR=0", "BOGUS=0").replace("EMM=100.0", "BAFFLE=1.0");
     place.write("wrong.nml", &wrong);
     let output = place.nboom(&["check", "wrong.nml"]);
     refused(&output, 2, &["wrong.nml:6:", "BOGUS", "BAFFLE"]);
-    assert!(stderr(&output).lines().all(|line| line.starts_with("error: ")), "{}", stderr(&output));
+    let told = stderr(&output);
+    for (card, text) in [(5, " &NXPUT"), (6, "BOGUS=0"), (11, "BAFFLE=1.0")] {
+        let error = format!("error: wrong.nml:{card}:");
+        let at = told.find(&error).unwrap_or_else(|| panic!("no {error:?} in {told}"));
+        assert!(told[at..].contains(text), "{text}: {told}");
+    }
 }
 
 #[test]
