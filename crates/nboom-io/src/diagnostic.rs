@@ -159,9 +159,11 @@ impl<'f> Report<'f> {
         self.errors.len() >= MOST_KEPT
     }
 
+    /// By lines, file by file, the report's own first.
     pub fn sort(&mut self) {
-        self.errors.sort_by_key(|d| (d.line, d.column));
-        self.warnings.sort_by_key(|d| (d.line, d.column));
+        let place = |d: &Diagnostic| (d.file != self.file, d.file.clone(), d.line, d.column);
+        self.errors.sort_by_cached_key(place);
+        self.warnings.sort_by_cached_key(place);
     }
 
     /// Adds to each message the line of `text` that it is about.

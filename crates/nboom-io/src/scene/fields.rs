@@ -249,8 +249,7 @@ impl Reader<'_, '_> {
 
     /// An angle or rate in radians.
     pub fn angle(&mut self, fields: &Fields<'_>, key: &'static str) -> Option<f64> {
-        let (entry, ending) = fields.entry(key)?;
-        Some(in_radians(self.number_in(&entry.key, &entry.node)?, ending))
+        self.angle_as_given(fields, key).map(in_radians)
     }
 
     /// An angle as it is given, and whether it is in degrees.
@@ -260,7 +259,7 @@ impl Reader<'_, '_> {
         key: &'static str,
     ) -> Option<(f64, bool)> {
         let (entry, ending) = fields.entry(key)?;
-        Some((self.number_in(&entry.key, &entry.node)?, ending == ENDINGS[0]))
+        Some((self.number_in(&entry.key, &entry.node)?, is_degrees(ending)))
     }
 
     /// Three angles or rates as they are given, and whether they are degrees.
@@ -271,21 +270,21 @@ impl Reader<'_, '_> {
     ) -> Option<([f64; 3], bool)> {
         let (entry, ending) = fields.entry(key)?;
         let numbers = self.numbers_in(&entry.key, &entry.node)?;
-        Some((numbers, ending == ENDINGS[0]))
+        Some((numbers, is_degrees(ending)))
     }
 
     /// Three angles or rates in radians.
     pub fn angles(&mut self, fields: &Fields<'_>, key: &'static str) -> Option<Vec3<f64>> {
         let (numbers, degrees) = self.angles_as_given(fields, key)?;
-        let ending = if degrees { ENDINGS[0] } else { ENDINGS[1] };
-        Some(Vec3::from(numbers.map(|number| in_radians(number, ending))))
+        Some(Vec3::from(numbers.map(|number| in_radians((number, degrees)))))
     }
 
     /// Pairs of an angle in radians and a number.
     pub fn angle_pairs(&mut self, fields: &Fields<'_>, key: &'static str) -> Vec<[f64; 2]> {
         let Some((entry, ending)) = fields.entry(key) else { return Vec::new() };
-        let rows = self.rows_in::<2>(&entry.key, &entry.node);
-        rows.into_iter().map(|[angle, value]| [in_radians(angle, ending), value]).collect()
+        let rows = self.rows_in::<2>(&entry.key, &entry.node).into_iter();
+        let degrees = is_degrees(ending);
+        rows.map(|[angle, value]| [in_radians((angle, degrees)), value]).collect()
     }
 
     pub fn numbers<const N: usize>(
@@ -359,6 +358,11 @@ fn in_a_sentence(about: &str) -> String {
     first + rest.strip_suffix('.').unwrap_or(rest)
 }
 
-fn in_radians(value: f64, ending: &str) -> f64 {
-    if ending == ENDINGS[0] { value.to_radians() } else { value }
+fn is_degrees(ending: &str) -> bool {
+    ending == ENDINGS[0]
+}
+
+/// An angle or rate in radians; the second says whether it is in degrees.
+fn in_radians((value, degrees): (f64, bool)) -> f64 {
+    if degrees { value.to_radians() } else { value }
 }

@@ -116,10 +116,13 @@ fn assemble(
     let entries: Vec<_> = parts.entries("parameters").collect();
     let parameters = Parameters::read(&entries, &options.set, sources, report);
     let mut reader = Reader { sources, report, parameters: &parameters };
-    reader.check_set(&options.set);
     let roots: Vec<Fields<'_>> =
         parts.iter().map(|(kind, table, at)| reader.fields(kind, table, at)).collect();
     let root = &roots[0];
+    for root in &roots {
+        reader.named(root, "parameters");
+    }
+    reader.check_set(root, &options.set);
     let name = reader.scene_name(root).unwrap_or(name);
     let (settings, stress_interval) = reader.settings(root);
     let scene = reader.surroundings(root, name);
@@ -183,14 +186,15 @@ impl Reader<'_, '_> {
     }
 
     /// Reports parameters on the command line that the scene does not have.
-    fn check_set(&mut self, set: &[(String, f64)]) {
+    fn check_set(&mut self, root: &Fields<'_>, set: &[(String, f64)]) {
+        let at = root.place("parameters");
         for (name, value) in set {
             if self.parameters.get(name).is_none() {
                 let (found, expected) = self.parameters.unknown(name);
-                self.error(&Place::default(), "--set", &found, &expected);
+                self.error(&at, "--set", &found, &expected);
             } else if !value.is_finite() {
                 let found = format!("{name} = {value}");
-                self.error(&Place::default(), "--set", &found, "a finite number");
+                self.error(&at, "--set", &found, "a finite number");
             }
         }
     }

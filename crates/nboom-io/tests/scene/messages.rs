@@ -75,6 +75,15 @@ fn parameters_that_have_no_value_are_refused() {
 }
 
 #[test]
+fn parameters_that_are_no_table_are_refused() {
+    let told = only(&format!("parameters = 3\n{BUS}"));
+    assert!(
+        told.starts_with("a.toml:1:14: parameters: found a number, expected a table"),
+        "{told}"
+    );
+}
+
+#[test]
 fn bodies_that_cannot_be_are_told_at_their_place() {
     let flat = BUS.replace("[40.0, 30.0, 20.0]", "[40.0, 10.0, 20.0]");
     let told = only(&flat);

@@ -143,3 +143,11 @@ fn copies_follow_each_other_by_the_right_hand() {
         assert!((outwards * 2.0 - place).norm() < 1e-15, "{i}: {outwards:?}");
     }
 }
+
+#[test]
+fn the_names_of_unit_sets_are_those_of_the_model() {
+    for units in UnitSystem::NAMED {
+        let file = right(&format!("units = \"{}\"\n{BUS}", units.name()));
+        assert_eq!(file.settings.units, Some(units));
+    }
+}
