@@ -43,6 +43,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         warnings,
         print_interval: file.legacy.print_interval.unwrap_or(1),
         input_sha256: Some(file.sha256),
+        parameters: file.settings.parameters,
         ..RunDescription::new(&scene, &options, units)
     };
     let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };

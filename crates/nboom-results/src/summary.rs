@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use nboom_model::{HingeLabel, Scene, UnitSystem};
 use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
 use nboom_strength::PulseShape;
@@ -34,6 +36,8 @@ pub struct RunDescription {
     /// SHA-256 of the scene's file, in hexadecimal digits; `None` for a scene that was made in
     /// memory.
     pub input_sha256: Option<String>,
+    /// Parameters of the scene with the values of this run, by name.
+    pub parameters: Vec<(String, f64)>,
     /// Labels of the scene's hinges.
     pub hinges: Vec<HingeLabel>,
 }
@@ -54,6 +58,7 @@ impl RunDescription {
             skipped: nboom_model::skipped(scene),
             warnings: Vec::new(),
             input_sha256: None,
+            parameters: Vec::new(),
             hinges: (0..scene.bodies.len()).map(|i| scene.label(i)).collect(),
         }
     }
@@ -67,6 +72,8 @@ pub struct SummaryFile<'a> {
     scene: &'a str,
     version: &'static str,
     input_sha256: Option<&'a str>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    parameters: BTreeMap<&'a str, f64>,
     degrees_of_freedom: usize,
     path: &'a str,
     formulation: &'a str,
@@ -187,6 +194,11 @@ impl<'a> SummaryFile<'a> {
             scene: &run.scene,
             version: env!("CARGO_PKG_VERSION"),
             input_sha256: run.input_sha256.as_deref(),
+            parameters: run
+                .parameters
+                .iter()
+                .map(|(name, value)| (name.as_str(), *value))
+                .collect(),
             degrees_of_freedom: run.degrees_of_freedom,
             path: "generic",
             formulation: "recursive",

@@ -81,11 +81,18 @@ fn every_kind_of_new_scene_runs() {
 fn parameters_are_set_on_the_command_line() {
     let place = Place::new();
     assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
+    let last_of = |set: &[&str]| -> f64 {
+        let value = set.last().and_then(|word| word.strip_prefix("stiffness="));
+        value.expect("an assignment").parse().expect("a number")
+    };
     let latch = |set: &[&str]| {
         let args = [&["run", "boom.toml", "--quiet"], set].concat();
         let run = place.nboom(&args);
         assert_eq!(code(&run), 0, "{}", stderr(&run));
-        let hinges = place.summary("out/boom")["verdict"]["hinges"].clone();
+        let summary = place.summary("out/boom");
+        let told = summary["parameters"]["stiffness"].as_f64();
+        assert_eq!(told, Some(if set.is_empty() { 1.5 } else { last_of(set) }));
+        let hinges = summary["verdict"]["hinges"].clone();
         hinges[0]["time"].as_f64().expect("a latch")
     };
     let (soft, stiff) = (latch(&[]), latch(&["--set", "stiffness=6"]));
