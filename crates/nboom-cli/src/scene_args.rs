@@ -11,12 +11,13 @@ use crate::{CliError, choice};
 /// Where a scene is read.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArgs {
-    /// A scene, a file NAME.toml, or a legacy deck NAME.nml; - for standard input, of the format
-    /// that --format says.
+    /// A scene, a file NAME.toml, a legacy deck NAME.nml, or a robot NAME.urdf; - for standard input,
+    /// of the format that --format says.
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
 
-    /// What standard input is: toml, a scene, or nml, a legacy deck. The scene's name is then stdin.
+    /// What standard input is: toml, a scene, nml, a legacy deck, or urdf, a robot. The scene's name is
+    /// then stdin.
     #[arg(long, value_name = "NAME", value_parser = choice::scene_format)]
     pub format: Option<Format>,
 

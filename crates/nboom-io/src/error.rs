@@ -30,17 +30,17 @@ pub enum InputError {
     },
     /// The file's name does not say what it is.
     #[error(
-        "{}: found a name without a known ending, expected a scene NAME.toml or a deck NAME.nml",
+        "{}: found a name without a known ending, expected a scene NAME.toml, a deck NAME.nml or a robot NAME.urdf",
         path.display()
     )]
     NotAScene {
         /// The file.
         path: PathBuf,
     },
-    /// A parameter is given for a deck.
-    #[error("{file}: --set with a deck found, a scene in TOML with parameters expected")]
+    /// A parameter is given for a deck or a robot.
+    #[error("{file}: --set found, which only a scene in TOML with parameters can take")]
     NoParameters {
-        /// The deck.
+        /// The deck or the robot.
         file: String,
     },
     /// The file is too long.

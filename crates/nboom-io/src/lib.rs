@@ -1,7 +1,8 @@
-//! Reads scenes in TOML and the decks of the 1970 program into a checked [`Scene`].
+//! Reads scenes in TOML, the decks of the 1970 program and robots in URDF into a checked [`Scene`].
 //!
 //! A scene in TOML says everything by name; [`SCENE`] lists its tables and keys. A deck is text in the
-//! five groups of Table 16.1; [`SYMBOLS`] lists what may stand in them. Everything is checked before a
+//! five groups of Table 16.1; [`SYMBOLS`] lists what may stand in them. A robot is links and joints in
+//! XML, see [`parse_robot`]. Everything is checked before a
 //! scene is made, and all errors are reported at once, each with file, line, column, the file's own
 //! name of the value and its line. Degrees end here: a scene has radians. This crate does not
 //! simulate, does not write results, and computes no stresses; what stresses need is read into a
@@ -75,6 +76,7 @@ mod error;
 mod legacy;
 mod scene;
 mod source;
+mod urdf;
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -91,6 +93,7 @@ pub use scene::{
     Holds, Key, ReadOptions, SCENE, TableKind, all_tables, parse_scene, schema, write_scene,
 };
 pub use source::{Format, read_text};
+pub use urdf::parse_robot;
 
 /// What a file contains.
 #[derive(Clone, Debug)]
@@ -125,19 +128,19 @@ pub struct SceneSettings {
     pub parameters: Vec<(String, f64)>,
 }
 
-/// Reads a scene from a file `NAME.toml` or a deck `NAME.nml`. A deck, and a scene that does not say its
-/// name, is named NAME, with U+FFFD for control characters, which a terminal would obey.
+/// Reads a scene from a file `NAME.toml`, a deck `NAME.nml` or a robot `NAME.urdf`. A deck, and a scene or
+/// robot that does not say its name, is named NAME, with U+FFFD for control characters, which a terminal would obey.
 ///
 /// Files of at most 16 MiB are read; bytes that are not UTF-8 may occur in comments only.
 ///
 /// # Errors
 /// When the file cannot be read, is neither by its name, is too long or is not text; and all errors of
-/// its content, as [`parse_scene`] and [`parse_deck`] return them.
+/// its content, as [`parse_scene`], [`parse_deck`] and [`parse_robot`] return them.
 pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
     read_scene_with(path, &ReadOptions::default())
 }
 
-/// As [`read_scene`]; a deck has no parameters.
+/// As [`read_scene`]; decks and robots have no parameters.
 ///
 /// # Errors
 /// Those of [`read_scene`], and parameters that the scene does not have.
@@ -167,10 +170,11 @@ pub fn read_scene_from(
     Ok(if format == Format::Nml { SceneFile { sha256, ..scene } } else { scene })
 }
 
-/// Reads the text of a scene or a deck. Files that a scene includes lie in `folder`.
+/// Reads the text of a scene, a deck or a robot. Files that a scene includes lie in `folder`.
 ///
 /// # Errors
-/// Those of [`parse_scene`] and [`parse_deck`].
+/// Those of [`parse_scene`], [`parse_deck`] and [`parse_robot`], and parameters that are given for one of the
+/// two latter.
 pub fn parse(
     format: Format,
     (file, text): (&str, &str),
@@ -180,7 +184,10 @@ pub fn parse(
 ) -> Result<SceneFile, InputError> {
     match format {
         Format::Toml => parse_scene(file, text, name, folder, options),
-        Format::Nml if options.set.is_empty() => parse_deck(file, text, name),
-        Format::Nml => Err(InputError::NoParameters { file: file.to_owned() }),
+        Format::Nml | Format::Urdf if !options.set.is_empty() => {
+            Err(InputError::NoParameters { file: file.to_owned() })
+        }
+        Format::Nml => parse_deck(file, text, name),
+        Format::Urdf => parse_robot(file, text, name),
     }
 }

@@ -16,17 +16,20 @@ pub enum Format {
     Toml,
     /// A deck of the 1970 program.
     Nml,
+    /// A robot in URDF.
+    Urdf,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 2] = [Self::Toml, Self::Nml];
+    pub const ALL: [Self; 3] = [Self::Toml, Self::Nml, Self::Urdf];
 
     /// The name on the command line, and the ending of files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Toml => "toml",
             Self::Nml => "nml",
+            Self::Urdf => "urdf",
         }
     }
 

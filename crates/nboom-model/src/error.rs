@@ -160,6 +160,7 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
     find_in_motion(scene, &mut errors);
     for (i, body) in scene.bodies.iter().enumerate() {
         find_in_tree(scene, labels, i, &mut errors);
+        find_in_mass(scene, labels[i], i, &mut errors);
         find_in_hinge(body, labels[i], labels.len(), i, &mut errors);
     }
     find_in_tables(scene, &mut errors);
@@ -245,6 +246,22 @@ fn find_in_tree(
     }
 }
 
+/// A body that carries others may be without mass, as the ring between the axes of a gimbal.
+fn find_in_mass(
+    scene: &SceneDescription,
+    label: HingeLabel,
+    i: usize,
+    errors: &mut Vec<ModelError>,
+) {
+    let body = &scene.bodies[i].mass_properties;
+    let carries = || scene.bodies.iter().any(|other| other.inboard == Some(i));
+    if body.is_nothing() && carries() {
+        return;
+    }
+    let name = BodyName::Segment(label);
+    errors.extend(body.defect().map(|defect| ModelError::Mass { body: name, defect }));
+}
+
 fn find_in_hinge(
     body: &Body,
     label: HingeLabel,
@@ -253,9 +270,6 @@ fn find_in_hinge(
     errors: &mut Vec<ModelError>,
 ) {
     let name = BodyName::Segment(label);
-    if let Some(defect) = body.mass_properties.defect() {
-        errors.push(ModelError::Mass { body: name, defect });
-    }
     let hinge = &body.hinge;
     let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
     let spring_numbers = [spring.quadratic, spring.linear, spring.preload_angle];

@@ -55,6 +55,16 @@ impl MassProperties {
         Self { mass, center_of_mass, inertia }
     }
 
+    /// Neither mass nor inertia, with the mass centre at the origin.
+    pub fn nothing() -> Self {
+        Self { mass: 0.0, center_of_mass: Vec3::zero(), inertia: Sym3::zero() }
+    }
+
+    /// Whether there is neither mass nor inertia.
+    pub fn is_nothing(&self) -> bool {
+        self.mass == 0.0 && self.inertia == Sym3::zero() && self.center_of_mass.is_finite()
+    }
+
     /// This body and `other`, which has the same origin and axes, as one.
     ///
     /// The mass centre of two bodies without mass is that of `other`.

@@ -14,7 +14,7 @@ mod schema;
 mod sections;
 mod sources;
 mod stations;
-mod suggest;
+pub(crate) mod suggest;
 mod surroundings;
 mod tree;
 mod vectors;

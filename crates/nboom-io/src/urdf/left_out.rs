@@ -1,0 +1,67 @@
+//! What a robot says that no scene takes over.
+
+use std::collections::BTreeMap;
+
+use super::numbers::Reader;
+
+/// What is left out of a robot, by kind.
+#[derive(Default)]
+pub(super) struct LeftOut {
+    /// For each kind of number, the byte at which it first stands and the joints that have it.
+    of_joints: BTreeMap<Kind, (usize, Vec<String>)>,
+    /// For each tag, the byte at which it first stands and how often.
+    elements: BTreeMap<String, (usize, usize)>,
+}
+
+/// A kind of number or relation of joints.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    Limits,
+    Friction,
+    Mimicry,
+}
+
+impl Kind {
+    /// Its tag, what it is of joints, and how they are taken.
+    fn words(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Self::Limits => ("limit", "limits", "none: hinges turn on beyond them"),
+            Self::Friction => ("dynamics", "friction", "none: hinges turn without it"),
+            Self::Mimicry => ("mimic", "mimicry", "none: each hinge turns by itself"),
+        }
+    }
+}
+
+impl LeftOut {
+    pub fn of_joint(&mut self, kind: Kind, at: usize, joint: &str) {
+        let (_, joints) = self.of_joints.entry(kind).or_insert((at, Vec::new()));
+        joints.push(joint.replace(char::is_control, "\u{fffd}"));
+    }
+
+    pub fn element(&mut self, tag: &str, at: usize) {
+        self.elements.entry(tag.to_owned()).or_insert((at, 0)).1 += 1;
+    }
+
+    /// A warning for each kind, with all joints, and one with all elements.
+    pub fn tell(&self, Reader { lines, report }: &mut Reader<'_, '_, '_>) {
+        for (kind, (at, joints)) in &self.of_joints {
+            let (tag, of_joints, taken) = kind.words();
+            let joints = joints.join(", ");
+            report.warn(lines.position(*at), tag, format!("{of_joints} of {joints}"), taken);
+        }
+        let Some((first, (at, _))) = self.elements.iter().min_by_key(|(_, (at, _))| *at) else {
+            return;
+        };
+        let counted = |(tag, (_, count)): (&String, &(usize, usize))| match count {
+            1 => tag.clone(),
+            _ => format!("{tag} ({count})"),
+        };
+        let all: Vec<String> = self.elements.iter().map(counted).collect();
+        report.warn(
+            lines.position(*at),
+            first,
+            all.join(", "),
+            "links and joints; no motion depends on the rest",
+        );
+    }
+}

@@ -1,0 +1,176 @@
+//! The elements of a robot.
+
+use nboom_model::MassProperties;
+use nboom_scalar::Vec3;
+use roxmltree::{Document, Node};
+
+use super::left_out::{Kind, LeftOut};
+use super::numbers::{Placement, Reader};
+use crate::scene::suggest;
+
+/// A robot as written.
+pub(super) struct Robot<'d> {
+    pub name: Option<&'d str>,
+    pub links: Vec<Link<'d>>,
+    pub joints: Vec<Joint<'d>>,
+    left_out: LeftOut,
+}
+
+/// A rigid body.
+pub(super) struct Link<'d> {
+    pub name: &'d str,
+    /// The byte at which it begins.
+    pub at: usize,
+    /// In its own frame; none where it says nothing about it.
+    pub body: Option<MassProperties>,
+}
+
+/// What joins a link to another one.
+pub(super) struct Joint<'d> {
+    pub name: &'d str,
+    /// The byte at which it begins.
+    pub at: usize,
+    pub motion: Motion,
+    pub parent: &'d str,
+    pub child: &'d str,
+    /// The frame of the child in that of the parent, at angle zero.
+    pub placement: Placement,
+}
+
+/// How a child moves.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Motion {
+    /// About a unit vector in the child's frame.
+    Turns {
+        axis: Vec3<f64>,
+        damping: f64,
+    },
+    Fixed,
+    /// In any way.
+    Floats,
+}
+
+/// Types that hinges are.
+const TYPES: [&str; 4] = ["revolute", "continuous", "fixed", "floating"];
+/// Parts of a joint that are read, some of them only to be named.
+const OF_JOINTS: [&str; 7] = ["origin", "parent", "child", "axis", "dynamics", "limit", "mimic"];
+
+impl<'d> Robot<'d> {
+    /// Reads all links and joints; those that are wrong are reported.
+    pub fn read(document: &'d Document<'d>, reader: &mut Reader<'_, 'd, '_>) -> Option<Self> {
+        let root = document.root_element();
+        if root.tag_name().name() != "robot" {
+            let found = format!("`{}`", root.tag_name().name());
+            reader.error(root, "robot", &found, "the root element `robot` of URDF");
+            return None;
+        }
+        let mut robot = Self {
+            name: root.attribute("name").filter(|name| !name.trim().is_empty()),
+            links: Vec::new(),
+            joints: Vec::new(),
+            left_out: LeftOut::default(),
+        };
+        for node in root.children().filter(Node::is_element) {
+            if reader.report.is_full() {
+                break;
+            }
+            match node.tag_name().name() {
+                _ if node.tag_name().namespace().is_some_and(|of| of.contains("xacro")) => {
+                    let found = format!("macro `{}`", node.tag_name().name());
+                    reader.error(node, "robot", &found, "links and joints, as xacro writes them");
+                }
+                "link" => robot.read_link(node, reader),
+                "joint" => robot.read_joint(node, reader),
+                other => robot.left_out.element(other, node.range().start),
+            }
+        }
+        robot.left_out.tell(reader);
+        Some(robot)
+    }
+
+    fn read_link(&mut self, node: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
+        let (name, at) = (reader.text(node, "name"), node.range().start);
+        let body = reader.inertial(node);
+        for part in node.children().filter(Node::is_element) {
+            if !part.has_tag_name("inertial") {
+                self.left_out.element(part.tag_name().name(), part.range().start);
+            }
+        }
+        self.links.extend(name.map(|name| Link { name, at, body }));
+    }
+
+    fn read_joint(&mut self, node: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
+        let (name, at) = (reader.text(node, "name"), node.range().start);
+        let [parent, child] = ["parent", "child"].map(|tag| {
+            let end = reader.child(node, tag);
+            if end.is_none() {
+                reader.error(node, tag, &format!("`joint` without `{tag}`"), "one");
+            }
+            reader.text(end?, "link")
+        });
+        let placement = reader.placement(node);
+        self.note_left_out(node, name.unwrap_or_default(), reader);
+        let motion = motion(node, name.unwrap_or_default(), reader);
+        if let (Some(name), Some(parent), Some(child), Some(motion)) = (name, parent, child, motion)
+        {
+            self.joints.push(Joint { name, at, motion, parent, child, placement });
+        }
+    }
+
+    fn note_left_out(&mut self, node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) {
+        let turns = matches!(node.attribute("type"), Some("revolute"));
+        for part in node.children().filter(Node::is_element) {
+            let (tag, at) = (part.tag_name().name(), part.range().start);
+            match tag {
+                "limit" if turns => self.left_out.of_joint(Kind::Limits, at, name),
+                "mimic" => self.left_out.of_joint(Kind::Mimicry, at, name),
+                "dynamics" => {
+                    let friction = reader.numbers(part, "friction");
+                    if friction.is_some_and(|[friction]| friction != 0.0) {
+                        self.left_out.of_joint(Kind::Friction, at, name);
+                    }
+                }
+                _ if OF_JOINTS.contains(&tag) => {}
+                _ => self.left_out.element(tag, at),
+            }
+        }
+    }
+}
+
+fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -> Option<Motion> {
+    match reader.text(node, "type")? {
+        "revolute" | "continuous" => {
+            let axis = reader.child(node, "axis");
+            let components = axis.and_then(|axis| reader.numbers(axis, "xyz"));
+            let [x, y, z] = components.unwrap_or([1.0, 0.0, 0.0]);
+            let (along, length) = (Vec3::new(x, y, z), Vec3::new(x, y, z).norm());
+            if !(length.is_normal()) {
+                let found = format!("axis of length {length}");
+                reader.error(axis.unwrap_or(node), "axis", &found, "a direction");
+                return None;
+            }
+            let dynamics = reader.child(node, "dynamics");
+            let damping = dynamics.and_then(|dynamics| reader.numbers(dynamics, "damping"));
+            let damping = damping.map_or(0.0, |[damping]| damping);
+            // Lengths within rounding of one are left as they are.
+            let exact = (length - 1.0).abs() < 4.0 * f64::EPSILON;
+            let axis = if exact { along } else { along * (1.0 / length) };
+            Some(Motion::Turns { axis, damping })
+        }
+        "fixed" => Some(Motion::Fixed),
+        "floating" => Some(Motion::Floats),
+        sliding @ ("prismatic" | "planar") => {
+            let found = format!("joint `{name}` of type {sliding}");
+            reader.error(node, "type", &found, "a type that turns, or fixed: hinges do not slide");
+            None
+        }
+        other => {
+            let found = format!("joint `{name}` of type `{other}`").replace(char::is_control, " ");
+            let meant = suggest::nearest(other, TYPES.into_iter()).map(suggest::question);
+            let expected = "revolute, continuous or fixed".to_owned();
+            let expected = meant.map_or(expected.clone(), |meant| format!("{expected}; {meant}"));
+            reader.error(node, "type", &found, &expected);
+            None
+        }
+    }
+}

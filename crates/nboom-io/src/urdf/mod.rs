@@ -1,0 +1,89 @@
+//! Robots in URDF: text to links and joints to a scene.
+
+mod left_out;
+mod lines;
+mod links;
+mod numbers;
+mod tree;
+
+use nboom_model::{Scene, UnitSystem};
+use roxmltree::Document;
+
+use crate::deck::phrases;
+use crate::diagnostic::{Position, Report};
+use crate::source::sha256;
+use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
+use lines::Lines;
+use links::Robot;
+use numbers::Reader;
+
+/// Reads the text of a robot in URDF, the format of ROS.
+///
+/// `file` is the file's name for messages; the scene is called `name` where the robot has no name. The root
+/// link is the main body, which floats. Joints that turn become hinges, each named like its link; links are
+/// welded to those that they are fixed to. Everything starts at rest with all angles zero, and the run ends
+/// after ten seconds. Damping is taken over; what is not, limits and friction for instance, is named in the
+/// warnings.
+///
+/// # Errors
+/// [`InputError::Content`] with everything that is wrong, in the order of the lines.
+pub fn parse_robot(file: &str, text: &str, name: &str) -> Result<SceneFile, InputError> {
+    let mut report = Report::new(file);
+    let scene = read(text, name, &mut report);
+    report.sort();
+    report.add_excerpts(text);
+    match scene {
+        Some(scene) if report.errors.is_empty() => Ok(SceneFile {
+            scene,
+            warnings: report.warnings,
+            legacy: LegacySettings::default(),
+            structure: None,
+            format: Format::Urdf,
+            settings: SceneSettings { units: Some(UnitSystem::Si), ..SceneSettings::default() },
+            included: Vec::new(),
+            sha256: sha256(text.as_bytes()),
+        }),
+        _ => Err(InputError::Content(report.errors)),
+    }
+}
+
+fn read(text: &str, name: &str, report: &mut Report<'_>) -> Option<Scene> {
+    let document = match Document::parse(text) {
+        Ok(document) => document,
+        Err(error) => {
+            let at = Position { line: error.pos().row as usize, column: error.pos().col as usize };
+            report.error(at, "robot", no_xml(&error), "XML");
+            return None;
+        }
+    };
+    let lines = Lines::of(text);
+    let mut reader = Reader { lines: &lines, report };
+    let robot = Robot::read(&document, &mut reader)?;
+    let draft = tree::assemble(&robot, name, &mut reader)?;
+    let resolved = match draft.resolve() {
+        Ok(resolved) => resolved,
+        Err(errors) => {
+            errors.iter().for_each(|error| refuse(&error.to_string(), report));
+            return None;
+        }
+    };
+    match Scene::new(resolved.description) {
+        Ok(scene) => Some(scene.with_names(resolved.names)),
+        Err(errors) => {
+            errors.iter().for_each(|error| refuse(&error.to_string(), report));
+            None
+        }
+    }
+}
+
+/// Reports what no link or joint alone is responsible for.
+fn refuse(message: &str, report: &mut Report<'_>) {
+    let (found, expected) = phrases(message);
+    report.error(Position::START, "robot", found, expected);
+}
+
+/// What the parser says, without its place.
+fn no_xml(error: &roxmltree::Error) -> String {
+    let message = error.to_string().replace(&format!(" at {}", error.pos()), "");
+    format!("text that is no XML ({})", message.replace(char::is_control, "\u{fffd}"))
+}

@@ -1,0 +1,264 @@
+//! From links and joints to the words of a scene.
+
+use std::collections::BTreeMap;
+
+use nboom_model::{BodyDraft, Dashpot, Hinge, MassProperties, SceneDescription, SceneDraft};
+
+use super::links::{Joint, Link, Motion, Robot};
+use super::numbers::{Placement, Reader};
+use crate::deck::phrases;
+use crate::scene::suggest;
+
+/// When the run ends \[s\].
+const END: f64 = 10.0;
+
+/// A link, and where it is in the body that it belongs to.
+struct Welded {
+    link: usize,
+    /// Index of the body; `None` is the main body.
+    body: Option<usize>,
+    placement: Placement,
+}
+
+/// Puts the links together. All that is wrong with them is reported; half of a tree is none.
+pub(super) fn assemble(
+    robot: &Robot<'_>,
+    name: &str,
+    reader: &mut Reader<'_, '_, '_>,
+) -> Option<SceneDraft> {
+    let outboard = Outboard::find(robot, reader)?;
+    let root = outboard.root(robot, reader)?;
+    let mut parts = Parts { main: Part::of(root), bodies: Vec::new() };
+    let mut links = vec![Welded { link: root, body: None, placement: Placement::none() }];
+    while let Some(welded) = links.pop() {
+        parts.add(robot, &welded);
+        for &joint in &outboard.joints[welded.link] {
+            links.extend(parts.carry(robot, &welded, joint, outboard.child[joint], reader));
+        }
+    }
+    parts.check(robot, reader);
+    if !reader.report.errors.is_empty() {
+        return None;
+    }
+    let name = robot.name.unwrap_or(name).replace(char::is_control, "\u{fffd}");
+    let scene = SceneDescription::at_rest(&name, parts.main.joined, END);
+    Some(SceneDraft { scene, bodies: parts.bodies.into_iter().map(|(draft, _)| draft).collect() })
+}
+
+/// Which joints each link carries.
+struct Outboard {
+    joints: Vec<Vec<usize>>,
+    /// The link outboard of each joint.
+    child: Vec<usize>,
+    /// The joint that carries each link.
+    carried_by: Vec<Option<usize>>,
+}
+
+impl Outboard {
+    /// Reports names that two have or none, and links that two joints carry.
+    fn find(robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
+        let mut numbers = BTreeMap::new();
+        for (i, link) in robot.links.iter().enumerate() {
+            if numbers.insert(link.name, i).is_some() {
+                let found = format!("a second link `{}`", shown(link.name));
+                reader.error_at(link.at, "link", found, "names of their own");
+            }
+        }
+        let mut joint_names = BTreeMap::new();
+        for joint in &robot.joints {
+            if joint_names.insert(joint.name, ()).is_some() {
+                let found = format!("a second joint `{}`", shown(joint.name));
+                reader.error_at(joint.at, "joint", found, "names of their own");
+            }
+        }
+        let links = robot.links.len();
+        let mut found = Self {
+            joints: vec![Vec::new(); links],
+            child: Vec::new(),
+            carried_by: vec![None; links],
+        };
+        for (j, joint) in robot.joints.iter().enumerate() {
+            let ends = [("parent", joint.parent), ("child", joint.child)].map(|(tag, name)| {
+                let number = numbers.get(name).copied();
+                if number.is_none() {
+                    report_unknown(tag, name, joint, robot, reader);
+                }
+                number
+            });
+            let [Some(parent), Some(child)] = ends else { continue };
+            if let Some(other) = found.carried_by[child].replace(j) {
+                let other = shown(robot.joints[other].name);
+                let found = format!("link `{}`, which joint `{other}` carries", shown(joint.child));
+                reader.error_at(joint.at, "child", found, "a link that no joint carries: a tree");
+            }
+            found.joints[parent].push(j);
+            found.child.push(child);
+        }
+        reader.report.errors.is_empty().then_some(found)
+    }
+
+    /// The link that no joint carries; of a root without mass that carries one floating link, this one.
+    fn root(&self, robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) -> Option<usize> {
+        let carried = |i: &usize| self.carried_by[*i].is_some();
+        let mut roots = (0..robot.links.len()).filter(|i| !carried(i));
+        let Some(mut root) = roots.next() else {
+            let at = robot.joints.first().map_or(0, |joint| joint.at);
+            reader.error_at(at, "robot", "joints in a circle", "a root, which no joint carries");
+            return None;
+        };
+        for other in roots {
+            let [first, other] = [root, other].map(|i| &robot.links[i]);
+            let found = format!("link `{}` on no joint", shown(other.name));
+            let expected = format!("joints to all links but the root, `{}`", shown(first.name));
+            reader.error_at(other.at, "link", found, expected);
+        }
+        self.report_circles(robot, root, reader);
+        while let [joint] = self.joints[root][..]
+            && matches!(robot.joints[joint].motion, Motion::Floats)
+            && robot.links[root].body.is_none()
+        {
+            root = self.child[joint];
+        }
+        reader.report.errors.is_empty().then_some(root)
+    }
+
+    /// Every link is carried by one joint at most, so what the roots do not lead to hangs on itself.
+    fn report_circles(&self, robot: &Robot<'_>, root: usize, reader: &mut Reader<'_, '_, '_>) {
+        let mut seen = vec![false; robot.links.len()];
+        let mut next: Vec<usize> =
+            (0..seen.len()).filter(|&i| i == root || self.carried_by[i].is_none()).collect();
+        while let Some(link) = next.pop() {
+            seen[link] = true;
+            next.extend(self.joints[link].iter().map(|&joint| self.child[joint]));
+        }
+        if let Some(link) = seen.iter().position(|seen| !seen) {
+            let link = &robot.links[link];
+            let found = format!("link `{}` in a circle of joints", shown(link.name));
+            reader.error_at(link.at, "link", found, "a way to the root");
+        }
+    }
+}
+
+fn report_unknown(
+    tag: &str,
+    name: &str,
+    joint: &Joint<'_>,
+    robot: &Robot<'_>,
+    reader: &mut Reader<'_, '_, '_>,
+) {
+    let found = format!("`{}` of joint `{}`", shown(name), shown(joint.name));
+    let meant = suggest::nearest(name, robot.links.iter().map(|link| link.name));
+    let expected = match meant {
+        Some(meant) => format!("a link; {}", suggest::question(meant)),
+        None => "a link".to_owned(),
+    };
+    reader.error_at(joint.at, tag, found, expected);
+}
+
+/// A name in a message.
+fn shown(name: &str) -> String {
+    name.chars().take(80).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// A rigid part: links that are fixed to each other, as one body in the frame of the first.
+struct Part {
+    first: usize,
+    joined: MassProperties,
+    /// Whether another part hangs on it.
+    carries: bool,
+}
+
+impl Part {
+    fn of(first: usize) -> Self {
+        Self { first, joined: MassProperties::nothing(), carries: false }
+    }
+
+    fn add(&mut self, link: &Link<'_>, placement: &Placement) {
+        let Some(body) = &link.body else { return };
+        self.joined = self.joined.joined_with(&placement.of_body(body));
+    }
+
+    /// Reports what no body is; a part on which another one hangs may be without mass.
+    fn check(&self, robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) {
+        let link = &robot.links[self.first];
+        if self.joined.is_nothing() {
+            if !self.carries {
+                let found = format!("link `{}` without mass", shown(link.name));
+                let expected = "a mass, of the link or of one that is fixed to it";
+                reader.error_at(link.at, "link", found, expected);
+            }
+            return;
+        }
+        if let Some(defect) = self.joined.defect() {
+            let (found, expected) = phrases(&defect.to_string());
+            let found = format!("{found} of link `{}`", shown(link.name));
+            reader.error_at(link.at, "inertial", found, expected);
+        }
+    }
+}
+
+/// The bodies so far.
+struct Parts {
+    main: Part,
+    bodies: Vec<(BodyDraft, Part)>,
+}
+
+impl Parts {
+    fn part(&mut self, body: Option<usize>) -> &mut Part {
+        match body {
+            Some(i) => &mut self.bodies[i].1,
+            None => &mut self.main,
+        }
+    }
+
+    fn add(&mut self, robot: &Robot<'_>, welded: &Welded) {
+        self.part(welded.body).add(&robot.links[welded.link], &welded.placement);
+    }
+
+    /// The link outboard of a joint of a welded link.
+    fn carry(
+        &mut self,
+        robot: &Robot<'_>,
+        inboard: &Welded,
+        joint: usize,
+        child: usize,
+        reader: &mut Reader<'_, '_, '_>,
+    ) -> Option<Welded> {
+        let joint = &robot.joints[joint];
+        let placement = inboard.placement.then(&joint.placement);
+        match joint.motion {
+            Motion::Fixed => Some(Welded { link: child, body: inboard.body, placement }),
+            Motion::Turns { axis, damping } => {
+                let body = Some(self.bodies.len());
+                if let Some(i) = inboard.body {
+                    self.bodies[i].1.carries = true;
+                }
+                let nothing = MassProperties::nothing();
+                let name = robot.links[child].name.replace(char::is_control, "\u{fffd}");
+                let mut draft = BodyDraft::new(&name, nothing, placement.point, axis);
+                draft.mount.rot_inboard_from_hinge = placement.rot;
+                draft.on = inboard.body.map(|i| self.bodies[i].0.name.clone());
+                let dashpot = Dashpot { rate_linear: -damping, ..Dashpot::default() };
+                draft.hinge = Hinge { dashpot, ..Hinge::free() };
+                self.bodies.push((draft, Part::of(child)));
+                Some(Welded { link: child, body, placement: Placement::none() })
+            }
+            Motion::Floats => {
+                let found = format!("joint `{}` of type floating", shown(joint.name));
+                let expected = "one only between a root without mass and the robot";
+                reader.error_at(joint.at, "type", found, expected);
+                None
+            }
+        }
+    }
+
+    /// Gives each body its mass properties; reports those that no body has.
+    fn check(&mut self, robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) {
+        self.main.check(robot, reader);
+        for (draft, part) in &mut self.bodies {
+            part.check(robot, reader);
+            draft.mass_properties = part.joined;
+            draft.tip = part.joined.center_of_mass * 2.0;
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Robots in URDF.
+
+mod robustness;
+mod rules;
+mod wrong;

@@ -1,0 +1,91 @@
+//! No text makes the reader of robots panic, hang or take memory without end.
+
+use std::fmt::Write;
+
+use nboom_io::{InputError, parse_robot};
+use proptest::prelude::*;
+
+const UR5: &str = include_str!("../../../../tests/data/robots/ur5.urdf");
+
+/// Pieces of text that mean something somewhere.
+const WORDS: [&str; 16] = [
+    "<link name=\"a\"/>",
+    "<joint name=\"a\" type=\"fixed\"><parent link=\"a\"/><child link=\"a\"/></joint>",
+    "<mass value=\"0\"/>",
+    "<inertial>",
+    "</joint>",
+    "<",
+    ">",
+    "/>",
+    "\"",
+    "&amp;",
+    "&#0;",
+    "<![CDATA[",
+    "<!--",
+    "1e999",
+    "nan",
+    "floating",
+];
+
+/// A change of a text: at a place, so many characters are replaced by a word.
+fn edit() -> impl Strategy<Value = (prop::sample::Index, usize, usize)> {
+    (any::<prop::sample::Index>(), 0..40_usize, 0..=WORDS.len())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1500) })]
+
+    #[test]
+    fn edited_robots_are_read_or_refused(edits in prop::collection::vec(edit(), 1..6)) {
+        let mut characters: Vec<char> = UR5.chars().collect();
+        for (at, removed, word) in edits {
+            let at = at.index(characters.len() + 1);
+            let end = (at + removed).min(characters.len());
+            characters.splice(at..end, WORDS.get(word).copied().unwrap_or_default().chars());
+        }
+        let text: String = characters.into_iter().collect();
+        if let Err(error) = parse_robot("ur5.urdf", &text, "ur5") {
+            prop_assert!(matches!(error, InputError::Content(_)));
+            prop_assert!(!error.to_string().is_empty());
+        }
+    }
+}
+
+#[test]
+fn depth_and_entities_have_bounds() {
+    let deep = "<a>".repeat(1_000_000);
+    let mut entities = "<!DOCTYPE r [<!ENTITY a0 \"aaaaaaaaaaaaaaaa\">".to_owned();
+    for i in 1..12 {
+        let inner = format!("&a{};", i - 1).repeat(16);
+        write!(entities, "<!ENTITY a{i} \"{inner}\">").expect("a string takes all");
+    }
+    entities.push_str("]><robot name=\"&a11;\"/>");
+    for text in [deep, entities] {
+        assert!(matches!(parse_robot("a.urdf", &text, "a"), Err(InputError::Content(_))));
+    }
+}
+
+/// A chain of this many links.
+fn chain(links: usize) -> String {
+    let body = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" \
+                iyz=\"0\" izz=\"1\"/></inertial>";
+    let mut text = format!("<robot name=\"chain\"><link name=\"l0\">{body}</link>");
+    for i in 1..links {
+        let inboard = i - 1;
+        write!(
+            text,
+            "<link name=\"l{i}\">{body}</link><joint name=\"j{i}\" type=\"continuous\">\
+             <parent link=\"l{inboard}\"/><child link=\"l{i}\"/></joint>"
+        )
+        .expect("a string takes all");
+    }
+    text.push_str("</robot>");
+    text
+}
+
+#[test]
+fn long_chains_are_read_up_to_the_most_bodies_of_a_scene() {
+    let read = |links| parse_robot("chain.urdf", &chain(links), "chain");
+    assert_eq!(read(5001).expect("a robot").scene.bodies.len(), 5000);
+    assert!(matches!(read(20_000), Err(InputError::Content(_))));
+}

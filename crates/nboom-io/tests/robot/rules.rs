@@ -1,0 +1,108 @@
+//! What a robot's links and joints mean.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nboom_io::{SceneFile, parse_robot};
+use nboom_scalar::{Sym3, Vec3};
+
+const BODY: &str = "<inertial><origin xyz=\"0.5 0 0\"/><mass value=\"2\"/>\
+    <inertia ixx=\"1\" ixy=\"0.1\" ixz=\"0\" iyy=\"2\" iyz=\"0\" izz=\"1.5\"/></inertial>";
+
+fn robot(parts: &str) -> SceneFile {
+    let text = format!(
+        "<robot name=\"arm\"><link name=\"base\">{BODY}</link><link name=\"arm\">{BODY}</link>{parts}\
+         </robot>"
+    );
+    parse_robot("arm.urdf", &text, "file").expect("a robot")
+}
+
+/// A joint from one link to the other.
+fn joint(motion: &str, parent: &str, child: &str, parts: &str) -> String {
+    format!(
+        "<joint name=\"{parent} {child}\" type=\"{motion}\"><parent link=\"{parent}\"/>\
+         <child link=\"{child}\"/>{parts}</joint>"
+    )
+}
+
+fn is_near(found: Vec3<f64>, expected: [f64; 3]) -> bool {
+    let [x, y, z] = expected;
+    (found - Vec3::new(x, y, z)).norm() < 1e-15
+}
+
+#[test]
+fn a_joint_is_a_hinge_where_its_origin_is() {
+    let parts = "<origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/><axis xyz=\"0 3 4\"/>\
+                 <dynamics damping=\"0.7\"/>";
+    let file = robot(&joint("revolute", "base", "arm", parts));
+    let scene = &file.scene;
+    let body = &scene.bodies[0];
+    assert_eq!((scene.name.as_str(), scene.name_of(0)), ("arm", Some("arm")));
+    assert!(is_near(body.mount.point, [1.0, 2.0, 3.0]));
+    assert!(is_near(body.axis, [0.0, 0.6, 0.8]));
+    // The yaw of a quarter turn puts x of the arm along y of the base.
+    let x = body.mount.rot_inboard_from_hinge * Vec3::unit_x();
+    assert!(is_near(x, [0.0, 1.0, 0.0]));
+    assert_eq!(body.hinge.dashpot.rate_linear, -0.7);
+    let expected = Sym3 { xx: 1.0, yy: 2.0, zz: 1.5, xy: 0.1, xz: 0.0, yz: 0.0 };
+    assert_eq!((body.mass_properties.mass, body.mass_properties.inertia), (2.0, expected));
+    assert!(is_near(body.mass_properties.center_of_mass, [0.5, 0.0, 0.0]));
+    assert_eq!(file.settings.units.expect("URDF has units").name(), "SI");
+}
+
+#[test]
+fn roll_comes_before_pitch_before_yaw() {
+    let quarter = FRAC_PI_2;
+    let parts = format!("<origin rpy=\"{quarter} {quarter} 0\"/>");
+    let file = robot(&joint("continuous", "base", "arm", &parts));
+    let rot = file.scene.bodies[0].mount.rot_inboard_from_hinge;
+    // Roll takes y to z, pitch takes z to x.
+    assert!(is_near(rot * Vec3::unit_y(), [1.0, 0.0, 0.0]));
+    assert!(is_near(file.scene.bodies[0].axis, [1.0, 0.0, 0.0]));
+}
+
+#[test]
+fn fixed_links_are_one_body() {
+    let tool = format!("<link name=\"tool\">{BODY}</link><link name=\"frame\"/>");
+    let turned = "<origin xyz=\"2 0 0\" rpy=\"0 0 3.141592653589793\"/>";
+    let file = robot(&format!(
+        "{tool}{}{}{}",
+        joint("continuous", "base", "arm", "<axis xyz=\"0 0 1\"/>"),
+        joint("fixed", "arm", "tool", turned),
+        joint("fixed", "tool", "frame", "")
+    ));
+    let body = &file.scene.bodies[0].mass_properties;
+    // Mass centres 0.5 and 2 - 0.5 from the hinge, the turn by half changes no product of xy.
+    let expected = Sym3 { xx: 2.0, yy: 5.0, zz: 4.0, xy: 0.2, xz: 0.0, yz: 0.0 };
+    assert_eq!(file.scene.bodies.len(), 1);
+    assert_eq!(body.mass, 4.0);
+    assert!(is_near(body.center_of_mass, [1.0, 0.0, 0.0]));
+    let difference = body.inertia + expected * -1.0;
+    assert!(difference.to_matrix().rows.iter().all(|row| row.norm() < 1e-15));
+}
+
+#[test]
+fn a_robot_may_float_on_a_root_without_mass() {
+    let text = format!("<link name=\"world\"/>{}", joint("floating", "world", "base", ""));
+    let file = robot(&format!("{text}{}", joint("continuous", "base", "arm", "")));
+    assert_eq!(file.scene.main_body.mass, 2.0);
+    assert_eq!(file.scene.bodies.len(), 1);
+}
+
+#[test]
+fn what_is_left_out_is_named() {
+    let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"x\"/><dynamics friction=\"1\"/>\
+                 <safety_controller/>";
+    let file = robot(&format!(
+        "<transmission/><transmission/>{}",
+        joint("revolute", "base", "arm", parts)
+    ));
+    let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
+    for expected in [
+        "limits of base arm",
+        "mimicry of base arm",
+        "friction of base arm",
+        "safety_controller, transmission (2)",
+    ] {
+        assert!(told.contains(&expected), "{told:?}");
+    }
+}
