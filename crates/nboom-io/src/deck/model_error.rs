@@ -22,9 +22,9 @@ impl Builder<'_, '_, '_> {
     fn first_segments(&self) -> Vec<usize> {
         let counts = (0..self.sizes.appendages).map(|k| self.values.real("NK", k) as usize);
         counts
-            .scan(0, |next, count| {
+            .scan(0_usize, |next, count| {
                 let first = *next;
-                *next += count;
+                *next = next.saturating_add(count);
                 Some(first)
             })
             .collect()

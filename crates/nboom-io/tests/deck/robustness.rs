@@ -48,6 +48,14 @@ proptest! {
     }
 }
 
+#[test]
+fn a_count_beyond_all_numbers_is_refused() {
+    let deck = REPORT_DECK.replace("NK=2,2,", "NK=1E308,2,");
+    assert_ne!(deck, REPORT_DECK);
+    let error = parse_deck("a.nml", &deck, "a").expect_err("no deck has so many segments");
+    assert!(error.to_string().contains("NK(1): found"), "{error}");
+}
+
 const PIECES: &[&str] = &[
     " ",
     "\n",
