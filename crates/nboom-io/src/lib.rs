@@ -82,7 +82,8 @@ use std::path::{Path, PathBuf};
 use nboom_model::{Scene, Structure, UnitSystem};
 
 pub use deck::{
-    Absent, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering, SYMBOLS, Symbol, parse_deck,
+    Absent, DeckDefect, DeckObstacle, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering,
+    SYMBOLS, Symbol, WrittenDeck, parse_deck, write_deck,
 };
 pub use diagnostic::{Diagnostic, Excerpt};
 pub use error::InputError;

@@ -1,5 +1,6 @@
 //! Scenes in TOML: what they mean, how they are written, what is said of wrong ones.
 
+mod decks;
 mod examples;
 mod messages;
 mod robustness;
