@@ -3,7 +3,7 @@
 //! A scene in TOML says everything by name; [`SCENE`] lists its tables and keys. A deck is text in the
 //! five groups of Table 16.1; [`SYMBOLS`] lists what may stand in them. Everything is checked before a
 //! scene is made, and all errors are reported at once, each with file, line, column, the file's own
-//! name of the value and its line. Degrees end here: a scene has radians. This crate does not
+//! name of the value and its line. A program says a scene in the same [`words`]. Degrees end here: a scene has radians. This crate does not
 //! simulate, does not write results, and computes no stresses; what stresses need is read into a
 //! [`Structure`].
 //!
@@ -69,12 +69,14 @@
 //! ```
 
 mod angles;
+mod axes;
 mod deck;
 mod diagnostic;
 mod error;
 mod legacy;
 mod scene;
 mod source;
+pub mod words;
 
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -5,6 +5,7 @@ mod examples;
 mod messages;
 mod robustness;
 mod rules;
+mod words;
 mod written;
 mod wrong;
 
