@@ -1,8 +1,8 @@
 //! Scenes as decks: what survives, and what is said of scenes that no deck can say.
 
 use nboom_io::{Format, SceneFile, parse_deck, read_scene, write_deck, write_scene};
-use nboom_model::{Posture, SceneDescription};
-use nboom_scalar::Vec3;
+use nboom_model::{Posture, Release, Scene, SceneDescription};
+use nboom_scalar::{Mat3, Vec3};
 
 use super::written::{decks, files, meaning};
 use super::{BUS, body, read, right};
@@ -45,6 +45,31 @@ fn apart(a: Vec3<f64>, b: Vec3<f64>) -> f64 {
     (a - b).norm() / a.norm().max(1.0)
 }
 
+/// Whether hinges, axes, outer ends, mass centres and inertias of two scenes are in the same places at the
+/// start and when all is locked, whatever axes their bodies have.
+fn are_alike(one: &Scene, other: &Scene) {
+    let scenes = [one, other];
+    // Every body adds products of rotations, each rounded by some 1e-16.
+    let rounding = 1e-14 * one.bodies.len() as f64;
+    for posture in [Posture::at_start, Posture::locked] {
+        let [ours, theirs] = scenes.map(|scene| posture(scene).hinges);
+        assert_eq!(ours.len(), theirs.len());
+        for (i, (a, b)) in ours.iter().zip(&theirs).enumerate() {
+            let [m, n] = scenes.map(|scene| scene.bodies[i].mass_properties);
+            let misses = [
+                apart(a.point, b.point),
+                apart(a.axis, b.axis),
+                apart(a.tip, b.tip),
+                apart(a.kick_off, b.kick_off),
+                apart(a.body_axes * m.center_of_mass, b.body_axes * n.center_of_mass),
+            ];
+            assert!(misses.into_iter().all(|miss| miss < rounding), "{i}: {misses:?}");
+            let [m, n] = [m.inertia.rotated(&a.body_axes), n.inertia.rotated(&b.body_axes)];
+            assert!((m - n).largest_entry() < rounding * m.largest_entry(), "{i}");
+        }
+    }
+}
+
 /// Bodies get other axes in a deck, and are where they were.
 #[test]
 fn bodies_of_examples_are_where_they_were() {
@@ -58,33 +83,62 @@ fn bodies_of_examples_are_where_they_were() {
         let again = through_a_deck(&file);
         let messages: Vec<String> = again.warnings.iter().map(ToString::to_string).collect();
         assert_eq!(messages, Vec::<String>::new());
-        for posture in [Posture::at_start, Posture::locked] {
-            let pair = [&file.scene, &again.scene].map(|scene| posture(scene).hinges);
-            for (i, (a, b)) in pair[0].iter().zip(&pair[1]).enumerate() {
-                let bodies =
-                    [&file.scene, &again.scene].map(|scene| scene.bodies[i].mass_properties);
-                let centers = [
-                    a.body_axes * bodies[0].center_of_mass,
-                    b.body_axes * bodies[1].center_of_mass,
-                ];
-                let misses = [
-                    apart(a.point, b.point),
-                    apart(a.axis, b.axis),
-                    apart(a.tip, b.tip),
-                    apart(a.kick_off, b.kick_off),
-                    apart(centers[0], centers[1]),
-                ];
-                assert!(misses.into_iter().all(|miss| miss < 1e-14), "{misses:?}");
-                let inertias = [
-                    bodies[0].inertia.rotated(&a.body_axes),
-                    bodies[1].inertia.rotated(&b.body_axes),
-                ];
-                let miss = (inertias[0] - inertias[1]).largest_entry();
-                assert!(miss < 1e-14 * inertias[0].largest_entry());
-            }
-        }
+        are_alike(&file.scene, &again.scene);
     }
     assert_eq!(told, 3, "all examples but the gimbal, which has a torque over the angle");
+}
+
+/// The scene with other axes of its bodies.
+fn with_other_axes(scene: &Scene, seed: f64) -> Scene {
+    let mut description = (**scene).clone();
+    let turns: Vec<Mat3<f64>> = (0..scene.bodies.len())
+        .map(|i| seed + i as f64)
+        .map(|t| Mat3::from_euler_121(7.0 * t.sin(), 5.0 * (2.0 * t).cos(), 3.0 * t.cos()))
+        .collect();
+    for (turn, body) in turns.iter().zip(&mut description.bodies) {
+        let inboard = body.inboard.map_or_else(Mat3::identity, |inboard| turns[inboard]);
+        let mount = &mut body.mount;
+        mount.point = inboard * mount.point;
+        mount.rot_inboard_from_hinge = inboard * mount.rot_inboard_from_hinge * turn.transpose();
+        body.axis = *turn * body.axis;
+        body.tip = *turn * body.tip;
+        body.mass_properties.center_of_mass = *turn * body.mass_properties.center_of_mass;
+        body.mass_properties.inertia = body.mass_properties.inertia.rotated(turn);
+        if let Some(spring) = &mut body.hinge.kick_off {
+            spring.body_point = *turn * spring.body_point;
+        }
+    }
+    Scene::new(description).expect("the bodies are those of the scene")
+}
+
+/// A deck's appendages may be written along any axes.
+#[test]
+fn axes_of_bodies_do_not_matter() {
+    for path in decks() {
+        let deck = read_scene(&path).unwrap_or_else(|error| panic!("{error}"));
+        for seed in [0.3, 1.7] {
+            let scene = with_other_axes(&deck.scene, seed);
+            let turned = SceneFile { scene, structure: None, ..deck.clone() };
+            let again = through_a_deck(&turned);
+            are_alike(&deck.scene, &turned.scene);
+            are_alike(&turned.scene, &again.scene);
+        }
+    }
+}
+
+#[test]
+fn paddles_come_last_and_releases_follow_them() {
+    let arm = body("arm", "", "state = \"held\"");
+    let paddle = on("arm", "paddle", "").replace("\"x\"", "\"y\"");
+    let boom = body("boom", "", "release = { when = \"paddle\", passes_deg = 10.0 }");
+    let file = right(&(BUS.to_owned() + &arm + &paddle + &boom));
+    let deck = write_deck(&file).expect("a deck has chains and paddles");
+    assert!(deck.left_out.iter().any(|what| what.starts_with("the order of appendages")));
+    let hinges = through_a_deck(&file).scene.bodies.clone();
+    let angle = 10_f64.to_radians();
+    assert_eq!(hinges[0].hinge.release, Release::Angle { hinge: 2, angle });
+    let axes: Vec<Vec3<f64>> = hinges.iter().map(|body| body.axis).collect();
+    assert_eq!(axes, [Vec3::unit_x(), Vec3::unit_x(), Vec3::unit_y()]);
 }
 
 /// What is said of these bodies on a bus, in one line each.
