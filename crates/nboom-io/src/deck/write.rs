@@ -81,7 +81,8 @@ fn left_out(file: &SceneFile, segments: &[&DeckSegment]) -> Vec<String> {
     let SceneFile { scene, settings, structure, .. } = file;
     let mut left_out = Vec::new();
     let mut add = |is_there: bool, what: &str| left_out.extend(is_there.then(|| what.to_owned()));
-    add(scene.name_of(0).is_some(), "names of bodies, but as comments");
+    let has_names = segments.iter().any(|segment| scene.name_of(segment.body).is_some());
+    add(has_names, "names of bodies, but as comments");
     add(settings.units.is_some(), "names of units");
     add(settings.samples.is_some(), "the number of samples");
     add(!settings.parameters.is_empty(), "parameters; the deck has their values");
