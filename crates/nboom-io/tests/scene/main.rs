@@ -1,9 +1,11 @@
 //! Scenes in TOML: what they mean, how they are written, what is said of wrong ones.
 
+mod decks;
 mod examples;
 mod messages;
 mod robustness;
 mod rules;
+mod words;
 mod written;
 mod wrong;
 
