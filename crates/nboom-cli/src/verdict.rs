@@ -58,6 +58,6 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 /// The message about a part that fails.
 pub(crate) fn negative_margin(worst: &Worst) -> Option<String> {
     let margin = worst.margin.filter(|margin| *margin < 0.0)?;
-    let (segment, station, margin) = (worst.segment, worst.station + 1, short(margin, 3));
+    let (segment, station, margin) = (&worst.segment, worst.station + 1, short(margin, 3));
     Some(format!("negative margin: {margin} in segment {segment}, station {station}"))
 }

@@ -98,8 +98,6 @@ impl SceneDescription {
 pub struct Scene {
     description: SceneDescription,
     labels: Vec<HingeLabel>,
-    /// Those of the bodies, if they have any.
-    names: Vec<String>,
     departures: Departures,
 }
 
@@ -117,11 +115,7 @@ impl Scene {
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
         let departures = Departures::default();
-        if errors.is_empty() {
-            Ok(Self { description, labels, names: Vec::new(), departures })
-        } else {
-            Err(errors)
-        }
+        if errors.is_empty() { Ok(Self { description, labels, departures }) } else { Err(errors) }
     }
 
     /// The scene with another end of the run.
@@ -130,7 +124,7 @@ impl Scene {
     /// When that time is not finite or before the initial one.
     pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
         let scene = Self::new(SceneDescription { end_time, ..self.description.clone() })?;
-        Ok(Self { names: self.names.clone(), ..scene.with_departures(self.departures.clone()) })
+        Ok(Self { labels: self.labels.clone(), ..scene.with_departures(self.departures.clone()) })
     }
 
     /// Names the hinged bodies, for people.
@@ -138,14 +132,17 @@ impl Scene {
     /// # Panics
     /// When there is not one name for each.
     #[must_use]
-    pub fn with_names(self, names: Vec<String>) -> Self {
+    pub fn with_names(mut self, names: Vec<String>) -> Self {
         assert_eq!(names.len(), self.bodies.len(), "one name for each body");
-        Self { names, ..self }
+        for (label, name) in self.labels.iter_mut().zip(names) {
+            label.name = Some(name.into());
+        }
+        self
     }
 
     /// The name of hinged body `i`, if it has one.
     pub fn name_of(&self, i: usize) -> Option<&str> {
-        self.names.get(i).map(String::as_str)
+        self.labels[i].name.as_deref()
     }
 
     /// Replaces the departures of the scene's motion.
@@ -169,9 +166,14 @@ impl Scene {
         warning::find(self)
     }
 
-    /// How users count hinge `i`.
+    /// What users call hinge `i`.
     pub fn label(&self, i: usize) -> HingeLabel {
-        self.labels[i]
+        self.labels[i].clone()
+    }
+
+    /// What users call the hinges.
+    pub fn labels(&self) -> &[HingeLabel] {
+        &self.labels
     }
 
     /// Six and one for each hinge, whether it is held or free.
@@ -230,7 +232,7 @@ fn labels(bodies: &[Body]) -> Vec<HingeLabel> {
             appendages += 1;
             segment = 0;
         }
-        labels.push(HingeLabel { appendage: appendages.max(1) - 1, segment });
+        labels.push(HingeLabel::new(appendages.max(1) - 1, segment));
         segment += 1;
     }
     labels

@@ -168,7 +168,7 @@ impl SegmentStructure {
             defects.push(StructureDefect::Inertia { found, expected });
         }
         let place = StructurePlace { segment: label, station: None, vertex: None };
-        let at_place = |defect| StructureError::Segment { place, defect };
+        let at_place = |defect| StructureError::Segment { place: place.clone(), defect };
         defects.into_iter().map(at_place).collect()
     }
 }

@@ -27,7 +27,7 @@ pub enum StructureError {
 }
 
 /// A place in the structure; stations and vertices are stored from 0 and shown from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StructurePlace {
     /// The segment.
     pub segment: HingeLabel,
@@ -155,7 +155,7 @@ pub(crate) fn find(segment: &SegmentStructure, label: HingeLabel) -> Vec<Structu
     }
     found.check_finite("Poisson's ratio", *poissons_ratio);
     for (j, station) in stations.iter().enumerate() {
-        found.place = StructurePlace { station: Some(j), ..place };
+        found.place.station = Some(j);
         found.check_slice(station);
         found.check_section(&station.section);
         found.check_distance(stations, j);
@@ -171,7 +171,8 @@ struct Found {
 
 impl Found {
     fn push(&mut self, defect: StructureDefect) {
-        self.errors.push(StructureError::Segment { place: self.place, defect });
+        let place = self.place.clone();
+        self.errors.push(StructureError::Segment { place, defect });
     }
 
     fn check_finite(&mut self, quantity: &'static str, value: f64) {

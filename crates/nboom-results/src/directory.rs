@@ -90,7 +90,7 @@ impl RunDirectory {
         let place = Destination::take(directory)?;
         let draft = announce(&place, &run)?;
         let path = place.partial();
-        let labels: Vec<_> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
+        let labels = scene.labels().to_vec();
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
         let events = open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone()))?;
         let listing = listing.then(|| open_listing(path, &run, labels)).transpose()?;
@@ -129,7 +129,7 @@ impl RunDirectory {
         analysis: StressAnalysis,
         tables: StressTables,
     ) -> Result<Self, ResultsError> {
-        let hinges = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
+        let hinges = scene.labels().to_vec();
         let (signs, pulses) = (tables.signs, analysis.settings().pulses);
         let generated_for = analysis.generated_for();
         let description = StressDescription { signs, pulses, generated_for };

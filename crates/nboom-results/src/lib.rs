@@ -26,6 +26,7 @@ mod error;
 mod euler;
 mod events;
 mod kind;
+mod label_keys;
 mod layout;
 mod listing;
 mod lock;

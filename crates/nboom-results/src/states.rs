@@ -25,7 +25,7 @@ impl<W: Write> StatesWriter<W> {
         write!(out, "t")?;
         columns(&BEFORE_HINGES).try_for_each(|name| write!(out, ",{name}"))?;
         for label in hinges {
-            let (k, i) = (label.appendage + 1, label.segment + 1);
+            let [k, i] = label.numbers();
             columns(&OF_A_HINGE).try_for_each(|name| write!(out, ",{name}_{k}_{i}"))?;
         }
         columns(&AFTER_HINGES).try_for_each(|name| write!(out, ",{name}"))?;

@@ -203,8 +203,8 @@ impl StressWriter {
     }
 
     fn write_worst(&self, out: &mut Output, worst: &Worst) -> io::Result<()> {
-        let HingeLabel { appendage, segment } = worst.segment;
-        write!(out, "{},{},{},", appendage + 1, segment + 1, worst.station + 1)?;
+        let [appendage, segment] = worst.segment.numbers();
+        write!(out, "{appendage},{segment},{},", worst.station + 1)?;
         number(out, worst.time)?;
         self.event_fields(out, worst.cause)?;
         place_fields(out, worst.max_von_mises.place)?;
@@ -221,8 +221,8 @@ impl StressWriter {
     }
 
     fn write_worst_of_hinge(&self, out: &mut Output, worst: &WorstHingeLoad) -> io::Result<()> {
-        let HingeLabel { appendage, segment } = worst.hinge;
-        write!(out, "{},{},{},", appendage + 1, segment + 1, worst.quantity.name())?;
+        let [appendage, segment] = worst.hinge.numbers();
+        write!(out, "{appendage},{segment},{},", worst.quantity.name())?;
         number(out, worst.time)?;
         self.event_fields(out, worst.cause)?;
         field(out, worst.magnitude())?;
@@ -236,8 +236,8 @@ impl StressWriter {
         match cause {
             Cause::Motion => write!(out, ",,,"),
             Cause::LockUp { hinge, .. } => {
-                let HingeLabel { appendage, segment } = self.hinges[hinge];
-                write!(out, ",lock_up,{},{}", appendage + 1, segment + 1)
+                let [appendage, segment] = self.hinges[hinge].numbers();
+                write!(out, ",lock_up,{appendage},{segment}")
             }
         }
     }

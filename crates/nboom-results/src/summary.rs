@@ -59,7 +59,7 @@ impl RunDescription {
             warnings: Vec::new(),
             input_sha256: None,
             parameters: Vec::new(),
-            hinges: (0..scene.bodies.len()).map(|i| scene.label(i)).collect(),
+            hinges: scene.labels().to_vec(),
         }
     }
 }

@@ -3,6 +3,8 @@ use nboom_sim::{HingeVerdict, LockUpImpulse, Verdict};
 use nboom_strength::{Cause, HingeQuantity, StressAnalysis, Worst, WorstHingeLoad};
 use serde::Serialize;
 
+use crate::label_keys::LabelKeys;
+
 /// The worst stresses and hinge loads of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorstLoads {
@@ -59,8 +61,8 @@ pub(crate) struct VerdictKeys {
 
 #[derive(Clone, Debug, Serialize)]
 struct HingeKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     /// As in `states.csv`.
     state: i8,
     time: Option<f64>,
@@ -69,16 +71,16 @@ struct HingeKeys {
 
 #[derive(Clone, Debug, Serialize)]
 struct LockUpKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     time: f64,
     impulse: f64,
 }
 
 #[derive(Clone, Debug, Serialize)]
 struct StationKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     station: usize,
     time: f64,
     event: Option<&'static str>,
@@ -92,7 +94,7 @@ impl VerdictKeys {
         let [force, moment] =
             [HingeQuantity::Force, HingeQuantity::Moment].map(|quantity| worst.hinge(quantity));
         Self {
-            hinges: hinges.map(|(&label, hinge)| HingeKeys::new(label, hinge)).collect(),
+            hinges: hinges.map(|(label, hinge)| HingeKeys::new(label, hinge)).collect(),
             largest_impulse: largest.map(|largest| largest.impulse.abs()),
             largest_impulse_at: largest.map(|largest| LockUpKeys::new(labels, &largest)),
             worst_load: most_loaded.map(|worst| worst.max_von_mises.stress.von_mises()),
@@ -108,10 +110,9 @@ impl VerdictKeys {
 }
 
 impl HingeKeys {
-    fn new(label: HingeLabel, hinge: &HingeVerdict) -> Self {
+    fn new(label: &HingeLabel, hinge: &HingeVerdict) -> Self {
         Self {
-            appendage: label.appendage + 1,
-            segment: label.segment + 1,
+            label: label.into(),
             state: hinge.state.code(),
             time: hinge.since,
             angle: hinge.angle,
@@ -121,25 +122,23 @@ impl HingeKeys {
 
 impl LockUpKeys {
     fn new(labels: &[HingeLabel], largest: &LockUpImpulse) -> Self {
-        let HingeLabel { appendage, segment } = labels[largest.hinge];
-        let LockUpImpulse { time, impulse, .. } = *largest;
-        Self { appendage: appendage + 1, segment: segment + 1, time, impulse }
+        let LockUpImpulse { hinge, time, impulse } = *largest;
+        Self { label: (&labels[hinge]).into(), time, impulse }
     }
 }
 
 #[derive(Clone, Debug, Serialize)]
 struct HingeLoadKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     time: f64,
     event: Option<&'static str>,
 }
 
 impl From<&WorstHingeLoad> for HingeLoadKeys {
     fn from(worst: &WorstHingeLoad) -> Self {
-        let HingeLabel { appendage, segment } = worst.hinge;
         let (time, event) = (worst.time, event_of(worst.cause));
-        Self { appendage: appendage + 1, segment: segment + 1, time, event }
+        Self { label: (&worst.hinge).into(), time, event }
     }
 }
 
@@ -152,10 +151,8 @@ fn event_of(cause: Cause) -> Option<&'static str> {
 
 impl From<&Worst> for StationKeys {
     fn from(worst: &Worst) -> Self {
-        let HingeLabel { appendage, segment } = worst.segment;
         Self {
-            appendage: appendage + 1,
-            segment: segment + 1,
+            label: (&worst.segment).into(),
             station: worst.station + 1,
             time: worst.time,
             event: event_of(worst.cause),

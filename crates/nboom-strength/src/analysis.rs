@@ -90,7 +90,7 @@ impl StressAnalysis {
         settings: Settings,
     ) -> Result<Self, StrengthError> {
         settings.check()?;
-        let labels: Vec<HingeLabel> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
+        let labels = scene.labels().to_vec();
         let influences: Vec<_> = sections.iter().map(|at| at.here.influence()).collect();
         let equations = equations.with_sections(influences);
         let hands_on = settings.slips.contains(Slip::LoadTransfer);
@@ -303,7 +303,7 @@ impl StressAnalysis {
         let Record { value, time, cause, load, numbers } = *self.worst.get(g)?;
         let max_von_mises = at.formulas.max_von_mises_of(numbers);
         let has_load = value > ROUNDING * self.worst.largest_of_kind(g);
-        let (segment, station) = (self.labels[at.segment], at.station);
+        let (segment, station) = (self.labels[at.segment].clone(), at.station);
         let driver = has_load.then(|| driver(&at.formulas, &load, &max_von_mises));
         let margin = self.settings.margin(value).filter(|_| has_load);
         Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margin })
@@ -311,15 +311,15 @@ impl StressAnalysis {
 
     /// The largest force and the largest moment of each hinge so far; nothing before the first motion.
     pub fn hinge_envelope(&self) -> Vec<WorstHingeLoad> {
-        let of_hinge = |(i, hinge): (usize, &HingeLabel)| {
+        let of_hinge = |i: usize| {
             let first = self.stations.iter().len() + 2 * i;
-            let hinge = *hinge;
             HingeQuantity::ALL.into_iter().enumerate().filter_map(move |(j, quantity)| {
                 let Record { time, cause, load, .. } = *self.worst.get(first + j)?;
+                let hinge = self.labels[i].clone();
                 Some(WorstHingeLoad { hinge, quantity, time, cause, load })
             })
         };
-        self.labels.iter().enumerate().flat_map(of_hinge).collect()
+        (0..self.labels.len()).flat_map(of_hinge).collect()
     }
 
     /// The largest difference so far between the load about a free hinge's axis and its torque,

@@ -83,7 +83,7 @@ impl fmt::Display for Component {
 }
 
 /// The worst stress of a station.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
     /// The segment.
     pub segment: HingeLabel,
@@ -106,7 +106,7 @@ pub struct Worst {
 }
 
 /// The largest force or moment of a hinge.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WorstHingeLoad {
     /// The hinge.
     pub hinge: HingeLabel,

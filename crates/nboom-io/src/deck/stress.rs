@@ -74,7 +74,7 @@ impl Builder<'_, '_, '_> {
         report: fn(&mut Self, Key, usize, String, &str),
     ) {
         let StructureError::Segment { place, defect } = error else { return };
-        let (key, index) = responsible(self.number_of_segment(place.segment), place, defect);
+        let (key, index) = responsible(self.number_of_segment(&place.segment), place, defect);
         let (found, expected) = model_error::phrases(&defect.to_string());
         report(self, key, index, found, &expected);
     }

@@ -41,7 +41,7 @@ pub use write::write_scene;
 /// Most output times of a run.
 const MOST_SAMPLES: usize = 10_000_000;
 
-/// Longest name of a scene \[bytes\].
+/// Longest name of a scene or a body \[bytes\].
 const LONGEST_NAME: usize = 200;
 
 /// How a scene in TOML is read.
