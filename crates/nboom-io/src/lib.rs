@@ -73,13 +73,14 @@ mod deck;
 mod diagnostic;
 mod error;
 mod legacy;
+mod sampling;
 mod scene;
 mod source;
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use nboom_model::{Scene, Structure, UnitSystem};
+use nboom_model::{Scene, Structure, UnitSystem, WantedTable};
 
 pub use deck::{
     Absent, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering, SYMBOLS, Symbol, parse_deck,
@@ -87,6 +88,7 @@ pub use deck::{
 pub use diagnostic::{Diagnostic, Excerpt};
 pub use error::InputError;
 pub use legacy::LegacySettings;
+pub use sampling::{Sampling, TooManyTimes};
 pub use scene::{
     Holds, Key, ReadOptions, SCENE, TableKind, all_tables, parse_scene, schema, write_scene,
 };
@@ -119,8 +121,14 @@ pub struct SceneFile {
 pub struct SceneSettings {
     /// Units of its numbers.
     pub units: Option<UnitSystem>,
-    /// Output times after the initial one.
-    pub samples: Option<usize>,
+    /// Output times.
+    pub sampling: Option<Sampling>,
+    /// A table of the motion beside that of states.
+    pub table: Option<WantedTable>,
+    /// Whether loads of hinges are wanted.
+    pub hinge_loads: bool,
+    /// Whether the printout is wanted.
+    pub listing: bool,
     /// Parameters with their values, by name.
     pub parameters: Vec<(String, f64)>,
 }

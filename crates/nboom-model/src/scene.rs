@@ -4,7 +4,7 @@ use nboom_scalar::Vec3;
 
 use crate::{
     Appendage, Departures, Gravity, Hinge, HingeLabel, InitialMotion, MassProperties, ModelError,
-    ModelWarning, Mount, Thrust, error, warning,
+    ModelWarning, Mount, Shapes, Thrust, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -98,6 +98,7 @@ impl SceneDescription {
 pub struct Scene {
     description: SceneDescription,
     labels: Vec<HingeLabel>,
+    shapes: Shapes,
     departures: Departures,
 }
 
@@ -115,7 +116,11 @@ impl Scene {
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
         let departures = Departures::default();
-        if errors.is_empty() { Ok(Self { description, labels, departures }) } else { Err(errors) }
+        if errors.is_empty() {
+            Ok(Self { description, labels, shapes: Shapes::default(), departures })
+        } else {
+            Err(errors)
+        }
     }
 
     /// The scene with another end of the run.
@@ -124,7 +129,8 @@ impl Scene {
     /// When that time is not finite or before the initial one.
     pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
         let scene = Self::new(SceneDescription { end_time, ..self.description.clone() })?;
-        Ok(Self { labels: self.labels.clone(), ..scene.with_departures(self.departures.clone()) })
+        let Self { labels, shapes, departures, .. } = self.clone();
+        Ok(Self { labels, shapes, ..scene.with_departures(departures) })
     }
 
     /// Names the hinged bodies, for people.
@@ -143,6 +149,17 @@ impl Scene {
     /// The name of hinged body `i`, if it has one.
     pub fn name_of(&self, i: usize) -> Option<&str> {
         self.labels[i].name.as_deref()
+    }
+
+    /// Gives bodies shapes, for pictures.
+    #[must_use]
+    pub fn with_shapes(self, shapes: Shapes) -> Self {
+        Self { shapes, ..self }
+    }
+
+    /// The shapes of the bodies that have one.
+    pub fn shapes(&self) -> &Shapes {
+        &self.shapes
     }
 
     /// Replaces the departures of the scene's motion.

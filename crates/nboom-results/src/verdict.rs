@@ -1,6 +1,6 @@
 use nboom_model::HingeLabel;
 use nboom_sim::{HingeVerdict, LockUpImpulse, Verdict};
-use nboom_strength::{Cause, HingeQuantity, StressAnalysis, Worst, WorstHingeLoad};
+use nboom_strength::{Cause, HingeQuantity, Limit, StressAnalysis, Worst, WorstHingeLoad};
 use serde::Serialize;
 
 use crate::label_keys::LabelKeys;
@@ -26,11 +26,13 @@ impl WorstLoads {
         self.stations.iter().max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
     }
 
-    /// The station with the smallest margin, if a yield stress is known.
-    pub fn weakest(&self) -> Option<&Worst> {
-        let margin = |worst: &Worst| worst.margin.unwrap_or(f64::INFINITY);
-        let known = self.stations.iter().filter(|worst| worst.margin.is_some());
-        known.min_by(|a, b| margin(a).total_cmp(&margin(b)))
+    /// The station with the smallest margin, if a strength is known, the margin, and what it is to.
+    pub fn weakest(&self) -> Option<(&Worst, f64, Limit)> {
+        let known = self.stations.iter().filter_map(|worst| {
+            let (margin, limit) = worst.margins.smallest()?;
+            Some((worst, margin, limit))
+        });
+        known.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The hinge with the largest force or moment.
@@ -52,7 +54,7 @@ pub(crate) struct VerdictKeys {
     worst_load: Option<f64>,
     worst_load_at: Option<StationKeys>,
     smallest_margin: Option<f64>,
-    smallest_margin_at: Option<StationKeys>,
+    smallest_margin_at: Option<MarginKeys>,
     largest_hinge_force: Option<f64>,
     largest_hinge_force_at: Option<HingeLoadKeys>,
     largest_hinge_moment: Option<f64>,
@@ -86,6 +88,20 @@ struct StationKeys {
     event: Option<&'static str>,
 }
 
+#[derive(Clone, Debug, Serialize)]
+struct MarginKeys {
+    #[serde(flatten)]
+    station: StationKeys,
+    /// What the margin is to.
+    limit: &'static str,
+}
+
+impl From<(&Worst, f64, Limit)> for MarginKeys {
+    fn from((worst, _, limit): (&Worst, f64, Limit)) -> Self {
+        Self { station: worst.into(), limit: limit.name() }
+    }
+}
+
 impl VerdictKeys {
     pub fn new(labels: &[HingeLabel], verdict: &Verdict, worst: &WorstLoads) -> Self {
         let hinges = labels.iter().zip(&verdict.hinges);
@@ -99,8 +115,8 @@ impl VerdictKeys {
             largest_impulse_at: largest.map(|largest| LockUpKeys::new(labels, &largest)),
             worst_load: most_loaded.map(|worst| worst.max_von_mises.stress.von_mises()),
             worst_load_at: most_loaded.map(StationKeys::from),
-            smallest_margin: weakest.and_then(|worst| worst.margin),
-            smallest_margin_at: weakest.map(StationKeys::from),
+            smallest_margin: weakest.map(|(_, margin, _)| margin),
+            smallest_margin_at: weakest.map(MarginKeys::from),
             largest_hinge_force: force.map(WorstHingeLoad::magnitude),
             largest_hinge_force_at: force.map(HingeLoadKeys::from),
             largest_hinge_moment: moment.map(WorstHingeLoad::magnitude),

@@ -1,5 +1,5 @@
 use nboom_loads::LoadEquations;
-use nboom_model::{HingeLabel, Scene, Structure};
+use nboom_model::{HingeLabel, Material, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
 use nboom_sections::{AtStation, Section};
 use nboom_sim::{Detail, InstantMotion, MotionAt, Snapshot, StepMotion};
@@ -13,7 +13,7 @@ use crate::record::{Record, Records};
 use crate::search::Search;
 use crate::station::Station;
 use crate::{
-    HingeQuantity, LatchImpulses, LockUpPeaks, Settings, Slip, StationLoad, Stations,
+    HingeQuantity, LatchImpulses, LockUpPeaks, Margins, Settings, Slip, StationLoad, Stations,
     StrengthError, Worst, WorstHingeLoad,
 };
 
@@ -30,6 +30,8 @@ pub struct StressAnalysis {
     labels: Vec<HingeLabel>,
     /// `None` without a structure.
     pulse_constants: Option<Vec<f64>>,
+    /// Those of the segments, if there are stations.
+    materials: Vec<Material>,
     finder: LoadFinder,
     stations: Stations,
     search: Search,
@@ -65,7 +67,9 @@ impl StressAnalysis {
                 StrengthError::Section { segment: scene.label(segment), station, source: here }
             })?;
         let equations = LoadEquations::new(scene, Some(structure));
-        Self::of(scene, equations, sections, Some(pulse_constants(structure)), settings)
+        let all = Self::of(scene, equations, sections, Some(pulse_constants(structure)), settings)?;
+        let materials = structure.segments().iter().map(|segment| segment.material).collect();
+        Ok(Self { materials, ..all })
     }
 
     /// The analysis of the hinges of any scene, without stresses. Pulse constants belong to a
@@ -105,6 +109,7 @@ impl StressAnalysis {
             settings,
             labels,
             pulse_constants,
+            materials: Vec::new(),
             stations,
             pulses: Pulses::new(settings.pulses),
             reached: f64::NEG_INFINITY,
@@ -305,8 +310,9 @@ impl StressAnalysis {
         let has_load = value > ROUNDING * self.worst.largest_of_kind(g);
         let (segment, station) = (self.labels[at.segment].clone(), at.station);
         let driver = has_load.then(|| driver(&at.formulas, &load, &max_von_mises));
-        let margin = self.settings.margin(value).filter(|_| has_load);
-        Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margin })
+        let of_load = || self.settings.margins(&self.materials[at.segment], value);
+        let margins = if has_load { of_load() } else { Margins::default() };
+        Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margins })
     }
 
     /// The largest force and the largest moment of each hinge so far; nothing before the first motion.

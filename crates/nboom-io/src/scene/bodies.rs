@@ -41,6 +41,7 @@ impl Reader<'_, '_> {
             Some(Repeat { count: count?, about: about? })
         });
         body.structure = self.structure(fields, materials);
+        body.shape = self.shape(fields, &mass_properties);
         body
     }
 

@@ -167,7 +167,7 @@ impl Responsible<'_> {
         let station = place.station.and_then(|number| body.nth("station", number));
         let (table, symbol) = match (defect, station) {
             (StructureDefect::PulseConstant(_), _) => (body, "pulse_constant"),
-            (StructureDefect::YoungsModulus(_), _) => (body, "material"),
+            (StructureDefect::Material(_), _) => (body, "material"),
             (StructureDefect::Order { .. } | StructureDefect::NotAtHinge(_), Some(table)) => {
                 (table, "at")
             }

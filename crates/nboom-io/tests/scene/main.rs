@@ -2,8 +2,10 @@
 
 mod examples;
 mod messages;
+mod outputs;
 mod robustness;
 mod rules;
+mod shapes;
 mod written;
 mod wrong;
 
