@@ -2,6 +2,7 @@
 
 mod certificate;
 mod outputs;
+mod pictures;
 mod scenes;
 mod standard_input;
 mod strengths;
