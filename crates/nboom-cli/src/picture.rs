@@ -25,6 +25,9 @@ const HINGE: &str = "#b36b00";
 /// Share of the drawing's extent that the axes of a hinged body have.
 const AXIS: f64 = 0.055;
 
+/// Bodies beyond these have no label; there would be no room.
+const MOST_LABELS: usize = 100;
+
 /// The drawing, as a file in SVG.
 pub(crate) fn svg(scene: &Scene, units: &UnitSystem) -> String {
     let latches = |body: &Body| body.hinge.can_turn() && body.hinge.lock_angle.is_some();
@@ -129,8 +132,9 @@ impl Drawing<'_> {
         posture.hinges.iter().for_each(|place| self.hinge(place));
         let mut labels = Labels::default();
         self.main_axes(scene, &mut labels);
-        posture.hinges.iter().for_each(|place| labels.keep_off(view.place(place.point)));
-        for (i, place) in posture.hinges.iter().enumerate() {
+        let labelled = || posture.hinges.iter().take(MOST_LABELS);
+        labelled().for_each(|place| labels.keep_off(view.place(place.point)));
+        for (i, place) in labelled().enumerate() {
             let label = scene.name_of(i).map_or_else(|| scene.label(i).to_string(), str::to_owned);
             let middle = shapes.of(i).map_or((place.point + place.tip) * 0.5, |shape| {
                 place.point + place.body_axes * shape.middle

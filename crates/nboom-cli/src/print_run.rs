@@ -127,7 +127,9 @@ impl Account<'_> {
     /// The smallest margin, unless the line of the largest stress tells it.
     fn margin_line(&self) -> Option<String> {
         let (worst, margin, limit) = self.worst.weakest()?;
-        let is_told = self.worst.station() == Some(worst) && limit == Limit::Yield;
+        // Stations that are loaded alike have one margin.
+        let has_it = |told: &Worst| told.margins.on_yield == Some(margin);
+        let is_told = limit == Limit::Yield && self.worst.station().is_some_and(has_it);
         let (margin, limit, station) = (short(margin, 3), limit.name(), worst.station + 1);
         let (segment, time) = (&worst.segment, short(worst.time, 10));
         (!is_told).then(|| {

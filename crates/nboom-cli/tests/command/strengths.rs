@@ -135,6 +135,17 @@ fn the_weakest_part_is_told_by_name() {
 }
 
 #[test]
+fn one_strength_of_all_parts_is_told_with_the_largest_stress() {
+    let place = Place::new();
+    place.write("spinner.toml", &SPINNER.replace("ultimate_stress = 42000.0\n", ""));
+    let told = stdout(&place.nboom(&["run", "spinner.toml", "--yield-stress", "50000"]));
+    assert!(
+        told.contains(", margin 0.745; of thin walls") && !told.contains("least margin"),
+        "{told}"
+    );
+}
+
+#[test]
 fn factors_without_a_strength_are_refused() {
     let place = Place::new();
     let without = |key: &str| {
