@@ -123,6 +123,18 @@ fn a_scene_gives_its_routines() {
     assert_eq!(alone.matches("pub struct ").count(), 1);
 }
 
+/// The example in TOML has the motion of the sample deck, so its routines are those of the deck.
+#[test]
+fn a_scene_in_toml_gives_the_routines_of_its_deck() {
+    let of = |file: &str| {
+        written(&Config::new().scene(file).baked_scene(file).with_lock_states().with_right_sides())
+    };
+    let (deck, toml) = (of(SAMPLE), of("../../examples/n-boom.toml"));
+    assert!(deck.contains("pub struct BakedS2P;"));
+    let differing = deck.lines().zip(toml.lines()).find(|(deck, toml)| deck != toml);
+    assert_eq!((differing, deck.lines().count()), (None, toml.lines().count()));
+}
+
 #[test]
 fn what_cannot_be_generated_is_said_in_words() {
     let (_folder, path) = place();

@@ -27,6 +27,9 @@ const SAMPLE: nboom::CompiledScene = nboom::scene!("../../examples/n-boom-1970.n
 /// One without stations.
 const PLAIN: nboom::CompiledScene = nboom::scene!("../../benches/scenes/T1.nml");
 
+/// A scene in TOML, with parameters and a repetition.
+const WING: nboom::CompiledScene = nboom::scene!("../../examples/wing.toml");
+
 fn sample() -> Scene {
     SAMPLE.scene().expect("it was read when this was compiled")
 }
@@ -147,6 +150,16 @@ fn topologies_are_names_numbers_or_strings() {
     );
 }
 
+#[test]
+fn a_compiled_scene_in_toml_is_the_scene_of_the_file() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/wing.toml");
+    let file = nboom::io::read_scene(&path).expect("an example");
+    let scene = WING.scene().expect("it was read when this was compiled");
+    assert_eq!(scene, file.scene);
+    assert_eq!((WING.name(), scene.name_of(5)), ("wing", Some("outer panel 2")));
+    assert!(!WING.text().contains('$'), "the program has no parameters to look up");
+}
+
 /// Times of lock-ups, and the last rates.
 #[derive(Default)]
 struct Latches(Vec<f64>);
@@ -160,17 +173,20 @@ impl Recorder for Latches {
 
 #[test]
 fn a_compiled_scene_runs_in_its_own_code_alone() {
-    let latches = |path, kernels| {
-        let mut latches = Latches::default();
-        let options = Options { path, kernels, ..Options::default() };
-        simulate(&sample(), &options, &mut latches).expect("the sample deck runs");
-        latches.0
-    };
-    let (generated, recursion) =
-        (latches(Path::Generated, SAMPLE.kernels()), latches(Path::Generic, &[]));
-    assert_eq!(generated.len(), 4);
-    for (generated, recursion) in generated.iter().zip(recursion) {
-        assert!((generated - recursion).abs() < 1e-7 * recursion, "{generated} {recursion}");
+    for (compiled, locks) in [(SAMPLE, 4), (WING, 6)] {
+        let scene = compiled.scene().expect("it was read when this was compiled");
+        let latches = |path, kernels| {
+            let mut latches = Latches::default();
+            let options = Options { path, kernels, ..Options::default() };
+            simulate(&scene, &options, &mut latches).expect("an example runs");
+            latches.0
+        };
+        let (generated, recursion) =
+            (latches(Path::Generated, compiled.kernels()), latches(Path::Generic, &[]));
+        assert_eq!((generated.len(), recursion.len()), (locks, locks));
+        for (generated, recursion) in generated.iter().zip(recursion) {
+            assert!((generated - recursion).abs() < 1e-7 * recursion, "{generated} {recursion}");
+        }
     }
 }
 

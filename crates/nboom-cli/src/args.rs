@@ -68,7 +68,8 @@ pub enum Command {
     ///
     /// The ending of each name says its format: .nml is a legacy deck, .toml a scene. A deck becomes a
     /// scene with the same motion, to the last bit. A scene with parameters and includes becomes one
-    /// that stands alone.
+    /// that stands alone. A scene becomes a deck if a deck can say it; otherwise every body that it
+    /// cannot is named, with the reason.
     Convert(ConvertArgs),
     /// Print the JSON schema of scenes, for editors.
     Schema,

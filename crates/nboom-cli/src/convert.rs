@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use nboom_io::{Format, write_scene};
+use nboom_io::{Format, SceneFile, write_deck, write_scene};
 
 use crate::{CliError, SceneArgs, check, output, say};
 
@@ -12,7 +12,7 @@ pub struct ConvertArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// The file to write, NAME.toml.
+    /// The file to write: a scene NAME.toml or a deck NAME.nml.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
 }
@@ -20,16 +20,31 @@ pub struct ConvertArgs {
 /// Writes a scene in another format, and returns the text for standard output.
 pub(crate) fn convert(args: &ConvertArgs) -> Result<String, CliError> {
     let ConvertArgs { scene, output } = args;
-    if Format::of(output) != Some(Format::Toml) {
-        return Err(CliError::NoScene { path: output.clone() });
-    }
+    let format = Format::of(output);
+    let format = format.ok_or_else(|| CliError::NoScene { path: output.clone() })?;
     let file = check::scene(scene)?;
+    let (text, comment) = match format {
+        Format::Toml => (as_scene(&file), '#'),
+        Format::Nml => (as_deck(&file)?, '!'),
+    };
+    let text = format!("{comment} Made from {}.\n{text}", name(&scene.scene));
+    output::write(output, &scene.scene, &text)?;
+    Ok(format!("{}: {}\n", file.scene.name, output.display()))
+}
+
+fn as_scene(file: &SceneFile) -> String {
     if file.legacy.has_integrator_settings() {
         say("note", "left out: settings of the integrator of 1970, which only rkam reads");
     }
-    let text = format!("# Made from {}.\n{}", name(&scene.scene), write_scene(&file));
-    output::write(output, &scene.scene, &text)?;
-    Ok(format!("{}: {}\n", file.scene.name, output.display()))
+    write_scene(file)
+}
+
+fn as_deck(file: &SceneFile) -> Result<String, CliError> {
+    let deck = write_deck(file).map_err(CliError::NoDeck)?;
+    for what in &deck.left_out {
+        say("note", &format!("left out: {what}"));
+    }
+    Ok(deck.text)
 }
 
 fn name(path: &Path) -> String {

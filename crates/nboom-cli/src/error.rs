@@ -1,7 +1,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use nboom_io::{InputError, TooManyTimes};
+use nboom_io::{DeckObstacle, InputError, TooManyTimes};
 use nboom_model::ModelError;
 #[cfg(feature = "generator")]
 use nboom_package::PackageError;
@@ -110,12 +110,18 @@ pub enum CliError {
          results, DIR.partial, marked incomplete"
     )]
     WithinStep,
-    /// The output of a conversion is not a scene by its name.
-    #[error("{}: found a name without the ending .toml, expected NAME.toml", path.display())]
+    /// The output of a conversion is neither a scene nor a deck by its name.
+    #[error(
+        "{}: found a name without a known ending, expected a scene NAME.toml or a deck NAME.nml",
+        path.display()
+    )]
     NoScene {
         /// The file.
         path: PathBuf,
     },
+    /// No deck can say the scene.
+    #[error("a scene that no deck can say")]
+    NoDeck(Vec<DeckObstacle>),
     /// A file that would be made is there already.
     #[cfg(feature = "generator")]
     #[error("{}: found a file of this name, expected none; -o names another one", path.display())]
@@ -177,7 +183,7 @@ impl CliError {
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
             Self::NoFormat | Self::VainFormat { .. } => 2,
-            Self::NoScene { .. } => 2,
+            Self::NoScene { .. } | Self::NoDeck(_) => 2,
             #[cfg(feature = "generator")]
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
@@ -211,6 +217,7 @@ impl CliError {
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::Input(error @ InputError::Content(_)) => error.messages(),
+            Self::NoDeck(obstacles) => obstacles.iter().map(ToString::to_string).collect(),
             Self::Sections(error @ SectionFileError::Sections(_)) => {
                 error.to_string().lines().map(str::to_owned).collect()
             }

@@ -27,6 +27,13 @@ pub(crate) fn rotation_about(axis: Vec3<f64>, (s, c): (f64, f64)) -> Mat3<f64> {
     along + (Mat3::identity() + along * -1.0) * c + Mat3::skew(axis) * s
 }
 
+/// The degrees that are read as these radians, if there are any; those with few digits come first.
+pub(crate) fn in_degrees(radians: f64) -> Option<f64> {
+    let degrees = radians.to_degrees();
+    let few = (degrees * 1e9).round() / 1e9;
+    [few, degrees].into_iter().find(|degrees| degrees.to_radians() == radians)
+}
+
 /// Sine and cosine of an angle in degrees; exact for quarter turns.
 pub(crate) fn sin_cos(degrees: f64) -> (f64, f64) {
     let quarters = degrees.rem_euclid(360.0) / 90.0;

@@ -3,7 +3,7 @@
 //! A scene in TOML says everything by name; [`SCENE`] lists its tables and keys. A deck is text in the
 //! five groups of Table 16.1; [`SYMBOLS`] lists what may stand in them. Everything is checked before a
 //! scene is made, and all errors are reported at once, each with file, line, column, the file's own
-//! name of the value and its line. Degrees end here: a scene has radians. This crate does not
+//! name of the value and its line. A program says a scene in the same [`words`]. Degrees end here: a scene has radians. This crate does not
 //! simulate, does not write results, and computes no stresses; what stresses need is read into a
 //! [`Structure`].
 //!
@@ -69,6 +69,7 @@
 //! ```
 
 mod angles;
+mod axes;
 mod deck;
 mod diagnostic;
 mod error;
@@ -76,6 +77,7 @@ mod legacy;
 mod sampling;
 mod scene;
 mod source;
+pub mod words;
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -83,7 +85,8 @@ use std::path::{Path, PathBuf};
 use nboom_model::{Scene, Structure, UnitSystem, WantedTable};
 
 pub use deck::{
-    Absent, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering, SYMBOLS, Symbol, parse_deck,
+    Absent, DeckDefect, DeckObstacle, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering,
+    SYMBOLS, Symbol, WrittenDeck, parse_deck, write_deck,
 };
 pub use diagnostic::{Diagnostic, Excerpt};
 pub use error::InputError;

@@ -11,6 +11,13 @@ pub struct BodyShape {
     pub axes: Mat3<f64>,
 }
 
+impl BodyShape {
+    /// A solid around this place, along the body's axes.
+    pub fn around(middle: impl Into<Vec3<f64>>, solid: Solid) -> Self {
+        Self { solid, middle: middle.into(), axes: Mat3::identity() }
+    }
+}
+
 /// A simple solid around its middle, along its own axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solid {

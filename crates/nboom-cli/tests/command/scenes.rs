@@ -31,24 +31,77 @@ fn results(place: &Place, scene: &str, output: &str) -> Vec<(String, Vec<u8>)> {
     tables.into_iter().map(read).collect()
 }
 
+/// Converts a file without loss of what a run reads.
+fn converted(place: &Place, from: &str, to: &str) {
+    let converted = place.nboom(&["convert", from, "-o", to]);
+    assert_eq!(code(&converted), 0, "{from}: {}", stderr(&converted));
+}
+
 #[test]
-fn a_converted_deck_gives_the_same_bytes() {
+fn a_converted_deck_gives_the_same_bytes_there_and_back() {
     let place = Place::new();
     let decks = ["examples", "tests/data/scenes"].map(files_of).concat();
     assert!(decks.len() > 10);
     for deck in decks {
         let deck = deck.to_str().expect("a path");
-        let converted = place.nboom(&["convert", deck, "-o", "converted.toml"]);
-        assert_eq!(code(&converted), 0, "{deck}: {}", stderr(&converted));
+        converted(&place, deck, "scene.toml");
+        converted(&place, "scene.toml", "deck.nml");
         let before = results(&place, deck, "before");
         assert!(before.iter().any(|(name, _)| name == "states.csv"));
-        // Named, for the assertion would print all bytes.
-        for ((name, before), (_, after)) in
-            before.iter().zip(results(&place, "converted.toml", "after"))
-        {
-            assert!(*before == after, "{name} of {deck}");
+        for other in ["scene.toml", "deck.nml"] {
+            // Named, for the assertion would print all bytes.
+            for ((name, before), (_, after)) in before.iter().zip(results(&place, other, "after")) {
+                assert!(*before == after, "{name} of {deck} as {other}");
+            }
         }
     }
+}
+
+/// The last row of a table of states.
+fn last_row(tables: &[(String, Vec<u8>)]) -> Vec<f64> {
+    let states = tables.iter().find(|(name, _)| name == "states.csv").expect("states");
+    let text = String::from_utf8(states.1.clone()).expect("text");
+    let row = text.lines().last().expect("a row").split(',');
+    row.map(|number| number.parse().expect("a number")).collect()
+}
+
+#[test]
+fn a_scene_becomes_a_deck_that_moves_alike() {
+    let place = Place::new();
+    for kind in ["boom", "wing", "n-boom"] {
+        let scene = root().join(format!("examples/{kind}.toml"));
+        let scene = scene.to_str().expect("a path");
+        converted(&place, scene, "deck.nml");
+        let check = place.nboom(&["check", "deck.nml"]);
+        assert_eq!((code(&check), stderr(&check)), (0, String::new()), "{kind}");
+        let [before, after] =
+            [(scene, "before"), ("deck.nml", "after")].map(|(file, to)| results(&place, file, to));
+        // The deck has other axes of bodies, so numbers differ by rounding, which the motion magnifies.
+        for (i, (a, b)) in last_row(&before).iter().zip(last_row(&after)).enumerate() {
+            assert!((a - b).abs() <= 1e-9 * a.abs().max(1.0), "{kind}, column {i}: {a}, {b}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_no_deck_can_say_is_told_body_by_body() {
+    let place = Place::new();
+    let gimbal = root().join("examples/gimbal.toml");
+    let refused = place.nboom(&["convert", gimbal.to_str().expect("a path"), "-o", "gimbal.nml"]);
+    assert_eq!(code(&refused), 2);
+    let told = stderr(&refused);
+    let expected = [
+        "error: `dish`: hinge.at: found it off the line along its axis",
+        "error: `dish`: hinge.torque: found a torque over the angle",
+    ];
+    for (line, expected) in told.lines().zip(expected) {
+        assert!(line.starts_with(expected), "{told}");
+    }
+    assert_eq!(told.lines().count(), expected.len(), "{told}");
+    assert!(!place.path("gimbal.nml").exists());
+    let nameless = place.nboom(&["convert", "gimbal.toml", "-o", "gimbal"]);
+    assert_eq!(code(&nameless), 2);
+    assert!(stderr(&nameless).contains("a scene NAME.toml or a deck NAME.nml"));
 }
 
 #[test]

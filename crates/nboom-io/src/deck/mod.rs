@@ -17,6 +17,7 @@ mod settings;
 mod stress;
 mod symbols;
 mod values;
+mod write;
 
 use nboom_model::{Scene, Structure};
 
@@ -30,6 +31,7 @@ pub use hinges::NEVER;
 pub(crate) use model_error::phrases;
 pub use symbols::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
 pub use values::LARGEST_COUNT;
+pub use write::{DeckDefect, DeckObstacle, WrittenDeck, write_deck};
 
 /// Reads the text of a deck, Table 16.1 and Section 17.
 ///

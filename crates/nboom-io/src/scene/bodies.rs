@@ -7,6 +7,7 @@ use super::fields::{Fields, Reader};
 use super::stations::Materials;
 use super::{LONGEST_NAME, hinges};
 use crate::diagnostic::quoted;
+use crate::words;
 
 /// What stands for a body of which something is missing, so that reading goes on.
 const ANY_MASS: f64 = 1.0;
@@ -27,8 +28,8 @@ impl Reader<'_, '_> {
         let mass_properties = self.mass_properties(fields);
         let mut body = BodyDraft::new(name, mass_properties, Vec3::zero(), Vec3::unit_x());
         body.on = self.inboard(fields);
-        let twice = mass_properties.center_of_mass * 2.0;
-        body.tip = self.vector(fields, "tip").unwrap_or(twice);
+        let tip = self.vector(fields, "tip");
+        body.tip = tip.unwrap_or_else(|| words::tip_of(&mass_properties));
         if let Some(hinge) = self.table(fields, "hinge") {
             body.mount = self.mount(&hinge);
             body.axis = self.direction(&hinge, "axis").unwrap_or(body.axis);
@@ -59,8 +60,7 @@ impl Reader<'_, '_> {
     }
 
     fn inboard(&mut self, fields: &Fields<'_>) -> Option<String> {
-        let name = self.text(fields, "on")?;
-        (name != "main_body" && name != "main body").then(|| name.to_owned())
+        self.text(fields, "on").and_then(words::inboard)
     }
 
     fn mount(&mut self, hinge: &Fields<'_>) -> Mount {

@@ -1,18 +1,26 @@
 //! Hinges in words: how they start, what acts about them, when they are released and lock.
 
-use nboom_model::{BodyDraft, Dashpot, HingeStart, HingeState, ReleaseDraft, Spring};
+use nboom_model::{BodyDraft, Dashpot, HingeState, ReleaseDraft, Spring};
 
 use super::catalog::STATES;
 use super::fields::{Fields, Reader};
+use crate::words::{self, DamperWords};
 
 /// Reads what the table of a hinge says about how it moves.
 pub(super) fn read(reader: &mut Reader<'_, '_>, hinge: &Fields<'_>, body: &mut BodyDraft) {
-    body.release = reader.release(hinge);
-    body.hinge.start = reader.start(hinge);
-    body.hinge.lock_angle = reader.angle(hinge, "latch");
-    body.hinge.spring = reader.spring(hinge);
-    body.hinge.dashpot = reader.damper(hinge);
-    body.torque_table = reader.angle_pairs(hinge, "torque");
+    let mut words = words::hinge();
+    words.release = hinge.has("release").then(|| reader.release(hinge));
+    words.state = reader.state(hinge);
+    words.start = reader.angle(hinge, "start").unwrap_or(words.start);
+    words.rate = reader.angle(hinge, "rate").unwrap_or(words.rate);
+    words.latch = reader.angle(hinge, "latch");
+    words.spring = reader.spring(hinge);
+    words.damper = reader.damper(hinge);
+    words.torque = reader.angle_pairs(hinge, "torque");
+    for (key, found, expected) in words.contradictions() {
+        reader.error(&hinge.place(key), key, &found, expected);
+    }
+    words.act_on(body);
 }
 
 impl Reader<'_, '_> {
@@ -24,9 +32,10 @@ impl Reader<'_, '_> {
             return ReleaseDraft::At(time);
         }
         if let Some(after) = self.text(&release, "after") {
-            let by = self.number(&release, "by").unwrap_or(0.0);
+            let after = words::after(after);
             self.refuse_beside(&release, "after", "passes");
-            return ReleaseDraft::AfterLock { after: after.to_owned(), by };
+            let by = self.number(&release, "by");
+            return by.map_or(after.clone(), |by| after.by(by)).into();
         }
         self.refuse_beside(&release, "when", "by");
         let passes = self.angle(&release, "passes");
@@ -49,64 +58,34 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn start(&mut self, hinge: &Fields<'_>) -> HingeStart {
-        let state = match self.choice(hinge, "state", STATES) {
-            Some("free") => HingeState::Free,
-            Some("locked") => HingeState::Locked,
-            Some(_) => HingeState::Unreleased,
-            None if hinge.has("release") => HingeState::Unreleased,
-            None => HingeState::Free,
-        };
-        let is_held = state != HingeState::Free;
-        if state != HingeState::Unreleased && hinge.has("release") {
-            let found = format!("a release of a hinge that starts {}", word(state));
-            self.error(
-                &hinge.place("release"),
-                "release",
-                &found,
-                "state = \"held\", or no release",
-            );
-        }
-        let rate = self.angle(hinge, "rate").unwrap_or(0.0);
-        if is_held && rate != 0.0 {
-            let found = format!("a rate of a hinge that starts {}", word(state));
-            self.error(&hinge.place("rate"), "rate", &found, "zero, or state = \"free\"");
-        }
-        HingeStart {
-            angle: self.angle(hinge, "start").unwrap_or(0.0),
-            rate: if is_held { 0.0 } else { rate },
-            state,
-        }
+    fn state(&mut self, hinge: &Fields<'_>) -> Option<HingeState> {
+        self.choice(hinge, "state", STATES).map(|state| match state {
+            "free" => HingeState::Free,
+            "locked" => HingeState::Locked,
+            _ => HingeState::Unreleased,
+        })
     }
 
     fn spring(&mut self, hinge: &Fields<'_>) -> Spring {
         let Some(spring) = self.table(hinge, "spring") else { return Spring::default() };
-        let mut number = |key| self.number(&spring, key).unwrap_or(0.0);
-        let (stiffness, quadratic) = (number("stiffness"), number("quadratic"));
-        let rest = self.angle(&spring, "rest").unwrap_or(0.0);
-        Spring { quadratic, linear: opposite(stiffness), preload_angle: opposite(rest) }
+        let mut words = words::spring(self.number(&spring, "stiffness").unwrap_or(0.0));
+        if let Some(quadratic) = self.number(&spring, "quadratic") {
+            words = words.quadratic(quadratic);
+        }
+        self.angle(&spring, "rest").map_or(words, |rest| words.rest_rad(rest)).into()
     }
 
     fn damper(&mut self, hinge: &Fields<'_>) -> Dashpot {
         let Some(damper) = self.table(hinge, "damper") else { return Dashpot::default() };
-        let mut number = |key| self.number(&damper, key).unwrap_or(0.0);
-        let numbers = ["damping", "rate_squared", "angle", "angle_squared"].map(&mut number);
-        let [damping, rate_quadratic, angle_linear, angle_quadratic] = numbers;
-        let preload_angle = opposite(self.angle(&damper, "rest").unwrap_or(0.0));
-        let rate_linear = opposite(damping);
-        Dashpot { rate_quadratic, rate_linear, angle_quadratic, angle_linear, preload_angle }
-    }
-}
-
-/// The negative number, but zero of zero.
-fn opposite(number: f64) -> f64 {
-    0.0 - number
-}
-
-fn word(state: HingeState) -> &'static str {
-    match state {
-        HingeState::Free => "free",
-        HingeState::Unreleased => "held",
-        HingeState::Locked => "locked",
+        let mut words = words::damper(self.number(&damper, "damping").unwrap_or(0.0));
+        let mut set = |key, to: fn(DamperWords, f64) -> DamperWords| {
+            if let Some(number) = self.number(&damper, key) {
+                words = to(words, number);
+            }
+        };
+        set("rate_squared", DamperWords::rate_squared);
+        set("angle", DamperWords::angle);
+        set("angle_squared", DamperWords::angle_squared);
+        self.angle(&damper, "rest").map_or(words, |rest| words.rest_rad(rest)).into()
     }
 }

@@ -4,21 +4,16 @@ use nboom_scalar::{Sym3, Vec3};
 
 use super::fields::{Fields, Reader};
 use super::tree::Value;
+use crate::axes::{A_DIRECTION, axis_named, unit_vector};
 use crate::diagnostic::quoted;
 
 impl Reader<'_, '_> {
     /// A unit vector: an axis by name, or three numbers of any length but zero.
     pub fn direction(&mut self, fields: &Fields<'_>, key: &'static str) -> Option<Vec3<f64>> {
         let node = fields.node(key)?;
-        let expected = "\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\" or three numbers";
+        let expected = A_DIRECTION;
         let (found, vector) = match &node.value {
-            Value::Text(text) => {
-                let (sign, name) =
-                    text.strip_prefix('-').map_or((1.0, text.as_str()), |n| (-1.0, n));
-                let axis = ["x", "y", "z"].iter().position(|axis| axis.eq_ignore_ascii_case(name));
-                let unit = |axis| [0, 1, 2].map(|i| if i == axis { sign } else { 0.0 });
-                (quoted(text), axis.map(|axis| Vec3::from(unit(axis))))
-            }
+            Value::Text(text) => (quoted(text), axis_named(text)),
             Value::List(_) => {
                 let vector = Vec3::from(self.numbers_in(key, node)?);
                 ("a vector without direction".to_owned(), unit_vector(vector))
@@ -46,18 +41,4 @@ impl Reader<'_, '_> {
         };
         Some(Sym3 { xx, yy, zz, xy, xz, yz })
     }
-}
-
-/// The vector with length 1; one that has this length but for rounding is left alone.
-fn unit_vector(vector: Vec3<f64>) -> Option<Vec3<f64>> {
-    let largest = vector.to_array().into_iter().fold(0.0, |most: f64, c| most.max(c.abs()));
-    if largest == 0.0 {
-        return None;
-    }
-    if (vector.norm_squared() - 1.0).abs() <= 4.0 * f64::EPSILON {
-        return Some(vector);
-    }
-    let scaled = vector.map(|c| c / largest);
-    let length = scaled.norm();
-    Some(scaled.map(|c| c / length))
 }

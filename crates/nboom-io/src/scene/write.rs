@@ -9,6 +9,7 @@ use nboom_model::{
 use nboom_scalar::{Mat3, Vec3};
 
 use super::catalog::FILES_ON_REQUEST;
+use crate::angles::in_degrees;
 use crate::{Sampling, SceneFile, SceneSettings};
 use lines::{Lines, angle, inertia, list, listed, number, text, vector};
 
@@ -98,7 +99,7 @@ fn surroundings(lines: &mut Lines, scene: &Scene) {
     let quaternion = list([initial.attitude.scalar, x, y, z]);
     lines.value("attitude", format!("{{ quaternion = {quaternion} }}"));
     let rates = initial.omega_body.to_array();
-    let degrees = rates.map(lines::in_degrees);
+    let degrees = rates.map(in_degrees);
     match degrees {
         [Some(x), Some(y), Some(z)] => lines.value("rate_deg", list([x, y, z])),
         _ => lines.value("rate_rad", list(rates)),

@@ -1,11 +1,13 @@
 //! Scenes in TOML: what they mean, how they are written, what is said of wrong ones.
 
+mod decks;
 mod examples;
 mod messages;
 mod outputs;
 mod robustness;
 mod rules;
 mod shapes;
+mod words;
 mod written;
 mod wrong;
 

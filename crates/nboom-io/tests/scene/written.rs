@@ -7,7 +7,7 @@ use nboom_model::{
 
 use super::read;
 
-fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
     let files = std::fs::read_dir(folder).expect("the folder is in the clone");
     let paths = files.map(|file| file.expect("an entry").path());
@@ -16,7 +16,7 @@ fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
 
 /// The description of a scene without what has no effect: releases of hinges that are not held, and
 /// rest angles of laws without torque.
-fn meaning(file: &SceneFile) -> SceneDescription {
+pub fn meaning(file: &SceneFile) -> SceneDescription {
     let mut scene = (*file.scene).clone();
     for Hinge { release, start, spring, dashpot, .. } in
         scene.bodies.iter_mut().map(|body| &mut body.hinge)
@@ -67,13 +67,17 @@ fn survives(file: &SceneFile) {
     assert_eq!(write_scene(&again), text);
 }
 
+/// All decks of the clone.
+pub fn decks() -> Vec<PathBuf> {
+    let folders = ["examples", "tests/data/scenes", "benches/scenes"];
+    let decks = folders.map(|folder| files(folder, "nml")).concat();
+    assert!(decks.len() > 20, "{decks:?}");
+    decks
+}
+
 #[test]
 fn decks_become_scenes_of_the_same_numbers() {
-    let decks =
-        ["examples", "tests/data/scenes", "benches/scenes"].map(|folder| files(folder, "nml"));
-    let decks: Vec<PathBuf> = decks.concat();
-    assert!(decks.len() > 20, "{decks:?}");
-    for deck in decks {
+    for deck in decks() {
         survives(&read_scene(&deck).unwrap_or_else(|error| panic!("{error}")));
     }
 }

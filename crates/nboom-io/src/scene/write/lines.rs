@@ -2,6 +2,8 @@ use std::fmt::Write;
 
 use nboom_scalar::{Sym3, Vec3};
 
+use crate::angles::in_degrees;
+
 /// Lines of a TOML text.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
@@ -62,13 +64,6 @@ pub(super) fn inertia(inertia: &Sym3<f64>) -> String {
     let moments = [("xx", xx), ("yy", yy), ("zz", zz), ("xy", xy), ("xz", xz), ("yz", yz)];
     let moments = moments.map(|(key, value)| format!("{key} = {}", number(value)));
     format!("{{ {} }}", moments.join(", "))
-}
-
-/// The degrees that are read as these radians, if there are any; those with few digits come first.
-pub(super) fn in_degrees(radians: f64) -> Option<f64> {
-    let degrees = radians.to_degrees();
-    let few = (degrees * 1e9).round() / 1e9;
-    [few, degrees].into_iter().find(|degrees| degrees.to_radians() == radians)
 }
 
 /// A key of an angle or rate with its value, in degrees where no bit is lost.

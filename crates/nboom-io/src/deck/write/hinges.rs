@@ -1,0 +1,128 @@
+use nboom_model::{Dashpot, Hinge, HingeState, KickOffSpring, Release, Scene, Spring};
+use nboom_scalar::Vec3;
+
+use super::super::NEVER;
+use super::appendages::DeckSegment;
+use super::cards::Cards;
+use super::inverse::degrees;
+use super::obstacle::{DeckDefect, Obstacles};
+use super::{numbers, vectors};
+
+/// Reports what a deck cannot say of the hinges of a scene.
+pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let hinge = &body.hinge;
+        if scene.torque_tables.iter().any(|table| table.hinge == i) {
+            obstacles.add(i, "hinge.torque", DeckDefect::Torque);
+        }
+        if let Some(lock) = hinge.lock_angle.map(degrees).filter(|lock| lock.abs() >= NEVER) {
+            obstacles.add(i, "hinge.latch", DeckDefect::Never(lock));
+        }
+        if let Some(spring) = hinge.kick_off.filter(|spring| spring.limit_length < 0.0) {
+            obstacles.add(i, "kick_off.limit", DeckDefect::Limit(spring.limit_length));
+        }
+        let defect = match release(hinge) {
+            Release::Time(time) if release_time(scene, time).is_none() => DeckDefect::Never(time),
+            Release::Angle { angle, .. } if degrees(angle).abs() >= NEVER => {
+                DeckDefect::Never(degrees(angle))
+            }
+            Release::AfterLock { .. } => DeckDefect::AfterLock,
+            _ => continue,
+        };
+        obstacles.add(i, "hinge.release", defect);
+    }
+}
+
+/// The release of a hinge, if it starts held.
+fn release(hinge: &Hinge) -> Release {
+    if hinge.start.state == HingeState::Unreleased { hinge.release } else { Release::Never }
+}
+
+/// The time that means a release time to a deck. Those that it takes for never have one outside of the run.
+fn release_time(scene: &Scene, time: f64) -> Option<f64> {
+    let start = scene.initial.time;
+    if time.abs() < NEVER {
+        Some(time)
+    } else if time > scene.end_time {
+        Some(time.min(f64::MAX))
+    } else {
+        Some(start).filter(|start| time <= *start && start.abs() < NEVER)
+    }
+}
+
+/// A release time that never comes.
+fn never(scene: &Scene) -> f64 {
+    if scene.end_time < NEVER { NEVER } else { f64::MAX }
+}
+
+/// Angles, laws and releases of all hinges.
+pub(super) fn write(cards: &mut Cards, scene: &Scene, segments: &[&DeckSegment]) {
+    let hinges: Vec<&Hinge> = segments.iter().map(|s| &scene.bodies[s.body].hinge).collect();
+    cards.values("BETAIK", &numbers(&hinges, |hinge| degrees(hinge.start.angle)));
+    cards.unless_zero("TAUIK", &numbers(&hinges, |hinge| degrees(hinge.start.rate)));
+    cards.values("BSIK", &numbers(&hinges, |hinge| hinge.lock_angle.map_or(NEVER, degrees)));
+    laws(cards, &hinges);
+    kick_off(cards, &hinges, segments);
+    releases(cards, scene, &hinges, segments);
+}
+
+fn laws(cards: &mut Cards, hinges: &[&Hinge]) {
+    let springs = [
+        ("EKNIK(1,1)", numbers(hinges, |hinge| hinge.spring.quadratic)),
+        ("EKNIK(1,2)", numbers(hinges, |hinge| hinge.spring.linear)),
+    ];
+    // Without its law an angle would mean nothing.
+    let preload = |hinge: &&Hinge| match hinge.spring {
+        Spring { quadratic: 0.0, linear: 0.0, .. } => 0.0,
+        spring => degrees(spring.preload_angle),
+    };
+    let dashpots = [
+        ("QNIK(1,1)", numbers(hinges, |hinge| hinge.dashpot.rate_quadratic)),
+        ("QNIK(1,2)", numbers(hinges, |hinge| hinge.dashpot.rate_linear)),
+        ("QNIK(1,3)", numbers(hinges, |hinge| hinge.dashpot.angle_quadratic)),
+        ("QNIK(1,4)", numbers(hinges, |hinge| hinge.dashpot.angle_linear)),
+    ];
+    let damper_preload = |hinge: &&Hinge| match hinge.dashpot {
+        Dashpot { angle_quadratic: 0.0, angle_linear: 0.0, .. } => 0.0,
+        dashpot => degrees(dashpot.preload_angle),
+    };
+    springs.iter().for_each(|(name, values)| cards.unless_zero(name, values));
+    cards.unless_zero("THETIK", &numbers(hinges, preload));
+    dashpots.iter().for_each(|(name, values)| cards.unless_zero(name, values));
+    cards.unless_zero("GAMAIK", &numbers(hinges, damper_preload));
+}
+
+fn kick_off(cards: &mut Cards, hinges: &[&Hinge], segments: &[&DeckSegment]) {
+    if hinges.iter().all(|hinge| hinge.kick_off.is_none()) {
+        return;
+    }
+    let none = KickOffSpring {
+        main_body_point: Vec3::zero(),
+        body_point: Vec3::zero(),
+        coefficients: [0.0; 4],
+        limit_length: 0.0,
+    };
+    let springs = hinges.iter().zip(segments).map(|(hinge, segment)| {
+        let spring = hinge.kick_off.unwrap_or(none);
+        KickOffSpring { body_point: segment.axes.transpose_mul(spring.body_point), ..spring }
+    });
+    let springs: Vec<KickOffSpring> = springs.collect();
+    cards.values("RIK1", &vectors(&springs, |spring| spring.main_body_point));
+    cards.values("SIK1", &vectors(&springs, |spring| spring.body_point));
+    let coefficients: Vec<f64> = springs.iter().flat_map(|spring| spring.coefficients).collect();
+    cards.values("AES", &coefficients);
+    cards.values("XIKF", &numbers(&springs, |spring| spring.limit_length));
+}
+
+fn releases(cards: &mut Cards, scene: &Scene, hinges: &[&Hinge], segments: &[&DeckSegment]) {
+    let never = never(scene);
+    let number = |body: usize| segments.iter().position(|s| s.body == body).map_or(0, |i| i + 1);
+    let releases = hinges.iter().map(|hinge| match release(hinge) {
+        Release::Time(time) => (0, release_time(scene, time).unwrap_or(never)),
+        Release::Angle { hinge, angle } => (number(hinge), degrees(angle)),
+        Release::AfterLock { .. } | Release::Never => (0, never),
+    });
+    let (triggers, values): (Vec<usize>, Vec<f64>) = releases.unzip();
+    cards.integers("IREL", &triggers);
+    cards.values("RELTB", &values);
+}

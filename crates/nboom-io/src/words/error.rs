@@ -1,0 +1,63 @@
+use std::fmt;
+
+use nboom_model::{DraftDefect, ModelError, StructureError};
+
+use crate::deck::phrases;
+
+/// Something wrong with the words of a scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WordsError {
+    /// A key that must be given is not.
+    #[error("{of}: {key}: found none, expected a value")]
+    Missing {
+        /// The table, with the name of the body.
+        of: String,
+        /// The key.
+        key: &'static str,
+    },
+    /// A value that no scene has.
+    #[error("{of}: {key}: found {found}, expected {expected}")]
+    Value {
+        /// The table, with the name of the body.
+        of: String,
+        /// The key.
+        key: &'static str,
+        /// What it says.
+        found: String,
+        /// What would have been right.
+        expected: &'static str,
+    },
+    /// A name, a reference or a repetition of a body.
+    #[error("{of}: found {}, expected {}", phrases(&.defect.to_string()).0, phrases(&.defect.to_string()).1)]
+    Draft {
+        /// The body.
+        of: String,
+        /// What is wrong.
+        defect: DraftDefect,
+    },
+    /// The scene as a whole.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Stations or pulse constants.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+}
+
+/// Everything wrong with the words of a scene, a line each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WordsErrors(pub Vec<WordsError>);
+
+impl fmt::Display for WordsErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&lines.join("\n"))
+    }
+}
+
+impl std::error::Error for WordsErrors {}
+
+/// The table of a body in messages.
+pub(super) fn of_body(name: &str) -> String {
+    format!("body `{name}`")
+}
