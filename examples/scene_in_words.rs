@@ -12,7 +12,7 @@ use std::path::Path;
 
 use nboom::io::read_scene;
 use nboom::io::words::{BodyWords, at, body, damper, hinge, main_body, scene, spring, when};
-use nboom::model::{HingeState, Scene};
+use nboom::model::{BodyShape, HingeState, Scene, Solid};
 use nboom::sim::{Nobody, Options, simulate};
 
 /// Of a panel, along the wing and across it.
@@ -38,7 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// A bus with two wings of three panels, drawn deployed and stowed beside the bus.
 fn satellite() -> Result<Scene, Box<dyn Error>> {
-    let bus = main_body().mass(150.0).inertia([30.0, 28.0, 32.0]);
+    let shape = BodyShape::around([0.0; 3], Solid::Box([1.6, 1.0, 1.2].into()));
+    let bus = main_body().mass(150.0).inertia([30.0, 28.0, 32.0]).shape(shape);
     let root = hinge()
         .at([0.0, 0.6, -0.5])
         .axis("x")
@@ -80,4 +81,5 @@ fn panel(name: &str) -> BodyWords {
             mass * (LONG * LONG + WIDE * WIDE) / 12.0,
         ])
         .tip([0.0, LONG, 0.0])
+        .shape(BodyShape::around([0.0, LONG / 2.0, 0.0], Solid::Panel([WIDE, LONG, 0.0].into())))
 }

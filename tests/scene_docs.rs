@@ -60,6 +60,7 @@ fn value(holds: &Holds) -> String {
         Holds::Angle => "angle or rate".to_owned(),
         Holds::Angles => "three angles or rates".to_owned(),
         Holds::Numbers(count) => format!("{count} numbers"),
+        Holds::List => "list of numbers".to_owned(),
         Holds::Rows(count) => format!("list of lists of {count} numbers"),
         Holds::AnglePairs => "list of pairs of an angle and a number".to_owned(),
         Holds::Direction => "`\"x\"`, `\"-x\"`, …, or 3 numbers".to_owned(),

@@ -11,7 +11,9 @@ mod runs;
 use counting::allocations;
 use nboom::dynamics::{Accelerations, Momenta, Motion, Recursive};
 use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
-use nboom::model::{HingeState, Mode, Scene, SectionShape, SegmentStructure, Station, Structure};
+use nboom::model::{
+    HingeState, Material, Mode, Scene, SectionShape, SegmentStructure, Station, Structure,
+};
 use nboom::ode::{Method, System, Tolerance};
 use nboom::scalar::{Real, Vec3};
 use nboom_expr::{Expr, Graph};
@@ -88,8 +90,7 @@ fn evaluations_allocate_nothing() {
 fn structure(scene: &Scene) -> Structure {
     let segment = |body: &nboom::model::Body| SegmentStructure {
         pulse_constant: 0.1,
-        poissons_ratio: 0.3,
-        youngs_modulus: 7e10,
+        material: Material::elastic(7e10, 0.3),
         stations: vec![Station {
             distance_from_hinge: 0.0,
             slice: body.mass_properties,

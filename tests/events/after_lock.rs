@@ -17,7 +17,7 @@ fn after(hinge: usize, delay: f64) -> Hinge {
 }
 
 fn label(appendage: usize) -> HingeLabel {
-    HingeLabel { appendage, segment: 0 }
+    HingeLabel::new(appendage, 0)
 }
 
 /// Hinge 1 turns freely and locks at 0.7; hinges 2 and 3 follow, each on a spring that takes it to its
@@ -83,10 +83,10 @@ fn a_hinge_that_starts_locked_counts_from_the_initial_time() {
 fn never_if_the_other_never_locks() {
     let trigger = free(0.0, 1.0);
     let held = waiting(Release::Never);
-    let (hinge, of_trigger) = (label(1), label(0));
-    let never_locks = ModelWarning::TriggerNeverLocks { hinge, trigger: of_trigger };
-    let never_turns = ModelWarning::TriggerNeverTurns { hinge, trigger: of_trigger };
-    let circle = ModelWarning::ReleaseCircle(vec![of_trigger, hinge]);
+    let (hinge, of_trigger) = (|| label(1), || label(0));
+    let never_locks = ModelWarning::TriggerNeverLocks { hinge: hinge(), trigger: of_trigger() };
+    let never_turns = ModelWarning::TriggerNeverTurns { hinge: hinge(), trigger: of_trigger() };
+    let circle = ModelWarning::ReleaseCircle(vec![of_trigger(), hinge()]);
     for (trigger, warnings) in [
         (trigger, vec![never_locks]),
         // Behind the trigger, which goes on and on: nobody is warned of what a motion brings.

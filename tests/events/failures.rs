@@ -15,8 +15,8 @@ use nboom::sim::{Feeds, Options, Recorder, SimError, Snapshot, simulate};
 use crate::collect::{Collected, tight, try_run};
 use crate::rotors::{description, free, oscillating, scene};
 
-const FIRST: HingeLabel = HingeLabel { appendage: 0, segment: 0 };
-const SECOND: HingeLabel = HingeLabel { appendage: 1, segment: 0 };
+const FIRST: HingeLabel = HingeLabel::new(0, 0);
+const SECOND: HingeLabel = HingeLabel::new(1, 0);
 
 fn failure(scene: &Scene, options: &Options) -> (Collected, SimError) {
     let (collected, result) = try_run(scene, options);
@@ -35,8 +35,8 @@ fn a_segment_without_inertia_is_named() {
     description.attach(&Appendage::Regular { mount, segments: vec![segment] });
     let scene = Scene::new(description).expect("a point mass is a body");
     let (_, error) = failure(&scene, &tight(1));
-    let SimError::SingularMassMatrix { time, hinge } = error else { panic!("{error}") };
-    assert_eq!((time, hinge), (0.0, Some(SECOND)));
+    let SimError::SingularMassMatrix { time, hinge } = &error else { panic!("{error}") };
+    assert_eq!((*time, hinge), (0.0, &Some(SECOND)));
     assert!(error.to_string().contains("2,1") || error.to_string().contains("2"), "{error}");
 }
 
@@ -110,8 +110,8 @@ fn a_kick_off_spring_without_length_is_named() {
         let waits = Hinge { start, release: Release::Time(0.25), ..starts_free };
         for (hinge, when) in [(starts_free, 0.0), (waits, 0.25)] {
             let (_, error) = failure(&scene(&[free(0.0, 1.0), hinge], 1.0), &tight(1));
-            let SimError::NoDirection { time, hinge, .. } = error else { panic!("{error}") };
-            assert_eq!((time, hinge), (when, SECOND));
+            let SimError::NoDirection { time, hinge, .. } = &error else { panic!("{error}") };
+            assert_eq!((*time, hinge), (when, &SECOND));
             assert!(error.to_string().contains("hinge 2,1: its kick-off spring"), "{error}");
         }
     }

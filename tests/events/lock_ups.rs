@@ -120,7 +120,7 @@ fn a_hinge_locked_elsewhere_stays_there_with_a_warning() {
     let start = HingeStart { angle: 0.3, rate: 0.0, state: HingeState::Locked };
     let locked = |angle| locking_at(Hinge { start, ..Hinge::free() }, angle);
     let elsewhere = scene(&[locked(0.4), free(0.0, 1.0)], 1.0);
-    let first = HingeLabel { appendage: 0, segment: 0 };
+    let first = HingeLabel::new(0, 0);
     assert_eq!(elsewhere.warnings(), [ModelWarning::LockedElsewhere(first)]);
     let (found, _) = run(&elsewhere, &tight(1));
     assert_eq!((found.happenings().len(), found.last().beta[0]), (0, 0.3));

@@ -144,8 +144,7 @@ fn a_chain_of_triggers_at_one_angle_is_one_release_after_the_other() {
 #[test]
 fn never_at_an_angle_that_the_trigger_locks_before() {
     let at = |angle| [locking_at(free(0.0, 1.0), 0.5), waiting(Release::Angle { hinge: 0, angle })];
-    let (hinge, trigger) =
-        (HingeLabel { appendage: 1, segment: 0 }, HingeLabel { appendage: 0, segment: 0 });
+    let (hinge, trigger) = (HingeLabel::new(1, 0), HingeLabel::new(0, 0));
     let warned = [ModelWarning::TriggerLocksBefore { hinge, trigger }];
     for (angle, warnings, releases) in
         [(0.6, &warned[..], 0), (0.5, &[], 1), (0.4, &[], 1), (-0.1, &[], 0)]

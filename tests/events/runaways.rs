@@ -8,8 +8,8 @@ use crate::collect::{run, try_run};
 use crate::random_scene::conservative;
 use crate::rotors::{free, growing, oscillating, scene};
 
-const FIRST: HingeLabel = HingeLabel { appendage: 0, segment: 0 };
-const SECOND: HingeLabel = HingeLabel { appendage: 1, segment: 0 };
+const FIRST: HingeLabel = HingeLabel::new(0, 0);
+const SECOND: HingeLabel = HingeLabel::new(1, 0);
 
 /// Some seconds' worth in any profile; all of these went on for a hundred times as many.
 const FEW: usize = 30_000;

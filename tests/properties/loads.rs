@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use nboom::elements::KickOffLaw;
 use nboom::loads::{LoadEquations, LoadSet, Loads, SceneMotion, VelocityChange};
 use nboom::model::{
-    Body, Hinge, Mount, Scene, SceneDescription, SectionShape, SegmentStructure, Station, Structure,
+    Body, Hinge, Material, Mount, Scene, SceneDescription, SectionShape, SegmentStructure, Station,
+    Structure,
 };
 use nboom::scalar::{RigidInertia, Twist, Vec3, Wrench};
 use nboom::sections::Section;
@@ -48,8 +49,7 @@ impl Sliced {
         let dice = &mut Rng::new(seed ^ 0x10ad);
         let segment = |_| SegmentStructure {
             pulse_constant: dice.between(0.01, 1.0),
-            poissons_ratio: 0.3,
-            youngs_modulus: 7e10,
+            material: Material::elastic(7e10, 0.3),
             stations: stations(dice),
         };
         let segments: Vec<_> = (0..bodies).map(segment).collect();

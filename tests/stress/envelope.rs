@@ -22,7 +22,7 @@ fn the_envelope_is_no_less_than_all_that_was_told() {
         assert_eq!(worst.station, station);
         // By what the search may miss.
         assert!(found >= largest * (1.0 - 1e-7), "{found} {largest}");
-        assert_eq!(worst.margin, Some(limit / (1.25 * found) - 1.0));
+        assert_eq!(worst.margins.on_yield, Some(limit / (1.25 * found) - 1.0));
     }
     // A latch that stops a swing bends the root, about the hinge's axis.
     let root = envelope.last().expect("stations");

@@ -3,8 +3,8 @@
 use std::io;
 
 use nboom::model::{
-    Appendage, Hinge, HingeStart, HingeState, MassProperties, Mount, Scene, SceneDescription,
-    SectionShape, Segment, SegmentStructure, Station, Structure,
+    Appendage, Hinge, HingeStart, HingeState, MassProperties, Material, Mount, Scene,
+    SceneDescription, SectionShape, Segment, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{
@@ -62,8 +62,7 @@ pub fn analysis(scene: &Scene, settings: Settings) -> Result<StressAnalysis, Str
     };
     let segment = SegmentStructure {
         pulse_constant: PULSE_CONSTANT,
-        poissons_ratio: 0.3,
-        youngs_modulus: 7e10,
+        material: Material::elastic(7e10, 0.3),
         stations: STATIONS.into_iter().zip(outer).map(station).collect(),
     };
     let structure = Structure::new(scene, vec![segment]).expect("slices make the rod");

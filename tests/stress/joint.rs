@@ -3,7 +3,8 @@
 use std::io;
 
 use nboom::model::{
-    Body, Mount, Scene, SceneDescription, SectionShape, SegmentStructure, Station, Structure,
+    Body, Material, Mount, Scene, SceneDescription, SectionShape, SegmentStructure, Station,
+    Structure,
 };
 use nboom::scalar::{Mat3, Vec3};
 use nboom::sim::{Event, EventKind, InstantMotion, Options, Recorder, Snapshot, simulate};
@@ -41,8 +42,7 @@ impl Follow {
         };
         let segment = |pulse_constant| SegmentStructure {
             pulse_constant,
-            poissons_ratio: 0.3,
-            youngs_modulus: 7e10,
+            material: Material::elastic(7e10, 0.3),
             stations: vec![root.clone()],
         };
         let structure = Structure::new(&scene, PULSE_CONSTANTS.map(segment).to_vec());

@@ -3,7 +3,9 @@
 use std::io;
 
 use nboom::loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
-use nboom::model::{Dashpot, Scene, SectionShape, SegmentStructure, Station, Structure, Vertex};
+use nboom::model::{
+    Dashpot, Material, Scene, SectionShape, SegmentStructure, Station, Structure, Vertex,
+};
 use nboom::sections::Section;
 use nboom::sim::{InstantMotion, Jump, MotionAt, Options, Recorder, StepMotion, simulate};
 use nboom::strength::{Settings, StressAnalysis};
@@ -41,9 +43,8 @@ impl Satellite {
                 })
                 .into();
             let pulse_constant = dice.between(0.02, 0.5);
-            let (poissons_ratio, youngs_modulus) = (0.3, 7e10);
-            let segment =
-                SegmentStructure { pulse_constant, poissons_ratio, youngs_modulus, stations };
+            let material = Material::elastic(7e10, 0.3);
+            let segment = SegmentStructure { pulse_constant, material, stations };
             body.mass_properties = segment.mass_properties().expect("there are slices");
             segments.push(segment);
         }

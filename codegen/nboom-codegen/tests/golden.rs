@@ -9,8 +9,9 @@ use nboom_codegen::{
 use nboom_formulation::{Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout};
 use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
-    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mount, Scene, SceneDescription,
-    SectionShape, Segment, SegmentStructure, Shape, Station, Structure, Topology, Vertex,
+    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Material, Mount, Scene,
+    SceneDescription, SectionShape, Segment, SegmentStructure, Shape, Station, Structure, Topology,
+    Vertex,
 };
 use nboom_scalar::{Kernel, Mat3, Routine, Sym3, Vec3};
 
@@ -63,8 +64,7 @@ fn stresses() -> StressRequest {
     };
     let segment = SegmentStructure {
         pulse_constant: 0.1,
-        poissons_ratio: 0.3,
-        youngs_modulus: 7e10,
+        material: Material::elastic(7e10, 0.3),
         stations: vec![station(1.0, tube), station(0.0, SectionShape::Polygon(triangle))],
     };
     let mut description = SceneDescription::at_rest("golden", body(10.0), 1.0);

@@ -17,7 +17,8 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let ignored = ignored(&file, None).map_or_else(String::new, |line| line + "\n");
     let (text, code) = (print_scene::text(scene), code_at_start(scene, routines));
     if let Some(path) = &args.picture {
-        output::write(path, &args.scene.scene, &picture::svg(scene))?;
+        let units = file.settings.units.clone().unwrap_or_default();
+        output::write(path, &args.scene.scene, &picture::svg(scene, &units))?;
     }
     Ok(format!("{text}{ignored}{generated}{code}\n"))
 }

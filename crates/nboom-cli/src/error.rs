@@ -1,7 +1,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use nboom_io::{DeckObstacle, InputError};
+use nboom_io::{DeckObstacle, InputError, TooManyTimes};
 use nboom_model::ModelError;
 #[cfg(feature = "generator")]
 use nboom_package::PackageError;
@@ -66,6 +66,20 @@ pub enum CliError {
         /// The scene.
         scene: String,
     },
+    /// A factor on stresses is given, but no strength to compare them with.
+    #[error(
+        "{option}: no {strength} stress found, one of a material of the scene{} expected",
+        if *.strength == "yield" { ", or --yield-stress," } else { "" }
+    )]
+    NoStrength {
+        /// The option.
+        option: &'static str,
+        /// Which strength is missing.
+        strength: &'static str,
+    },
+    /// With --end-time there are too many output times.
+    #[error(transparent)]
+    OutputTimes(#[from] TooManyTimes),
     /// No run can begin with these options.
     #[error(transparent)]
     Start(SimError),
@@ -173,7 +187,8 @@ impl CliError {
             #[cfg(feature = "generator")]
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
-            Self::NotWithTaylor { .. } | Self::NoStresses { .. } => 2,
+            Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
+            Self::OutputTimes(_) => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },

@@ -1,6 +1,7 @@
 use std::fmt::Write;
 
 use nboom_io::{Holds, SCENE, TableKind, all_tables};
+use nboom_model::Quantity;
 use nboom_results::FILES;
 use nboom_sim::{Form, Method};
 
@@ -38,6 +39,8 @@ pub(crate) fn text(routines: &Routines) -> String {
     let hinge = "turns about one axis of any direction; bodies may branch";
     chapter("joints", vec![row("hinge", hinge)]);
     chapter("files of a run", FILES.iter().map(|file| row(file, "")).collect());
+    let quantities = Quantity::all().map(|quantity| row(quantity.name(), quantity.about()));
+    chapter("quantities (columns of [output] in a scene)", quantities.collect());
     let kernels = routines.for_runs.iter();
     let stock = kernels.map(|kernel| {
         let assumes = if kernel.assumptions.is_empty() { "" } else { ", principal axes" };

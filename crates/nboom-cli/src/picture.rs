@@ -1,83 +1,103 @@
-//! A drawing of a scene: as it starts, and with all hinges latched.
+//! A drawing of a scene: stowed, as it starts, and deployed, with all hinges latched.
+
+mod labels;
+mod solids;
+mod view;
 
 use std::fmt::Write;
 
-use nboom_model::{HingePlace, Posture, Scene};
-use nboom_scalar::Vec3;
+use nboom_model::{Body, HingePlace, Posture, Scene, UnitSystem};
+use nboom_scalar::{Mat3, Vec3};
 
-/// Width and height of one of the two drawings, and the margin around what is drawn.
-const WIDTH: f64 = 460.0;
-const HEIGHT: f64 = 440.0;
-const MARGIN: f64 = 60.0;
+use labels::Labels;
+use solids::{Patch, corners, patches};
+use view::{HEIGHT, View, WIDTH};
+
+/// Height of the line below the drawings.
+const FOOT: f64 = 34.0;
 
 /// Colours of x, y and z.
 const COLOURS: [&str; 3] = ["#c0392b", "#27864a", "#2463ac"];
 
-/// Share of the drawing's extent that the main body's axes have; those of others are shorter.
-const AXIS: f64 = 0.16;
+/// Colour of hinge axes.
+const HINGE: &str = "#b36b00";
+
+/// Share of the drawing's extent that the axes of a hinged body have.
+const AXIS: f64 = 0.055;
+
+/// Bodies beyond these have no label; there would be no room.
+const MOST_LABELS: usize = 100;
 
 /// The drawing, as a file in SVG.
-pub(crate) fn svg(scene: &Scene) -> String {
+pub(crate) fn svg(scene: &Scene, units: &UnitSystem) -> String {
+    let latches = |body: &Body| body.hinge.can_turn() && body.hinge.lock_angle.is_some();
+    let deployed = match scene.bodies.iter().filter(|body| latches(body)).count() {
+        0 => "nothing latches",
+        count if count < scene.bodies.len() => "deployed, what latches is latched",
+        _ => "deployed, all is latched",
+    };
     let postures =
-        [("at the start", Posture::at_start(scene)), ("latched", Posture::locked(scene))];
-    let points = postures.iter().flat_map(|(_, posture)| posture.hinges.iter());
-    let points = points.flat_map(|hinge| [hinge.point, hinge.tip]).chain([Vec3::zero()]);
-    let view = View::of(points.map(projected).collect());
+        [("stowed, as it starts", Posture::at_start(scene)), (deployed, Posture::locked(scene))];
+    let points = postures.iter().flat_map(|(_, posture)| points(scene, posture));
+    let view = View::of(points);
+    let (width, height) = (2.0 * WIDTH, HEIGHT + FOOT);
     let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {HEIGHT}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"sans-serif\" font-size=\"12\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-        2.0 * WIDTH
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
     for (number, (title, posture)) in postures.iter().enumerate() {
         let _ = writeln!(text, "<g transform=\"translate({} 0)\">", WIDTH * number as f64);
-        let title = escaped(&format!("{}, {title}", scene.name));
+        let title = escaped(&format!("{}: {title}", scene.name));
         let _ = writeln!(text, "<text x=\"16\" y=\"24\" font-size=\"15\">{title}</text>");
         let mut drawing = Drawing { text: &mut text, view: &view };
         drawing.scene(scene, posture);
         text.push_str("</g>\n");
     }
+    foot(&mut text, &view, units);
     text + "</svg>\n"
 }
 
-/// A point as seen from above and from the side: to the right, and up.
-fn projected(point: Vec3<f64>) -> [f64; 2] {
-    let (azimuth, elevation) = (0.6_f64, 0.42_f64);
-    let (sa, ca) = azimuth.sin_cos();
-    let (se, ce) = elevation.sin_cos();
-    let Vec3 { x, y, z } = point;
-    [y * ca - x * sa, z * ce - (x * ca + y * sa) * se]
+/// All points that a drawing must have room for.
+fn points(scene: &Scene, posture: &Posture) -> Vec<Vec3<f64>> {
+    let shapes = scene.shapes();
+    let mut points = vec![Vec3::zero()];
+    let main_body = shapes.main_body.iter();
+    points.extend(main_body.flat_map(|shape| corners(shape, Vec3::zero(), Mat3::identity())));
+    for (i, place) in posture.hinges.iter().enumerate() {
+        points.push(place.point);
+        match shapes.of(i) {
+            Some(shape) => points.extend(corners(shape, place.point, place.body_axes)),
+            None => points.push(place.tip),
+        }
+    }
+    points
 }
 
-/// Where projected points stand in a drawing.
-struct View {
-    middle: [f64; 2],
-    scale: f64,
-    /// Length of the main body's axes, in the scene's unit.
-    axis: f64,
-}
-
-impl View {
-    fn of(points: Vec<[f64; 2]>) -> Self {
-        let bound = |i: usize, pick: fn(f64, f64) -> f64, start: f64| {
-            points.iter().map(|point| point[i]).fold(start, pick)
-        };
-        let least = [0, 1].map(|i| bound(i, f64::min, f64::INFINITY));
-        let most = [0, 1].map(|i| bound(i, f64::max, f64::NEG_INFINITY));
-        let extent = [0, 1].map(|i| most[i] - least[i]);
-        // A main body alone has no extent.
-        let size = extent[0].max(extent[1]);
-        let size = if size > 0.0 { size } else { 1.0 };
-        let fits = [WIDTH, HEIGHT].map(|room| room - 2.0 * MARGIN);
-        let scale = (fits[0] / extent[0].max(0.3 * size)).min(fits[1] / extent[1].max(0.3 * size));
-        Self { middle: [0, 1].map(|i| 0.5 * (least[i] + most[i])), scale, axis: AXIS * size }
+/// What the lines mean, and how long a length is.
+fn foot(text: &mut String, view: &View, units: &UnitSystem) {
+    let (x, y) = (16.0, HEIGHT + 14.0);
+    let (length, label) = view.round_length();
+    let end = x + length;
+    let unit = escaped(units.length());
+    let _ = writeln!(
+        text,
+        "<path d=\"M{x} {0} V{1} H{end:.1} V{0}\" fill=\"none\" stroke=\"#333333\"/>\n\
+         <text x=\"{2:.1}\" y=\"{1}\">{label} {unit}</text>",
+        y - 8.0,
+        y - 2.0,
+        end + 8.0
+    );
+    let mut words = WIDTH * 0.6;
+    let mut say = |colour: &str, word: &str, room: f64| {
+        let _ = writeln!(text, "<text x=\"{words}\" y=\"{y}\" fill=\"{colour}\">{word}</text>");
+        words += room;
+    };
+    say("#333333", "axes of each body:", 122.0);
+    for (colour, name) in COLOURS.into_iter().zip(["x", "y", "z"]) {
+        say(colour, name, 14.0);
     }
-
-    fn place(&self, point: Vec3<f64>) -> (f64, f64) {
-        let [right, up] = projected(point);
-        let (right, up) = (right - self.middle[0], up - self.middle[1]);
-        (0.5 * WIDTH + right * self.scale, 0.5 * HEIGHT - up * self.scale)
-    }
+    say(HINGE, "hinge axis, dot at the end about which angles turn by the right hand", 0.0);
 }
 
 struct Drawing<'t> {
@@ -87,60 +107,73 @@ struct Drawing<'t> {
 
 impl Drawing<'_> {
     fn scene(&mut self, scene: &Scene, posture: &Posture) {
-        for (body, place) in scene.bodies.iter().zip(&posture.hinges) {
-            let from = body.inboard.map_or(Vec3::zero(), |inboard| posture.hinges[inboard].point);
-            self.line(from, place.point, "#999999", 1.0);
+        let shapes = scene.shapes();
+        let (view, origin) = (self.view, Vec3::zero());
+        let mut all: Vec<Patch> = Vec::new();
+        if let Some(shape) = &shapes.main_body {
+            all.extend(patches(shape, origin, Mat3::identity(), view));
         }
-        for place in &posture.hinges {
-            self.line(place.point, place.tip, "#333333", 4.0);
+        for (i, (body, place)) in scene.bodies.iter().zip(&posture.hinges).enumerate() {
+            match shapes.of(i) {
+                Some(shape) => all.extend(patches(shape, place.point, place.body_axes, view)),
+                None => all.extend(Patch::line(place.point, place.tip, "#333333", 4.0, view)),
+            }
+            let inboard = body.inboard.map(|inboard| posture.hinges[inboard].point);
+            let has_shape =
+                body.inboard.map_or(shapes.main_body.as_ref(), |i| shapes.of(i)).is_some();
+            if !has_shape {
+                let from = inboard.unwrap_or(origin);
+                all.extend(Patch::line(from, place.point, "#999999", 1.0, view));
+            }
         }
-        let axes = [Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z()];
-        self.triad(Vec3::zero(), axes, self.view.axis, ["x", "y", "z"]);
-        for (i, place) in posture.hinges.iter().enumerate() {
-            self.hinge(place);
+        // What is nearer to the eye covers what is farther.
+        all.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        all.iter().for_each(|patch| patch.write(self.text, view));
+        posture.hinges.iter().for_each(|place| self.hinge(place));
+        let mut labels = Labels::default();
+        self.main_axes(scene, &mut labels);
+        let labelled = || posture.hinges.iter().take(MOST_LABELS);
+        labelled().for_each(|place| labels.keep_off(view.place(place.point)));
+        for (i, place) in labelled().enumerate() {
             let label = scene.name_of(i).map_or_else(|| scene.label(i).to_string(), str::to_owned);
-            let (x, y) = self.view.place((place.point + place.tip) * 0.5);
-            let label = escaped(&label);
-            let _ = writeln!(
-                self.text,
-                "<text x=\"{:.1}\" y=\"{:.1}\">{label}</text>",
-                x + 8.0,
-                y - 6.0
-            );
+            let middle = shapes.of(i).map_or((place.point + place.tip) * 0.5, |shape| {
+                place.point + place.body_axes * shape.middle
+            });
+            labels.place(self.text, &label, view.place(middle));
+        }
+    }
+
+    /// The main body's axes, from O to outside of its shape.
+    fn main_axes(&mut self, scene: &Scene, labels: &mut Labels) {
+        let shape = scene.shapes().main_body.as_ref();
+        let corners = shape.map(|shape| corners(shape, Vec3::zero(), Mat3::identity()));
+        let units = [Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z()];
+        for ((axis, colour), name) in units.into_iter().zip(COLOURS).zip(["x", "y", "z"]) {
+            let reach = corners.iter().flatten().map(|corner| corner.dot(axis));
+            let length = reach.fold(0.0, f64::max) + 2.0 * AXIS * self.view.size;
+            self.line(Vec3::zero(), axis * length, colour, 1.5);
+            let at = self.view.place(axis * (length + 0.4 * AXIS * self.view.size));
+            labels.fixed(self.text, name, colour, at);
         }
     }
 
     /// The hinge, its axis dashed, and the body's axes.
     fn hinge(&mut self, place: &HingePlace) {
-        let axes = [0, 1, 2].map(|j| place.body_axes.column(j));
-        self.triad(place.point, axes, 0.4 * self.view.axis, ["", "", ""]);
-        let along = place.axis * (0.7 * self.view.axis);
+        let size = AXIS * self.view.size;
+        for (j, colour) in COLOURS.into_iter().enumerate() {
+            self.line(place.point, place.point + place.body_axes.column(j) * size, colour, 1.2);
+        }
+        let along = place.axis * (1.5 * size);
         let ((x1, y1), (x2, y2)) =
             (self.view.place(place.point + along * -1.0), self.view.place(place.point + along));
-        let _ = writeln!(
-            self.text,
-            "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#b36b00\" \
-             stroke-width=\"1.5\" stroke-dasharray=\"5 3\"/>\n\
-             <circle cx=\"{x2:.1}\" cy=\"{y2:.1}\" r=\"2.5\" fill=\"#b36b00\"/>"
-        );
         let (x, y) = self.view.place(place.point);
         let _ = writeln!(
             self.text,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"white\" stroke=\"#333333\"/>"
+            "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{HINGE}\" \
+             stroke-width=\"1.5\" stroke-dasharray=\"5 3\"/>\n\
+             <circle cx=\"{x2:.1}\" cy=\"{y2:.1}\" r=\"2.5\" fill=\"{HINGE}\"/>\n\
+             <circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"white\" stroke=\"#333333\"/>"
         );
-    }
-
-    fn triad(&mut self, at: Vec3<f64>, axes: [Vec3<f64>; 3], length: f64, names: [&str; 3]) {
-        for ((axis, colour), name) in axes.into_iter().zip(COLOURS).zip(names) {
-            self.line(at, at + axis * length, colour, 1.5);
-            if !name.is_empty() {
-                let (x, y) = self.view.place(at + axis * (1.2 * length));
-                let _ = writeln!(
-                    self.text,
-                    "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"{colour}\">{name}</text>"
-                );
-            }
-        }
     }
 
     fn line(&mut self, from: Vec3<f64>, to: Vec3<f64>, colour: &str, width: f64) {
@@ -154,5 +187,7 @@ impl Drawing<'_> {
 }
 
 fn escaped(text: &str) -> String {
+    let shown = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let text: String = text.chars().map(shown).collect();
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

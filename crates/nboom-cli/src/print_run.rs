@@ -3,7 +3,7 @@ use std::path::Path;
 use nboom_model::Scene;
 use nboom_results::{EVENTS_FILE, Outcome, PeakDigits, RunDescription, WorstLoads, event_order};
 use nboom_sim::{CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, Selection, Totals};
-use nboom_strength::{Cause, HingeQuantity, Worst, WorstHingeLoad};
+use nboom_strength::{Cause, HingeQuantity, Limit, Worst, WorstHingeLoad};
 
 use crate::certify::Certified;
 use crate::format::{count, short};
@@ -32,6 +32,7 @@ impl Account<'_> {
         lines.extend(verdict::lines(self.scene, &self.outcome.summary.verdict));
         lines.extend(self.impulse_line());
         lines.extend(self.worst.station().map(|worst| worst_line(self.scene, worst)));
+        lines.extend(self.margin_line());
         lines.extend(self.hinge_load_line());
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
@@ -123,6 +124,19 @@ impl Account<'_> {
         Some(format!("worst impulse {impulse} {unit} in hinge {hinge}, at {time}"))
     }
 
+    /// The smallest margin, unless the line of the largest stress tells it.
+    fn margin_line(&self) -> Option<String> {
+        let (worst, margin, limit) = self.worst.weakest()?;
+        // Stations that are loaded alike have one margin.
+        let has_it = |told: &Worst| told.margins.on_yield == Some(margin);
+        let is_told = limit == Limit::Yield && self.worst.station().is_some_and(has_it);
+        let (margin, limit, station) = (short(margin, 3), limit.name(), worst.station + 1);
+        let (segment, time) = (&worst.segment, short(worst.time, 10));
+        (!is_told).then(|| {
+            format!("least margin  {margin} to {limit} in segment {segment}, station {station}, at {time}")
+        })
+    }
+
     fn hinge_load_line(&self) -> Option<String> {
         let [force, moment] = [HingeQuantity::Force, HingeQuantity::Moment]
             .map(|quantity| self.worst.hinge(quantity));
@@ -165,8 +179,8 @@ fn worst_line(scene: &Scene, worst: &Worst) -> String {
     };
     let mostly =
         worst.driver.map_or(", unloaded".to_owned(), |driver| format!(", mostly {driver}"));
-    let margin =
-        worst.margin.map_or(String::new(), |margin| format!(", margin {}", short(margin, 3)));
+    let margin = worst.margins.on_yield;
+    let margin = margin.map_or(String::new(), |margin| format!(", margin {}", short(margin, 3)));
     format!(
         "worst stress  von Mises {} in segment {}, station {}, at {} by {why}{mostly}{margin}; of thin \
          walls, without corners and holes",

@@ -74,7 +74,7 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
     let Body { mass_properties: mass, hinge, .. } = &scene.bodies[i];
     let forces =
         [spring(&hinge.spring), dashpot(&hinge.dashpot), hinge.kick_off.as_ref().map(kick_off)];
-    let mut lines = vec![format!("  hinge {}: {}", called(scene, i), course(scene, hinge))];
+    let mut lines = vec![format!("  hinge {}: {}", scene.label(i), course(scene, hinge))];
     let places = postures.each_ref().map(|posture| place(&posture.hinges[i]));
     let when = ["at the start", "locked"];
     lines.extend(when.iter().zip(places).map(|(when, place)| format!("    {when}: {place}")));
@@ -99,12 +99,6 @@ fn without_rounding(v: Vec3<f64>) -> Vec3<f64> {
     v.map(|x| if x.abs() <= 1e-12 * largest { 0.0 } else { x })
 }
 
-/// The numbers of a hinge, and the name of the body on it if it has one.
-fn called(scene: &Scene, i: usize) -> String {
-    let name = scene.name_of(i).map_or_else(String::new, |name| format!(" ({name})"));
-    format!("{}{name}", scene.label(i))
-}
-
 /// How a hinge starts, is released and locks.
 fn course(scene: &Scene, hinge: &Hinge) -> String {
     let at = degrees(hinge.start.angle);
@@ -126,7 +120,7 @@ fn release(scene: &Scene, release: Release) -> String {
     match release {
         Release::Time(time) => format!("released at time {}", short(time, 10)),
         Release::Angle { hinge, angle } => {
-            format!("released when hinge {} passes {}", called(scene, hinge), degrees(angle))
+            format!("released when hinge {} passes {}", scene.label(hinge), degrees(angle))
         }
         Release::AfterLock { hinge, delay } => {
             let delay = short(delay, 10);

@@ -1,11 +1,14 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, NEVER, SceneFile};
+use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, TooManyTimes};
 use nboom_model::{Hinge, HingeState, Release, Scene};
-use nboom_results::{Outcome, RunDescription, RunDirectory, StressTables, with_causes};
+use nboom_results::{
+    Outcome, RunDescription, RunDirectory, StressTables, WantedOutput, with_causes,
+};
 use nboom_sim::{
-    Bound, Form, Method, Options, Path, RkamSettings, Tolerance, Witness, check_start, simulate,
+    Bound, Form, Method, Options, OutputTimes, Path, RkamSettings, Tolerance, Witness, check_start,
+    simulate,
 };
 use nboom_strength::StressAnalysis;
 
@@ -29,9 +32,18 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let warnings = warnings.chain(never_released(&file.scene, args.end_time));
     let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
     let scene = with_end_time(file.scene, args.end_time)?;
-    let samples = args.samples.or(file.settings.samples);
     let options = options(args, routines, &file.legacy)?;
-    let options = Options { samples: samples.unwrap_or(options.samples), ..options };
+    let samples = match file.settings.sampling {
+        Some(Sampling::Uniform(samples)) => Some(samples),
+        _ => None,
+    };
+    let samples = args.samples.or(samples).unwrap_or(options.samples);
+    let options = Options { samples, ..options };
+    let output = WantedOutput {
+        times: output_times(args, &scene, file.settings.sampling.as_ref())?,
+        table: file.settings.table,
+        listing: args.listing || file.settings.listing,
+    };
     let units = args.units.clone().or(file.settings.units).unwrap_or_default();
     let interrupt = Interrupt::watch()?;
     check_start(&scene, &options).map_err(CliError::Start)?;
@@ -44,12 +56,25 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         print_interval: file.legacy.print_interval.unwrap_or(1),
         input_sha256: Some(file.sha256),
         parameters: file.settings.parameters,
+        output,
         ..RunDescription::new(&scene, &options, units)
     };
     let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };
     let stresses = stresses.map(|analysis| (analysis, tables));
     let account = simulate_into_files(&scene, &options, run, stresses, args, &interrupt)?;
     Ok(if args.quiet { String::new() } else { account })
+}
+
+/// The output times that the scene says, unless the command line wants uniform ones.
+fn output_times(
+    args: &RunArgs,
+    scene: &Scene,
+    sampling: Option<&Sampling>,
+) -> Result<Option<OutputTimes>, TooManyTimes> {
+    let sampling = sampling.filter(|_| args.samples.is_none());
+    let span = [scene.initial.time, scene.end_time];
+    let times = sampling.map_or(Ok(None), |sampling| sampling.times(span))?;
+    Ok(times.map(OutputTimes::at))
 }
 
 fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError> {
@@ -130,7 +155,7 @@ fn simulate_into_files(
 ) -> Result<String, CliError> {
     let directory = args.output.clone().unwrap_or_else(|| default_directory(&scene.name));
     let started = Instant::now();
-    let mut files = RunDirectory::create(&directory, scene, run.clone(), args.listing)?;
+    let mut files = RunDirectory::create(&directory, scene, run.clone())?;
     if files.has_put_right() && !args.quiet {
         let directory = directory.display();
         say("warning", &format!("{directory}: a finished run had not taken its place and now has"));

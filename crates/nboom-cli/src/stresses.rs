@@ -15,15 +15,19 @@ pub struct StressArgs {
     #[arg(long)]
     pub no_stresses: bool,
 
-    /// Stress at which the material yields, for the margins in stress_envelope.csv.
+    /// Stress at which all parts yield, for margins; in place of the yield stresses of a scene's
+    /// materials.
     #[arg(long, value_name = "S", value_parser = choice::positive, allow_negative_numbers = true,
           conflicts_with = "no_stresses")]
     pub yield_stress: Option<f64>,
 
-    /// Factor on stresses in margins.
-    #[arg(long, value_name = "F", default_value = "1", value_parser = choice::positive,
-          allow_negative_numbers = true, requires = "yield_stress")]
-    pub safety_factor: f64,
+    /// Factor on stresses in margins to yielding; by default 1.
+    #[arg(long, value_name = "F", value_parser = choice::positive, allow_negative_numbers = true)]
+    pub safety_factor: Option<f64>,
+
+    /// Factor on stresses in margins to breaking, of materials with an ultimate stress; by default 1.
+    #[arg(long, value_name = "F", value_parser = choice::positive, allow_negative_numbers = true)]
+    pub ultimate_factor: Option<f64>,
 
     /// Peak of a segment's response over the peak of a lock-up pulse: 1 for slow pulses and by
     /// default; at most 2.
@@ -64,16 +68,19 @@ impl StressArgs {
         slips: Slips,
         kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
-        let Self { yield_stress, safety_factor, amplification, pulses, .. } = *self;
-        let amplification = amplification.unwrap_or(1.0);
-        let settings = Settings { amplification, pulses, yield_stress, safety_factor, slips };
+        let Self { yield_stress, pulses, .. } = *self;
+        let [amplification, safety_factor, ultimate_factor] =
+            [self.amplification, self.safety_factor, self.ultimate_factor]
+                .map(|factor| factor.unwrap_or(1.0));
+        let settings =
+            Settings { amplification, pulses, yield_stress, safety_factor, ultimate_factor, slips };
         let SceneFile { scene, structure, .. } = file;
         match structure {
             Some(structure) if !self.no_stresses => {
                 let analysis = StressAnalysis::new(scene, structure, settings)?;
                 Ok(Some(analysis.with_kernels(kernels)))
             }
-            structure if self.hinge_loads => {
+            structure if self.hinge_loads || file.settings.hinge_loads => {
                 StressAnalysis::of_hinges(scene, structure.as_ref(), settings).map(Some)
             }
             _ => Ok(None),

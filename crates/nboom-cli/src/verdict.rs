@@ -2,7 +2,7 @@
 
 use nboom_model::{HingeState, Scene};
 use nboom_sim::{HingeVerdict, Verdict};
-use nboom_strength::Worst;
+use nboom_strength::{Limit, Worst};
 
 use crate::format::{degrees, short};
 
@@ -56,8 +56,9 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 }
 
 /// The message about a part that fails.
-pub(crate) fn negative_margin(worst: &Worst) -> Option<String> {
-    let margin = worst.margin.filter(|margin| *margin < 0.0)?;
-    let (segment, station, margin) = (worst.segment, worst.station + 1, short(margin, 3));
-    Some(format!("negative margin: {margin} in segment {segment}, station {station}"))
+pub(crate) fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {
+    let (segment, station) = (&worst.segment, worst.station + 1);
+    let limit = if limit == Limit::Yield { "" } else { " to the ultimate stress" };
+    let margin = Some(margin).filter(|margin| *margin < 0.0).map(|margin| short(margin, 3))?;
+    Some(format!("negative margin: {margin}{limit} in segment {segment}, station {station}"))
 }

@@ -1,7 +1,9 @@
 use std::io;
 
 use nboom_results::RunDirectory;
-use nboom_sim::{Event, EventKind, InstantMotion, Recorder, Snapshot, StepMotion, Witness};
+use nboom_sim::{
+    Event, EventKind, InstantMotion, OutputTimes, Recorder, Snapshot, StepMotion, Witness,
+};
 
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
@@ -21,6 +23,10 @@ pub(crate) struct Watch {
 impl Recorder for Watch {
     fn needs_detail(&self) -> bool {
         self.files.needs_detail()
+    }
+
+    fn output_times(&self) -> Option<&OutputTimes> {
+        self.files.output_times()
     }
 
     fn interrupted(&self) -> bool {

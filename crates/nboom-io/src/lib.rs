@@ -74,6 +74,7 @@ mod deck;
 mod diagnostic;
 mod error;
 mod legacy;
+mod sampling;
 mod scene;
 mod source;
 mod urdf;
@@ -82,7 +83,7 @@ pub mod words;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use nboom_model::{Scene, Structure, UnitSystem};
+use nboom_model::{Scene, Structure, UnitSystem, WantedTable};
 
 pub use deck::{
     Absent, DeckDefect, DeckObstacle, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering,
@@ -91,6 +92,7 @@ pub use deck::{
 pub use diagnostic::{Diagnostic, Excerpt};
 pub use error::InputError;
 pub use legacy::LegacySettings;
+pub use sampling::{Sampling, TooManyTimes};
 pub use scene::{
     Holds, Key, ReadOptions, SCENE, TableKind, all_tables, parse_scene, schema, write_scene,
 };
@@ -124,8 +126,14 @@ pub struct SceneFile {
 pub struct SceneSettings {
     /// Units of its numbers.
     pub units: Option<UnitSystem>,
-    /// Output times after the initial one.
-    pub samples: Option<usize>,
+    /// Output times.
+    pub sampling: Option<Sampling>,
+    /// A table of the motion beside that of states.
+    pub table: Option<WantedTable>,
+    /// Whether loads of hinges are wanted.
+    pub hinge_loads: bool,
+    /// Whether the printout is wanted.
+    pub listing: bool,
     /// Parameters with their values, by name.
     pub parameters: Vec<(String, f64)>,
 }

@@ -3,7 +3,7 @@
 use nboom_dynamics::{LockUp, Recursive};
 use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{
-    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Mode, Mount, Scene,
+    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Material, Mode, Mount, Scene,
     SceneDescription, SectionShape, Segment, SegmentStructure, Station, Structure,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
@@ -36,8 +36,7 @@ fn cut_at(distances: &[f64]) -> SegmentStructure {
     };
     SegmentStructure {
         pulse_constant: 0.25,
-        poissons_ratio: 0.3,
-        youngs_modulus: 7e10,
+        material: Material::elastic(7e10, 0.3),
         stations: distances.iter().zip(outer).map(station).collect(),
     }
 }

@@ -6,7 +6,8 @@ mod repeat;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Body, Hinge, MassProperties, Mount, Release, SceneDescription, SegmentStructure, TorqueTable,
+    Body, BodyShape, Hinge, MassProperties, Mount, Release, SceneDescription, SegmentStructure,
+    TorqueTable,
 };
 use names::Names;
 
@@ -46,6 +47,8 @@ pub struct BodyDraft {
     pub repeat: Option<Repeat>,
     /// Material, lock-up pulse and stations.
     pub structure: Option<SegmentStructure>,
+    /// What it looks like in pictures.
+    pub shape: Option<BodyShape>,
 }
 
 /// A release that names the hinge it waits for.
@@ -92,6 +95,7 @@ impl BodyDraft {
             torque_table: Vec::new(),
             repeat: None,
             structure: None,
+            shape: None,
         }
     }
 }
@@ -159,6 +163,8 @@ pub struct Resolved {
     pub of_draft: Vec<usize>,
     /// For each body, its structure.
     pub structures: Vec<Option<SegmentStructure>>,
+    /// For each body, its shape.
+    pub shapes: Vec<Option<BodyShape>>,
 }
 
 impl SceneDraft {
@@ -169,7 +175,7 @@ impl SceneDraft {
     pub fn resolve(&self) -> Result<Resolved, Vec<DraftError>> {
         let names = Names::of(&self.bodies)?;
         let mut description = self.scene.clone();
-        let (mut structures, mut of_draft) = (Vec::new(), Vec::new());
+        let (mut structures, mut shapes, mut of_draft) = (Vec::new(), Vec::new(), Vec::new());
         let mut errors = Vec::new();
         for (i, place) in names.places.iter().enumerate() {
             let draft = &self.bodies[place.draft];
@@ -205,11 +211,12 @@ impl SceneDraft {
             }
             description.bodies.push(body);
             structures.push(draft.structure.clone());
+            shapes.push(draft.shape);
             of_draft.push(place.draft);
         }
         errors.dedup();
         if errors.is_empty() {
-            Ok(Resolved { description, names: names.all(), of_draft, structures })
+            Ok(Resolved { description, names: names.all(), of_draft, structures, shapes })
         } else {
             Err(errors)
         }

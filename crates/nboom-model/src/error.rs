@@ -6,7 +6,7 @@ use crate::mass::MassDefect;
 use crate::{Body, HingeLabel, HingeState, Release, SAME_ANGLE, SceneDescription};
 
 /// Which body a message is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BodyName {
     /// The main body.
     MainBody,
@@ -160,8 +160,8 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
     find_in_motion(scene, &mut errors);
     for (i, body) in scene.bodies.iter().enumerate() {
         find_in_tree(scene, labels, i, &mut errors);
-        find_in_mass(scene, labels[i], i, &mut errors);
-        find_in_hinge(body, labels[i], labels.len(), i, &mut errors);
+        find_in_mass(scene, &labels[i], i, &mut errors);
+        find_in_hinge(body, &labels[i], labels.len(), i, &mut errors);
     }
     find_in_tables(scene, &mut errors);
     errors
@@ -229,27 +229,27 @@ fn find_in_tree(
     i: usize,
     errors: &mut Vec<ModelError>,
 ) {
-    let (body, label) = (&scene.bodies[i], labels[i]);
+    let (body, label) = (&scene.bodies[i], || labels[i].clone());
     let of_this_branch =
-        |&inboard: &usize| inboard < i && labels[inboard].appendage == label.appendage;
+        |&inboard: &usize| inboard < i && labels[inboard].appendage == labels[i].appendage;
     if let Some(inboard) = body.inboard.filter(|inboard| !of_this_branch(inboard)) {
-        errors.push(ModelError::Order { label, inboard });
+        errors.push(ModelError::Order { label: label(), inboard });
     }
     let length = body.axis.norm();
     if !is_unit(length) {
-        errors.push(ModelError::Axis { label, length });
+        errors.push(ModelError::Axis { label: label(), length });
     }
     let defect = body.mount.rot_inboard_from_hinge.rotation_defect();
     let is_rotation = defect <= UNIT_TOLERANCE;
     if !is_rotation {
-        errors.push(ModelError::MountRotation { label, defect });
+        errors.push(ModelError::MountRotation { label: label(), defect });
     }
 }
 
 /// A body that carries others may be without mass, as the ring between the axes of a gimbal.
 fn find_in_mass(
     scene: &SceneDescription,
-    label: HingeLabel,
+    label: &HingeLabel,
     i: usize,
     errors: &mut Vec<ModelError>,
 ) {
@@ -258,18 +258,19 @@ fn find_in_mass(
     if body.is_nothing() && carries() {
         return;
     }
-    let name = BodyName::Segment(label);
+    let name = BodyName::Segment(label.clone());
     errors.extend(body.defect().map(|defect| ModelError::Mass { body: name, defect }));
 }
 
 fn find_in_hinge(
     body: &Body,
-    label: HingeLabel,
+    label: &HingeLabel,
     count: usize,
     i: usize,
     errors: &mut Vec<ModelError>,
 ) {
-    let name = BodyName::Segment(label);
+    let label = || label.clone();
+    let name = || BodyName::Segment(label());
     let hinge = &body.hinge;
     let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
     let spring_numbers = [spring.quadratic, spring.linear, spring.preload_angle];
@@ -305,18 +306,18 @@ fn find_in_hinge(
         ),
     ];
     let bad = checks.into_iter().filter(|(ok, _)| !ok);
-    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: name, quantity }));
+    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: name(), quantity }));
     if let Some(trigger) = hinge.release.trigger()
         && (trigger >= count || trigger == i)
     {
-        errors.push(ModelError::Trigger { label, trigger: trigger + 1, count });
+        errors.push(ModelError::Trigger { label: label(), trigger: trigger + 1, count });
     }
     if let Release::AfterLock { delay, .. } = hinge.release
         && delay < 0.0
     {
-        errors.push(ModelError::ReleaseDelay { label, delay });
+        errors.push(ModelError::ReleaseDelay { label: label(), delay });
     }
     if hinge.start.state != HingeState::Free && hinge.start.rate != 0.0 {
-        errors.push(ModelError::HeldRate { label, rate: hinge.start.rate });
+        errors.push(ModelError::HeldRate { label: label(), rate: hinge.start.rate });
     }
 }

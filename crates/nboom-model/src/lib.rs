@@ -25,6 +25,7 @@
 //! ```
 
 mod appendage;
+mod column;
 mod departures;
 mod draft;
 mod environment;
@@ -32,9 +33,12 @@ mod error;
 mod hinge;
 mod label;
 mod mass;
+mod material;
 mod mode;
 mod posture;
+mod quantity;
 mod scene;
+mod shape;
 mod skipped;
 mod structure;
 mod structure_error;
@@ -44,6 +48,7 @@ mod warning;
 mod welded;
 
 pub use appendage::{Appendage, Segment};
+pub use column::{Column, UnknownColumn, WantedTable};
 pub use departures::{Departures, TurnOrder, TurnedInertia, Withheld};
 pub use draft::{
     BodyDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat, Resolved, SceneDraft,
@@ -55,9 +60,12 @@ pub use hinge::{
 };
 pub use label::HingeLabel;
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
+pub use material::{Material, MaterialDefect};
 pub use mode::Mode;
 pub use posture::{HingePlace, Posture};
+pub use quantity::Quantity;
 pub use scene::*;
+pub use shape::{BodyShape, Shapes, Solid};
 pub use skipped::skipped;
 pub use structure::{SLICE_TOLERANCE, SectionShape, SegmentStructure, Station, Structure, Vertex};
 pub use structure_error::{StructureDefect, StructureError, StructurePlace};

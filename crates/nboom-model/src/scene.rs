@@ -4,7 +4,7 @@ use nboom_scalar::Vec3;
 
 use crate::{
     Appendage, Departures, Gravity, Hinge, HingeLabel, InitialMotion, MassProperties, ModelError,
-    ModelWarning, Mount, Thrust, error, warning,
+    ModelWarning, Mount, Shapes, Thrust, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -98,8 +98,7 @@ impl SceneDescription {
 pub struct Scene {
     description: SceneDescription,
     labels: Vec<HingeLabel>,
-    /// Those of the bodies, if they have any.
-    names: Vec<String>,
+    shapes: Shapes,
     departures: Departures,
 }
 
@@ -118,7 +117,7 @@ impl Scene {
         let errors = error::find(&description, &labels);
         let departures = Departures::default();
         if errors.is_empty() {
-            Ok(Self { description, labels, names: Vec::new(), departures })
+            Ok(Self { description, labels, shapes: Shapes::default(), departures })
         } else {
             Err(errors)
         }
@@ -130,7 +129,8 @@ impl Scene {
     /// When that time is not finite or before the initial one.
     pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
         let scene = Self::new(SceneDescription { end_time, ..self.description.clone() })?;
-        Ok(Self { names: self.names.clone(), ..scene.with_departures(self.departures.clone()) })
+        let Self { labels, shapes, departures, .. } = self.clone();
+        Ok(Self { labels, shapes, ..scene.with_departures(departures) })
     }
 
     /// Names the hinged bodies, for people.
@@ -138,14 +138,32 @@ impl Scene {
     /// # Panics
     /// When there is not one name for each.
     #[must_use]
-    pub fn with_names(self, names: Vec<String>) -> Self {
+    pub fn with_names(mut self, names: Vec<String>) -> Self {
         assert_eq!(names.len(), self.bodies.len(), "one name for each body");
-        Self { names, ..self }
+        for (label, name) in self.labels.iter_mut().zip(names) {
+            label.name = Some(name.into());
+        }
+        self
     }
 
     /// The name of hinged body `i`, if it has one.
     pub fn name_of(&self, i: usize) -> Option<&str> {
-        self.names.get(i).map(String::as_str)
+        self.labels.get(i)?.name.as_deref()
+    }
+
+    /// Gives bodies shapes, for pictures.
+    #[must_use]
+    pub fn with_shapes(self, mut shapes: Shapes) -> Self {
+        // Scenes that look alike are equal.
+        while let Some(None) = shapes.bodies.last() {
+            shapes.bodies.pop();
+        }
+        Self { shapes, ..self }
+    }
+
+    /// The shapes of the bodies that have one.
+    pub fn shapes(&self) -> &Shapes {
+        &self.shapes
     }
 
     /// Replaces the departures of the scene's motion.
@@ -169,9 +187,14 @@ impl Scene {
         warning::find(self)
     }
 
-    /// How users count hinge `i`.
+    /// What users call hinge `i`.
     pub fn label(&self, i: usize) -> HingeLabel {
-        self.labels[i]
+        self.labels[i].clone()
+    }
+
+    /// What users call the hinges.
+    pub fn labels(&self) -> &[HingeLabel] {
+        &self.labels
     }
 
     /// Six and one for each hinge, whether it is held or free.
@@ -230,7 +253,7 @@ fn labels(bodies: &[Body]) -> Vec<HingeLabel> {
             appendages += 1;
             segment = 0;
         }
-        labels.push(HingeLabel { appendage: appendages.max(1) - 1, segment });
+        labels.push(HingeLabel::new(appendages.max(1) - 1, segment));
         segment += 1;
     }
     labels

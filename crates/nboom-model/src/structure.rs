@@ -1,7 +1,7 @@
 use nboom_scalar::{RigidInertia, Vec3};
 
 use crate::{
-    HingeLabel, MassProperties, Scene, StructureDefect, StructureError, StructurePlace,
+    HingeLabel, MassProperties, Material, Scene, StructureDefect, StructureError, StructurePlace,
     structure_error,
 };
 
@@ -21,10 +21,8 @@ pub struct Structure {
 pub struct SegmentStructure {
     /// c: impulse over peak of a lock-up pulse of this segment's hinge \[T\], positive.
     pub pulse_constant: f64,
-    /// Poisson's ratio.
-    pub poissons_ratio: f64,
-    /// Young's modulus \[F/L²\], positive.
-    pub youngs_modulus: f64,
+    /// What it is made of.
+    pub material: Material,
     /// Outboard before inboard, the last one at the hinge; none where no loads are wanted.
     pub stations: Vec<Station>,
 }
@@ -111,6 +109,12 @@ impl Structure {
         &self.segments
     }
 
+    /// The materials of the segments with stations.
+    pub fn materials(&self) -> impl Iterator<Item = &Material> {
+        let loaded = self.segments.iter().filter(|segment| !segment.stations.is_empty());
+        loaded.map(|segment| &segment.material)
+    }
+
     /// Whether any segment has a station.
     pub fn has_stations(&self) -> bool {
         self.segments.iter().any(|segment| !segment.stations.is_empty())
@@ -120,8 +124,8 @@ impl Structure {
 impl Default for SegmentStructure {
     /// Of a segment whose hinge never locks and of which no loads are wanted.
     fn default() -> Self {
-        let (pulse_constant, youngs_modulus, poissons_ratio) = (1.0, 1.0, 0.0);
-        Self { pulse_constant, poissons_ratio, youngs_modulus, stations: Vec::new() }
+        let material = Material::elastic(1.0, 0.0);
+        Self { pulse_constant: 1.0, material, stations: Vec::new() }
     }
 }
 
@@ -168,7 +172,7 @@ impl SegmentStructure {
             defects.push(StructureDefect::Inertia { found, expected });
         }
         let place = StructurePlace { segment: label, station: None, vertex: None };
-        let at_place = |defect| StructureError::Segment { place, defect };
+        let at_place = |defect| StructureError::Segment { place: place.clone(), defect };
         defects.into_iter().map(at_place).collect()
     }
 }

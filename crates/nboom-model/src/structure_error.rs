@@ -2,7 +2,7 @@ use std::fmt;
 
 use nboom_scalar::{Sym3, Vec3};
 
-use crate::{HingeLabel, MassDefect, SectionShape, SegmentStructure, Station};
+use crate::{HingeLabel, MassDefect, MaterialDefect, SectionShape, SegmentStructure, Station};
 
 /// Why a description of sections and slices is not that of a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -27,7 +27,7 @@ pub enum StructureError {
 }
 
 /// A place in the structure; stations and vertices are stored from 0 and shown from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StructurePlace {
     /// The segment.
     pub segment: HingeLabel,
@@ -57,9 +57,9 @@ pub enum StructureDefect {
     /// A pulse constant is zero, negative or not finite.
     #[error("pulse constant {0} found, a positive finite time expected")]
     PulseConstant(f64),
-    /// Young's modulus is zero, negative or not finite.
-    #[error("Young's modulus {0} found, a positive finite modulus expected")]
-    YoungsModulus(f64),
+    /// No material is like that.
+    #[error(transparent)]
+    Material(#[from] MaterialDefect),
     /// A number is infinite or not a number.
     #[error("{quantity} {value} found, a finite number expected")]
     NotFinite {
@@ -145,17 +145,14 @@ fn rounded(difference: f64) -> f64 {
 pub(crate) fn find(segment: &SegmentStructure, label: HingeLabel) -> Vec<StructureError> {
     let place = StructurePlace { segment: label, station: None, vertex: None };
     let mut found = Found { place, errors: Vec::new() };
-    let SegmentStructure { pulse_constant, poissons_ratio, youngs_modulus, stations } = segment;
+    let SegmentStructure { pulse_constant, material, stations } = segment;
     let is_positive = |value: f64| value > 0.0 && value.is_finite();
     if !is_positive(*pulse_constant) {
         found.push(StructureDefect::PulseConstant(*pulse_constant));
     }
-    if !is_positive(*youngs_modulus) {
-        found.push(StructureDefect::YoungsModulus(*youngs_modulus));
-    }
-    found.check_finite("Poisson's ratio", *poissons_ratio);
+    material.defects().into_iter().for_each(|defect| found.push(defect.into()));
     for (j, station) in stations.iter().enumerate() {
-        found.place = StructurePlace { station: Some(j), ..place };
+        found.place.station = Some(j);
         found.check_slice(station);
         found.check_section(&station.section);
         found.check_distance(stations, j);
@@ -171,7 +168,8 @@ struct Found {
 
 impl Found {
     fn push(&mut self, defect: StructureDefect) {
-        self.errors.push(StructureError::Segment { place: self.place, defect });
+        let place = self.place.clone();
+        self.errors.push(StructureError::Segment { place, defect });
     }
 
     fn check_finite(&mut self, quantity: &'static str, value: f64) {

@@ -1,8 +1,8 @@
 //! Sections and slices of segments: what adds up, and what is refused where.
 
 use nboom_model::{
-    Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, SectionShape, Segment,
-    SegmentStructure, Station, Structure, StructureError, Vertex,
+    Appendage, Hinge, MassProperties, Material, Mount, Scene, SceneDescription, SectionShape,
+    Segment, SegmentStructure, Station, Structure, StructureError, Vertex,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -41,8 +41,7 @@ fn cut_at(distances: &[f64]) -> SegmentStructure {
     };
     SegmentStructure {
         pulse_constant: 0.1,
-        poissons_ratio: 0.3,
-        youngs_modulus: 7e10,
+        material: Material::elastic(7e10, 0.3),
         stations: distances.iter().map(station).collect(),
     }
 }
@@ -95,11 +94,11 @@ fn what_is_wrong_is_named_with_its_place() {
             "segment 1,2: pulse constant inf found, a positive finite time expected",
         ),
         (
-            |s| s.youngs_modulus = -1.0,
+            |s| s.material.youngs_modulus = -1.0,
             "segment 1,2: Young's modulus -1 found, a positive finite modulus expected",
         ),
         (
-            |s| s.poissons_ratio = f64::NAN,
+            |s| s.material.poissons_ratio = f64::NAN,
             "segment 1,2: Poisson's ratio NaN found, a finite number expected",
         ),
         (

@@ -8,7 +8,7 @@ use nboom_model::{
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
-const FIRST: HingeLabel = HingeLabel { appendage: 0, segment: 0 };
+const FIRST: HingeLabel = HingeLabel::new(0, 0);
 
 fn body() -> MassProperties {
     MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0))

@@ -140,7 +140,7 @@ impl Composer {
                 self.release();
             }
             Entry::Latch(time, LatchImpulses { latch, hinges: impulses }) => {
-                text.set_latch(*time, hinges[*latch])?;
+                text.set_latch(*time, &hinges[*latch])?;
                 text.add_hinge_loads(&mut lines.latch_impulses, impulses)?;
             }
             Entry::End => self.release(),

@@ -2,7 +2,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene};
-use nboom_sim::{Event, InstantMotion, Recorder, Snapshot, StepMotion, Summary, Trust};
+use nboom_sim::{
+    Event, InstantMotion, OutputTimes, Recorder, Snapshot, StepMotion, Summary, Trust,
+};
 use nboom_strength::StressAnalysis;
 
 use crate::destination::Destination;
@@ -10,7 +12,7 @@ use crate::rows::{self, Output};
 use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
-    EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, PeakDigits, ResultsError,
+    EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, OUTPUT_FILE, PeakDigits, ResultsError,
     RunDescription, STATES_FILE, SUMMARY_FILE, StatesWriter, StressDescription, StressTables,
     SummaryFile, TRUST_FILE, WorstLoads, trust, with_causes,
 };
@@ -30,6 +32,8 @@ pub struct RunDirectory {
     /// The summary to come; taken when it is written.
     draft: Option<Draft>,
     states: StatesWriter<Output>,
+    /// The table that is asked for.
+    output: Option<StatesWriter<Output>>,
     events: EventsWriter<Output>,
     listing: Option<ListingWriter<Output>>,
     stresses: Option<StressWriter>,
@@ -85,20 +89,26 @@ impl RunDirectory {
         directory: &Path,
         scene: &Scene,
         run: RunDescription,
-        listing: bool,
     ) -> Result<Self, ResultsError> {
         let place = Destination::take(directory)?;
         let draft = announce(&place, &run)?;
         let path = place.partial();
-        let labels: Vec<_> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
+        let labels = scene.labels().to_vec();
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
         let events = open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone()))?;
-        let listing = listing.then(|| open_listing(path, &run, labels)).transpose()?;
+        let output = run
+            .output
+            .table
+            .clone()
+            .map(|table| open(path, OUTPUT_FILE, |out| StatesWriter::of(out, &labels, table)));
+        let output = output.transpose()?;
+        let listing = run.output.listing.then(|| open_listing(path, &run, labels)).transpose()?;
         Ok(Self {
             place,
             run,
             draft: Some(draft),
             states,
+            output,
             events,
             listing,
             stresses: None,
@@ -129,7 +139,7 @@ impl RunDirectory {
         analysis: StressAnalysis,
         tables: StressTables,
     ) -> Result<Self, ResultsError> {
-        let hinges = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
+        let hinges = scene.labels().to_vec();
         let (signs, pulses) = (tables.signs, analysis.settings().pulses);
         let generated_for = analysis.generated_for();
         let description = StressDescription { signs, pulses, generated_for };
@@ -157,9 +167,11 @@ impl RunDirectory {
     pub fn finish(mut self, outcome: &Outcome) -> Kept {
         let instant = self.close_instant();
         let states = self.states.flush().map_err(self.writing(STATES_FILE));
+        let output = self.output.as_mut().map_or(Ok(()), StatesWriter::flush);
+        let output = output.map_err(self.writing(OUTPUT_FILE));
         let listing = self.flush_listing();
         let stresses = self.stresses.as_mut().map_or(Ok(()), StressWriter::finish);
-        let tables = instant.and(states).and(listing).and(stresses);
+        let tables = instant.and(states).and(output).and(listing).and(stresses);
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
         let summary = self.write_summary(outcome, error);
@@ -212,6 +224,8 @@ impl RunDirectory {
     fn write_sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         self.close_instant()?;
         self.states.write(snapshot).map_err(self.writing(STATES_FILE))?;
+        let output = self.output.as_mut().map_or(Ok(()), |output| output.write(snapshot));
+        output.map_err(self.writing(OUTPUT_FILE))?;
         if let Some(stresses) = &mut self.stresses {
             stresses.sample(snapshot)?;
             self.write_stresses()?;
@@ -252,6 +266,10 @@ impl RunDirectory {
 }
 
 impl Recorder for RunDirectory {
+    fn output_times(&self) -> Option<&OutputTimes> {
+        self.run.output.times.as_ref()
+    }
+
     fn needs_detail(&self) -> bool {
         self.listing.is_some() || self.stresses.as_ref().is_some_and(StressWriter::is_due)
     }

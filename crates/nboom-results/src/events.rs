@@ -60,8 +60,8 @@ impl<W: Write> EventsWriter<W> {
         let out = &mut self.out;
         number(out, event.time)?;
         write!(out, ",{}", event.kind.name())?;
-        match event.hinge.map(|i| self.hinges[i]) {
-            Some(label) => write!(out, ",{},{}", label.appendage + 1, label.segment + 1)?,
+        match event.hinge.map(|i| self.hinges[i].numbers()) {
+            Some([appendage, segment]) => write!(out, ",{appendage},{segment}")?,
             None => write!(out, ",,")?,
         }
         match event.impulse {

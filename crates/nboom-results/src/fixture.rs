@@ -6,7 +6,7 @@ use nboom_scalar::{Quaternion, Vec3};
 use nboom_sim::{Detail, Event, EventKind, Snapshot, Totals};
 
 pub(crate) fn labels() -> Vec<HingeLabel> {
-    [(0, 0), (0, 1), (1, 0)].map(|(appendage, segment)| HingeLabel { appendage, segment }).into()
+    [(0, 0), (0, 1), (1, 0)].map(|(appendage, segment)| HingeLabel::new(appendage, segment)).into()
 }
 
 /// Three hinges: unreleased, free, locked. No two numbers are equal.

@@ -26,6 +26,7 @@ mod error;
 mod euler;
 mod events;
 mod kind;
+mod label_keys;
 mod layout;
 mod listing;
 mod lock;
@@ -55,13 +56,12 @@ pub use listing::ListingWriter;
 pub use lock::Holder;
 pub use names::{
     ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, LATCH_IMPULSES_FILE,
-    LISTING_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
+    LISTING_FILE, OUTPUT_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 pub use peaks::{PeakDigits, peak_digits};
-pub use quantities::{AFTER_HINGES, BEFORE_HINGES, OF_A_HINGE, Quantity};
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;
-pub use summary::{RunDescription, StressDescription, SummaryFile};
+pub use summary::{RunDescription, StressDescription, SummaryFile, WantedOutput};
 pub use verdict::WorstLoads;
 pub use whole::write_file;

@@ -149,7 +149,7 @@ impl<W: Write> ListingWriter<W> {
                 detail.alpha_ddot[i],
             ];
             let degrees = radians.map(f64::to_degrees);
-            HINGE_MOTION.numbers(&mut self.out, &row_name(*label), &degrees)?;
+            HINGE_MOTION.numbers(&mut self.out, &row_name(label), &degrees)?;
         }
         Ok(())
     }
@@ -179,7 +179,7 @@ impl<W: Write> ListingWriter<W> {
                 let [force, length] = line.map_or([0.0; 2], |line| [line.force, line.length]);
                 cells.extend([force, length].map(number));
             }
-            HINGE_FORCES.row(&mut self.out, &row_name(*label), &cells)?;
+            HINGE_FORCES.row(&mut self.out, &row_name(label), &cells)?;
         }
         Ok(())
     }
@@ -249,8 +249,9 @@ fn inertial_vectors(snapshot: &Snapshot, detail: &Detail) -> [Vec3<f64>; 6] {
     ]
 }
 
-fn row_name(label: HingeLabel) -> String {
-    format!("{:>3} {:>3}", label.appendage + 1, label.segment + 1)
+fn row_name(label: &HingeLabel) -> String {
+    let [appendage, segment] = label.numbers();
+    format!("{appendage:>3} {segment:>3}")
 }
 
 fn title(kind: EventKind) -> &'static str {

@@ -2,6 +2,8 @@
 
 /// Name of the table of states within a run's directory.
 pub const STATES_FILE: &str = "states.csv";
+/// Name of the table of the motion that a scene asks for within a run's directory.
+pub const OUTPUT_FILE: &str = "output.csv";
 /// Name of the table of events within a run's directory.
 pub const EVENTS_FILE: &str = "events.csv";
 /// Name of the summary within a run's directory.
@@ -22,8 +24,9 @@ pub const LISTING_FILE: &str = "listing.txt";
 pub const TRUST_FILE: &str = "certificate.json";
 
 /// All names that a run may write; files of other names in its directory are not its own.
-pub const FILES: [&str; 10] = [
+pub const FILES: [&str; 11] = [
     STATES_FILE,
+    OUTPUT_FILE,
     EVENTS_FILE,
     STRESS_FILE,
     HINGE_LOADS_FILE,

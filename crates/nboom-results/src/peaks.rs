@@ -29,7 +29,7 @@ pub fn peak_digits(run: &WorstLoads, truth: &WorstLoads, scales: &Scales) -> Vec
         let [ours, true_one] = [run, truth].map(|worst| worst.max_von_mises.stress.von_mises());
         let size = natural(true_one, von_mises) / loaded;
         let digits = Digits::new("von_mises", (ours - true_one).abs(), size);
-        PeakDigits { hinge: truth.segment, station: Some(truth.station), digits }
+        PeakDigits { hinge: truth.segment.clone(), station: Some(truth.station), digits }
     });
     let hinges = run.hinges.iter().zip(&truth.hinges).map(|(run, truth)| {
         let of_kind = match truth.quantity {
@@ -39,7 +39,7 @@ pub fn peak_digits(run: &WorstLoads, truth: &WorstLoads, scales: &Scales) -> Vec
         let size = natural(truth.magnitude(), of_kind);
         let off = (run.magnitude() - truth.magnitude()).abs();
         let digits = Digits::new(truth.quantity.name(), off, size);
-        PeakDigits { hinge: truth.hinge, station: None, digits }
+        PeakDigits { hinge: truth.hinge.clone(), station: None, digits }
     });
     stations.chain(hinges).collect()
 }

@@ -35,7 +35,10 @@ struct Head {
 
 impl RowText {
     pub fn new(signs: StressSigns, hinges: &[HingeLabel]) -> Self {
-        let head = |hinge: &HingeLabel| format!(",{},{}", hinge.appendage + 1, hinge.segment + 1);
+        let head = |hinge: &HingeLabel| {
+            let [appendage, segment] = hinge.numbers();
+            format!(",{appendage},{segment}")
+        };
         Self { signs, hinge_heads: hinges.iter().map(head).collect(), ..Self::default() }
     }
 
@@ -52,10 +55,11 @@ impl RowText {
     }
 
     /// The rows that are added next have this time and the hinge that locks then.
-    pub fn set_latch(&mut self, time: f64, hinge: HingeLabel) -> io::Result<()> {
+    pub fn set_latch(&mut self, time: f64, hinge: &HingeLabel) -> io::Result<()> {
         self.instant.clear();
         number(&mut self.instant, time)?;
-        write!(self.instant, ",{},{}", hinge.appendage + 1, hinge.segment + 1)
+        let [appendage, segment] = hinge.numbers();
+        write!(self.instant, ",{appendage},{segment}")
     }
 
     /// Rows of `stress.csv`; at each time of a run for the same stations.
@@ -76,7 +80,7 @@ impl RowText {
                 out.extend(&self.instant);
                 out.extend(self.head(
                     row,
-                    hinges[station.segment],
+                    &hinges[station.segment],
                     station.station,
                     name,
                     point.place,
@@ -97,7 +101,7 @@ impl RowText {
     fn head(
         &mut self,
         row: usize,
-        hinge: HingeLabel,
+        hinge: &HingeLabel,
         station: usize,
         name: &str,
         place: Point,
@@ -110,8 +114,8 @@ impl RowText {
         if head.place != place {
             head.place = place;
             head.text.clear();
-            let HingeLabel { appendage, segment } = hinge;
-            write!(head.text, ",{},{},{},{name}", appendage + 1, segment + 1, station + 1)?;
+            let [appendage, segment] = hinge.numbers();
+            write!(head.text, ",{appendage},{segment},{},{name}", station + 1)?;
             place_fields(&mut head.text, place)?;
         }
         Ok(&head.text)

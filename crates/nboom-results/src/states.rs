@@ -1,36 +1,42 @@
 use std::io::{self, Write};
 
-use nboom_model::HingeLabel;
+use nboom_model::{Column, HingeLabel, WantedTable};
 use nboom_sim::Snapshot;
 
-use crate::number::{field, number, vector_fields};
-use crate::quantities::{AFTER_HINGES, BEFORE_HINGES, OF_A_HINGE, Quantity, Value};
+use crate::number::{field, number};
+use crate::quantities::{Cell, cell};
 
-/// Writes the table of states, one row for each output time.
-///
-/// Position and velocity of O along inertial axes, rates along main-body axes, angles in
-/// radians.
+/// Writes a table of the motion, one row for each output time: the table of states, or one that
+/// somebody asks for.
 #[derive(Debug)]
 pub struct StatesWriter<W> {
     out: W,
+    table: WantedTable,
 }
 
 impl<W: Write> StatesWriter<W> {
-    /// Writes the header for hinges with these labels.
+    /// Writes the header of the table of states for hinges with these labels: all columns, angles in
+    /// radians.
     ///
     /// # Errors
     /// When `out` refuses it.
-    pub fn new(mut out: W, hinges: &[HingeLabel]) -> io::Result<Self> {
-        let columns = |of: &'static [Quantity]| of.iter().flat_map(|quantity| quantity.columns);
+    pub fn new(out: W, hinges: &[HingeLabel]) -> io::Result<Self> {
+        let columns = Column::all(hinges.len());
+        Self::of(out, hinges, WantedTable { columns, in_degrees: false })
+    }
+
+    /// Writes the header of this table. Names of columns in degrees end in `_deg`.
+    ///
+    /// # Errors
+    /// When `out` refuses it.
+    pub fn of(mut out: W, hinges: &[HingeLabel], table: WantedTable) -> io::Result<Self> {
         write!(out, "t")?;
-        columns(&BEFORE_HINGES).try_for_each(|name| write!(out, ",{name}"))?;
-        for label in hinges {
-            let (k, i) = (label.appendage + 1, label.segment + 1);
-            columns(&OF_A_HINGE).try_for_each(|name| write!(out, ",{name}_{k}_{i}"))?;
+        for column in &table.columns {
+            let unit = if table.is_in_degrees(column) { "_deg" } else { "" };
+            write!(out, ",{}{unit}", column.name(hinges))?;
         }
-        columns(&AFTER_HINGES).try_for_each(|name| write!(out, ",{name}"))?;
         writeln!(out)?;
-        Ok(Self { out })
+        Ok(Self { out, table })
     }
 
     /// Writes one row.
@@ -38,19 +44,15 @@ impl<W: Write> StatesWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn write(&mut self, snapshot: &Snapshot) -> io::Result<()> {
-        let of_hinges =
-            (0..snapshot.hinges.len()).flat_map(|i| OF_A_HINGE.iter().map(move |q| (q, i)));
-        let of_satellite = |quantities: &'static [Quantity]| quantities.iter().map(|q| (q, 0));
-        let quantities =
-            of_satellite(&BEFORE_HINGES).chain(of_hinges).chain(of_satellite(&AFTER_HINGES));
-        let out = &mut self.out;
+        let Self { out, table } = self;
         number(out, snapshot.time)?;
-        for (quantity, hinge) in quantities {
-            match quantity.value {
-                Value::Number(value) => field(out, value(snapshot))?,
-                Value::Vector(value) => vector_fields(out, value(snapshot))?,
-                Value::OfHinge(value) => field(out, value(snapshot, hinge))?,
-                Value::CodeOfHinge(value) => write!(out, ",{}", value(snapshot, hinge))?,
+        for column in &table.columns {
+            match cell(column, snapshot) {
+                Cell::Number(angle) if table.is_in_degrees(column) => {
+                    field(out, angle.to_degrees())?;
+                }
+                Cell::Number(value) => field(out, value)?,
+                Cell::Code(code) => write!(out, ",{code}")?,
             }
         }
         writeln!(out)
@@ -120,6 +122,24 @@ mod tests {
         expected.extend(s.angular_momentum_inertial.to_array());
         expected.push(s.nutation);
         assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_wanted_table_has_its_columns_and_degrees() {
+        let s = fixture::snapshot(0.5);
+        let named = |text| Column::named(text, &fixture::labels()).expect("a column");
+        let columns = ["omega", "beta_2_1", "state_1_1", "v_y"].map(named).concat();
+        let mut bytes = Vec::new();
+        let table = WantedTable { columns, in_degrees: true };
+        let mut writer = StatesWriter::of(&mut bytes, &fixture::labels(), table).expect("memory");
+        writer.write(&s).expect("memory");
+        let text = String::from_utf8(bytes).expect("text");
+        let (header, row) = text.split_once('\n').expect("two lines");
+        assert_eq!(header, "t,omega_x_deg,omega_y_deg,omega_z_deg,beta_2_1_deg,state_1_1,v_y");
+        let found: Vec<f64> = row.trim().split(',').map(|f| f.parse().expect("a number")).collect();
+        let [x, y, z] = s.omega_body.to_array().map(f64::to_degrees);
+        let beta = s.beta[2].to_degrees();
+        assert_eq!(found, [0.5, x, y, z, beta, -1.0, s.velocity_inertial.y]);
     }
 
     #[test]

@@ -23,6 +23,8 @@ const LATCH_IMPULSES_HEADER: &str =
 const ENVELOPE_HEADER: &str = "appendage,segment,station,t,event,event_appendage,event_segment,xi,\
      zeta,sigma_22,sigma_21,sigma_23,von_mises,driver,margin,share,p_xi,p_eta,p_zeta,q_xi,q_eta,\
      q_zeta";
+/// The column after these where a part has an ultimate stress.
+const ULTIMATE_MARGIN: &str = ",ultimate_margin";
 const HINGE_ENVELOPE_HEADER: &str = "appendage,segment,quantity,t,event,event_appendage,\
      event_segment,magnitude,share,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
 
@@ -176,9 +178,18 @@ impl StressWriter {
         told.and(taken)?;
         finished?;
         if self.stresses.is_some() {
-            self.write_table(ENVELOPE_FILE, ENVELOPE_HEADER, |out| {
-                let worst = self.analysis.envelope();
-                worst.iter().try_for_each(|worst| self.write_worst(out, worst))
+            let worst = self.analysis.envelope();
+            // Without such a margin there is no such column.
+            let breaks = worst.iter().any(|worst| worst.margins.on_ultimate.is_some());
+            let last = if breaks { ULTIMATE_MARGIN } else { "" };
+            self.write_table(ENVELOPE_FILE, &format!("{ENVELOPE_HEADER}{last}"), |out| {
+                worst.iter().try_for_each(|worst| {
+                    self.write_worst(out, worst)?;
+                    if breaks {
+                        margin_field(out, worst.margins.on_ultimate)?;
+                    }
+                    writeln!(out)
+                })
             })?;
         }
         self.write_table(HINGE_ENVELOPE_FILE, HINGE_ENVELOPE_HEADER, |out| {
@@ -203,26 +214,22 @@ impl StressWriter {
     }
 
     fn write_worst(&self, out: &mut Output, worst: &Worst) -> io::Result<()> {
-        let HingeLabel { appendage, segment } = worst.segment;
-        write!(out, "{},{},{},", appendage + 1, segment + 1, worst.station + 1)?;
+        let [appendage, segment] = worst.segment.numbers();
+        write!(out, "{appendage},{segment},{},", worst.station + 1)?;
         number(out, worst.time)?;
         self.event_fields(out, worst.cause)?;
         place_fields(out, worst.max_von_mises.place)?;
         stress_fields(out, self.signs.components(worst.max_von_mises.stress))?;
         field(out, worst.max_von_mises.stress.von_mises())?;
         write!(out, ",{}", worst.driver.map_or(UNLOADED, |driver| driver.name()))?;
-        match worst.margin {
-            Some(margin) => field(out, margin)?,
-            None => write!(out, ",")?,
-        }
+        margin_field(out, worst.margins.on_yield)?;
         share_field(out, worst.cause)?;
-        load_fields(out, &worst.load)?;
-        writeln!(out)
+        load_fields(out, &worst.load)
     }
 
     fn write_worst_of_hinge(&self, out: &mut Output, worst: &WorstHingeLoad) -> io::Result<()> {
-        let HingeLabel { appendage, segment } = worst.hinge;
-        write!(out, "{},{},{},", appendage + 1, segment + 1, worst.quantity.name())?;
+        let [appendage, segment] = worst.hinge.numbers();
+        write!(out, "{appendage},{segment},{},", worst.quantity.name())?;
         number(out, worst.time)?;
         self.event_fields(out, worst.cause)?;
         field(out, worst.magnitude())?;
@@ -236,10 +243,17 @@ impl StressWriter {
         match cause {
             Cause::Motion => write!(out, ",,,"),
             Cause::LockUp { hinge, .. } => {
-                let HingeLabel { appendage, segment } = self.hinges[hinge];
-                write!(out, ",lock_up,{},{}", appendage + 1, segment + 1)
+                let [appendage, segment] = self.hinges[hinge].numbers();
+                write!(out, ",lock_up,{appendage},{segment}")
             }
         }
+    }
+}
+
+fn margin_field(out: &mut Output, margin: Option<f64>) -> io::Result<()> {
+    match margin {
+        Some(margin) => field(out, margin),
+        None => write!(out, ","),
     }
 }
 

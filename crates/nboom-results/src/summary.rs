@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
-use nboom_model::{HingeLabel, Scene, UnitSystem};
-use nboom_sim::{CodeOfRun, Conservation, Integration, Selection, Summary};
+use nboom_model::{HingeLabel, Scene, UnitSystem, WantedTable};
+use nboom_sim::{CodeOfRun, Conservation, Integration, OutputTimes, Selection, Summary};
 use nboom_strength::PulseShape;
 use serde::Serialize;
 
@@ -21,8 +21,10 @@ pub struct RunDescription {
     pub rtol: f64,
     /// Absolute error allowed in a step.
     pub atol: f64,
-    /// Output times are the initial time and this many after it.
+    /// Output times are the initial time and this many after it, unless `output` has others.
     pub samples: usize,
+    /// What is asked for beside the usual output.
+    pub output: WantedOutput,
     /// Labels of the scene's units.
     pub units: UnitSystem,
     /// How stresses are found and written.
@@ -52,6 +54,7 @@ impl RunDescription {
             rtol: options.rtol,
             atol: options.atol,
             samples: options.samples,
+            output: WantedOutput::default(),
             units,
             stresses: None,
             print_interval: 1,
@@ -59,9 +62,20 @@ impl RunDescription {
             warnings: Vec::new(),
             input_sha256: None,
             parameters: Vec::new(),
-            hinges: (0..scene.bodies.len()).map(|i| scene.label(i)).collect(),
+            hinges: scene.labels().to_vec(),
         }
     }
+}
+
+/// What a scene or a person asks a run to write beside the usual output.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WantedOutput {
+    /// Output times in place of uniform ones.
+    pub times: Option<OutputTimes>,
+    /// A table of its own.
+    pub table: Option<WantedTable>,
+    /// The printout.
+    pub listing: bool,
 }
 
 /// The keys of `summary.json`.
@@ -208,7 +222,7 @@ impl<'a> SummaryFile<'a> {
             integrations: Vec::new(),
             rtol: run.rtol,
             atol: run.atol,
-            samples: run.samples,
+            samples: run.output.times.as_ref().map_or(run.samples, |times| times.count() + 1),
             units: run.units.name(),
             stresses: run.stresses.map(StressKeys::from),
             complete: false,

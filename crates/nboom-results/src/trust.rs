@@ -3,6 +3,7 @@ use nboom_sim::{Digits, Trust};
 use serde::Serialize;
 
 use crate::PeakDigits;
+use crate::label_keys::LabelKeys;
 
 #[derive(Serialize)]
 struct TrustKeys<'a> {
@@ -11,7 +12,7 @@ struct TrustKeys<'a> {
     reference_rtol: f64,
     reference_atol: f64,
     same_events: bool,
-    events: Vec<EventKeys>,
+    events: Vec<EventKeys<'a>>,
     end: Vec<DigitKeys>,
     /// The largest stresses and hinge loads, if any were computed.
     peaks: Vec<PeakKeys>,
@@ -19,8 +20,8 @@ struct TrustKeys<'a> {
 
 #[derive(Serialize)]
 struct PeakKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    hinge: LabelKeys,
     /// `null` for a hinge.
     station: Option<usize>,
     #[serde(flatten)]
@@ -31,8 +32,7 @@ impl From<&PeakDigits> for PeakKeys {
     fn from(peak: &PeakDigits) -> Self {
         let PeakDigits { hinge, station, digits } = peak;
         Self {
-            appendage: hinge.appendage + 1,
-            segment: hinge.segment + 1,
+            hinge: hinge.into(),
             station: station.map(|station| station + 1),
             digits: digits.into(),
         }
@@ -40,11 +40,13 @@ impl From<&PeakDigits> for PeakKeys {
 }
 
 #[derive(Serialize)]
-struct EventKeys {
+struct EventKeys<'a> {
     t: f64,
     kind: &'static str,
     appendage: Option<usize>,
     segment: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<&'a str>,
     time: DigitKeys,
     impulse: Option<DigitKeys>,
 }
@@ -67,12 +69,13 @@ impl From<&Digits> for DigitKeys {
 /// The text of [`TRUST_FILE`](crate::TRUST_FILE).
 pub(crate) fn text(scene: &Scene, trust: &Trust, peaks: &[PeakDigits]) -> String {
     let events = trust.events.iter().map(|known| {
-        let label = known.event.hinge.map(|hinge| scene.label(hinge));
+        let label = known.event.hinge.map(|hinge| &scene.labels()[hinge]);
         EventKeys {
             t: known.event.time,
             kind: known.event.kind.name(),
-            appendage: label.map(|label| label.appendage + 1),
-            segment: label.map(|label| label.segment + 1),
+            appendage: label.map(|label| label.numbers()[0]),
+            segment: label.map(|label| label.numbers()[1]),
+            name: label.and_then(|label| label.name.as_deref()),
             time: (&known.time).into(),
             impulse: known.impulse.as_ref().map(DigitKeys::from),
         }

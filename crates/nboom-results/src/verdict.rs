@@ -1,7 +1,9 @@
 use nboom_model::HingeLabel;
 use nboom_sim::{HingeVerdict, LockUpImpulse, Verdict};
-use nboom_strength::{Cause, HingeQuantity, StressAnalysis, Worst, WorstHingeLoad};
+use nboom_strength::{Cause, HingeQuantity, Limit, StressAnalysis, Worst, WorstHingeLoad};
 use serde::Serialize;
+
+use crate::label_keys::LabelKeys;
 
 /// The worst stresses and hinge loads of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,11 +26,13 @@ impl WorstLoads {
         self.stations.iter().max_by(|a, b| von_mises(a).total_cmp(&von_mises(b)))
     }
 
-    /// The station with the smallest margin, if a yield stress is known.
-    pub fn weakest(&self) -> Option<&Worst> {
-        let margin = |worst: &Worst| worst.margin.unwrap_or(f64::INFINITY);
-        let known = self.stations.iter().filter(|worst| worst.margin.is_some());
-        known.min_by(|a, b| margin(a).total_cmp(&margin(b)))
+    /// The station with the smallest margin, if a strength is known, the margin, and what it is to.
+    pub fn weakest(&self) -> Option<(&Worst, f64, Limit)> {
+        let known = self.stations.iter().filter_map(|worst| {
+            let (margin, limit) = worst.margins.smallest()?;
+            Some((worst, margin, limit))
+        });
+        known.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The hinge with the largest force or moment.
@@ -50,7 +54,7 @@ pub(crate) struct VerdictKeys {
     worst_load: Option<f64>,
     worst_load_at: Option<StationKeys>,
     smallest_margin: Option<f64>,
-    smallest_margin_at: Option<StationKeys>,
+    smallest_margin_at: Option<MarginKeys>,
     largest_hinge_force: Option<f64>,
     largest_hinge_force_at: Option<HingeLoadKeys>,
     largest_hinge_moment: Option<f64>,
@@ -59,8 +63,8 @@ pub(crate) struct VerdictKeys {
 
 #[derive(Clone, Debug, Serialize)]
 struct HingeKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     /// As in `states.csv`.
     state: i8,
     time: Option<f64>,
@@ -69,19 +73,33 @@ struct HingeKeys {
 
 #[derive(Clone, Debug, Serialize)]
 struct LockUpKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     time: f64,
     impulse: f64,
 }
 
 #[derive(Clone, Debug, Serialize)]
 struct StationKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     station: usize,
     time: f64,
     event: Option<&'static str>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct MarginKeys {
+    #[serde(flatten)]
+    station: StationKeys,
+    /// What the margin is to.
+    limit: &'static str,
+}
+
+impl From<(&Worst, f64, Limit)> for MarginKeys {
+    fn from((worst, _, limit): (&Worst, f64, Limit)) -> Self {
+        Self { station: worst.into(), limit: limit.name() }
+    }
 }
 
 impl VerdictKeys {
@@ -92,13 +110,13 @@ impl VerdictKeys {
         let [force, moment] =
             [HingeQuantity::Force, HingeQuantity::Moment].map(|quantity| worst.hinge(quantity));
         Self {
-            hinges: hinges.map(|(&label, hinge)| HingeKeys::new(label, hinge)).collect(),
+            hinges: hinges.map(|(label, hinge)| HingeKeys::new(label, hinge)).collect(),
             largest_impulse: largest.map(|largest| largest.impulse.abs()),
             largest_impulse_at: largest.map(|largest| LockUpKeys::new(labels, &largest)),
             worst_load: most_loaded.map(|worst| worst.max_von_mises.stress.von_mises()),
             worst_load_at: most_loaded.map(StationKeys::from),
-            smallest_margin: weakest.and_then(|worst| worst.margin),
-            smallest_margin_at: weakest.map(StationKeys::from),
+            smallest_margin: weakest.map(|(_, margin, _)| margin),
+            smallest_margin_at: weakest.map(MarginKeys::from),
             largest_hinge_force: force.map(WorstHingeLoad::magnitude),
             largest_hinge_force_at: force.map(HingeLoadKeys::from),
             largest_hinge_moment: moment.map(WorstHingeLoad::magnitude),
@@ -108,10 +126,9 @@ impl VerdictKeys {
 }
 
 impl HingeKeys {
-    fn new(label: HingeLabel, hinge: &HingeVerdict) -> Self {
+    fn new(label: &HingeLabel, hinge: &HingeVerdict) -> Self {
         Self {
-            appendage: label.appendage + 1,
-            segment: label.segment + 1,
+            label: label.into(),
             state: hinge.state.code(),
             time: hinge.since,
             angle: hinge.angle,
@@ -121,25 +138,23 @@ impl HingeKeys {
 
 impl LockUpKeys {
     fn new(labels: &[HingeLabel], largest: &LockUpImpulse) -> Self {
-        let HingeLabel { appendage, segment } = labels[largest.hinge];
-        let LockUpImpulse { time, impulse, .. } = *largest;
-        Self { appendage: appendage + 1, segment: segment + 1, time, impulse }
+        let LockUpImpulse { hinge, time, impulse } = *largest;
+        Self { label: (&labels[hinge]).into(), time, impulse }
     }
 }
 
 #[derive(Clone, Debug, Serialize)]
 struct HingeLoadKeys {
-    appendage: usize,
-    segment: usize,
+    #[serde(flatten)]
+    label: LabelKeys,
     time: f64,
     event: Option<&'static str>,
 }
 
 impl From<&WorstHingeLoad> for HingeLoadKeys {
     fn from(worst: &WorstHingeLoad) -> Self {
-        let HingeLabel { appendage, segment } = worst.hinge;
         let (time, event) = (worst.time, event_of(worst.cause));
-        Self { appendage: appendage + 1, segment: segment + 1, time, event }
+        Self { label: (&worst.hinge).into(), time, event }
     }
 }
 
@@ -152,10 +167,8 @@ fn event_of(cause: Cause) -> Option<&'static str> {
 
 impl From<&Worst> for StationKeys {
     fn from(worst: &Worst) -> Self {
-        let HingeLabel { appendage, segment } = worst.segment;
         Self {
-            appendage: appendage + 1,
-            segment: segment + 1,
+            label: (&worst.segment).into(),
             station: worst.station + 1,
             time: worst.time,
             event: event_of(worst.cause),

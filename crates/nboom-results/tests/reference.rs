@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use nboom_results::{AFTER_HINGES, BEFORE_HINGES, OF_A_HINGE};
+use nboom_model::Quantity;
 
 #[test]
 fn the_table_of_quantities_is_that_of_the_code() {
@@ -13,9 +13,9 @@ fn the_table_of_quantities_is_that_of_the_code() {
     let (before, rest) = text.split_once(begin).expect("the table has a begin mark");
     let (found, after) = rest.split_once(end).expect("the table has an end mark");
     let mut expected = "| columns | unit | what |\n| --- | --- | --- |\n".to_owned();
-    for quantity in BEFORE_HINGES.iter().chain(&OF_A_HINGE).chain(&AFTER_HINGES) {
-        let columns: Vec<_> = quantity.columns.iter().map(|name| format!("`{name}`")).collect();
-        let (columns, unit, about) = (columns.join(", "), quantity.unit, quantity.about);
+    for quantity in Quantity::all() {
+        let columns: Vec<_> = quantity.columns().iter().map(|name| format!("`{name}`")).collect();
+        let (columns, unit, about) = (columns.join(", "), quantity.unit(), quantity.about());
         expected.push_str(&format!("| {columns} | {unit} | {about} |\n"));
     }
     if std::env::var_os("NBOOM_BLESS").is_some_and(|bless| bless == "1") {

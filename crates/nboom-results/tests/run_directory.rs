@@ -4,11 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use nboom_model::{
-    Appendage, Hinge, HingeState, MassProperties, Mount, Scene, SceneDescription, SectionShape,
-    Segment, SegmentStructure, Station, Structure, UnitSystem,
+    Appendage, Hinge, HingeState, MassProperties, Material, Mount, Scene, SceneDescription,
+    SectionShape, Segment, SegmentStructure, Station, Structure, UnitSystem,
 };
 use nboom_results::{
-    Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables,
+    Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables, WantedOutput,
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
@@ -31,7 +31,8 @@ fn scene() -> Scene {
 fn create(path: &Path, listing: bool) -> Result<RunDirectory, ResultsError> {
     let scene = scene();
     let run = RunDescription::new(&scene, &Options::default(), UnitSystem::Si);
-    RunDirectory::create(path, &scene, run, listing)
+    let output = WantedOutput { listing, ..WantedOutput::default() };
+    RunDirectory::create(path, &scene, RunDescription { output, ..run })
 }
 
 fn snapshot(time: f64) -> Snapshot {
@@ -287,8 +288,7 @@ fn analysis() -> StressAnalysis {
     };
     let segment = SegmentStructure {
         pulse_constant: 0.1,
-        poissons_ratio: 0.3,
-        youngs_modulus: 7e10,
+        material: Material::elastic(7e10, 0.3),
         stations: vec![station],
     };
     let structure = Structure::new(&scene, vec![segment]).expect("the slice is the boom");

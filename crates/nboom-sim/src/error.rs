@@ -222,9 +222,11 @@ fn moment(time: &f64) -> String {
 }
 
 fn place(hinge: &Option<HingeLabel>) -> String {
-    hinge.map_or_else(|| "main body".to_owned(), |label| format!("hinge {label}"))
+    hinge.as_ref().map_or_else(|| "main body".to_owned(), |label| format!("hinge {label}"))
 }
 
 fn of_hinge(quantity: &str, hinge: &Option<HingeLabel>) -> String {
-    hinge.map_or_else(|| quantity.to_owned(), |label| format!("{quantity} of hinge {label}"))
+    hinge
+        .as_ref()
+        .map_or_else(|| quantity.to_owned(), |label| format!("{quantity} of hinge {label}"))
 }

@@ -59,6 +59,7 @@ pub use run::beforehand::check_start;
 pub use run::bodies::BodyMotion;
 pub use run::conservation::{Conservation, PoorConservation};
 pub use run::control::Control;
+pub use run::output_times::OutputTimes;
 pub use run::record::{
     Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,
 };

@@ -23,6 +23,7 @@ pub(crate) mod conservation;
 pub(crate) mod control;
 pub(crate) mod finite;
 pub(crate) mod ledger;
+pub(crate) mod output_times;
 pub(crate) mod record;
 pub(crate) mod snapshot;
 pub(crate) mod step_motion;

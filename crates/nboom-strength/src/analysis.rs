@@ -1,5 +1,5 @@
 use nboom_loads::LoadEquations;
-use nboom_model::{HingeLabel, Scene, Structure};
+use nboom_model::{HingeLabel, Material, Scene, Structure};
 use nboom_scalar::{Kernel, Wrench};
 use nboom_sections::{AtStation, Section};
 use nboom_sim::{Detail, InstantMotion, MotionAt, Snapshot, StepMotion};
@@ -13,7 +13,7 @@ use crate::record::{Record, Records};
 use crate::search::Search;
 use crate::station::Station;
 use crate::{
-    HingeQuantity, LatchImpulses, LockUpPeaks, Settings, Slip, StationLoad, Stations,
+    HingeQuantity, LatchImpulses, LockUpPeaks, Margins, Settings, Slip, StationLoad, Stations,
     StrengthError, Worst, WorstHingeLoad,
 };
 
@@ -30,6 +30,8 @@ pub struct StressAnalysis {
     labels: Vec<HingeLabel>,
     /// `None` without a structure.
     pulse_constants: Option<Vec<f64>>,
+    /// Those of the segments, if there are stations.
+    materials: Vec<Material>,
     finder: LoadFinder,
     stations: Stations,
     search: Search,
@@ -65,7 +67,9 @@ impl StressAnalysis {
                 StrengthError::Section { segment: scene.label(segment), station, source: here }
             })?;
         let equations = LoadEquations::new(scene, Some(structure));
-        Self::of(scene, equations, sections, Some(pulse_constants(structure)), settings)
+        let all = Self::of(scene, equations, sections, Some(pulse_constants(structure)), settings)?;
+        let materials = structure.segments().iter().map(|segment| segment.material).collect();
+        Ok(Self { materials, ..all })
     }
 
     /// The analysis of the hinges of any scene, without stresses. Pulse constants belong to a
@@ -90,7 +94,7 @@ impl StressAnalysis {
         settings: Settings,
     ) -> Result<Self, StrengthError> {
         settings.check()?;
-        let labels: Vec<HingeLabel> = (0..scene.bodies.len()).map(|i| scene.label(i)).collect();
+        let labels = scene.labels().to_vec();
         let influences: Vec<_> = sections.iter().map(|at| at.here.influence()).collect();
         let equations = equations.with_sections(influences);
         let hands_on = settings.slips.contains(Slip::LoadTransfer);
@@ -105,6 +109,7 @@ impl StressAnalysis {
             settings,
             labels,
             pulse_constants,
+            materials: Vec::new(),
             stations,
             pulses: Pulses::new(settings.pulses),
             reached: f64::NEG_INFINITY,
@@ -303,23 +308,24 @@ impl StressAnalysis {
         let Record { value, time, cause, load, numbers } = *self.worst.get(g)?;
         let max_von_mises = at.formulas.max_von_mises_of(numbers);
         let has_load = value > ROUNDING * self.worst.largest_of_kind(g);
-        let (segment, station) = (self.labels[at.segment], at.station);
+        let (segment, station) = (self.labels[at.segment].clone(), at.station);
         let driver = has_load.then(|| driver(&at.formulas, &load, &max_von_mises));
-        let margin = self.settings.margin(value).filter(|_| has_load);
-        Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margin })
+        let of_load = || self.settings.margins(&self.materials[at.segment], value);
+        let margins = if has_load { of_load() } else { Margins::default() };
+        Some(Worst { segment, station, time, cause, load, max_von_mises, driver, margins })
     }
 
     /// The largest force and the largest moment of each hinge so far; nothing before the first motion.
     pub fn hinge_envelope(&self) -> Vec<WorstHingeLoad> {
-        let of_hinge = |(i, hinge): (usize, &HingeLabel)| {
+        let of_hinge = |i: usize| {
             let first = self.stations.iter().len() + 2 * i;
-            let hinge = *hinge;
             HingeQuantity::ALL.into_iter().enumerate().filter_map(move |(j, quantity)| {
                 let Record { time, cause, load, .. } = *self.worst.get(first + j)?;
+                let hinge = self.labels[i].clone();
                 Some(WorstHingeLoad { hinge, quantity, time, cause, load })
             })
         };
-        self.labels.iter().enumerate().flat_map(of_hinge).collect()
+        (0..self.labels.len()).flat_map(of_hinge).collect()
     }
 
     /// The largest difference so far between the load about a free hinge's axis and its torque,

@@ -4,6 +4,7 @@ use nboom_model::HingeLabel;
 use nboom_scalar::{Vec3, Wrench};
 use nboom_sections::PointStress;
 
+use crate::Margins;
 use crate::formulas::Formulas;
 
 /// What causes a load.
@@ -83,7 +84,7 @@ impl fmt::Display for Component {
 }
 
 /// The worst stress of a station.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
     /// The segment.
     pub segment: HingeLabel,
@@ -101,12 +102,12 @@ pub struct Worst {
     /// The component of the load that alone makes the largest von Mises stress at that point;
     /// `None` for a station without load, whose stress is at most the rounding of the worst one.
     pub driver: Option<Component>,
-    /// Share of the strength that is left there, if a yield stress is known and there is a load.
-    pub margin: Option<f64>,
+    /// What is left of the strength there; nothing for a station without load.
+    pub margins: Margins,
 }
 
 /// The largest force or moment of a hinge.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WorstHingeLoad {
     /// The hinge.
     pub hinge: HingeLabel,

@@ -150,7 +150,7 @@ impl LoadFinder {
         if residual <= most {
             return Ok(());
         }
-        let hinge = self.labels[hinge];
+        let hinge = self.labels[hinge].clone();
         Err(StrengthError::Unbalanced { time: motion.time, hinge, residual, most })
     }
 }

@@ -1,4 +1,6 @@
-use crate::{PulseShape, Slips, StrengthError};
+use nboom_model::Material;
+
+use crate::{Margins, PulseShape, Slips, StrengthError};
 
 /// How stresses are judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,10 +11,12 @@ pub struct Settings {
     pub amplification: f64,
     /// Shape of pulses over time, which determines how those of several latches add up.
     pub pulses: PulseShape,
-    /// Stress at which the material yields \[F/L²\]; without it there are no margins.
+    /// Stress at which all parts yield \[F/L²\], in place of those of their materials.
     pub yield_stress: Option<f64>,
     /// Factor on stresses when they are compared with the yield stress.
     pub safety_factor: f64,
+    /// Factor on stresses when they are compared with the ultimate stress.
+    pub ultimate_factor: f64,
     /// Slips of the program of 1970 in loads and stresses.
     pub slips: Slips,
 }
@@ -24,6 +28,7 @@ impl Default for Settings {
             pulses: PulseShape::default(),
             yield_stress: None,
             safety_factor: 1.0,
+            ultimate_factor: 1.0,
             slips: Slips::default(),
         }
     }
@@ -37,6 +42,7 @@ impl Settings {
             ("dynamic amplification", Some(self.amplification)),
             ("yield stress", self.yield_stress),
             ("safety factor", Some(self.safety_factor)),
+            ("ultimate factor", Some(self.ultimate_factor)),
         ];
         let wrong = |&(_, value): &(_, Option<f64>)| {
             value.is_some_and(|value| !(value > 0.0 && value.is_finite()))
@@ -47,8 +53,13 @@ impl Settings {
         }
     }
 
-    /// Share of its strength that a part has left, yield / (factor · stress) − 1.
-    pub(crate) fn margin(&self, von_mises: f64) -> Option<f64> {
-        self.yield_stress.map(|limit| limit / (self.safety_factor * von_mises) - 1.0)
+    /// Shares of its strength that a part of `material` has left, each limit / (factor · stress) − 1.
+    pub(crate) fn margins(&self, material: &Material, von_mises: f64) -> Margins {
+        let margin = |limit: f64, factor: f64| limit / (factor * von_mises) - 1.0;
+        let yields = self.yield_stress.or(material.yield_stress);
+        Margins {
+            on_yield: yields.map(|limit| margin(limit, self.safety_factor)),
+            on_ultimate: material.ultimate_stress.map(|limit| margin(limit, self.ultimate_factor)),
+        }
     }
 }

@@ -1,8 +1,11 @@
 //! The binary as its users meet it: exit codes, messages and files.
 
 mod certificate;
+mod outputs;
+mod pictures;
 mod scenes;
 mod standard_input;
+mod strengths;
 mod told;
 mod verdict;
 mod what_1970_saw;

@@ -131,6 +131,39 @@ fn every_kind_of_new_scene_runs() {
 }
 
 #[test]
+fn bodies_are_called_by_their_names_where_people_read() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "wing"])), 0);
+    let run = place.nboom(&["run", "wing.toml", "--certify"]);
+    let account = stdout(&run);
+    for told in [
+        "lock up  1,1 (inner panel 1)",
+        "1,3 (outer panel 1) at 9.55",
+        "in hinge 1,2 (middle panel 1), at 8.16",
+    ] {
+        assert!(account.contains(told), "{told}: {account}");
+    }
+    let verdict = &place.summary("out/wing")["verdict"];
+    let names: Vec<_> = (0..6).map(|i| verdict["hinges"][i]["name"].as_str()).collect();
+    let of_wing =
+        |number| ["inner", "middle", "outer"].map(|place| Some(format!("{place} panel {number}")));
+    let expected = [of_wing(1), of_wing(2)].concat();
+    assert_eq!(names, expected.iter().map(Option::as_deref).collect::<Vec<_>>());
+    assert_eq!(verdict["largest_impulse_at"]["name"], "middle panel 1");
+    let trust = fs::read_to_string(place.path("out/wing/certificate.json")).expect("a certificate");
+    assert!(trust.contains("\"name\": \"outer panel 2\""), "{trust}");
+    let events = fs::read_to_string(place.path("out/wing/events.csv")).expect("a table");
+    assert!(!events.contains("panel"), "columns of numbers stay");
+    // Warnings too.
+    let wing = fs::read_to_string(place.path("wing.toml")).expect("a scene");
+    place.write("never.toml", &wing.replace("passes_deg = 45.0", "passes_deg = -10.0"));
+    let check = place.nboom(&["check", "never.toml"]);
+    let told = "hinge 1,2 (middle panel 1) waits for an angle of hinge 1,1 (inner panel 1), which \
+                locks before it comes there";
+    assert!(stderr(&check).contains(told), "{}", stderr(&check));
+}
+
+#[test]
 fn parameters_are_set_on_the_command_line() {
     let place = Place::new();
     assert_eq!(code(&place.nboom(&["new", "boom"])), 0);

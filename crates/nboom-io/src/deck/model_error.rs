@@ -31,7 +31,7 @@ impl Builder<'_, '_, '_> {
     }
 
     /// Number of a segment, from 0, by appendage and segment.
-    pub fn number_of_segment(&self, label: HingeLabel) -> usize {
+    pub fn number_of_segment(&self, label: &HingeLabel) -> usize {
         let starts = self.first_segments();
         starts.get(label.appendage).copied().unwrap_or_default() + label.segment
     }
@@ -40,7 +40,7 @@ impl Builder<'_, '_, '_> {
     pub fn label_of_segment(&self, i: usize) -> HingeLabel {
         let starts = self.first_segments();
         let appendage = starts.iter().rposition(|&start| start <= i).unwrap_or_default();
-        HingeLabel { appendage, segment: i - starts.get(appendage).copied().unwrap_or_default() }
+        HingeLabel::new(appendage, i - starts.get(appendage).copied().unwrap_or_default())
     }
 
     fn initial_angle_name(&self) -> &'static str {
@@ -58,7 +58,7 @@ impl Builder<'_, '_, '_> {
 
 /// The symbol and the element in storage order.
 fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static str, usize) {
-    let number = |label: HingeLabel| builder.number_of_segment(label);
+    let number = |label: &HingeLabel| builder.number_of_segment(label);
     match error {
         ModelError::Mass { body: BodyName::MainBody, .. } => {
             if builder.values.get("EMM", 0).is_none_or(|mass| mass > 0.0) {
@@ -68,7 +68,7 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
             }
         }
         ModelError::Mass { body: BodyName::Segment(label), .. } => {
-            let i = number(*label);
+            let i = number(label);
             if builder.values.is_by_slices(i) {
                 ("DELM", MOST_STATIONS * i)
             } else if builder.values.get("EMIK", i).is_none_or(|mass| mass > 0.0) {
@@ -78,15 +78,15 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
             }
         }
         ModelError::NotFinite { body, quantity } => {
-            let i = if let BodyName::Segment(label) = body { number(*label) } else { 0 };
+            let i = if let BodyName::Segment(label) = body { number(label) } else { 0 };
             not_finite(quantity, i, builder)
         }
         ModelError::Order { label, .. } => ("NK", label.appendage),
         ModelError::Axis { label, .. } | ModelError::MountRotation { label, .. } => {
             ("FTSIK", 3 * label.appendage)
         }
-        ModelError::Trigger { label, .. } => ("IREL", number(*label)),
-        ModelError::HeldRate { label, .. } => (builder.initial_rate_name(), number(*label)),
+        ModelError::Trigger { label, .. } => ("IREL", number(label)),
+        ModelError::HeldRate { label, .. } => (builder.initial_rate_name(), number(label)),
         ModelError::NotUnit { quantity: "direction of gravity", .. } => ("GHAT", 0),
         ModelError::NotUnit { .. } => (builder.orientation_name(), 0),
         ModelError::ThrustTimes { .. } => ("TFIN", 0),

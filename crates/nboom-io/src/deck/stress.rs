@@ -1,6 +1,6 @@
 use nboom_model::{
-    MassProperties, Scene, SegmentStructure, Station, Structure, StructureDefect, StructureError,
-    StructurePlace,
+    MassProperties, Material, MaterialDefect, Scene, SegmentStructure, Station, Structure,
+    StructureDefect, StructureError, StructurePlace,
 };
 use nboom_scalar::Vec3;
 
@@ -57,14 +57,18 @@ impl Builder<'_, '_, '_> {
         self.warn_ignored_of_stations(i, count);
         let segment = SegmentStructure {
             pulse_constant: self.required_element(plain("CMN"), i),
-            poissons_ratio: self.values.real("XNU", i),
-            youngs_modulus: self.required_element(plain("E"), i),
+            material: self.material(i),
             stations: (0..count).map(|j| self.station(i, j)).collect(),
         };
         for error in segment.errors(self.label_of_segment(i)) {
             self.report_structure(&error, Self::error);
         }
         segment
+    }
+
+    fn material(&mut self, i: usize) -> Material {
+        let youngs_modulus = self.required_element(plain("E"), i);
+        Material::elastic(youngs_modulus, self.values.real("XNU", i))
     }
 
     /// Finds the assignment of the deck that is responsible for an error in the structure.
@@ -74,7 +78,7 @@ impl Builder<'_, '_, '_> {
         report: fn(&mut Self, Key, usize, String, &str),
     ) {
         let StructureError::Segment { place, defect } = error else { return };
-        let (key, index) = responsible(self.number_of_segment(place.segment), place, defect);
+        let (key, index) = responsible(self.number_of_segment(&place.segment), place, defect);
         let (found, expected) = model_error::phrases(&defect.to_string());
         report(self, key, index, found, &expected);
     }
@@ -151,7 +155,8 @@ fn responsible(i: usize, place: &StructurePlace, defect: &StructureDefect) -> (K
     let flat = MOST_STATIONS * i + j;
     match defect {
         StructureDefect::PulseConstant(_) => (plain("CMN"), i),
-        StructureDefect::YoungsModulus(_) => (plain("E"), i),
+        StructureDefect::Material(MaterialDefect::PoissonsRatio(_)) => (plain("XNU"), i),
+        StructureDefect::Material(_) => (plain("E"), i),
         StructureDefect::Order { .. } | StructureDefect::NotAtHinge(_) => (plain("S"), flat),
         StructureDefect::SliceMass(_) | StructureDefect::Mass { .. } => (plain("DELM"), flat),
         StructureDefect::CenterOfMass { .. } => (("DELC", i + 1, 0), 3 * j),

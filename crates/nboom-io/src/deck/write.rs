@@ -7,7 +7,7 @@ mod inverse;
 mod obstacle;
 mod stations;
 
-use nboom_model::{HingeState, MassProperties, Scene};
+use nboom_model::{HingeState, MassProperties, Material, Scene};
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 
 use super::values::LARGEST_COUNT;
@@ -84,7 +84,16 @@ fn left_out(file: &SceneFile, segments: &[&DeckSegment]) -> Vec<String> {
     let has_names = segments.iter().any(|segment| scene.name_of(segment.body).is_some());
     add(has_names, "names of bodies, but as comments");
     add(settings.units.is_some(), "names of units");
-    add(settings.samples.is_some(), "the number of samples");
+    add(settings.sampling.is_some(), "output times");
+    let is_asked = settings.table.is_some() || settings.hinge_loads || settings.listing;
+    add(is_asked, "columns and files that are asked for");
+    let shapes = scene.shapes();
+    let has_shape = shapes.main_body.is_some() || shapes.bodies.iter().any(Option::is_some);
+    add(has_shape, "shapes, which pictures show");
+    let has_strength =
+        |material: &Material| material.yield_stress.is_some() || material.ultimate_stress.is_some();
+    let mut materials = structure.iter().flat_map(|structure| structure.materials());
+    add(materials.any(has_strength), "strengths of materials");
     add(!settings.parameters.is_empty(), "parameters; the deck has their values");
     let pulses = structure.as_ref().is_some_and(|structure| !structure.has_stations());
     add(pulses, "pulse constants, which a deck has beside stations only");

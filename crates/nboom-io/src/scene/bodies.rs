@@ -4,8 +4,9 @@ use nboom_model::{BodyDraft, KickOffSpring, MOST_BODIES, MassProperties, Mount, 
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::fields::{Fields, Reader};
-use super::hinges;
 use super::stations::Materials;
+use super::{LONGEST_NAME, hinges};
+use crate::diagnostic::quoted;
 use crate::words;
 
 /// What stands for a body of which something is missing, so that reading goes on.
@@ -23,7 +24,7 @@ impl Reader<'_, '_> {
 
     /// A body, and the hinge's table beside it, for errors found later.
     pub fn body(&mut self, fields: &Fields<'_>, materials: &Materials) -> BodyDraft {
-        let name = self.text(fields, "name").unwrap_or_default();
+        let name = self.body_name(fields).unwrap_or_default();
         let mass_properties = self.mass_properties(fields);
         let mut body = BodyDraft::new(name, mass_properties, Vec3::zero(), Vec3::unit_x());
         body.on = self.inboard(fields);
@@ -41,7 +42,21 @@ impl Reader<'_, '_> {
             Some(Repeat { count: count?, about: about? })
         });
         body.structure = self.structure(fields, materials);
+        body.shape = self.shape(fields, &mass_properties);
         body
+    }
+
+    /// A name that fits into a line of text.
+    fn body_name<'t>(&mut self, fields: &Fields<'t>) -> Option<&'t str> {
+        let name = self.text(fields, "name")?;
+        let fits = !name.trim().is_empty()
+            && name.len() <= LONGEST_NAME
+            && !name.contains(char::is_control);
+        if !fits {
+            let expected = format!("1 to {LONGEST_NAME} bytes of text in one line");
+            self.error(&fields.place("name"), "name", &quoted(name), &expected);
+        }
+        Some(name)
     }
 
     fn inboard(&mut self, fields: &Fields<'_>) -> Option<String> {

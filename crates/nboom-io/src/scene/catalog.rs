@@ -1,10 +1,17 @@
 //! The tables of a scene and their keys.
 
+mod output;
+mod shape;
+mod strength;
+
 use super::keys::Holds::{
     Angle, AnglePairs, Angles, Choice, ChoiceOr, Count, Direction, Inertia, Named, NamedNumbers,
     Number, Numbers, Rows, Table, Tables, Text, Texts,
 };
 use super::keys::{Holds, Key, TableKind};
+use output::OUTPUT;
+use shape::SHAPE;
+use strength::{MATERIAL, STATION};
 
 const fn optional(name: &'static str, holds: Holds, about: &'static str) -> Key {
     Key { name, holds, is_required: false, about }
@@ -29,6 +36,12 @@ const fn choice(
 
 /// The names of the unit sets.
 pub(crate) const UNIT_SETS: &[&str] = &["none", "SI", "ft-lbf-s", "in-lbf-s"];
+
+/// In what angles of a table that is asked for may be.
+pub(crate) const ANGLE_UNITS: &[&str] = &["radians", "degrees"];
+
+/// Files that a run writes if they are asked for.
+pub(crate) const FILES_ON_REQUEST: &[&str] = &["hinge_loads", "listing"];
 
 /// The states in which a hinge may start.
 pub(crate) const STATES: &[&str] = &["free", "held", "locked"];
@@ -57,7 +70,7 @@ pub static SCENE: TableKind = table(
          anywhere. The command line sets them with --set name=value.",
         ),
         required("run", Table(&RUN), "When the run starts and ends."),
-        optional("output", Table(&OUTPUT), "What is written."),
+        optional("output", Table(&OUTPUT), "What is written, and at which times."),
         required("main_body", Table(&MAIN_BODY), "The body that carries all others."),
         optional(
             "initial",
@@ -102,23 +115,6 @@ static RUN: TableKind = table(
     ],
 );
 
-static OUTPUT: TableKind = table(
-    "output",
-    "What is written.",
-    &[
-        optional(
-            "samples",
-            Count,
-            "Output times after the initial one, uniform to the end; by default 200.",
-        ),
-        optional(
-            "stress_every",
-            Count,
-            "Stresses at every so many output times; by default at all.",
-        ),
-    ],
-);
-
 static MAIN_BODY: TableKind = table(
     "main_body",
     "The body that carries all others. Its origin is the point O, its axes are those of all \
@@ -127,6 +123,7 @@ static MAIN_BODY: TableKind = table(
         required("mass", Number, "Mass of the main body."),
         optional("mass_centre", Numbers(3), "Mass centre, from O; by default O."),
         required("inertia", Inertia(&INERTIA), "Inertia about the mass centre."),
+        optional("shape", Table(&SHAPE), "What it looks like in pictures."),
     ],
 );
 
@@ -201,15 +198,6 @@ static THRUST: TableKind = table(
     ],
 );
 
-static MATERIAL: TableKind = table(
-    "material",
-    "An isotropic material.",
-    &[
-        required("youngs_modulus", Number, "Young's modulus, positive."),
-        optional("poissons_ratio", Number, "Poisson's ratio; by default 0.3."),
-    ],
-);
-
 static BODY: TableKind = table(
     "body",
     "A rigid body on a hinge. Its origin is the hinge. Its axes are parallel to those of its \
@@ -225,6 +213,11 @@ static BODY: TableKind = table(
             Numbers(3),
             "The outer end, from the hinge, body axes; for pictures only. By default twice as far as \
              the mass centre.",
+        ),
+        optional(
+            "shape",
+            Table(&SHAPE),
+            "What it looks like in pictures; by default a line to its tip.",
         ),
         required("hinge", Table(&HINGE), "The hinge that joins it to its inboard body."),
         optional("kick_off", Table(&KICK_OFF), "A spring that pushes it off the main body."),
@@ -341,45 +334,5 @@ static REPEAT: TableKind = table(
     &[
         required("count", Count, "How many, the first where it is written."),
         required("about", Direction, "The axis, main-body axes."),
-    ],
-);
-
-static STATION: TableKind = table(
-    "station",
-    "A section across the body's y axis, and the slice of the body from it to the next station \
-     outboard. The last station is at the hinge.",
-    &[
-        required("at", Number, "Distance from the hinge along y."),
-        required("mass", Number, "Mass of the slice; may be 0."),
-        optional(
-            "mass_centre",
-            Numbers(3),
-            "Mass centre of the slice, from the hinge; by default there.",
-        ),
-        optional("inertia", Inertia(&INERTIA), "Inertia of the slice about it; by default 0."),
-        required("section", Table(&SECTION), "The thin walls."),
-    ],
-);
-
-static SECTION: TableKind = choice(
-    "section",
-    "A closed thin-walled section.",
-    &[
-        optional("tube", Table(&TUBE), "A circular tube."),
-        optional(
-            "polygon",
-            Rows(3),
-            "Corners in order, each [x, z, thickness of the wall to the next one], from the y axis.",
-        ),
-    ],
-    &["tube", "polygon"],
-);
-
-static TUBE: TableKind = table(
-    "tube",
-    "A circular tube.",
-    &[
-        required("radius", Number, "To the middle of the wall."),
-        required("thickness", Number, "Of the wall."),
     ],
 );

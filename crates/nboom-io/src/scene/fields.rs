@@ -210,7 +210,7 @@ impl Reader<'_, '_> {
         None
     }
 
-    fn number_in(&mut self, symbol: &str, node: &Node) -> Option<f64> {
+    pub(super) fn number_in(&mut self, symbol: &str, node: &Node) -> Option<f64> {
         let value = match &node.value {
             Value::Number(number) => *number,
             Value::Text(text) => self.expression(symbol, text, &node.at)?,

@@ -45,6 +45,8 @@ pub enum Holds {
     Angles,
     /// So many numbers.
     Numbers(usize),
+    /// Any count of numbers.
+    List,
     /// Lists of so many numbers.
     Rows(usize),
     /// Pairs of an angle and a number; the key ends in `_deg` or `_rad`.

@@ -8,10 +8,13 @@ mod fields;
 mod hinges;
 mod include;
 mod keys;
+mod lists;
 mod model_error;
+mod output;
 mod parameters;
 mod schema;
 mod sections;
+mod shapes;
 mod sources;
 mod stations;
 pub(crate) mod suggest;
@@ -22,10 +25,11 @@ mod write;
 
 use std::path::Path;
 
-use nboom_model::{MassProperties, Scene, SceneDraft, Structure};
+use nboom_model::{MassProperties, Scene, SceneDraft, Shapes, Structure};
 use nboom_scalar::{Sym3, Vec3};
 
 use crate::diagnostic::{Report, quoted};
+use crate::sampling::MOST_SAMPLES;
 use crate::source::sha256;
 use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
 pub use catalog::SCENE;
@@ -38,10 +42,7 @@ pub use schema::schema;
 pub(crate) use sources::{Place, Sources};
 pub use write::write_scene;
 
-/// Most output times of a run.
-const MOST_SAMPLES: usize = 10_000_000;
-
-/// Longest name of a scene \[bytes\].
+/// Longest name of a scene or a body \[bytes\].
 const LONGEST_NAME: usize = 200;
 
 /// How a scene in TOML is read.
@@ -124,8 +125,10 @@ fn assemble(
     }
     reader.check_set(root, &options.set);
     let name = reader.scene_name(root).unwrap_or(name);
-    let (settings, stress_interval) = reader.settings(root);
+    let (mut settings, stress_interval) = reader.settings(root);
     let scene = reader.surroundings(root, name);
+    let main_body =
+        root.inner("main_body").and_then(|fields| reader.shape(&fields, &scene.main_body));
     let mut materials = stations::Materials::new();
     roots.iter().for_each(|root| reader.materials(root, &mut materials));
     let tables: Vec<Fields<'_>> =
@@ -145,15 +148,20 @@ fn assemble(
     if !reader.report.errors.is_empty() {
         return None;
     }
+    let shapes = Shapes { main_body, bodies: resolved.shapes };
     let description = resolved.description.clone();
     let scene = match Scene::new(description) {
-        Ok(scene) => scene.with_names(resolved.names),
+        Ok(scene) => scene.with_names(resolved.names).with_shapes(shapes),
         Err(errors) => {
             let description = &resolved.description;
             errors.iter().for_each(|error| responsible.report(&mut reader, description, error));
             return None;
         }
     };
+    if let Some(output) = root.inner("output") {
+        settings.sampling = reader.sampling(&output, &scene);
+        settings.table = reader.wanted_table(&output, &scene);
+    }
     let structure = responsible.structure(&mut reader, &scene, resolved.structures);
     Some(Found { scene, structure, settings, stress_interval })
 }
@@ -176,13 +184,12 @@ impl Reader<'_, '_> {
 
     /// What the scene says about its results, and at how many output times stresses are computed once.
     fn settings(&mut self, root: &Fields<'_>) -> (SceneSettings, usize) {
-        let units = self.units(root);
-        let (mut samples, mut stress_every) = (None, 1);
-        if let Some(output) = self.table(root, "output") {
-            samples = self.count(&output, "samples", MOST_SAMPLES);
-            stress_every = self.count(&output, "stress_every", MOST_SAMPLES).unwrap_or(1);
-        }
-        (SceneSettings { units, samples, parameters: self.parameters.all() }, stress_every)
+        let (units, parameters) = (self.units(root), self.parameters.all());
+        let mut settings = SceneSettings { units, parameters, ..SceneSettings::default() };
+        let Some(output) = self.table(root, "output") else { return (settings, 1) };
+        [settings.hinge_loads, settings.listing] = self.files(&output);
+        let stress_every = self.count(&output, "stress_every", MOST_SAMPLES);
+        (settings, stress_every.unwrap_or(1))
     }
 
     /// Reports parameters on the command line that the scene does not have.

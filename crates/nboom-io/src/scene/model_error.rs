@@ -73,7 +73,7 @@ impl Responsible<'_> {
         error: &ModelError,
     ) -> (Fields<'_>, &'static str) {
         let outer = |key: &str| self.root.inner(key).unwrap_or_else(|| self.root.clone());
-        let body = |label: &HingeLabel| self.body(index_of(scene, *label));
+        let body = |label: &HingeLabel| self.body(index_of(scene, label));
         let hinge = |label: &HingeLabel| {
             let body = body(label);
             body.inner("hinge").unwrap_or(body)
@@ -163,11 +163,11 @@ impl Responsible<'_> {
         report: Report,
     ) {
         let StructureError::Segment { place, defect } = error else { return };
-        let body = self.body(index_of(scene, place.segment));
+        let body = self.body(index_of(scene, &place.segment));
         let station = place.station.and_then(|number| body.nth("station", number));
         let (table, symbol) = match (defect, station) {
             (StructureDefect::PulseConstant(_), _) => (body, "pulse_constant"),
-            (StructureDefect::YoungsModulus(_), _) => (body, "material"),
+            (StructureDefect::Material(_), _) => (body, "material"),
             (StructureDefect::Order { .. } | StructureDefect::NotAtHinge(_), Some(table)) => {
                 (table, "at")
             }
@@ -192,7 +192,7 @@ enum Report {
 }
 
 /// Which body of a scene this hinge carries.
-fn index_of(scene: &SceneDescription, label: HingeLabel) -> usize {
+fn index_of(scene: &SceneDescription, label: &HingeLabel) -> usize {
     let roots = (0..scene.bodies.len()).filter(|&i| scene.bodies[i].inboard.is_none());
     roots.take(label.appendage + 1).last().unwrap_or_default() + label.segment
 }

@@ -86,6 +86,7 @@ fn of_value(holds: &Holds) -> Value {
         Holds::Count | Holds::Number | Holds::Angle => number(),
         Holds::Angles => list(number(), 3),
         Holds::Numbers(count) => list(number(), *count),
+        Holds::List => json!({ "type": "array", "items": number() }),
         Holds::Rows(count) => json!({ "type": "array", "items": list(number(), *count) }),
         Holds::AnglePairs => json!({ "type": "array", "items": list(number(), 2) }),
         Holds::Direction => json!({

@@ -2,29 +2,24 @@
 
 use std::collections::HashMap;
 
-use nboom_model::{MassProperties, SectionShape, SegmentStructure, Station, Vertex};
+use nboom_model::{
+    MassProperties, Material, MaterialDefect, SectionShape, SegmentStructure, Station, Vertex,
+};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::fields::{Fields, Reader};
 use super::suggest;
+use crate::deck::phrases;
 use crate::diagnostic::quoted;
 
 /// Materials by name.
 pub(super) type Materials = HashMap<String, Material>;
 
-/// A material; of a wrong one the numbers are right ones.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Material {
-    youngs_modulus: f64,
-    poissons_ratio: f64,
-}
-
 /// Poisson's ratio of most metals.
 const USUAL_POISSONS_RATIO: f64 = 0.3;
 
-impl Material {
-    const ANY: Self = Self { youngs_modulus: 1.0, poissons_ratio: USUAL_POISSONS_RATIO };
-}
+/// What stands for a wrong or unknown material, so that reading goes on.
+const ANY_MATERIAL: Material = Material::elastic(1.0, USUAL_POISSONS_RATIO);
 
 impl Reader<'_, '_> {
     /// Adds the materials of one file.
@@ -34,16 +29,36 @@ impl Reader<'_, '_> {
         };
         for entry in self.named(root, "materials") {
             let Some(fields) = self.open(kind, &entry.key, &entry.node) else { continue };
-            let youngs_modulus = self.number(&fields, "youngs_modulus");
-            let poissons_ratio = self.number(&fields, "poissons_ratio");
-            let material = Material {
-                youngs_modulus: youngs_modulus.unwrap_or(Material::ANY.youngs_modulus),
-                poissons_ratio: poissons_ratio.unwrap_or(USUAL_POISSONS_RATIO),
-            };
+            let material = self.properties(&fields);
             if materials.insert(entry.key.clone(), material).is_some() {
                 self.error(&entry.key_at, &entry.key, "a material twice", "each name once");
             }
         }
+    }
+
+    /// The properties of a material; those of any material if some are wrong.
+    fn properties(&mut self, fields: &Fields<'_>) -> Material {
+        let [youngs_modulus, poissons_ratio, yield_stress, ultimate_stress] =
+            ["youngs_modulus", "poissons_ratio", "yield_stress", "ultimate_stress"]
+                .map(|key| self.number(fields, key));
+        let material = Material {
+            youngs_modulus: youngs_modulus.unwrap_or(ANY_MATERIAL.youngs_modulus),
+            poissons_ratio: poissons_ratio.unwrap_or(USUAL_POISSONS_RATIO),
+            yield_stress,
+            ultimate_stress,
+        };
+        let defects = material.defects();
+        for defect in &defects {
+            let key = match defect {
+                MaterialDefect::YoungsModulus(_) => "youngs_modulus",
+                MaterialDefect::PoissonsRatio(_) => "poissons_ratio",
+                MaterialDefect::YieldStress(_) => "yield_stress",
+                _ => "ultimate_stress",
+            };
+            let (found, expected) = phrases(&defect.to_string());
+            self.error(&fields.place(key), key, &found, &expected);
+        }
+        if defects.is_empty() { material } else { ANY_MATERIAL }
     }
 
     /// What stresses need of a body, if it has stations or says it.
@@ -68,9 +83,8 @@ impl Reader<'_, '_> {
                 self.error(&body.at, key, "a body with stations without it", expected);
             }
         }
-        let Material { youngs_modulus, poissons_ratio } = material.unwrap_or(Material::ANY);
-        let pulse_constant = pulse_constant.unwrap_or(1.0);
-        Some(SegmentStructure { pulse_constant, poissons_ratio, youngs_modulus, stations })
+        let material = material.unwrap_or(ANY_MATERIAL);
+        Some(SegmentStructure { pulse_constant: pulse_constant.unwrap_or(1.0), material, stations })
     }
 
     fn material(&mut self, body: &Fields<'_>, materials: &Materials) -> Option<Material> {

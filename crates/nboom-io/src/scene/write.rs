@@ -3,19 +3,20 @@
 mod lines;
 
 use nboom_model::{
-    Body, Hinge, HingeState, MassProperties, Release, Scene, SectionShape, SegmentStructure,
-    Station, Structure, UnitSystem,
+    Body, BodyShape, Hinge, HingeState, MassProperties, Material, Release, Scene, SectionShape,
+    SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 
-use crate::SceneFile;
+use super::catalog::FILES_ON_REQUEST;
 use crate::angles::in_degrees;
-use lines::{Lines, angle, inertia, list, number, text, vector};
+use crate::{Sampling, SceneFile, SceneSettings};
+use lines::{Lines, angle, inertia, list, listed, number, text, vector};
 
 /// The text of a scene. Comments, parameters, includes and repetitions of the file that it was read
 /// from are not in it, nor are a deck's settings of the integrator and printer of 1970.
 pub fn write_scene(file: &SceneFile) -> String {
-    let SceneFile { scene, structure, settings, legacy, .. } = file;
+    let SceneFile { scene, structure, settings, .. } = file;
     let mut lines = Lines::default();
     lines.value("name", text(&scene.name));
     if let Some(units) = &settings.units {
@@ -26,20 +27,19 @@ pub fn write_scene(file: &SceneFile) -> String {
         lines.value("start", number(scene.initial.time));
     }
     lines.value("end", number(scene.end_time));
-    if settings.samples.is_some() || legacy.stress_interval > 1 {
-        lines.table("output");
-        lines.optional("samples", settings.samples.map(|samples| samples.to_string()));
-        let every = Some(legacy.stress_interval).filter(|every| *every > 1);
-        lines.optional("stress_every", every.map(|every| every.to_string()));
-    }
+    output(&mut lines, file);
     lines.table("main_body");
     mass_properties(&mut lines, &scene.main_body);
+    lines.optional("shape", scene.shapes().main_body.as_ref().map(shape));
     surroundings(&mut lines, scene);
     let materials = materials(structure.as_ref());
-    for (i, [youngs_modulus, poissons_ratio]) in materials.iter().enumerate() {
+    for (i, material) in materials.iter().enumerate() {
+        let Material { youngs_modulus, poissons_ratio, yield_stress, ultimate_stress } = *material;
         lines.table(&format!("materials.{}", material_name(i)));
-        lines.value("youngs_modulus", number(*youngs_modulus));
-        lines.value("poissons_ratio", number(*poissons_ratio));
+        lines.value("youngs_modulus", number(youngs_modulus));
+        lines.value("poissons_ratio", number(poissons_ratio));
+        lines.optional("yield_stress", yield_stress.map(number));
+        lines.optional("ultimate_stress", ultimate_stress.map(number));
     }
     for (i, of_body) in scene.bodies.iter().enumerate() {
         let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
@@ -50,6 +50,30 @@ pub fn write_scene(file: &SceneFile) -> String {
         segment.into_iter().for_each(|segment| stations(&mut lines, segment));
     }
     lines.text
+}
+
+fn output(lines: &mut Lines, SceneFile { scene, settings, legacy, .. }: &SceneFile) {
+    let SceneSettings { sampling, table, hinge_loads, listing, .. } = settings;
+    let mut values = Vec::new();
+    values.extend(sampling.as_ref().map(|sampling| match sampling {
+        Sampling::Uniform(samples) => ("samples", samples.to_string()),
+        Sampling::Every(every) => ("every", number(*every)),
+        Sampling::At(times) => ("times", listed(times.iter().copied().map(number))),
+    }));
+    if let Some(WantedTable { columns, in_degrees }) = table {
+        let columns = columns.iter().map(|column| text(&column.name(scene.labels())));
+        values.push(("columns", listed(columns)));
+        values.push(("angles", text(if *in_degrees { "degrees" } else { "radians" })));
+    }
+    let files = FILES_ON_REQUEST.iter().zip([hinge_loads, listing]).filter(|(_, wanted)| **wanted);
+    let files = files.map(|(file, _)| text(file));
+    values.extend((*hinge_loads || *listing).then(|| ("files", listed(files))));
+    let every = Some(legacy.stress_interval).filter(|every| *every > 1);
+    values.extend(every.map(|every| ("stress_every", every.to_string())));
+    if !values.is_empty() {
+        lines.table("output");
+        values.iter().for_each(|(key, value)| lines.value(key, value));
+    }
 }
 
 fn of_units(units: &UnitSystem) -> String {
@@ -108,6 +132,7 @@ fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
     lines.optional("on", body.inboard.map(|inboard| text(&name_of(scene, inboard))));
     mass_properties(lines, &body.mass_properties);
     lines.value("tip", vector(body.tip));
+    lines.optional("shape", scene.shapes().of(i).map(shape));
     if let Some(spring) = &body.hinge.kick_off {
         let [from, to] = [spring.main_body_point, spring.body_point].map(vector);
         let (force, limit) = (list(spring.coefficients), number(spring.limit_length));
@@ -117,15 +142,31 @@ fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
     }
 }
 
+fn shape(shape: &BodyShape) -> String {
+    let solid = match shape.solid {
+        Solid::Box(sides) => format!("box = {}", vector(sides)),
+        Solid::Panel(sides) => format!("panel = {}", vector(sides)),
+        Solid::Cylinder { radius, length, along } => {
+            let [radius, length] = [radius, length].map(number);
+            let along = direction(along);
+            format!("cylinder = {{ radius = {radius}, length = {length}, along = {along} }}")
+        }
+    };
+    let axes = turned(&shape.axes).map_or_else(String::new, |axes| format!(", axes = {axes}"));
+    format!("{{ {solid}, at = {}{axes} }}", vector(shape.middle))
+}
+
+/// Axes, unless they are those of the body itself.
+fn turned(axes: &Mat3<f64>) -> Option<String> {
+    let columns = || [0, 1, 2].map(|j| vector(axes.column(j))).join(", ");
+    (*axes != Mat3::identity()).then(|| format!("{{ columns = [{}] }}", columns()))
+}
+
 fn hinge(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
     let Hinge { spring, dashpot, release, lock_angle, start, .. } = &body.hinge;
     lines.value("at", vector(body.mount.point));
     lines.value("axis", direction(body.axis));
-    let axes = body.mount.rot_inboard_from_hinge;
-    if axes != Mat3::identity() {
-        let columns = [0, 1, 2].map(|j| vector(axes.column(j))).join(", ");
-        lines.value("axes", format!("{{ columns = [{columns}] }}"));
-    }
+    lines.optional("axes", turned(&body.mount.rot_inboard_from_hinge));
     let state = match start.state {
         HingeState::Free => "free",
         HingeState::Unreleased => "held",
@@ -195,13 +236,12 @@ fn direction(axis: Vec3<f64>) -> String {
     named.unwrap_or_else(|| vector(axis))
 }
 
-/// Young's modulus and Poisson's ratio of the materials, each once.
-fn materials(structure: Option<&Structure>) -> Vec<[f64; 2]> {
-    let mut materials: Vec<[f64; 2]> = Vec::new();
-    for segment in structure.iter().flat_map(|structure| structure.segments()) {
-        let material = [segment.youngs_modulus, segment.poissons_ratio];
-        if !segment.stations.is_empty() && !materials.contains(&material) {
-            materials.push(material);
+/// The materials of bodies with stations, each once.
+fn materials(structure: Option<&Structure>) -> Vec<Material> {
+    let mut materials = Vec::new();
+    for material in structure.iter().flat_map(|structure| structure.materials()) {
+        if !materials.contains(material) {
+            materials.push(*material);
         }
     }
     materials
@@ -211,10 +251,9 @@ fn material_name(i: usize) -> String {
     format!("material_{}", i + 1)
 }
 
-fn strength(lines: &mut Lines, segment: &SegmentStructure, materials: &[[f64; 2]]) {
+fn strength(lines: &mut Lines, segment: &SegmentStructure, materials: &[Material]) {
     lines.value("pulse_constant", number(segment.pulse_constant));
-    let own = [segment.youngs_modulus, segment.poissons_ratio];
-    let material = materials.iter().position(|material| *material == own);
+    let material = materials.iter().position(|material| *material == segment.material);
     lines.optional("material", material.map(|i| text(&material_name(i))));
 }
 

@@ -1,5 +1,5 @@
 use nboom_model::{
-    BodyDraft, KickOffSpring, MOST_BODIES, MassProperties, Repeat, SegmentStructure,
+    BodyDraft, BodyShape, KickOffSpring, MOST_BODIES, MassProperties, Repeat, SegmentStructure,
 };
 use nboom_scalar::Vec3;
 
@@ -19,6 +19,7 @@ pub struct BodyWords {
     kick_off: Option<KickOff>,
     repeat: Option<(usize, Direction)>,
     structure: Option<SegmentStructure>,
+    shape: Option<BodyShape>,
 }
 
 /// A spring between the main body and a hinged one. Its force depends on its length and ends at a limit.
@@ -45,6 +46,7 @@ pub fn body(name: &str) -> BodyWords {
         kick_off: None,
         repeat: None,
         structure: None,
+        shape: None,
     }
 }
 
@@ -115,6 +117,12 @@ impl BodyWords {
         self
     }
 
+    /// What it looks like in pictures.
+    pub fn shape(mut self, shape: BodyShape) -> Self {
+        self.shape = Some(shape);
+        self
+    }
+
     /// The body that the words mean. Stand-ins take the place of what is wrong.
     pub(super) fn draft(self, errors: &mut Vec<WordsError>) -> BodyDraft {
         let of = of_body(&self.name);
@@ -137,6 +145,7 @@ impl BodyWords {
             count.and_then(|count| Ok(Repeat { count, about: about.unit()? })).map_err(wrong).ok()
         });
         body.structure = self.structure;
+        body.shape = self.shape;
         body
     }
 }

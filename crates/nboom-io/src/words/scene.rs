@@ -1,4 +1,6 @@
-use nboom_model::{Gravity, Scene, SceneDescription, SceneDraft, SegmentStructure, Structure};
+use nboom_model::{
+    Gravity, Scene, SceneDescription, SceneDraft, SegmentStructure, Shapes, Structure,
+};
 
 use super::error::of_body;
 use super::{
@@ -93,6 +95,7 @@ impl SceneWords {
     /// Everything that is wrong with it, slices that do not add up to their body included.
     pub fn build_with_structure(self) -> Result<(Scene, Option<Structure>), WordsErrors> {
         let mut errors = Vec::new();
+        let main_body = self.main_body.shape;
         let draft = self.draft(&mut errors);
         let resolved = draft.resolve().map_err(|found| {
             let of = |body: usize| of_body(&draft.bodies[body].name);
@@ -103,7 +106,9 @@ impl SceneWords {
             return Err(WordsErrors(errors));
         };
         let structures = resolved.structures;
+        let shapes = Shapes { main_body, bodies: resolved.shapes };
         let scene = Scene::new(resolved.description).map_err(all)?.with_names(resolved.names);
+        let scene = scene.with_shapes(shapes);
         let structure = structure(&scene, structures)?;
         Ok((scene, structure))
     }

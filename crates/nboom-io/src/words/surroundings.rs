@@ -1,4 +1,4 @@
-use nboom_model::{InitialMotion, MassProperties};
+use nboom_model::{BodyShape, InitialMotion, MassProperties};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::{Axes, WordsError};
@@ -25,7 +25,10 @@ impl From<Thrust> for nboom_model::Thrust {
 /// The main body, in words. Its origin is the point O.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[must_use]
-pub struct MainBodyWords(MassWords);
+pub struct MainBodyWords {
+    mass: MassWords,
+    pub(super) shape: Option<BodyShape>,
+}
 
 /// The main body; `mass` and `inertia` must be given.
 pub fn main_body() -> MainBodyWords {
@@ -35,24 +38,30 @@ pub fn main_body() -> MainBodyWords {
 impl MainBodyWords {
     /// Its mass.
     pub fn mass(mut self, mass: f64) -> Self {
-        self.0.mass = Some(mass);
+        self.mass.mass = Some(mass);
         self
     }
 
     /// Mass centre, from O; by default O.
     pub fn mass_centre(mut self, mass_centre: impl Into<Vec3<f64>>) -> Self {
-        self.0.mass_centre = Some(mass_centre.into());
+        self.mass.mass_centre = Some(mass_centre.into());
         self
     }
 
     /// Inertia about the mass centre: three moments, or a matrix.
     pub fn inertia(mut self, inertia: impl Into<Inertia>) -> Self {
-        self.0.inertia = Some(inertia.into().0);
+        self.mass.inertia = Some(inertia.into().0);
+        self
+    }
+
+    /// What it looks like in pictures.
+    pub fn shape(mut self, shape: BodyShape) -> Self {
+        self.shape = Some(shape);
         self
     }
 
     pub(super) fn properties(self, errors: &mut Vec<WordsError>) -> MassProperties {
-        self.0.properties("main_body", Some(Vec3::zero()), errors)
+        self.mass.properties("main_body", Some(Vec3::zero()), errors)
     }
 }
 

@@ -3,8 +3,10 @@
 mod decks;
 mod examples;
 mod messages;
+mod outputs;
 mod robustness;
 mod rules;
+mod shapes;
 mod words;
 mod written;
 mod wrong;

@@ -33,6 +33,14 @@ fn names_that_nobody_has_are_told_with_the_nearest_one() {
 }
 
 #[test]
+fn a_name_fits_into_a_line() {
+    for name in ["", "  ", "a\\nb", "a\\u001b[31mb", &"a".repeat(201)] {
+        let told = only(&(BUS.to_owned() + &body(name, "", "")));
+        assert!(told.ends_with("expected 1 to 200 bytes of text in one line"), "{told}");
+    }
+}
+
+#[test]
 fn impossible_trees_are_refused() {
     let cases = [
         (body("a", "on = \"b\"", "") + &body("b", "on = \"a\"", ""), "in a circle"),

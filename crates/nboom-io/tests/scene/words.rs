@@ -7,7 +7,10 @@ use nboom_io::words::{
     initial, main_body, scene, spring, when,
 };
 use nboom_io::{read_scene, write_scene};
-use nboom_model::{HingeState, MassProperties, Scene, SectionShape, SegmentStructure, Station};
+use nboom_model::{
+    BodyShape, HingeState, MassProperties, Material, Scene, SectionShape, SegmentStructure, Solid,
+    Station,
+};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::right;
@@ -34,6 +37,7 @@ fn panel(name: &str, hinge: HingeWords) -> BodyWords {
             mass * (long * long + wide * wide) / 12.0,
         ])
         .tip([0.0, long, 0.0])
+        .shape(BodyShape::around([0.0, long / 2.0, 0.0], Solid::Panel([wide, long, 0.0].into())))
         .hinge(hinge.axis("x").latch_deg(0.0))
 }
 
@@ -57,9 +61,10 @@ fn the_wing_is_that_of_its_file() {
         .release(when("middle panel").passes_deg(-90.0))
         .spring(spring(0.2).rest_deg(-30.0))
         .damper(damper(0.2));
+    let bus = BodyShape::around([0.0; 3], Solid::Box([1.6, 1.0, 1.2].into()));
     let wing = scene("wing")
         .end(30.0)
-        .main_body(main_body().mass(150.0).inertia([30.0, 28.0, 32.0]))
+        .main_body(main_body().mass(150.0).inertia([30.0, 28.0, 32.0]).shape(bus))
         .body(panel("inner panel", inner).repeat(2, "z"))
         .body(panel("middle panel", middle).on("inner panel"))
         .body(panel("outer panel", outer).on("middle panel"));
@@ -325,8 +330,7 @@ fn structures_are_those_of_the_bodies() {
     let section = SectionShape::Tube { radius: 0.1, thickness: 0.001 };
     let whole = SegmentStructure {
         pulse_constant: 0.1,
-        poissons_ratio: 0.3,
-        youngs_modulus: 7e10,
+        material: Material::elastic(7e10, 0.3),
         stations: vec![Station { distance_from_hinge: 0.0, slice, section }],
     };
     let one = bus().body(rod("a").structure(whole.clone()));

@@ -17,10 +17,10 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
 
 fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
     let body = &scene.bodies[i];
-    let (hinge, label) = (&body.hinge, scene.label(i));
+    let (hinge, label) = (&body.hinge, || scene.label(i));
     let mut found = dashpot(hinge)
         .map(|(coefficient, beyond)| ModelWarning::DashpotFeeds {
-            hinge: label,
+            hinge: label(),
             coefficient,
             beyond,
         })
@@ -30,27 +30,27 @@ fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
         found.extend(spring(scene, posture, i));
     }
     if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
-        found.push(ModelWarning::KickOffPulls { hinge: label, force, length });
+        found.push(ModelWarning::KickOffPulls { hinge: label(), force, length });
     }
     found
 }
 
 /// Warnings about the spring and the dashpot's terms in the angle of a hinge without a table.
 fn spring(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
-    let (hinge, label) = (&scene.bodies[i].hinge, scene.label(i));
+    let (hinge, label) = (&scene.bodies[i].hinge, || scene.label(i));
     let mut found = Vec::new();
     let torque = AngleTorque::of(hinge);
     let start = hinge.start.angle;
     if let Some((stiffness, away_from)) = torque.without_rest() {
-        found.push(ModelWarning::SpringWithoutRest { hinge: label, stiffness, away_from });
+        found.push(ModelWarning::SpringWithoutRest { hinge: label(), stiffness, away_from });
     } else if torque.drives_on(start, hinge.lock_angle) {
-        found.push(ModelWarning::SpringDrivesOn { hinge: label, start });
+        found.push(ModelWarning::SpringDrivesOn { hinge: label(), start });
     }
     if let Some(lock) = hinge.lock_angle.filter(|lock| (lock - start).abs() > SAME_ANGLE) {
         let towards_lock = (lock - start).signum();
         let by_spring = torque.at(start) * towards_lock;
         if by_spring < 0.0 && by_spring + kick_off_torque(scene, posture, i) * towards_lock < 0.0 {
-            found.push(ModelWarning::DrivenFromLock { hinge: label, start, lock });
+            found.push(ModelWarning::DrivenFromLock { hinge: label(), start, lock });
         }
     }
     found

@@ -18,7 +18,7 @@ pub(crate) struct ClosedForm<R> {
 }
 
 /// A formulation is written for chains and paddles of rigid bodies, and the mode is not made of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "formulation {formulation} does not cover hinge {hinge}, which belongs neither to a chain nor \
      to a paddle of rigid bodies"

@@ -9,6 +9,7 @@ use crate::code::selection::{CodeOfRun, Selection};
 use crate::error::SimError;
 use crate::events::event::{Event, Jump};
 use crate::run::conservation::Conservation;
+use crate::run::output_times::OutputTimes;
 use crate::run::step_motion::StepMotion;
 use crate::run::verdict::Verdict;
 
@@ -20,6 +21,11 @@ pub trait Recorder {
     /// of the equations of motion each.
     fn needs_detail(&self) -> bool {
         false
+    }
+
+    /// The output times that are wanted in place of the uniform ones of the run's options.
+    fn output_times(&self) -> Option<&OutputTimes> {
+        None
     }
 
     /// The motion at an output time; an event at that time is already over.

@@ -13,6 +13,9 @@ use crate::run::step_motion::DenseStep;
 impl Run<'_> {
     pub(super) fn sample_time(&self) -> f64 {
         let (start, end) = (self.equations.scene.initial.time, self.equations.scene.end_time);
+        if let Some(times) = self.recorder.output_times() {
+            return times.nth(self.next_sample, [start, end]);
+        }
         let share = self.next_sample as f64 / self.options.samples as f64;
         match self.next_sample {
             n if n > self.options.samples => f64::INFINITY,

@@ -67,8 +67,8 @@ pub(super) fn write(cards: &mut Cards, structure: &Structure, segments: &[&DeckS
             section(cards, number, &structure.stations);
         }
         cards.values("CMN", &numbers(&structures, |structure| structure.pulse_constant));
-        cards.values("XNU", &numbers(&structures, |structure| structure.poissons_ratio));
-        cards.values("E", &numbers(&structures, |structure| structure.youngs_modulus));
+        cards.values("XNU", &numbers(&structures, |structure| structure.material.poissons_ratio));
+        cards.values("E", &numbers(&structures, |structure| structure.material.youngs_modulus));
     });
     cards.group("&DYNSTB", |cards| {
         for (number, structure) in (1..).zip(&structures) {

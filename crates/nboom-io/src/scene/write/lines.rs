@@ -47,6 +47,11 @@ pub(super) fn list<const N: usize>(numbers: [f64; N]) -> String {
     format!("[{}]", numbers.map(number).join(", "))
 }
 
+/// A list of values of any count.
+pub(super) fn listed(values: impl Iterator<Item = String>) -> String {
+    format!("[{}]", values.collect::<Vec<_>>().join(", "))
+}
+
 pub(super) fn vector(vector: Vec3<f64>) -> String {
     list(vector.to_array())
 }

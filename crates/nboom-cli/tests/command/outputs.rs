@@ -1,0 +1,97 @@
+//! What a scene asks a run to write.
+
+use std::fs;
+
+use crate::{Place, code, refused, rows, stderr};
+
+/// Runs the scene of `nboom new boom`, which ends at 10, with this table of outputs.
+fn run(place: &Place, output: &str, options: &[&str]) {
+    if !place.path("boom.toml").exists() {
+        assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
+    }
+    let boom = fs::read_to_string(place.path("boom.toml")).expect("a scene");
+    place.write("asked.toml", &format!("{boom}\n[output]\n{output}\n"));
+    let run = place.nboom(&[&["run", "asked.toml", "-o", "out"], options].concat());
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+}
+
+/// Header and numbers of a table.
+fn table(place: &Place, file: &str) -> (String, Vec<Vec<f64>>) {
+    let lines = rows(&place.path("out").join(file));
+    let numbers =
+        |line: &String| line.split(',').map(|cell| cell.parse().expect("a number")).collect();
+    (lines[0].clone(), lines[1..].iter().map(numbers).collect())
+}
+
+fn times(place: &Place, file: &str) -> Vec<f64> {
+    table(place, file).1.iter().map(|row| row[0]).collect()
+}
+
+#[test]
+fn output_times_are_those_asked_for_and_both_ends() {
+    let place = Place::new();
+    run(&place, "times = [0.5, 1.25, 7.0]", &["--end-time", "10"]);
+    assert_eq!(times(&place, "states.csv"), [0.0, 0.5, 1.25, 7.0, 10.0]);
+    assert_eq!(place.summary("out")["samples"], 4);
+    assert!(!place.path("out/output.csv").exists(), "nobody asked for it");
+    // Those beyond the end are left out.
+    run(&place, "times = [0.5, 1.25, 7.0]", &["--end-time", "1.0"]);
+    assert_eq!(times(&place, "states.csv"), [0.0, 0.5, 1.0]);
+    run(&place, "every = 0.5", &["--end-time", "1.75"]);
+    assert_eq!(times(&place, "states.csv"), [0.0, 0.5, 1.0, 1.5, 1.75]);
+    // The command line counts more.
+    run(&place, "every = 0.5", &["--end-time", "2", "--samples", "2"]);
+    assert_eq!(times(&place, "states.csv"), [0.0, 1.0, 2.0]);
+}
+
+#[test]
+fn more_output_times_than_a_run_may_have_are_refused() {
+    let place = Place::new();
+    run(&place, "every = 0.5", &[]);
+    let run = place.nboom(&["run", "asked.toml", "--end-time", "1e9"]);
+    refused(&run, 2, &["output times every 0.5 from 0 to 1000000000 found", "at most 10000000"]);
+}
+
+#[test]
+fn a_table_has_the_columns_asked_for_in_degrees() {
+    let place = Place::new();
+    run(&place, "columns = [\"omega\", \"beta of boom\", \"nutation\"]\nangles = \"degrees\"", &[]);
+    let (header, asked) = table(&place, "output.csv");
+    assert_eq!(header, "t,omega_x_deg,omega_y_deg,omega_z_deg,beta_1_1_deg,nutation_deg");
+    let (header, states) = table(&place, "states.csv");
+    let columns: Vec<&str> = header.split(',').collect();
+    let column = |name: &str| columns.iter().position(|column| *column == name).expect(name);
+    let same = ["omega_x", "omega_y", "omega_z", "beta_1_1", "nutation"].map(column);
+    assert_eq!(asked.len(), states.len());
+    for (asked, states) in asked.iter().zip(&states) {
+        assert_eq!(asked[0], states[0]);
+        let in_degrees = same.map(|column| states[column].to_degrees());
+        assert_eq!(asked[1..], in_degrees);
+    }
+    let files = place.summary("out")["files"].to_string();
+    assert!(files.contains("output.csv"), "{files}");
+    // A later run that does not ask for the table removes it.
+    run(&place, "samples = 10", &[]);
+    assert!(!place.path("out/output.csv").exists());
+}
+
+#[test]
+fn files_on_request_are_those_of_the_command_line() {
+    let place = Place::new();
+    let wanted = ["listing.txt", "hinge_loads.csv", "hinge_load_envelope.csv"];
+    let read = || wanted.map(|file| fs::read(place.path("out").join(file)).expect(file));
+    run(&place, "files = [\"listing\", \"hinge_loads\"]", &[]);
+    let by_scene = read();
+    run(&place, "samples = 200", &["--listing", "--hinge-loads"]);
+    assert!(by_scene == read(), "the bytes are the same");
+}
+
+#[test]
+fn columns_that_nobody_has_are_refused() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
+    let boom = fs::read_to_string(place.path("boom.toml")).expect("a scene");
+    place.write("asked.toml", &format!("{boom}\n[output]\ncolumns = [\"betta of boom\"]\n"));
+    let check = place.nboom(&["check", "asked.toml"]);
+    refused(&check, 2, &["columns: found `betta of boom`", "did you mean `beta of boom`?"]);
+}

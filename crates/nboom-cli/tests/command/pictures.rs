@@ -1,0 +1,73 @@
+//! `nboom check --picture`.
+
+use std::collections::HashSet;
+use std::fs;
+
+use crate::{Place, code, stderr};
+
+fn picture(place: &Place, scene: &str) -> String {
+    let check = place.nboom(&["check", scene, "--picture", "picture.svg"]);
+    assert_eq!(code(&check), 0, "{}", stderr(&check));
+    fs::read_to_string(place.path("picture.svg")).expect("a picture")
+}
+
+/// The values of an attribute of the elements that are written so.
+fn values<'t>(text: &'t str, element: &str, attribute: &str) -> Vec<&'t str> {
+    let elements = text.lines().filter(|line| line.contains(element));
+    let value = |line: &'t str| line.split(attribute).nth(1)?.split('"').nth(1);
+    elements.filter_map(value).collect()
+}
+
+#[test]
+fn a_wing_is_drawn_stowed_and_deployed_with_panels_and_labels_off_each_other() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "wing"])), 0);
+    let picture = picture(&place, "wing.toml");
+    for words in ["wing: stowed", "wing: deployed", "outer panel 2", "axes of each body", ">1 m<"] {
+        assert!(picture.contains(words), "{words}: {picture}");
+    }
+    let halves: Vec<&str> = picture.split("<g ").skip(1).collect();
+    assert_eq!(halves.len(), 2);
+    for half in &halves {
+        assert!(half.matches("<polygon ").count() > 20, "box and panels: {half}");
+        // Each label twice, with its white ground: six bodies and three axes.
+        let labels = half.lines().filter(|line| line.contains("fill=\"#111111\""));
+        let labels: HashSet<&str> = labels.filter_map(|line| line.split("style").next()).collect();
+        assert_eq!(labels.len(), 12, "{labels:?}");
+        let places: HashSet<(&str, &str)> = values(half, "fill=\"#111111\"", " x=")
+            .into_iter()
+            .zip(values(half, "fill=\"#111111\"", " y="))
+            .collect();
+        assert_eq!(places.len(), 6, "no two labels at one place");
+    }
+    // Deployed, the wings reach farther to either side.
+    let span = |half: &str| {
+        let points =
+            values(half, "<polygon ", "points=").into_iter().flat_map(|all| all.split(' '));
+        let x = points.filter_map(|point| point.split(',').next()?.parse::<f64>().ok());
+        let (least, most) =
+            x.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        most - least
+    };
+    assert!(span(halves[1]) > 2.0 * span(halves[0]));
+}
+
+#[test]
+fn names_in_a_picture_are_text() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
+    let boom = fs::read_to_string(place.path("boom.toml")).expect("a scene");
+    let hostile = boom.replace("name = \"boom\"", "name = \"<script>&\"");
+    place.write("hostile.toml", &hostile);
+    let picture = picture(&place, "hostile.toml");
+    assert!(!picture.contains("<script>") && picture.contains("&lt;script&gt;&amp;"), "{picture}");
+}
+
+#[test]
+fn a_scene_of_one_body_and_one_without_latches_are_drawn() {
+    let place = Place::new();
+    place.write("bus.toml", "[run]\nend = 1\n\n[main_body]\nmass = 1\ninertia = [1, 1, 1]\n");
+    assert!(picture(&place, "bus.toml").contains("nothing latches"));
+    assert_eq!(code(&place.nboom(&["new", "gimbal"])), 0);
+    assert!(picture(&place, "gimbal.toml").contains("gimbal: nothing latches"));
+}

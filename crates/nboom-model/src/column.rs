@@ -1,0 +1,108 @@
+use crate::{HingeLabel, Quantity};
+
+/// A column of a table of the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// What it has.
+    pub quantity: Quantity,
+    /// Which of its numbers, from 0.
+    pub component: usize,
+    /// The hinge, of a quantity of hinges.
+    pub hinge: Option<usize>,
+}
+
+/// A table of the motion that somebody asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WantedTable {
+    /// Its columns after the time.
+    pub columns: Vec<Column>,
+    /// Whether angles and rates are in degrees.
+    pub in_degrees: bool,
+}
+
+impl WantedTable {
+    /// Whether this column is in degrees.
+    pub fn is_in_degrees(&self, column: &Column) -> bool {
+        self.in_degrees && column.quantity.is_angle()
+    }
+}
+
+/// A text that names no column of a scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("column `{found}` found, {expected} expected")]
+pub struct UnknownColumn {
+    /// The text.
+    pub found: String,
+    /// What would have been right.
+    pub expected: &'static str,
+    /// All that may stand there.
+    pub known: Vec<String>,
+}
+
+impl Column {
+    /// All of a scene with so many hinges, in the order of its table of states.
+    pub fn all(hinges: usize) -> Vec<Self> {
+        let of = |quantities: &'static [Quantity], hinge| {
+            quantities.iter().flat_map(move |quantity| Self::of(*quantity, hinge))
+        };
+        let hinges = (0..hinges).flat_map(|i| of(&Quantity::OF_A_HINGE, Some(i)));
+        let before = of(&Quantity::BEFORE_HINGES, None).chain(hinges);
+        before.chain(of(&Quantity::AFTER_HINGES, None)).collect()
+    }
+
+    /// Those that `text` names: a quantity (`omega`; of hinges that of all, `beta`), the quantity of a
+    /// hinge by its body's name (`beta of inner boom`), or one column as the table of states calls it
+    /// (`omega_x`, `beta_1_2`).
+    ///
+    /// # Errors
+    /// When it names none.
+    pub fn named(text: &str, hinges: &[HingeLabel]) -> Result<Vec<Self>, UnknownColumn> {
+        if let Some((quantity, body)) = text.split_once(" of ") {
+            return Self::of_body(text, quantity, body, hinges);
+        }
+        let all = Self::all(hinges.len());
+        let is_meant =
+            |column: &&Self| column.quantity.name() == text || column.name(hinges) == text;
+        let named: Vec<Self> = all.iter().filter(is_meant).copied().collect();
+        if !named.is_empty() {
+            return Ok(named);
+        }
+        let mut known: Vec<String> = all.iter().map(|column| column.name(hinges)).collect();
+        known.extend(Quantity::all().map(|quantity| quantity.name().to_owned()));
+        let expected = "a quantity as `omega`, or a column of states.csv";
+        Err(UnknownColumn { found: text.to_owned(), expected, known })
+    }
+
+    fn of_body(
+        text: &str,
+        quantity: &str,
+        body: &str,
+        hinges: &[HingeLabel],
+    ) -> Result<Vec<Self>, UnknownColumn> {
+        let of_hinges = Quantity::OF_A_HINGE;
+        let quantity = of_hinges.into_iter().find(|known| known.name() == quantity);
+        let hinge = hinges.iter().position(|hinge| hinge.name.as_deref() == Some(body));
+        if let (Some(quantity), Some(hinge)) = (quantity, hinge) {
+            return Ok(Self::of(quantity, Some(hinge)).collect());
+        }
+        let names = || hinges.iter().filter_map(|hinge| hinge.name.as_deref());
+        let of_quantity =
+            |quantity: Quantity| names().map(move |body| format!("{} of {body}", quantity.name()));
+        let known = of_hinges.into_iter().flat_map(of_quantity).collect();
+        let expected = "beta, tau, alpha, sigma or state of a body by its name";
+        Err(UnknownColumn { found: text.to_owned(), expected, known })
+    }
+
+    fn of(quantity: Quantity, hinge: Option<usize>) -> impl Iterator<Item = Self> {
+        (0..quantity.columns().len()).map(move |component| Self { quantity, component, hinge })
+    }
+
+    /// What tables call it.
+    pub fn name(&self, hinges: &[HingeLabel]) -> String {
+        let name = self.quantity.columns()[self.component];
+        match self.hinge.map(|hinge| hinges[hinge].numbers()) {
+            Some([appendage, segment]) => format!("{name}_{appendage}_{segment}"),
+            None => name.to_owned(),
+        }
+    }
+}

@@ -1,0 +1,141 @@
+/// A quantity of the motion, in one column of a table or in three.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Of O.
+    Position,
+    /// Of O.
+    Velocity,
+    /// Of the quaternion.
+    AttitudeScalar,
+    /// Of the quaternion.
+    AttitudeVector,
+    /// Of the main body.
+    AngularRate,
+    /// β of a hinge.
+    Angle,
+    /// τ of a hinge.
+    Rate,
+    /// α of a hinge.
+    AngleSum,
+    /// σ of a hinge.
+    RateSum,
+    /// Of a hinge.
+    State,
+    /// Of all bodies.
+    KineticEnergy,
+    /// Of all bodies.
+    LinearMomentum,
+    /// Of all bodies.
+    AngularMomentum,
+    /// Of the main body.
+    Nutation,
+}
+
+impl Quantity {
+    /// Those before the hinges, in the order of their columns.
+    pub const BEFORE_HINGES: [Self; 5] = [
+        Self::Position,
+        Self::Velocity,
+        Self::AttitudeScalar,
+        Self::AttitudeVector,
+        Self::AngularRate,
+    ];
+
+    /// Those of each hinge, in the order of their columns.
+    pub const OF_A_HINGE: [Self; 5] =
+        [Self::Angle, Self::Rate, Self::AngleSum, Self::RateSum, Self::State];
+
+    /// Those after the hinges, in the order of their columns.
+    pub const AFTER_HINGES: [Self; 4] =
+        [Self::KineticEnergy, Self::LinearMomentum, Self::AngularMomentum, Self::Nutation];
+
+    /// All, in the order of their columns.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let hinges = Self::BEFORE_HINGES.into_iter().chain(Self::OF_A_HINGE);
+        hinges.chain(Self::AFTER_HINGES)
+    }
+
+    /// What all its columns together are called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Position => "rho",
+            Self::Velocity => "v",
+            Self::AttitudeVector => "kappa",
+            Self::AngularRate => "omega",
+            Self::LinearMomentum => "linear_momentum",
+            Self::AngularMomentum => "angular_momentum",
+            one => one.columns()[0],
+        }
+    }
+
+    /// Names of its columns, in files; the columns of a hinge have its numbers after that.
+    pub fn columns(self) -> &'static [&'static str] {
+        match self {
+            Self::Position => &["rho_x", "rho_y", "rho_z"],
+            Self::Velocity => &["v_x", "v_y", "v_z"],
+            Self::AttitudeScalar => &["chi"],
+            Self::AttitudeVector => &["kappa_x", "kappa_y", "kappa_z"],
+            Self::AngularRate => &["omega_x", "omega_y", "omega_z"],
+            Self::Angle => &["beta"],
+            Self::Rate => &["tau"],
+            Self::AngleSum => &["alpha"],
+            Self::RateSum => &["sigma"],
+            Self::State => &["state"],
+            Self::KineticEnergy => &["kinetic_energy"],
+            Self::LinearMomentum => {
+                &["linear_momentum_x", "linear_momentum_y", "linear_momentum_z"]
+            }
+            Self::AngularMomentum => {
+                &["angular_momentum_x", "angular_momentum_y", "angular_momentum_z"]
+            }
+            Self::Nutation => &["nutation"],
+        }
+    }
+
+    /// Its unit, made of those of length L, time T and force F.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Position => "L",
+            Self::Velocity => "L/T",
+            Self::AttitudeScalar | Self::AttitudeVector | Self::State => "1",
+            Self::AngularRate | Self::Rate | Self::RateSum => "rad/T",
+            Self::Angle | Self::AngleSum | Self::Nutation => "rad",
+            Self::KineticEnergy => "F L",
+            Self::LinearMomentum => "F T",
+            Self::AngularMomentum => "F L T",
+        }
+    }
+
+    /// What it is, in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Position => "position of O, inertial axes",
+            Self::Velocity => "inertial velocity of O, inertial axes",
+            Self::AttitudeScalar => "scalar of the attitude's quaternion",
+            Self::AttitudeVector => {
+                "vector of the attitude's quaternion, which turns main-body components into \
+                 inertial ones"
+            }
+            Self::AngularRate => "angular rate of the main body, main-body axes",
+            Self::Angle => "angle relative to the inboard body",
+            Self::Rate => "rate relative to the inboard body",
+            Self::AngleSum => "sum of angles along the appendage",
+            Self::RateSum => "sum of rates along the appendage",
+            Self::State => "-1 unreleased, 0 free, 1 locked",
+            Self::KineticEnergy => "kinetic energy",
+            Self::LinearMomentum => "linear momentum, inertial axes",
+            Self::AngularMomentum => "angular momentum about the system mass centre, inertial axes",
+            Self::Nutation => "angle between angular momentum and the main body's x axis",
+        }
+    }
+
+    /// Whether it is an angle or a rate, which may be in degrees.
+    pub fn is_angle(self) -> bool {
+        self.unit().starts_with("rad")
+    }
+
+    /// Whether each hinge has one.
+    pub fn is_of_hinge(self) -> bool {
+        Self::OF_A_HINGE.contains(&self)
+    }
+}
