@@ -15,13 +15,21 @@ pub struct ConvertArgs {
     /// The file to write: a scene NAME.toml or a deck NAME.nml.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+
+    /// Replace the file if it is there.
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// Writes a scene in another format, and returns the text for standard output.
 pub(crate) fn convert(args: &ConvertArgs) -> Result<String, CliError> {
-    let ConvertArgs { scene, output } = args;
+    let ConvertArgs { scene, output, force } = args;
     let format = Format::of(output).filter(|&format| format != Format::Urdf);
     let format = format.ok_or_else(|| CliError::NoScene { path: output.clone() })?;
+    output::check(output, &scene.scene)?;
+    if output.exists() && !force {
+        return Err(CliError::WouldReplace { path: output.clone() });
+    }
     let file = check::scene(scene)?;
     let (text, comment) =
         if format == Format::Nml { (as_deck(&file)?, '!') } else { (as_scene(&file), '#') };

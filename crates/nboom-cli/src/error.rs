@@ -129,6 +129,12 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// A scene would take the place of a file that may have been edited.
+    #[error("{}: found a file of this name, expected none; --force replaces it", path.display())]
+    WouldReplace {
+        /// The file.
+        path: PathBuf,
+    },
     /// A command would overwrite what it reads.
     #[error("{}: found the input, expected another file for the output", path.display())]
     OutputIsInput {
@@ -183,7 +189,7 @@ impl CliError {
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
             Self::NoFormat | Self::VainFormat { .. } => 2,
-            Self::NoScene { .. } | Self::NoDeck(_) => 2,
+            Self::NoScene { .. } | Self::NoDeck(_) | Self::WouldReplace { .. } => 2,
             #[cfg(feature = "generator")]
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,

@@ -73,7 +73,7 @@ fn kind(scene: &Scene, branch: &[usize]) -> &'static str {
 fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> {
     let Body { mass_properties: mass, hinge, .. } = &scene.bodies[i];
     let forces =
-        [spring(&hinge.spring), dashpot(&hinge.dashpot), hinge.kick_off.as_ref().map(kick_off)];
+        [spring(&hinge.spring), damper(&hinge.dashpot), hinge.kick_off.as_ref().map(kick_off)];
     let mut lines = vec![format!("  hinge {}: {}", scene.label(i), course(scene, hinge))];
     let places = postures.each_ref().map(|posture| place(&posture.hinges[i]));
     let when = ["at the start", "locked"];
@@ -133,21 +133,35 @@ fn release(scene: &Scene, release: Release) -> String {
 fn spring(spring: &Spring) -> Option<String> {
     let Spring { quadratic, linear, preload_angle } = *spring;
     ([quadratic, linear] != [0.0; 2]).then(|| {
-        let (quadratic, linear) = (short(quadratic, 6), short(linear, 6));
-        let preload = degrees(preload_angle);
-        format!("spring: quadratic {quadratic}, linear {linear}, preload {preload}")
+        let (stiffness, rest) = (short(-linear, 6), degrees(-preload_angle));
+        let bend = term(", torque grows by", quadratic, "per squared angle");
+        format!("spring: stiffness {stiffness}, no torque at {rest}{bend}")
     })
 }
 
-fn dashpot(dashpot: &Dashpot) -> Option<String> {
+fn damper(dashpot: &Dashpot) -> Option<String> {
     let Dashpot { rate_quadratic, rate_linear, angle_quadratic, angle_linear, preload_angle } =
         *dashpot;
-    let coefficients = [rate_quadratic, rate_linear, angle_quadratic, angle_linear];
-    (coefficients != [0.0; 4]).then(|| {
-        let [a, b, c, d] = coefficients.map(|coefficient| short(coefficient, 6));
-        let preload = degrees(preload_angle);
-        format!("dashpot: rate {a} quadratic, {b} linear; angle {c} quadratic, {d} linear, preload {preload}")
+    let on_angle = [angle_quadratic, angle_linear] != [0.0; 2];
+    (on_angle || [rate_quadratic, rate_linear] != [0.0; 2]).then(|| {
+        let mut text = format!("damper: damping {}", short(-rate_linear, 6));
+        text += &term(", torque grows by", rate_quadratic, "per squared rate");
+        if on_angle {
+            let (stiffness, rest) = (short(-angle_linear, 6), degrees(-preload_angle));
+            text += &format!(", stiffness {stiffness}, no torque of the angle at {rest}");
+            text += &term(", torque grows by", angle_quadratic, "per squared angle");
+        }
+        text
     })
+}
+
+/// A term, unless it is zero.
+fn term(before: &str, coefficient: f64, after: &str) -> String {
+    if coefficient == 0.0 {
+        String::new()
+    } else {
+        format!("{before} {} {after}", short(coefficient, 6))
+    }
 }
 
 fn kick_off(spring: &KickOffSpring) -> String {
@@ -221,7 +235,7 @@ mod tests {
         for words in [
             "appendage 1: paddle, 2 segments",
             "free at 0 deg, rate 0 deg per time unit, locks at 1 deg",
-            "dashpot: rate 0 quadratic, -0.5 linear",
+            "damper: damping 0.5",
             "kick-off spring: (1, 0, 0) to (0, 1, 0), coefficients 1, -2, 0, 0, up to length 3",
             "unreleased at 0 deg, released when hinge 1,1 passes 90 deg, never locks",
             "gravity: 9.81, up is (0, 0, 1)",

@@ -2,6 +2,7 @@ mod forces;
 mod geometry;
 mod releases;
 
+use std::f64::consts::TAU;
 use std::fmt;
 
 use crate::{HingeLabel, Scene};
@@ -32,6 +33,37 @@ pub enum ModelWarning {
         hinge: HingeLabel,
         /// The hinge it waits for.
         trigger: HingeLabel,
+    },
+    /// This hinge waits for an angle on the side of the trigger's start on which its lock angle is not.
+    TriggerOtherWay {
+        /// The waiting hinge.
+        hinge: HingeLabel,
+        /// The hinge it waits for.
+        trigger: HingeLabel,
+        /// The angle \[rad\].
+        angle: f64,
+        /// Where the trigger starts \[rad\].
+        start: f64,
+        /// The trigger's lock angle \[rad\].
+        lock: f64,
+    },
+    /// This hinge is released after the end of the run.
+    ReleasedAfterEnd {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// The time of its release.
+        release: f64,
+        /// The end.
+        end: f64,
+    },
+    /// This hinge may turn and starts at its lock angle, so that it locks only when it comes back there.
+    StartsAtLock(HingeLabel),
+    /// This hinge starts more than two turns away from zero.
+    ManyTurns {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Where it starts \[rad\].
+        start: f64,
     },
     /// This hinge starts locked, but away from the angle at which it locks.
     LockedElsewhere(HingeLabel),
@@ -115,13 +147,37 @@ impl fmt::Display for ModelWarning {
             Self::TriggerNeverLocks { hinge, trigger } => {
                 write!(f, "hinge {hinge} waits for hinge {trigger} to lock, which never does")
             }
+            Self::TriggerOtherWay { hinge, trigger, angle, start, lock } => write!(
+                f,
+                "hinge {hinge} waits for {} of hinge {trigger}, which starts at {} and locks at {}, the \
+                 other way",
+                degrees(*angle),
+                degrees(*start),
+                degrees(*lock)
+            ),
+            Self::ReleasedAfterEnd { hinge, release, end } => {
+                write!(
+                    f,
+                    "hinge {hinge} is released at {release:?}, after the end of the run at {end:?}"
+                )
+            }
+            Self::StartsAtLock(hinge) => write!(
+                f,
+                "hinge {hinge} starts at its lock angle and turns: it locks only when it comes back there"
+            ),
+            Self::ManyTurns { hinge, start } => write!(
+                f,
+                "hinge {hinge} starts at {}, {:.1} turns away from zero",
+                degrees(*start),
+                start.abs() / TAU
+            ),
             Self::LockedElsewhere(hinge) => {
                 write!(f, "hinge {hinge} starts locked, but not at its lock angle, and stays there")
             }
             Self::DashpotFeeds { hinge, coefficient: (value, 1), .. } => write!(
                 f,
-                "dashpot of hinge {hinge} feeds energy: coefficient {value:?} of the rate found, \
-                 a negative one damps"
+                "dashpot of hinge {hinge} feeds energy: a torque of {value:?} for each unit of rate, along the \
+                 motion, found, one against it expected"
             ),
             Self::DashpotFeeds { hinge, coefficient: (value, _), beyond } => write!(
                 f,
@@ -131,8 +187,8 @@ impl fmt::Display for ModelWarning {
             ),
             Self::SpringWithoutRest { hinge, stiffness, away_from } => write!(
                 f,
-                "spring of hinge {hinge} pushes the harder the farther it is from {}: coefficient \
-                 {stiffness:?} of the angle found, a negative one restores",
+                "spring of hinge {hinge} pushes the harder the farther it is from {}: a torque of \
+                 {stiffness:?} for each radian away from there found, one back to it expected",
                 degrees(*away_from)
             ),
             Self::SpringDrivesOn { hinge, start } => write!(

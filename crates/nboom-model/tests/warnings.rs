@@ -45,7 +45,8 @@ fn a_dashpot_that_feeds_energy_at_every_rate() {
     assert_eq!(one(Hinge { dashpot: dashpot(-0.5), ..hinge }), []);
     assert_eq!(
         one(Hinge { dashpot: dashpot(0.5), ..hinge })[0].to_string(),
-        "dashpot of hinge 1,1 feeds energy: coefficient 0.5 of the rate found, a negative one damps"
+        "dashpot of hinge 1,1 feeds energy: a torque of 0.5 for each unit of rate, along the motion, found, one \
+         against it expected"
     );
 }
 
@@ -235,4 +236,38 @@ fn what_a_table_adds_to_is_not_judged_alone() {
     description.torque_tables.push(table);
     let with_table = Scene::new(description).expect("a scene");
     assert_eq!((scene.warnings().len(), with_table.warnings().len()), (2, 1));
+}
+
+#[test]
+fn starts_and_releases_that_are_hardly_meant() {
+    let told = |hinges: &[(Hinge, f64)]| -> Vec<String> {
+        chain(hinges).warnings().iter().map(ModelWarning::to_string).collect()
+    };
+    let waiting = |angle| {
+        let mut hinge = Hinge { release: Release::Angle { hinge: 0, angle }, ..from_to(0.3, 1.0) };
+        hinge.start.state = HingeState::Unreleased;
+        hinge
+    };
+    let quarter = from_to(FRAC_PI_2, 0.0);
+    assert_eq!(told(&[(quarter, 1.0), (waiting(PI / 4.0), 1.0)]), Vec::<String>::new());
+    assert_eq!(
+        told(&[(quarter, 1.0), (waiting(0.75 * PI), 1.0)]),
+        [
+            "hinge 1,2 waits for 135 deg of hinge 1,1, which starts at 90 deg and locks at 0 deg, the other way"
+        ]
+    );
+    assert_eq!(
+        told(&[(from_to(90.0, 0.0), 1.0)]),
+        ["hinge 1,1 starts at 5156.62 deg, 14.3 turns away from zero"]
+    );
+    assert_eq!(
+        told(&[(from_to(0.5, 0.5), 1.0)]),
+        ["hinge 1,1 starts at its lock angle and turns: it locks only when it comes back there"]
+    );
+    let mut late = Hinge { release: Release::Time(2.0), ..quarter };
+    late.start.state = HingeState::Unreleased;
+    assert_eq!(
+        told(&[(late, 1.0)]),
+        ["hinge 1,1 is released at 2.0, after the end of the run at 1.0"]
+    );
 }

@@ -33,7 +33,7 @@ fn results(place: &Place, scene: &str, output: &str) -> Vec<(String, Vec<u8>)> {
 
 /// Converts a file without loss of what a run reads.
 fn converted(place: &Place, from: &str, to: &str) {
-    let converted = place.nboom(&["convert", from, "-o", to]);
+    let converted = place.nboom(&["convert", from, "-o", to, "--force"]);
     assert_eq!(code(&converted), 0, "{from}: {}", stderr(&converted));
 }
 
@@ -195,7 +195,9 @@ fn parameters_are_set_on_the_command_line() {
     }
     let deck = place.nboom(&["run", "boom.nml", "--set", "stiffness=6"]);
     assert_eq!(code(&deck), 2);
-    assert!(stderr(&deck).contains("a scene in TOML with parameters expected"));
+    assert!(
+        stderr(&deck).contains("--set found, which only a scene in TOML with parameters can take")
+    );
 }
 
 #[test]

@@ -79,7 +79,8 @@ fn a_format_goes_with_standard_input_alone() {
     for (words, told) in [
         (&["run", "-"][..], "--format nml expected"),
         (&["run", "-", "--format", "toml"], "stdin:2:2: scene: found invalid unquoted key"),
-        (&["check", "-", "--format", "urdf"], "unknown name, toml, nml expected"),
+        (&["check", "-", "--format", "urdf"], "stdin:2:2: robot: found text that is no XML"),
+        (&["check", "-", "--format", "usd"], "unknown name, toml, nml, urdf expected"),
         (&["run", "boom.nml", "--format", "nml"], "expected - for standard input"),
     ] {
         let output = fed(&place, BOOM, words);

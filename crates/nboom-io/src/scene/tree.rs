@@ -57,18 +57,15 @@ impl Table {
     }
 }
 
-/// The tree of file number `file`; what is not TOML is reported.
+/// The tree of file number `file`. Of what is not TOML the first is reported: the rest mostly follows from it.
 pub(crate) fn parse(file: usize, sources: &Sources, report: &mut Report<'_>) -> Table {
     let text = sources.text(file);
     let (table, errors) = DeTable::parse_recoverable(text);
-    for error in &errors {
+    if let Some(error) = errors.first() {
         let bytes = error.span().unwrap_or(text.len()..text.len());
         let message = error.message().lines().next().unwrap_or_default();
         let (found, expected) = message.split_once(", expected ").unwrap_or((message, "TOML"));
         report.error_at(sources, &Place { file, bytes }, "scene", found, expected);
-        if report.is_full() {
-            break;
-        }
     }
     let convert = Convert { file };
     convert.table(table.into_inner())

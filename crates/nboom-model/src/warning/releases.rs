@@ -1,8 +1,13 @@
-//! Releases that never come, and hinges that start locked elsewhere.
+//! Releases that never come, and hinges that start where they are hardly meant to.
+
+use std::f64::consts::TAU;
 
 use super::ModelWarning;
 use crate::hinge::SAME_ANGLE;
 use crate::{Hinge, HingeStart, HingeState, Release, Scene};
+
+/// Turns beyond which an angle in radians was probably meant in degrees.
+const MANY_TURNS: f64 = 2.0;
 
 pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
     let mut warnings = Vec::new();
@@ -10,6 +15,7 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
         if starts_locked_elsewhere(&scene.bodies[i].hinge) {
             warnings.push(ModelWarning::LockedElsewhere(scene.label(i)));
         }
+        warnings.extend(of_start(scene, i));
         let Some(trigger) = waits_for(scene, i) else { continue };
         let circle = circle_from(scene, i);
         let (hinge, of_trigger) = (scene.label(i), &scene.bodies[trigger].hinge);
@@ -24,12 +30,39 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
         {
             let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
+        } else if let Release::Angle { angle, .. } = release
+            && let Some(lock) = of_trigger.lock_angle
+            && (angle - of_trigger.start.angle) * (lock - of_trigger.start.angle) < 0.0
+        {
+            let (trigger, start) = (scene.label(trigger), of_trigger.start.angle);
+            warnings.push(ModelWarning::TriggerOtherWay { hinge, trigger, angle, start, lock });
         } else if matches!(release, Release::AfterLock { .. } if of_trigger.lock_angle.is_none()) {
             let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerNeverLocks { hinge, trigger });
         }
     }
     warnings
+}
+
+/// A start or a time of release that is hardly meant.
+fn of_start(scene: &Scene, i: usize) -> Vec<ModelWarning> {
+    let (hinge, end) = (&scene.bodies[i].hinge, scene.end_time);
+    let HingeStart { angle: start, state, .. } = hinge.start;
+    let mut found = Vec::new();
+    if start.abs() > MANY_TURNS * TAU {
+        found.push(ModelWarning::ManyTurns { hinge: scene.label(i), start });
+    }
+    let is_at_lock = hinge.lock_angle.is_some_and(|lock| (lock - start).abs() <= SAME_ANGLE);
+    if is_at_lock && hinge.can_turn() {
+        found.push(ModelWarning::StartsAtLock(scene.label(i)));
+    }
+    if let (HingeState::Unreleased, Release::Time(release)) = (state, hinge.release)
+        && release > end
+        && release.is_finite()
+    {
+        found.push(ModelWarning::ReleasedAfterEnd { hinge: scene.label(i), release, end });
+    }
+    found
 }
 
 fn starts_locked_elsewhere(hinge: &Hinge) -> bool {
