@@ -145,9 +145,12 @@ fn a_chain_of_triggers_at_one_angle_is_one_release_after_the_other() {
 fn never_at_an_angle_that_the_trigger_locks_before() {
     let at = |angle| [locking_at(free(0.0, 1.0), 0.5), waiting(Release::Angle { hinge: 0, angle })];
     let (hinge, trigger) = (HingeLabel::new(1, 0), HingeLabel::new(0, 0));
-    let warned = [ModelWarning::TriggerLocksBefore { hinge, trigger }];
+    let warned =
+        [ModelWarning::TriggerLocksBefore { hinge: hinge.clone(), trigger: trigger.clone() }];
+    let (start, lock) = (0.0, 0.5);
+    let other_way = [ModelWarning::TriggerOtherWay { hinge, trigger, angle: -0.1, start, lock }];
     for (angle, warnings, releases) in
-        [(0.6, &warned[..], 0), (0.5, &[], 1), (0.4, &[], 1), (-0.1, &[], 0)]
+        [(0.6, &warned[..], 0), (0.5, &[], 1), (0.4, &[], 1), (-0.1, &other_way, 0)]
     {
         let scene = scene(&at(angle), 1.0);
         assert_eq!(scene.warnings(), warnings, "{angle}");

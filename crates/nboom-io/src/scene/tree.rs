@@ -61,7 +61,7 @@ impl Table {
 pub(crate) fn parse(file: usize, sources: &Sources, report: &mut Report<'_>) -> Table {
     let text = sources.text(file);
     let (table, errors) = DeTable::parse_recoverable(text);
-    if let Some(error) = errors.first() {
+    if let Some(error) = errors.iter().min_by_key(|error| error.span().map(|span| span.start)) {
         let bytes = error.span().unwrap_or(text.len()..text.len());
         let message = error.message().lines().next().unwrap_or_default();
         let (found, expected) = message.split_once(", expected ").unwrap_or((message, "TOML"));

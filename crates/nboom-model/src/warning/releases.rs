@@ -32,7 +32,7 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
             warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
         } else if let Release::Angle { angle, .. } = release
             && let Some(lock) = of_trigger.lock_angle
-            && (angle - of_trigger.start.angle) * (lock - of_trigger.start.angle) < 0.0
+            && is_other_way(&of_trigger.start, angle, lock)
         {
             let (trigger, start) = (scene.label(trigger), of_trigger.start.angle);
             warnings.push(ModelWarning::TriggerOtherWay { hinge, trigger, angle, start, lock });
@@ -77,6 +77,13 @@ fn locks_before(hinge: &Hinge, angle: f64) -> bool {
         (angle - lock).abs() > SAME_ANGLE && (angle - lock) * (lock - hinge.start.angle) > 0.0
     };
     hinge.lock_angle.is_some_and(between)
+}
+
+/// Whether a hinge that starts so has its lock angle on one side of it and `angle` on the other, and does
+/// not move there at first.
+fn is_other_way(start: &HingeStart, angle: f64, lock: f64) -> bool {
+    let way = angle - start.angle;
+    way * (lock - start.angle) < 0.0 && way * start.rate <= 0.0
 }
 
 /// The hinge that an unreleased hinge `i` waits for, unless that one starts at the angle or in the state
