@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use fastrand::Rng;
 
-use super::{deck, section, words};
+use super::{deck, scene, section, words};
 
-/// The name of the deck in the program's folder.
-pub const DECK: &str = "deck.nml";
+/// The names of decks, scenes in TOML and robots in the program's folder, which has one of them.
+pub const SCENES: [&str; 3] = ["deck.nml", "scene.toml", "robot.urdf"];
 
 /// The name of the file of sections.
 pub const SECTIONS: &str = "sections.json";
@@ -18,6 +18,8 @@ pub const SECTIONS: &str = "sections.json";
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     Deck,
+    Scene,
+    Robot,
     Sections,
     Words,
 }
@@ -26,14 +28,18 @@ pub enum Kind {
 #[derive(Debug)]
 pub struct Input {
     pub kind: Kind,
-    pub deck: Vec<u8>,
+    /// Which of [`SCENES`] there is.
+    pub scene_name: &'static str,
+    pub scene: Vec<u8>,
     pub sections: Vec<u8>,
     pub words: Vec<OsString>,
 }
 
-/// Decks and sections that are right.
+/// Decks, scenes, robots and sections that are right.
 pub struct Corpus {
     decks: Vec<String>,
+    scenes: Vec<String>,
+    robots: Vec<String>,
     sections: Vec<serde_json::Value>,
 }
 
@@ -41,19 +47,23 @@ impl Corpus {
     /// Everything of the kind that is in the clone.
     pub fn read() -> Self {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let folders = ["tests/data/scenes", "examples", "benches/scenes"];
+        let folders = ["tests/data/scenes", "tests/data/robots", "examples", "benches/scenes"];
         let mut paths: Vec<PathBuf> =
             folders.iter().flat_map(|folder| files(&root.join(folder))).collect();
-        paths.retain(|path| path.extension().is_some_and(|ending| ending == "nml"));
         paths.sort();
-        let text = |path: &PathBuf| fs::read_to_string(path).expect("decks are text");
+        let texts = |ending: &str| -> Vec<String> {
+            let ends = |path: &&PathBuf| path.extension().is_some_and(|of| of == ending);
+            let text = |path: &PathBuf| fs::read_to_string(path).expect("scenes are text");
+            paths.iter().filter(ends).map(text).collect()
+        };
         let cases = fs::read_to_string(root.join("tests/data/section_cases.json"));
         let cases: serde_json::Value =
             serde_json::from_str(&cases.expect("it is in the clone")).expect("JSON");
         let sections = cases["cases"].as_array().expect("a list of sections").clone();
-        let decks: Vec<String> = paths.iter().map(text).collect();
+        let [decks, scenes, robots] = ["nml", "toml", "urdf"].map(texts);
         assert!(decks.len() > 15 && sections.len() > 20, "{} {}", decks.len(), sections.len());
-        Self { decks, sections }
+        assert!(scenes.len() > 3 && robots.len() > 6, "{} {}", scenes.len(), robots.len());
+        Self { decks, scenes, robots, sections }
     }
 
     /// The input of a number: the same on every machine for the same seed.
@@ -61,24 +71,31 @@ impl Corpus {
         let mut rng = Rng::with_seed(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number);
         let rng = &mut rng;
         let kind = match rng.u32(..100) {
-            0..60 => Kind::Deck,
+            0..36 => Kind::Deck,
+            36..54 => Kind::Scene,
+            54..60 => Kind::Robot,
             60..75 => Kind::Sections,
             _ => Kind::Words,
         };
-        let deck = match kind {
-            Kind::Deck => deck::changed(rng, &self.decks),
-            _ => self.decks[rng.usize(..self.decks.len())].clone().into_bytes(),
+        let [deck_name, toml_name, robot_name] = SCENES;
+        let (scene_name, scene) = match kind {
+            Kind::Deck => (deck_name, deck::changed(rng, &self.decks)),
+            Kind::Scene => (toml_name, scene::changed(rng, &self.scenes)),
+            Kind::Robot => (robot_name, scene::changed(rng, &self.robots)),
+            Kind::Sections | Kind::Words => {
+                (deck_name, self.decks[rng.usize(..self.decks.len())].clone().into_bytes())
+            }
         };
         let sections = match kind {
             Kind::Sections => section::changed(rng, &self.sections),
             _ => section::some(rng, &self.sections).to_string().into_bytes(),
         };
         let words = match kind {
-            Kind::Deck => words::for_deck(rng),
+            Kind::Deck | Kind::Scene | Kind::Robot => words::for_scene(rng, scene_name),
             Kind::Sections => words::for_sections(rng),
             Kind::Words => words::changed(rng),
         };
-        Input { kind, deck, sections, words }
+        Input { kind, scene_name, scene, sections, words }
     }
 }
 

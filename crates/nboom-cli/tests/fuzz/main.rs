@@ -1,4 +1,4 @@
-//! Decks, sections and command lines changed at random, each given to the whole program with
+//! Decks, scenes, robots, sections and command lines changed at random, each given to the whole program with
 //! little memory: however wrong the input, it ends as the contract says.
 //!
 //! `cargo test -p nboom-cli --test fuzz` tries some hundred inputs. A long run by hand:
@@ -16,6 +16,7 @@ mod deck;
 mod input;
 mod place;
 mod record;
+mod scene;
 mod section;
 mod text;
 mod verdict;

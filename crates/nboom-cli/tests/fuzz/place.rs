@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use super::input::{DECK, Input, SECTIONS};
+use super::input::{Input, SECTIONS};
 
 /// All the memory that a run may take, as addresses, the program's own text included \[kB\].
 const MEMORY: u32 = 200 * 1024;
@@ -94,14 +94,16 @@ impl Ended {
 /// A folder that goes away with the input.
 pub struct Place {
     whole: TempDir,
+    scene_name: &'static str,
 }
 
 impl Place {
     pub fn with(input: &Input) -> Self {
-        let place = Self { whole: tempfile::tempdir().expect("a folder") };
+        let place =
+            Self { whole: tempfile::tempdir().expect("a folder"), scene_name: input.scene_name };
         let folder = place.folder();
         fs::create_dir_all(folder.join("folder")).expect("writable");
-        fs::write(folder.join(DECK), &input.deck).expect("writable");
+        fs::write(folder.join(input.scene_name), &input.scene).expect("writable");
         fs::write(folder.join(SECTIONS), &input.sections).expect("writable");
         fs::write(folder.join(FOREIGN), NOTES).expect("writable");
         fs::write(folder.join("folder").join(FOREIGN), NOTES).expect("writable");
@@ -139,7 +141,7 @@ impl Place {
             .env("CARGO", "false")
             .env("HOME", self.folder().join("home"))
             .env_remove("XDG_CACHE_HOME")
-            .stdin(File::open(self.folder().join(DECK)).expect("it was just written"))
+            .stdin(File::open(self.folder().join(self.scene_name)).expect("it was just written"))
             .stdout(file(&out))
             .stderr(file(&error))
             .spawn()

@@ -78,7 +78,7 @@ fn keep(seed: u64, number: u64, input: &Input, ended: &Ended) -> PathBuf {
     fs::create_dir_all(&folder).expect("cargo's folder is writable");
     let words = format!("{:?}\n", input.words);
     let files = [
-        (super::input::DECK, &input.deck[..]),
+        (input.scene_name, &input.scene[..]),
         (super::input::SECTIONS, &input.sections),
         ("words.txt", words.as_bytes()),
         ("out.txt", ended.out.as_bytes()),

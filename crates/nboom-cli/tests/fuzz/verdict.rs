@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::input::{DECK, Input, SECTIONS};
+use super::input::{Input, SECTIONS};
 use super::place::{Ended, FOREIGN, NOTES, Place};
 
 /// A run ends within so long when it is interrupted.
@@ -36,7 +36,8 @@ pub fn of(input: &Input, place: &Place, ended: &Ended) -> Vec<String> {
     complaints.extend(of_messages(ended));
     complaints.extend(inputs_kept(input, place));
     if ended.code() == Some(0) {
-        let named = |path: &&PathBuf| !path.ends_with(DECK) && !path.ends_with(SECTIONS);
+        let named =
+            |path: &&PathBuf| !path.ends_with(input.scene_name) && !path.ends_with(SECTIONS);
         complaints.extend(files.iter().filter(named).filter_map(|path| of_file(path)));
         // JSON has no such numbers, but names of sections may be like them.
         let is_json = serde_json::from_str::<Value>(&ended.out).is_ok();
@@ -78,7 +79,7 @@ fn inputs_kept(input: &Input, place: &Place) -> Vec<String> {
     let folder = place.folder();
     let read = match input.words.first().is_some_and(|word| word == "section") {
         true => (SECTIONS.to_owned(), &input.sections[..]),
-        false => (DECK.to_owned(), &input.deck[..]),
+        false => (input.scene_name.to_owned(), &input.scene[..]),
     };
     let held = [read, (format!("folder/{FOREIGN}"), NOTES.as_bytes())];
     let lost = |(name, bytes): &(String, &[u8])| {

@@ -9,7 +9,7 @@ use fastrand::Rng;
 use nboom_cli::Cli;
 use nboom_sim::{Form, Method};
 
-use super::input::{DECK, SECTIONS};
+use super::input::{SCENES, SECTIONS};
 use super::place::{FOREIGN, Odd};
 use super::text::{self, one_of};
 
@@ -17,12 +17,15 @@ fn owned(words: &[&str]) -> Vec<OsString> {
     words.iter().map(OsString::from).collect()
 }
 
-/// A run of the deck as most are, now and then another command.
-pub fn for_deck(rng: &mut Rng) -> Vec<OsString> {
-    let run = ["run", DECK, "--samples", "8", "--max-events", "300"];
+/// The scene of a command line about which nothing is known.
+const DECK: &str = SCENES[0];
+
+/// A run of the scene as most are, now and then another command.
+pub fn for_scene(rng: &mut Rng, scene: &str) -> Vec<OsString> {
+    let run = ["run", scene, "--samples", "8", "--max-events", "300"];
     let formulation = rng.choice(Form::all().collect::<Vec<_>>()).map_or("", Form::name);
     let integrator = one_of(rng, &Method::ALL).name();
-    let more: &[&str] = match rng.u32(..24) {
+    let more: &[&str] = match rng.u32(..27) {
         0..10 => &[],
         10 => &["--listing"],
         11 => &["--certify"],
@@ -32,12 +35,15 @@ pub fn for_deck(rng: &mut Rng) -> Vec<OsString> {
         15 => &["--as-1970"],
         16 => &["--rtol", "1e-3", "--atol", "1e-6"],
         17 => &["--end-time", "0.01", "--rtol", "1e-13"],
-        18 => return owned(&["check", DECK]),
-        19 => return owned(&["verify", DECK, "--states", "2"]),
+        18 => return owned(&["check", scene]),
+        19 => return owned(&["verify", scene, "--states", "2"]),
         20 => &["--quiet", "--max-step", "0.01"],
         21 => &["--yield-stress", "1e4", "--report-signs"],
         22 => &["--integrator", "rkam"],
-        _ => return owned(&["generate", DECK, "-o", "crate"]),
+        23 => return owned(&["convert", scene, "-o", "other.toml"]),
+        24 => return owned(&["convert", scene, "-o", "other.nml"]),
+        25 => return owned(&["check", scene, "--picture", "scene.svg"]),
+        _ => return owned(&["generate", scene, "-o", "crate"]),
     };
     owned(&[&run[..], more].concat())
 }
