@@ -1,5 +1,5 @@
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 /// An expression, with what is needed to put it into another one.
 #[derive(Clone)]
@@ -93,9 +93,17 @@ impl Expression {
     }
 }
 
-/// A literal of a finite number.
+/// A number. Those that are not finite, which follow from numbers of a scene that are far too large, have no
+/// literal; no comparison with other code lets them pass.
 pub(crate) fn number(value: f64) -> TokenStream {
-    let literal = Literal::f64_unsuffixed(value.abs());
+    if value.is_nan() {
+        return quote!(f64::NAN);
+    }
+    let literal = if value.is_infinite() {
+        quote!(f64::INFINITY)
+    } else {
+        Literal::f64_unsuffixed(value.abs()).into_token_stream()
+    };
     if value.is_sign_negative() { quote!(-#literal) } else { quote!(#literal) }
 }
 
@@ -120,6 +128,8 @@ mod tests {
             (Expression::fused(&a.negated(), &sum, &product), "(-a).mul_add(a + b, a * b)"),
             (sum.square_root(), "(a + b).sqrt()"),
             (Expression::difference(&a, &Expression::constant(-1.5)), "a - R::constant(-1.5)"),
+            (Expression::constant(f64::NEG_INFINITY), "R::constant(-f64::INFINITY)"),
+            (Expression::constant(f64::NAN), "R::constant(f64::NAN)"),
         ] {
             let tokens: TokenStream = expected.parse().expect("Rust");
             assert_eq!(expression.tokens.to_string(), tokens.to_string());
