@@ -18,7 +18,9 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let (text, code) = (print_scene::text(scene), code_at_start(scene, routines));
     if let Some(path) = &args.picture {
         let units = file.settings.units.clone().unwrap_or_default();
-        output::write(path, &args.scene.scene, &picture::svg(scene, &units))?;
+        let picture = picture::svg(scene, &units);
+        let picture = picture.ok_or_else(|| CliError::NoPicture { path: path.clone() })?;
+        output::write(path, &args.scene.scene, &picture)?;
     }
     Ok(format!("{text}{ignored}{generated}{code}\n"))
 }

@@ -129,6 +129,12 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// The scene is too large or too small to be drawn.
+    #[error("{}: found places too far from or too near to each other, expected some that can be drawn", path.display())]
+    NoPicture {
+        /// The file of the picture.
+        path: PathBuf,
+    },
     /// A scene would take the place of a file that may have been edited.
     #[error("{}: found a file of this name, expected none; --force replaces it", path.display())]
     WouldReplace {
@@ -190,6 +196,7 @@ impl CliError {
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
             Self::NoFormat | Self::VainFormat { .. } => 2,
             Self::NoScene { .. } | Self::NoDeck(_) | Self::WouldReplace { .. } => 2,
+            Self::NoPicture { .. } => 2,
             #[cfg(feature = "generator")]
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,

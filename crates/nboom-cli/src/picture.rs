@@ -28,8 +28,8 @@ const AXIS: f64 = 0.055;
 /// Bodies beyond these have no label; there would be no room.
 const MOST_LABELS: usize = 100;
 
-/// The drawing, as a file in SVG.
-pub(crate) fn svg(scene: &Scene, units: &UnitSystem) -> String {
+/// The drawing, as a file in SVG; none of a scene too large or too small to be drawn.
+pub(crate) fn svg(scene: &Scene, units: &UnitSystem) -> Option<String> {
     let latches = |body: &Body| body.hinge.can_turn() && body.hinge.lock_angle.is_some();
     let deployed = match scene.bodies.iter().filter(|body| latches(body)).count() {
         0 => "nothing latches",
@@ -39,7 +39,7 @@ pub(crate) fn svg(scene: &Scene, units: &UnitSystem) -> String {
     let postures =
         [("stowed, as it starts", Posture::at_start(scene)), (deployed, Posture::locked(scene))];
     let points = postures.iter().flat_map(|(_, posture)| points(scene, posture));
-    let view = View::of(points);
+    let view = View::of(points)?;
     let (width, height) = (2.0 * WIDTH, HEIGHT + FOOT);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
@@ -55,7 +55,7 @@ pub(crate) fn svg(scene: &Scene, units: &UnitSystem) -> String {
         text.push_str("</g>\n");
     }
     foot(&mut text, &view, units);
-    text + "</svg>\n"
+    Some(text + "</svg>\n")
 }
 
 /// All points that a drawing must have room for.

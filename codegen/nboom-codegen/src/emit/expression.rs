@@ -128,7 +128,7 @@ mod tests {
             (Expression::fused(&a.negated(), &sum, &product), "(-a).mul_add(a + b, a * b)"),
             (sum.square_root(), "(a + b).sqrt()"),
             (Expression::difference(&a, &Expression::constant(-1.5)), "a - R::constant(-1.5)"),
-            (Expression::constant(f64::NEG_INFINITY), "R::constant(-f64::INFINITY)"),
+            (Expression::constant(f64::INFINITY), "R::constant(f64::INFINITY)"),
             (Expression::constant(f64::NAN), "R::constant(f64::NAN)"),
         ] {
             let tokens: TokenStream = expected.parse().expect("Rust");

@@ -1,5 +1,7 @@
 //! Where points stand in a drawing, seen from above and from the side.
 
+use std::ops::Range;
+
 use nboom_scalar::Vec3;
 
 /// Width and height of one of the two drawings, and the margin around what is drawn.
@@ -14,6 +16,9 @@ const ELEVATION: f64 = 0.42;
 /// Longest that the bar of a round length may be, in the drawing.
 const LONGEST_BAR: f64 = 90.0;
 
+/// Sizes whose squares and shares are numbers.
+const DRAWN: Range<f64> = 1e-100..1e100;
+
 /// A view of all that is drawn.
 pub(super) struct View {
     middle: [f64; 2],
@@ -27,8 +32,9 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The view in which all points have room.
-    pub fn of(points: impl IntoIterator<Item = Vec3<f64>>) -> Self {
+    /// The view in which all points have room; none if they are farther from each other, or nearer, than can
+    /// be drawn.
+    pub fn of(points: impl IntoIterator<Item = Vec3<f64>>) -> Option<Self> {
         let ((sa, ca), (se, ce)) = (AZIMUTH.sin_cos(), ELEVATION.sin_cos());
         let right = Vec3::new(-sa, ca, 0.0);
         let up = Vec3::new(-ca * se, -sa * se, ce);
@@ -46,7 +52,9 @@ impl View {
         let size = if size > 0.0 { size } else { 1.0 };
         let fits = [WIDTH, HEIGHT].map(|room| room - 2.0 * MARGIN);
         let scale = (fits[0] / extent[0].max(0.3 * size)).min(fits[1] / extent[1].max(0.3 * size));
-        Self { middle: [0, 1].map(|i| 0.5 * (least[i] + most[i])), scale, size, right, up, eye }
+        let middle = [0, 1].map(|i| 0.5 * (least[i] + most[i]));
+        let can_be_drawn = DRAWN.contains(&size) && middle.iter().all(|x| x.abs() < DRAWN.end);
+        can_be_drawn.then_some(Self { middle, scale, size, right, up, eye })
     }
 
     /// Where a point stands in the drawing.

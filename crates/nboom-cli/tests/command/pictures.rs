@@ -71,3 +71,18 @@ fn a_scene_of_one_body_and_one_without_latches_are_drawn() {
     assert_eq!(code(&place.nboom(&["new", "gimbal"])), 0);
     assert!(picture(&place, "gimbal.toml").contains("gimbal: nothing latches"));
 }
+
+#[test]
+fn places_beyond_all_drawings_are_refused() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "wing"])), 0);
+    let wing = fs::read_to_string(place.path("wing.toml")).expect("a scene");
+    for far in ["1.7e308", "1e200"] {
+        let text = wing.replace("at = [0.0, 0.6, -0.5]", &format!("at = [0.0, {far}, -0.5]"));
+        assert_ne!(text, wing);
+        fs::write(place.path("far.toml"), text).expect("writable");
+        let check = place.nboom(&["check", "far.toml", "--picture", "far.svg"]);
+        assert_eq!(code(&check), 2, "{}", stderr(&check));
+        assert!(!place.path("far.svg").exists());
+    }
+}
