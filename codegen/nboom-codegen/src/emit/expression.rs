@@ -33,7 +33,8 @@ impl Expression {
             1.0 => (quote!(R::one()), 8),
             _ => {
                 let literal = number(value);
-                let width = "R::constant()".len() + format!("{value:?}").len();
+                let written = literal.to_string().replace(' ', "");
+                let width = "R::constant()".len() + written.len();
                 (quote!(R::constant(#literal)), width)
             }
         };
