@@ -130,38 +130,36 @@ fn release(scene: &Scene, release: Release) -> String {
     }
 }
 
+/// As a scene in TOML says it.
 fn spring(spring: &Spring) -> Option<String> {
     let Spring { quadratic, linear, preload_angle } = *spring;
     ([quadratic, linear] != [0.0; 2]).then(|| {
-        let (stiffness, rest) = (short(-linear, 6), degrees(-preload_angle));
-        let bend = term(", torque grows by", quadratic, "per squared angle");
-        format!("spring: stiffness {stiffness}, no torque at {rest}{bend}")
+        let (stiffness, rest) = (short(0.0 - linear, 6), degrees(0.0 - preload_angle));
+        format!("spring: stiffness {stiffness}, rest {rest}{}", term("quadratic", quadratic))
     })
 }
 
+/// As a scene in TOML says it.
 fn damper(dashpot: &Dashpot) -> Option<String> {
     let Dashpot { rate_quadratic, rate_linear, angle_quadratic, angle_linear, preload_angle } =
         *dashpot;
-    let on_angle = [angle_quadratic, angle_linear] != [0.0; 2];
-    (on_angle || [rate_quadratic, rate_linear] != [0.0; 2]).then(|| {
-        let mut text = format!("damper: damping {}", short(-rate_linear, 6));
-        text += &term(", torque grows by", rate_quadratic, "per squared rate");
-        if on_angle {
-            let (stiffness, rest) = (short(-angle_linear, 6), degrees(-preload_angle));
-            text += &format!(", stiffness {stiffness}, no torque of the angle at {rest}");
-            text += &term(", torque grows by", angle_quadratic, "per squared angle");
-        }
-        text
+    let of_angle = [angle_linear, angle_quadratic];
+    (of_angle != [0.0; 2] || [rate_quadratic, rate_linear] != [0.0; 2]).then(|| {
+        let damping = short(0.0 - rate_linear, 6);
+        let rest = format!(", rest {}", degrees(0.0 - preload_angle));
+        let parts = [
+            term("rate_squared", rate_quadratic),
+            term("angle", angle_linear),
+            term("angle_squared", angle_quadratic),
+            if of_angle == [0.0; 2] { String::new() } else { rest },
+        ];
+        format!("damper: damping {damping}{}", parts.concat())
     })
 }
 
 /// A term, unless it is zero.
-fn term(before: &str, coefficient: f64, after: &str) -> String {
-    if coefficient == 0.0 {
-        String::new()
-    } else {
-        format!("{before} {} {after}", short(coefficient, 6))
-    }
+fn term(name: &str, coefficient: f64) -> String {
+    if coefficient == 0.0 { String::new() } else { format!(", {name} {}", short(coefficient, 6)) }
 }
 
 fn kick_off(spring: &KickOffSpring) -> String {

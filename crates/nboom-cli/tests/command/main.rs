@@ -206,7 +206,7 @@ fn check_says_what_the_scene_contains_and_computes_nothing() {
         // Axes turned by 90 degrees about y, the boom's angle by 80.
         "at the start: hinge at (0, 0.5, 0.1), axis (0, 0, -1), outer end at (1.96962, 0.847296, 0.1)",
         "locked: hinge at (0, 0.5, 0.1), axis (0, 0, -1), outer end at (0, 2.5, 0.1)",
-        "spring: stiffness 30, no torque at",
+        "spring: stiffness 30, rest",
         "gravity: none",
         "thrust: none",
         "span: 0 to 4",

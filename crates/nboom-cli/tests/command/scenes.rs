@@ -1,7 +1,11 @@
 //! Scenes in TOML, from the first word to the results.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use nboom_io::words::{at, body, hinge, main_body, scene, spring};
+use nboom_results::StatesWriter;
+use nboom_sim::{Options, Path as RunPath, Recorder, Snapshot, simulate};
 
 use crate::{Place, code, stderr, stdout};
 
@@ -49,11 +53,72 @@ fn a_converted_deck_gives_the_same_bytes_there_and_back() {
         let before = results(&place, deck, "before");
         assert!(before.iter().any(|(name, _)| name == "states.csv"));
         for other in ["scene.toml", "deck.nml"] {
+            let after = results(&place, other, "after");
+            assert_eq!(names(&before), names(&after), "{deck} as {other}");
             // Named, for the assertion would print all bytes.
-            for ((name, before), (_, after)) in before.iter().zip(results(&place, other, "after")) {
+            for ((name, before), (_, after)) in before.iter().zip(after) {
                 assert!(*before == after, "{name} of {deck} as {other}");
             }
         }
+    }
+}
+
+fn names(tables: &[(String, Vec<u8>)]) -> Vec<&str> {
+    tables.iter().map(|(name, _)| name.as_str()).collect()
+}
+
+#[test]
+fn a_scene_in_words_of_a_program_gives_the_bytes_of_its_file() {
+    let place = Place::new();
+    let file = r#"
+[run]
+end = 4.0
+
+[main_body]
+mass = 100.0
+inertia = [40.0, 30.0, 20.0]
+
+[[body]]
+name = "boom"
+mass = 3.0
+mass_centre = [1.0, 0.0, 0.0]
+inertia = [0.01, 1.0, 1.0]
+
+[body.hinge]
+at = [0.5, 0.0, 0.0]
+axis = "z"
+start_deg = 90.0
+release = { at = 0.5 }
+latch_deg = 0.0
+spring = { stiffness = 2.0, rest_deg = -10.0 }
+"#;
+    fs::write(place.path("boom.toml"), file).expect("writable");
+    let run =
+        place.nboom(&["run", "boom.toml", "-o", "out", "--path", "generic", "--samples", "20"]);
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    let hinge = hinge().at([0.5, 0.0, 0.0]).axis("z").start_deg(90.0).release(at(0.5));
+    let hinge = hinge.latch_deg(0.0).spring(spring(2.0).rest_deg(-10.0));
+    let boom = body("boom").mass(3.0).mass_centre([1.0, 0.0, 0.0]).inertia([0.01, 1.0, 1.0]);
+    let scene = scene("boom")
+        .end(4.0)
+        .main_body(main_body().mass(100.0).inertia([40.0, 30.0, 20.0]))
+        .body(boom.hinge(hinge))
+        .build()
+        .expect("the words of the file");
+    let options = Options { samples: 20, path: RunPath::Generic, ..Options::default() };
+    let mut by_words = Vec::new();
+    let mut states = States(StatesWriter::new(&mut by_words, scene.labels()).expect("memory"));
+    simulate(&scene, &options, &mut states).expect("a run");
+    let by_file = fs::read(place.path("out/states.csv")).expect("a table");
+    assert!(by_file == by_words, "states.csv");
+}
+
+/// The table of states in memory.
+struct States<'t>(StatesWriter<&'t mut Vec<u8>>);
+
+impl Recorder for States<'_> {
+    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+        self.0.write(snapshot)
     }
 }
 

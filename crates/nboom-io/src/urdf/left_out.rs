@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::numbers::Reader;
+use super::reader::Reader;
 
 /// What is left out of a robot, by kind.
 #[derive(Default)]

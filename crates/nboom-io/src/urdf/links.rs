@@ -5,7 +5,9 @@ use nboom_scalar::Vec3;
 use roxmltree::{Document, Node};
 
 use super::left_out::{Kind, LeftOut};
-use super::numbers::{Placement, Reader};
+use super::reader::{Placement, Reader};
+use crate::axes::unit_vector;
+use crate::diagnostic::quoted;
 use crate::scene::suggest;
 
 /// A robot as written.
@@ -40,7 +42,7 @@ pub(super) struct Joint<'d> {
 /// How a child moves.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Motion {
-    /// About a unit vector in the child's frame.
+    /// About a unit vector in the child's frame, braked by so much torque per rate.
     Turns {
         axis: Vec3<f64>,
         damping: f64,
@@ -50,7 +52,7 @@ pub(super) enum Motion {
     Floats,
 }
 
-/// Types that hinges are.
+/// Types that are read.
 const TYPES: [&str; 4] = ["revolute", "continuous", "fixed", "floating"];
 /// Parts of a joint that are read, some of them only to be named.
 const OF_JOINTS: [&str; 7] = ["origin", "parent", "child", "axis", "dynamics", "limit", "mimic"];
@@ -60,7 +62,7 @@ impl<'d> Robot<'d> {
     pub fn read(document: &'d Document<'d>, reader: &mut Reader<'_, 'd, '_>) -> Option<Self> {
         let root = document.root_element();
         if root.tag_name().name() != "robot" {
-            let found = format!("`{}`", root.tag_name().name());
+            let found = quoted(root.tag_name().name());
             reader.error(root, "robot", &found, "the root element `robot` of URDF");
             return None;
         }
@@ -76,7 +78,7 @@ impl<'d> Robot<'d> {
             }
             match node.tag_name().name() {
                 _ if node.tag_name().namespace().is_some_and(|of| of.contains("xacro")) => {
-                    let found = format!("macro `{}`", node.tag_name().name());
+                    let found = format!("macro {}", quoted(node.tag_name().name()));
                     reader.error(node, "robot", &found, "links and joints, as xacro writes them");
                 }
                 "link" => robot.read_link(node, reader),
@@ -143,32 +145,28 @@ fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -
             let axis = reader.child(node, "axis");
             let components = axis.and_then(|axis| reader.numbers(axis, "xyz"));
             let [x, y, z] = components.unwrap_or([1.0, 0.0, 0.0]);
-            let (along, length) = (Vec3::new(x, y, z), Vec3::new(x, y, z).norm());
-            if !(length.is_normal()) {
-                let found = format!("axis of length {length}");
-                reader.error(axis.unwrap_or(node), "axis", &found, "a direction");
+            let Some(unit) = unit_vector(Vec3::new(x, y, z)) else {
+                let at = axis.unwrap_or(node);
+                reader.error(at, "axis", "a vector without direction", "a direction");
                 return None;
-            }
+            };
             let dynamics = reader.child(node, "dynamics");
             let damping = dynamics.and_then(|dynamics| reader.numbers(dynamics, "damping"));
             let damping = damping.map_or(0.0, |[damping]| damping);
-            // Lengths within rounding of one are left as they are.
-            let exact = (length - 1.0).abs() < 4.0 * f64::EPSILON;
-            let axis = if exact { along } else { along * (1.0 / length) };
-            Some(Motion::Turns { axis, damping })
+            Some(Motion::Turns { axis: unit, damping })
         }
         "fixed" => Some(Motion::Fixed),
         "floating" => Some(Motion::Floats),
         sliding @ ("prismatic" | "planar") => {
-            let found = format!("joint `{name}` of type {sliding}");
+            let found = format!("joint {} of type {sliding}", quoted(name));
             reader.error(node, "type", &found, "a type that turns, or fixed: hinges do not slide");
             None
         }
         other => {
-            let found = format!("joint `{name}` of type `{other}`").replace(char::is_control, " ");
+            let found = format!("joint {} of type {}", quoted(name), quoted(other));
             let meant = suggest::nearest(other, TYPES.into_iter()).map(suggest::question);
-            let expected = "revolute, continuous or fixed".to_owned();
-            let expected = meant.map_or(expected.clone(), |meant| format!("{expected}; {meant}"));
+            let meant = meant.map_or_else(String::new, |meant| format!("; {meant}"));
+            let expected = format!("revolute, continuous or fixed{meant}");
             reader.error(node, "type", &found, &expected);
             None
         }

@@ -3,7 +3,7 @@
 mod left_out;
 mod lines;
 mod links;
-mod numbers;
+mod reader;
 mod tree;
 
 use nboom_model::{Scene, UnitSystem};
@@ -15,7 +15,7 @@ use crate::source::sha256;
 use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
 use lines::Lines;
 use links::Robot;
-use numbers::Reader;
+use reader::Reader;
 
 /// Reads the text of a robot in URDF, the format of ROS.
 ///

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use nboom_model::{BodyDraft, Dashpot, Hinge, MassProperties, SceneDescription, SceneDraft};
 
 use super::links::{Joint, Link, Motion, Robot};
-use super::numbers::{Placement, Reader};
+use super::reader::{Placement, Reader};
 use crate::deck::phrases;
+use crate::diagnostic::quoted;
 use crate::scene::suggest;
 
 /// When the run ends \[s\].
@@ -60,14 +61,14 @@ impl Outboard {
         let mut numbers = BTreeMap::new();
         for (i, link) in robot.links.iter().enumerate() {
             if numbers.insert(link.name, i).is_some() {
-                let found = format!("a second link `{}`", shown(link.name));
+                let found = format!("a second link {}", quoted(link.name));
                 reader.error_at(link.at, "link", found, "names of their own");
             }
         }
         let mut joint_names = BTreeMap::new();
         for joint in &robot.joints {
             if joint_names.insert(joint.name, ()).is_some() {
-                let found = format!("a second joint `{}`", shown(joint.name));
+                let found = format!("a second joint {}", quoted(joint.name));
                 reader.error_at(joint.at, "joint", found, "names of their own");
             }
         }
@@ -87,8 +88,8 @@ impl Outboard {
             });
             let [Some(parent), Some(child)] = ends else { continue };
             if let Some(other) = found.carried_by[child].replace(j) {
-                let other = shown(robot.joints[other].name);
-                let found = format!("link `{}`, which joint `{other}` carries", shown(joint.child));
+                let other = quoted(robot.joints[other].name);
+                let found = format!("link {}, which joint {other} carries", quoted(joint.child));
                 reader.error_at(joint.at, "child", found, "a link that no joint carries: a tree");
             }
             found.joints[parent].push(j);
@@ -108,8 +109,8 @@ impl Outboard {
         };
         for other in roots {
             let [first, other] = [root, other].map(|i| &robot.links[i]);
-            let found = format!("link `{}` on no joint", shown(other.name));
-            let expected = format!("joints to all links but the root, `{}`", shown(first.name));
+            let found = format!("link {} on no joint", quoted(other.name));
+            let expected = format!("joints to all links but the root, {}", quoted(first.name));
             reader.error_at(other.at, "link", found, expected);
         }
         self.report_circles(robot, root, reader);
@@ -133,7 +134,7 @@ impl Outboard {
         }
         if let Some(link) = seen.iter().position(|seen| !seen) {
             let link = &robot.links[link];
-            let found = format!("link `{}` in a circle of joints", shown(link.name));
+            let found = format!("link {} in a circle of joints", quoted(link.name));
             reader.error_at(link.at, "link", found, "a way to the root");
         }
     }
@@ -146,18 +147,13 @@ fn report_unknown(
     robot: &Robot<'_>,
     reader: &mut Reader<'_, '_, '_>,
 ) {
-    let found = format!("`{}` of joint `{}`", shown(name), shown(joint.name));
+    let found = format!("{} of joint {}", quoted(name), quoted(joint.name));
     let meant = suggest::nearest(name, robot.links.iter().map(|link| link.name));
     let expected = match meant {
         Some(meant) => format!("a link; {}", suggest::question(meant)),
         None => "a link".to_owned(),
     };
     reader.error_at(joint.at, tag, found, expected);
-}
-
-/// A name in a message.
-fn shown(name: &str) -> String {
-    name.chars().take(80).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
 /// A rigid part: links that are fixed to each other, as one body in the frame of the first.
@@ -183,7 +179,7 @@ impl Part {
         let link = &robot.links[self.first];
         if self.joined.is_nothing() {
             if !self.carries {
-                let found = format!("link `{}` without mass", shown(link.name));
+                let found = format!("link {} without mass", quoted(link.name));
                 let expected = "a mass, of the link or of one that is fixed to it";
                 reader.error_at(link.at, "link", found, expected);
             }
@@ -191,7 +187,7 @@ impl Part {
         }
         if let Some(defect) = self.joined.defect() {
             let (found, expected) = phrases(&defect.to_string());
-            let found = format!("{found} of link `{}`", shown(link.name));
+            let found = format!("{found} of link {}", quoted(link.name));
             reader.error_at(link.at, "inertial", found, expected);
         }
     }
@@ -244,7 +240,7 @@ impl Parts {
                 Some(Welded { link: child, body, placement: Placement::none() })
             }
             Motion::Floats => {
-                let found = format!("joint `{}` of type floating", shown(joint.name));
+                let found = format!("joint {} of type floating", quoted(joint.name));
                 let expected = "one only between a root without mass and the robot";
                 reader.error_at(joint.at, "type", found, expected);
                 None

@@ -1,5 +1,8 @@
 //! Robots in URDF.
 
+#[path = "../support/mod.rs"]
+mod support;
+
 mod robustness;
 mod rules;
 mod wrong;

@@ -5,6 +5,8 @@ use std::fmt::Write;
 use nboom_io::{InputError, parse_robot};
 use proptest::prelude::*;
 
+use super::support::{edited, edits};
+
 const UR5: &str = include_str!("../../../../tests/data/robots/ur5.urdf");
 
 /// Pieces of text that mean something somewhere.
@@ -27,23 +29,12 @@ const WORDS: [&str; 16] = [
     "floating",
 ];
 
-/// A change of a text: at a place, so many characters are replaced by a word.
-fn edit() -> impl Strategy<Value = (prop::sample::Index, usize, usize)> {
-    (any::<prop::sample::Index>(), 0..40_usize, 0..=WORDS.len())
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1500) })]
 
     #[test]
-    fn edited_robots_are_read_or_refused(edits in prop::collection::vec(edit(), 1..6)) {
-        let mut characters: Vec<char> = UR5.chars().collect();
-        for (at, removed, word) in edits {
-            let at = at.index(characters.len() + 1);
-            let end = (at + removed).min(characters.len());
-            characters.splice(at..end, WORDS.get(word).copied().unwrap_or_default().chars());
-        }
-        let text: String = characters.into_iter().collect();
+    fn edited_robots_are_read_or_refused(edits in edits(WORDS.len())) {
+        let text = edited(UR5, &edits, &WORDS);
         if let Err(error) = parse_robot("ur5.urdf", &text, "ur5") {
             prop_assert!(matches!(error, InputError::Content(_)));
             prop_assert!(!error.to_string().is_empty());

@@ -1,5 +1,8 @@
 //! Scenes in TOML: what they mean, how they are written, what is said of wrong ones.
 
+#[path = "../support/mod.rs"]
+mod support;
+
 mod decks;
 mod examples;
 mod messages;

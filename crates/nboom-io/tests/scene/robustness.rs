@@ -3,6 +3,7 @@
 use nboom_io::{InputError, ReadOptions, parse_scene};
 use proptest::prelude::*;
 
+use super::support::{edited, edits};
 use super::{BUS, body, read};
 
 const WING: &str = include_str!("../../../../examples/wing.toml");
@@ -36,30 +37,15 @@ const WORDS: [&str; 24] = [
     "include = [\"a.toml\"]\n",
 ];
 
-/// A change of a text: at a place, so many characters are replaced by a word.
-fn edit() -> impl Strategy<Value = (prop::sample::Index, usize, usize)> {
-    (any::<prop::sample::Index>(), 0..40_usize, 0..=WORDS.len())
-}
-
-fn edited(text: &str, edits: &[(prop::sample::Index, usize, usize)]) -> String {
-    let mut characters: Vec<char> = text.chars().collect();
-    for (at, removed, word) in edits {
-        let at = at.index(characters.len() + 1);
-        let end = (at + removed).min(characters.len());
-        characters.splice(at..end, WORDS.get(*word).copied().unwrap_or_default().chars());
-    }
-    characters.into_iter().collect()
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1500) })]
 
     #[test]
     fn edited_scenes_are_read_or_refused(
         is_wing in any::<bool>(),
-        edits in prop::collection::vec(edit(), 1..6),
+        edits in edits(WORDS.len()),
     ) {
-        let text = edited(if is_wing { WING } else { N_BOOM }, &edits);
+        let text = edited(if is_wing { WING } else { N_BOOM }, &edits, &WORDS);
         if let Err(error) = read(&text) {
             prop_assert!(matches!(error, InputError::Content(_)));
             prop_assert!(!error.to_string().is_empty());

@@ -1,30 +1,13 @@
 //! What people are told about scenes that are nearly right, whole messages.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use nboom_io::{ReadOptions, parse_scene};
+
+use super::support::told_of_wrong_files;
 
 #[test]
 fn nearly_right_scenes_are_told_what_to_change() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scene/wrong");
-    let files = fs::read_dir(&folder).expect("the folder is in the clone");
-    let paths = files.map(|file| file.expect("an entry").path());
-    let mut scenes: Vec<PathBuf> =
-        paths.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
-    scenes.sort();
-    assert!(scenes.len() >= 10);
-    let bless = std::env::var_os("NBOOM_BLESS").is_some_and(|bless| bless == "1");
-    for path in scenes {
-        let text = fs::read_to_string(&path).expect("readable");
-        let options = ReadOptions::default();
-        let error = parse_scene("boom.toml", &text, "boom", None, &options).expect_err("wrong");
-        let (told, file) = (format!("{error}\n"), path.with_extension("txt"));
-        if bless {
-            fs::write(&file, told).expect("writable");
-        } else {
-            let expected = fs::read_to_string(&file).expect("a message");
-            assert_eq!(told, expected, "NBOOM_BLESS=1 writes {}", file.display());
-        }
-    }
+    let options = ReadOptions::default();
+    told_of_wrong_files("scene/wrong", "toml", 10, |text| {
+        parse_scene("boom.toml", text, "boom", None, &options).expect_err("wrong").to_string()
+    });
 }

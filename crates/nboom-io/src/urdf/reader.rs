@@ -1,11 +1,11 @@
-//! Numbers of attributes.
+//! What elements of a document say.
 
 use nboom_model::MassProperties;
 use nboom_scalar::{Mat3, Sym3, Vec3};
 use roxmltree::Node;
 
 use super::lines::Lines;
-use crate::diagnostic::Report;
+use crate::diagnostic::{Report, quoted};
 
 /// Reads elements of a document, and reports what is wrong with them.
 pub(super) struct Reader<'r, 'd, 'f> {
@@ -83,8 +83,7 @@ impl<'d> Reader<'_, 'd, '_> {
         let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
         if numbers.is_none() {
             let at = attribute.range().start;
-            let found: String = attribute.value().chars().take(40).collect();
-            let found = format!("`{}`", found.replace(char::is_control, " "));
+            let found = quoted(attribute.value());
             let expected =
                 if N == 1 { "a finite number".to_owned() } else { format!("{N} finite numbers") };
             self.error_at(at, name, found, expected);
