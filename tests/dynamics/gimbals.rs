@@ -3,8 +3,8 @@
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::Formulation;
 use nboom::model::{
-    Body, BodyName, Hinge, InitialMotion, MassDefect, MassProperties, Mode, ModelError, Mount,
-    Scene, SceneDescription, Thrust,
+    Body, BodyName, Hinge, InitialMotion, Joint, MassDefect, MassProperties, Mode, ModelError,
+    Mount, Scene, SceneDescription, Thrust,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{Form, Nobody, Options, SimError, simulate};
@@ -12,7 +12,8 @@ use nboom::sim::{Form, Nobody, Options, SimError, simulate};
 fn body(inboard: Option<usize>, at: f64, axis: Vec3<f64>, of: MassProperties) -> Body {
     let mount = Mount::at(Vec3::unit_x() * at);
     let hinge = Hinge::free();
-    Body { inboard, mount, axis, mass_properties: of, tip: Vec3::zero(), hinge }
+    let (joint, tip) = (Joint::Revolute, Vec3::zero());
+    Body { inboard, mount, joint, axis, mass_properties: of, tip, hinge }
 }
 
 /// Two fuel tanks on gimbals in a spinning stage under thrust: the sample INS of NASA's NBOD2 of 1982,

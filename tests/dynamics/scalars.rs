@@ -216,7 +216,15 @@ fn carrier(body: &Body, axis: Vec3<f64>, angle: f64) -> Body {
     let mass_properties = MassProperties::new(1e-30, Vec3::zero(), Sym3::zero());
     let start = HingeStart { angle, rate: 0.0, state: HingeState::Locked };
     let hinge = Hinge { kick_off: None, start, ..body.hinge };
-    Body { inboard: body.inboard, mount, axis, mass_properties, tip: Vec3::zero(), hinge }
+    Body {
+        inboard: body.inboard,
+        mount,
+        joint: body.joint,
+        axis,
+        mass_properties,
+        tip: Vec3::zero(),
+        hinge,
+    }
 }
 
 /// Axes and angles of [`Mat3::from_euler_121`] to about 1e-16.

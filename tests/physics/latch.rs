@@ -4,7 +4,7 @@
 //! momentum. The numbers below are the exact projection as an independent rigid-body library
 //! computes it, to the digits given; see also Section 7 of the report.
 
-use nboom::model::{Body, Hinge, MassProperties, Mount, SceneDescription};
+use nboom::model::{Body, Hinge, Joint, MassProperties, Mount, SceneDescription};
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::EventKind;
 
@@ -20,6 +20,7 @@ fn scene(lock_angle: Option<f64>, end_time: f64) -> SceneDescription {
     scene.bodies.push(Body {
         inboard: None,
         mount: Mount::at(Vec3::unit_x()),
+        joint: Joint::Revolute,
         axis: Vec3::unit_z(),
         mass_properties: panel,
         tip: Vec3::unit_x(),

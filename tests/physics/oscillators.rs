@@ -2,7 +2,8 @@
 //! other like one with the reduced inertia J₁J₂/(J₁ + J₂), and eq. (6.1) has closed forms.
 
 use nboom::model::{
-    Body, Dashpot, Hinge, HingeStart, HingeState, MassProperties, Mount, SceneDescription, Spring,
+    Body, Dashpot, Hinge, HingeStart, HingeState, Joint, MassProperties, Mount, SceneDescription,
+    Spring,
 };
 use nboom::scalar::{Sym3, Vec3};
 
@@ -42,7 +43,16 @@ pub fn scene(
     let start = HingeStart { angle, rate, state: HingeState::Free };
     let hinge = Hinge { spring, dashpot, start, ..Hinge::free() };
     let tip = Vec3::zero();
-    scene.bodies.push(Body { inboard: None, mount, axis, mass_properties: boom, tip, hinge });
+    let joint = Joint::Revolute;
+    scene.bodies.push(Body {
+        inboard: None,
+        mount,
+        joint,
+        axis,
+        mass_properties: boom,
+        tip,
+        hinge,
+    });
     scene.initial.attitude = dice.attitude();
     scene.initial.velocity_inertial = dice.vector(2.0);
     scene.initial.omega_body = along * 0.37;

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use nboom::elements::KickOffLaw;
 use nboom::loads::{LoadEquations, LoadSet, Loads, SceneMotion, VelocityChange};
 use nboom::model::{
-    Body, Hinge, Material, Mount, Scene, SceneDescription, SectionShape, SegmentStructure, Station,
-    Structure,
+    Body, Hinge, Joint, Material, Mount, Scene, SceneDescription, SectionShape, SegmentStructure,
+    Station, Structure,
 };
 use nboom::scalar::{RigidInertia, Twist, Vec3, Wrench};
 use nboom::sections::Section;
@@ -313,6 +313,7 @@ fn load_of_cut(case: &Sliced, i: usize, segment: &SegmentStructure, j: usize) ->
     let outer = Body {
         inboard: Some(i),
         mount: Mount::at(cut),
+        joint: Joint::Revolute,
         axis: Vec3::unit_x(),
         mass_properties: outer_mass,
         tip: Vec3::zero(),

@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
-use nboom::model::{Body, HingeState, MassProperties, Mode, SceneDescription};
+use nboom::model::{Body, HingeState, Joint, MassProperties, Mode, SceneDescription};
 use nboom::scalar::{Mat3, Vec3};
 
 type V3 = Vector3<f64>;
@@ -77,11 +77,18 @@ pub fn place(
         let inboard = placed[inboard_of(body)];
         let still = inboard.rot * matrix(&body.mount.rot_inboard_from_hinge);
         let axis = Unit::new_normalize(vector(body.axis));
-        let rot = still * Rotation3::from_axis_angle(&axis, beta[i]).matrix();
-        let origin = inboard.origin + inboard.rot * vector(body.mount.point);
+        let point = inboard.origin + inboard.rot * vector(body.mount.point);
+        let turned = still * Rotation3::from_axis_angle(&axis, beta[i]).matrix();
         let axis = still * axis.into_inner();
-        let omega = inboard.omega + axis * tau[i];
-        let velocity = inboard.velocity_at(origin);
+        let (rot, origin, omega, velocity) = match body.joint {
+            Joint::Revolute => {
+                (turned, point, inboard.omega + axis * tau[i], inboard.velocity_at(point))
+            }
+            Joint::Prismatic => {
+                let origin = point + axis * beta[i];
+                (still, origin, inboard.omega, inboard.velocity_at(origin) + axis * tau[i])
+            }
+        };
         placed.push(Placed::new(&body.mass_properties, rot, origin, axis, omega, velocity));
     }
     placed
@@ -164,9 +171,18 @@ pub fn loads(
             + dashpot.angle_linear * y;
         if mode.hinges[i] == HingeState::Free {
             loads.torques[i] = torque;
-            loads.power += torque * tau[i];
-            loads.forces[i + 1].1 += placed[i + 1].axis * torque;
-            loads.forces[inboard_of(body)].1 -= placed[i + 1].axis * torque;
+            let own = placed[i + 1];
+            match body.joint {
+                Joint::Revolute => {
+                    loads.power += torque * tau[i];
+                    loads.forces[i + 1].1 += own.axis * torque;
+                    loads.forces[inboard_of(body)].1 -= own.axis * torque;
+                }
+                Joint::Prismatic => {
+                    loads.push(placed, i + 1, own.origin, own.axis * torque);
+                    loads.push(placed, inboard_of(body), own.origin, -own.axis * torque);
+                }
+            }
         }
         if let Some(spring) = body.hinge.kick_off.filter(|_| pieces.next() == Some(&0)) {
             let to = placed[i + 1].origin + placed[i + 1].rot * vector(spring.body_point);
@@ -233,25 +249,29 @@ pub fn accelerations(
     for (i, body) in scene.bodies.iter().enumerate() {
         let (p, b) = (inboard_of(body), i + 1);
         let (inboard, outboard) = (&placed[p], &placed[b]);
-        // The hinge point accelerates alike on both bodies.
+        // The hinge point accelerates alike on both bodies, but for what slides along the axis.
         let (from, to) = (outboard.origin - inboard.center, outboard.origin - outboard.center);
         let whirl = |omega: V3, arm: V3| omega.cross(&omega.cross(&arm));
-        let dense = |m: M3| DMatrix::from_iterator(3, 3, m.iter().copied());
-        constrain(row, 6 * b, &dense(M3::identity()));
-        constrain(row, 6 * b + 3, &dense(-skew(to)));
-        constrain(row, 6 * p, &dense(-M3::identity()));
-        constrain(row, 6 * p + 3, &dense(skew(from)));
-        let difference = whirl(inboard.omega, from) - whirl(outboard.omega, to);
-        right.rows_mut(row, 3).copy_from(&difference);
-        row += 3;
-        // Across the axis (and along it, when held) the bodies turn alike.
         let across = outboard.axis.cross(&least_parallel(outboard.axis)).normalize();
-        let turning = inboard.omega.cross(&outboard.axis) * tau[i];
-        let mut directions = vec![across, outboard.axis.cross(&across)];
-        if mode.hinges[i] != HingeState::Free {
-            directions.push(outboard.axis);
+        let square = [across, outboard.axis.cross(&across)];
+        let free = mode.hinges[i] == HingeState::Free;
+        let along = |is_free: bool| (!is_free).then_some(outboard.axis);
+        let slides = body.joint == Joint::Prismatic;
+        let carried = inboard.omega.cross(&outboard.axis) * tau[i];
+        let coriolis = if slides { carried * 2.0 } else { V3::zeros() };
+        let difference = whirl(inboard.omega, from) - whirl(outboard.omega, to) + coriolis;
+        for e in square.into_iter().chain(along(slides && free)) {
+            let times = |m: M3| DMatrix::from_row_slice(1, 3, (e.transpose() * m).as_slice());
+            constrain(row, 6 * b, &times(M3::identity()));
+            constrain(row, 6 * b + 3, &times(-skew(to)));
+            constrain(row, 6 * p, &times(-M3::identity()));
+            constrain(row, 6 * p + 3, &times(skew(from)));
+            right[row] = e.dot(&difference);
+            row += 1;
         }
-        for e in directions {
+        // Across the axis (and along it, unless the body turns) the bodies turn alike.
+        let turning = if slides { V3::zeros() } else { carried };
+        for e in square.into_iter().chain(along(!slides && free)) {
             let e_row = DMatrix::from_row_slice(1, 3, e.as_slice());
             constrain(row, 6 * b + 3, &e_row);
             constrain(row, 6 * p + 3, &(-&e_row));
@@ -263,8 +283,16 @@ pub fn accelerations(
     let part = |at: usize| V3::new(solved[at], solved[at + 1], solved[at + 2]);
     let centers: Vec<V3> = (0..bodies).map(|b| part(6 * b)).collect();
     let omega_dots: Vec<V3> = (0..bodies).map(|b| part(6 * b + 3)).collect();
+    let at = |b: usize, point: V3| {
+        let (body, arm) = (&placed[b], point - placed[b].center);
+        centers[b] + omega_dots[b].cross(&arm) + body.omega.cross(&body.omega.cross(&arm))
+    };
     let tau_dot = |(i, body): (usize, &Body)| {
-        placed[i + 1].axis.dot(&(omega_dots[i + 1] - omega_dots[inboard_of(body)]))
+        let (own, b, p) = (&placed[i + 1], i + 1, inboard_of(body));
+        own.axis.dot(&match body.joint {
+            Joint::Revolute => omega_dots[b] - omega_dots[p],
+            Joint::Prismatic => at(b, own.origin) - at(p, own.origin),
+        })
     };
     let tau_dots = scene.bodies.iter().enumerate().map(tau_dot).collect();
     let (main, arm) = (&placed[0], -placed[0].center);
@@ -306,8 +334,12 @@ pub fn rates(
     for (i, body) in scene.bodies.iter().enumerate() {
         let (p, own) = (inboard_of(body), placed[i + 1]);
         let origin = at(&placed[p], moved[p], own.origin - placed[p].origin);
-        let spin = placed[p].omega.cross(&(own.axis * tau[i])) + own.axis * tau_dot[i];
-        moved.push((origin, moved[p].1 + spin));
+        let (carried, driven) =
+            (placed[p].omega.cross(&(own.axis * tau[i])), own.axis * tau_dot[i]);
+        moved.push(match body.joint {
+            Joint::Revolute => (origin, moved[p].1 + carried + driven),
+            Joint::Prismatic => (origin + carried * 2.0 + driven, moved[p].1),
+        });
     }
     let mut rates = Rates {
         kinetic_energy: 0.0,

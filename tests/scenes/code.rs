@@ -3,7 +3,7 @@
 
 use nboom::formulation::Formulation;
 use nboom::model::{
-    Body, Hinge, HingeState, MassProperties, Mount, Release, Scene, SceneDescription,
+    Body, Hinge, HingeState, Joint, MassProperties, Mount, Release, Scene, SceneDescription,
 };
 use nboom::scalar::{Kernel, Sym3, Vec3};
 use nboom::sim::{Form, Method, NoRoutine, Options, Path, Selection, SimError};
@@ -47,7 +47,15 @@ fn skew() -> Scene {
     let mut scene = SceneDescription::at_rest("skew", mass_properties, 1.0);
     let mount = Mount::at(Vec3::unit_y());
     let (tip, hinge) = (Vec3::unit_y(), Hinge::free());
-    let boom = Body { inboard: None, mount, axis: Vec3::unit_x(), mass_properties, tip, hinge };
+    let boom = Body {
+        inboard: None,
+        mount,
+        joint: Joint::Revolute,
+        axis: Vec3::unit_x(),
+        mass_properties,
+        tip,
+        hinge,
+    };
     let mut hinge = Hinge::free();
     (hinge.start.state, hinge.release) = (HingeState::Unreleased, Release::Time(0.5));
     let axis = Vec3::new(0.5_f64.sqrt(), 0.5_f64.sqrt(), 0.0);

@@ -4,8 +4,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom::model::{
-    Body, Hinge, HingeStart, HingeState, MassProperties, Material, Mount, Scene, SceneDescription,
-    SectionShape, SegmentStructure, Station, Structure,
+    Body, Hinge, HingeStart, HingeState, Joint, MassProperties, Material, Mount, Scene,
+    SceneDescription, SectionShape, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
 use nboom::sim::{Options, simulate};
@@ -54,7 +54,8 @@ fn scene(latches: &[Latch], end_time: f64) -> (Scene, Structure) {
     let mount = Mount { point: Vec3::zero(), rot_inboard_from_hinge: Mat3::identity() };
     let body = |inboard, mass_properties, hinge| {
         let axis = Vec3::unit_x();
-        Body { inboard, mount, axis, mass_properties, tip: Vec3::zero(), hinge }
+        let (joint, tip) = (Joint::Revolute, Vec3::zero());
+        Body { inboard, mount, joint, axis, mass_properties, tip, hinge }
     };
     let small = MassProperties::new(0.1, Vec3::zero(), Sym3::diagonal(0.1, 0.1, 0.1));
     let held = HingeStart { angle: 0.0, rate: 0.0, state: HingeState::Locked };

@@ -1,10 +1,10 @@
-//! Scenes of any topology from a seed: branching trees, hinge axes in any direction, full
+//! Scenes of any topology from a seed: branching trees, hinges and slides in any direction, full
 //! inertia tensors, every kind of force.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use nboom::model::{
-    Body, Dashpot, Gravity, Hinge, HingeState, KickOffSpring, MassProperties, Mode, Mount, Scene,
-    SceneDescription, Spring, Thrust,
+    Body, Dashpot, Gravity, Hinge, HingeState, Joint, KickOffSpring, MassProperties, Mode, Mount,
+    Scene, SceneDescription, Spring, Thrust,
 };
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 
@@ -63,8 +63,21 @@ impl Rng {
     }
 }
 
-/// A tree of `bodies` hinged bodies with every kind of force; all hinges start free.
+/// A tree of `bodies` bodies, most of them hinged and some that slide, with every kind of force; all joints
+/// start free.
 pub fn description(bodies: usize, seed: u64) -> SceneDescription {
+    let mut scene = hinged(bodies, seed);
+    let dice = &mut Rng::new(seed ^ 0x511d);
+    for body in &mut scene.bodies {
+        if dice.chance(0.25) {
+            body.joint = Joint::Prismatic;
+        }
+    }
+    scene
+}
+
+/// A tree of `bodies` hinged bodies with every kind of force; all hinges start free.
+pub fn hinged(bodies: usize, seed: u64) -> SceneDescription {
     let dice = &mut Rng::new(seed);
     let mass = dice.between(5.0, 50.0);
     let main_body = dice.mass_properties(mass, 1.5);
@@ -120,7 +133,8 @@ fn body(dice: &mut Rng, inboard: Option<usize>) -> Body {
     hinge.start.angle = dice.between(-3.0, 3.0);
     hinge.start.rate = dice.between(-2.0, 2.0);
     let mount = Mount { point: dice.vector(1.0), rot_inboard_from_hinge: dice.rotation() };
-    Body { inboard, mount, axis: dice.direction(), mass_properties, tip: Vec3::zero(), hinge }
+    let (joint, axis, tip) = (Joint::Revolute, dice.direction(), Vec3::zero());
+    Body { inboard, mount, joint, axis, mass_properties, tip, hinge }
 }
 
 /// A random tree without anything that takes or gives energy: no dashpot rates and no thrust.

@@ -1,7 +1,7 @@
 //! A scene written in other units.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
-use nboom::model::{MassProperties, Release, SceneDescription};
+use nboom::model::{Joint, MassProperties, Release, SceneDescription};
 
 /// How many new units there are in one old unit.
 #[derive(Clone, Copy, Debug)]
@@ -35,21 +35,33 @@ impl Units {
     pub fn scene(self, old: &SceneDescription) -> SceneDescription {
         let Self { time, length, .. } = self;
         let (force, torque) = (self.force(), self.torque());
+        // Units of what acts at a joint, and of its coordinate.
+        let of = |joint: Joint| match joint {
+            Joint::Revolute => (torque, 1.0),
+            Joint::Prismatic => (force, length),
+        };
         let mut scene = old.clone();
         self.mass_properties(&mut scene.main_body);
         for body in &mut scene.bodies {
             self.mass_properties(&mut body.mass_properties);
             body.mount.point = body.mount.point * length;
             let hinge = &mut body.hinge;
-            hinge.spring.quadratic *= torque;
-            hinge.spring.linear *= torque;
-            hinge.dashpot.rate_quadratic *= torque * time * time;
-            hinge.dashpot.rate_linear *= torque * time;
-            hinge.dashpot.angle_quadratic *= torque;
-            hinge.dashpot.angle_linear *= torque;
-            hinge.start.rate /= time;
-            if let Release::Time(at) = &mut hinge.release {
-                *at *= time;
+            let (acts, one) = of(body.joint);
+            hinge.spring.quadratic *= acts / (one * one);
+            hinge.spring.linear *= acts / one;
+            hinge.spring.preload_angle *= one;
+            hinge.dashpot.rate_quadratic *= acts * time * time / (one * one);
+            hinge.dashpot.rate_linear *= acts * time / one;
+            hinge.dashpot.angle_quadratic *= acts / (one * one);
+            hinge.dashpot.angle_linear *= acts / one;
+            hinge.dashpot.preload_angle *= one;
+            hinge.start.angle *= one;
+            hinge.start.rate *= one / time;
+            hinge.lock_angle = hinge.lock_angle.map(|at| at * one);
+            match &mut hinge.release {
+                Release::Time(at) | Release::AfterLock { delay: at, .. } => *at *= time,
+                Release::Angle { hinge, angle } => *angle *= of(old.bodies[*hinge].joint).1,
+                Release::Never => {}
             }
             if let Some(spring) = &mut hinge.kick_off {
                 spring.main_body_point = spring.main_body_point * length;

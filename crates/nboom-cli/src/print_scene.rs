@@ -1,6 +1,6 @@
 use nboom_model::{
-    Body, Dashpot, Hinge, HingePlace, HingeState, KickOffSpring, MassProperties, Posture, Release,
-    Scene, Spring,
+    Body, Dashpot, Hinge, HingeLabel, HingePlace, HingeState, Joint, KickOffSpring, MassProperties,
+    Posture, Release, Scene, Spring,
 };
 use nboom_scalar::Vec3;
 
@@ -72,13 +72,18 @@ fn kind(scene: &Scene, branch: &[usize]) -> &'static str {
 
 fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> {
     let Body { mass_properties: mass, hinge, .. } = &scene.bodies[i];
-    let forces =
-        [spring(&hinge.spring), damper(&hinge.dashpot), hinge.kick_off.as_ref().map(kick_off)];
-    let mut lines = vec![format!("  hinge {}: {}", scene.label(i), course(scene, hinge))];
+    let label = scene.label(i);
+    let laws = [spring(&label, &hinge.spring), damper(&label, &hinge.dashpot)];
+    let forces = laws.into_iter().chain([hinge.kick_off.as_ref().map(kick_off)]);
+    let joint = match label.joint {
+        Joint::Revolute => "hinge",
+        Joint::Prismatic => "slide",
+    };
+    let mut lines = vec![format!("  {joint} {label}: {}", course(scene, &label, hinge))];
     let places = postures.each_ref().map(|posture| place(&posture.hinges[i]));
     let when = ["at the start", "locked"];
     lines.extend(when.iter().zip(places).map(|(when, place)| format!("    {when}: {place}")));
-    lines.extend(forces.into_iter().flatten().map(|force| format!("    {force}")));
+    lines.extend(forces.flatten().map(|force| format!("    {force}")));
     lines.push(format!("    body: {}", mass_properties(mass)));
     lines
 }
@@ -99,18 +104,27 @@ fn without_rounding(v: Vec3<f64>) -> Vec3<f64> {
     v.map(|x| if x.abs() <= 1e-12 * largest { 0.0 } else { x })
 }
 
+/// An angle in degrees, or a travel.
+fn coordinate(label: &HingeLabel, beta: f64) -> String {
+    match label.joint {
+        Joint::Revolute => degrees(beta),
+        Joint::Prismatic => short(beta, 6),
+    }
+}
+
 /// How a hinge starts, is released and locks.
-fn course(scene: &Scene, hinge: &Hinge) -> String {
-    let at = degrees(hinge.start.angle);
+fn course(scene: &Scene, label: &HingeLabel, hinge: &Hinge) -> String {
+    let at = coordinate(label, hinge.start.angle);
     let start = match hinge.start.state {
         HingeState::Unreleased => format!("unreleased at {at}, {}", release(scene, hinge.release)),
         HingeState::Free => {
-            format!("free at {at}, rate {} per time unit", degrees(hinge.start.rate))
+            let rate = coordinate(label, hinge.start.rate);
+            format!("free at {at}, rate {rate} per time unit")
         }
         HingeState::Locked => return format!("locked at {at}"),
     };
     let lock = match hinge.lock_angle {
-        Some(angle) => format!("locks at {}", degrees(angle)),
+        Some(angle) => format!("locks at {}", coordinate(label, angle)),
         None => "never locks".to_owned(),
     };
     format!("{start}, {lock}")
@@ -120,7 +134,8 @@ fn release(scene: &Scene, release: Release) -> String {
     match release {
         Release::Time(time) => format!("released at time {}", short(time, 10)),
         Release::Angle { hinge, angle } => {
-            format!("released when hinge {} passes {}", scene.label(hinge), degrees(angle))
+            let trigger = scene.label(hinge);
+            format!("released when hinge {trigger} passes {}", coordinate(&trigger, angle))
         }
         Release::AfterLock { hinge, delay } => {
             let delay = short(delay, 10);
@@ -131,26 +146,30 @@ fn release(scene: &Scene, release: Release) -> String {
 }
 
 /// As a scene in TOML says it.
-fn spring(spring: &Spring) -> Option<String> {
+fn spring(label: &HingeLabel, spring: &Spring) -> Option<String> {
     let Spring { quadratic, linear, preload_angle } = *spring;
     ([quadratic, linear] != [0.0; 2]).then(|| {
-        let (stiffness, rest) = (short(0.0 - linear, 6), degrees(0.0 - preload_angle));
+        let (stiffness, rest) = (short(0.0 - linear, 6), coordinate(label, 0.0 - preload_angle));
         format!("spring: stiffness {stiffness}, rest {rest}{}", term("quadratic", quadratic))
     })
 }
 
 /// As a scene in TOML says it.
-fn damper(dashpot: &Dashpot) -> Option<String> {
+fn damper(label: &HingeLabel, dashpot: &Dashpot) -> Option<String> {
     let Dashpot { rate_quadratic, rate_linear, angle_quadratic, angle_linear, preload_angle } =
         *dashpot;
     let of_angle = [angle_linear, angle_quadratic];
     (of_angle != [0.0; 2] || [rate_quadratic, rate_linear] != [0.0; 2]).then(|| {
         let damping = short(0.0 - rate_linear, 6);
-        let rest = format!(", rest {}", degrees(0.0 - preload_angle));
+        let rest = format!(", rest {}", coordinate(label, 0.0 - preload_angle));
+        let [rate_squared, angle, angle_squared] = match label.joint {
+            Joint::Revolute => ["rate_squared", "angle", "angle_squared"],
+            Joint::Prismatic => ["speed_squared", "travel", "travel_squared"],
+        };
         let parts = [
-            term("rate_squared", rate_quadratic),
-            term("angle", angle_linear),
-            term("angle_squared", angle_quadratic),
+            term(rate_squared, rate_quadratic),
+            term(angle, angle_linear),
+            term(angle_squared, angle_quadratic),
             if of_angle == [0.0; 2] { String::new() } else { rest },
         ];
         format!("damper: damping {damping}{}", parts.concat())

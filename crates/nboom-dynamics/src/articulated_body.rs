@@ -1,4 +1,4 @@
-use nboom_model::WeldedTree;
+use nboom_model::{Joint, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::base::BaseFactor;
@@ -7,7 +7,7 @@ use crate::pose::LinkPose;
 /// What eliminating one hinge leaves behind.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HingeFactor<R> {
-    /// A S: the wrench that unit acceleration of the hinge alone takes.
+    /// A S: the wrench that unit acceleration of the joint alone takes.
     pub column: Wrench<R>,
     /// 1 / (Sᵀ A S).
     pub inverse_pivot: R,
@@ -33,11 +33,16 @@ pub(crate) fn factor<R: Real>(
     let mut main = ArticulatedInertia::of(&tree.main);
     for j in (0..tree.links.len()).rev() {
         let (pose, inertia) = (&poses[j], articulated[j]);
-        let column = Wrench {
-            moment: inertia.angular * pose.axis,
-            force: inertia.coupling.transpose_mul(pose.axis),
+        let column = match pose.joint {
+            Joint::Revolute => Wrench {
+                moment: inertia.angular * pose.axis,
+                force: inertia.coupling.transpose_mul(pose.axis),
+            },
+            Joint::Prismatic => {
+                Wrench { moment: inertia.coupling * pose.axis, force: inertia.linear * pose.axis }
+            }
         };
-        let inverse_pivot = R::one() / pose.axis.dot(column.moment);
+        let inverse_pivot = R::one() / pose.along(&column);
         hinges[j] = HingeFactor { column, inverse_pivot };
         let transmitted = inertia.without(&column, inverse_pivot).seen_from(pose.offset);
         match tree.links[j].inboard {
@@ -64,7 +69,7 @@ pub(crate) fn solve<R: Real>(
     let Load { wrenches, mut main, tau_dot, twists } = load;
     for j in (0..tree.links.len()).rev() {
         let (pose, hinge) = (&poses[j], &hinges[j]);
-        let net_torque = tau_dot[j] - pose.axis.dot(wrenches[j].moment);
+        let net_torque = tau_dot[j] - pose.along(&wrenches[j]);
         tau_dot[j] = net_torque;
         let ratio = net_torque * hinge.inverse_pivot;
         let transmitted = Wrench {
@@ -84,8 +89,8 @@ pub(crate) fn solve<R: Real>(
         let carried =
             hinge.column.moment.dot(inboard.angular) + hinge.column.force.dot(inboard.linear);
         tau_dot[j] = (tau_dot[j] - carried) * hinge.inverse_pivot;
-        twists[j] =
-            Twist { angular: inboard.angular + pose.axis * tau_dot[j], linear: inboard.linear };
+        twists[j] = inboard;
+        twists[j].add(pose.motion(tau_dot[j]));
     }
     of_main
 }
@@ -118,12 +123,20 @@ pub(crate) fn bias<R: Real>(
             Some(i) => (omegas[i], twists[i]),
             None => (omega_body, Twist::zero()),
         };
-        let turning = pose.axis * tau[j];
-        let moved = inboard.at(pose.offset);
-        omegas[j] = omega_inboard + turning;
-        twists[j] = Twist {
-            angular: moved.angular + omega_inboard.cross(turning),
-            linear: moved.linear + omega_inboard.cross(omega_inboard.cross(pose.offset)),
+        let Twist { angular, linear } = inboard.at(pose.offset);
+        let centripetal = omega_inboard.cross(omega_inboard.cross(pose.offset));
+        let own = pose.axis * tau[j];
+        // A body that slides keeps its rate; its origin has the Coriolis acceleration.
+        let gyroscopic = omega_inboard.cross(own);
+        (omegas[j], twists[j]) = match pose.joint {
+            Joint::Revolute => (
+                omega_inboard + own,
+                Twist { angular: angular + gyroscopic, linear: linear + centripetal },
+            ),
+            Joint::Prismatic => {
+                let coriolis = gyroscopic + gyroscopic;
+                (omega_inboard, Twist { angular, linear: linear + centripetal + coriolis })
+            }
         };
         wrenches[j] = pose.inertia.inertia_wrench(omegas[j], twists[j]);
     }

@@ -1,6 +1,7 @@
 use nboom_model::WeldedTree;
 use nboom_scalar::{Mat3, Real, RigidInertia, Vec3, Wrench};
 
+use crate::invariants::momentum;
 use crate::pose::LinkPose;
 
 /// Fills the kinetic-energy matrix B₀ of (V, ω, τ), row by row, both triangles.
@@ -28,15 +29,12 @@ pub(crate) fn mass_matrix<R: Real>(
             Some(i) => composite[i].add(moved),
             None => main.add(moved),
         }
-        let mut wrench = Wrench {
-            moment: composite[j].about_origin * poses[j].axis,
-            force: poses[j].axis.cross(composite[j].first_moment),
-        };
+        let mut wrench = momentum(&composite[j], poses[j].motion(R::one()));
         let mut at = j;
-        put(6 + j, 6 + j, poses[j].axis.dot(wrench.moment));
+        put(6 + j, 6 + j, poses[j].along(&wrench));
         while let Some(i) = tree.links[at].inboard {
             wrench = wrench.seen_from(poses[at].offset);
-            put(6 + i, 6 + j, poses[i].axis.dot(wrench.moment));
+            put(6 + i, 6 + j, poses[i].along(&wrench));
             at = i;
         }
         wrench = wrench.seen_from(poses[at].offset);
@@ -76,7 +74,7 @@ pub(crate) fn gather<R: Real>(
 ) -> Wrench<R> {
     let main = carry_inward(tree, poses, wrenches, main);
     for (torque, (pose, outboard)) in torques.iter_mut().zip(poses.iter().zip(wrenches)) {
-        *torque -= pose.axis.dot(outboard.moment);
+        *torque -= pose.along(outboard);
     }
     main
 }

@@ -1,3 +1,4 @@
+use nboom_model::Joint;
 use nboom_scalar::{Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::pose;
@@ -29,6 +30,17 @@ pub struct LineLength<R> {
     pub squared: R,
     /// Rate of |x̄|².
     pub squared_rate: R,
+}
+
+/// A hinge that moves the end of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineJoint<R> {
+    /// Its position in [`Recursive::free_hinges`].
+    pub position: usize,
+    /// Whether it turns or slides.
+    pub joint: Joint,
+    /// From it to what moves the end outboard of it: the next hinge at β = 0, or the end itself \[L\].
+    pub arm: R,
 }
 
 impl<R: Real> Recursive<R> {
@@ -91,9 +103,9 @@ impl<R: Real> Recursive<R> {
             let ([beta, tau], of_link) = (of_hinge(j), &self.constants[j]);
             let turned = of_link.turned(beta);
             let from_hinge = turned * end;
-            let turning = of_link.axis_inboard() * tau;
-            velocity = turned * velocity + turning.cross(from_hinge);
-            end = self.tree.links[j].point + from_hinge;
+            let own = of_link.joint().motion(of_link.axis_inboard(), tau);
+            velocity = turned * velocity + own.at(from_hinge).linear;
+            end = of_link.offset(self.tree.links[j].point, beta) + from_hinge;
         }
         let along = end - line.main_body_point;
         let rate = along.dot(velocity);
@@ -116,22 +128,22 @@ impl<R: Real> Recursive<R> {
         let line = &self.elements.lines()[line];
         let mut end = line.point;
         for j in self.path_inward(line.link) {
-            end = self.tree.links[j].point + self.constants[j].turned(beta(j)) * end;
+            let (of_link, beta) = (&self.constants[j], beta(j));
+            end = of_link.offset(self.tree.links[j].point, beta) + of_link.turned(beta) * end;
         }
         (end - line.main_body_point).norm_squared()
     }
 
-    /// For a line, each free hinge that moves its end (a position in [`Recursive::free_hinges`]) with
-    /// the largest distance the end can have from it.
+    /// Each free hinge that moves the end of a line, outboard before inboard.
     ///
     /// # Panics
     /// When there are not so many lines.
-    pub fn line_reach(&self, line: usize) -> impl Iterator<Item = (usize, R)> {
+    pub fn line_joints(&self, line: usize) -> impl Iterator<Item = LineJoint<R>> {
         let line = &self.elements.lines()[line];
-        self.path_inward(line.link).scan(line.point.norm(), |reach, j| {
-            let of_hinge = *reach;
-            *reach += self.tree.links[j].point.norm();
-            Some((j, of_hinge))
+        self.path_inward(line.link).scan(line.point.norm(), |arm, position| {
+            let link = &self.tree.links[position];
+            let arm = std::mem::replace(arm, link.point.norm());
+            Some(LineJoint { position, joint: link.joint, arm })
         })
     }
 
@@ -148,10 +160,8 @@ impl<R: Real> Recursive<R> {
             let of_main = Twist { angular: motion.omega_body, linear: Vec3::zero() };
             let inboard = link.inboard.map_or(of_main, |i| self.twists[i]);
             let pose = &self.poses[j];
-            self.twists[j] = Twist {
-                angular: inboard.angular + pose.axis * motion.tau[j],
-                linear: inboard.linear + inboard.angular.cross(pose.offset),
-            };
+            self.twists[j] = inboard.at(pose.offset);
+            self.twists[j].add(pose.motion(motion.tau[j]));
         }
     }
 

@@ -40,6 +40,6 @@ mod pose;
 mod recursive;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};
-pub use invariants::{Invariants, LineLength};
+pub use invariants::{Invariants, LineJoint, LineLength};
 pub use momenta::{EffectiveInertias, Momenta};
 pub use recursive::{Accelerations, Motion, Recursive};

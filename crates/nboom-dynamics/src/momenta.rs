@@ -1,3 +1,4 @@
+use nboom_model::Joint;
 use nboom_scalar::{Number, Real, Twist, Vec3, Wrench};
 
 use crate::invariants::momentum;
@@ -36,7 +37,7 @@ impl<R: Real> Recursive<R> {
         }
         self.carry_momenta();
         for (pi, (pose, outboard)) in hinges.iter_mut().zip(self.poses.iter().zip(&self.wrenches)) {
-            *pi = pose.axis.dot(outboard.moment);
+            *pi = pose.along(outboard);
         }
         found.angular_momentum
     }
@@ -57,7 +58,8 @@ impl<R: Real> Recursive<R> {
     ///
     /// π̇ = torque + (ω̄ × ā)·H̄ + (v̄ × ā)·p̄ − (ā × d̄)·F̄ / m_T, with ā the hinge axis, ω̄ and v̄ the
     /// motion of the hinge relative to the mass centre, H̄, p̄ and d̄ the momenta and the first moment of
-    /// everything outboard about the hinge, and F̄ the force from outside.
+    /// everything outboard about the hinge, and F̄ the force from outside. Where the link slides along ā,
+    /// π̇ = force + (ω̄ × ā)·p̄ − m ā·F̄ / m_T with m the mass of everything outboard.
     pub fn momentum_rates(
         &mut self,
         momenta: &Momenta<'_, R>,
@@ -70,8 +72,15 @@ impl<R: Real> Recursive<R> {
         let moving = self.twists.iter().zip(&self.wrenches);
         for (rate, (pose, (twist, outboard))) in rates.iter_mut().zip(self.poses.iter().zip(moving))
         {
-            *rate += twist.angular.cross(pose.axis).dot(outboard.moment)
-                + twist.linear.cross(pose.axis).dot(outboard.force);
+            // An axis turns with its bodies, and that of a hinge moves with it.
+            let turning = twist.angular.cross(pose.axis);
+            *rate += match pose.joint {
+                Joint::Revolute => {
+                    let moving = twist.linear.cross(pose.axis);
+                    turning.dot(outboard.moment) + moving.dot(outboard.force)
+                }
+                Joint::Prismatic => turning.dot(outboard.force),
+            };
         }
         if let Some(external) = self.elements.external() {
             let of_center = external.force * (R::one() / R::constant(self.scene.total_mass()));
@@ -80,7 +89,7 @@ impl<R: Real> Recursive<R> {
             for (rate, (pose, left_behind)) in
                 rates.iter_mut().zip(self.poses.iter().zip(&self.wrenches))
             {
-                *rate -= pose.axis.dot(left_behind.moment);
+                *rate -= pose.along(left_behind);
             }
         }
         omega_body

@@ -1,13 +1,15 @@
 use nboom_elements::Placed;
-use nboom_model::{Link, WeldedTree};
-use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
+use nboom_model::{Joint, Link, WeldedTree};
+use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 /// Constants of one link that follow from the tree.
 #[derive(Clone, Debug)]
 pub(crate) struct LinkConstants<R> {
+    joint: Joint,
     /// The hinge axis, inboard link's axes.
     axis_inboard: Vec3<R>,
-    /// Link axes seen from the inboard link: `still + along_cos cos β + along_sin sin β`.
+    /// Link axes seen from the inboard link: `still + along_cos cos β + along_sin sin β`; of a link that
+    /// slides `still` alone.
     still: Mat3<R>,
     along_cos: Mat3<R>,
     along_sin: Mat3<R>,
@@ -16,8 +18,12 @@ pub(crate) struct LinkConstants<R> {
 impl<R: Real> LinkConstants<R> {
     pub fn new(link: &Link<R>) -> Self {
         let (rot, axis) = (link.rot_inboard_at_zero, link.axis);
-        let along = axis.outer(axis);
+        let along = match link.joint {
+            Joint::Revolute => axis.outer(axis),
+            Joint::Prismatic => Mat3::identity(),
+        };
         Self {
+            joint: link.joint,
             axis_inboard: rot * axis,
             still: rot * along,
             along_cos: rot * (Mat3::identity() - along),
@@ -28,8 +34,28 @@ impl<R: Real> LinkConstants<R> {
     /// Turns link components into components in the inboard link's axes, at the hinge angle `beta`.
     #[inline]
     pub fn turned(&self, beta: R) -> Mat3<R> {
-        let (s, c) = beta.sin_cos();
-        self.still + self.along_cos * c + self.along_sin * s
+        match self.joint {
+            Joint::Revolute => {
+                let (s, c) = beta.sin_cos();
+                self.still + self.along_cos * c + self.along_sin * s
+            }
+            Joint::Prismatic => self.still,
+        }
+    }
+
+    /// The link's origin from the inboard link's, when it is at `point` at β = 0; inboard link's axes.
+    #[inline]
+    pub fn offset(&self, point: Vec3<R>, beta: R) -> Vec3<R> {
+        match self.joint {
+            Joint::Revolute => point,
+            Joint::Prismatic => point + self.axis_inboard * beta,
+        }
+    }
+
+    /// What the joint leaves free.
+    #[inline]
+    pub fn joint(&self) -> Joint {
+        self.joint
     }
 
     /// Unit vector along the hinge axis, inboard link's axes.
@@ -48,6 +74,8 @@ pub(crate) struct LinkPose<R> {
     pub offset: Vec3<R>,
     /// The hinge from O.
     pub position: Vec3<R>,
+    /// What the joint leaves free.
+    pub joint: Joint,
     /// Unit vector along the hinge axis.
     pub axis: Vec3<R>,
     /// Mass properties about the hinge.
@@ -60,9 +88,22 @@ impl<R: Real> LinkPose<R> {
             rot: Mat3::identity(),
             offset: Vec3::zero(),
             position: Vec3::zero(),
+            joint: Joint::Revolute,
             axis: Vec3::zero(),
             inertia: RigidInertia::zero(),
         }
+    }
+
+    /// The share of a wrench on the link, about its hinge, that acts on β.
+    #[inline]
+    pub fn along(&self, wrench: &Wrench<R>) -> R {
+        self.joint.along(self.axis, wrench)
+    }
+
+    /// Motion relative to the inboard link, of the link and its hinge, at the rate `tau`.
+    #[inline]
+    pub fn motion(&self, tau: R) -> Twist<R> {
+        self.joint.motion(self.axis, tau)
     }
 }
 
@@ -96,13 +137,14 @@ pub(crate) fn place<R: Real>(
             Some(i) => (poses[i].rot, poses[i].position),
             None => (Mat3::identity(), Vec3::zero()),
         };
-        let turned = of_link.turned(beta[j]);
+        let (turned, offset) = (of_link.turned(beta[j]), of_link.offset(link.point, beta[j]));
         let pose = &mut poses[j];
+        pose.joint = of_link.joint;
         if link.inboard.is_none() {
-            (pose.rot, pose.offset, pose.axis) = (turned, link.point, of_link.axis_inboard);
+            (pose.rot, pose.offset, pose.axis) = (turned, offset, of_link.axis_inboard);
         } else {
             pose.rot = rot_inboard * turned;
-            pose.offset = rot_inboard * link.point;
+            pose.offset = rot_inboard * offset;
             pose.axis = rot_inboard * of_link.axis_inboard;
         }
         pose.position = position_inboard + pose.offset;

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use nboom_elements::{Commands, Elements};
-use nboom_model::{Mode, Scene, WeldedTree};
+use nboom_model::{Joint, Mode, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
@@ -197,7 +197,7 @@ impl<R: Real> Recursive<R> {
             let (end, force) = line.end_and_force(poses);
             for j in std::iter::successors(Some(link), |&j| tree.links[j].inboard) {
                 let pose = &poses[j];
-                out[j] += pose.axis.dot((end - pose.position).cross(force));
+                out[j] += pose.along(&Wrench::of_force(end - pose.position, force));
             }
         }
         elements.withhold(poses, out);
@@ -251,11 +251,15 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Recursive<f64> {
     /// The first free hinge (numbered as in the scene; `Some(None)` is the main body) about
-    /// which nothing has inertia at the angles `beta` of the free hinges.
+    /// which, or along which where it slides, nothing has inertia at the angles `beta` of the free hinges.
     pub fn singular_hinge(&mut self, beta: &[f64]) -> Option<Option<usize>> {
         self.factor(beta);
         let regular = |j: usize| {
-            let (pivot, whole) = (1.0 / self.hinges[j].inverse_pivot, self.articulated[j].angular);
+            let (pivot, at_hinge) = (1.0 / self.hinges[j].inverse_pivot, &self.articulated[j]);
+            let whole = match self.poses[j].joint {
+                Joint::Revolute => at_hinge.angular,
+                Joint::Prismatic => at_hinge.linear,
+            };
             pivot > ROUNDING * (whole.xx + whole.yy + whole.zz)
         };
         let singular = (0..self.hinges.len()).rev().find(|&j| !regular(j));

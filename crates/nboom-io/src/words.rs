@@ -37,6 +37,7 @@ mod hinge;
 mod laws;
 mod release;
 mod scene;
+mod slide;
 mod surroundings;
 
 pub use body::{BodyWords, KickOff, body};
@@ -44,7 +45,9 @@ pub(crate) use body::{inboard, tip_of};
 pub use direction::{Axes, Direction};
 pub use error::{WordsError, WordsErrors};
 pub use hinge::{HingeWords, hinge};
+pub(crate) use hinge::{joint, table as joint_table};
 pub use laws::{DamperWords, SpringWords, damper, spring};
 pub use release::{After, When, after, at, when};
 pub use scene::{SceneWords, scene};
+pub use slide::{SlideWords, slide};
 pub use surroundings::{Inertia, InitialWords, MainBodyWords, Thrust, initial, main_body};

@@ -1,9 +1,9 @@
 //! Loads of a motion on any scalar.
 
-use nboom_model::{Scene, Structure};
+use nboom_model::{Joint, Scene, Structure};
 use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
-use crate::load_set::{LoadSet, Size};
+use crate::load_set::LoadSet;
 use crate::motion::SceneMotion;
 use crate::segment::{Influence, Segment};
 
@@ -28,6 +28,26 @@ struct SegmentMotion<R> {
     /// Of the segment and its hinge point.
     acceleration: Twist<R>,
     bound: Bound<R>,
+    /// Of what the load of its hinge is made of.
+    size: Size<R>,
+}
+
+/// Magnitudes of a moment and a force.
+#[derive(Clone, Copy, Debug)]
+struct Size<R> {
+    moment: R,
+    force: R,
+}
+
+impl<R: Real> Size<R> {
+    fn zero() -> Self {
+        Self { moment: R::zero(), force: R::zero() }
+    }
+
+    fn add(&mut self, other: Self) {
+        self.moment += other.moment;
+        self.force += other.force;
+    }
 }
 
 /// Sums of the magnitudes of what angular and linear acceleration are made of.
@@ -85,6 +105,7 @@ impl<R: Real> LoadEquations<R> {
             omega: Vec3::zero(),
             acceleration: Twist::zero(),
             bound: Bound { angular: R::zero(), linear: R::zero() },
+            size: Size::zero(),
         };
         Self { places: vec![still; segments.len()], segments }
     }
@@ -102,7 +123,7 @@ impl<R: Real> LoadEquations<R> {
     /// Sets `out` to the loads of a motion: eqs. (10.4) to (10.6), corrected: note 24.
     pub fn evaluate(&mut self, motion: &SceneMotion<'_, R>, out: &mut LoadSet<R>) {
         place(&self.segments, &mut self.places, motion);
-        gather(&self.segments, &self.places, motion.force_densities, out);
+        gather(&self.segments, &mut self.places, motion, out);
         self.describe_stresses(out);
     }
 
@@ -139,37 +160,48 @@ fn place<R: Real>(
             angular: motion.acceleration.omega_body.norm(),
             linear: motion.acceleration.origin_body.norm(),
         },
+        size: Size::zero(),
     };
     for (i, segment) in segments.iter().enumerate() {
         let inboard = segment.inboard.map_or(main, |inboard| places[inboard]);
-        let turn = Mat3::about_axis(segment.axis, motion.beta[i]);
-        let (rate, rate_dot) = (motion.tau[i], motion.acceleration.tau[i]);
-        places[i] = inboard.outward(segment, &turn, rate, rate_dot);
+        let at = [motion.beta[i], motion.tau[i], motion.acceleration.tau[i]];
+        places[i] = inboard.outward(segment, at);
     }
 }
 
 impl<R: Real> SegmentMotion<R> {
-    /// The place of a segment that is hinged to this one and turned from it by `turn`.
-    fn outward(&self, segment: &Segment<R>, turn: &Mat3<R>, tau: R, tau_dot: R) -> Self {
-        let rot = segment.rot_inboard_at_zero * *turn;
-        let (r, omega) = (segment.point, rot.transpose_mul(self.omega));
+    /// The place of a segment that is hinged to this one, at β, τ and τ̇.
+    fn outward(&self, segment: &Segment<R>, [beta, tau, tau_dot]: [R; 3]) -> Self {
+        let (joint, axis) = (segment.joint, segment.axis);
+        let rot = segment.rot_inboard_at_zero * joint.turn(axis, beta);
+        let r = segment.offset(beta);
+        let omega = rot.transpose_mul(self.omega);
         let Twist { angular, linear } = self.acceleration.at(r);
         let centripetal = self.omega.cross(self.omega.cross(r));
-        let turning = segment.axis * tau;
-        let (spin_up, whirl) = (segment.axis * tau_dot, self.omega.norm_squared());
+        let own = joint.motion(axis, tau);
+        let mut acceleration = joint.motion(axis, tau_dot);
+        let [driven, swept] = [tau_dot, self.omega.norm() * tau].map(|rate| (axis * rate).norm());
+        let whirl = self.omega.norm_squared();
+        let bound = Bound {
+            angular: self.bound.angular,
+            linear: self.bound.linear + (self.bound.angular + whirl) * r.norm(),
+        };
+        let bound = match joint {
+            Joint::Revolute => Bound { angular: bound.angular + driven + swept, ..bound },
+            Joint::Prismatic => Bound { linear: bound.linear + driven + swept + swept, ..bound },
+        };
+        acceleration.add(Twist {
+            angular: rot.transpose_mul(angular) + omega.cross(own.angular),
+            linear: rot.transpose_mul(linear + centripetal) + omega.cross(own.linear + own.linear),
+        });
         Self {
             rot_inboard_from_body: rot,
             rot_main_from_body: self.rot_main_from_body * rot,
             origin: self.origin + self.rot_main_from_body * r,
-            omega: omega + turning,
-            acceleration: Twist {
-                angular: rot.transpose_mul(angular) + spin_up + omega.cross(turning),
-                linear: rot.transpose_mul(linear + centripetal),
-            },
-            bound: Bound {
-                angular: self.bound.angular + spin_up.norm() + self.omega.norm() * turning.norm(),
-                linear: self.bound.linear + (self.bound.angular + whirl) * r.norm(),
-            },
+            omega: omega + own.angular,
+            acceleration,
+            bound,
+            size: Size::zero(),
         }
     }
 
@@ -191,27 +223,34 @@ impl<R: Real> SegmentMotion<R> {
 /// eq. (14.13), corrected: note 28.
 fn gather<R: Real>(
     segments: &[Segment<R>],
-    places: &[SegmentMotion<R>],
-    force_densities: &[R],
+    places: &mut [SegmentMotion<R>],
+    motion: &SceneMotion<'_, R>,
     out: &mut LoadSet<R>,
 ) {
-    for (i, (segment, place)) in segments.iter().zip(places).enumerate() {
+    for (i, (segment, place)) in segments.iter().zip(&mut *places).enumerate() {
         out.hinges[i] = place.inertia_wrench(&segment.inertia);
-        out.sizes[i] = place.inertia_size(&segment.inertia);
+        place.size = place.inertia_size(&segment.inertia);
         for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
             *load = place.inertia_wrench(&cut.outboard);
         }
     }
-    for (i, (segment, place)) in segments.iter().zip(places).enumerate().rev() {
-        push_apart(segment, place, force_densities[i], i, out);
+    for (i, segment) in segments.iter().enumerate().rev() {
+        push_apart(segment, &mut places[i], motion.force_densities[i], i, out);
+        let place = places[i];
+        let Size { moment, force } = place.size;
+        out.sizes[i] = match segment.joint {
+            Joint::Revolute => moment,
+            Joint::Prismatic => force,
+        };
         for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
             *load = load.seen_from(-cut.point);
         }
         if let Some(inboard) = segment.inboard {
             let carried = out.hinges[i].rotated(&place.rot_inboard_from_body);
-            carry(inboard, segment.carried_from, carried.seen_from(segment.point), out);
-            let Size { moment, force } = out.sizes[i];
-            out.sizes[inboard].add(Size { moment: moment + segment.point.norm() * force, force });
+            let offset = segment.offset(motion.beta[i]);
+            carry(inboard, segment.carried_from, carried.seen_from(offset), out);
+            let moment = moment + offset.norm() * force;
+            places[inboard].size.add(Size { moment, force });
         }
     }
 }
@@ -219,7 +258,7 @@ fn gather<R: Real>(
 /// Takes the force along the line from the main body to segment `i` off its loads.
 fn push_apart<R: Real>(
     segment: &Segment<R>,
-    place: &SegmentMotion<R>,
+    place: &mut SegmentMotion<R>,
     force_density: R,
     i: usize,
     out: &mut LoadSet<R>,
@@ -230,7 +269,7 @@ fn push_apart<R: Real>(
     let force = place.rot_main_from_body.transpose_mul(along * force_density);
     carry(i, push.carried_from, Wrench::of_force(push.body_point, -force), out);
     let size = force.norm();
-    out.sizes[i].add(Size { moment: push.body_point.norm() * size, force: size });
+    place.size.add(Size { moment: push.body_point.norm() * size, force: size });
 }
 
 /// Adds a wrench about the hinge point of segment `i` to its hinge and the stations that carry it.

@@ -10,26 +10,9 @@ pub struct LoadSet<R = f64> {
     starts: Vec<usize>,
     /// What describes the stresses of each station.
     pub(crate) stresses: Vec<[R; 6]>,
-    /// For each hinge, the sum of the magnitudes of what its load is made of.
-    pub(crate) sizes: Vec<Size<R>>,
-}
-
-/// Magnitudes of a moment and a force.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Size<R> {
-    pub moment: R,
-    pub force: R,
-}
-
-impl<R: Real> Size<R> {
-    pub fn zero() -> Self {
-        Self { moment: R::zero(), force: R::zero() }
-    }
-
-    pub fn add(&mut self, other: Self) {
-        self.moment += other.moment;
-        self.force += other.force;
-    }
+    /// For each hinge, the sum of the magnitudes of what its load about the axis is made of; along the
+    /// axis where it slides.
+    pub(crate) sizes: Vec<R>,
 }
 
 impl<R: Real> LoadSet<R> {
@@ -46,7 +29,7 @@ impl<R: Real> LoadSet<R> {
             stations: vec![Wrench::zero(); starts[hinges]],
             stresses: vec![[R::zero(); 6]; starts[hinges]],
             starts,
-            sizes: vec![Size::zero(); hinges],
+            sizes: vec![R::zero(); hinges],
         }
     }
 
@@ -93,8 +76,7 @@ impl<R: Real> LoadSet<R> {
             place[3..].copy_from_slice(&load.moment.to_array());
         }
         of_stresses.copy_from_slice(self.stresses.as_flattened());
-        assert_eq!(of_sizes.len(), self.sizes.len(), "one place for each number");
-        of_sizes.iter_mut().zip(&self.sizes).for_each(|(place, size)| *place = size.moment);
+        of_sizes.copy_from_slice(&self.sizes);
     }
 
     /// Where P and Q of hinge `i` start among the numbers.
@@ -136,9 +118,7 @@ impl<R: Real> LoadSet<R> {
             }
         }
         self.stresses.copy_from_slice(of_stresses.as_chunks().0);
-        for (size, &moment) in self.sizes.iter_mut().zip(of_sizes) {
-            *size = Size { moment, force: R::zero() };
-        }
+        self.sizes.copy_from_slice(of_sizes);
     }
 }
 
@@ -154,8 +134,7 @@ impl LoadSet {
             *sum += part * factor;
         }
         for (sum, part) in self.sizes.iter_mut().zip(&other.sizes) {
-            let factor = factor.abs();
-            sum.add(Size { moment: part.moment * factor, force: part.force * factor });
+            *sum += part * factor.abs();
         }
     }
 }

@@ -110,8 +110,8 @@ impl Loads {
         }
     }
 
-    /// The free hinge at which the load about the axis departs most from the `torques` that act
-    /// there, and by which share of what the load is made of; `None` when all are held.
+    /// The free hinge at which the load about the axis (along it where it slides) departs most from the
+    /// `torques` that act there, and by which share of what the load is made of; `None` when all are held.
     ///
     /// Of a motion, torques are those of springs and dashpots; of impulses, those of latches.
     pub fn largest_torque_residual(
@@ -122,9 +122,10 @@ impl Loads {
     ) -> Option<(usize, f64)> {
         let free = (0..hinges.len()).filter(|&i| hinges[i] == HingeState::Free);
         let residual = |i: usize| {
-            let difference =
-                (self.equations().segments[i].axis.dot(loads.hinges[i].moment) - torques[i]).abs();
-            let size = loads.sizes[i].moment + torques[i].abs();
+            let segment = &self.equations().segments[i];
+            let load = segment.joint.along(segment.axis, &loads.hinges[i]);
+            let difference = (load - torques[i]).abs();
+            let size = loads.sizes[i] + torques[i].abs();
             (i, if difference == 0.0 { 0.0 } else { difference / size })
         };
         free.map(residual).max_by(|a, b| a.1.total_cmp(&b.1))

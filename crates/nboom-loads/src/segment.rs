@@ -1,6 +1,6 @@
 use nboom_elements::Ends;
-use nboom_model::{MassProperties, Scene, SegmentStructure, Station, Structure};
-use nboom_scalar::{Mat3, RigidInertia, Vec3};
+use nboom_model::{Joint, MassProperties, Scene, SegmentStructure, Station, Structure};
+use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
 
 /// Share of a segment's outermost station within which an attachment is at a station.
 const SAME_PLACE: f64 = 1e-9;
@@ -9,7 +9,8 @@ const SAME_PLACE: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(crate) struct Segment<R> {
     pub inboard: Option<usize>,
-    /// The hinge from the inboard body's origin, inboard body's axes.
+    pub joint: Joint,
+    /// The hinge at β = 0 from the inboard body's origin, inboard body's axes.
     pub point: Vec3<R>,
     /// Turns segment components at hinge angle zero into inboard components.
     pub rot_inboard_at_zero: Mat3<R>,
@@ -51,6 +52,7 @@ impl<R: Copy> Segment<R> {
     pub fn map<S>(&self, mut f: impl FnMut(R) -> S) -> Segment<S> {
         Segment {
             inboard: self.inboard,
+            joint: self.joint,
             point: self.point.map(&mut f),
             rot_inboard_at_zero: self.rot_inboard_at_zero.map(&mut f),
             axis: self.axis.map(&mut f),
@@ -62,13 +64,24 @@ impl<R: Copy> Segment<R> {
     }
 
     /// How it is attached, as numbers that no other arrangement has.
-    pub fn arrangement(&self) -> [f64; 5] {
+    pub fn arrangement(&self) -> [f64; 6] {
         let counted = |place: Option<usize>| place.map_or(0, |place| place + 1);
         let push = self.push.as_ref().map(|push| push.carried_from);
         let sections = self.stations.iter().filter(|cut| cut.influence.is_some()).count();
         let stations = self.stations.len();
-        [counted(self.inboard), self.carried_from, stations, sections, counted(push)]
+        let slides = usize::from(self.joint.slides());
+        [counted(self.inboard), self.carried_from, stations, sections, counted(push), slides]
             .map(|count| count as f64)
+    }
+}
+
+impl<R: Real> Segment<R> {
+    /// The hinge at β from the inboard body's origin, inboard body's axes.
+    pub fn offset(&self, beta: R) -> Vec3<R> {
+        match self.joint {
+            Joint::Revolute => self.point,
+            Joint::Prismatic => self.point + self.rot_inboard_at_zero * (self.axis * beta),
+        }
     }
 }
 
@@ -109,6 +122,7 @@ impl Segment<f64> {
         });
         Self {
             inboard: body.inboard,
+            joint: body.joint,
             point: body.mount.point,
             rot_inboard_at_zero: body.mount.rot_inboard_from_hinge,
             axis: body.axis,

@@ -1,6 +1,6 @@
 use nboom_scalar::Vec3;
 
-use crate::{Body, Hinge, MassProperties, Mount};
+use crate::{Body, Hinge, Joint, MassProperties, Mount};
 
 /// One segment of a regular or paddle appendage, in segment axes ξ, η, ζ.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,7 @@ fn chain<'a>(
         bodies.push(Body {
             inboard: (i > 0).then(|| first + i - 1),
             mount,
+            joint: Joint::Revolute,
             axis,
             mass_properties: segment.mass_properties,
             tip: Vec3::unit_y() * segment.length,

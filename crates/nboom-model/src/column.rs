@@ -21,9 +21,10 @@ pub struct WantedTable {
 }
 
 impl WantedTable {
-    /// Whether this column is in degrees.
-    pub fn is_in_degrees(&self, column: &Column) -> bool {
-        self.in_degrees && column.quantity.is_angle()
+    /// Whether this column is in degrees, of a scene with these hinges.
+    pub fn is_in_degrees(&self, column: &Column, hinges: &[HingeLabel]) -> bool {
+        let slides = column.hinge.is_some_and(|hinge| hinges[hinge].joint.slides());
+        self.in_degrees && column.quantity.is_angle() && !slides
     }
 }
 

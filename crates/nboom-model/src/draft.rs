@@ -6,8 +6,8 @@ mod repeat;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Body, BodyShape, Hinge, MassProperties, Mount, Release, SceneDescription, SegmentStructure,
-    TorqueTable,
+    Body, BodyShape, Hinge, Joint, MassProperties, Mount, Release, SceneDescription,
+    SegmentStructure, TorqueTable,
 };
 use names::Names;
 
@@ -31,6 +31,8 @@ pub struct BodyDraft {
     pub on: Option<String>,
     /// Where the hinge sits on the inboard body.
     pub mount: Mount,
+    /// Whether it turns about the axis or slides along it.
+    pub joint: Joint,
     /// Unit vector along the hinge axis, body axes.
     pub axis: Vec3<f64>,
     /// Mass properties, from the hinge, body axes.
@@ -56,12 +58,15 @@ pub struct BodyDraft {
 pub enum ReleaseDraft {
     /// At this time \[T\].
     At(f64),
-    /// When the hinge of the body `when` passes the relative angle `passes` \[rad\] either way.
+    /// When the hinge of the body `when` passes the relative angle `passes` \[rad\] either way; where it slides
+    /// the travel \[L\].
     Passes {
         /// Name of the body.
         when: String,
         /// The angle.
         passes: f64,
+        /// Which kind of joint the words are for.
+        joint: Joint,
     },
     /// Some time after the hinge of another body has locked.
     AfterLock {
@@ -87,6 +92,7 @@ impl BodyDraft {
             name: name.to_owned(),
             on: None,
             mount: Mount::at(point),
+            joint: Joint::Revolute,
             axis,
             mass_properties,
             tip: Vec3::zero(),
@@ -136,6 +142,21 @@ pub enum DraftDefect {
         /// What would have been right.
         expected: String,
     },
+    /// A release waits for an angle of a joint that slides, or for a travel of one that turns.
+    #[error(
+        "release by {} of `{name}`, which {}, found, {} expected",
+        coordinate(*.waits),
+        does(*.is),
+        coordinate(*.is)
+    )]
+    TriggerJoint {
+        /// Name of the body.
+        name: String,
+        /// What the words are for.
+        waits: Joint,
+        /// What it is.
+        is: Joint,
+    },
     /// A body is repeated that is not on the main body.
     #[error("repetition of a body on `{0}` found, one of a body on the main body expected")]
     RepeatOutboard(String),
@@ -147,6 +168,21 @@ pub enum DraftDefect {
     /// More bodies than a scene may have.
     #[error("{0} bodies with all repetitions found, at most {MOST_BODIES} expected")]
     Count(usize),
+}
+
+/// What words call a coordinate.
+fn coordinate(joint: Joint) -> &'static str {
+    match joint {
+        Joint::Revolute => "an angle (`passes`)",
+        Joint::Prismatic => "a travel (`reaches`)",
+    }
+}
+
+fn does(joint: Joint) -> &'static str {
+    match joint {
+        Joint::Revolute => "turns",
+        Joint::Prismatic => "slides",
+    }
 }
 
 /// Most bodies of a scene in words.
@@ -179,7 +215,7 @@ impl SceneDraft {
         let mut errors = Vec::new();
         for (i, place) in names.places.iter().enumerate() {
             let draft = &self.bodies[place.draft];
-            let release = match names.release(place, &draft.release) {
+            let release = match names.release(&self.bodies, place, &draft.release) {
                 Ok(Release::Angle { hinge, .. } | Release::AfterLock { hinge, .. })
                     if hinge == i =>
                 {
@@ -197,6 +233,7 @@ impl SceneDraft {
             let mut body = Body {
                 inboard: place.inboard,
                 mount: draft.mount,
+                joint: draft.joint,
                 axis: draft.axis,
                 mass_properties: draft.mass_properties,
                 tip: draft.tip,

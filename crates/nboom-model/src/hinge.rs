@@ -57,7 +57,8 @@ pub struct KickOffSpring {
     pub limit_length: f64,
 }
 
-/// Angles closer than this \[rad\] are the same when a lock angle serves as a release angle.
+/// Angles closer than this \[rad\], and travels closer than this share of their
+/// [size](crate::Scene::coordinate_scale), are the same when a lock angle serves as a release angle.
 pub const SAME_ANGLE: f64 = 1e-12;
 
 /// When a hinge that starts unreleased becomes free.

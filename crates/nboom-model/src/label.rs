@@ -1,6 +1,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::Joint;
+
 /// Which hinge, as users count: appendage K and segment I of it; and the name of the body on it, if
 /// the scene gives names.
 ///
@@ -14,17 +16,30 @@ pub struct HingeLabel {
     pub segment: usize,
     /// What the scene calls the body.
     pub name: Option<Arc<str>>,
+    /// Whether it turns or slides.
+    pub joint: Joint,
 }
 
 impl HingeLabel {
-    /// Of a body without a name.
+    /// Of a body without a name, on a hinge that turns.
     pub const fn new(appendage: usize, segment: usize) -> Self {
-        Self { appendage, segment, name: None }
+        Self { appendage, segment, name: None, joint: Joint::Revolute }
     }
 
     /// K and I, from 1.
     pub fn numbers(&self) -> [usize; 2] {
         [self.appendage + 1, self.segment + 1]
+    }
+
+    /// β or τ of the hinge for people, to six digits: degrees, or a length.
+    pub fn coordinate(&self, beta: f64) -> String {
+        let (value, unit) = match self.joint {
+            Joint::Revolute => (beta.to_degrees(), " deg"),
+            Joint::Prismatic => (beta, ""),
+        };
+        let rounded = format!("{value:.5e}").parse();
+        // Nobody wants to read of -0.
+        format!("{}{unit}", rounded.unwrap_or(value) + 0.0)
     }
 }
 

@@ -31,6 +31,7 @@ mod draft;
 mod environment;
 mod error;
 mod hinge;
+mod joint;
 mod label;
 mod mass;
 mod material;
@@ -58,6 +59,7 @@ pub use error::{BodyName, ModelError};
 pub use hinge::{
     Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, SAME_ANGLE, Spring,
 };
+pub use joint::Joint;
 pub use label::HingeLabel;
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use material::{Material, MaterialDefect};

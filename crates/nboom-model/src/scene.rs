@@ -3,20 +3,23 @@ use std::ops::Deref;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Appendage, Departures, Gravity, Hinge, HingeLabel, InitialMotion, MassProperties, ModelError,
-    ModelWarning, Mount, Shapes, Thrust, error, warning,
+    Appendage, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint, MassProperties,
+    ModelError, ModelWarning, Mount, Shapes, Thrust, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
 ///
 /// Its origin is a point on the hinge axis. Its axes stand parallel to the hinge axes of
-/// `mount` when the hinge angle is zero, and turn about `axis` by the hinge angle.
+/// `mount` when the hinge angle is zero, and turn about `axis` by the hinge angle. A body that slides keeps
+/// its axes, and its origin moves along `axis` by the travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     /// Index of the inboard body; `None` is the main body.
     pub inboard: Option<usize>,
     /// Where the hinge sits on the inboard body.
     pub mount: Mount,
+    /// Whether it turns about the axis or slides along it.
+    pub joint: Joint,
     /// Unit vector along the hinge axis, body axes.
     pub axis: Vec3<f64>,
     /// Mass properties, from the hinge, body axes.
@@ -208,13 +211,29 @@ impl Scene {
         self.description.main_body.mass + hinged.sum::<f64>()
     }
 
+    /// The natural size of a change of β of hinge `i`: a radian, or where it slides the way from its start to
+    /// its latch, without a latch the size of its body.
+    pub fn coordinate_scale(&self, i: usize) -> f64 {
+        let Body { joint, hinge, tip, mass_properties, mount, .. } = &self.description.bodies[i];
+        if !joint.slides() {
+            return 1.0;
+        }
+        let start = hinge.start.angle;
+        let of_latch = hinge.lock_angle.map_or(0.0, |latch| (latch - start).abs());
+        let of_body = [*tip, mass_properties.center_of_mass, mount.point].map(Vec3::norm);
+        let sizes = [of_latch, start.abs(), of_body[0], of_body[1], of_body[2]];
+        sizes.into_iter().find(|&size| size > 0.0).unwrap_or(1.0)
+    }
+
     /// Whether hinge `i` turns about an axis parallel to its inboard hinge, so that the angles
     /// of the two add up to α.
     pub fn adds_to_inboard_angle(&self, i: usize) -> bool {
         let body = &self.description.bodies[i];
-        body.inboard.is_some_and(|inboard| {
+        let inboard = body.inboard.map(|inboard| &self.description.bodies[inboard]);
+        inboard.is_some_and(|inboard| {
+            let turn = [body.joint, inboard.joint] == [Joint::Revolute; 2];
             let axis_inboard = body.mount.rot_inboard_from_hinge * body.axis;
-            (axis_inboard - self.description.bodies[inboard].axis).norm() < 1e-9
+            turn && (axis_inboard - inboard.axis).norm() < 1e-9
         })
     }
 
@@ -222,7 +241,8 @@ impl Scene {
     pub fn arm_of_paddle(&self, i: usize) -> Option<usize> {
         let bodies = &self.description.bodies;
         let inboard = bodies[i].inboard.filter(|&inboard| bodies[inboard].inboard.is_none());
-        inboard.filter(|_| !self.adds_to_inboard_angle(i))
+        let turn = |inboard| [i, inboard].into_iter().all(|i: usize| !bodies[i].joint.slides());
+        inboard.filter(|&inboard| turn(inboard) && !self.adds_to_inboard_angle(i))
     }
 
     /// Sums along each appendage of hinge angles β or rates τ, in place: α or σ.
@@ -253,7 +273,8 @@ fn labels(bodies: &[Body]) -> Vec<HingeLabel> {
             appendages += 1;
             segment = 0;
         }
-        labels.push(HingeLabel::new(appendages.max(1) - 1, segment));
+        let label = HingeLabel::new(appendages.max(1) - 1, segment);
+        labels.push(HingeLabel { joint: body.joint, ..label });
         segment += 1;
     }
     labels

@@ -151,9 +151,9 @@ impl fmt::Display for ModelWarning {
                 f,
                 "hinge {hinge} waits for {} of hinge {trigger}, which starts at {} and locks at {}, the \
                  other way",
-                degrees(*angle),
-                degrees(*start),
-                degrees(*lock)
+                trigger.coordinate(*angle),
+                trigger.coordinate(*start),
+                trigger.coordinate(*lock)
             ),
             Self::ReleasedAfterEnd { hinge, release, end } => {
                 write!(
@@ -168,7 +168,7 @@ impl fmt::Display for ModelWarning {
             Self::ManyTurns { hinge, start } => write!(
                 f,
                 "hinge {hinge} starts at {}, {:.1} turns away from zero",
-                degrees(*start),
+                hinge.coordinate(*start),
                 start.abs() / TAU
             ),
             Self::LockedElsewhere(hinge) => {
@@ -183,26 +183,28 @@ impl fmt::Display for ModelWarning {
                 f,
                 "dashpot of hinge {hinge} feeds energy beyond a rate of {} per time unit: coefficient {value:?} of \
                  the squared rate found, which pushes one way however the hinge turns",
-                degrees(beyond.abs().copysign(*value))
+                hinge.coordinate(beyond.abs().copysign(*value))
             ),
             Self::SpringWithoutRest { hinge, stiffness, away_from } => write!(
                 f,
-                "spring of hinge {hinge} pushes the harder the farther it is from {}: a torque of \
-                 {stiffness:?} for each radian away from there found, one back to it expected",
-                degrees(*away_from)
+                "spring of hinge {hinge} pushes the harder the farther it is from {}: a {} of \
+                 {stiffness:?} for each {} away from there found, one back to it expected",
+                hinge.coordinate(*away_from),
+                hinge.joint.force_name(),
+                hinge.joint.unit_name()
             ),
             Self::SpringDrivesOn { hinge, start } => write!(
                 f,
                 "spring of hinge {hinge} drives it on and on from {}, ever harder, and no lock angle \
                  stops it",
-                degrees(*start)
+                hinge.coordinate(*start)
             ),
             Self::DrivenFromLock { hinge, start, lock } => write!(
                 f,
                 "spring torque of hinge {hinge} drives it away from its lock angle: from {}, not \
                  towards {}",
-                degrees(*start),
-                degrees(*lock)
+                hinge.coordinate(*start),
+                hinge.coordinate(*lock)
             ),
             Self::KickOffPulls { hinge, force, length } => write!(
                 f,
@@ -213,7 +215,7 @@ impl fmt::Display for ModelWarning {
                 f,
                 "segment {hinge}, locked at {}, lies folded back on segment {inboard}; at 0 deg it \
                  is straight",
-                degrees(*lock)
+                hinge.coordinate(*lock)
             ),
             Self::EndsAtHinge { hinge, at } => write!(
                 f,
@@ -225,11 +227,4 @@ impl fmt::Display for ModelWarning {
 
 pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
     [releases::find(scene), forces::find(scene), geometry::find(scene)].concat()
-}
-
-/// An angle or a rate for people, to six digits.
-fn degrees(radians: f64) -> String {
-    let rounded = format!("{:.5e}", radians.to_degrees()).parse();
-    // Nobody wants to read of -0.
-    format!("{} deg", rounded.unwrap_or(radians.to_degrees()) + 0.0)
 }

@@ -1,6 +1,6 @@
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Vec3};
 
-use crate::{MassProperties, Mode, Scene, TurnOrder, TurnedInertia};
+use crate::{Joint, MassProperties, Mode, Scene, TurnOrder, TurnedInertia};
 
 /// The tree with every held hinge welded: one link for each free hinge, and the main link.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,10 +23,12 @@ pub struct Link<R> {
     pub hinge: usize,
     /// The inboard link; `None` is the main link.
     pub inboard: Option<usize>,
-    /// The hinge point from the inboard link's origin, inboard link's axes.
+    /// The hinge point at hinge angle zero from the inboard link's origin, inboard link's axes.
     pub point: Vec3<R>,
     /// Turns link components at hinge angle zero into inboard link components.
     pub rot_inboard_at_zero: Mat3<R>,
+    /// Whether the link turns about the axis or slides along it.
+    pub joint: Joint,
     /// Unit vector along the hinge axis, link axes.
     pub axis: Vec3<R>,
     /// Mass properties about the hinge, link axes.
@@ -86,11 +88,13 @@ impl<R: Real> WeldedTree<R> {
                 inboard: inboard.link,
                 point,
                 rot_inboard_at_zero: rot_at_zero,
+                joint: body.joint,
                 axis,
                 inertia,
             });
         } else {
-            let rot = rot_at_zero * Mat3::about_axis(axis, beta);
+            let rot = rot_at_zero * body.joint.turn(axis, beta);
+            let point = point + rot_at_zero * body.joint.travel(axis, beta);
             self.members.push(Member { link: inboard.link, point, rot_link_from_body: rot });
             let welded = inertia.rotated(&rot).seen_from(point);
             match inboard.link {

@@ -17,6 +17,7 @@ pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Scene, 
     let body = |link: &Link<f64>| Body {
         inboard: link.inboard,
         mount: Mount { point: link.point, rot_inboard_from_hinge: link.rot_inboard_at_zero },
+        joint: link.joint,
         axis: link.axis,
         mass_properties: mass_properties(link.inertia),
         tip: scene.bodies[link.hinge].tip,

@@ -1,7 +1,7 @@
 use std::io::{self, Write};
 
 use nboom_elements::Kind;
-use nboom_model::{HingeLabel, UnitSystem};
+use nboom_model::{HingeLabel, Joint, UnitSystem};
 use nboom_scalar::Vec3;
 use nboom_sim::{Detail, Event, EventKind, Snapshot};
 
@@ -148,8 +148,14 @@ impl<W: Write> ListingWriter<W> {
                 snapshot.sigma[i],
                 detail.alpha_ddot[i],
             ];
-            let degrees = radians.map(f64::to_degrees);
-            HINGE_MOTION.numbers(&mut self.out, &row_name(label), &degrees)?;
+            let shown = match label.joint {
+                Joint::Revolute => radians.map(f64::to_degrees),
+                Joint::Prismatic => radians,
+            };
+            HINGE_MOTION.numbers(&mut self.out, &row_name(label), &shown)?;
+        }
+        if self.hinges.iter().any(|label| label.joint.slides()) {
+            writeln!(self.out, "SEGMENTS THAT SLIDE HAVE LENGTHS ({}), NOT DEG", units.length)?;
         }
         Ok(())
     }

@@ -11,7 +11,9 @@ use crate::quantities::{Cell, cell};
 #[derive(Debug)]
 pub struct StatesWriter<W> {
     out: W,
-    table: WantedTable,
+    columns: Vec<Column>,
+    /// Which of them are in degrees.
+    in_degrees: Vec<bool>,
 }
 
 impl<W: Write> StatesWriter<W> {
@@ -31,12 +33,14 @@ impl<W: Write> StatesWriter<W> {
     /// When `out` refuses it.
     pub fn of(mut out: W, hinges: &[HingeLabel], table: WantedTable) -> io::Result<Self> {
         write!(out, "t")?;
-        for column in &table.columns {
-            let unit = if table.is_in_degrees(column) { "_deg" } else { "" };
+        let in_degrees: Vec<bool> =
+            table.columns.iter().map(|column| table.is_in_degrees(column, hinges)).collect();
+        for (column, &in_degrees) in table.columns.iter().zip(&in_degrees) {
+            let unit = if in_degrees { "_deg" } else { "" };
             write!(out, ",{}{unit}", column.name(hinges))?;
         }
         writeln!(out)?;
-        Ok(Self { out, table })
+        Ok(Self { out, columns: table.columns, in_degrees })
     }
 
     /// Writes one row.
@@ -44,13 +48,11 @@ impl<W: Write> StatesWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn write(&mut self, snapshot: &Snapshot) -> io::Result<()> {
-        let Self { out, table } = self;
+        let Self { out, columns, in_degrees } = self;
         number(out, snapshot.time)?;
-        for column in &table.columns {
+        for (column, &in_degrees) in columns.iter().zip(&*in_degrees) {
             match cell(column, snapshot) {
-                Cell::Number(angle) if table.is_in_degrees(column) => {
-                    field(out, angle.to_degrees())?;
-                }
+                Cell::Number(angle) if in_degrees => field(out, angle.to_degrees())?,
                 Cell::Number(value) => field(out, value)?,
                 Cell::Code(code) => write!(out, ",{code}")?,
             }

@@ -63,6 +63,13 @@ impl<R: Real> Twist<R> {
         Self { angular: Vec3::zero(), linear: Vec3::zero() }
     }
 
+    /// Adds the motion of a body relative to this one, at the same point.
+    #[inline]
+    pub fn add(&mut self, other: Self) {
+        self.angular += other.angular;
+        self.linear += other.linear;
+    }
+
     /// The rate of a point at `offset` of the same body.
     #[inline]
     pub fn at(self, offset: Vec3<R>) -> Self {

@@ -146,16 +146,17 @@ impl Equations {
 
     /// Notes how fast `state` is, and how fast it soon will be.
     fn size_up(&mut self, state: &mut State) {
-        self.sizes.saw(&state.omega_body.to_array());
-        self.sizes.saw(&state.tau);
         let motion = state.motion(&self.entered.dynamics);
+        self.sizes.enter(self.entered.dynamics.free_hinges());
+        self.sizes.saw_omega(&motion.omega_body.to_array());
+        self.sizes.saw_tau(motion.tau);
         let Self { entered, own, accelerations, .. } = self;
         under_own_laws(own, &mut entered.dynamics, &motion, accelerations);
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
-        let angular = omega_dot_body.to_array().into_iter().chain(tau_dot.iter().copied());
         let external = self.entered.dynamics.external();
         let force = external.map_or(Vec3::zero(), |external| external.force);
-        self.sizes.saw_accelerations(angular, force * (1.0 / self.total_mass));
+        let linear = force * (1.0 / self.total_mass);
+        self.sizes.saw_accelerations(*omega_dot_body, tau_dot, linear);
         let has_momenta = self.variables.layout.has_momenta();
         self.sizes
             .weigh(has_momenta.then(|| self.entered.dynamics.effective_inertias(motion.beta)));
@@ -269,11 +270,11 @@ impl System for Equations {
         let layout = self.variables.layout;
         if layout.has_momenta() {
             let motion = self.variables.motion(&mut self.entered.dynamics, y);
-            self.sizes.saw(&motion.omega_body.to_array());
-            self.sizes.saw(motion.tau);
+            self.sizes.saw_omega(&motion.omega_body.to_array());
+            self.sizes.saw_tau(motion.tau);
         } else {
-            self.sizes.saw(&y[layout.omega()]);
-            self.sizes.saw(&y[layout.hinge_motion()]);
+            self.sizes.saw_omega(&y[layout.omega()]);
+            self.sizes.saw_tau(&y[layout.hinge_motion()]);
         }
         self.sizes.write(&layout, sizes);
     }

@@ -18,20 +18,19 @@ use crate::random::Rng;
 pub struct RandomState {
     /// ω, main-body axes \[rad/T\].
     pub omega: Vec3<f64>,
-    /// β, any angle \[rad\].
+    /// β, any angle \[rad\], or a travel of some strokes \[L\].
     pub beta: Vec<f64>,
-    /// τ \[rad/T\].
+    /// τ \[rad/T, L/T\].
     pub tau: Vec<f64>,
 }
 
 impl RandomState {
-    /// Angles of any size for this many hinges, and rates up to `rate`.
-    fn random(dice: &mut Rng, hinges: usize, rate: f64) -> Self {
-        let mut rates =
-            |count: usize| -> Vec<f64> { (0..count).map(|_| dice.between(-rate, rate)).collect() };
-        let (omega, tau) = (rates(3), rates(hinges));
-        let beta = (0..hinges).map(|_| dice.angle()).collect();
-        Self { omega: Vec3::new(omega[0], omega[1], omega[2]), beta, tau }
+    /// Angles of any size for hinges whose coordinates have these natural sizes, and rates up to `rate`.
+    fn random(dice: &mut Rng, sizes: &[f64], rate: f64) -> Self {
+        let [x, y, z] = std::array::from_fn(|_| dice.between(-rate, rate));
+        let tau = sizes.iter().map(|size| size * dice.between(-rate, rate)).collect();
+        let beta = sizes.iter().map(|size| size * dice.angle()).collect();
+        Self { omega: Vec3::new(x, y, z), beta, tau }
     }
 
     /// The state as the recursion takes it.
@@ -91,7 +90,10 @@ impl TestCase {
         let mut dice = Rng::new(!seed);
         let one = |_| {
             let surely = dice.below(hinges);
-            let mut held = |i| (dice.below(2) == 0 || i == surely).then(|| dice.angle());
+            let mut held = |i| {
+                let angle = |dice: &mut Rng| scene.coordinate_scale(i) * dice.angle();
+                (dice.below(2) == 0 || i == surely).then(|| angle(&mut dice))
+            };
             let held = (0..hinges).map(&mut held).collect();
             Self::in_mode(scene.clone(), held, 1, seed, &mut dice)
         };
@@ -107,8 +109,9 @@ impl TestCase {
     ) -> Result<Self, VerifyError> {
         let of_scene = scene.initial.omega_body.norm();
         let rate = if of_scene > 0.0 { of_scene } else { 1.0 };
-        let free = held.iter().filter(|angle| angle.is_none()).count();
-        let states = (0..states).map(|_| RandomState::random(dice, free, rate)).collect();
+        let free = (0..held.len()).filter(|&i| held[i].is_none());
+        let sizes: Vec<f64> = free.map(|i| scene.coordinate_scale(i)).collect();
+        let states = (0..states).map(|_| RandomState::random(dice, &sizes, rate)).collect();
         let dynamics = recursive(&scene, &held);
         let recognised = recognise(dynamics.tree());
         if let Ok(recognised) = &recognised {

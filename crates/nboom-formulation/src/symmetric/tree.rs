@@ -1,4 +1,4 @@
-//! Any tree: hinges in any direction, links that branch. Everything is about O and along
+//! Any tree: links that turn or slide in any direction, and that branch. Everything is about O and along
 //! main-body axes, so that composite bodies are plain sums.
 
 use nboom_model::{Link, WeldedTree};
@@ -32,7 +32,7 @@ pub fn forcing<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> V
 struct Moving<R> {
     rot: Mat3<R>,
     hinge: Vec3<R>,
-    /// Motion for a unit rate of the hinge: (a, h̄ × a).
+    /// Motion for a unit rate of the hinge: (a, h̄ × a), or (0, a) where the link slides.
     axis: Twist<R>,
     velocity: Twist<R>,
     /// Acceleration when no rate changes.
@@ -54,15 +54,16 @@ impl<R: Real> Moving<R> {
         let at_zero = self.rot * link.rot_inboard_at_zero;
         let point = self.hinge + self.rot * link.point;
         let along = at_zero * link.axis;
-        let axis = Twist { angular: along, linear: point.cross(along) };
+        let hinge_point = point + link.joint.travel(along, hinge.beta);
+        let axis = link.joint.motion(along, R::one()).at(-hinge_point);
         let (own, carried) = (scaled(axis, hinge.tau), self.velocity);
         let turned = Twist {
             angular: carried.angular.cross(own.angular),
             linear: carried.angular.cross(own.linear) + carried.linear.cross(own.angular),
         };
         Self {
-            rot: at_zero * Mat3::about_axis(link.axis, hinge.beta),
-            hinge: point,
+            rot: at_zero * link.joint.turn(link.axis, hinge.beta),
+            hinge: hinge_point,
             axis,
             velocity: sum(carried, own),
             bias: sum(self.bias, turned),

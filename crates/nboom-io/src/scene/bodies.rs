@@ -1,6 +1,6 @@
 //! Hinged bodies in words.
 
-use nboom_model::{BodyDraft, KickOffSpring, MOST_BODIES, MassProperties, Mount, Repeat};
+use nboom_model::{BodyDraft, Joint, KickOffSpring, MOST_BODIES, MassProperties, Mount, Repeat};
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::fields::{Fields, Reader};
@@ -22,7 +22,7 @@ impl Reader<'_, '_> {
         MassProperties::new(mass, mass_centre, inertia.unwrap_or(any))
     }
 
-    /// A body, and the hinge's table beside it, for errors found later.
+    /// A body with its joint.
     pub fn body(&mut self, fields: &Fields<'_>, materials: &Materials) -> BodyDraft {
         let name = self.body_name(fields).unwrap_or_default();
         let mass_properties = self.mass_properties(fields);
@@ -30,10 +30,11 @@ impl Reader<'_, '_> {
         body.on = self.inboard(fields);
         let tip = self.vector(fields, "tip");
         body.tip = tip.unwrap_or_else(|| words::tip_of(&mass_properties));
-        if let Some(hinge) = self.table(fields, "hinge") {
-            body.mount = self.mount(&hinge);
-            body.axis = self.direction(&hinge, "axis").unwrap_or(body.axis);
-            hinges::read(self, &hinge, &mut body);
+        for joint in [Joint::Revolute, Joint::Prismatic] {
+            let Some(table) = self.table(fields, words::joint_table(joint)) else { continue };
+            body.mount = self.mount(&table);
+            body.axis = self.direction(&table, "axis").unwrap_or(body.axis);
+            hinges::read(self, joint, &table, &mut body);
         }
         body.hinge.kick_off = self.table(fields, "kick_off").and_then(|t| self.kick_off(&t));
         body.repeat = self.table(fields, "repeat").and_then(|repeat| {

@@ -2,6 +2,7 @@
 
 mod output;
 mod shape;
+mod slide;
 mod strength;
 
 use super::keys::Holds::{
@@ -11,6 +12,7 @@ use super::keys::Holds::{
 use super::keys::{Holds, Key, TableKind};
 use output::OUTPUT;
 use shape::SHAPE;
+use slide::SLIDE;
 use strength::{MATERIAL, STATION};
 
 const fn optional(name: &'static str, holds: Holds, about: &'static str) -> Key {
@@ -198,10 +200,11 @@ static THRUST: TableKind = table(
     ],
 );
 
-static BODY: TableKind = table(
+static BODY: TableKind = choice(
     "body",
-    "A rigid body on a hinge. Its origin is the hinge. Its axes are parallel to those of its \
-     inboard body when the hinge angle is zero, unless hinge.axes turns them.",
+    "A rigid body on a hinge or on a joint that slides, of which it has one. Its origin is the hinge. Its \
+     axes are parallel to those of its inboard body when the hinge angle is zero, unless hinge.axes or \
+     slide.axes turns them.",
     &[
         required("name", Text, "What messages, releases and other bodies call it; unique."),
         optional("on", Text, "Name of the inboard body; by default the main body."),
@@ -219,7 +222,8 @@ static BODY: TableKind = table(
             Table(&SHAPE),
             "What it looks like in pictures; by default a line to its tip.",
         ),
-        required("hinge", Table(&HINGE), "The hinge that joins it to its inboard body."),
+        optional("hinge", Table(&HINGE), "The hinge that joins it to its inboard body."),
+        optional("slide", Table(&SLIDE), "The joint that slides along its inboard body."),
         optional("kick_off", Table(&KICK_OFF), "A spring that pushes it off the main body."),
         optional(
             "repeat",
@@ -239,6 +243,7 @@ static BODY: TableKind = table(
             "Where stresses are wanted, outboard before inboard.",
         ),
     ],
+    &["hinge", "slide"],
 );
 
 static HINGE: TableKind = table(
@@ -280,9 +285,14 @@ static RELEASE: TableKind = choice(
         optional(
             "when",
             Text,
-            "When the hinge of this body passes the angle `passes`, either way.",
+            "When the hinge of this body passes the angle `passes`, or the travel `reaches`, either way.",
         ),
         optional("passes", Angle, "That angle; with `when`."),
+        optional(
+            "reaches",
+            Number,
+            "With `when`, of a body that slides: when its travel passes this one, either way.",
+        ),
         optional("after", Text, "After the hinge of this body has latched."),
         optional("by", Number, "How long after; with `after`; by default 0, at the same instant."),
     ],

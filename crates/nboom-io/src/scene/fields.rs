@@ -128,7 +128,8 @@ impl Reader<'_, '_> {
         let fields = Fields { kind, table, at: at.clone() };
         let given: Vec<&str> =
             kind.one_of.iter().copied().filter(|key| fields.entry(key).is_some()).collect();
-        if !kind.one_of.is_empty() && given.len() != 1 {
+        let is_nearly_there = given.is_empty() && kind.one_of.iter().any(|key| meant.contains(key));
+        if !kind.one_of.is_empty() && given.len() != 1 && !is_nearly_there {
             let found = if given.is_empty() { "none".to_owned() } else { given.join(" and ") };
             let expected = format!("exactly one of {}", kind.one_of.join(", "));
             self.error(at, kind.name, &found, &expected);

@@ -1,53 +1,78 @@
-//! Hinges in words: how they start, what acts about them, when they are released and lock.
+//! Joints in words: how they start, what acts about or along them, when they are released and lock.
 
-use nboom_model::{BodyDraft, Dashpot, HingeState, ReleaseDraft, Spring};
+use nboom_model::{BodyDraft, Dashpot, HingeState, Joint, ReleaseDraft, Spring};
 
 use super::catalog::STATES;
 use super::fields::{Fields, Reader};
 use crate::words::{self, DamperWords};
 
-/// Reads what the table of a hinge says about how it moves.
-pub(super) fn read(reader: &mut Reader<'_, '_>, hinge: &Fields<'_>, body: &mut BodyDraft) {
-    let mut words = words::hinge();
-    words.release = hinge.has("release").then(|| reader.release(hinge));
-    words.state = reader.state(hinge);
-    words.start = reader.angle(hinge, "start").unwrap_or(words.start);
-    words.rate = reader.angle(hinge, "rate").unwrap_or(words.rate);
-    words.latch = reader.angle(hinge, "latch");
-    words.spring = reader.spring(hinge);
-    words.damper = reader.damper(hinge);
-    words.torque = reader.angle_pairs(hinge, "torque");
+/// Reads what the table of a joint says about how it moves.
+pub(super) fn read(
+    reader: &mut Reader<'_, '_>,
+    joint: Joint,
+    table: &Fields<'_>,
+    body: &mut BodyDraft,
+) {
+    let mut words = words::joint(joint);
+    words.release = table.has("release").then(|| reader.release(table));
+    words.state = reader.state(table);
+    let rate = match joint {
+        Joint::Revolute => "rate",
+        Joint::Prismatic => "speed",
+    };
+    words.start = reader.coordinate(joint, table, "start").unwrap_or(words.start);
+    words.rate = reader.coordinate(joint, table, rate).unwrap_or(words.rate);
+    words.latch = reader.coordinate(joint, table, "latch");
+    words.spring = reader.spring(joint, table);
+    words.damper = reader.damper(joint, table);
+    words.torque = match joint {
+        Joint::Revolute => reader.angle_pairs(table, "torque"),
+        Joint::Prismatic => reader.rows(table, "force"),
+    };
     for (key, found, expected) in words.contradictions() {
-        reader.error(&hinge.place(key), key, &found, expected);
+        reader.error(&table.place(key), key, &found, expected);
     }
     words.act_on(body);
 }
 
 impl Reader<'_, '_> {
+    /// A coordinate of a joint, or its rate.
+    fn coordinate(&mut self, joint: Joint, table: &Fields<'_>, key: &'static str) -> Option<f64> {
+        match joint {
+            Joint::Revolute => self.angle(table, key),
+            Joint::Prismatic => self.number(table, key),
+        }
+    }
+
     fn release(&mut self, hinge: &Fields<'_>) -> ReleaseDraft {
         let Some(release) = self.table(hinge, "release") else { return ReleaseDraft::Never };
         if let Some(time) = self.number(&release, "at") {
-            self.refuse_beside(&release, "at", "passes");
-            self.refuse_beside(&release, "at", "by");
+            for key in ["passes", "reaches", "by"] {
+                self.refuse_beside(&release, "at", key);
+            }
             return ReleaseDraft::At(time);
         }
         if let Some(after) = self.text(&release, "after") {
             let after = words::after(after);
             self.refuse_beside(&release, "after", "passes");
+            self.refuse_beside(&release, "after", "reaches");
             let by = self.number(&release, "by");
             return by.map_or(after.clone(), |by| after.by(by)).into();
         }
         self.refuse_beside(&release, "when", "by");
-        let passes = self.angle(&release, "passes");
-        match (self.text(&release, "when"), passes) {
-            (Some(when), Some(passes)) => ReleaseDraft::Passes { when: when.to_owned(), passes },
-            (Some(_), None) if !release.has("passes") => {
-                let expected = "passes_deg or passes_rad beside it, the angle";
+        let (passes, reaches) = (self.angle(&release, "passes"), self.number(&release, "reaches"));
+        let Some(when) = self.text(&release, "when") else { return ReleaseDraft::Never };
+        match (passes, reaches) {
+            (Some(_), Some(_)) => self.refuse_beside(&release, "passes", "reaches"),
+            (Some(passes), None) => return words::when(when).passes_rad(passes),
+            (None, Some(reaches)) => return words::when(when).reaches(reaches),
+            (None, None) if !release.has("passes") && !release.has("reaches") => {
+                let expected = "passes_deg, passes_rad or reaches beside it";
                 self.error(&release.at, "release", "`when` alone", expected);
-                ReleaseDraft::Never
             }
-            _ => ReleaseDraft::Never,
+            (None, None) => {}
         }
+        ReleaseDraft::Never
     }
 
     /// Reports a key that says nothing beside another.
@@ -66,26 +91,30 @@ impl Reader<'_, '_> {
         })
     }
 
-    fn spring(&mut self, hinge: &Fields<'_>) -> Spring {
-        let Some(spring) = self.table(hinge, "spring") else { return Spring::default() };
+    fn spring(&mut self, joint: Joint, of: &Fields<'_>) -> Spring {
+        let Some(spring) = self.table(of, "spring") else { return Spring::default() };
         let mut words = words::spring(self.number(&spring, "stiffness").unwrap_or(0.0));
         if let Some(quadratic) = self.number(&spring, "quadratic") {
             words = words.quadratic(quadratic);
         }
-        self.angle(&spring, "rest").map_or(words, |rest| words.rest_rad(rest)).into()
+        self.coordinate(joint, &spring, "rest").map_or(words, |rest| words.rest_rad(rest)).into()
     }
 
-    fn damper(&mut self, hinge: &Fields<'_>) -> Dashpot {
-        let Some(damper) = self.table(hinge, "damper") else { return Dashpot::default() };
+    fn damper(&mut self, joint: Joint, of: &Fields<'_>) -> Dashpot {
+        let Some(damper) = self.table(of, "damper") else { return Dashpot::default() };
         let mut words = words::damper(self.number(&damper, "damping").unwrap_or(0.0));
         let mut set = |key, to: fn(DamperWords, f64) -> DamperWords| {
             if let Some(number) = self.number(&damper, key) {
                 words = to(words, number);
             }
         };
-        set("rate_squared", DamperWords::rate_squared);
-        set("angle", DamperWords::angle);
-        set("angle_squared", DamperWords::angle_squared);
-        self.angle(&damper, "rest").map_or(words, |rest| words.rest_rad(rest)).into()
+        let [rate_squared, angle, angle_squared] = match joint {
+            Joint::Revolute => ["rate_squared", "angle", "angle_squared"],
+            Joint::Prismatic => ["speed_squared", "travel", "travel_squared"],
+        };
+        set(rate_squared, DamperWords::rate_squared);
+        set(angle, DamperWords::angle);
+        set(angle_squared, DamperWords::angle_squared);
+        self.coordinate(joint, &damper, "rest").map_or(words, |rest| words.rest_rad(rest)).into()
     }
 }

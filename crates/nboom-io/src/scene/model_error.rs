@@ -1,13 +1,14 @@
 //! Which place of a scene is responsible for an error found later.
 
 use nboom_model::{
-    BodyName, DraftDefect, DraftError, HingeLabel, MassDefect, ModelError, Scene, SceneDescription,
-    SceneDraft, SegmentStructure, Structure, StructureDefect, StructureError,
+    BodyName, DraftDefect, DraftError, HingeLabel, Joint, MassDefect, ModelError, Scene,
+    SceneDescription, SceneDraft, SegmentStructure, Structure, StructureDefect, StructureError,
 };
 
 use super::fields::{Fields, Reader};
 use super::suggest;
 use crate::deck::phrases;
+use crate::words::joint_table;
 
 /// The tables of a scene by what they describe.
 pub(super) struct Responsible<'t> {
@@ -34,8 +35,17 @@ impl Responsible<'_> {
                 (body.place("on"), "on", suggest::nearest(name, known))
             }
             DraftDefect::Circle => (body.place("on"), "on", None),
+            DraftDefect::TriggerJoint { waits, .. } => {
+                let key = match waits {
+                    Joint::Revolute => "passes",
+                    Joint::Prismatic => "reaches",
+                };
+                let release = joint_of(body).and_then(|joint| joint.inner("release"));
+                let at = release.map_or_else(|| body.at.clone(), |table| table.place(key));
+                (at, key, None)
+            }
             DraftDefect::Trigger { name, .. } => {
-                let release = body.inner("hinge").and_then(|hinge| hinge.inner("release"));
+                let release = joint_of(body).and_then(|joint| joint.inner("release"));
                 let key = if release.as_ref().is_some_and(|table| table.has("after")) {
                     "after"
                 } else {
@@ -76,7 +86,7 @@ impl Responsible<'_> {
         let body = |label: &HingeLabel| self.body(index_of(scene, label));
         let hinge = |label: &HingeLabel| {
             let body = body(label);
-            body.inner("hinge").unwrap_or(body)
+            joint_of(&body).unwrap_or(body)
         };
         match error {
             ModelError::Mass { body: name, defect } => {
@@ -99,12 +109,20 @@ impl Responsible<'_> {
             },
             ModelError::Axis { label, .. } => (hinge(label), "axis"),
             ModelError::MountRotation { label, .. } => (hinge(label), "axes"),
-            ModelError::HeldRate { label, .. } => (hinge(label), "rate"),
+            ModelError::HeldRate { label, .. } => (
+                hinge(label),
+                match label.joint {
+                    Joint::Revolute => "rate",
+                    Joint::Prismatic => "speed",
+                },
+            ),
             ModelError::Trigger { label, .. } => (hinge(label), "release"),
             ModelError::TablePoints { table, .. } => {
                 let number = scene.torque_tables.get(table - 1).map_or(0, |table| table.hinge);
                 let body = self.body(number);
-                (body.inner("hinge").unwrap_or(body), "torque")
+                let slides = scene.bodies.get(number).is_some_and(|body| body.joint.slides());
+                let key = if slides { "force" } else { "torque" };
+                (joint_of(&body).unwrap_or(body), key)
             }
             ModelError::ThrustTimes { .. } => (outer("thrust"), "until"),
             // The end of the run, and whatever words cannot say.
@@ -189,6 +207,11 @@ impl Responsible<'_> {
 enum Report {
     Error,
     Warning,
+}
+
+/// The table of a body's joint.
+fn joint_of<'t>(body: &Fields<'t>) -> Option<Fields<'t>> {
+    [Joint::Revolute, Joint::Prismatic].into_iter().find_map(|of| body.inner(joint_table(of)))
 }
 
 /// Which body of a scene this hinge carries.

@@ -3,13 +3,14 @@
 mod lines;
 
 use nboom_model::{
-    Body, BodyShape, Hinge, HingeState, MassProperties, Material, Release, Scene, SectionShape,
-    SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
+    Body, BodyShape, Hinge, HingeState, Joint, MassProperties, Material, Release, Scene,
+    SectionShape, SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 
 use super::catalog::FILES_ON_REQUEST;
 use crate::angles::in_degrees;
+use crate::words::joint_table;
 use crate::{Sampling, SceneFile, SceneSettings};
 use lines::{Lines, angle, inertia, list, listed, number, text, vector};
 
@@ -45,8 +46,8 @@ pub fn write_scene(file: &SceneFile) -> String {
         let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
         body(&mut lines, scene, i, of_body);
         segment.into_iter().for_each(|segment| strength(&mut lines, segment, &materials));
-        lines.table("body.hinge");
-        hinge(&mut lines, scene, i, of_body);
+        lines.table(&format!("body.{}", joint_table(of_body.joint)));
+        joint(&mut lines, scene, i, of_body);
         segment.into_iter().for_each(|segment| stations(&mut lines, segment));
     }
     lines.text
@@ -162,7 +163,10 @@ fn turned(axes: &Mat3<f64>) -> Option<String> {
     (*axes != Mat3::identity()).then(|| format!("{{ columns = [{}] }}", columns()))
 }
 
-fn hinge(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
+fn joint(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
+    let slides = body.joint.slides();
+    let one_of = |of_hinge, of_slide| if slides { of_slide } else { of_hinge };
+    let coordinate = |key, value| coordinate(body.joint, key, value);
     let Hinge { spring, dashpot, release, lock_angle, start, .. } = &body.hinge;
     lines.value("at", vector(body.mount.point));
     lines.value("axis", direction(body.axis));
@@ -173,41 +177,49 @@ fn hinge(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
         HingeState::Locked => "locked",
     };
     lines.value("state", text(state));
-    lines.line(angle("start", start.angle));
+    lines.line(coordinate("start", start.angle));
     if start.rate != 0.0 {
-        lines.line(angle("rate", start.rate));
+        lines.line(coordinate(one_of("rate", "speed"), start.rate));
     }
-    lock_angle.iter().for_each(|&lock| lines.line(angle("latch", lock)));
+    lock_angle.iter().for_each(|&lock| lines.line(coordinate("latch", lock)));
     if start.state == HingeState::Unreleased {
         lines.optional("release", of_release(scene, release));
     }
     if [spring.quadratic, spring.linear] != [0.0; 2] {
         let numbers = [("stiffness", 0.0 - spring.linear), ("quadratic", spring.quadratic)];
-        lines.value("spring", law(&numbers, spring.preload_angle, 1));
+        lines.value("spring", law(body.joint, &numbers, spring.preload_angle, 1));
     }
     let numbers = [
         ("damping", 0.0 - dashpot.rate_linear),
-        ("rate_squared", dashpot.rate_quadratic),
-        ("angle", dashpot.angle_linear),
-        ("angle_squared", dashpot.angle_quadratic),
+        (one_of("rate_squared", "speed_squared"), dashpot.rate_quadratic),
+        (one_of("angle", "travel"), dashpot.angle_linear),
+        (one_of("angle_squared", "travel_squared"), dashpot.angle_quadratic),
     ];
     if numbers.iter().any(|(_, number)| *number != 0.0) {
-        lines.value("damper", law(&numbers, dashpot.preload_angle, 0));
+        lines.value("damper", law(body.joint, &numbers, dashpot.preload_angle, 0));
     }
     if let Some(table) = scene.torque_tables.iter().find(|table| table.hinge == i) {
         let points: Vec<String> = table.points.iter().map(|&point| list(point)).collect();
-        lines.value("torque_rad", format!("[{}]", points.join(", ")));
+        lines.value(one_of("torque_rad", "force"), format!("[{}]", points.join(", ")));
+    }
+}
+
+/// A key of a coordinate or rate of a joint with its value.
+fn coordinate(joint: Joint, key: &str, value: f64) -> String {
+    match joint {
+        Joint::Revolute => angle(key, value),
+        Joint::Prismatic => format!("{key} = {}", number(value)),
     }
 }
 
 /// The numbers of a law that are not zero, and the first `required` ones in any case.
-fn law(numbers: &[(&str, f64)], preload_angle: f64, required: usize) -> String {
+fn law(joint: Joint, numbers: &[(&str, f64)], preload_angle: f64, required: usize) -> String {
     let is_told = |(i, (_, number)): &(usize, &(&str, f64))| *i < required || *number != 0.0;
     let told = numbers.iter().enumerate().filter(is_told);
     let mut parts: Vec<String> =
         told.map(|(_, (key, value))| format!("{key} = {}", number(*value))).collect();
     if preload_angle != 0.0 {
-        parts.push(angle("rest", -preload_angle));
+        parts.push(coordinate(joint, "rest", -preload_angle));
     }
     format!("{{ {} }}", parts.join(", "))
 }
@@ -216,7 +228,9 @@ fn of_release(scene: &Scene, release: &Release) -> Option<String> {
     match release {
         Release::Time(time) => Some(format!("{{ at = {} }}", number(*time))),
         Release::Angle { hinge, angle: passes } => {
-            let (when, passes) = (text(&name_of(scene, *hinge)), angle("passes", *passes));
+            let joint = scene.bodies[*hinge].joint;
+            let key = if joint.slides() { "reaches" } else { "passes" };
+            let (when, passes) = (text(&name_of(scene, *hinge)), coordinate(joint, key, *passes));
             Some(format!("{{ when = {when}, {passes} }}"))
         }
         Release::AfterLock { hinge, delay } => {

@@ -25,9 +25,9 @@ impl Kind {
     /// Its tag, what it is of joints, and how they are taken.
     fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
-            Self::Limits => ("limit", "limits", "none: hinges turn on beyond them"),
-            Self::Friction => ("dynamics", "friction", "none: hinges turn without it"),
-            Self::Mimicry => ("mimic", "mimicry", "none: each hinge turns by itself"),
+            Self::Limits => ("limit", "limits", "none: joints move on beyond them"),
+            Self::Friction => ("dynamics", "friction", "none: joints move without it"),
+            Self::Mimicry => ("mimic", "mimicry", "none: each joint moves by itself"),
         }
     }
 }

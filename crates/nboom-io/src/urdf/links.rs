@@ -1,6 +1,6 @@
 //! The elements of a robot.
 
-use nboom_model::MassProperties;
+use nboom_model::{Joint, MassProperties};
 use nboom_scalar::Vec3;
 use roxmltree::{Document, Node};
 
@@ -14,7 +14,7 @@ use crate::scene::suggest;
 pub(super) struct Robot<'d> {
     pub name: Option<&'d str>,
     pub links: Vec<Link<'d>>,
-    pub joints: Vec<Joint<'d>>,
+    pub joints: Vec<JointElement<'d>>,
     left_out: LeftOut,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Link<'d> {
 }
 
 /// What joins a link to another one.
-pub(super) struct Joint<'d> {
+pub(super) struct JointElement<'d> {
     pub name: &'d str,
     /// The byte at which it begins.
     pub at: usize,
@@ -42,8 +42,9 @@ pub(super) struct Joint<'d> {
 /// How a child moves.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Motion {
-    /// About a unit vector in the child's frame, braked by so much torque per rate.
-    Turns {
+    /// About or along a unit vector in the child's frame, braked by so much torque or force per rate.
+    Joint {
+        joint: Joint,
         axis: Vec3<f64>,
         damping: f64,
     },
@@ -53,7 +54,7 @@ pub(super) enum Motion {
 }
 
 /// Types that are read.
-const TYPES: [&str; 4] = ["revolute", "continuous", "fixed", "floating"];
+const TYPES: [&str; 5] = ["revolute", "continuous", "prismatic", "fixed", "floating"];
 /// Parts of a joint that are read, some of them only to be named.
 const OF_JOINTS: [&str; 7] = ["origin", "parent", "child", "axis", "dynamics", "limit", "mimic"];
 
@@ -115,16 +116,16 @@ impl<'d> Robot<'d> {
         let motion = motion(node, name.unwrap_or_default(), reader);
         if let (Some(name), Some(parent), Some(child), Some(motion)) = (name, parent, child, motion)
         {
-            self.joints.push(Joint { name, at, motion, parent, child, placement });
+            self.joints.push(JointElement { name, at, motion, parent, child, placement });
         }
     }
 
     fn note_left_out(&mut self, node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) {
-        let turns = matches!(node.attribute("type"), Some("revolute"));
+        let has_limits = matches!(node.attribute("type"), Some("revolute" | "prismatic"));
         for part in node.children().filter(Node::is_element) {
             let (tag, at) = (part.tag_name().name(), part.range().start);
             match tag {
-                "limit" if turns => self.left_out.of_joint(Kind::Limits, at, name),
+                "limit" if has_limits => self.left_out.of_joint(Kind::Limits, at, name),
                 "mimic" => self.left_out.of_joint(Kind::Mimicry, at, name),
                 "dynamics" => {
                     let friction = reader.numbers(part, "friction");
@@ -141,7 +142,7 @@ impl<'d> Robot<'d> {
 
 fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -> Option<Motion> {
     match reader.text(node, "type")? {
-        "revolute" | "continuous" => {
+        kind @ ("revolute" | "continuous" | "prismatic") => {
             let axis = reader.child(node, "axis");
             let components = axis.and_then(|axis| reader.numbers(axis, "xyz"));
             let [x, y, z] = components.unwrap_or([1.0, 0.0, 0.0]);
@@ -153,20 +154,24 @@ fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -
             let dynamics = reader.child(node, "dynamics");
             let damping = dynamics.and_then(|dynamics| reader.numbers(dynamics, "damping"));
             let damping = damping.map_or(0.0, |[damping]| damping);
-            Some(Motion::Turns { axis: unit, damping })
+            let joint = match kind {
+                "prismatic" => Joint::Prismatic,
+                _ => Joint::Revolute,
+            };
+            Some(Motion::Joint { joint, axis: unit, damping })
         }
         "fixed" => Some(Motion::Fixed),
         "floating" => Some(Motion::Floats),
-        sliding @ ("prismatic" | "planar") => {
-            let found = format!("joint {} of type {sliding}", quoted(name));
-            reader.error(node, "type", &found, "a type that turns, or fixed: hinges do not slide");
+        "planar" => {
+            let found = format!("joint {} of type planar", quoted(name));
+            reader.error(node, "type", &found, "a type with one axis, or fixed");
             None
         }
         other => {
             let found = format!("joint {} of type {}", quoted(name), quoted(other));
             let meant = suggest::nearest(other, TYPES.into_iter()).map(suggest::question);
             let meant = meant.map_or_else(String::new, |meant| format!("; {meant}"));
-            let expected = format!("revolute, continuous or fixed{meant}");
+            let expected = format!("revolute, continuous, prismatic or fixed{meant}");
             reader.error(node, "type", &found, &expected);
             None
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nboom_model::{BodyDraft, Dashpot, Hinge, MassProperties, SceneDescription, SceneDraft};
 
-use super::links::{Joint, Link, Motion, Robot};
+use super::links::{JointElement, Link, Motion, Robot};
 use super::reader::{Placement, Reader};
 use crate::deck::phrases;
 use crate::diagnostic::quoted;
@@ -143,7 +143,7 @@ impl Outboard {
 fn report_unknown(
     tag: &str,
     name: &str,
-    joint: &Joint<'_>,
+    joint: &JointElement<'_>,
     robot: &Robot<'_>,
     reader: &mut Reader<'_, '_, '_>,
 ) {
@@ -224,7 +224,7 @@ impl Parts {
         let placement = inboard.placement.then(&joint.placement);
         match joint.motion {
             Motion::Fixed => Some(Welded { link: child, body: inboard.body, placement }),
-            Motion::Turns { axis, damping } => {
+            Motion::Joint { joint, axis, damping } => {
                 let body = Some(self.bodies.len());
                 if let Some(i) = inboard.body {
                     self.bodies[i].1.carries = true;
@@ -232,6 +232,7 @@ impl Parts {
                 let nothing = MassProperties::nothing();
                 let name = robot.links[child].name.replace(char::is_control, "\u{fffd}");
                 let mut draft = BodyDraft::new(&name, nothing, placement.point, axis);
+                draft.joint = joint;
                 draft.mount.rot_inboard_from_hinge = placement.rot;
                 draft.on = inboard.body.map(|i| self.bodies[i].0.name.clone());
                 let dashpot = Dashpot { rate_linear: -damping, ..Dashpot::default() };

@@ -5,7 +5,7 @@ use nboom_scalar::Vec3;
 
 use super::error::of_body;
 use super::surroundings::MassWords;
-use super::{Direction, HingeWords, Inertia, WordsError, hinge};
+use super::{Direction, HingeWords, Inertia, SlideWords, WordsError, hinge};
 
 /// A hinged body, in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ pub struct KickOff {
     pub limit: f64,
 }
 
-/// A body of this name, unique; `mass`, `mass_centre`, `inertia` and `hinge` must be given.
+/// A body of this name, unique; `mass`, `mass_centre`, `inertia` and `hinge` or `slide` must be given.
 pub fn body(name: &str) -> BodyWords {
     BodyWords {
         name: name.to_owned(),
@@ -95,6 +95,12 @@ impl BodyWords {
     /// The hinge that joins it to its inboard body.
     pub fn hinge(mut self, hinge: HingeWords) -> Self {
         self.hinge = hinge;
+        self
+    }
+
+    /// The joint that slides, in place of a hinge.
+    pub fn slide(mut self, slide: SlideWords) -> Self {
+        self.hinge = slide.0;
         self
     }
 

@@ -1,4 +1,4 @@
-use nboom_model::{BodyDraft, Dashpot, HingeStart, HingeState, Mount, ReleaseDraft, Spring};
+use nboom_model::{BodyDraft, Dashpot, HingeStart, HingeState, Joint, Mount, ReleaseDraft, Spring};
 use nboom_scalar::{Mat3, Vec3};
 
 use super::error::of_body;
@@ -8,6 +8,7 @@ use super::{Axes, Direction, WordsError};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[must_use]
 pub struct HingeWords {
+    pub(crate) joint: Joint,
     at: Option<Vec3<f64>>,
     axis: Option<Direction>,
     axes: Option<Axes>,
@@ -24,6 +25,11 @@ pub struct HingeWords {
 /// A hinge; `at` and `axis` must be given.
 pub fn hinge() -> HingeWords {
     HingeWords::default()
+}
+
+/// A joint of this kind, in words.
+pub(crate) fn joint(joint: Joint) -> HingeWords {
+    HingeWords { joint, ..HingeWords::default() }
 }
 
 impl HingeWords {
@@ -141,13 +147,18 @@ impl HingeWords {
         }
         if state != HingeState::Free && self.rate != 0.0 {
             let rate = format!("a rate of a hinge that starts {word}");
-            found.push(("rate", rate, "zero, or state = \"free\""));
+            let key = match self.joint {
+                Joint::Revolute => "rate",
+                Joint::Prismatic => "speed",
+            };
+            found.push((key, rate, "zero, or state = \"free\""));
         }
         found
     }
 
-    /// Gives a body what acts about its hinge, and how it starts and locks.
+    /// Gives a body what acts at its joint, and how it starts and locks.
     pub(crate) fn act_on(self, body: &mut BodyDraft) {
+        body.joint = self.joint;
         body.hinge.start = self.starts();
         body.hinge.lock_angle = self.latch;
         body.hinge.spring = self.spring;
@@ -158,7 +169,7 @@ impl HingeWords {
 
     /// Where it is and about which axis. Stand-ins take the place of what is wrong.
     pub(super) fn place(&self, body: &str, errors: &mut Vec<WordsError>) -> (Mount, Vec3<f64>) {
-        let of = || format!("{}, hinge", of_body(body));
+        let of = || format!("{}, {}", of_body(body), table(self.joint));
         let wrong = |key, (found, expected)| WordsError::Value { of: of(), key, found, expected };
         let missing = |key| WordsError::Missing { of: of(), key };
         errors.extend(
@@ -179,5 +190,13 @@ impl HingeWords {
         let rot_inboard_from_hinge = axes.map_err(&mut or).unwrap_or_else(|()| Mat3::identity());
         let axis = axis.map_err(or).unwrap_or_else(|()| Vec3::unit_x());
         (Mount { point, rot_inboard_from_hinge }, axis)
+    }
+}
+
+/// The table of a scene that describes such a joint.
+pub(crate) fn table(joint: Joint) -> &'static str {
+    match joint {
+        Joint::Revolute => "hinge",
+        Joint::Prismatic => "slide",
     }
 }

@@ -1,6 +1,7 @@
 use nboom_model::{Dashpot, Spring};
 
-/// A spring about a hinge: torque −stiffness (β − rest) + quadratic (β − rest)².
+/// A spring about a hinge: torque −stiffness (β − rest) + quadratic (β − rest)²; along a joint that slides: force,
+/// by travel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[must_use]
 pub struct SpringWords {
@@ -9,7 +10,7 @@ pub struct SpringWords {
     quadratic: f64,
 }
 
-/// A spring of this torque per radian, positive if it drives towards rest.
+/// A spring of this torque per radian, or force per length, positive if it drives towards rest.
 pub fn spring(stiffness: f64) -> SpringWords {
     SpringWords { stiffness, ..SpringWords::default() }
 }
@@ -25,7 +26,12 @@ impl SpringWords {
         Self { rest, ..self }
     }
 
-    /// Torque per square radian; by default 0.
+    /// Travel without force \[L\], of a joint that slides; by default 0.
+    pub fn rest(self, rest: f64) -> Self {
+        self.rest_rad(rest)
+    }
+
+    /// Torque per square radian, or force per squared length; by default 0.
     pub fn quadratic(self, quadratic: f64) -> Self {
         Self { quadratic, ..self }
     }
@@ -37,7 +43,8 @@ impl From<SpringWords> for Spring {
     }
 }
 
-/// A damper about a hinge: torque −damping τ + rate_squared τ² + angle (β − rest) + angle_squared (β − rest)².
+/// A damper about a hinge: torque −damping τ + rate_squared τ² + angle (β − rest) + angle_squared (β − rest)²;
+/// along a joint that slides: force, by travel and speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[must_use]
 pub struct DamperWords {
@@ -48,7 +55,7 @@ pub struct DamperWords {
     rest: f64,
 }
 
-/// A damper of this torque per rate, positive if it brakes.
+/// A damper of this torque per rate, or force per speed, positive if it brakes.
 pub fn damper(damping: f64) -> DamperWords {
     DamperWords { damping, ..DamperWords::default() }
 }
@@ -72,6 +79,26 @@ impl DamperWords {
     /// Angle from which these two count \[degrees\]; by default 0.
     pub fn rest_deg(self, rest: f64) -> Self {
         self.rest_rad(rest.to_radians())
+    }
+
+    /// Force per squared speed; by default 0.
+    pub fn speed_squared(self, speed_squared: f64) -> Self {
+        self.rate_squared(speed_squared)
+    }
+
+    /// Force per length; by default 0.
+    pub fn travel(self, travel: f64) -> Self {
+        self.angle(travel)
+    }
+
+    /// Force per squared length; by default 0.
+    pub fn travel_squared(self, travel_squared: f64) -> Self {
+        self.angle_squared(travel_squared)
+    }
+
+    /// Travel from which these two count \[L\]; by default 0.
+    pub fn rest(self, rest: f64) -> Self {
+        self.rest_rad(rest)
     }
 
     /// Angle from which these two count \[radians\]; by default 0.

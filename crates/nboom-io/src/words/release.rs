@@ -1,11 +1,11 @@
-use nboom_model::ReleaseDraft;
+use nboom_model::{Joint, ReleaseDraft};
 
 /// At this time \[T\].
 pub fn at(time: f64) -> ReleaseDraft {
     ReleaseDraft::At(time)
 }
 
-/// When the hinge of this body passes an angle, either way.
+/// When the hinge of this body passes an angle or reaches a travel, either way.
 pub fn when(body: &str) -> When {
     When { body: body.to_owned() }
 }
@@ -15,7 +15,7 @@ pub fn after(body: &str) -> After {
     After { body: body.to_owned(), by: 0.0 }
 }
 
-/// A release that lacks its angle.
+/// A release that lacks its angle or travel.
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct When {
@@ -30,7 +30,12 @@ impl When {
 
     /// That angle \[radians\].
     pub fn passes_rad(self, angle: f64) -> ReleaseDraft {
-        ReleaseDraft::Passes { when: self.body, passes: angle }
+        ReleaseDraft::Passes { when: self.body, passes: angle, joint: Joint::Revolute }
+    }
+
+    /// That travel \[L\], of a joint that slides.
+    pub fn reaches(self, travel: f64) -> ReleaseDraft {
+        ReleaseDraft::Passes { when: self.body, passes: travel, joint: Joint::Prismatic }
     }
 }
 

@@ -96,12 +96,21 @@ impl Names {
 
     /// The release of a body, with the hinge that it waits for. Within a repeated appendage a name is that of
     /// the same copy.
-    pub fn release(&self, place: &Place, release: &ReleaseDraft) -> Result<Release, DraftDefect> {
+    pub fn release(
+        &self,
+        bodies: &[BodyDraft],
+        place: &Place,
+        release: &ReleaseDraft,
+    ) -> Result<Release, DraftDefect> {
         match release {
             ReleaseDraft::At(time) => Ok(Release::Time(*time)),
             ReleaseDraft::Never => Ok(Release::Never),
-            ReleaseDraft::Passes { when, passes } => {
+            ReleaseDraft::Passes { when, passes, joint } => {
                 let hinge = self.hinge(place, when)?;
+                let (waits, is) = (*joint, bodies[self.places[hinge].draft].joint);
+                if waits != is {
+                    return Err(DraftDefect::TriggerJoint { name: when.clone(), waits, is });
+                }
                 Ok(Release::Angle { hinge, angle: *passes })
             }
             ReleaseDraft::AfterLock { after, by } => {

@@ -1,6 +1,6 @@
 //! Finds springs and dashpots whose signs drive a hinge the wrong way.
 
-use nboom_scalar::Vec3;
+use nboom_scalar::{Vec3, Wrench};
 
 use super::ModelWarning;
 use crate::hinge::SAME_ANGLE;
@@ -46,7 +46,8 @@ fn spring(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
     } else if torque.drives_on(start, hinge.lock_angle) {
         found.push(ModelWarning::SpringDrivesOn { hinge: label(), start });
     }
-    if let Some(lock) = hinge.lock_angle.filter(|lock| (lock - start).abs() > SAME_ANGLE) {
+    let same = SAME_ANGLE * scene.coordinate_scale(i);
+    if let Some(lock) = hinge.lock_angle.filter(|lock| (lock - start).abs() > same) {
         let towards_lock = (lock - start).signum();
         let by_spring = torque.at(start) * towards_lock;
         if by_spring < 0.0 && by_spring + kick_off_torque(scene, posture, i) * towards_lock < 0.0 {
@@ -132,7 +133,8 @@ fn kick_off_torque(scene: &Scene, posture: &Posture, i: usize) -> f64 {
     let moment = |j: usize| {
         let (direction, force, _) = push(scene, posture, j)?;
         let arm = posture.hinges[j].kick_off - hinge.point;
-        Some(hinge.axis.dot(arm.cross(direction)) * force)
+        let push = Wrench::of_force(arm, direction * force);
+        Some(scene.bodies[i].joint.along(hinge.axis, &push))
     };
     (i..scene.bodies.len()).filter(|&j| is_outboard[j]).filter_map(moment).sum()
 }

@@ -19,7 +19,7 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
 
 fn folds_back(scene: &Scene, posture: &Posture, i: usize) -> Option<ModelWarning> {
     let body = &scene.bodies[i];
-    let lock = body.hinge.lock_angle.filter(|_| body.hinge.can_turn())?;
+    let lock = body.hinge.lock_angle.filter(|_| body.hinge.can_turn() && !body.joint.slides())?;
     let inboard = body.inboard?;
     let (here, before) = (&posture.hinges[i], &posture.hinges[inboard]);
     are_opposite(here.point - before.point, here.tip - here.point).then(|| {

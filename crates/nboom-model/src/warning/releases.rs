@@ -12,7 +12,8 @@ const MANY_TURNS: f64 = 2.0;
 pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
     let mut warnings = Vec::new();
     for i in 0..scene.bodies.len() {
-        if starts_locked_elsewhere(&scene.bodies[i].hinge) {
+        let same = SAME_ANGLE * scene.coordinate_scale(i);
+        if starts_locked_elsewhere(&scene.bodies[i].hinge, same) {
             warnings.push(ModelWarning::LockedElsewhere(scene.label(i)));
         }
         warnings.extend(of_start(scene, i));
@@ -26,7 +27,7 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
         } else if !of_trigger.can_turn() {
             let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerNeverTurns { hinge, trigger });
-        } else if matches!(release, Release::Angle { angle, .. } if locks_before(of_trigger, angle))
+        } else if matches!(release, Release::Angle { angle, .. } if locks_before(scene, trigger, angle))
         {
             let trigger = scene.label(trigger);
             warnings.push(ModelWarning::TriggerLocksBefore { hinge, trigger });
@@ -49,10 +50,11 @@ fn of_start(scene: &Scene, i: usize) -> Vec<ModelWarning> {
     let (hinge, end) = (&scene.bodies[i].hinge, scene.end_time);
     let HingeStart { angle: start, state, .. } = hinge.start;
     let mut found = Vec::new();
-    if start.abs() > MANY_TURNS * TAU {
+    if !scene.bodies[i].joint.slides() && start.abs() > MANY_TURNS * TAU {
         found.push(ModelWarning::ManyTurns { hinge: scene.label(i), start });
     }
-    let is_at_lock = hinge.lock_angle.is_some_and(|lock| (lock - start).abs() <= SAME_ANGLE);
+    let same = SAME_ANGLE * scene.coordinate_scale(i);
+    let is_at_lock = hinge.lock_angle.is_some_and(|lock| (lock - start).abs() <= same);
     if is_at_lock && hinge.can_turn() {
         found.push(ModelWarning::StartsAtLock(scene.label(i)));
     }
@@ -65,16 +67,18 @@ fn of_start(scene: &Scene, i: usize) -> Vec<ModelWarning> {
     found
 }
 
-fn starts_locked_elsewhere(hinge: &Hinge) -> bool {
+fn starts_locked_elsewhere(hinge: &Hinge, same: f64) -> bool {
     let HingeStart { angle, state, .. } = hinge.start;
-    let elsewhere = |lock: f64| (lock - angle).abs() > SAME_ANGLE;
+    let elsewhere = |lock: f64| (lock - angle).abs() > same;
     state == HingeState::Locked && hinge.lock_angle.is_some_and(elsewhere)
 }
 
 /// Whether its lock angle is between where `hinge` starts and `angle`.
-fn locks_before(hinge: &Hinge, angle: f64) -> bool {
+fn locks_before(scene: &Scene, trigger: usize, angle: f64) -> bool {
+    let hinge = &scene.bodies[trigger].hinge;
+    let same = SAME_ANGLE * scene.coordinate_scale(trigger);
     let between = |lock: f64| {
-        (angle - lock).abs() > SAME_ANGLE && (angle - lock) * (lock - hinge.start.angle) > 0.0
+        (angle - lock).abs() > same && (angle - lock) * (lock - hinge.start.angle) > 0.0
     };
     hinge.lock_angle.is_some_and(between)
 }

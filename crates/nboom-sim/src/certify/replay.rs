@@ -149,8 +149,10 @@ impl<'a> Replay<'a> {
         let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
         fixed.extend(state.center.velocity.to_array());
-        let rates = state.omega_body.to_array().into_iter().chain(state.tau.iter().copied());
-        self.sizes.saw(&rates.map(|rate| rate.to_f64()).collect::<Vec<_>>());
+        self.sizes.enter(dynamics.free_hinges());
+        self.sizes.saw_omega(&state.omega_body.to_array().map(|rate| rate.to_f64()));
+        let free = dynamics.free_hinges().iter();
+        self.sizes.saw_tau(&free.map(|&i| state.tau[i].to_f64()).collect::<Vec<_>>());
         let mut sizes = vec![1.0; layout.len()];
         self.sizes.write(&layout, &mut sizes);
         sizes.truncate(layout.controlled());
@@ -229,7 +231,7 @@ impl<'a> Replay<'a> {
     /// How long an instant would last that a guard makes as fast as it is now.
     fn instant_of(&mut self, kind: GuardKind) -> f64 {
         let reading = read(kind, &self.dynamics, &self.situation.state);
-        let pace = kind.pace(self.dynamics.elements(), reading);
+        let pace = kind.pace(self.scene, self.dynamics.elements(), reading);
         instant::duration(self.scene, self.situation.state.time.to_f64(), pace)
     }
 

@@ -16,14 +16,15 @@ pub fn natural(largest: f64, of_motion: f64) -> f64 {
 }
 
 /// The largest values of a run.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Largest {
     omega: f64,
-    beta: f64,
-    tau: f64,
     rho: f64,
     v: f64,
-    impulse: f64,
+    /// Of each hinge.
+    beta: Vec<f64>,
+    tau: Vec<f64>,
+    impulse: Vec<f64>,
 }
 
 impl Largest {
@@ -31,40 +32,47 @@ impl Largest {
     pub fn saw(&mut self, snapshot: &Snapshot) {
         let pairs = [
             (&mut self.omega, &snapshot.omega_body.to_array()[..]),
-            (&mut self.beta, &snapshot.beta),
-            (&mut self.tau, &snapshot.tau),
             (&mut self.rho, &snapshot.position_inertial.to_array()),
             (&mut self.v, &snapshot.velocity_inertial.to_array()),
         ];
         for (largest, values) in pairs {
             *largest = values.iter().fold(*largest, |largest, value| largest.max(value.abs()));
         }
+        let hinges = snapshot.beta.len();
+        for (largest, values) in [(&mut self.beta, &snapshot.beta), (&mut self.tau, &snapshot.tau)]
+        {
+            largest.resize(hinges, 0.0);
+            largest.iter_mut().zip(values).for_each(|(most, value)| *most = most.max(value.abs()));
+        }
     }
 
-    /// Notes the impulse of a lock-up.
-    pub fn saw_impulse(&mut self, impulse: f64) {
-        self.impulse = self.impulse.max(impulse.abs());
+    /// Notes the impulse of a lock-up of a hinge.
+    pub fn saw_impulse(&mut self, hinge: usize, impulse: f64) {
+        self.impulse.resize(self.impulse.len().max(hinge + 1), 0.0);
+        self.impulse[hinge] = self.impulse[hinge].max(impulse.abs());
     }
 }
 
 /// Natural sizes of the quantities of a run: the largest value of each, or where that is rounding what
 /// the motion as a whole makes of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scales {
     /// Of the time since the beginning.
     pub time: f64,
     /// Of ω.
     pub omega: f64,
-    /// Of β \[rad\].
+    /// Of β, in sizes of its hinge.
     pub beta: f64,
-    /// Of τ.
+    /// Of τ, in sizes of its hinge per time unit.
     pub tau: f64,
     /// Of the position of O.
     pub rho: f64,
     /// Of the velocity of O.
     pub v: f64,
-    /// Of impulses.
+    /// Of impulsive torques; of forces, those times the size of their hinge.
     pub impulse: f64,
+    /// Size of each hinge's β: a radian, or a stroke.
+    pub of_hinges: Vec<f64>,
     /// Of forces, as the motion makes them.
     pub force: f64,
     /// Of moments, as the motion makes them.
@@ -75,7 +83,14 @@ impl Scales {
     /// The scales of a run of `scene` with these largest values. A motion that turns nothing is
     /// measured by one radian in the whole run.
     pub(crate) fn of(scene: &Scene, largest: &Largest) -> Self {
-        let Largest { omega, beta, tau, rho, v, impulse } = *largest;
+        let Largest { omega, rho, v, .. } = *largest;
+        let of_hinges: Vec<f64> =
+            (0..scene.bodies.len()).map(|i| scene.coordinate_scale(i)).collect();
+        let most = |of: &mut dyn Iterator<Item = f64>| of.fold(0.0, f64::max);
+        let pairs = |values| of_hinges.iter().zip::<&Vec<f64>>(values);
+        let [beta, tau] = [&largest.beta, &largest.tau]
+            .map(|values| most(&mut pairs(values).map(|(size, value)| value / size)));
+        let impulse = most(&mut pairs(&largest.impulse).map(|(size, value)| value * size));
         let time = scene.end_time - scene.initial.time;
         let rate = natural(omega.max(tau) * time, 1.0) / time;
         let length = reach(scene);
@@ -88,6 +103,7 @@ impl Scales {
             rho: natural(rho, length),
             v: natural(v, length * rate),
             impulse: natural(impulse, momentum),
+            of_hinges,
             force: scene.total_mass() * length * rate * rate,
             moment: momentum * rate,
         }

@@ -58,7 +58,9 @@ impl Recorder for Witness {
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {
         self.largest.saw(after);
-        self.largest.saw_impulse(event.impulse.unwrap_or(0.0));
+        if let (Some(hinge), Some(impulse)) = (event.hinge, event.impulse) {
+            self.largest.saw_impulse(hinge, impulse);
+        }
         if event.kind == EventKind::End {
             self.last = Some(after.clone());
         } else if self.events.len() < MOST_EVENTS {
@@ -274,13 +276,15 @@ fn in_double_double(
     }
 }
 
-fn compare(start: f64, run: &Event, truth: &Event, scales: &Scales) -> EventTrust {
+fn compare(start: f64, event: &Event, truth: &Event, scales: &Scales) -> EventTrust {
     let since = natural((truth.time - start).abs(), scales.time);
-    let impulse = run.impulse.zip(truth.impulse).map(|(run, truth)| {
-        Digits::new("impulse", (run - truth).abs(), natural(truth.abs(), scales.impulse))
+    let impulse = event.impulse.zip(truth.impulse).map(|(run, truth)| {
+        let size = event.hinge.map_or(1.0, |hinge| scales.of_hinges[hinge]);
+        let difference = (run - truth).abs() * size;
+        Digits::new("impulse", difference, natural(truth.abs() * size, scales.impulse))
     });
-    let time = Digits::new("time", (run.time - truth.time).abs(), since);
-    EventTrust { event: *run, time, impulse }
+    let time = Digits::new("time", (event.time - truth.time).abs(), since);
+    EventTrust { event: *event, time, impulse }
 }
 
 /// How far one state of a scene is from another, quantity by quantity: the largest difference of each,
@@ -289,14 +293,19 @@ pub fn differences(run: &Snapshot, truth: &Snapshot, scales: &Scales) -> Vec<Dig
     let vector = |quantity, run: Vec3<f64>, truth: Vec3<f64>, size| {
         of_list(quantity, &run.to_array(), &truth.to_array(), size)
     };
+    let of_hinges = |quantity, run: &[f64], truth: &[f64], size| {
+        let pairs = run.iter().zip(truth).zip(&scales.of_hinges);
+        let off = pairs.map(|((a, b), of_hinge)| (a - b).abs() / of_hinge);
+        Digits::new(quantity, off.fold(0.0, f64::max), size)
+    };
     // The angle between the two attitudes; half of it is the length of the difference.
     let (a, b) = (run.attitude, truth.attitude);
     let turned = (a.scalar - b.scalar).hypot((a.vector - b.vector).norm()) * 2.0;
     vec![
         Digits::new("attitude", turned, 1.0),
         vector("omega", run.omega_body, truth.omega_body, scales.omega),
-        of_list("beta", &run.beta, &truth.beta, scales.beta),
-        of_list("tau", &run.tau, &truth.tau, scales.tau),
+        of_hinges("beta", &run.beta, &truth.beta, scales.beta),
+        of_hinges("tau", &run.tau, &truth.tau, scales.tau),
         vector("rho", run.position_inertial, truth.position_inertial, scales.rho),
         vector("v", run.velocity_inertial, truth.velocity_inertial, scales.v),
     ]
@@ -342,6 +351,7 @@ mod tests {
             rho: 1.0,
             v: 1.0,
             impulse: 1.0,
+            of_hinges: vec![1.0],
             force: 1.0,
             moment: 1.0,
         };

@@ -4,13 +4,17 @@ use nboom_scalar::Vec3;
 
 use crate::equations::layout::VariableLayout;
 
-/// Natural sizes of the variables: one for attitude and angles, a rate for rates, a length for the way
-/// that the thrust displaces the mass centre. They follow the scene's units, so that no step depends
+/// Natural sizes of the variables: one for attitude and angles, a rate for rates, a stroke for travels, a
+/// length for the way that the thrust displaces the mass centre. They follow the scene's units, so that no step depends
 /// on these.
 #[derive(Clone, Debug)]
 pub(crate) struct Sizes {
     /// How far matter and the thrust are from O.
     length: f64,
+    /// Of a change of β of each hinge.
+    of_hinges: Vec<f64>,
+    /// Of those that are free.
+    of_free: Vec<f64>,
     /// The largest rate so far \[1/T\].
     rate: f64,
     /// What makes momenta of rates, of a mode that has them.
@@ -24,7 +28,15 @@ impl Sizes {
     /// At the beginning of `scene`.
     pub fn of(scene: &Scene) -> Self {
         let point = scene.thrust.map_or(0.0, |thrust| thrust.point.norm());
-        let mut sizes = Self { length: reach(scene).max(point), rate: 0.0, inertias: None };
+        let of_hinges: Vec<f64> =
+            (0..scene.bodies.len()).map(|i| scene.coordinate_scale(i)).collect();
+        let mut sizes = Self {
+            length: reach(scene).max(point),
+            of_free: Vec::with_capacity(of_hinges.len()),
+            of_hinges,
+            rate: 0.0,
+            inertias: None,
+        };
         sizes.begin(scene);
         sizes
     }
@@ -41,10 +53,20 @@ impl Sizes {
         self.rate
     }
 
-    /// Notes rates; what is no number any more is no size.
-    pub fn saw(&mut self, rates: &[f64]) {
-        let sizes = rates.iter().map(|rate| rate.abs()).filter(|size| size.is_finite());
-        self.rate = sizes.fold(self.rate, f64::max);
+    /// Notes which hinges are free in the mode that follows.
+    pub fn enter(&mut self, free: &[usize]) {
+        self.of_free.clear();
+        self.of_free.extend(free.iter().map(|&i| self.of_hinges[i]));
+    }
+
+    /// Notes angular rates of the main body.
+    pub fn saw_omega(&mut self, omega: &[f64]) {
+        self.rate = largest(self.rate, omega.iter().copied());
+    }
+
+    /// Notes τ of the free hinges.
+    pub fn saw_tau(&mut self, tau: &[f64]) {
+        self.rate = largest(self.rate, tau.iter().zip(&self.of_free).map(|(tau, size)| tau / size));
     }
 
     /// Notes the inertias of a mode whose variables have momenta, or that they have none.
@@ -52,22 +74,26 @@ impl Sizes {
         self.inertias = inertias;
     }
 
-    /// Notes accelerations, which soon make rates: angular ones, and one of the mass centre.
-    pub fn saw_accelerations(&mut self, angular: impl Iterator<Item = f64>, linear: Vec3<f64>) {
+    /// Notes accelerations, which soon make rates: ω̇, τ̇ of the free hinges, and that of the mass centre.
+    pub fn saw_accelerations(&mut self, omega_dot: Vec3<f64>, tau_dot: &[f64], linear: Vec3<f64>) {
         let linear = if self.length > 0.0 { linear.norm() / self.length } else { 0.0 };
-        let largest = angular.fold(linear, |largest, rate| largest.max(rate.abs()));
-        self.saw(&[(2.0 * START * largest).sqrt()]);
+        let of_hinges = tau_dot.iter().zip(&self.of_free).map(|(tau_dot, size)| tau_dot / size);
+        let fastest = of_hinges.chain(omega_dot.to_array()).fold(linear, |a, b| a.max(b.abs()));
+        self.rate = largest(self.rate, [(2.0 * START * fastest).sqrt()].into_iter());
     }
 
     /// Writes the size of each variable.
     pub fn write(&self, layout: &VariableLayout, sizes: &mut [f64]) {
         sizes.fill(1.0);
         sizes[layout.omega()].fill(self.rate);
-        sizes[layout.hinge_motion()].fill(self.rate);
+        sizes[layout.beta()].copy_from_slice(&self.of_free);
+        for (size, of_hinge) in sizes[layout.hinge_motion()].iter_mut().zip(&self.of_free) {
+            *size = of_hinge * self.rate;
+        }
         if let Some(EffectiveInertias { main, hinges }) = &self.inertias {
             sizes[layout.angular_impulse()].fill(main * self.rate);
             for (size, inertia) in sizes[layout.hinge_motion()].iter_mut().zip(hinges) {
-                *size = inertia * self.rate;
+                *size *= inertia;
             }
         }
         if let [displacement @ .., vx, vy, vz] = &mut sizes[layout.thrust_motion()] {
@@ -75,6 +101,11 @@ impl Sizes {
             [*vx, *vy, *vz] = [self.length * self.rate; 3];
         }
     }
+}
+
+/// The largest size of these and of one before; what is no number any more is no size.
+fn largest(before: f64, rates: impl Iterator<Item = f64>) -> f64 {
+    rates.map(f64::abs).filter(|size| size.is_finite()).fold(before, f64::max)
 }
 
 /// How far from O matter of the satellite can be, about: hinge distances along a branch, and the

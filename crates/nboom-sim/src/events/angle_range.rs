@@ -24,15 +24,19 @@ const NO_RADIUS: f64 = 1e-2;
 
 impl AngleRange {
     /// That of `line`, whose length is below (`side` < 0) or above `limit` with the hinge at `beta`. `None`
-    /// where other hinges move the line too, and where rounding decides whether it comes to the limit.
+    /// where other hinges move the line too, where the hinge slides, and where rounding decides whether it comes to the limit.
     pub fn of<R: Number>(
         dynamics: &Recursive<R>,
         (line, limit): (usize, f64),
         beta: impl Fn(usize) -> f64,
         side: f64,
     ) -> Option<Self> {
-        let mut path = dynamics.line_reach(line);
-        let (Some((hinge, _)), None) = (path.next(), path.next()) else { return None };
+        let mut path = dynamics.line_joints(line);
+        let (Some(alone), None) = (path.next(), path.next()) else { return None };
+        if alone.joint.slides() {
+            return None;
+        }
+        let hinge = alone.position;
         let squared =
             |angle: f64| dynamics.line_length_squared(line, |_| R::constant(angle)).to_f64();
         let (at_zero, at_pi) = (squared(0.0), squared(PI));

@@ -71,11 +71,19 @@ impl GuardKind {
         }
     }
 
-    /// How fast it goes, in radians or lengths at the bound per time unit.
-    pub fn pace<R: Number>(self, elements: &Elements<R>, reading: Reading<R>) -> f64 {
+    /// How fast it goes, in natural sizes of what it watches per time unit: radians, strokes, or lengths at
+    /// the bound.
+    pub fn pace<R: Number>(
+        self,
+        scene: &Scene,
+        elements: &Elements<R>,
+        reading: Reading<R>,
+    ) -> f64 {
         let rate = reading.rate.to_f64().abs();
         match self {
-            Self::Lock { .. } | Self::Trigger { .. } => rate,
+            Self::Lock { hinge, .. } | Self::Trigger { trigger: hinge, .. } => {
+                rate / scene.coordinate_scale(hinge)
+            }
             Self::Bound(bound) => rate / bound.scale(elements),
         }
     }
@@ -233,7 +241,7 @@ impl Guards {
     ) -> bool {
         let of_located = located.map_or(0.0, |kind| {
             let reading = read(kind, dynamics, state);
-            kind.pace(dynamics.elements(), reading)
+            kind.pace(scene, dynamics.elements(), reading)
         });
         let mut others = self.list.iter().filter(|guard| Some(guard.kind) != located);
         others.any(|guard| {
@@ -245,7 +253,7 @@ impl Guards {
                     value * s < -BEYOND_ROUNDING * guard.kind.scale(dynamics.elements())
                 }),
             };
-            let pace = guard.kind.pace(dynamics.elements(), reading).max(of_located);
+            let pace = guard.kind.pace(scene, dynamics.elements(), reading).max(of_located);
             let instant = instant::duration(scene, state.time.to_f64(), pace);
             has_left && guard.time_away(reading).is_none_or(|away| away > instant)
         })

@@ -10,8 +10,8 @@ use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::{Bound, GuardKind, Guards, read};
 use crate::events::schedule::Schedule;
 
-/// Angle \[rad\] through which the fastest arriving hinge turns in one instant; for a line, its
-/// change of length as a share of the length at which it arrives.
+/// Angle \[rad\] through which the fastest arriving hinge turns in one instant; where it slides, its travel
+/// as a share of its stroke; for a line, its change of length as a share of the length at which it arrives.
 const ONE_INSTANT: f64 = 1e-11;
 
 /// Spacings of `f64` that an instant lasts at least.
@@ -21,7 +21,7 @@ const SPACINGS: f64 = 4.0;
 const LONGEST: f64 = 1e-6;
 
 /// How long after the first arrival at `time` an instant lasts, when the fastest to arrive goes at
-/// `pace`, radians or lengths at a bound per time unit; zero where nothing moves.
+/// `pace`, radians, strokes or lengths at a bound per time unit; zero where nothing moves.
 pub(crate) fn duration(scene: &Scene, time: f64, pace: f64) -> f64 {
     let spacings = SPACINGS * (time.abs().next_up() - time.abs());
     if pace == 0.0 {
@@ -79,7 +79,8 @@ impl Arrivals {
     ) {
         let holds = |i: usize| match scene.bodies[i].hinge.release {
             Release::Angle { hinge, angle } => {
-                (scene.bodies[hinge].hinge.start.angle - angle).abs() <= SAME_ANGLE
+                let from_start = scene.bodies[hinge].hinge.start.angle - angle;
+                from_start.abs() <= SAME_ANGLE * scene.coordinate_scale(hinge)
             }
             _ => false,
         };
@@ -112,7 +113,7 @@ impl Arrivals {
         for (number, guard) in guards.list.iter().enumerate() {
             let reading = read(guard.kind, dynamics, state);
             let away = if here(guard.kind) { Some(0.0) } else { guard.time_away(reading) };
-            let pace = guard.kind.pace(dynamics.elements(), reading);
+            let pace = guard.kind.pace(scene, dynamics.elements(), reading);
             coming.extend(away.map(|away| Coming { away, pace, number }));
         }
         let time = state.time.to_f64();
@@ -314,8 +315,8 @@ fn totals<R: Number>(state: &mut State<R>, dynamics: &mut Recursive<R>) -> Total
 fn is_triggered(scene: &Scene, arrivals: &Arrivals, i: usize) -> bool {
     let locked_at = |hinge: usize, angle: f64| {
         let lock_angle = scene.bodies[hinge].hinge.lock_angle;
-        arrivals.locks.contains(&hinge)
-            && lock_angle.is_some_and(|at| (at - angle).abs() <= SAME_ANGLE)
+        let same = SAME_ANGLE * scene.coordinate_scale(hinge);
+        arrivals.locks.contains(&hinge) && lock_angle.is_some_and(|at| (at - angle).abs() <= same)
     };
     match scene.bodies[i].hinge.release {
         Release::Angle { hinge, angle } => {

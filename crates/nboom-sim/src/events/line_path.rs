@@ -1,6 +1,7 @@
 //! How far a line's length comes within a step.
 
-use nboom_dynamics::Recursive;
+use nboom_dynamics::{LineJoint, Recursive};
+use nboom_model::Joint;
 use nboom_ode::Bernstein;
 
 /// Share of the square of what lengths are made of that covers the rounding of squared lengths.
@@ -10,10 +11,10 @@ const ROUNDING: f64 = 1e-13;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LinePath {
     line: usize,
-    hinges: Vec<Turning>,
+    hinges: Vec<Moving>,
     /// The square of the length where the step starts.
     squared: f64,
-    /// How far the hinges turn together, at most.
+    /// How far the hinges move together, at most: radians, and what slides as a share of the length.
     pub turned: f64,
     /// How far the end moves, at most.
     displaced: f64,
@@ -21,16 +22,28 @@ pub(crate) struct LinePath {
 
 /// A hinge that moves a line's end.
 #[derive(Clone, Copy, Debug)]
-struct Turning {
+struct Moving {
     /// Position among the free hinges.
     hinge: usize,
+    joint: Joint,
     angle: Bernstein,
-    /// How far it turns from where it starts, at most.
+    /// How far it moves from where it starts, at most.
     excursion: f64,
-    /// How far the line's end is from it, at most.
+    /// How fast the line's end moves at a rate of one, at most: its distance, or one where the hinge slides.
     reach: f64,
     /// The derivative of the squared length with respect to the angle, where the step starts.
     slope: f64,
+}
+
+impl Moving {
+    /// The largest second derivative of the line's end by this coordinate and another.
+    fn bends_at_most(&self, other: &Self) -> f64 {
+        match [self.joint, other.joint] {
+            [Joint::Revolute, Joint::Revolute] => self.reach.min(other.reach),
+            [Joint::Prismatic, Joint::Prismatic] => 0.0,
+            _ => 1.0,
+        }
+    }
 }
 
 impl LinePath {
@@ -49,15 +62,27 @@ impl LinePath {
     ) {
         self.hinges.clear();
         (self.line, self.turned, self.displaced) = (line, 0.0, 0.0);
-        for (hinge, reach) in dynamics.line_reach(line) {
+        let mut from_end = 0.0;
+        for LineJoint { position: hinge, joint, arm } in dynamics.line_joints(line) {
             let angle = angle(hinge);
             let excursion = angle.excursion();
-            self.turned += excursion;
+            from_end += arm;
+            let reach = match joint {
+                Joint::Revolute => from_end,
+                Joint::Prismatic => 1.0,
+            };
             self.displaced += excursion * reach;
-            self.hinges.push(Turning { hinge, angle, excursion, reach, slope: 0.0 });
+            if joint.slides() {
+                from_end += angle.coefficients()[0].abs() + excursion;
+            } else {
+                self.turned += excursion;
+            }
+            self.hinges.push(Moving { hinge, joint, angle, excursion, reach, slope: 0.0 });
         }
         let at_start = |j: usize| self.hinge(j).angle.coefficients()[0];
         self.squared = dynamics.line_length_squared(line, at_start);
+        let slid = self.hinges.iter().filter(|of| of.joint.slides()).map(|of| of.excursion);
+        self.turned += slid.sum::<f64>() / self.squared.sqrt().max(f64::MIN_POSITIVE);
     }
 
     /// The square of the length at a fraction of the step.
@@ -77,7 +102,7 @@ impl LinePath {
         from_limit > self.most_bending(length) + rounding
     }
 
-    fn hinge(&self, j: usize) -> &Turning {
+    fn hinge(&self, j: usize) -> &Moving {
         let found = self.hinges.iter().find(|of| of.hinge == j);
         found.expect("the path moves the line")
     }
@@ -94,7 +119,7 @@ impl LinePath {
     /// gᵢ its slope, or less: a polynomial lies between its coefficients.
     fn least_linear_change(&self, sign: f64) -> f64 {
         let count = self.hinges.iter().map(|of| of.angle.coefficients().len()).max().unwrap_or(0);
-        let change = |of: &Turning, k: usize| {
+        let change = |of: &Moving, k: usize| {
             let c = of.angle.coefficients();
             of.slope * (c[k] - c[0])
         };
@@ -106,11 +131,12 @@ impl LinePath {
     ///
     /// That is ½ Σ Hᵢⱼ δᵢ δⱼ with second derivatives H somewhere on the way. The end x̄ turns about hinge
     /// i at the distance rᵢ at most, so that |∂x̄/∂βᵢ| ≤ rᵢ and |∂²x̄/∂βᵢ∂βⱼ| ≤ min(rᵢ, rⱼ): the outer one
-    /// of two hinges is nearer to the end. With |δᵢ| ≤ eᵢ and |x̄| ≤ |x̄₀| + Σ rᵢ eᵢ,
-    /// ½ |Σ Hᵢⱼ δᵢ δⱼ| ≤ (Σ rᵢ eᵢ)² + (|x̄₀| + Σ rᵢ eᵢ) Σ min(rᵢ, rⱼ) eᵢ eⱼ.
+    /// of two hinges is nearer to the end. Where one of the two slides, the other one turns its direction at
+    /// most, and rᵢ and |∂²x̄/∂βᵢ∂βⱼ| are at most 1. With |δᵢ| ≤ eᵢ and |x̄| ≤ |x̄₀| + Σ rᵢ eᵢ,
+    /// ½ |Σ Hᵢⱼ δᵢ δⱼ| ≤ (Σ rᵢ eᵢ)² + (|x̄₀| + Σ rᵢ eᵢ) Σ bᵢⱼ eᵢ eⱼ with bᵢⱼ these bounds.
     fn most_bending(&self, length: f64) -> f64 {
         let pairs = self.hinges.iter().flat_map(|a| self.hinges.iter().map(move |b| (a, b)));
-        let turning = pairs.map(|(a, b)| a.reach.min(b.reach) * a.excursion * b.excursion);
+        let turning = pairs.map(|(a, b)| a.bends_at_most(b) * a.excursion * b.excursion);
         self.displaced * self.displaced + (length + self.displaced) * turning.sum::<f64>()
     }
 }

@@ -69,13 +69,15 @@ impl Snapshot {
         let mut placed: Vec<Placed> = Vec::with_capacity(scene.bodies.len());
         for (body, (&beta, &tau)) in scene.bodies.iter().zip(self.beta.iter().zip(&self.tau)) {
             let inboard = body.inboard.map_or(main, |i| placed[i]);
-            let arm = inboard.rot * body.mount.point;
             let rot_at_zero = inboard.rot * body.mount.rot_inboard_from_hinge;
+            let axis = rot_at_zero * body.axis;
+            let arm = inboard.rot * body.mount.point + body.joint.travel(axis, beta);
+            let own = body.joint.motion(axis, tau);
             placed.push(Placed {
-                rot: rot_at_zero * Mat3::about_axis(body.axis, beta),
+                rot: rot_at_zero * body.joint.turn(body.axis, beta),
                 origin: inboard.origin + arm,
-                velocity: inboard.velocity + inboard.omega.cross(arm),
-                omega: inboard.omega + rot_at_zero * body.axis * tau,
+                velocity: inboard.velocity + inboard.omega.cross(arm) + own.linear,
+                omega: inboard.omega + own.angular,
             });
         }
         let hinged = scene.bodies.iter().zip(&placed);

@@ -12,6 +12,10 @@ use super::{numbers, vectors};
 pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
     for (i, body) in scene.bodies.iter().enumerate() {
         let hinge = &body.hinge;
+        if body.joint.slides() {
+            obstacles.add(i, "slide", DeckDefect::Slides);
+            continue;
+        }
         if scene.torque_tables.iter().any(|table| table.hinge == i) {
             obstacles.add(i, "hinge.torque", DeckDefect::Torque);
         }

@@ -47,6 +47,9 @@ pub enum DeckDefect {
          of a deck turns about its arm"
     )]
     OffArm,
+    /// A joint that slides.
+    #[error("found a joint that slides, expected hinges only")]
+    Slides,
     /// A torque over the angle.
     #[error("found a torque over the angle, expected springs and dampers only")]
     Torque,
