@@ -104,7 +104,7 @@ impl Pushed {
         rates.extend(found.omega_dot_body.to_array());
         rates.extend(links.iter().map(|&j| tau[j]));
         rates.extend(links.iter().map(|&j| found.tau_dot[j]));
-        rates.push(self.dynamics.elements().rate_power(self.dynamics.free_hinges(), &tau));
+        rates.push(self.dynamics.elements().rate_power(self.dynamics.free_hinges(), [&beta, &tau]));
         rates
     }
 }

@@ -10,10 +10,14 @@ mod log;
 mod newton_euler;
 #[path = "../support/random_scene.rs"]
 mod random_scene;
+#[path = "../support/scaled.rs"]
+mod scaled;
 
+mod couplings;
 mod free_fall;
 mod independence;
 mod latch;
+mod masts;
 mod oscillators;
 mod thrust;
 mod torque_free;

@@ -1,7 +1,9 @@
 //! A scene told in other words, and how to read its motion back in the first ones.
 
-use nboom::model::{Release, SceneDescription};
+use nboom::model::{Joint, Release, SceneDescription};
 use nboom::scalar::{Mat3, Quaternion, Vec3};
+
+use super::scaled::Units;
 
 /// A motion as the first telling has it; hinge quantities in its numbering.
 #[derive(Clone, Debug)]
@@ -196,8 +198,9 @@ pub fn other_angle(original: &SceneDescription, i: usize, shift: f64) -> Variant
         }
     }
     let body = &mut scene.bodies[i];
-    let zero = Mat3::about_axis(body.axis, -shift);
-    body.mount.rot_inboard_from_hinge = body.mount.rot_inboard_from_hinge * zero;
+    let rot = body.mount.rot_inboard_from_hinge;
+    body.mount.point += rot * body.joint.travel(body.axis, -shift);
+    body.mount.rot_inboard_from_hinge = rot * body.joint.turn(body.axis, -shift);
     body.axis = -body.axis;
     let hinge = &mut body.hinge;
     // Q'(β') = −Q(β) with β + θ = −(β' + shift − θ).
@@ -221,52 +224,15 @@ pub fn other_angle(original: &SceneDescription, i: usize, shift: f64) -> Variant
 
 /// Numbers in units that are this many times smaller than the original ones.
 pub fn in_units(original: &SceneDescription, length: f64, mass: f64, time: f64) -> Variant {
-    let (l, m, t) = (length, mass, time);
-    let (force, torque) = (m * l / (t * t), m * l * l / (t * t));
-    let mut scene = original.clone();
-    let scale_mass = |body: &mut nboom::model::MassProperties| {
-        body.mass *= m;
-        body.center_of_mass = body.center_of_mass * l;
-        body.inertia = body.inertia * (m * l * l);
+    let (l, t) = (length, time);
+    let units = Units { time, mass, length };
+    let scene = units.scene(original);
+    let joints: Vec<Joint> = original.bodies.iter().map(|body| body.joint).collect();
+    let of_joints = joints.clone();
+    let times = move |values: Vec<f64>, by: f64| {
+        let pairs = values.into_iter().zip(&of_joints);
+        pairs.map(|(value, &joint)| value * by / units.coordinate(joint)).collect::<Vec<_>>()
     };
-    scale_mass(&mut scene.main_body);
-    for body in &mut scene.bodies {
-        scale_mass(&mut body.mass_properties);
-        body.mount.point = body.mount.point * l;
-        let hinge = &mut body.hinge;
-        hinge.spring.quadratic *= torque;
-        hinge.spring.linear *= torque;
-        hinge.dashpot.rate_quadratic *= torque * t * t;
-        hinge.dashpot.rate_linear *= torque * t;
-        hinge.dashpot.angle_quadratic *= torque;
-        hinge.dashpot.angle_linear *= torque;
-        hinge.start.rate *= 1.0 / t;
-        if let Release::Time(time) = &mut hinge.release {
-            *time *= t;
-        }
-        if let Some(spring) = &mut hinge.kick_off {
-            spring.main_body_point = spring.main_body_point * l;
-            spring.body_point = spring.body_point * l;
-            spring.limit_length *= l;
-            for (power, a) in spring.coefficients.iter_mut().enumerate() {
-                *a *= force / l.powi(i32::try_from(power).expect("four of them"));
-            }
-        }
-    }
-    if let Some(gravity) = &mut scene.gravity {
-        gravity.acceleration *= l / (t * t);
-    }
-    if let Some(thrust) = &mut scene.thrust {
-        (thrust.force, thrust.point) = (thrust.force * force, thrust.point * l);
-        (thrust.on, thrust.off) = (thrust.on * t, thrust.off * t);
-    }
-    let initial = &mut scene.initial;
-    initial.time *= t;
-    initial.position_inertial = initial.position_inertial * l;
-    initial.velocity_inertial = initial.velocity_inertial * (l / t);
-    initial.omega_body = initial.omega_body * (1.0 / t);
-    scene.end_time *= t;
-    let times = |values: Vec<f64>, by: f64| values.into_iter().map(|v| v * by).collect::<Vec<_>>();
     let back = move |view: View| View {
         time: view.time / t,
         position: view.position * (1.0 / l),
@@ -275,10 +241,10 @@ pub fn in_units(original: &SceneDescription, length: f64, mass: f64, time: f64) 
         attitude: view.attitude,
         omega: view.omega * t,
         omega_dot: view.omega_dot * (t * t),
-        beta: view.beta,
+        beta: times(view.beta, 1.0),
         tau: times(view.tau, t),
         tau_dot: times(view.tau_dot, t * t),
     };
-    let impulse = Box::new(move |_| 1.0 / (torque * t));
+    let impulse = Box::new(move |hinge: usize| 1.0 / units.impulse(joints[hinge]));
     Variant { impulse, time: 1.0 / t, ..Variant::new("other units", scene, back) }
 }

@@ -49,8 +49,9 @@ fn merged(
 fn welded(original: &SceneDescription, i: usize, beta: f64) -> (SceneDescription, Vec<usize>) {
     let gone = original.bodies[i];
     assert!(gone.hinge.kick_off.is_none());
-    let rot = gone.mount.rot_inboard_from_hinge * Mat3::about_axis(gone.axis, beta);
-    let point = gone.mount.point;
+    let at_zero = gone.mount.rot_inboard_from_hinge;
+    let rot = at_zero * gone.joint.turn(gone.axis, beta);
+    let point = gone.mount.point + at_zero * gone.joint.travel(gone.axis, beta);
     let mut scene = original.clone();
     let onto = match gone.inboard {
         Some(p) => &mut scene.bodies[p].mass_properties,

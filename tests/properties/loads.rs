@@ -155,10 +155,14 @@ fn hinge_loads_and_external_forces_move_the_main_body() {
         let free_of_torques = loads(scene, mode, &placed, beta, tau);
         let (acting, about_center) = free_of_torques.forces[0];
         let torques = scene.bodies.iter().enumerate().filter(|(_, body)| body.inboard.is_none());
-        let torques: V3 =
-            torques.map(|(i, _)| placed[i + 1].axis * free_of_torques.torques[i]).sum();
+        let at_joints =
+            torques.map(|(i, _)| at_joint(scene, &placed[i + 1], i, free_of_torques.torques[i]));
+        for (of_joint, torque) in at_joints {
+            force += of_joint;
+            moment += torque;
+        }
         force += acting;
-        moment += about_center + placed[0].center.cross(&acting) + torques;
+        moment += about_center + placed[0].center.cross(&acting);
         let sizes = [rates.force.norm() + force_size, rates.moment.norm() + moment_size];
         let residuals = [force - vector(rates.force), moment - vector(rates.moment)];
         for (residual, size) in residuals.iter().zip(sizes) {
@@ -182,8 +186,9 @@ fn hinge_loads_are_the_rates_of_momentum_of_all_that_is_outboard() {
         let (_, found) = case.continuous();
         let expected: Vec<(V3, V3)> = (0..scene.bodies.len())
             .map(|i| {
-                let torque = placed[i + 1].axis * acting.torques[i];
-                let mut sum = (V3::zeros(), torque);
+                let own = &placed[i + 1];
+                let (force, about_o) = at_joint(scene, own, i, acting.torques[i]);
+                let mut sum = (force, about_o - own.origin.cross(&force));
                 for b in outboard_of(&scene.bodies, i).map(|j| j + 1) {
                     let (own, (force, moment)) = (&placed[b], acting.forces[b]);
                     let rate = solved.centers[b] * own.mass - force;
@@ -204,6 +209,15 @@ fn hinge_loads_are_the_rates_of_momentum_of_all_that_is_outboard() {
             assert!((vector(load.force) - force).norm() < 1e-11 * force_size, "hinge {i}");
             assert!((vector(load.moment) - moment).norm() < 1e-11 * moment_size, "hinge {i}");
         }
+    }
+}
+
+/// What acts at the joint of body `i` on it: force, and moment about O.
+fn at_joint(scene: &SceneDescription, placed: &Placed, i: usize, acts: f64) -> (V3, V3) {
+    let along = placed.axis * acts;
+    match scene.bodies[i].joint {
+        Joint::Revolute => (V3::zeros(), along),
+        Joint::Prismatic => (along, placed.origin.cross(&along)),
     }
 }
 

@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
-use nboom::model::{Body, HingeState, Joint, MassProperties, Mode, SceneDescription};
+use nboom::model::{Body, Coupling, HingeState, Joint, MassProperties, Mode, SceneDescription};
 use nboom::scalar::{Mat3, Vec3};
 
 type V3 = Vector3<f64>;
@@ -170,6 +170,7 @@ pub fn loads(
             + dashpot.angle_quadratic * y * y
             + dashpot.angle_linear * y;
         if mode.hinges[i] == HingeState::Free {
+            let torque = torque + coupled(scene, i, beta, tau);
             loads.torques[i] = torque;
             let own = placed[i + 1];
             match body.joint {
@@ -200,6 +201,24 @@ pub fn loads(
         loads.outside = (force, point.cross(&force));
     }
     loads
+}
+
+/// What couplings exert on hinge `i`, term by term.
+fn coupled(scene: &SceneDescription, i: usize, beta: &[f64], tau: &[f64]) -> f64 {
+    let on_this = |coupling: &Coupling| {
+        let [first, second] = coupling.hinges;
+        let (k, c, r) = (coupling.stiffness, coupling.damping, coupling.ratio);
+        let own = if coupling.is_mutual { [beta[first], tau[first]] } else { [0.0; 2] };
+        let sign = if coupling.is_mutual { 1.0 } else { -1.0 };
+        let torque = -k * (own[0] - sign * r * beta[second] - coupling.rest)
+            - c * (own[1] - sign * r * tau[second]);
+        match () {
+            () if i == first => torque,
+            () if i == second && coupling.is_mutual => -r * torque,
+            () => 0.0,
+        }
+    };
+    scene.couplings.iter().map(on_this).sum()
 }
 
 impl Loads {

@@ -24,6 +24,7 @@ mod embedding;
 mod event_times;
 mod lock_ups;
 mod momenta;
+mod nbod2;
 mod prepared;
 mod stiff;
 mod tolerance;

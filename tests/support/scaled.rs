@@ -20,9 +20,17 @@ impl Units {
         self.force() * self.length
     }
 
-    /// Of an impulsive torque.
-    pub fn impulse(self) -> f64 {
-        self.torque() * self.time
+    /// Of a joint's coordinate.
+    pub fn coordinate(self, joint: Joint) -> f64 {
+        match joint {
+            Joint::Revolute => 1.0,
+            Joint::Prismatic => self.length,
+        }
+    }
+
+    /// Of an impulsive torque or force at a joint.
+    pub fn impulse(self, joint: Joint) -> f64 {
+        self.torque() / self.coordinate(joint) * self.time
     }
 
     fn mass_properties(self, body: &mut MassProperties) {
@@ -35,18 +43,14 @@ impl Units {
     pub fn scene(self, old: &SceneDescription) -> SceneDescription {
         let Self { time, length, .. } = self;
         let (force, torque) = (self.force(), self.torque());
-        // Units of what acts at a joint, and of its coordinate.
-        let of = |joint: Joint| match joint {
-            Joint::Revolute => (torque, 1.0),
-            Joint::Prismatic => (force, length),
-        };
         let mut scene = old.clone();
         self.mass_properties(&mut scene.main_body);
         for body in &mut scene.bodies {
             self.mass_properties(&mut body.mass_properties);
             body.mount.point = body.mount.point * length;
             let hinge = &mut body.hinge;
-            let (acts, one) = of(body.joint);
+            let one = self.coordinate(body.joint);
+            let acts = torque / one;
             hinge.spring.quadratic *= acts / (one * one);
             hinge.spring.linear *= acts / one;
             hinge.spring.preload_angle *= one;
@@ -60,7 +64,9 @@ impl Units {
             hinge.lock_angle = hinge.lock_angle.map(|at| at * one);
             match &mut hinge.release {
                 Release::Time(at) | Release::AfterLock { delay: at, .. } => *at *= time,
-                Release::Angle { hinge, angle } => *angle *= of(old.bodies[*hinge].joint).1,
+                Release::Angle { hinge, angle } => {
+                    *angle *= self.coordinate(old.bodies[*hinge].joint)
+                }
                 Release::Never => {}
             }
             if let Some(spring) = &mut hinge.kick_off {

@@ -8,7 +8,7 @@ use nboom_sim::{Form, Method};
 use crate::Routines;
 
 /// Names of the tables of a scene that describe laws.
-const LAWS: [&str; 5] = ["spring", "damper", "kick_off", "gravity", "thrust"];
+const LAWS: [&str; 6] = ["spring", "damper", "coupling", "kick_off", "gravity", "thrust"];
 
 /// All that a run can choose from: formulations, integrators, laws, joints, outputs, stock routines.
 pub(crate) fn text(routines: &Routines) -> String {
@@ -37,7 +37,8 @@ pub(crate) fn text(routines: &Routines) -> String {
     let laws = laws.map(|kind: &&TableKind| row(kind.name, kind.about));
     chapter("laws", laws.chain(torque.map(|key| row(key.name, key.about))).collect());
     let hinge = "turns about one axis of any direction; bodies may branch";
-    chapter("joints", vec![row("hinge", hinge)]);
+    let slide = "slides along one axis of any direction, as the stage of a telescopic mast";
+    chapter("joints", vec![row("hinge", hinge), row("slide", slide)]);
     chapter("files of a run", FILES.iter().map(|file| row(file, "")).collect());
     let quantities = Quantity::all().map(|quantity| row(quantity.name(), quantity.about()));
     chapter("quantities (columns of [output] in a scene)", quantities.collect());

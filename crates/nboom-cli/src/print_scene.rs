@@ -1,6 +1,6 @@
 use nboom_model::{
-    Body, Dashpot, Hinge, HingeLabel, HingePlace, HingeState, Joint, KickOffSpring, MassProperties,
-    Posture, Release, Scene, Spring,
+    Body, Coupling, Dashpot, Hinge, HingeLabel, HingePlace, HingeState, Joint, KickOffSpring,
+    MassProperties, Posture, Release, Scene, Spring,
 };
 use nboom_scalar::Vec3;
 
@@ -75,6 +75,8 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
     let label = scene.label(i);
     let laws = [spring(&label, &hinge.spring), damper(&label, &hinge.dashpot)];
     let forces = laws.into_iter().chain([hinge.kick_off.as_ref().map(kick_off)]);
+    let couplings = scene.couplings.iter().filter(|coupling| coupling.hinges[0] == i);
+    let forces = forces.chain(couplings.map(|one| Some(coupling(scene, &label, one))));
     let joint = match label.joint {
         Joint::Revolute => "hinge",
         Joint::Prismatic => "slide",
@@ -174,6 +176,17 @@ fn damper(label: &HingeLabel, dashpot: &Dashpot) -> Option<String> {
         ];
         format!("damper: damping {damping}{}", parts.concat())
     })
+}
+
+/// As a scene in TOML says it.
+fn coupling(scene: &Scene, label: &HingeLabel, coupling: &Coupling) -> String {
+    let Coupling { hinges: [_, other], ratio, stiffness, rest, damping, is_mutual } = *coupling;
+    let [ratio, stiffness, damping] = [ratio, stiffness, damping].map(|number| short(number, 6));
+    let (other, rest) = (scene.label(other), coordinate(label, rest));
+    let alone = if is_mutual { "" } else { ", acts on this hinge alone" };
+    format!(
+        "coupling to hinge {other}: ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}{alone}"
+    )
 }
 
 /// A term, unless it is zero.

@@ -6,6 +6,7 @@ use nboom_scalar::{Real, Vec3, Wrench};
 use crate::{Coordinate, Line, Names, Placed, Switched};
 
 mod commands;
+mod coupling;
 mod gravity;
 mod hinge_law;
 mod kick_off;
@@ -15,6 +16,7 @@ mod torque_table;
 mod withheld;
 
 pub use commands::{Commands, Reach};
+use coupling::CouplingLaw;
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
 pub use kick_off::KickOffLaw;
@@ -122,6 +124,7 @@ impl HingeTorque<f64> {
 #[derive(Clone, Debug)]
 pub struct Elements<R> {
     torques: Vec<HingeTorque<R>>,
+    couplings: Vec<CouplingLaw<R>>,
     lines: Vec<Line<R>>,
     withheld: Vec<WithheldMoment<R>>,
     thrust: Option<ThrustForce<R>>,
@@ -139,6 +142,7 @@ impl<R: Real> Elements<R> {
         let thrust = scene.thrust.filter(|_| mode.thrust).map(|thrust| ThrustForce::new(&thrust));
         Self {
             torques: HingeTorque::all(scene, mode),
+            couplings: CouplingLaw::all(scene, tree),
             withheld: WithheldMoment::all(scene, mode, tree, &lines),
             lines,
             external: thrust.map(|thrust| thrust.wrench),
@@ -220,6 +224,31 @@ impl<R: Real> Elements<R> {
         for (j, &hinge) in free.iter().enumerate() {
             out[j] = self.torques[hinge].torque(beta[j], tau[j]);
         }
+        for coupling in &self.couplings {
+            coupling.add_to_free([beta, tau], out);
+        }
+    }
+
+    /// Sets `out` to the torques about all hinges of the scene at their angles and rates, whether they are
+    /// held or free.
+    pub fn set_all_torques(&self, [beta, tau]: [&[R]; 2], out: &mut [R]) {
+        let laws = self.torques.iter().zip(beta.iter().zip(tau));
+        for (torque, (law, (&beta, &tau))) in out.iter_mut().zip(laws) {
+            *torque = law.torque(beta, tau);
+        }
+        for coupling in &self.couplings {
+            coupling.add_to_all([beta, tau], out);
+        }
+    }
+
+    /// Whether a coupling acts on a free hinge.
+    pub fn couples(&self) -> bool {
+        self.couplings.iter().any(CouplingLaw::acts)
+    }
+
+    /// Potential energy of each coupling at β of all hinges, with its first hinge.
+    pub fn coupling_potentials(&self, beta: &[R]) -> impl Iterator<Item = (usize, R)> {
+        self.couplings.iter().map(|coupling| (coupling.hinge(), coupling.potential(beta)))
     }
 
     /// Takes off the torques about the hinges of `links` what lines do not transmit.
@@ -235,11 +264,21 @@ impl<R: Real> Elements<R> {
         !self.withheld.is_empty()
     }
 
-    /// Power of the parts of the torques about the hinges `free` that depend on their rates `tau`.
-    pub fn rate_power(&self, free: &[usize], tau: &[R]) -> R {
+    /// Power of what no potential accounts for: of the parts of the torques about the hinges `free` that
+    /// depend on their rates, at their β and τ.
+    pub fn rate_power(&self, free: &[usize], [beta, tau]: [&[R]; 2]) -> R {
         let hinges = free.iter().map(|&hinge| &self.torques[hinge]).zip(tau);
         let power = hinges.map(|(law, &tau)| law.rate_torque(tau) * tau);
-        power.fold(R::zero(), |sum, of_hinge| sum + of_hinge)
+        let of_couplings = self.couplings.iter().map(|coupling| coupling.power([beta, tau]));
+        power.chain(of_couplings).fold(R::zero(), |sum, of_one| sum + of_one)
+    }
+}
+
+impl Elements<f64> {
+    /// Whether some torque about the hinges `free` does work that no potential accounts for.
+    pub fn has_rate_power(&self, free: &[usize]) -> bool {
+        free.iter().any(|&hinge| self.torques[hinge].depends_on_rate())
+            || self.couplings.iter().any(CouplingLaw::has_power)
     }
 }
 
@@ -256,7 +295,10 @@ fn sum<T>(a: Option<T>, b: Option<T>, add: impl FnOnce(T, T) -> T) -> Option<T> 
 pub fn stored(scene: &Scene) -> f64 {
     let hinges = scene.bodies.iter().map(|body| &body.hinge);
     let springs: f64 = hinges.map(|hinge| hinge_law::stored(hinge) + kick_off::stored(hinge)).sum();
-    springs + scene.torque_tables.iter().map(torque_table::stored).sum::<f64>()
+    let couplings = scene.couplings.iter().map(|one| coupling::stored(scene, one));
+    springs
+        + couplings.sum::<f64>()
+        + scene.torque_tables.iter().map(torque_table::stored).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@
 //! ```
 
 mod body;
+mod coupling;
 mod direction;
 mod error;
 mod hinge;
@@ -42,6 +43,7 @@ mod surroundings;
 
 pub use body::{BodyWords, KickOff, body};
 pub(crate) use body::{inboard, tip_of};
+pub use coupling::{CouplingWords, coupling};
 pub use direction::{Axes, Direction};
 pub use error::{WordsError, WordsErrors};
 pub use hinge::{HingeWords, hinge};

@@ -45,12 +45,32 @@ pub struct BodyDraft {
     pub release: ReleaseDraft,
     /// Points of a torque over the hinge angle, see [`TorqueTable`]; none without such a torque.
     pub torque_table: Vec<[f64; 2]>,
+    /// Springs and dampers between its hinge and others.
+    pub couplings: Vec<CouplingDraft>,
     /// Of a body on the main body: how often it is there, with all that is outboard of it.
     pub repeat: Option<Repeat>,
     /// Material, lock-up pulse and stations.
     pub structure: Option<SegmentStructure>,
     /// What it looks like in pictures.
     pub shape: Option<BodyShape>,
+}
+
+/// A spring and a damper between the hinge of a body and that of another one, which it names; see
+/// [`Coupling`](crate::Coupling).
+#[derive(Clone, Debug, PartialEq)]
+pub struct CouplingDraft {
+    /// Name of the other body.
+    pub to: String,
+    /// ρ.
+    pub ratio: f64,
+    /// k.
+    pub stiffness: f64,
+    /// θ.
+    pub rest: f64,
+    /// c.
+    pub damping: f64,
+    /// Whether it acts on the other hinge as well.
+    pub is_mutual: bool,
 }
 
 /// A release that names the hinge it waits for.
@@ -99,6 +119,7 @@ impl BodyDraft {
             hinge: Hinge::free(),
             release: ReleaseDraft::Never,
             torque_table: Vec::new(),
+            couplings: Vec::new(),
             repeat: None,
             structure: None,
             shape: None,
@@ -137,6 +158,14 @@ pub enum DraftDefect {
     /// No hinge has the name that the release waits for, or it is the hinge itself.
     #[error("release by `{name}` found, {expected} expected")]
     Trigger {
+        /// The name.
+        name: String,
+        /// What would have been right.
+        expected: String,
+    },
+    /// No other hinge has the name that a coupling leads to.
+    #[error("coupling to `{name}` found, {expected} expected")]
+    Coupling {
         /// The name.
         name: String,
         /// What would have been right.
@@ -241,6 +270,12 @@ impl SceneDraft {
             };
             if let (Some(copy), Some(repeat)) = (place.copy, names.repeat(&self.bodies, place)) {
                 repeat.place(copy, place.inboard.is_none(), &mut body);
+            }
+            for coupling in &draft.couplings {
+                match names.coupling(i, place, coupling) {
+                    Ok(coupling) => description.couplings.push(coupling),
+                    Err(defect) => errors.push(DraftError { body: place.draft, defect }),
+                }
             }
             if !draft.torque_table.is_empty() {
                 let points = draft.torque_table.clone();

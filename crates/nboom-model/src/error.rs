@@ -3,7 +3,7 @@ use std::fmt;
 use nboom_scalar::Vec3;
 
 use crate::mass::MassDefect;
-use crate::{Body, HingeLabel, HingeState, Release, SAME_ANGLE, SceneDescription};
+use crate::{Body, Coupling, HingeLabel, HingeState, Release, SAME_ANGLE, SceneDescription};
 
 /// Which body a message is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -139,6 +139,16 @@ pub enum ModelError {
         /// What was found.
         defect: String,
     },
+    /// A coupling that is not between two hinges, or whose numbers are not finite.
+    #[error("segment {label}: coupling {defect} found, {expected} expected")]
+    Coupling {
+        /// The first hinge, or that of the first body where there is none.
+        label: HingeLabel,
+        /// What was found.
+        defect: String,
+        /// What would have been right.
+        expected: &'static str,
+    },
     /// The thrust stops before it starts.
     #[error("thrust from {on} to {off} found, an end not before its start expected")]
     ThrustTimes {
@@ -164,7 +174,33 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
         find_in_hinge(body, &labels[i], labels.len(), i, &mut errors);
     }
     find_in_tables(scene, &mut errors);
+    find_in_couplings(scene, labels, &mut errors);
     errors
+}
+
+fn find_in_couplings(
+    scene: &SceneDescription,
+    labels: &[HingeLabel],
+    errors: &mut Vec<ModelError>,
+) {
+    for coupling in &scene.couplings {
+        let [first, second] = coupling.hinges;
+        let label = labels.get(first).cloned().unwrap_or(HingeLabel::new(0, 0));
+        let mut error = |defect, expected| {
+            errors.push(ModelError::Coupling { label: label.clone(), defect, expected });
+        };
+        if first.max(second) >= labels.len() || first == second {
+            let defect = format!("of hinges number {} and {}", first + 1, second + 1);
+            error(defect, "one of two hinges of the scene");
+        }
+        let Coupling { ratio, stiffness, rest, damping, .. } = *coupling;
+        if ![ratio, stiffness, rest, damping].iter().all(|number| number.is_finite()) {
+            let defect = format!(
+                "with ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}"
+            );
+            error(defect, "finite numbers");
+        }
+    }
 }
 
 fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {

@@ -26,6 +26,7 @@
 
 mod appendage;
 mod column;
+mod coupling;
 mod departures;
 mod draft;
 mod environment;
@@ -50,9 +51,11 @@ mod welded;
 
 pub use appendage::{Appendage, Segment};
 pub use column::{Column, UnknownColumn, WantedTable};
+pub use coupling::Coupling;
 pub use departures::{Departures, TurnOrder, TurnedInertia, Withheld};
 pub use draft::{
-    BodyDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat, Resolved, SceneDraft,
+    BodyDraft, CouplingDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat, Resolved,
+    SceneDraft,
 };
 pub use environment::{Gravity, InitialMotion, Thrust};
 pub use error::{BodyName, ModelError};

@@ -3,8 +3,8 @@ use std::ops::Deref;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Appendage, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint, MassProperties,
-    ModelError, ModelWarning, Mount, Shapes, Thrust, error, warning,
+    Appendage, Coupling, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
+    MassProperties, ModelError, ModelWarning, Mount, Shapes, Thrust, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -52,6 +52,8 @@ pub struct SceneDescription {
     pub bodies: Vec<Body>,
     /// Torques over an angle, beside those of spring and dashpot; at most one about a hinge.
     pub torque_tables: Vec<TorqueTable>,
+    /// Springs and dampers between two hinges.
+    pub couplings: Vec<Coupling>,
     /// Uniform gravity.
     pub gravity: Option<Gravity>,
     /// The thrust pulse.
@@ -70,6 +72,7 @@ impl SceneDescription {
             main_body,
             bodies: Vec::new(),
             torque_tables: Vec::new(),
+            couplings: Vec::new(),
             gravity: None,
             thrust: None,
             initial: InitialMotion::at_rest(),
@@ -106,7 +109,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Checks a description. A thrust or kick-off spring that never exerts a force is left out.
+    /// Checks a description. A thrust, kick-off spring or coupling that never exerts a force is left out.
     ///
     /// # Errors
     /// Everything that is wrong with it, not only the first.
@@ -116,6 +119,7 @@ impl Scene {
             let kick_off = &mut body.hinge.kick_off;
             *kick_off = kick_off.filter(|spring| spring.coefficients != [0.0; 4]);
         }
+        description.couplings.retain(|coupling| !coupling.is_nothing());
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
         let departures = Departures::default();

@@ -11,6 +11,8 @@ pub struct WeldedTree<R> {
     pub links: Vec<Link<R>>,
     /// For each body of the scene, where it sits in its link.
     pub members: Vec<Member<R>>,
+    /// β of every hinge of the scene at which the tree was welded; those that are held keep it.
+    pub angles: Vec<R>,
     /// Links with a body whose inertia about its mass centre is not in theirs, and that inertia; none
     /// without [`Departures`](crate::Departures).
     pub turned: Vec<(usize, TurnedInertia<R>)>,
@@ -53,6 +55,7 @@ impl<R: Real> WeldedTree<R> {
             main: rigid(&scene.main_body),
             links: Vec::new(),
             members: Vec::with_capacity(scene.bodies.len()),
+            angles: beta.to_vec(),
             turned: Vec::new(),
         };
         for i in 0..scene.bodies.len() {

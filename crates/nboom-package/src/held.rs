@@ -23,6 +23,9 @@ pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Scene, 
         tip: scene.bodies[link.hinge].tip,
         hinge: without_events(&scene.bodies[link.hinge].hinge),
     };
+    // Their hinges have other numbers now, or are welded.
+    description.torque_tables.clear();
+    description.couplings.clear();
     description.bodies = tree.links.iter().map(body).collect();
     Scene::new(description)
         .map_err(|errors| PackageError::Welded { scene: scene.name.clone(), errors })

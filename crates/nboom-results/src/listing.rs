@@ -1,7 +1,7 @@
 use std::io::{self, Write};
 
 use nboom_elements::Kind;
-use nboom_model::{HingeLabel, Joint, UnitSystem};
+use nboom_model::{HingeLabel, UnitSystem};
 use nboom_scalar::Vec3;
 use nboom_sim::{Detail, Event, EventKind, Snapshot};
 
@@ -148,10 +148,8 @@ impl<W: Write> ListingWriter<W> {
                 snapshot.sigma[i],
                 detail.alpha_ddot[i],
             ];
-            let shown = match label.joint {
-                Joint::Revolute => radians.map(f64::to_degrees),
-                Joint::Prismatic => radians,
-            };
+            let slides = label.joint.slides();
+            let shown = if slides { radians } else { radians.map(f64::to_degrees) };
             HINGE_MOTION.numbers(&mut self.out, &row_name(label), &shown)?;
         }
         if self.hinges.iter().any(|label| label.joint.slides()) {

@@ -116,10 +116,9 @@ impl Equations {
         let Self { entered, others, commands, own, .. } = self;
         change_mode(entered, others, mode, commands, |i| state.beta[i]);
         let elements = entered.dynamics.elements();
-        let (thrust, torques) = (elements.external().is_some(), elements.torques());
+        let thrust = elements.external().is_some();
         let free = entered.dynamics.free_hinges();
-        let works = |&i: &usize| torques[i].depends_on_rate() || own.act_about(i);
-        let dashpots = free.iter().any(works);
+        let dashpots = elements.has_rate_power(free) || free.iter().any(|&i| own.act_about(i));
         let free = free.len();
         let unknowns = self.unknowns(state, thrust);
         let layout = VariableLayout { unknowns, free, thrust, dashpots };

@@ -1,5 +1,6 @@
 //! The tables of a scene and their keys.
 
+mod coupling;
 mod output;
 mod shape;
 mod slide;
@@ -10,6 +11,8 @@ use super::keys::Holds::{
     Number, Numbers, Rows, Table, Tables, Text, Texts,
 };
 use super::keys::{Holds, Key, TableKind};
+pub(crate) use coupling::ACTS_ON;
+use coupling::COUPLING;
 use output::OUTPUT;
 use shape::SHAPE;
 use slide::SLIDE;
@@ -225,6 +228,11 @@ static BODY: TableKind = choice(
         optional("hinge", Table(&HINGE), "The hinge that joins it to its inboard body."),
         optional("slide", Table(&SLIDE), "The joint that slides along its inboard body."),
         optional("kick_off", Table(&KICK_OFF), "A spring that pushes it off the main body."),
+        optional(
+            "coupling",
+            Tables(&COUPLING),
+            "Springs and dampers between its hinge and others.",
+        ),
         optional(
             "repeat",
             Table(&REPEAT),

@@ -3,6 +3,7 @@
 mod axes;
 mod bodies;
 mod catalog;
+mod couplings;
 mod expression;
 mod fields;
 mod hinges;

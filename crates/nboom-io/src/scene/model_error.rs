@@ -35,6 +35,13 @@ impl Responsible<'_> {
                 (body.place("on"), "on", suggest::nearest(name, known))
             }
             DraftDefect::Circle => (body.place("on"), "on", None),
+            DraftDefect::Coupling { name, .. } => {
+                let coupling = (0..).map_while(|number| body.nth("coupling", number));
+                let leads = |table: &Fields<'_>| reader.text(table, "to") == Some(name);
+                let table = coupling.into_iter().find(leads);
+                let at = table.map_or_else(|| body.at.clone(), |table| table.place("to"));
+                (at, "to", suggest::nearest(name, names()))
+            }
             DraftDefect::TriggerJoint { waits, .. } => {
                 let key = match waits {
                     Joint::Revolute => "passes",
@@ -124,6 +131,7 @@ impl Responsible<'_> {
                 let key = if slides { "force" } else { "torque" };
                 (joint_of(&body).unwrap_or(body), key)
             }
+            ModelError::Coupling { label, .. } => (body(label), "coupling"),
             ModelError::ThrustTimes { .. } => (outer("thrust"), "until"),
             // The end of the run, and whatever words cannot say.
             _ => (outer("run"), "end"),

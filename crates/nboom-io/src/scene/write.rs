@@ -3,7 +3,7 @@
 mod lines;
 
 use nboom_model::{
-    Body, BodyShape, Hinge, HingeState, Joint, MassProperties, Material, Release, Scene,
+    Body, BodyShape, Coupling, Hinge, HingeState, Joint, MassProperties, Material, Release, Scene,
     SectionShape, SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
@@ -48,6 +48,7 @@ pub fn write_scene(file: &SceneFile) -> String {
         segment.into_iter().for_each(|segment| strength(&mut lines, segment, &materials));
         lines.table(&format!("body.{}", joint_table(of_body.joint)));
         joint(&mut lines, scene, i, of_body);
+        couplings(&mut lines, scene, i);
         segment.into_iter().for_each(|segment| stations(&mut lines, segment));
     }
     lines.text
@@ -140,6 +141,26 @@ fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
         let value =
             format!("{{ main_body_end = {from}, end = {to}, force = {force}, limit = {limit} }}");
         lines.value("kick_off", value);
+    }
+}
+
+/// The couplings of hinge `i`, as tables of its body.
+fn couplings(lines: &mut Lines, scene: &Scene, i: usize) {
+    for coupling in scene.couplings.iter().filter(|coupling| coupling.hinges[0] == i) {
+        let Coupling { hinges: [_, other], ratio, stiffness, rest, damping, is_mutual } = *coupling;
+        lines.tables("body.coupling");
+        lines.value("to", text(&name_of(scene, other)));
+        let numbers = [("ratio", ratio), ("stiffness", stiffness), ("damping", damping)];
+        numbers.iter().for_each(|(key, value)| lines.value(key, number(*value)));
+        if rest != 0.0 {
+            lines.line(match scene.bodies[i].joint {
+                Joint::Revolute => angle("rest", rest),
+                Joint::Prismatic => format!("rest_length = {}", number(rest)),
+            });
+        }
+        if !is_mutual {
+            lines.value("acts_on", text("this"));
+        }
     }
 }
 

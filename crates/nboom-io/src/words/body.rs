@@ -5,7 +5,7 @@ use nboom_scalar::Vec3;
 
 use super::error::of_body;
 use super::surroundings::MassWords;
-use super::{Direction, HingeWords, Inertia, SlideWords, WordsError, hinge};
+use super::{CouplingWords, Direction, HingeWords, Inertia, SlideWords, WordsError, hinge};
 
 /// A hinged body, in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +17,7 @@ pub struct BodyWords {
     tip: Option<Vec3<f64>>,
     hinge: HingeWords,
     kick_off: Option<KickOff>,
+    couplings: Vec<CouplingWords>,
     repeat: Option<(usize, Direction)>,
     structure: Option<SegmentStructure>,
     shape: Option<BodyShape>,
@@ -44,6 +45,7 @@ pub fn body(name: &str) -> BodyWords {
         tip: None,
         hinge: hinge(),
         kick_off: None,
+        couplings: Vec::new(),
         repeat: None,
         structure: None,
         shape: None,
@@ -110,6 +112,12 @@ impl BodyWords {
         self
     }
 
+    /// One more spring and damper between its hinge and another one.
+    pub fn coupling(mut self, coupling: CouplingWords) -> Self {
+        self.couplings.push(coupling);
+        self
+    }
+
     /// Makes several of it, with all that is outboard of it, evenly about an axis through O; for a body
     /// on the main body. Copies are called "name 1", "name 2", …
     pub fn repeat(mut self, count: usize, about: impl Into<Direction>) -> Self {
@@ -140,6 +148,7 @@ impl BodyWords {
         body.tip = self.tip.unwrap_or_else(|| tip_of(&properties));
         self.hinge.act_on(&mut body);
         body.hinge.kick_off = self.kick_off.map(KickOffSpring::from);
+        body.couplings = self.couplings.into_iter().map(Into::into).collect();
         body.repeat = self.repeat.and_then(|(count, about)| {
             let wrong = |(found, expected)| {
                 let of = of.clone();

@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 
-use super::{BodyDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat};
-use crate::Release;
+use super::{BodyDraft, CouplingDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat};
+use crate::{Coupling, Release};
 
 /// A body of the scene, as the draft has it.
 #[derive(Clone, Debug)]
@@ -117,6 +117,28 @@ impl Names {
                 Ok(Release::AfterLock { hinge: self.hinge(place, after)?, delay: *by })
             }
         }
+    }
+
+    /// A coupling of the body `i`, which is at `place`.
+    pub fn coupling(
+        &self,
+        i: usize,
+        place: &Place,
+        draft: &CouplingDraft,
+    ) -> Result<Coupling, DraftDefect> {
+        let CouplingDraft { ref to, ratio, stiffness, rest, damping, is_mutual } = *draft;
+        let other = match self.hinge(place, to) {
+            Ok(other) if other != i => other,
+            Ok(_) => {
+                let expected = "another body".to_owned();
+                return Err(DraftDefect::Coupling { name: to.clone(), expected });
+            }
+            Err(DraftDefect::Trigger { name, expected }) => {
+                return Err(DraftDefect::Coupling { name, expected });
+            }
+            Err(defect) => return Err(defect),
+        };
+        Ok(Coupling { hinges: [i, other], ratio, stiffness, rest, damping, is_mutual })
     }
 
     fn hinge(&self, place: &Place, name: &str) -> Result<usize, DraftDefect> {

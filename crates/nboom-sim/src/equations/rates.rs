@@ -65,7 +65,8 @@ impl<R: Real> Rates<R> {
         dy[1..4].copy_from_slice(&rate.vector.to_array());
         dy[layout.beta()].copy_from_slice(motion.tau);
         if let [work] = &mut dy[layout.dashpot_work()] {
-            *work = dynamics.elements().rate_power(dynamics.free_hinges(), motion.tau);
+            let free = dynamics.free_hinges();
+            *work = dynamics.elements().rate_power(free, [motion.beta, motion.tau]);
         }
         if layout.thrust {
             write_external(layout, dynamics, (&motion, (*total_mass, free_fall)), y, dy);

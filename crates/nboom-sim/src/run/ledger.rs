@@ -132,6 +132,9 @@ fn potential(equations: &Equations, state: &State) -> Potential {
     for (i, (law, &beta)) in laws.iter().zip(&state.beta).enumerate() {
         found.add(law.potential(beta), Some(i));
     }
+    for (hinge, stored) in equations.entered.dynamics.elements().coupling_potentials(&state.beta) {
+        found.add(stored, Some(hinge));
+    }
     if equations.gravity() != Vec3::zero() {
         found.add(gravity_potential(&equations.scene, state.center.position), None);
     }

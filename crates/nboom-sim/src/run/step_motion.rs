@@ -92,10 +92,7 @@ impl Forces {
         [beta, tau]: [&[f64]; 2],
         free_beta: &[f64],
     ) {
-        let laws = dynamics.elements().torques().iter().zip(beta.iter().zip(tau));
-        for (torque, (law, (&b, &t))) in self.torque.iter_mut().zip(laws) {
-            *torque = law.torque(b, t);
-        }
+        dynamics.elements().set_all_torques([beta, tau], &mut self.torque);
         for law in own.iter() {
             self.torque[law.hinge] += law.torque(beta[law.hinge], tau[law.hinge]);
         }

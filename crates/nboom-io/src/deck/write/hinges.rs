@@ -16,6 +16,9 @@ pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
             obstacles.add(i, "slide", DeckDefect::Slides);
             continue;
         }
+        if scene.couplings.iter().any(|coupling| coupling.hinges[0] == i) {
+            obstacles.add(i, "coupling", DeckDefect::Coupling);
+        }
         if scene.torque_tables.iter().any(|table| table.hinge == i) {
             obstacles.add(i, "hinge.torque", DeckDefect::Torque);
         }

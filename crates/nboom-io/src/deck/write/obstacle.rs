@@ -50,6 +50,9 @@ pub enum DeckDefect {
     /// A joint that slides.
     #[error("found a joint that slides, expected hinges only")]
     Slides,
+    /// A spring or damper between two hinges.
+    #[error("found a spring or damper between two hinges, expected none")]
+    Coupling,
     /// A torque over the angle.
     #[error("found a torque over the angle, expected springs and dampers only")]
     Torque,

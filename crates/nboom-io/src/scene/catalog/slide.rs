@@ -36,7 +36,7 @@ pub(super) static SLIDE: TableKind = table(
 );
 
 static SLIDE_SPRING: TableKind = table(
-    "slide spring",
+    "slide_spring",
     "Force −stiffness (β − rest) + quadratic (β − rest)² at the travel β.",
     &[
         required("stiffness", Number, "Force per length, positive if it drives towards rest."),
@@ -46,7 +46,7 @@ static SLIDE_SPRING: TableKind = table(
 );
 
 static SLIDE_DAMPER: TableKind = table(
-    "slide damper",
+    "slide_damper",
     "Force −damping τ + speed_squared τ² + travel (β − rest) + travel_squared (β − rest)² at the travel β \
      and the speed τ.",
     &[
