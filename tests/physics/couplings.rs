@@ -68,11 +68,16 @@ fn what_a_spring_with_a_ratio_takes_from_one_hinge_the_other_gets() {
     scene.couplings = vec![Coupling { stiffness: k, ratio, rest: 0.1, ..coupling([0, 1]) }];
     scene.bodies[1].hinge.start.rate = 1.0;
     let found = run(&scene, &options(5, 1e-12));
-    let [first, last] = [&found.samples[0], found.last()];
+    let first = &found.samples[0];
     let stored = |beta: &[f64]| 0.5 * k * (beta[0] - ratio * beta[1] - 0.1).powi(2);
-    let gained = last.kinetic_energy - first.kinetic_energy;
-    assert!((gained + stored(&last.beta) - stored(&first.beta)).abs() < 1e-11, "{gained}");
-    assert!(gained.abs() > 0.1);
+    let mut most = 0.0_f64;
+    for seen in &found.samples {
+        let gained = seen.kinetic_energy - first.kinetic_energy;
+        let given = stored(&first.beta) - stored(&seen.beta);
+        assert!((gained - given).abs() < 1e-11, "{gained} {given}");
+        most = most.max(gained.abs());
+    }
+    assert!(most > 0.1, "{most}");
     assert!(found.summary.conservation.energy < 1e-11);
 }
 

@@ -24,4 +24,5 @@ mod torque_free;
 mod torque_table;
 mod transforms;
 mod weld;
+mod wheels;
 mod wings;

@@ -7,6 +7,7 @@ use proptest::prelude::*;
 
 use super::newton_euler::{self, vector};
 use super::random_scene::{Moment, moment};
+use super::rates::rates;
 use super::{Prepared, cases, condition, relative};
 
 /// Rounding of a sum of a few dozen products, each of a few roundings.
@@ -139,7 +140,7 @@ proptest! {
         let free = prepared.dynamics.free_hinges().to_vec();
         let mut tau_dot = vec![0.0; bodies];
         free.iter().enumerate().for_each(|(j, &i)| tau_dot[i] = accelerations[6 + j]);
-        let rates = newton_euler::rates(scene, &placed, &moment.tau, &accelerations, &tau_dot);
+        let rates = rates(scene, &placed, &moment.tau, &accelerations, &tau_dot);
         let allowed = 10.0 * allowed(kappa);
         let power = (rates.kinetic_energy - loads.power).abs() / rates.energy_scale;
         prop_assert!(power < allowed, "power {power:e}, condition {kappa:e}");

@@ -18,6 +18,7 @@ mod evaluations;
 mod loads;
 mod lock_up_loads;
 mod lock_ups;
+mod rates;
 mod runs;
 
 use nalgebra::{DMatrix, DVector};

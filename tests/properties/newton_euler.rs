@@ -3,7 +3,9 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
-use nboom::model::{Body, Coupling, HingeState, Joint, MassProperties, Mode, SceneDescription};
+use nboom::model::{
+    Body, Coupling, HingeState, Joint, MassProperties, Mode, Rotor, SceneDescription,
+};
 use nboom::scalar::{Mat3, Vec3};
 
 type V3 = Vector3<f64>;
@@ -22,6 +24,18 @@ fn skew(v: V3) -> M3 {
     v.cross_matrix()
 }
 
+/// A body and the rotors in it.
+struct Carrier<'a> {
+    body: &'a MassProperties,
+    rotors: Vec<Rotor>,
+}
+
+fn carrier(scene: &SceneDescription, body: Option<usize>) -> Carrier<'_> {
+    let rotors = scene.rotors.iter().filter(|rotor| rotor.body == body).copied().collect();
+    let body = body.map_or(&scene.main_body, |i| &scene.bodies[i].mass_properties);
+    Carrier { body, rotors }
+}
+
 /// One body where it is, and how it moves; the main body is number 0, hinged body i is i + 1.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed {
@@ -32,6 +46,8 @@ pub struct Placed {
     pub center: V3,
     pub mass: f64,
     pub inertia: M3,
+    /// Angular momentum of its rotors relative to it.
+    pub spin: V3,
     pub omega: V3,
     pub velocity: V3,
     /// Velocity of the mass centre.
@@ -39,11 +55,19 @@ pub struct Placed {
 }
 
 impl Placed {
-    fn new(body: &MassProperties, rot: M3, origin: V3, axis: V3, omega: V3, velocity: V3) -> Self {
+    fn new(body: &Carrier<'_>, rot: M3, origin: V3, axis: V3, omega: V3, velocity: V3) -> Self {
+        let Carrier { body, rotors } = body;
         let i = body.inertia;
         let own = M3::new(i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz);
+        let (mut spin, mut own) = (V3::zeros(), own);
+        for rotor in rotors {
+            let axis = vector(rotor.axis);
+            own += axis * axis.transpose() * rotor.inertia;
+            spin += axis * (rotor.inertia * rotor.speed);
+        }
         let arm = rot * vector(body.center_of_mass);
         Self {
+            spin: rot * spin,
             rot,
             origin,
             axis,
@@ -71,7 +95,7 @@ pub fn place(
     velocity: V3,
 ) -> Vec<Placed> {
     let zero = V3::zeros();
-    let main = Placed::new(&scene.main_body, M3::identity(), zero, zero, omega, velocity);
+    let main = Placed::new(&carrier(scene, None), M3::identity(), zero, zero, omega, velocity);
     let mut placed = vec![main];
     for (i, body) in scene.bodies.iter().enumerate() {
         let inboard = placed[inboard_of(body)];
@@ -89,12 +113,12 @@ pub fn place(
                 (still, origin, inboard.omega, inboard.velocity_at(origin) + axis * tau[i])
             }
         };
-        placed.push(Placed::new(&body.mass_properties, rot, origin, axis, omega, velocity));
+        placed.push(Placed::new(&carrier(scene, Some(i)), rot, origin, axis, omega, velocity));
     }
     placed
 }
 
-fn inboard_of(body: &Body) -> usize {
+pub fn inboard_of(body: &Body) -> usize {
     body.inboard.map_or(0, |inboard| inboard + 1)
 }
 
@@ -118,7 +142,7 @@ pub fn sums(placed: &[Placed]) -> Sums {
     let linear: V3 = placed.iter().map(|b| b.center_velocity * b.mass).sum();
     let own = |b: &Placed| {
         let relative = b.center_velocity - linear / mass;
-        b.inertia * b.omega + (b.center - center).cross(&relative) * b.mass
+        b.inertia * b.omega + b.spin + (b.center - center).cross(&relative) * b.mass
     };
     let energy = |b: &Placed| {
         0.5 * b.mass * b.center_velocity.norm_squared() + 0.5 * b.omega.dot(&(b.inertia * b.omega))
@@ -253,7 +277,7 @@ pub fn accelerations(
     let mut right = DVector::<f64>::zeros(unknowns + constraints);
     for (b, body) in placed.iter().enumerate() {
         let (force, moment) = loads.forces[b];
-        let gyroscopic = body.omega.cross(&(body.inertia * body.omega));
+        let gyroscopic = body.omega.cross(&(body.inertia * body.omega + body.spin));
         matrix.view_mut((6 * b, 6 * b), (3, 3)).copy_from(&(M3::identity() * body.mass));
         matrix.view_mut((6 * b + 3, 6 * b + 3), (3, 3)).copy_from(&body.inertia);
         right.rows_mut(6 * b, 3).copy_from(&force);
@@ -323,62 +347,4 @@ fn least_parallel(axis: V3) -> V3 {
     let mut unit = V3::zeros();
     unit[axis.iamin()] = 1.0;
     unit
-}
-
-/// Rates of energy and momenta, about O as far as moments go.
-pub struct Rates {
-    pub kinetic_energy: f64,
-    pub energy_scale: f64,
-    pub linear: V3,
-    pub linear_scale: f64,
-    pub angular: V3,
-    pub angular_scale: f64,
-}
-
-/// Spreads given accelerations (a_O, ω̇, …) and `tau_dot` over the bodies and adds up.
-pub fn rates(
-    scene: &SceneDescription,
-    placed: &[Placed],
-    tau: &[f64],
-    of_main: &DVector<f64>,
-    tau_dot: &[f64],
-) -> Rates {
-    let mut moved: Vec<(V3, V3)> = vec![(
-        V3::new(of_main[0], of_main[1], of_main[2]),
-        V3::new(of_main[3], of_main[4], of_main[5]),
-    )];
-    let at = |body: &Placed, (a, w): (V3, V3), arm: V3| {
-        a + w.cross(&arm) + body.omega.cross(&body.omega.cross(&arm))
-    };
-    for (i, body) in scene.bodies.iter().enumerate() {
-        let (p, own) = (inboard_of(body), placed[i + 1]);
-        let origin = at(&placed[p], moved[p], own.origin - placed[p].origin);
-        let (carried, driven) =
-            (placed[p].omega.cross(&(own.axis * tau[i])), own.axis * tau_dot[i]);
-        moved.push(match body.joint {
-            Joint::Revolute => (origin, moved[p].1 + carried + driven),
-            Joint::Prismatic => (origin + carried * 2.0 + driven, moved[p].1),
-        });
-    }
-    let mut rates = Rates {
-        kinetic_energy: 0.0,
-        energy_scale: 0.0,
-        linear: V3::zeros(),
-        linear_scale: 0.0,
-        angular: V3::zeros(),
-        angular_scale: 0.0,
-    };
-    for (body, &acceleration) in placed.iter().zip(&moved) {
-        let force = at(body, acceleration, body.center - body.origin) * body.mass;
-        let moment = body.inertia * acceleration.1 + body.omega.cross(&(body.inertia * body.omega));
-        let about_o = body.center.cross(&force) + moment;
-        let powers = [body.center_velocity.dot(&force), body.omega.dot(&moment)];
-        rates.kinetic_energy += powers[0] + powers[1];
-        rates.energy_scale += powers[0].abs() + powers[1].abs();
-        rates.linear += force;
-        rates.linear_scale += force.norm();
-        rates.angular += about_o;
-        rates.angular_scale += about_o.norm();
-    }
-    rates
 }

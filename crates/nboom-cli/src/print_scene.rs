@@ -10,6 +10,7 @@ use crate::format::{count, degrees, short, vector};
 pub(crate) fn text(scene: &Scene) -> String {
     let mut lines = vec![heading(scene)];
     lines.push(format!("main body: {}", mass_properties(&scene.main_body)));
+    lines.extend(rotors(scene, None).map(|rotor| format!("  {rotor}")));
     let postures = [Posture::at_start(scene), Posture::locked(scene)];
     for branch in branches(scene) {
         lines.extend(branch_lines(scene, &branch, &postures));
@@ -35,6 +36,13 @@ fn mass_properties(body: &MassProperties) -> String {
     let [a, b, c] = body.principal_moments().map(|moment| short(moment, 6));
     let (mass, center) = (short(body.mass, 6), vector(body.center_of_mass));
     format!("mass {mass}, mass centre {center}, principal moments of inertia {a}, {b}, {c}")
+}
+
+fn rotors(scene: &Scene, body: Option<usize>) -> impl Iterator<Item = String> {
+    scene.rotors.iter().filter(move |rotor| rotor.body == body).map(|rotor| {
+        let (axis, inertia) = (vector(rotor.axis), short(rotor.inertia, 6));
+        format!("rotor: axis {axis}, inertia {inertia}, {} per time unit", degrees(rotor.speed))
+    })
 }
 
 /// Indices of the bodies of each branch that leaves the main body.
@@ -87,6 +95,7 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
     lines.extend(when.iter().zip(places).map(|(when, place)| format!("    {when}: {place}")));
     lines.extend(forces.flatten().map(|force| format!("    {force}")));
     lines.push(format!("    body: {}", mass_properties(mass)));
+    lines.extend(rotors(scene, Some(i)).map(|rotor| format!("    {rotor}")));
     lines
 }
 

@@ -140,7 +140,14 @@ pub(crate) fn bias<R: Real>(
         };
         wrenches[j] = pose.inertia.inertia_wrench(omegas[j], twists[j]);
     }
-    inertia_wrench_at_rest(&tree.main, omega_body)
+    let mut of_main = inertia_wrench_at_rest(&tree.main, omega_body);
+    if tree.has_rotors {
+        for (wrench, (pose, omega)) in wrenches.iter_mut().zip(poses.iter().zip(&*omegas)) {
+            wrench.moment += omega.cross(pose.spin);
+        }
+        of_main.moment += omega_body.cross(tree.main_spin);
+    }
+    of_main
 }
 
 #[inline]

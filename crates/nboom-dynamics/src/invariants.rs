@@ -11,7 +11,7 @@ pub struct Invariants<R> {
     pub mass_center: Vec3<R>,
     /// V: inertial velocity of O.
     pub origin_velocity: Vec3<R>,
-    /// Kinetic energy, eq. (8.11).
+    /// Kinetic energy, eq. (8.11), with that of rotors.
     pub kinetic_energy: R,
     /// Linear momentum P̄, the sum over the bodies, eq. (8.7).
     pub linear_momentum: Vec3<R>,
@@ -21,6 +21,9 @@ pub struct Invariants<R> {
     pub linear_momentum_scale: R,
     /// Sum of the magnitudes of the bodies' angular momenta about the mass centre.
     pub angular_momentum_scale: R,
+    /// Σ h̄·ω̄ of rotors with the momenta h̄ relative to bodies that turn at ω̄: the part of the kinetic energy
+    /// that their motors put in.
+    pub motor_work: R,
 }
 
 /// Length of a line, and how it changes.
@@ -69,12 +72,20 @@ impl<R: Real> Recursive<R> {
             angular_momentum: Vec3::zero(),
             linear_momentum_scale: R::zero(),
             angular_momentum_scale: R::zero(),
+            motor_work: R::zero(),
         };
         let from_center = origin_velocity - center_velocity;
         self.for_each_link(motion, |position, inertia, twist| {
             let relative = Twist { linear: twist.linear + from_center, ..twist };
             found.add_body(position - mass_center, inertia, relative, center_velocity);
         });
+        if self.tree.has_rotors {
+            found.add_rotors(motion.omega_body, self.tree.main_spin);
+            for (pose, twist) in self.poses.iter().zip(&self.twists) {
+                found.add_rotors(twist.angular, pose.spin);
+            }
+            found.kinetic_energy += R::constant(self.rotor_energy);
+        }
         found
     }
 
@@ -181,6 +192,15 @@ impl<R: Real> Recursive<R> {
 }
 
 impl<R: Real> Invariants<R> {
+    /// Adds the rotors of a body that turns at `omega`, whose momentum relative to it is `spin`.
+    fn add_rotors(&mut self, omega: Vec3<R>, spin: Vec3<R>) {
+        let work = omega.dot(spin);
+        self.angular_momentum += spin;
+        self.angular_momentum_scale += spin.norm();
+        self.kinetic_energy += work;
+        self.motor_work += work;
+    }
+
     /// Adds a body whose hinge is at `arm` from the mass centre and moves as `relative` to it.
     fn add_body(
         &mut self,

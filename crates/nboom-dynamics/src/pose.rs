@@ -80,6 +80,8 @@ pub(crate) struct LinkPose<R> {
     pub axis: Vec3<R>,
     /// Mass properties about the hinge.
     pub inertia: RigidInertia<R>,
+    /// Angular momentum of its rotors relative to it.
+    pub spin: Vec3<R>,
 }
 
 impl<R: Real> LinkPose<R> {
@@ -91,6 +93,7 @@ impl<R: Real> LinkPose<R> {
             joint: Joint::Revolute,
             axis: Vec3::zero(),
             inertia: RigidInertia::zero(),
+            spin: Vec3::zero(),
         }
     }
 
@@ -156,6 +159,11 @@ pub(crate) fn place<R: Real>(
 pub(crate) fn turn_inertias<R: Real>(tree: &WeldedTree<R>, beta: &[R], poses: &mut [LinkPose<R>]) {
     for (link, pose) in tree.links.iter().zip(&mut *poses) {
         pose.inertia = link.inertia.rotated(&pose.rot);
+    }
+    if tree.has_rotors {
+        for (link, pose) in tree.links.iter().zip(&mut *poses) {
+            pose.spin = pose.rot * link.spin;
+        }
     }
     for (link, turned) in &tree.turned {
         poses[*link].inertia.about_origin += turned.inertia(beta);

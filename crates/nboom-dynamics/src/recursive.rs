@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use nboom_elements::{Commands, Elements};
-use nboom_model::{Joint, Mode, Scene, WeldedTree};
+use nboom_model::{Joint, Mode, Rotors, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
@@ -52,6 +52,8 @@ pub struct Recursive<R> {
     pub(crate) tree: WeldedTree<R>,
     pub(crate) constants: Vec<LinkConstants<R>>,
     pub(crate) elements: Elements<R>,
+    /// Kinetic energy of all rotors relative to their bodies.
+    pub(crate) rotor_energy: f64,
     free: Vec<usize>,
     pub(crate) poses: Vec<LinkPose<R>>,
     pub(crate) hinges: Vec<HingeFactor<R>>,
@@ -73,6 +75,7 @@ impl<R: Real> Recursive<R> {
         let mut recursive = Self {
             scene: Arc::new(scene.clone()),
             elements: Elements::new(scene, &mode, &tree),
+            rotor_energy: Rotors::energy_of(&scene.rotors),
             tree,
             constants: Vec::new(),
             free: Vec::new(),
@@ -129,6 +132,21 @@ impl<R: Real> Recursive<R> {
     /// The external wrench on the main body about O, main-body axes, when there is one.
     pub fn external(&self) -> Option<Wrench<R>> {
         self.elements.external()
+    }
+
+    /// Whether [`acting_on_main_body`](Self::acting_on_main_body) is anything.
+    pub fn acts_on_main_body(&self) -> bool {
+        self.tree.has_rotors || self.elements.external().is_some()
+    }
+
+    /// The external wrench on the main body and the gyroscopic moment −ω̄ × h̄ of its rotors at the rate
+    /// `omega_body`, about O, main-body axes.
+    pub fn acting_on_main_body(&self, omega_body: Vec3<R>) -> Wrench<R> {
+        let mut acting = self.elements.external().unwrap_or(Wrench::zero());
+        if self.tree.has_rotors {
+            acting.moment -= omega_body.cross(self.tree.main_spin);
+        }
+        acting
     }
 
     /// Accelerations by articulated bodies: ω̇, a_O without gravity, τ̇.

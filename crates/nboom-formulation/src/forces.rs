@@ -167,14 +167,14 @@ fn push<R: Real>(
 impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
-    /// `None` where a right side has no place for them: where a free hinge has a torque table or is coupled, where
+    /// `None` where a right side has no place for them: where a free hinge has a torque table or is coupled, where there are rotors, where
     /// two lines push one link, and where a line does not transmit all of its moment.
     pub fn of(
         elements: &Elements<f64>,
         tree: &WeldedTree<f64>,
         recognised: &Recognised,
     ) -> Option<Self> {
-        if elements.withholds() || elements.couples() {
+        if elements.withholds() || elements.couples() || tree.has_rotors {
             return None;
         }
         let mut forces = Self::none(recognised.links.len());

@@ -46,11 +46,12 @@ const SAME_AXIS: f64 = 1e-12;
 /// Writes the tree as chains and paddles.
 ///
 /// # Errors
-/// The first link (an index of the tree) that does not fit: one that is not rigid or slides, one of two links
+/// The first link (an index of the tree) that does not fit: one that is not rigid, carries a rotor or slides, one of two links
 /// on the same inboard link, or one whose axis is neither that of a chain nor that of a paddle.
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
     rigid(tree)?;
-    tree.links.iter().position(|link| link.joint.slides()).map_or(Ok(()), Err)?;
+    let is_other = |link: &Link<f64>| link.joint.slides() || link.spin != Vec3::zero();
+    tree.links.iter().position(is_other).map_or(Ok(()), Err)?;
     let mut appendages: Vec<Appendage> = Vec::new();
     for root in (0..tree.links.len()).filter(|&j| tree.links[j].inboard.is_none()) {
         appendages.push(appendage(tree, root)?);

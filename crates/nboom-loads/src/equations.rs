@@ -229,6 +229,9 @@ fn gather<R: Real>(
 ) {
     for (i, (segment, place)) in segments.iter().zip(&mut *places).enumerate() {
         out.hinges[i] = place.inertia_wrench(&segment.inertia);
+        if let Some(spin) = segment.spin {
+            out.hinges[i].moment += place.omega.cross(spin);
+        }
         place.size = place.inertia_size(&segment.inertia);
         for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
             *load = place.inertia_wrench(&cut.outboard);

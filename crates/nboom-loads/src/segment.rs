@@ -15,8 +15,10 @@ pub(crate) struct Segment<R> {
     /// Turns segment components at hinge angle zero into inboard components.
     pub rot_inboard_at_zero: Mat3<R>,
     pub axis: Vec3<R>,
-    /// Of the whole segment, about the hinge.
+    /// Of the whole segment, about the hinge; of rotors at rest.
     pub inertia: RigidInertia<R>,
+    /// Angular momentum of its rotors relative to it, if it has some. They count as being at the hinge.
+    pub spin: Option<Vec3<R>>,
     /// The outermost station of the inboard body that carries this one.
     pub carried_from: usize,
     pub stations: Vec<Cut<R>>,
@@ -57,6 +59,7 @@ impl<R: Copy> Segment<R> {
             rot_inboard_at_zero: self.rot_inboard_at_zero.map(&mut f),
             axis: self.axis.map(&mut f),
             inertia: self.inertia.map(&mut f),
+            spin: self.spin.map(|spin| spin.map(&mut f)),
             carried_from: self.carried_from,
             stations: self.stations.iter().map(|cut| cut.map(&mut f)).collect(),
             push: self.push.map(|push| push.map(&mut f)),
@@ -64,13 +67,13 @@ impl<R: Copy> Segment<R> {
     }
 
     /// How it is attached, as numbers that no other arrangement has.
-    pub fn arrangement(&self) -> [f64; 6] {
+    pub fn arrangement(&self) -> [f64; 7] {
         let counted = |place: Option<usize>| place.map_or(0, |place| place + 1);
         let push = self.push.as_ref().map(|push| push.carried_from);
         let sections = self.stations.iter().filter(|cut| cut.influence.is_some()).count();
         let stations = self.stations.len();
-        let slides = usize::from(self.joint.slides());
-        [counted(self.inboard), self.carried_from, stations, sections, counted(push), slides]
+        let [slides, spins] = [self.joint.slides(), self.spin.is_some()].map(usize::from);
+        [counted(self.inboard), self.carried_from, stations, sections, counted(push), slides, spins]
             .map(|count| count as f64)
     }
 }
@@ -120,13 +123,17 @@ impl Segment<f64> {
             main_body_point: ends.main_body_point,
             carried_from: carried_from(stations_of(i), ends.body_point),
         });
+        let rotors = scene.rotors_of(Some(i));
+        let mut inertia = about_hinge(&body.mass_properties);
+        inertia.about_origin += rotors.inertia;
         Self {
+            spin: Some(rotors.momentum).filter(|spin| *spin != Vec3::zero()),
             inboard: body.inboard,
             joint: body.joint,
             point: body.mount.point,
             rot_inboard_at_zero: body.mount.rot_inboard_from_hinge,
             axis: body.axis,
-            inertia: about_hinge(&body.mass_properties),
+            inertia,
             carried_from: carried_from(inboard_stations, body.mount.point),
             stations: of(i).map(cuts).unwrap_or_default(),
             push,

@@ -6,7 +6,7 @@ mod repeat;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Body, BodyShape, Hinge, Joint, MassProperties, Mount, Release, SceneDescription,
+    Body, BodyShape, Hinge, Joint, MassProperties, Mount, Release, Rotor, SceneDescription,
     SegmentStructure, TorqueTable,
 };
 use names::Names;
@@ -47,6 +47,8 @@ pub struct BodyDraft {
     pub torque_table: Vec<[f64; 2]>,
     /// Springs and dampers between its hinge and others.
     pub couplings: Vec<CouplingDraft>,
+    /// Rotors in it; their `body` does not count.
+    pub rotors: Vec<Rotor>,
     /// Of a body on the main body: how often it is there, with all that is outboard of it.
     pub repeat: Option<Repeat>,
     /// Material, lock-up pulse and stations.
@@ -120,6 +122,7 @@ impl BodyDraft {
             release: ReleaseDraft::Never,
             torque_table: Vec::new(),
             couplings: Vec::new(),
+            rotors: Vec::new(),
             repeat: None,
             structure: None,
             shape: None,
@@ -271,6 +274,8 @@ impl SceneDraft {
             if let (Some(copy), Some(repeat)) = (place.copy, names.repeat(&self.bodies, place)) {
                 repeat.place(copy, place.inboard.is_none(), &mut body);
             }
+            let in_body = |rotor: &Rotor| Rotor { body: Some(i), ..*rotor };
+            description.rotors.extend(draft.rotors.iter().map(in_body));
             for coupling in &draft.couplings {
                 match names.coupling(i, place, coupling) {
                     Ok(coupling) => description.couplings.push(coupling),

@@ -3,7 +3,9 @@ use std::fmt;
 use nboom_scalar::Vec3;
 
 use crate::mass::MassDefect;
-use crate::{Body, Coupling, HingeLabel, HingeState, Release, SAME_ANGLE, SceneDescription};
+use crate::{
+    Body, Coupling, HingeLabel, HingeState, Joint, Release, Rotor, SAME_ANGLE, SceneDescription,
+};
 
 /// Which body a message is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -149,6 +151,18 @@ pub enum ModelError {
         /// What would have been right.
         expected: &'static str,
     },
+    /// A rotor is in no body of the scene, or its numbers are those of none.
+    #[error("rotor {rotor}: {defect} found, {expected} expected")]
+    Rotor {
+        /// Number of the rotor, from 1.
+        rotor: usize,
+        /// The body that carries it; `None` is the main body.
+        body: Option<usize>,
+        /// What was found.
+        defect: String,
+        /// What would have been right.
+        expected: &'static str,
+    },
     /// The thrust stops before it starts.
     #[error("thrust from {on} to {off} found, an end not before its start expected")]
     ThrustTimes {
@@ -175,7 +189,29 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
     }
     find_in_tables(scene, &mut errors);
     find_in_couplings(scene, labels, &mut errors);
+    find_in_rotors(scene, &mut errors);
     errors
+}
+
+fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
+    for (i, rotor) in scene.rotors.iter().enumerate() {
+        let Rotor { body, axis, inertia, speed } = *rotor;
+        let mut error = |defect, expected| {
+            errors.push(ModelError::Rotor { rotor: i + 1, body, defect, expected });
+        };
+        if body.is_some_and(|body| body >= scene.bodies.len()) {
+            error("body that is not there".to_owned(), "a body of the scene");
+        }
+        if !is_unit(axis.norm()) {
+            error(format!("axis of length {}", axis.norm()), "a unit vector");
+        }
+        if !(inertia > 0.0 && inertia.is_finite()) {
+            error(format!("inertia {inertia}"), "a positive finite inertia");
+        }
+        if !speed.is_finite() {
+            error(format!("speed {speed}"), "a finite speed");
+        }
+    }
 }
 
 fn find_in_couplings(
@@ -282,7 +318,8 @@ fn find_in_tree(
     }
 }
 
-/// A body that carries others may be without mass, as the ring between the axes of a gimbal.
+/// A body that carries others may be without mass, as the ring between the axes of a gimbal; so may a wheel
+/// on which nothing hangs, whose inertia is about its axis alone.
 fn find_in_mass(
     scene: &SceneDescription,
     label: &HingeLabel,
@@ -291,7 +328,8 @@ fn find_in_mass(
 ) {
     let body = &scene.bodies[i].mass_properties;
     let carries = || scene.bodies.iter().any(|other| other.inboard == Some(i));
-    if body.is_nothing() && carries() {
+    let wheel = |of: &Body| of.joint == Joint::Revolute && body.is_wheel(of.axis);
+    if body.is_nothing() && carries() || wheel(&scene.bodies[i]) && !carries() {
         return;
     }
     let name = BodyName::Segment(label.clone());

@@ -65,6 +65,17 @@ impl MassProperties {
         self.mass == 0.0 && self.inertia == Sym3::zero() && self.center_of_mass.is_finite()
     }
 
+    /// Whether there is no mass, but inertia about `axis` (a unit vector) alone: of a wheel whose mass and whose
+    /// inertia across the axis belong to its carrier.
+    pub fn is_wheel(&self, axis: Vec3<f64>) -> bool {
+        let about_axis = axis.dot(self.inertia * axis);
+        let rest = self.inertia + Sym3::outer(axis) * -about_axis;
+        self.mass == 0.0
+            && self.center_of_mass.is_finite()
+            && (about_axis > 0.0 && about_axis.is_finite())
+            && rest.largest_entry() <= TRIANGLE_TOLERANCE * about_axis
+    }
+
     /// This body and `other`, which has the same origin and axes, as one.
     ///
     /// The mass centre of two bodies without mass is that of `other`.

@@ -4,7 +4,7 @@ use nboom_scalar::Vec3;
 
 use crate::{
     Appendage, Coupling, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
-    MassProperties, ModelError, ModelWarning, Mount, Shapes, Thrust, error, warning,
+    MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, Thrust, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -54,6 +54,8 @@ pub struct SceneDescription {
     pub torque_tables: Vec<TorqueTable>,
     /// Springs and dampers between two hinges.
     pub couplings: Vec<Coupling>,
+    /// Rotors at constant speed.
+    pub rotors: Vec<Rotor>,
     /// Uniform gravity.
     pub gravity: Option<Gravity>,
     /// The thrust pulse.
@@ -73,6 +75,7 @@ impl SceneDescription {
             bodies: Vec::new(),
             torque_tables: Vec::new(),
             couplings: Vec::new(),
+            rotors: Vec::new(),
             gravity: None,
             thrust: None,
             initial: InitialMotion::at_rest(),
@@ -227,6 +230,11 @@ impl Scene {
         let of_body = [*tip, mass_properties.center_of_mass, mount.point].map(Vec3::norm);
         let sizes = [of_latch, start.abs(), of_body[0], of_body[1], of_body[2]];
         sizes.into_iter().find(|&size| size > 0.0).unwrap_or(1.0)
+    }
+
+    /// The rotors of a hinged body together, or of the main body.
+    pub fn rotors_of(&self, body: Option<usize>) -> Rotors {
+        Rotors::of(&self.description.rotors, body)
     }
 
     /// Whether hinge `i` turns about an axis parallel to its inboard hinge, so that the angles

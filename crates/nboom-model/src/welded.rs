@@ -9,6 +9,10 @@ pub struct WeldedTree<R> {
     pub main: RigidInertia<R>,
     /// The links, inboard before outboard.
     pub links: Vec<Link<R>>,
+    /// Angular momentum of the rotors in what is rigid with the main body, relative to it, main-body axes.
+    pub main_spin: Vec3<R>,
+    /// Whether there are rotors.
+    pub has_rotors: bool,
     /// For each body of the scene, where it sits in its link.
     pub members: Vec<Member<R>>,
     /// β of every hinge of the scene at which the tree was welded; those that are held keep it.
@@ -33,8 +37,10 @@ pub struct Link<R> {
     pub joint: Joint,
     /// Unit vector along the hinge axis, link axes.
     pub axis: Vec3<R>,
-    /// Mass properties about the hinge, link axes.
+    /// Mass properties about the hinge, link axes; of rotors those at rest.
     pub inertia: RigidInertia<R>,
+    /// Angular momentum of its rotors relative to it, link axes.
+    pub spin: Vec3<R>,
 }
 
 /// Where a body of the scene sits in its link.
@@ -53,11 +59,16 @@ impl<R: Real> WeldedTree<R> {
     pub fn new(scene: &Scene, mode: &Mode, beta: &[R]) -> Self {
         let mut tree = Self {
             main: rigid(&scene.main_body),
+            main_spin: Vec3::zero(),
+            has_rotors: !scene.rotors.is_empty(),
             links: Vec::new(),
             members: Vec::with_capacity(scene.bodies.len()),
             angles: beta.to_vec(),
             turned: Vec::new(),
         };
+        let of_main = scene.rotors_of(None);
+        tree.main.about_origin += Sym3::constant(of_main.inertia);
+        tree.main_spin = Vec3::constant(of_main.momentum);
         for i in 0..scene.bodies.len() {
             tree.place(scene, mode.is_free(i), i, beta[i]);
             for order in scene.departures().turned.iter().filter(|order| order.body == i) {
@@ -79,7 +90,10 @@ impl<R: Real> WeldedTree<R> {
         let point = inboard.point + rot * Vec3::constant(body.mount.point);
         let rot_at_zero = rot * Mat3::constant(body.mount.rot_inboard_from_hinge);
         let axis = Vec3::constant(body.axis);
-        let inertia = rigid(&body.mass_properties);
+        let rotors = scene.rotors_of(Some(i));
+        let spin = Vec3::constant(rotors.momentum);
+        let mut inertia = rigid(&body.mass_properties);
+        inertia.about_origin += Sym3::constant(rotors.inertia);
         if free {
             self.members.push(Member {
                 link: Some(self.links.len()),
@@ -94,16 +108,22 @@ impl<R: Real> WeldedTree<R> {
                 joint: body.joint,
                 axis,
                 inertia,
+                spin,
             });
         } else {
             let rot = rot_at_zero * body.joint.turn(axis, beta);
             let point = point + rot_at_zero * body.joint.travel(axis, beta);
             self.members.push(Member { link: inboard.link, point, rot_link_from_body: rot });
             let welded = inertia.rotated(&rot).seen_from(point);
-            match inboard.link {
-                Some(link) => self.links[link].inertia.add(welded),
-                None => self.main.add(welded),
-            }
+            let (of_link, of_spin) = match inboard.link {
+                Some(link) => {
+                    let Link { inertia, spin, .. } = &mut self.links[link];
+                    (inertia, spin)
+                }
+                None => (&mut self.main, &mut self.main_spin),
+            };
+            of_link.add(welded);
+            *of_spin += rot * spin;
         }
     }
 

@@ -37,6 +37,7 @@ fn without_events(hinge: &Hinge) -> Hinge {
 }
 
 fn mass_properties(body: RigidInertia<f64>) -> MassProperties {
-    let center = body.first_moment * (1.0 / body.mass);
+    let inverse_mass = if body.mass > 0.0 { 1.0 / body.mass } else { 0.0 };
+    let center = body.first_moment * inverse_mass;
     MassProperties::new(body.mass, center, body.seen_from(-center).about_origin)
 }

@@ -1,7 +1,7 @@
 use std::io::{self, Write};
 
 use nboom_elements::Kind;
-use nboom_model::{HingeLabel, UnitSystem};
+use nboom_model::{HingeLabel, Joint, UnitSystem};
 use nboom_scalar::Vec3;
 use nboom_sim::{Detail, Event, EventKind, Snapshot};
 
@@ -140,16 +140,13 @@ impl<W: Write> ListingWriter<W> {
         ];
         HINGE_MOTION.heading(&mut self.out, "APP SEG", &columns)?;
         for (i, label) in self.hinges.iter().enumerate() {
-            let radians = [
-                snapshot.beta[i],
-                snapshot.tau[i],
-                detail.beta_ddot[i],
-                snapshot.alpha[i],
-                snapshot.sigma[i],
-                detail.alpha_ddot[i],
-            ];
-            let slides = label.joint.slides();
-            let shown = if slides { radians } else { radians.map(f64::to_degrees) };
+            let Snapshot { beta, tau, alpha, sigma, .. } = snapshot;
+            let Detail { beta_ddot, alpha_ddot, .. } = detail;
+            let of_lists = [beta, tau, beta_ddot, alpha, sigma, alpha_ddot];
+            let shown = of_lists.map(|list| match label.joint {
+                Joint::Revolute => list[i].to_degrees(),
+                Joint::Prismatic => list[i],
+            });
             HINGE_MOTION.numbers(&mut self.out, &row_name(label), &shown)?;
         }
         if self.hinges.iter().any(|label| label.joint.slides()) {

@@ -68,8 +68,8 @@ impl Equations {
     /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as well.
     pub fn new(scene: &Scene, own: OwnLaws, options: &Options) -> Self {
         let layout = VariableLayout::of_no_hinges();
-        // Bodies whose inertia turns otherwise than they do have no momenta.
-        let rigid = scene.departures().turned.is_empty();
+        // Bodies whose inertia turns otherwise than they do have no momenta, and those of motors are not counted.
+        let rigid = scene.departures().turned.is_empty() && scene.rotors.is_empty();
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
         let commands = Commands::none(scene.bodies.len());

@@ -3,7 +3,7 @@ use nboom_formulation::{
     Coordinates, Embedding, Formulation, HingeCoordinates, Layout, Recognised, recognise,
 };
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
-use nboom_scalar::{Kernel, Real, Vec3, Wrench};
+use nboom_scalar::{Kernel, Real, Vec3};
 use nboom_sim::{Fit, NoRoutine, Options, Repertoire};
 use serde::Serialize;
 
@@ -154,7 +154,6 @@ impl TestCase {
     /// The states as closed forms take them, hinges in the order of [`Self::links`].
     pub fn coordinates(&self) -> impl Iterator<Item = Coordinates<f64>> {
         let links = self.links();
-        let external = self.dynamics.external().unwrap_or(Wrench::zero());
         let mut dynamics = self.dynamics.clone();
         self.states.iter().map(move |state| {
             let RandomState { omega, beta, tau } = state;
@@ -162,6 +161,7 @@ impl TestCase {
             dynamics.hinge_forces(&state.motion(), &mut torque);
             let hinge =
                 |&j: &usize| HingeCoordinates { beta: beta[j], tau: tau[j], torque: torque[j] };
+            let external = dynamics.acting_on_main_body(*omega);
             Coordinates { omega: *omega, external, hinges: links.iter().map(hinge).collect() }
         })
     }
@@ -246,7 +246,7 @@ impl TestCase {
 
     /// Whether something acts on the main body from outside.
     fn is_pushed(&self) -> bool {
-        self.dynamics.external().is_some()
+        self.dynamics.acts_on_main_body()
     }
 
     /// Those of `kernels` that are of the test case's topology and accept its parameters, each of

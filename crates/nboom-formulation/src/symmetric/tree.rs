@@ -70,9 +70,11 @@ impl<R: Real> Moving<R> {
         }
     }
 
-    /// The rate of change of the momentum of a body about O that moves with the link.
-    fn bias_wrench(&self, body: &RigidInertia<R>) -> Wrench<R> {
-        let (v, h) = (self.velocity, momentum(body, self.velocity));
+    /// The rate of change of the momentum of a body about O that moves with the link, and of rotors in it with
+    /// the momentum `spin`, link axes.
+    fn bias_wrench(&self, body: &RigidInertia<R>, spin: Vec3<R>) -> Wrench<R> {
+        let (v, mut h) = (self.velocity, momentum(body, self.velocity));
+        h.moment += self.rot * spin;
         let mut wrench = momentum(body, self.bias);
         wrench.add(Wrench {
             moment: v.angular.cross(h.moment) + v.linear.cross(h.force),
@@ -137,7 +139,7 @@ fn inward<R: Real>(
 ) -> Vec<Share<R>> {
     let own = |(link, at): (&Link<R>, &Moving<R>)| {
         let body = link.inertia.rotated(&at.rot).seen_from(at.hinge);
-        Share { body, bias: at.bias_wrench(&body) }
+        Share { body, bias: at.bias_wrench(&body, link.spin) }
     };
     let mut shares: Vec<Share<R>> = tree.links.iter().zip(moving).map(own).collect();
     for j in (0..shares.len()).rev() {

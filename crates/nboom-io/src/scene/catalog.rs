@@ -2,6 +2,7 @@
 
 mod coupling;
 mod output;
+mod rotor;
 mod shape;
 mod slide;
 mod strength;
@@ -14,6 +15,7 @@ use super::keys::{Holds, Key, TableKind};
 pub(crate) use coupling::ACTS_ON;
 use coupling::COUPLING;
 use output::OUTPUT;
+use rotor::ROTOR;
 use shape::SHAPE;
 use slide::SLIDE;
 use strength::{MATERIAL, STATION};
@@ -128,6 +130,7 @@ static MAIN_BODY: TableKind = table(
         required("mass", Number, "Mass of the main body."),
         optional("mass_centre", Numbers(3), "Mass centre, from O; by default O."),
         required("inertia", Inertia(&INERTIA), "Inertia about the mass centre."),
+        optional("rotor", Tables(&ROTOR), "Rotors in it at constant speed."),
         optional("shape", Table(&SHAPE), "What it looks like in pictures."),
     ],
 );
@@ -233,6 +236,7 @@ static BODY: TableKind = choice(
             Tables(&COUPLING),
             "Springs and dampers between its hinge and others.",
         ),
+        optional("rotor", Tables(&ROTOR), "Rotors in it at constant speed."),
         optional(
             "repeat",
             Table(&REPEAT),

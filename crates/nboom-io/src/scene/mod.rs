@@ -13,6 +13,7 @@ mod lists;
 mod model_error;
 mod output;
 mod parameters;
+mod rotors;
 mod schema;
 mod sections;
 mod shapes;

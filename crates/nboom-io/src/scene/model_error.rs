@@ -131,6 +131,9 @@ impl Responsible<'_> {
                 let key = if slides { "force" } else { "torque" };
                 (joint_of(&body).unwrap_or(body), key)
             }
+            ModelError::Rotor { body, .. } => {
+                (body.map_or_else(|| outer("main_body"), |body| self.body(body)), "rotor")
+            }
             ModelError::Coupling { label, .. } => (body(label), "coupling"),
             ModelError::ThrustTimes { .. } => (outer("thrust"), "until"),
             // The end of the run, and whatever words cannot say.

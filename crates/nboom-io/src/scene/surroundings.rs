@@ -20,6 +20,9 @@ impl Reader<'_, '_> {
         if let Some(initial) = self.table(root, "initial") {
             self.initial(&initial, &mut scene.initial);
         }
+        if let Some(main_body) = root.inner("main_body") {
+            scene.rotors = self.rotors(&main_body);
+        }
         scene.gravity = self.table(root, "gravity").and_then(|fields| self.gravity(&fields));
         scene.thrust = self.table(root, "thrust").and_then(|fields| self.thrust(&fields));
         scene

@@ -32,6 +32,7 @@ pub fn write_scene(file: &SceneFile) -> String {
     lines.table("main_body");
     mass_properties(&mut lines, &scene.main_body);
     lines.optional("shape", scene.shapes().main_body.as_ref().map(shape));
+    rotors(&mut lines, scene, None);
     surroundings(&mut lines, scene);
     let materials = materials(structure.as_ref());
     for (i, material) in materials.iter().enumerate() {
@@ -49,6 +50,7 @@ pub fn write_scene(file: &SceneFile) -> String {
         lines.table(&format!("body.{}", joint_table(of_body.joint)));
         joint(&mut lines, scene, i, of_body);
         couplings(&mut lines, scene, i);
+        rotors(&mut lines, scene, Some(i));
         segment.into_iter().for_each(|segment| stations(&mut lines, segment));
     }
     lines.text
@@ -141,6 +143,16 @@ fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
         let value =
             format!("{{ main_body_end = {from}, end = {to}, force = {force}, limit = {limit} }}");
         lines.value("kick_off", value);
+    }
+}
+
+/// The rotors of a body, as tables of it.
+fn rotors(lines: &mut Lines, scene: &Scene, body: Option<usize>) {
+    for rotor in scene.rotors.iter().filter(|rotor| rotor.body == body) {
+        lines.tables(if body.is_some() { "body.rotor" } else { "main_body.rotor" });
+        lines.value("axis", direction(rotor.axis));
+        lines.value("inertia", number(rotor.inertia));
+        lines.line(angle("speed", rotor.speed));
     }
 }
 

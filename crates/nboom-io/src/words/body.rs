@@ -5,7 +5,9 @@ use nboom_scalar::Vec3;
 
 use super::error::of_body;
 use super::surroundings::MassWords;
-use super::{CouplingWords, Direction, HingeWords, Inertia, SlideWords, WordsError, hinge};
+use super::{
+    CouplingWords, Direction, HingeWords, Inertia, RotorWords, SlideWords, WordsError, hinge,
+};
 
 /// A hinged body, in words.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +20,7 @@ pub struct BodyWords {
     hinge: HingeWords,
     kick_off: Option<KickOff>,
     couplings: Vec<CouplingWords>,
+    rotors: Vec<RotorWords>,
     repeat: Option<(usize, Direction)>,
     structure: Option<SegmentStructure>,
     shape: Option<BodyShape>,
@@ -46,6 +49,7 @@ pub fn body(name: &str) -> BodyWords {
         hinge: hinge(),
         kick_off: None,
         couplings: Vec::new(),
+        rotors: Vec::new(),
         repeat: None,
         structure: None,
         shape: None,
@@ -118,6 +122,12 @@ impl BodyWords {
         self
     }
 
+    /// One more rotor in it.
+    pub fn rotor(mut self, rotor: RotorWords) -> Self {
+        self.rotors.push(rotor);
+        self
+    }
+
     /// Makes several of it, with all that is outboard of it, evenly about an axis through O; for a body
     /// on the main body. Copies are called "name 1", "name 2", …
     pub fn repeat(mut self, count: usize, about: impl Into<Direction>) -> Self {
@@ -148,6 +158,7 @@ impl BodyWords {
         body.tip = self.tip.unwrap_or_else(|| tip_of(&properties));
         self.hinge.act_on(&mut body);
         body.hinge.kick_off = self.kick_off.map(KickOffSpring::from);
+        body.rotors = self.rotors.iter().filter_map(|rotor| rotor.rotor(&of, errors)).collect();
         body.couplings = self.couplings.into_iter().map(Into::into).collect();
         body.repeat = self.repeat.and_then(|(count, about)| {
             let wrong = |(found, expected)| {

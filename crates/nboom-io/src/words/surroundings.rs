@@ -1,7 +1,7 @@
 use nboom_model::{BodyShape, InitialMotion, MassProperties};
 use nboom_scalar::{Sym3, Vec3};
 
-use super::{Axes, WordsError};
+use super::{Axes, RotorWords, WordsError};
 
 /// A thrust fixed in the main body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,10 +23,11 @@ impl From<Thrust> for nboom_model::Thrust {
 }
 
 /// The main body, in words. Its origin is the point O.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[must_use]
 pub struct MainBodyWords {
     mass: MassWords,
+    pub(super) rotors: Vec<RotorWords>,
     pub(super) shape: Option<BodyShape>,
 }
 
@@ -51,6 +52,12 @@ impl MainBodyWords {
     /// Inertia about the mass centre: three moments, or a matrix.
     pub fn inertia(mut self, inertia: impl Into<Inertia>) -> Self {
         self.mass.inertia = Some(inertia.into().0);
+        self
+    }
+
+    /// One more rotor in it.
+    pub fn rotor(mut self, rotor: RotorWords) -> Self {
+        self.rotors.push(rotor);
         self
     }
 

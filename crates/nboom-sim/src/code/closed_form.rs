@@ -77,7 +77,7 @@ impl<R: Real> ClosedForm<R> {
         dynamics.hinge_forces(motion, &mut self.torques);
         let x = &mut self.coordinates;
         x.omega = motion.omega_body;
-        x.external = dynamics.external().unwrap_or(Wrench::zero());
+        x.external = dynamics.acting_on_main_body(motion.omega_body);
         for (hinge, &j) in x.hinges.iter_mut().zip(&self.links) {
             let (beta, tau, torque) = (motion.beta[j], motion.tau[j], self.torques[j]);
             *hinge = HingeCoordinates { beta, tau, torque };

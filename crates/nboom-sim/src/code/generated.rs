@@ -139,7 +139,7 @@ impl Generated {
         let (form, tree) = (options.formulation, dynamics.tree());
         let recognised = recognise(tree)
             .map_err(|link| NoRoutine::Tree { form, hinge: scene.label(tree.links[link].hinge) })?;
-        let external = dynamics.external().is_some();
+        let external = dynamics.acts_on_main_body();
         let fit = repertoire
             .best(&recognised, external)
             .ok_or_else(|| NoRoutine::because(&recognised, external, options))?;
@@ -173,7 +173,8 @@ impl Generated {
         dynamics.hinge_forces(motion, &mut self.torques);
         let x = &mut self.coordinates;
         x[..3].copy_from_slice(&motion.omega_body.to_array());
-        if let Some(external) = dynamics.external() {
+        if dynamics.acts_on_main_body() {
+            let external = dynamics.acting_on_main_body(motion.omega_body);
             x[3..6].copy_from_slice(&external.moment.to_array());
             x[6..9].copy_from_slice(&external.force.to_array());
         }

@@ -113,7 +113,9 @@ fn largest(before: f64, rates: impl Iterator<Item = f64>) -> f64 {
 pub(crate) fn reach(scene: &Scene) -> f64 {
     let of_body = |body: &MassProperties| {
         let trace = body.inertia.xx + body.inertia.yy + body.inertia.zz;
-        body.center_of_mass.norm() + (0.5 * trace / body.mass).max(0.0).sqrt()
+        let gyration =
+            if body.mass > 0.0 { (0.5 * trace / body.mass).max(0.0).sqrt() } else { 0.0 };
+        body.center_of_mass.norm() + gyration
     };
     let mut farthest = of_body(&scene.main_body);
     let mut of_hinges: Vec<f64> = Vec::with_capacity(scene.bodies.len());

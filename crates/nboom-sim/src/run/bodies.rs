@@ -1,4 +1,4 @@
-use nboom_model::{MassProperties, Scene};
+use nboom_model::{MassProperties, Rotors, Scene};
 use nboom_scalar::{Mat3, Vec3};
 
 use crate::run::record::Snapshot;
@@ -16,7 +16,7 @@ pub struct BodyMotion {
     pub omega_inertial: Vec3<f64>,
     /// Linear momentum.
     pub linear_momentum_inertial: Vec3<f64>,
-    /// Angular momentum about its own mass centre.
+    /// Angular momentum about its own mass centre, with that of its rotors.
     pub own_angular_momentum_inertial: Vec3<f64>,
 }
 
@@ -27,7 +27,7 @@ impl BodyMotion {
         self.own_angular_momentum_inertial + arm.cross(self.linear_momentum_inertial)
     }
 
-    fn new(body: &MassProperties, at_origin: &Placed) -> Self {
+    fn new(body: &MassProperties, rotors: &Rotors, at_origin: &Placed) -> Self {
         let Placed { rot, origin, velocity, omega } = *at_origin;
         let arm = rot * body.center_of_mass;
         let velocity_inertial = velocity + omega.cross(arm);
@@ -37,7 +37,8 @@ impl BodyMotion {
             velocity_inertial,
             omega_inertial: omega,
             linear_momentum_inertial: velocity_inertial * body.mass,
-            own_angular_momentum_inertial: rot * (body.inertia * rot.transpose_mul(omega)),
+            own_angular_momentum_inertial: rot
+                * ((body.inertia + rotors.inertia) * rot.transpose_mul(omega) + rotors.momentum),
         }
     }
 }
@@ -80,8 +81,10 @@ impl Snapshot {
                 omega: inboard.omega + own.angular,
             });
         }
-        let hinged = scene.bodies.iter().zip(&placed);
-        let hinged = hinged.map(|(body, at)| BodyMotion::new(&body.mass_properties, at));
-        std::iter::once(BodyMotion::new(&scene.main_body, &main)).chain(hinged).collect()
+        let hinged = scene.bodies.iter().zip(&placed).enumerate().map(|(i, (body, at))| {
+            BodyMotion::new(&body.mass_properties, &scene.rotors_of(Some(i)), at)
+        });
+        let main = BodyMotion::new(&scene.main_body, &scene.rotors_of(None), &main);
+        std::iter::once(main).chain(hinged).collect()
     }
 }

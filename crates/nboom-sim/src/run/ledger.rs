@@ -33,7 +33,7 @@ impl Ledger {
         Self {
             start_time: state.time,
             start,
-            start_energy: start.kinetic_energy + potential,
+            start_energy: start.kinetic_energy + potential - invariants.motor_work,
             residuals: Conservation::default(),
             scales: Conservation::default(),
             mass: equations.scene.total_mass(),
@@ -88,7 +88,10 @@ impl Ledger {
         let potential = potential(equations, state);
         let check = Check { scene: &equations.scene, time: state.time };
         check.of(potential.beyond, "potential energy", potential.beyond.is_none())?;
-        let energy = now.kinetic_energy + potential.sum - work.dashpots - work.thrust
+        let energy = now.kinetic_energy + potential.sum
+            - invariants.motor_work
+            - work.dashpots
+            - work.thrust
             + work.lock_ups
             - self.start_energy;
         let energy_scale = now.kinetic_energy + potential.scale;

@@ -10,6 +10,12 @@ use super::{numbers, vectors};
 
 /// Reports what a deck cannot say of the hinges of a scene.
 pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
+    for rotor in &scene.rotors {
+        match rotor.body {
+            Some(body) => obstacles.add(body, "rotor", DeckDefect::Rotor),
+            None => obstacles.add_to_main_body("rotor", DeckDefect::Rotor),
+        }
+    }
     for (i, body) in scene.bodies.iter().enumerate() {
         let hinge = &body.hinge;
         if body.joint.slides() {

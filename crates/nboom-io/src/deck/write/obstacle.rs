@@ -50,6 +50,9 @@ pub enum DeckDefect {
     /// A joint that slides.
     #[error("found a joint that slides, expected hinges only")]
     Slides,
+    /// A rotor.
+    #[error("found a rotor, expected none")]
+    Rotor,
     /// A spring or damper between two hinges.
     #[error("found a spring or damper between two hinges, expected none")]
     Coupling,
@@ -95,6 +98,11 @@ impl Obstacles<'_> {
     pub fn add(&mut self, body: usize, key: &'static str, defect: DeckDefect) {
         let body = self.name(body);
         self.found.push(DeckObstacle { body, key, defect });
+    }
+
+    /// Adds one about the main body.
+    pub fn add_to_main_body(&mut self, key: &'static str, defect: DeckDefect) {
+        self.found.push(DeckObstacle { body: "main_body".to_owned(), key, defect });
     }
 
     /// What messages call a body.

@@ -1,0 +1,39 @@
+use nboom_model::Rotor;
+
+use super::{Direction, WordsError};
+
+/// A rotor in words: balanced, at a constant speed relative to its body.
+#[derive(Clone, Debug, PartialEq)]
+#[must_use]
+pub struct RotorWords {
+    axis: Direction,
+    inertia: f64,
+    speed: f64,
+}
+
+/// A rotor with this axis (body axes) and this inertia about it, which is not in that of the body; at rest until
+/// it has a speed.
+pub fn rotor(axis: impl Into<Direction>, inertia: f64) -> RotorWords {
+    RotorWords { axis: axis.into(), inertia, speed: 0.0 }
+}
+
+impl RotorWords {
+    /// Speed relative to the body \[degrees/T\].
+    pub fn speed_deg(self, speed: f64) -> Self {
+        self.speed_rad(speed.to_radians())
+    }
+
+    /// Speed relative to the body \[radians/T\].
+    pub fn speed_rad(self, speed: f64) -> Self {
+        Self { speed, ..self }
+    }
+
+    /// The rotor of what is called `of`, in the main body until it is put elsewhere.
+    pub(super) fn rotor(&self, of: &str, errors: &mut Vec<WordsError>) -> Option<Rotor> {
+        let Self { axis, inertia, speed } = self;
+        let axis = axis.unit().map_err(|(found, expected)| {
+            errors.push(WordsError::Value { of: of.to_owned(), key: "rotor", found, expected });
+        });
+        Some(Rotor { body: None, axis: axis.ok()?, inertia: *inertia, speed: *speed })
+    }
+}
