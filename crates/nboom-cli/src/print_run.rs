@@ -151,9 +151,13 @@ impl Account<'_> {
 
     fn conservation_line(&self) -> String {
         let residuals = self.outcome.summary.conservation;
-        let [p, h, e] = [residuals.linear_momentum, residuals.angular_momentum, residuals.energy]
-            .map(|residual| short(residual, 2));
-        format!("conservation  linear momentum {p}, angular momentum {h}, energy {e} (relative)")
+        let momentum = |name: &str, residual: Option<f64>| {
+            residual.map_or(String::new(), |found| format!("{name} momentum {}, ", short(found, 2)))
+        };
+        let linear = momentum("linear", residuals.linear_momentum);
+        let angular = momentum("angular", residuals.angular_momentum);
+        let energy = short(residuals.energy, 2);
+        format!("conservation  {linear}{angular}energy {energy} (relative)")
     }
 
     fn effort_line(&self) -> String {
@@ -277,7 +281,11 @@ mod tests {
         let scene = scene();
         let run = RunDescription::new(&scene, &Options::default(), UnitSystem::FtLbfS);
         let conservation =
-            Conservation { linear_momentum: 0.0, angular_momentum: 1.25e-15, energy: 3e-13 };
+            Conservation {
+                linear_momentum: Some(0.0),
+                angular_momentum: Some(1.25e-15),
+                energy: 3e-13,
+            };
         let summary = Summary {
             end_time: 1.0,
             steps_accepted: 10,

@@ -10,6 +10,7 @@ use crate::format::{count, degrees, short, vector};
 pub(crate) fn text(scene: &Scene) -> String {
     let mut lines = vec![heading(scene)];
     lines.push(format!("main body: {}", mass_properties(&scene.main_body)));
+    lines.extend(scene.base.is_held().then(|| "  fixed to the ground".to_owned()));
     lines.extend(rotors(scene, None).map(|rotor| format!("  {rotor}")));
     let postures = [Posture::at_start(scene), Posture::locked(scene)];
     for branch in branches(scene) {

@@ -50,14 +50,14 @@ pub(crate) fn factor<R: Real>(
             None => main.add(&transmitted),
         }
     }
-    BaseFactor::new(&main)
+    if tree.held.is_some() { BaseFactor::unset() } else { BaseFactor::new(&main) }
 }
 
 /// Solves B₀ (ω̇, a_O, τ̇) = right side with the factors of [`factor`].
 ///
 /// `wrenches[j]` is what acts against link j about its hinge, `main` what acts against the main
 /// link about O, and `tau_dot[j]` the hinge torque on entry and the hinge acceleration on exit.
-/// `wrenches` is used up. Returns (ω̇, a_O).
+/// `wrenches` is used up. Returns (ω̇, a_O), which are those of `held` where the main link is held.
 #[inline]
 pub(crate) fn solve<R: Real>(
     tree: &WeldedTree<R>,
@@ -66,7 +66,7 @@ pub(crate) fn solve<R: Real>(
     base: &BaseFactor<R>,
     load: Load<'_, R>,
 ) -> Twist<R> {
-    let Load { wrenches, mut main, tau_dot, twists } = load;
+    let Load { wrenches, mut main, tau_dot, twists, held } = load;
     for j in (0..tree.links.len()).rev() {
         let (pose, hinge) = (&poses[j], &hinges[j]);
         let net_torque = tau_dot[j] - pose.along(&wrenches[j]);
@@ -82,7 +82,8 @@ pub(crate) fn solve<R: Real>(
             None => main.add(transmitted),
         }
     }
-    let of_main = base.solve(Wrench { moment: -main.moment, force: -main.force });
+    let free = || base.solve(Wrench { moment: -main.moment, force: -main.force });
+    let of_main = held.unwrap_or_else(free);
     for (j, link) in tree.links.iter().enumerate() {
         let (pose, hinge) = (&poses[j], &hinges[j]);
         let inboard = link.inboard.map_or(of_main, |i| twists[i]).at(pose.offset);
@@ -99,6 +100,8 @@ pub(crate) fn solve<R: Real>(
 pub(crate) struct Load<'a, R> {
     pub wrenches: &'a mut [Wrench<R>],
     pub main: Wrench<R>,
+    /// (ω̇, a_O) of a main link that is held.
+    pub held: Option<Twist<R>>,
     pub tau_dot: &'a mut [R],
     pub twists: &'a mut [Twist<R>],
 }

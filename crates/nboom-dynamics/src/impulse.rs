@@ -4,7 +4,8 @@ use crate::{Recursive, ldl};
 
 /// The exact change of all velocities when hinges lock in one instant, Section 7.
 ///
-/// Positions, linear and angular momentum are unchanged; hinges that are held stay rigid.
+/// Positions are unchanged, and of a free main body linear and angular momentum; hinges that are held stay
+/// rigid.
 #[derive(Clone, Debug)]
 pub struct LockUp<R> {
     /// Λ: impulsive torque at each locking hinge on the outboard side, positive along the axis.
@@ -138,7 +139,8 @@ impl<R: Number> Recursive<R> {
         self.wrenches.fill(Wrench::zero());
         tau.fill(R::zero());
         tau[j] = R::one();
-        self.solve(Wrench::zero(), tau)
+        let held = self.tree.held.map(|_| Twist::zero());
+        self.solve(Wrench::zero(), held, tau)
     }
 }
 

@@ -37,6 +37,7 @@ mod invariants;
 mod ldl;
 mod momenta;
 mod pose;
+mod reaction;
 mod recursive;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};

@@ -51,7 +51,7 @@ impl<R: Real> Recursive<R> {
         tau.copy_from_slice(momenta.hinges);
         self.wrenches.fill(Wrench::zero());
         let main = Wrench { moment: -momenta.angular_body, force: Vec3::zero() };
-        self.solve(main, tau).angular
+        self.solve(main, None, tau).angular
     }
 
     /// Writes τ and π̇ of the free hinges to `tau` and `rates`, and returns ω, main-body axes.
@@ -116,7 +116,7 @@ impl<R: Number> Recursive<R> {
             self.wrenches.fill(Wrench::zero());
             tau.fill(R::zero());
             let moment = Wrench { moment: -axis, force: Vec3::zero() };
-            let rate = self.solve(moment, &mut tau).angular.dot(axis);
+            let rate = self.solve(moment, None, &mut tau).angular.dot(axis);
             largest = if rate.to_f64() > largest.to_f64() { rate } else { largest };
         }
         let of_hinge = |j: usize| {

@@ -60,7 +60,7 @@ pub struct Recursive<R> {
     pub(crate) base: BaseFactor<R>,
     articulated: Vec<ArticulatedInertia<R>>,
     composite: Vec<RigidInertia<R>>,
-    omegas: Vec<Vec3<R>>,
+    pub(crate) omegas: Vec<Vec3<R>>,
     pub(crate) twists: Vec<Twist<R>>,
     pub(crate) wrenches: Vec<Wrench<R>>,
 }
@@ -165,7 +165,7 @@ impl<R: Real> Recursive<R> {
         self.factor(motion.beta);
         let main = self.load(motion, &mut out.tau_dot);
         add(&self.free, &mut out.tau_dot);
-        let of_main = self.solve(main, &mut out.tau_dot);
+        let of_main = self.solve(main, self.tree.held, &mut out.tau_dot);
         out.omega_dot_body = of_main.angular;
         out.origin_body = of_main.linear;
     }
@@ -232,8 +232,16 @@ impl<R: Real> Recursive<R> {
         self.base = articulated_body::factor(tree, poses, &mut self.articulated, &mut self.hinges);
     }
 
-    pub(crate) fn solve(&mut self, main: Wrench<R>, tau_dot: &mut [R]) -> Twist<R> {
-        let load = Load { wrenches: &mut self.wrenches, main, tau_dot, twists: &mut self.twists };
+    /// (ω̇, a_O), which are `held` if something, and τ̇ from what acts against the main link, about O, the
+    /// `wrenches` against all others, and the hinge torques in `tau_dot`.
+    pub(crate) fn solve(
+        &mut self,
+        main: Wrench<R>,
+        held: Option<Twist<R>>,
+        tau_dot: &mut [R],
+    ) -> Twist<R> {
+        let Self { wrenches, twists, .. } = self;
+        let load = Load { wrenches, main, held, tau_dot, twists };
         articulated_body::solve(&self.tree, &self.poses, &self.hinges, &self.base, load)
     }
 
@@ -282,6 +290,7 @@ impl Recursive<f64> {
         };
         let singular = (0..self.hinges.len()).rev().find(|&j| !regular(j));
         let of_hinge = singular.map(|j| Some(self.free[j]));
-        of_hinge.or_else(|| (!self.base.is_positive_definite()).then_some(None))
+        let of_main = || self.tree.held.is_none() && !self.base.is_positive_definite();
+        of_hinge.or_else(|| of_main().then_some(None))
     }
 }

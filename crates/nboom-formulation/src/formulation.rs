@@ -4,7 +4,7 @@ use nboom_model::{Topology, WeldedTree};
 use nboom_scalar::Real;
 
 use crate::parameters::{Coordinates, Parameters, Solution};
-use crate::recognise::recognise;
+use crate::recognise::{Uncovered, recognise};
 use crate::section5::Equations;
 use crate::{articulated, momentum, relative, report, symmetric};
 
@@ -22,8 +22,8 @@ pub(crate) trait ClosedForm {
     /// Whether it covers the tree: chains with parallel axes and paddles, unless it says otherwise.
     ///
     /// # Errors
-    /// The first link (an index of the tree) that it cannot express.
-    fn covers(tree: &WeldedTree<f64>) -> Result<(), usize> {
+    /// Why not.
+    fn covers(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
         recognise(tree).map(|_| ())
     }
 
@@ -82,9 +82,9 @@ macro_rules! formulations {
             /// Whether it covers the tree.
             ///
             /// # Errors
-            /// The first link (an index of the tree) that it cannot express: one that is not rigid;
-            /// all but `symmetric` take chains with parallel axes and paddles alone.
-            pub fn covers(self, tree: &WeldedTree<f64>) -> Result<(), usize> {
+            /// Why not: no form covers links that are not rigid; all but `symmetric` take chains with
+            /// parallel axes and paddles of a free main body alone.
+            pub fn covers(self, tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
                 match self {
                     $(Self::$name => <$form>::covers(tree),)*
                 }

@@ -29,6 +29,6 @@ pub use embedding::Embedding;
 pub use forces::{Forces, LinkLine};
 pub use formulation::Formulation;
 pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Parameters, Solution};
-pub use recognise::{LinkFrame, Recognised, recognise};
+pub use recognise::{LinkFrame, Recognised, Uncovered, recognise};
 pub use right_side::{RightSideLayout, right_side};
 pub use section5::Equations;

@@ -40,16 +40,33 @@ impl LinkFrame {
     }
 }
 
+/// Why a closed form does not cover a welded tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uncovered {
+    /// It has no place for a main body that is held.
+    HeldBase,
+    /// The first link (an index of the tree) that it cannot express.
+    Link(usize),
+}
+
 /// Departure from parallel or square axes that is taken for rounding.
 const SAME_AXIS: f64 = 1e-12;
 
 /// Writes the tree as chains and paddles.
 ///
 /// # Errors
-/// The first link (an index of the tree) that does not fit: one that is not rigid, carries a rotor or slides, one of two links
-/// on the same inboard link, or one whose axis is neither that of a chain nor that of a paddle.
-pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
+/// When the main body is held, or with the first link that does not fit: one that is not rigid, carries a
+/// rotor or slides, one of two links on the same inboard link, or one whose axis is neither that of a chain
+/// nor that of a paddle.
+pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
+    if tree.held.is_some() {
+        return Err(Uncovered::HeldBase);
+    }
     rigid(tree)?;
+    chains_and_paddles(tree).map_err(Uncovered::Link)
+}
+
+fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
     let is_other = |link: &Link<f64>| link.joint.slides() || link.spin != Vec3::zero();
     tree.links.iter().position(is_other).map_or(Ok(()), Err)?;
     let mut appendages: Vec<Appendage> = Vec::new();
@@ -81,8 +98,8 @@ struct Appendage {
 ///
 /// # Errors
 /// The first link that is not.
-pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), usize> {
-    tree.turned.first().map_or(Ok(()), |&(link, _)| Err(link))
+pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
+    tree.turned.first().map_or(Ok(()), |&(link, _)| Err(Uncovered::Link(link)))
 }
 
 /// The appendage that begins with the link `root`.

@@ -16,7 +16,7 @@ use crate::base::AtOrigin;
 use crate::formulation::ClosedForm;
 use crate::parameters::{Branch, Coordinates, Parameters, Solution};
 use crate::pose;
-use crate::recognise::rigid;
+use crate::recognise::{Uncovered, rigid};
 use crate::section5::Equations;
 
 pub use tree::{forcing as tree_forcing, mass_matrix as tree_mass_matrix, solve as solve_tree};
@@ -31,7 +31,7 @@ impl ClosedForm for Symmetric {
 
     const HAS_EQUATIONS: bool = true;
 
-    fn covers(tree: &WeldedTree<f64>) -> Result<(), usize> {
+    fn covers(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
         rigid(tree)
     }
 

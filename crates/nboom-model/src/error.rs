@@ -55,6 +55,12 @@ pub enum ModelError {
         /// Index of the inboard body, from 0.
         inboard: usize,
     },
+    /// A fixed main body moves, or a thrust acts on it.
+    #[error("main body: {found} found, none of a main body that is fixed expected")]
+    FixedBase {
+        /// What there is.
+        found: &'static str,
+    },
     /// A hinge axis is not a unit vector.
     #[error("segment {label}: hinge axis of length {length} found, 1 expected")]
     Axis {
@@ -275,6 +281,15 @@ fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     check_unit("initial attitude", initial.attitude.norm_squared().sqrt(), errors);
     if let Some(gravity) = scene.gravity {
         check_unit("direction of gravity", gravity.up.norm(), errors);
+    }
+    if scene.base.is_held() {
+        let found = [
+            (initial.velocity_inertial != Vec3::zero(), "velocity"),
+            (initial.omega_body != Vec3::zero(), "angular rate"),
+            (scene.thrust.is_some(), "thrust"),
+        ];
+        let found = found.into_iter().filter(|&(is_there, _)| is_there);
+        errors.extend(found.map(|(_, found)| ModelError::FixedBase { found }));
     }
     if scene.end_time < initial.time {
         errors.push(ModelError::EndTime { start: initial.time, end: scene.end_time });

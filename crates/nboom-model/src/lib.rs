@@ -25,6 +25,7 @@
 //! ```
 
 mod appendage;
+mod base;
 mod column;
 mod coupling;
 mod departures;
@@ -51,6 +52,7 @@ mod warning;
 mod welded;
 
 pub use appendage::{Appendage, Segment};
+pub use base::Base;
 pub use column::{Column, UnknownColumn, WantedTable};
 pub use coupling::Coupling;
 pub use departures::{Departures, TurnOrder, TurnedInertia, Withheld};

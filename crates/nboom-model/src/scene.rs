@@ -3,7 +3,7 @@ use std::ops::Deref;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Appendage, Coupling, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
+    Appendage, Base, Coupling, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
     MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, Thrust, error, warning,
 };
 
@@ -48,6 +48,8 @@ pub struct SceneDescription {
     pub name: String,
     /// The main body, from O.
     pub main_body: MassProperties,
+    /// How it is held.
+    pub base: Base,
     /// The hinged bodies, branch by branch, inboard before outboard.
     pub bodies: Vec<Body>,
     /// Torques over an angle, beside those of spring and dashpot; at most one about a hinge.
@@ -72,6 +74,7 @@ impl SceneDescription {
         Self {
             name: name.to_owned(),
             main_body,
+            base: Base::Free,
             bodies: Vec::new(),
             torque_tables: Vec::new(),
             couplings: Vec::new(),
@@ -207,9 +210,10 @@ impl Scene {
         &self.labels
     }
 
-    /// Six and one for each hinge, whether it is held or free.
+    /// Six of a main body that moves freely, and one for each hinge, whether it is held or free.
     pub fn degrees_of_freedom(&self) -> usize {
-        6 + self.description.bodies.len()
+        let of_main_body = if self.description.base.is_held() { 0 } else { 6 };
+        of_main_body + self.description.bodies.len()
     }
 
     /// Mass of all bodies, m_T.

@@ -1,4 +1,4 @@
-use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Vec3};
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3};
 
 use crate::{Joint, MassProperties, Mode, Scene, TurnOrder, TurnedInertia};
 
@@ -7,6 +7,8 @@ use crate::{Joint, MassProperties, Mode, Scene, TurnOrder, TurnedInertia};
 pub struct WeldedTree<R> {
     /// All bodies that are rigid with the main body, about O, main-body axes.
     pub main: RigidInertia<R>,
+    /// (ω̇, a_O) without gravity of a main link that is held, main-body axes.
+    pub held: Option<Twist<R>>,
     /// The links, inboard before outboard.
     pub links: Vec<Link<R>>,
     /// Angular momentum of the rotors in what is rigid with the main body, relative to it, main-body axes.
@@ -59,6 +61,7 @@ impl<R: Real> WeldedTree<R> {
     pub fn new(scene: &Scene, mode: &Mode, beta: &[R]) -> Self {
         let mut tree = Self {
             main: rigid(&scene.main_body),
+            held: held(scene),
             main_spin: Vec3::zero(),
             has_rotors: !scene.rotors.is_empty(),
             links: Vec::new(),
@@ -143,6 +146,14 @@ impl<R: Real> WeldedTree<R> {
             None => self.main.about_origin += turned.inertia(&[]) - right,
         }
     }
+}
+
+/// What holds a main body against gravity accelerates it upward beside a fall.
+fn held<R: Real>(scene: &Scene) -> Option<Twist<R>> {
+    let upward = scene.gravity.map_or(Vec3::zero(), |gravity| gravity.up * gravity.acceleration);
+    let to_inertial = scene.initial.attitude.normalized().to_matrix();
+    let linear = Vec3::constant(to_inertial.transpose_mul(upward));
+    scene.base.is_held().then_some(Twist { angular: Vec3::zero(), linear })
 }
 
 fn rigid<R: Real>(body: &MassProperties) -> RigidInertia<R> {

@@ -189,8 +189,8 @@ impl From<StressDescription> for StressKeys {
 
 #[derive(Clone, Debug, Serialize)]
 struct ConservationKeys {
-    linear_momentum: f64,
-    angular_momentum: f64,
+    linear_momentum: Option<f64>,
+    angular_momentum: Option<f64>,
     energy: f64,
 }
 

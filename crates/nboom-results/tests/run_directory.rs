@@ -54,6 +54,7 @@ fn snapshot(time: f64) -> Snapshot {
         detail: Some(Detail {
             omega_dot_body: Vec3::zero(),
             origin_acceleration_body: Vec3::zero(),
+            reaction: None,
             beta_ddot: vec![0.0],
             alpha_ddot: vec![0.0],
             hinge_torque: vec![0.0],
@@ -88,7 +89,11 @@ fn integration(since: f64, method: Method) -> Integration {
 
 fn outcome(error: Option<&str>) -> Outcome {
     let conservation =
-        Conservation { linear_momentum: 1e-15, angular_momentum: 2e-15, energy: 3e-13 };
+        Conservation {
+            linear_momentum: Some(1e-15),
+            angular_momentum: Some(2e-15),
+            energy: 3e-13,
+        };
     let summary = Summary {
         end_time: 10.0,
         steps_accepted: 7,

@@ -2,7 +2,7 @@ use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, gravity};
 use nboom_model::{Mode, Scene};
 use nboom_ode::System;
-use nboom_scalar::{Eight, Vec3};
+use nboom_scalar::{Eight, Vec3, Wrench};
 use nboom_series::Series;
 
 use crate::code::fit::Repertoire;
@@ -70,6 +70,8 @@ impl Equations {
         let layout = VariableLayout::of_no_hinges();
         // Bodies whose inertia turns otherwise than they do have no momenta, and those of motors are not counted.
         let rigid = scene.departures().turned.is_empty() && scene.rotors.is_empty();
+        // What holds a main body exerts any moment.
+        let rigid = rigid && !scene.base.is_held();
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
         let commands = Commands::none(scene.bodies.len());
@@ -195,12 +197,21 @@ impl Equations {
         }
     }
 
-    /// The acceleration of the mass centre, inertial axes.
-    pub fn center_acceleration(&self, state: &State) -> Vec3<f64> {
-        let external = self.entered.dynamics.external().map_or(Vec3::zero(), |external| {
-            state.attitude.to_matrix() * external.force * (1.0 / self.total_mass)
-        });
-        self.gravity + external
+    /// The acceleration of the mass centre, inertial axes, when something acts from outside beside gravity,
+    /// main-body axes.
+    pub fn center_acceleration(&self, state: &State, acting: Option<Wrench<f64>>) -> Vec3<f64> {
+        let acceleration = |acting: Wrench<f64>| {
+            state.attitude.to_matrix() * acting.force * (1.0 / self.total_mass)
+        };
+        self.gravity + acting.map_or(Vec3::zero(), acceleration)
+    }
+
+    /// What holds the main body exerts on it at O, main-body axes, in a motion with the accelerations
+    /// computed last; none where nothing holds it.
+    pub fn reaction(&mut self, motion: &Motion<'_, f64>) -> Option<Wrench<f64>> {
+        let Self { scene, entered, accelerations, .. } = self;
+        let held = scene.base.is_held();
+        held.then(|| entered.dynamics.from_outside(motion, accelerations))
     }
 
     /// The largest rate so far.

@@ -1,5 +1,6 @@
 use nboom_dynamics::{Motion, Recursive};
 use nboom_formulation::{
+    Uncovered,
     Coordinates, Embedding, Formulation, HingeCoordinates, Layout, Recognised, recognise,
 };
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
@@ -60,7 +61,7 @@ pub struct TestCase {
     held: Vec<Option<f64>>,
     states: Vec<RandomState>,
     dynamics: Recursive<f64>,
-    recognised: Result<Recognised, usize>,
+    recognised: Result<Recognised, Uncovered>,
 }
 
 impl TestCase {
@@ -219,9 +220,14 @@ impl TestCase {
     /// What does not cover the scene, and why.
     pub fn not_covered(&self, kernels: &'static [Kernel]) -> Vec<NotCovered> {
         match &self.recognised {
-            Err(link) => {
-                let hinge = self.dynamics.tree().links[*link].hinge;
-                let why = format!("hinge {}", self.scene.label(hinge));
+            Err(why) => {
+                let why = match *why {
+                    Uncovered::HeldBase => "held main body".to_owned(),
+                    Uncovered::Link(link) => {
+                        let hinge = self.dynamics.tree().links[link].hinge;
+                        format!("hinge {}", self.scene.label(hinge))
+                    }
+                };
                 let generic = Formulation::ALL.into_iter().filter_map(|formulation| {
                     formulation.covers(self.dynamics.tree()).err()?;
                     Some(("generic", Some(formulation.name())))

@@ -116,6 +116,12 @@ pub enum CodegenError {
         /// The formulation.
         formulation: Formulation,
     },
+    /// The main body of a scene is held.
+    #[error("scene {scene}: the main body is held, and code is generated for free ones")]
+    HeldBase {
+        /// The scene.
+        scene: String,
+    },
     /// A scene is not made of chains and paddles.
     #[error("scene {scene}: hinge {hinge} belongs neither to a chain nor to a paddle")]
     NotCovered {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nboom_formulation::{Formulation, Layout, Recognised, recognise};
+use nboom_formulation::{Formulation, Layout, Recognised, Uncovered, recognise};
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 
 use crate::request::{CodegenError, Level, Request};
@@ -141,9 +141,13 @@ pub(crate) fn mode_with(scene: &Scene, free: &[bool]) -> Mode {
 /// The chains and paddles of a scene in which the hinges that are not `free` are held.
 pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
     let tree = held(scene, free, angle);
-    recognise(&tree).map_err(|link| {
-        let hinge = scene.label(tree.links[link].hinge).to_string();
-        CodegenError::NotCovered { scene: scene.name.clone(), hinge }
+    let name = || scene.name.clone();
+    recognise(&tree).map_err(|why| match why {
+        Uncovered::HeldBase => CodegenError::HeldBase { scene: name() },
+        Uncovered::Link(link) => {
+            let hinge = scene.label(tree.links[link].hinge).to_string();
+            CodegenError::NotCovered { scene: name(), hinge }
+        }
     })
 }
 

@@ -13,7 +13,7 @@ use crate::pose::{momentum, power};
 /// the solution.
 pub fn solve<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> Solution<R> {
     let (seen, eliminated) = arrow(tree, coordinates).eliminate();
-    let main = seen.accelerations();
+    let main = tree.held.unwrap_or_else(|| seen.accelerations());
     Solution { main, tau_dot: eliminated.back(main) }
 }
 

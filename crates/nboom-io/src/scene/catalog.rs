@@ -50,6 +50,9 @@ pub(crate) const ANGLE_UNITS: &[&str] = &["radians", "degrees"];
 /// Files that a run writes if they are asked for.
 pub(crate) const FILES_ON_REQUEST: &[&str] = &["hinge_loads", "listing"];
 
+/// How a main body is held.
+pub(crate) const BASES: &[&str] = &["free", "fixed"];
+
 /// The states in which a hinge may start.
 pub(crate) const STATES: &[&str] = &["free", "held", "locked"];
 
@@ -130,6 +133,11 @@ static MAIN_BODY: TableKind = table(
         required("mass", Number, "Mass of the main body."),
         optional("mass_centre", Numbers(3), "Mass centre, from O; by default O."),
         required("inertia", Inertia(&INERTIA), "Inertia about the mass centre."),
+        optional(
+            "base",
+            Choice(BASES),
+            "How it is held: \"free\" (the default), or \"fixed\" to the ground, as on a test rig.",
+        ),
         optional("rotor", Tables(&ROTOR), "Rotors in it at constant speed."),
         optional("shape", Table(&SHAPE), "What it looks like in pictures."),
     ],

@@ -135,6 +135,7 @@ impl Responsible<'_> {
                 (body.map_or_else(|| outer("main_body"), |body| self.body(body)), "rotor")
             }
             ModelError::Coupling { label, .. } => (body(label), "coupling"),
+            ModelError::FixedBase { .. } => (outer("main_body"), "base"),
             ModelError::ThrustTimes { .. } => (outer("thrust"), "until"),
             // The end of the run, and whatever words cannot say.
             _ => (outer("run"), "end"),

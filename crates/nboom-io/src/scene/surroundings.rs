@@ -1,8 +1,9 @@
 //! What a scene has besides bodies: times, initial motion, gravity, thrust.
 
-use nboom_model::{Gravity, InitialMotion, SceneDescription, Thrust};
+use nboom_model::{Base, Gravity, InitialMotion, SceneDescription, Thrust};
 use nboom_scalar::Vec3;
 
+use super::catalog::BASES;
 use super::fields::{Fields, Reader};
 
 impl Reader<'_, '_> {
@@ -21,6 +22,8 @@ impl Reader<'_, '_> {
             self.initial(&initial, &mut scene.initial);
         }
         if let Some(main_body) = root.inner("main_body") {
+            let base = self.choice(&main_body, "base", BASES);
+            scene.base = if base == Some(BASES[1]) { Base::Fixed } else { Base::Free };
             scene.rotors = self.rotors(&main_body);
         }
         scene.gravity = self.table(root, "gravity").and_then(|fields| self.gravity(&fields));

@@ -8,7 +8,7 @@ use nboom_model::{
 };
 use nboom_scalar::{Mat3, Vec3};
 
-use super::catalog::FILES_ON_REQUEST;
+use super::catalog::{BASES, FILES_ON_REQUEST};
 use crate::angles::in_degrees;
 use crate::words::joint_table;
 use crate::{Sampling, SceneFile, SceneSettings};
@@ -31,6 +31,7 @@ pub fn write_scene(file: &SceneFile) -> String {
     output(&mut lines, file);
     lines.table("main_body");
     mass_properties(&mut lines, &scene.main_body);
+    lines.optional("base", scene.base.is_held().then(|| text(BASES[1])));
     lines.optional("shape", scene.shapes().main_body.as_ref().map(shape));
     rotors(&mut lines, scene, None);
     surroundings(&mut lines, scene);

@@ -120,9 +120,10 @@ impl SceneWords {
         let end = self.end.unwrap_or(self.start);
         let rotors = self.main_body.rotors.iter();
         let rotors = rotors.filter_map(|rotor| rotor.rotor("main_body", errors)).collect();
+        let base = self.main_body.base;
         let main_body = self.main_body.properties(errors);
         let mut scene = SceneDescription::at_rest(&self.name, main_body, end);
-        scene.rotors = rotors;
+        (scene.base, scene.rotors) = (base, rotors);
         scene.initial.time = self.start;
         self.initial.set(&mut scene.initial, errors);
         scene.gravity = self.gravity.and_then(|(acceleration, up)| {

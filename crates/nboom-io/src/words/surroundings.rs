@@ -1,4 +1,4 @@
-use nboom_model::{BodyShape, InitialMotion, MassProperties};
+use nboom_model::{Base, BodyShape, InitialMotion, MassProperties};
 use nboom_scalar::{Sym3, Vec3};
 
 use super::{Axes, RotorWords, WordsError};
@@ -27,6 +27,7 @@ impl From<Thrust> for nboom_model::Thrust {
 #[must_use]
 pub struct MainBodyWords {
     mass: MassWords,
+    pub(super) base: Base,
     pub(super) rotors: Vec<RotorWords>,
     pub(super) shape: Option<BodyShape>,
 }
@@ -52,6 +53,12 @@ impl MainBodyWords {
     /// Inertia about the mass centre: three moments, or a matrix.
     pub fn inertia(mut self, inertia: impl Into<Inertia>) -> Self {
         self.mass.inertia = Some(inertia.into().0);
+        self
+    }
+
+    /// Fixed to the ground, as on a test rig.
+    pub fn fixed(mut self) -> Self {
+        self.base = Base::Fixed;
         self
     }
 

@@ -1,6 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{
-    Coordinates, Formulation, HingeCoordinates, Parameters, recognise, symmetric,
+    Coordinates, Formulation, HingeCoordinates, Parameters, Uncovered, recognise, symmetric,
 };
 use nboom_model::{HingeLabel, Scene, Topology, WeldedTree};
 use nboom_scalar::{Real, Vec3, Wrench};
@@ -17,17 +17,27 @@ pub(crate) struct ClosedForm<R> {
     torques: Vec<R>,
 }
 
-/// A formulation is written for chains and paddles of rigid bodies, and the mode is not made of them.
+/// A formulation is written for chains and paddles of rigid bodies on a free main body, and the mode is not
+/// made of them.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "formulation {formulation} does not cover hinge {hinge}, which belongs neither to a chain nor \
-     to a paddle of rigid bodies"
-)]
-pub struct NotCovered {
-    /// The formulation.
-    pub formulation: Formulation,
-    /// The first hinge that it does not cover.
-    pub hinge: HingeLabel,
+pub enum NotCovered {
+    /// A hinge belongs to neither.
+    #[error(
+        "formulation {formulation} does not cover hinge {hinge}, which belongs neither to a chain nor \
+         to a paddle of rigid bodies"
+    )]
+    Hinge {
+        /// The formulation.
+        formulation: Formulation,
+        /// The first hinge that it does not cover.
+        hinge: HingeLabel,
+    },
+    /// The main body is held.
+    #[error("formulation {formulation} does not cover a main body that is held")]
+    HeldBase {
+        /// The formulation.
+        formulation: Formulation,
+    },
 }
 
 impl<R: Real> ClosedForm<R> {
@@ -40,9 +50,11 @@ impl<R: Real> ClosedForm<R> {
         tree: &WeldedTree<f64>,
         formulation: Formulation,
     ) -> Result<Self, NotCovered> {
-        formulation.covers(tree).map_err(|link| NotCovered {
-            formulation,
-            hinge: scene.label(tree.links[link].hinge),
+        formulation.covers(tree).map_err(|why| match why {
+            Uncovered::HeldBase => NotCovered::HeldBase { formulation },
+            Uncovered::Link(link) => {
+                NotCovered::Hinge { formulation, hinge: scene.label(tree.links[link].hinge) }
+            }
         })?;
         let recognised = recognise(tree).ok();
         let in_tree_order = || (0..tree.links.len()).collect();

@@ -1,6 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_formulation::{Layout, Recognised, recognise};
-use nboom_model::{HingeLabel, Scene};
+use nboom_formulation::{Layout, Recognised, Uncovered, recognise};
+use nboom_model::{HingeLabel, Scene, WeldedTree};
 use nboom_scalar::{Kernel, Vec3};
 
 use crate::code::fit::{Fit, Repertoire};
@@ -38,6 +38,12 @@ pub enum NoRoutine {
         form: Option<Form>,
         /// The first hinge that does not.
         hinge: HingeLabel,
+    },
+    /// The main body is held.
+    #[error("no {}: the main body is held", routine(.form))]
+    HeldBase {
+        /// The formulation asked for.
+        form: Option<Form>,
     },
     /// No routine is for the mode's topology, and none is for a larger one that it fits into and
     /// that is not too large for it.
@@ -88,6 +94,21 @@ pub enum Unmet {
 }
 
 impl NoRoutine {
+    /// Why none fits the tree of a mode of `scene`, which is not made of chains and paddles.
+    pub fn of_tree(
+        why: Uncovered,
+        scene: &Scene,
+        tree: &WeldedTree<f64>,
+        form: Option<Form>,
+    ) -> Self {
+        match why {
+            Uncovered::HeldBase => Self::HeldBase { form },
+            Uncovered::Link(link) => {
+                Self::Tree { form, hinge: scene.label(tree.links[link].hinge) }
+            }
+        }
+    }
+
     /// Why none of the routines that `options` allow fits a mode of chains and paddles, in which
     /// something acts on the main body from outside or nothing does (`external`).
     pub fn because(recognised: &Recognised, external: bool, options: &Options) -> Self {
@@ -137,8 +158,8 @@ impl Generated {
         options: &Options,
     ) -> Result<Self, NoRoutine> {
         let (form, tree) = (options.formulation, dynamics.tree());
-        let recognised = recognise(tree)
-            .map_err(|link| NoRoutine::Tree { form, hinge: scene.label(tree.links[link].hinge) })?;
+        let recognised =
+            recognise(tree).map_err(|why| NoRoutine::of_tree(why, scene, tree, form))?;
         let external = dynamics.acts_on_main_body();
         let fit = repertoire
             .best(&recognised, external)

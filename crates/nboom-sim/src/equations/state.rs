@@ -14,7 +14,9 @@ pub(crate) struct State<R = f64> {
     /// τ of every hinge; zero where held.
     pub tau: Vec<R>,
     /// The system mass centre, inertial axes.
-    pub center: MassCenter<R>,
+    pub center: PointMotion<R>,
+    /// O of a main body that is held, inertial axes.
+    pub held: Option<PointMotion<R>>,
     pub work: Work<R>,
     pub momenta: Momenta<R>,
     /// Room for β and τ of the free hinges.
@@ -42,9 +44,9 @@ impl<R: Number> Momenta<R> {
     }
 }
 
-/// Position and velocity of the system mass centre, inertial axes.
+/// Position and velocity of a point, inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct MassCenter<R = f64> {
+pub(crate) struct PointMotion<R = f64> {
     pub position: Vec3<R>,
     pub velocity: Vec3<R>,
 }
@@ -86,7 +88,8 @@ impl<R: Number> State<R> {
             omega_body: Vec3::zero(),
             beta: vec![R::zero(); hinges],
             tau: vec![R::zero(); hinges],
-            center: MassCenter { position: Vec3::zero(), velocity: Vec3::zero() },
+            center: PointMotion { position: Vec3::zero(), velocity: Vec3::zero() },
+            held: None,
             work: Work::none(),
             momenta: Momenta::of_none(hinges),
             free: [Vec::with_capacity(hinges), Vec::with_capacity(hinges)],
@@ -109,19 +112,40 @@ impl<R: Number> State<R> {
             let start = body.hinge.start;
             (*beta, *tau) = (R::constant(start.angle), R::constant(start.rate));
         }
-        self.center = MassCenter {
+        self.center = PointMotion {
             position: Vec3::constant(initial.position_inertial),
             velocity: Vec3::constant(initial.velocity_inertial),
         };
+        self.held = scene.base.is_held().then_some(self.center);
         self.work = Work::none();
         self.momenta.forget();
     }
 
+    /// Puts the mass centre where it belongs when O moves as `origin`; `dynamics` is in the mode of the
+    /// state.
+    pub fn put_center(&mut self, dynamics: &mut Recursive<R>, origin: PointMotion<R>) {
+        self.center.velocity = Vec3::zero();
+        let found = self.invariants(dynamics);
+        let to_inertial = self.attitude.to_matrix();
+        self.center = PointMotion {
+            position: origin.position + to_inertial * found.mass_center,
+            velocity: origin.velocity - to_inertial * found.origin_velocity,
+        };
+    }
+
+    /// Puts the mass centre where the hinges carry it if the main body is held; `dynamics` is in the mode of
+    /// the state.
+    pub fn follow_hinges(&mut self, dynamics: &mut Recursive<R>) {
+        if let Some(origin) = self.held {
+            self.put_center(dynamics, origin);
+        }
+    }
+
     /// Makes it `other`, of the same scene, without allocation.
     pub fn copy_from(&mut self, other: &Self) {
-        let Self { time, attitude, omega_body, beta, tau, center, work, momenta, .. } = other;
+        let Self { time, attitude, omega_body, beta, tau, center, held, work, momenta, .. } = other;
         (self.time, self.attitude, self.omega_body) = (*time, *attitude, *omega_body);
-        (self.center, self.work) = (*center, *work);
+        (self.center, self.held, self.work) = (*center, *held, *work);
         self.beta.clone_from(beta);
         self.tau.clone_from(tau);
         self.momenta.angular_inertial = momenta.angular_inertial;
@@ -162,7 +186,7 @@ impl<R: Number> State<R> {
     }
 }
 
-impl<R: Number> MassCenter<R> {
+impl<R: Number> PointMotion<R> {
     /// Where free fall with `acceleration` takes it in `duration`.
     pub fn after(self, duration: R, acceleration: Vec3<R>) -> Self {
         let halfway = self.velocity + acceleration * (R::constant(0.5) * duration);

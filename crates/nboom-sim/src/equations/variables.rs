@@ -4,7 +4,7 @@ use nboom_model::Scene;
 use nboom_scalar::{Number, Quaternion, Real, Vec3};
 
 use crate::equations::layout::{Unknowns, VariableLayout};
-use crate::equations::state::{MassCenter, State};
+use crate::equations::state::{PointMotion, State};
 
 /// The way between the variables of a mode and states.
 #[derive(Clone, Debug)]
@@ -94,10 +94,12 @@ impl<R: Number> Variables<R> {
         if let [_, _, _, vx, vy, vz] = y[layout.thrust_motion()] {
             state.work.thrust_impulse += Vec3::new(vx, vy, vz) * self.total_mass;
         }
+        state.held = self.origin.held;
+        state.follow_hinges(dynamics);
     }
 
     /// The system mass centre: free fall since the mode began, and what the thrust added.
-    fn center(&self, t: R, y: &[R]) -> MassCenter<R> {
+    fn center(&self, t: R, y: &[R]) -> PointMotion<R> {
         let mut center = self.free_fall(t);
         if let [x, y, z, vx, vy, vz] = y[self.layout.thrust_motion()] {
             center.position += Vec3::new(x, y, z);
@@ -107,7 +109,7 @@ impl<R: Number> Variables<R> {
     }
 
     /// The system mass centre as if there were no thrust.
-    pub fn free_fall(&self, t: R) -> MassCenter<R> {
+    pub fn free_fall(&self, t: R) -> PointMotion<R> {
         self.origin.center.after(t - self.origin.time, self.gravity)
     }
 }

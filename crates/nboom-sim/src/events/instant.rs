@@ -302,6 +302,7 @@ impl<R: Number> Outcome<R> {
             state.tau[i] = R::zero();
             mode.hinges[i] = HingeState::Locked;
         }
+        state.follow_hinges(dynamics);
         Ok(())
     }
 }

@@ -1,9 +1,9 @@
 use nboom_dynamics::Recursive;
 use nboom_elements::thrust_acts;
 use nboom_model::{Mode, Scene};
-use nboom_scalar::{Number, Vec3};
+use nboom_scalar::Number;
 
-use crate::equations::state::{MassCenter, State};
+use crate::equations::state::State;
 use crate::error::SimError;
 use crate::events::guard::{GuardKind, Guards};
 use crate::events::instant::{Arrivals, Outcome};
@@ -51,7 +51,7 @@ impl<R: Number> Situation<R> {
         state.begin(scene);
         mode.hinges.clone_from(&start.hinges);
         mode.pieces.clone_from(&start.pieces);
-        put_mass_center(dynamics, state);
+        state.put_center(dynamics, state.center);
         for (piece, element) in mode.pieces.iter_mut().zip(dynamics.elements().switched()) {
             let [value, _] = state.coordinate(dynamics, element.coordinate);
             *piece = element.piece_at(value);
@@ -114,16 +114,4 @@ impl<R: Number> Situation<R> {
     pub fn is_at_end(&self, scene: &Scene) -> bool {
         self.state.time.to_f64() >= scene.end_time
     }
-}
-
-/// Moves the mass centre of `state`, which stands at O, to where it belongs.
-fn put_mass_center<R: Number>(dynamics: &mut Recursive<R>, state: &mut State<R>) {
-    let MassCenter { position, velocity } = state.center;
-    state.center.velocity = Vec3::zero();
-    let found = state.invariants(dynamics);
-    let to_inertial = state.attitude.to_matrix();
-    state.center = MassCenter {
-        position: position + to_inertial * found.mass_center,
-        velocity: velocity - to_inertial * found.origin_velocity,
-    };
 }

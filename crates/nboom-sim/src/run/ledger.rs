@@ -12,15 +12,25 @@ use crate::run::finite::Check;
 /// Share of the momentum that the energy could make, below which bodies' own momenta are rounding.
 const ROUNDING: f64 = 1e-7;
 
+/// Numbers of the three laws.
+#[derive(Default)]
+struct Balances {
+    linear_momentum: f64,
+    angular_momentum: f64,
+    energy: f64,
+}
+
 /// Keeps account of momentum and energy, and of what should have changed them.
 pub(crate) struct Ledger {
     start_time: f64,
     start: Totals,
     start_energy: f64,
     /// Largest ones so far.
-    residuals: Conservation,
+    residuals: Balances,
     /// Largest ones so far.
-    scales: Conservation,
+    scales: Balances,
+    /// Whether what holds the main body changes the momenta.
+    held: bool,
     mass: f64,
     reach: f64,
 }
@@ -34,8 +44,9 @@ impl Ledger {
             start_time: state.time,
             start,
             start_energy: start.kinetic_energy + potential - invariants.motor_work,
-            residuals: Conservation::default(),
-            scales: Conservation::default(),
+            residuals: Balances::default(),
+            scales: Balances::default(),
+            held: state.held.is_some(),
             mass: equations.scene.total_mass(),
             reach: equations.reach,
         }
@@ -60,9 +71,11 @@ impl Ledger {
             if residual == 0.0 { 0.0 } else { residual / scale.max(ROUNDING * of_energy) }
         };
         let (linear, angular) = (scales.linear_momentum, scales.angular_momentum);
+        let of_free = |residual| (!self.held).then_some(residual);
+        let of_reach = momentum * self.reach;
         Conservation {
-            linear_momentum: relative(found.linear_momentum, linear, momentum),
-            angular_momentum: relative(found.angular_momentum, angular, momentum * self.reach),
+            linear_momentum: of_free(relative(found.linear_momentum, linear, momentum)),
+            angular_momentum: of_free(relative(found.angular_momentum, angular, of_reach)),
             energy: relative(found.energy, scales.energy, 0.0),
         }
     }

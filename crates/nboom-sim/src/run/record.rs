@@ -3,7 +3,7 @@ use std::io;
 use nboom_elements::LineReading;
 use nboom_model::HingeState;
 use nboom_ode::Choice;
-use nboom_scalar::{Quaternion, Vec3};
+use nboom_scalar::{Quaternion, Vec3, Wrench};
 
 use crate::code::selection::{CodeOfRun, Selection};
 use crate::error::SimError;
@@ -170,6 +170,8 @@ pub struct Detail {
     pub omega_dot_body: Vec3<f64>,
     /// Inertial acceleration of O without that of gravity, main-body axes.
     pub origin_acceleration_body: Vec3<f64>,
+    /// Moment about O and force that what holds the main body exerts on it, main-body axes; none of a free one.
+    pub reaction: Option<Wrench<f64>>,
     /// Acceleration of each hinge angle β; zero while held.
     pub beta_ddot: Vec<f64>,
     /// Acceleration of each sum α.
@@ -195,6 +197,7 @@ impl Detail {
         Self {
             omega_dot_body: zero,
             origin_acceleration_body: zero,
+            reaction: None,
             beta_ddot: none(),
             alpha_ddot: none(),
             hinge_torque: none(),

@@ -31,7 +31,8 @@ pub(crate) fn write<R: Number>(
     out.hinges.clone_from(&mode.hinges);
     let Quaternion { scalar, vector } = state.attitude;
     out.time = state.time.to_f64();
-    out.position_inertial = (state.center.position - to_inertial * found.mass_center).to_f64();
+    let free = || state.center.position - to_inertial * found.mass_center;
+    out.position_inertial = state.held.map_or_else(free, |origin| origin.position).to_f64();
     out.velocity_inertial = (to_inertial * found.origin_velocity).to_f64();
     out.attitude = Quaternion { scalar: scalar.to_f64(), vector: vector.to_f64() };
     out.omega_body = state.omega_body.to_f64();
@@ -60,6 +61,7 @@ pub(crate) fn write_detail(
     let accelerations = equations.accelerations(&motion);
     out.omega_dot_body = accelerations.omega_dot_body;
     out.origin_acceleration_body = accelerations.origin_body;
+    out.reaction = equations.reaction(&motion);
     equations.spread(&motion, [beta, tau, beta_ddot]);
     out.beta_ddot.clone_from(beta_ddot);
     out.alpha_ddot.clone_from(beta_ddot);
@@ -71,5 +73,6 @@ pub(crate) fn write_detail(
     out.mass_center_body = mass_center_body;
     out.mass_center_inertial = state.center.position;
     out.mass_center_velocity_inertial = state.center.velocity;
-    out.mass_center_acceleration_inertial = equations.center_acceleration(state);
+    let acting = out.reaction.or_else(|| equations.entered.dynamics.external());
+    out.mass_center_acceleration_inertial = equations.center_acceleration(state, acting);
 }

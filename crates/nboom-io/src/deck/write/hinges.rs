@@ -16,6 +16,9 @@ pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
             None => obstacles.add_to_main_body("rotor", DeckDefect::Rotor),
         }
     }
+    if scene.base.is_held() {
+        obstacles.add_to_main_body("base", DeckDefect::Held);
+    }
     for (i, body) in scene.bodies.iter().enumerate() {
         let hinge = &body.hinge;
         if body.joint.slides() {

@@ -50,6 +50,9 @@ pub enum DeckDefect {
     /// A joint that slides.
     #[error("found a joint that slides, expected hinges only")]
     Slides,
+    /// A main body that is held.
+    #[error("found a main body that is held, expected a free one")]
+    Held,
     /// A rotor.
     #[error("found a rotor, expected none")]
     Rotor,
