@@ -67,7 +67,7 @@ fn what_a_spring_with_a_ratio_takes_from_one_hinge_the_other_gets() {
     let mut scene = rotors(0.4, 0.9);
     scene.couplings = vec![Coupling { stiffness: k, ratio, rest: 0.1, ..coupling([0, 1]) }];
     scene.bodies[1].hinge.start.rate = 1.0;
-    let found = run(&scene, &options(5, 1e-12));
+    let found = run(&scene, &options(16, 1e-12));
     let first = &found.samples[0];
     let stored = |beta: &[f64]| 0.5 * k * (beta[0] - ratio * beta[1] - 0.1).powi(2);
     let mut most = 0.0_f64;
@@ -154,7 +154,8 @@ fn coupled_trees_keep_their_balances_by_all_code() {
             let options = nboom::sim::Options { formulation, ..options(2, 1e-12) };
             let found = run(&scene, &options);
             let balance = found.summary.conservation;
-            assert!(balance.energy < 1e-9 && balance.angular_momentum < 1e-9, "{seed} {balance:?}");
+            let angular = balance.angular_momentum.expect("a free main body");
+            assert!(balance.energy < 1e-9 && angular < 1e-9, "{seed} {balance:?}");
             ends.push(found.last().beta.clone());
         }
         for (a, b) in ends[0].iter().zip(&ends[1]) {

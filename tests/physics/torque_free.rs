@@ -95,7 +95,10 @@ fn compare(top: &Top, seed: u64) {
     let gauss = Options { integrator: Method::Gauss, ..options(2000, 1e-11) };
     let log = follow(top, &scene, &axes, &gauss, periods * top.turn_of_a_period());
     // The norm of the attitude walks with some 1e4 roundings; momentum comes from no integration.
-    let (drift, momentum) = (log.summary.attitude_drift, log.summary.conservation.angular_momentum.expect("a free main body"));
+    let (drift, momentum) = (
+        log.summary.attitude_drift,
+        log.summary.conservation.angular_momentum.expect("a free main body"),
+    );
     assert!(drift < 1e-13, "norm: {drift:e}");
     assert!(momentum < 1e-14, "angular momentum: {momentum:e}");
 }

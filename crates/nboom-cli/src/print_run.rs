@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use nboom_model::Scene;
+use nboom_model::{Joint, Scene};
 use nboom_results::{EVENTS_FILE, Outcome, PeakDigits, RunDescription, WorstLoads, event_order};
 use nboom_sim::{CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, Selection, Totals};
 use nboom_strength::{Cause, HingeQuantity, Limit, Worst, WorstHingeLoad};
@@ -108,7 +108,7 @@ impl Account<'_> {
             short(event.time, 10),
             event.kind.name().replace('_', " "),
             event.hinge.map_or(String::new(), |i| self.scene.label(i).to_string()),
-            event.impulse.map_or(String::new(), |impulse| short(impulse, 8)),
+            event.impulse.map_or(String::new(), |impulse| self.impulse(event.hinge, impulse)),
             change(event, energy),
         ];
         if event.kind == EventKind::LockUp {
@@ -117,10 +117,22 @@ impl Account<'_> {
         cells
     }
 
+    /// An impulse, with its unit where it is not that of the heading.
+    fn impulse(&self, hinge: Option<usize>, impulse: f64) -> String {
+        let slides = hinge.is_some_and(|i| self.scene.bodies[i].joint.slides());
+        let unit = if slides { format!(" {}", self.run.units.momentum()) } else { String::new() };
+        format!("{}{unit}", short(impulse, 8))
+    }
+
     fn impulse_line(&self) -> Option<String> {
         let LockUpImpulse { hinge, time, impulse } = self.outcome.summary.verdict.largest_impulse?;
+        let units = &self.run.units;
+        let unit = match self.scene.bodies[hinge].joint {
+            Joint::Revolute => units.angular_momentum(),
+            Joint::Prismatic => units.momentum(),
+        };
         let (hinge, time) = (self.scene.label(hinge), short(time, 10));
-        let (impulse, unit) = (short(impulse, 8), self.run.units.angular_momentum());
+        let impulse = short(impulse, 8);
         Some(format!("worst impulse {impulse} {unit} in hinge {hinge}, at {time}"))
     }
 
@@ -280,12 +292,11 @@ mod tests {
     fn account(events: Vec<Event>, counted: usize) -> String {
         let scene = scene();
         let run = RunDescription::new(&scene, &Options::default(), UnitSystem::FtLbfS);
-        let conservation =
-            Conservation {
-                linear_momentum: Some(0.0),
-                angular_momentum: Some(1.25e-15),
-                energy: 3e-13,
-            };
+        let conservation = Conservation {
+            linear_momentum: Some(0.0),
+            angular_momentum: Some(1.25e-15),
+            energy: 3e-13,
+        };
         let summary = Summary {
             end_time: 1.0,
             steps_accepted: 10,

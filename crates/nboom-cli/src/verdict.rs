@@ -48,10 +48,11 @@ fn locked_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 
 fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     let state = if hinge.state == HingeState::Free { "free" } else { "unreleased" };
-    let (label, angle) = (scene.label(i), degrees(hinge.angle));
+    let label = scene.label(i);
+    let place = label.coordinate(hinge.angle);
     match scene.bodies[i].hinge.lock_angle {
-        Some(lock) => format!("{label} {state} at {angle}, locks at {}", degrees(lock)),
-        None => format!("{label} {state} at {angle}, has no lock"),
+        Some(lock) => format!("{label} {state} at {place}, locks at {}", label.coordinate(lock)),
+        None => format!("{label} {state} at {place}, has no lock"),
     }
 }
 

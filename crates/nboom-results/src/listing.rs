@@ -103,8 +103,13 @@ impl<W: Write> ListingWriter<W> {
             write!(self.out, " {}", self.hinges[i])?;
         }
         if let Some(impulse) = event.impulse {
-            let unit = Units::of(&self.units).angular_momentum;
-            write!(self.out, "   IMPULSIVE TORQUE {} ({unit})", number(impulse))?;
+            let joint = event.hinge.map_or(Joint::Revolute, |i| self.hinges[i].joint);
+            let units = Units::of(&self.units);
+            let (what, unit) = match joint {
+                Joint::Revolute => ("TORQUE", units.angular_momentum),
+                Joint::Prismatic => ("FORCE", units.momentum),
+            };
+            write!(self.out, "   IMPULSIVE {what} {} ({unit})", number(impulse))?;
         }
         writeln!(self.out)
     }

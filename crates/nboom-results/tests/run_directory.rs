@@ -89,11 +89,7 @@ fn integration(since: f64, method: Method) -> Integration {
 
 fn outcome(error: Option<&str>) -> Outcome {
     let conservation =
-        Conservation {
-            linear_momentum: Some(1e-15),
-            angular_momentum: Some(2e-15),
-            energy: 3e-13,
-        };
+        Conservation { linear_momentum: Some(1e-15), angular_momentum: Some(2e-15), energy: 3e-13 };
     let summary = Summary {
         end_time: 10.0,
         steps_accepted: 7,

@@ -1,10 +1,12 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, gravity};
+use nboom_formulation::Formulation;
 use nboom_model::{Mode, Scene};
 use nboom_ode::System;
 use nboom_scalar::{Eight, Vec3, Wrench};
 use nboom_series::Series;
 
+use crate::code::closed_form::{HELD_BASE, NotCovered};
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
 use crate::code::{CodeError, under_own_laws};
@@ -68,10 +70,7 @@ impl Equations {
     /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as well.
     pub fn new(scene: &Scene, own: OwnLaws, options: &Options) -> Self {
         let layout = VariableLayout::of_no_hinges();
-        // Bodies whose inertia turns otherwise than they do have no momenta, and those of motors are not counted.
-        let rigid = scene.departures().turned.is_empty() && scene.rotors.is_empty();
-        // What holds a main body exerts any moment.
-        let rigid = rigid && !scene.base.is_held();
+        let uses_momenta = without_momenta(scene).is_none();
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
         let commands = Commands::none(scene.bodies.len());
@@ -93,8 +92,8 @@ impl Equations {
             series: None,
             sizes: Sizes::of(scene),
             evaluations: 0,
-            momenta: rigid && options.integrates_momenta(),
-            momentum_for_rate: rigid && options.integrator.keeps_invariants(),
+            momenta: uses_momenta && options.integrates_momenta(),
+            momentum_for_rate: uses_momenta && options.integrator.keeps_invariants(),
         }
     }
 
@@ -178,6 +177,10 @@ impl Equations {
         if variables.layout.has_momenta() {
             return Ok(entered.select_momenta(since));
         }
+        if let Some(what) = without_momenta(scene).filter(|_| options.integrates_momenta()) {
+            let formulation = Formulation::Momentum;
+            return Err(CodeError::NotCovered(NotCovered::Scene { formulation, what }));
+        }
         entered.select(scene, own, repertoire, options, since)
     }
 
@@ -228,6 +231,18 @@ impl Equations {
     pub fn gravity(&self) -> Vec3<f64> {
         self.gravity
     }
+}
+
+/// What in `scene` keeps momenta from standing for rates.
+fn without_momenta(scene: &Scene) -> Option<&'static str> {
+    let found = [
+        // The reaction of what holds it changes them.
+        (scene.base.is_held(), HELD_BASE),
+        // The momenta of rotors are not counted.
+        (!scene.rotors.is_empty(), "rotors"),
+        (!scene.departures().turned.is_empty(), "inertias that turn otherwise than their bodies"),
+    ];
+    found.into_iter().find_map(|(is_there, what)| is_there.then_some(what))
 }
 
 /// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the `others` if

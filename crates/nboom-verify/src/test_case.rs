@@ -1,7 +1,6 @@
 use nboom_dynamics::{Motion, Recursive};
 use nboom_formulation::{
-    Uncovered,
-    Coordinates, Embedding, Formulation, HingeCoordinates, Layout, Recognised, recognise,
+    Coordinates, Embedding, Formulation, HingeCoordinates, Layout, Recognised, Uncovered, recognise,
 };
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 use nboom_scalar::{Kernel, Real, Vec3};

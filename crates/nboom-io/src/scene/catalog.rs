@@ -222,7 +222,7 @@ static BODY: TableKind = choice(
     &[
         required("name", Text, "What messages, releases and other bodies call it; unique."),
         optional("on", Text, "Name of the inboard body; by default the main body."),
-        required("mass", Number, "Mass of the body."),
+        required("mass", Number, "Mass of the body; 0 of a gimbal ring or a wheel."),
         required("mass_centre", Numbers(3), "Mass centre, from the hinge, body axes."),
         required("inertia", Inertia(&INERTIA), "Inertia about the mass centre, body axes."),
         optional(

@@ -26,7 +26,9 @@ fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
         })
         .into_iter()
         .collect::<Vec<_>>();
-    if scene.torque_tables.iter().all(|table| table.hinge != i) {
+    let is_tabulated = scene.torque_tables.iter().any(|table| table.hinge == i);
+    let is_coupled = scene.couplings.iter().any(|coupling| coupling.hinges.contains(&i));
+    if !is_tabulated && !is_coupled {
         found.extend(spring(scene, posture, i));
     }
     if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
@@ -35,7 +37,7 @@ fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
     found
 }
 
-/// Warnings about the spring and the dashpot's terms in the angle of a hinge without a table.
+/// Warnings about the spring and the dashpot's terms in the angle of a hinge on which nothing else acts.
 fn spring(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
     let (hinge, label) = (&scene.bodies[i].hinge, || scene.label(i));
     let mut found = Vec::new();

@@ -32,13 +32,18 @@ pub enum NotCovered {
         /// The first hinge that it does not cover.
         hinge: HingeLabel,
     },
-    /// The main body is held.
-    #[error("formulation {formulation} does not cover a main body that is held")]
-    HeldBase {
+    /// Something of the whole scene has no place in it.
+    #[error("formulation {formulation} does not cover {what}")]
+    Scene {
         /// The formulation.
         formulation: Formulation,
+        /// What has no place.
+        what: &'static str,
     },
 }
+
+/// What most formulations do not cover.
+pub(crate) const HELD_BASE: &str = "a main body that is held";
 
 impl<R: Real> ClosedForm<R> {
     /// The closed form for the mode of `tree`.
@@ -51,7 +56,7 @@ impl<R: Real> ClosedForm<R> {
         formulation: Formulation,
     ) -> Result<Self, NotCovered> {
         formulation.covers(tree).map_err(|why| match why {
-            Uncovered::HeldBase => NotCovered::HeldBase { formulation },
+            Uncovered::HeldBase => NotCovered::Scene { formulation, what: HELD_BASE },
             Uncovered::Link(link) => {
                 NotCovered::Hinge { formulation, hinge: scene.label(tree.links[link].hinge) }
             }

@@ -36,17 +36,21 @@ pub struct PoorConservation {
 }
 
 impl Conservation {
-    /// The residuals that are larger than the relative tolerance `rtol` allows.
-    pub fn poor(&self, rtol: f64) -> impl Iterator<Item = PoorConservation> + use<> {
-        let (least, most) = JUDGED_BY;
-        let limit = MOST * rtol.clamp(least, most);
+    /// What each law that holds is called, and its residual.
+    pub fn laws(&self) -> impl Iterator<Item = (&'static str, f64)> + use<> {
         let laws = [
             ("linear momentum", self.linear_momentum),
             ("angular momentum", self.angular_momentum),
             ("energy", Some(self.energy)),
         ];
-        let laws = laws.into_iter().filter_map(|(quantity, residual)| Some((quantity, residual?)));
-        let poor = laws.filter(move |&(_, residual)| residual.is_nan() || residual > limit);
+        laws.into_iter().filter_map(|(quantity, residual)| Some((quantity, residual?)))
+    }
+
+    /// The residuals that are larger than the relative tolerance `rtol` allows.
+    pub fn poor(&self, rtol: f64) -> impl Iterator<Item = PoorConservation> + use<> {
+        let (least, most) = JUDGED_BY;
+        let limit = MOST * rtol.clamp(least, most);
+        let poor = self.laws().filter(move |&(_, residual)| residual.is_nan() || residual > limit);
         poor.map(move |(quantity, residual)| PoorConservation { quantity, residual, limit })
     }
 }

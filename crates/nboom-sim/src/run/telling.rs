@@ -136,7 +136,7 @@ impl Run<'_> {
         self.look(&found)?;
         for event in &self.situation.outcome.events {
             self.summary.events += 1;
-            self.summary.verdict.note(event);
+            self.summary.verdict.note(&self.equations.scene, event);
             let kept = self.recorder.event(event, self.seen);
             kept.map_err(|source| SimError::Record { time: event.time, source })?;
         }

@@ -1,4 +1,4 @@
-use nboom_model::HingeState;
+use nboom_model::{HingeState, Scene};
 
 use crate::events::event::{Event, EventKind};
 
@@ -43,14 +43,17 @@ impl Verdict {
         self.largest_impulse = None;
     }
 
-    /// Notes an event.
-    pub(crate) fn note(&mut self, event: &Event) {
+    /// Notes an event of `scene`.
+    pub(crate) fn note(&mut self, scene: &Scene, event: &Event) {
         let Some(hinge) = event.hinge else { return };
         if matches!(event.kind, EventKind::LockUp | EventKind::Release) {
             self.hinges[hinge].since = Some(event.time);
         }
         let Some(impulse) = event.impulse else { return };
-        if self.largest_impulse.is_none_or(|largest| impulse.abs() > largest.impulse.abs()) {
+        // A stroke makes what it is beside a torque of a force.
+        let size = |hinge: usize, impulse: f64| (impulse * scene.coordinate_scale(hinge)).abs();
+        let is_larger = |of: LockUpImpulse| size(hinge, impulse) > size(of.hinge, of.impulse);
+        if self.largest_impulse.is_none_or(is_larger) {
             self.largest_impulse = Some(LockUpImpulse { hinge, time: event.time, impulse });
         }
     }

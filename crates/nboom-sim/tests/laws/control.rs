@@ -148,7 +148,7 @@ fn the_ledger_balances_and_all_methods_agree() {
     assert!(expected.events.iter().any(|event| event.kind == EventKind::LockUp), "{expected:?}");
     let kept = summary.conservation;
     // The tolerance is 1e-12 in each of some hundred steps.
-    for residual in [kept.linear_momentum, kept.angular_momentum, kept.energy] {
+    for (_, residual) in kept.laws() {
         assert!(residual < 1e-10, "{kept:?}");
     }
     let momentum = Some(Form::Closed(Formulation::Momentum));
@@ -168,7 +168,10 @@ fn the_ledger_balances_and_all_methods_agree() {
         let off = apart(found.last(), expected.last());
         assert!(off < tolerance, "{name:?}: {off:e}");
         let kept = summary.conservation;
-        assert!(kept.energy < tolerance && kept.angular_momentum < tolerance, "{name:?}: {kept:?}");
+        assert!(
+            kept.energy < tolerance && kept.angular_momentum.is_some_and(|off| off < tolerance),
+            "{name:?}: {kept:?}"
+        );
     }
 }
 
@@ -200,7 +203,11 @@ fn a_law_can_hold_an_attitude() {
     let last = told.last();
     assert!(last.omega_body.norm() < 1e-9 && last.attitude.vector.norm() < 1e-9, "{last:?}");
     assert!(summary.conservation.energy < 1e-10, "{:?}", summary.conservation);
-    assert!(summary.conservation.angular_momentum.is_some_and(|balance| balance < 1e-10), "{:?}", summary.conservation);
+    assert!(
+        summary.conservation.angular_momentum.is_some_and(|balance| balance < 1e-10),
+        "{:?}",
+        summary.conservation
+    );
 }
 
 #[test]
