@@ -4,7 +4,7 @@ use nboom_model::{HingeState, Scene};
 use nboom_sim::{HingeVerdict, Verdict};
 use nboom_strength::{Limit, Worst};
 
-use crate::format::{degrees, short};
+use crate::format::short;
 
 /// Hinges beyond these are only counted.
 const SHOWN: usize = 12;

@@ -21,6 +21,11 @@ pub struct WantedTable {
 }
 
 impl WantedTable {
+    /// Whether it asks for something that only a main body that is held has.
+    pub fn is_of_held_body(&self) -> bool {
+        self.columns.iter().any(|column| Quantity::OF_A_HELD_BODY.contains(&column.quantity))
+    }
+
     /// Whether this column is in degrees, of a scene with these hinges.
     pub fn is_in_degrees(&self, column: &Column, hinges: &[HingeLabel]) -> bool {
         let slides = column.hinge.is_some_and(|hinge| hinges[hinge].joint.slides());
@@ -61,7 +66,8 @@ impl Column {
         if let Some((quantity, body)) = text.split_once(" of ") {
             return Self::of_body(text, quantity, body, hinges);
         }
-        let all = Self::all(hinges.len());
+        let mut all = Self::all(hinges.len());
+        all.extend(Quantity::OF_A_HELD_BODY.into_iter().flat_map(|held| Self::of(held, None)));
         let is_meant =
             |column: &&Self| column.quantity.name() == text || column.name(hinges) == text;
         let named: Vec<Self> = all.iter().filter(is_meant).copied().collect();

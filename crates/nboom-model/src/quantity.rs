@@ -29,6 +29,10 @@ pub enum Quantity {
     AngularMomentum,
     /// Of the main body.
     Nutation,
+    /// On a main body that is held.
+    ReactionForce,
+    /// On a main body that is held.
+    ReactionMoment,
 }
 
 impl Quantity {
@@ -49,10 +53,13 @@ impl Quantity {
     pub const AFTER_HINGES: [Self; 4] =
         [Self::KineticEnergy, Self::LinearMomentum, Self::AngularMomentum, Self::Nutation];
 
+    /// Those that stand only in a table that asks for them, of a scene whose main body is held.
+    pub const OF_A_HELD_BODY: [Self; 2] = [Self::ReactionForce, Self::ReactionMoment];
+
     /// All, in the order of their columns.
     pub fn all() -> impl Iterator<Item = Self> {
         let hinges = Self::BEFORE_HINGES.into_iter().chain(Self::OF_A_HINGE);
-        hinges.chain(Self::AFTER_HINGES)
+        hinges.chain(Self::AFTER_HINGES).chain(Self::OF_A_HELD_BODY)
     }
 
     /// What all its columns together are called.
@@ -64,6 +71,8 @@ impl Quantity {
             Self::AngularRate => "omega",
             Self::LinearMomentum => "linear_momentum",
             Self::AngularMomentum => "angular_momentum",
+            Self::ReactionForce => "reaction_force",
+            Self::ReactionMoment => "reaction_moment",
             one => one.columns()[0],
         }
     }
@@ -89,6 +98,10 @@ impl Quantity {
                 &["angular_momentum_x", "angular_momentum_y", "angular_momentum_z"]
             }
             Self::Nutation => &["nutation"],
+            Self::ReactionForce => &["reaction_force_x", "reaction_force_y", "reaction_force_z"],
+            Self::ReactionMoment => {
+                &["reaction_moment_x", "reaction_moment_y", "reaction_moment_z"]
+            }
         }
     }
 
@@ -100,7 +113,8 @@ impl Quantity {
             Self::AttitudeScalar | Self::AttitudeVector | Self::State => "1",
             Self::AngularRate | Self::Rate | Self::RateSum => "rad/T",
             Self::Angle | Self::AngleSum | Self::Nutation => "rad",
-            Self::KineticEnergy => "F L",
+            Self::KineticEnergy | Self::ReactionMoment => "F L",
+            Self::ReactionForce => "F",
             Self::LinearMomentum => "F T",
             Self::AngularMomentum => "F L T",
         }
@@ -126,6 +140,10 @@ impl Quantity {
             Self::LinearMomentum => "linear momentum, inertial axes",
             Self::AngularMomentum => "angular momentum about the system mass centre, inertial axes",
             Self::Nutation => "angle between angular momentum and the main body's x axis",
+            Self::ReactionForce => "force of what holds the main body on it, main-body axes",
+            Self::ReactionMoment => {
+                "moment about O of what holds the main body on it, main-body axes"
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use nboom_model::{HingeLabel, Scene};
+use nboom_model::{HingeLabel, Scene, WantedTable};
 use nboom_sim::{
     Event, InstantMotion, OutputTimes, Recorder, Snapshot, StepMotion, Summary, Trust,
 };
@@ -271,7 +271,10 @@ impl Recorder for RunDirectory {
     }
 
     fn needs_detail(&self) -> bool {
-        self.listing.is_some() || self.stresses.as_ref().is_some_and(StressWriter::is_due)
+        let wants_reaction =
+            self.run.output.table.as_ref().is_some_and(WantedTable::is_of_held_body);
+        let stresses_are_due = self.stresses.as_ref().is_some_and(StressWriter::is_due);
+        wants_reaction || self.listing.is_some() || stresses_are_due
     }
 
     fn needs_instants(&self) -> bool {

@@ -1,7 +1,7 @@
 //! How the columns of a table of the motion follow from a snapshot.
 
 use nboom_model::{Column, Quantity};
-use nboom_scalar::Vec3;
+use nboom_scalar::{Vec3, Wrench};
 use nboom_sim::Snapshot;
 
 /// What stands in a column.
@@ -9,6 +9,11 @@ pub(crate) enum Cell {
     Number(f64),
     /// A small whole number.
     Code(i8),
+}
+
+/// Of a snapshot with detail, of a scene whose main body is held.
+fn reaction(s: &Snapshot) -> Wrench<f64> {
+    s.detail.as_ref().and_then(|detail| detail.reaction).unwrap_or(Wrench::zero())
 }
 
 /// What a column has at the time of a snapshot, angles in radians.
@@ -30,5 +35,7 @@ pub(crate) fn cell(column: &Column, s: &Snapshot) -> Cell {
         Quantity::LinearMomentum => vector(s.linear_momentum_inertial),
         Quantity::AngularMomentum => vector(s.angular_momentum_inertial),
         Quantity::Nutation => s.nutation,
+        Quantity::ReactionForce => vector(reaction(s).force),
+        Quantity::ReactionMoment => vector(reaction(s).moment),
     })
 }

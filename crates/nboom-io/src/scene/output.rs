@@ -110,6 +110,11 @@ impl Reader<'_, '_> {
                 }
             }
         }
-        Some(WantedTable { columns, in_degrees })
+        let table = WantedTable { columns, in_degrees };
+        if table.is_of_held_body() && !scene.base.is_held() {
+            let (found, expected) = ("a reaction", "columns of a main body that moves freely");
+            self.error(&output.place("columns"), "columns", found, expected);
+        }
+        Some(table)
     }
 }
