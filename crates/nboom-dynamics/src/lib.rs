@@ -36,10 +36,12 @@ mod impulse;
 mod invariants;
 mod ldl;
 mod momenta;
+mod outside;
 mod pose;
 mod recursive;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};
 pub use invariants::{Invariants, LineJoint, LineLength};
 pub use momenta::{EffectiveInertias, Momenta};
+pub use outside::FromOutside;
 pub use recursive::{Accelerations, Motion, Recursive};

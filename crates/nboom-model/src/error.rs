@@ -4,7 +4,8 @@ use nboom_scalar::Vec3;
 
 use crate::mass::MassDefect;
 use crate::{
-    Body, Coupling, HingeLabel, HingeState, Joint, Release, Rotor, SAME_ANGLE, SceneDescription,
+    Body, Coupling, ExternalKind, ExternalPart, HingeLabel, HingeState, Joint, Release, Rotor,
+    SAME_ANGLE, SceneDescription,
 };
 
 /// Which body a message is about.
@@ -163,13 +164,19 @@ pub enum ModelError {
         /// What would have been right.
         expected: &'static str,
     },
-    /// The thrust stops before it starts.
-    #[error("thrust from {on} to {off} found, an end not before its start expected")]
-    ThrustTimes {
-        /// Start.
-        on: f64,
-        /// Stop.
-        off: f64,
+    /// A force or torque from outside acts on no body of the scene, or its numbers or times are wrong.
+    #[error("{} {defect} found, {expected} expected", .kind.name())]
+    External {
+        /// Its place in [`SceneDescription::externals`].
+        index: usize,
+        /// A force or a torque.
+        kind: ExternalKind,
+        /// What of it is wrong.
+        part: ExternalPart,
+        /// What was found.
+        defect: String,
+        /// What would have been right.
+        expected: &'static str,
     },
 }
 
@@ -268,8 +275,6 @@ fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
         (initial.omega_body.is_finite(), "initial angular rate"),
         (scene.end_time.is_finite(), "end time"),
         (scene.gravity.is_none_or(|g| g.acceleration.is_finite()), "gravity"),
-        (scene.thrust.is_none_or(|f| f.force.is_finite() && f.point.is_finite()), "thrust"),
-        (scene.thrust.is_none_or(|f| !f.on.is_nan() && !f.off.is_nan()), "thrust time"),
     ];
     errors.extend(finite.iter().filter(|(ok, _)| !ok).map(|(_, name)| main_body_is(name)));
     check_unit("initial attitude", initial.attitude.norm_squared().sqrt(), errors);
@@ -279,9 +284,11 @@ fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     if scene.end_time < initial.time {
         errors.push(ModelError::EndTime { start: initial.time, end: scene.end_time });
     }
-    if let Some(thrust) = scene.thrust.filter(|thrust| thrust.off < thrust.on) {
-        errors.push(ModelError::ThrustTimes { on: thrust.on, off: thrust.off });
-    }
+    let externals = scene.externals.iter().enumerate();
+    errors.extend(externals.filter(|(_, one)| !one.is_nothing()).filter_map(|(index, one)| {
+        let (part, defect, expected) = one.defect(scene.bodies.len())?;
+        Some(ModelError::External { index, kind: one.kind, part, defect, expected })
+    }));
 }
 
 fn check_unit(quantity: &'static str, length: f64, errors: &mut Vec<ModelError>) {

@@ -31,6 +31,7 @@ mod departures;
 mod draft;
 mod environment;
 mod error;
+mod external;
 mod hinge;
 mod joint;
 mod label;
@@ -58,8 +59,9 @@ pub use draft::{
     BodyDraft, CouplingDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat, Resolved,
     SceneDraft,
 };
-pub use environment::{Gravity, InitialMotion, Thrust};
+pub use environment::{Gravity, InitialMotion};
 pub use error::{BodyName, ModelError};
+pub use external::{Course, External, ExternalAxes, ExternalKind, ExternalPart};
 pub use hinge::{
     Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, SAME_ANGLE, Spring,
 };

@@ -3,8 +3,8 @@ use std::ops::Deref;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Appendage, Coupling, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
-    MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, Thrust, error, warning,
+    Appendage, Coupling, Departures, External, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
+    MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, error, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -58,8 +58,8 @@ pub struct SceneDescription {
     pub rotors: Vec<Rotor>,
     /// Uniform gravity.
     pub gravity: Option<Gravity>,
-    /// The thrust pulse.
-    pub thrust: Option<Thrust>,
+    /// Forces and torques from outside.
+    pub externals: Vec<External>,
     /// Motion of the main body at the initial time.
     pub initial: InitialMotion,
     /// Time at which the run ends \[T\].
@@ -77,7 +77,7 @@ impl SceneDescription {
             couplings: Vec::new(),
             rotors: Vec::new(),
             gravity: None,
-            thrust: None,
+            externals: Vec::new(),
             initial: InitialMotion::at_rest(),
             end_time,
         }
@@ -93,6 +93,11 @@ impl SceneDescription {
             table.points.iter().filter(|[angle, _]| *angle < start).count()
         });
         springs.chain(tables).collect()
+    }
+
+    /// The forces and torques from outside that act on hinged bodies.
+    pub fn externals_on_hinged(&self) -> impl Iterator<Item = &External> {
+        self.externals.iter().filter(|external| external.body.is_some())
     }
 
     /// Adds the bodies of one more appendage.
@@ -112,12 +117,11 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Checks a description. A thrust, kick-off spring or coupling that never exerts a force is left out.
+    /// Checks a description. What acts from outside, a kick-off spring or a coupling that never exerts a force is left out.
     ///
     /// # Errors
     /// Everything that is wrong with it, not only the first.
     pub fn new(mut description: SceneDescription) -> Result<Self, Vec<ModelError>> {
-        description.thrust = description.thrust.filter(|thrust| thrust.force != Vec3::zero());
         for body in &mut description.bodies {
             let kick_off = &mut body.hinge.kick_off;
             *kick_off = kick_off.filter(|spring| spring.coefficients != [0.0; 4]);
@@ -125,6 +129,7 @@ impl Scene {
         description.couplings.retain(|coupling| !coupling.is_nothing());
         let labels = labels(&description.bodies);
         let errors = error::find(&description, &labels);
+        description.externals.retain(|external| !external.is_nothing());
         let departures = Departures::default();
         if errors.is_empty() {
             Ok(Self { description, labels, shapes: Shapes::default(), departures })

@@ -116,7 +116,7 @@ impl Equations {
         let Self { entered, others, commands, own, .. } = self;
         change_mode(entered, others, mode, commands, |i| state.beta[i]);
         let elements = entered.dynamics.elements();
-        let thrust = elements.external().is_some();
+        let thrust = elements.acts_from_outside();
         let free = entered.dynamics.free_hinges();
         let dashpots = elements.has_rate_power(free) || free.iter().any(|&i| own.act_about(i));
         let free = free.len();
@@ -145,6 +145,7 @@ impl Equations {
 
     /// Notes how fast `state` is, and how fast it soon will be.
     fn size_up(&mut self, state: &mut State) {
+        self.entered.dynamics.set_outside(state.attitude, state.time);
         let motion = state.motion(&self.entered.dynamics);
         self.sizes.enter(self.entered.dynamics.free_hinges());
         self.sizes.saw_omega(&motion.omega_body.to_array());
@@ -152,9 +153,8 @@ impl Equations {
         let Self { entered, own, accelerations, .. } = self;
         under_own_laws(own, &mut entered.dynamics, &motion, accelerations);
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
-        let external = self.entered.dynamics.external();
-        let force = external.map_or(Vec3::zero(), |external| external.force);
-        let linear = force * (1.0 / self.total_mass);
+        let force = self.entered.dynamics.outside_force(motion.beta);
+        let linear = force.unwrap_or(Vec3::zero()) * (1.0 / self.total_mass);
         self.sizes.saw_accelerations(*omega_dot_body, tau_dot, linear);
         let has_momenta = self.variables.layout.has_momenta();
         self.sizes
@@ -179,7 +179,7 @@ impl Equations {
         entered.select(scene, own, repertoire, options, since)
     }
 
-    /// Accelerations without gravity in the mode that was entered.
+    /// Accelerations without gravity in the mode that was entered, under what [acts from outside](Recursive::set_outside).
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>) -> &Accelerations<f64> {
         self.entered.accelerations(motion, &mut self.accelerations);
         &self.accelerations
@@ -195,10 +195,12 @@ impl Equations {
         }
     }
 
-    /// The acceleration of the mass centre, inertial axes.
-    pub fn center_acceleration(&self, state: &State) -> Vec3<f64> {
-        let external = self.entered.dynamics.external().map_or(Vec3::zero(), |external| {
-            state.attitude.to_matrix() * external.force * (1.0 / self.total_mass)
+    /// The acceleration of the mass centre, inertial axes, under what [acts from outside](Recursive::set_outside).
+    pub fn center_acceleration(&mut self, state: &mut State) -> Vec3<f64> {
+        let beta = state.motion(&self.entered.dynamics).beta;
+        let force = self.entered.dynamics.outside_force(beta);
+        let external = force.map_or(Vec3::zero(), |force| {
+            state.attitude.to_matrix() * force * (1.0 / self.total_mass)
         });
         self.gravity + external
     }
@@ -247,7 +249,7 @@ impl System for Equations {
         let Self { variables, entered, rates, evaluations, .. } = self;
         *evaluations += usize::from(variables.layout.needs_elimination());
         let free_fall = variables.free_fall(t).velocity;
-        entered.rates(rates, free_fall, y, dy);
+        entered.rates(rates, (t, free_fall), y, dy);
     }
 
     fn derivatives(&mut self, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
@@ -284,7 +286,7 @@ impl System for Equations {
         }
         let free_fall = self.variables.free_fall(t).velocity;
         let Self { scene, entered, commands, variables, .. } = self;
-        entered.jacobian(scene, commands).write(variables.layout, free_fall, y, out);
+        entered.jacobian(scene, commands).write(variables.layout, (t, free_fall), y, out);
         true
     }
 

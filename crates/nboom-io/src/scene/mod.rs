@@ -5,6 +5,7 @@ mod bodies;
 mod catalog;
 mod couplings;
 mod expression;
+mod externals;
 mod fields;
 mod hinges;
 mod include;

@@ -1,6 +1,6 @@
 //! What a scene has besides bodies: times, initial motion, gravity, thrust.
 
-use nboom_model::{Gravity, InitialMotion, SceneDescription, Thrust};
+use nboom_model::{External, Gravity, InitialMotion, SceneDescription};
 use nboom_scalar::Vec3;
 
 use super::fields::{Fields, Reader};
@@ -22,9 +22,12 @@ impl Reader<'_, '_> {
         }
         if let Some(main_body) = root.inner("main_body") {
             scene.rotors = self.rotors(&main_body);
+            scene.externals = self.externals(&main_body);
         }
         scene.gravity = self.table(root, "gravity").and_then(|fields| self.gravity(&fields));
-        scene.thrust = self.table(root, "thrust").and_then(|fields| self.thrust(&fields));
+        if let Some(thrust) = self.table(root, "thrust").and_then(|fields| self.thrust(&fields)) {
+            scene.externals.insert(0, thrust);
+        }
         scene
     }
 
@@ -49,9 +52,9 @@ impl Reader<'_, '_> {
         (acceleration > 0.0).then_some(Gravity { acceleration, up })
     }
 
-    fn thrust(&mut self, fields: &Fields<'_>) -> Option<Thrust> {
+    fn thrust(&mut self, fields: &Fields<'_>) -> Option<External> {
         let (force, point) = (self.vector(fields, "force"), self.vector(fields, "point"));
         let (on, off) = (self.number(fields, "from"), self.number(fields, "until"));
-        Some(Thrust { force: force?, point: point?, on: on?, off: off? })
+        Some(External::thrust(force?, point?, [on?, off?]))
     }
 }

@@ -3,14 +3,15 @@
 mod lines;
 
 use nboom_model::{
-    Body, BodyShape, Coupling, Hinge, HingeState, Joint, MassProperties, Material, Release, Scene,
-    SectionShape, SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
+    Body, BodyShape, Coupling, Course, ExternalAxes, ExternalKind, Hinge, HingeState, Joint,
+    MassProperties, Material, Release, Scene, SectionShape, SegmentStructure, Solid, Station,
+    Structure, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 
 use super::catalog::FILES_ON_REQUEST;
 use crate::angles::in_degrees;
-use crate::words::joint_table;
+use crate::words::{external_table, joint_table};
 use crate::{Sampling, SceneFile, SceneSettings};
 use lines::{Lines, angle, inertia, list, listed, number, text, vector};
 
@@ -33,6 +34,7 @@ pub fn write_scene(file: &SceneFile) -> String {
     mass_properties(&mut lines, &scene.main_body);
     lines.optional("shape", scene.shapes().main_body.as_ref().map(shape));
     rotors(&mut lines, scene, None);
+    externals(&mut lines, scene, None);
     surroundings(&mut lines, scene);
     let materials = materials(structure.as_ref());
     for (i, material) in materials.iter().enumerate() {
@@ -51,6 +53,7 @@ pub fn write_scene(file: &SceneFile) -> String {
         joint(&mut lines, scene, i, of_body);
         couplings(&mut lines, scene, i);
         rotors(&mut lines, scene, Some(i));
+        externals(&mut lines, scene, Some(i));
         segment.into_iter().for_each(|segment| stations(&mut lines, segment));
     }
     lines.text
@@ -115,13 +118,6 @@ fn surroundings(lines: &mut Lines, scene: &Scene) {
         lines.value("acceleration", number(gravity.acceleration));
         lines.value("up", vector(gravity.up));
     }
-    if let Some(thrust) = &scene.thrust {
-        lines.table("thrust");
-        lines.value("force", vector(thrust.force));
-        lines.value("point", vector(thrust.point));
-        lines.value("from", number(thrust.on));
-        lines.value("until", number(thrust.off));
-    }
 }
 
 /// The name of a body; one without is called by its hinge's numbers.
@@ -153,6 +149,33 @@ fn rotors(lines: &mut Lines, scene: &Scene, body: Option<usize>) {
         lines.value("axis", direction(rotor.axis));
         lines.value("inertia", number(rotor.inertia));
         lines.line(angle("speed", rotor.speed));
+    }
+}
+
+/// What acts on a body from outside, as tables of it.
+fn externals(lines: &mut Lines, scene: &Scene, body: Option<usize>) {
+    for external in scene.externals.iter().filter(|external| external.body == body) {
+        let owner = if body.is_some() { "body" } else { "main_body" };
+        lines.tables(&format!("{owner}.{}", external_table(external.kind)));
+        let amount = match external.kind {
+            ExternalKind::Force => "force",
+            ExternalKind::Torque => "torque",
+        };
+        lines.value(amount, vector(external.amount));
+        lines.value("point", vector(external.point));
+        if external.axes == ExternalAxes::Inertial {
+            lines.value("axes", text("inertial"));
+        }
+        match &external.course {
+            Course::Pulse { on, off } => {
+                let times = [("from", on), ("until", off)].into_iter();
+                let times = times.filter(|(_, time)| time.is_finite());
+                times.for_each(|(key, time)| lines.value(key, number(*time)));
+            }
+            Course::Table(points) => {
+                lines.value("over_time", listed(points.iter().map(|&point| list(point))));
+            }
+        }
     }
 }
 

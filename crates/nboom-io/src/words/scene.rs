@@ -120,9 +120,12 @@ impl SceneWords {
         let end = self.end.unwrap_or(self.start);
         let rotors = self.main_body.rotors.iter();
         let rotors = rotors.filter_map(|rotor| rotor.rotor("main_body", errors)).collect();
+        let externals = self.thrust.map(Into::into).into_iter();
+        let externals = externals.chain(self.main_body.externals.iter().cloned()).collect();
         let main_body = self.main_body.properties(errors);
         let mut scene = SceneDescription::at_rest(&self.name, main_body, end);
         scene.rotors = rotors;
+        scene.externals = externals;
         scene.initial.time = self.start;
         self.initial.set(&mut scene.initial, errors);
         scene.gravity = self.gravity.and_then(|(acceleration, up)| {
@@ -142,7 +145,6 @@ impl SceneWords {
             }
             None
         });
-        scene.thrust = self.thrust.map(Into::into);
         let bodies = self.bodies.into_iter().map(|body| body.draft(errors)).collect();
         SceneDraft { scene, bodies }
     }

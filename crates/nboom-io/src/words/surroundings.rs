@@ -1,9 +1,9 @@
-use nboom_model::{BodyShape, InitialMotion, MassProperties};
+use nboom_model::{BodyShape, External, InitialMotion, MassProperties};
 use nboom_scalar::{Sym3, Vec3};
 
-use super::{Axes, RotorWords, WordsError};
+use super::{Axes, ExternalWords, RotorWords, WordsError};
 
-/// A thrust fixed in the main body.
+/// A thrust fixed in the main body: short for a [`thruster`](super::thruster) of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {
     /// Force on the main body, its axes.
@@ -16,9 +16,9 @@ pub struct Thrust {
     pub until: f64,
 }
 
-impl From<Thrust> for nboom_model::Thrust {
+impl From<Thrust> for External {
     fn from(Thrust { force, point, from, until }: Thrust) -> Self {
-        Self { force: force.into(), point: point.into(), on: from, off: until }
+        Self::thrust(force.into(), point.into(), [from, until])
     }
 }
 
@@ -28,6 +28,7 @@ impl From<Thrust> for nboom_model::Thrust {
 pub struct MainBodyWords {
     mass: MassWords,
     pub(super) rotors: Vec<RotorWords>,
+    pub(super) externals: Vec<External>,
     pub(super) shape: Option<BodyShape>,
 }
 
@@ -58,6 +59,12 @@ impl MainBodyWords {
     /// One more rotor in it.
     pub fn rotor(mut self, rotor: RotorWords) -> Self {
         self.rotors.push(rotor);
+        self
+    }
+
+    /// One more force or torque on it from outside.
+    pub fn external(mut self, external: ExternalWords) -> Self {
+        self.externals.push(external.into());
         self
     }
 

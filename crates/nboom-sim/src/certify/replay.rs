@@ -142,13 +142,14 @@ impl<'a> Replay<'a> {
     fn enter(&mut self) -> Course {
         self.situation.watch(self.scene, &self.dynamics);
         let Self { scene, dynamics, situation: Situation { state, mode, .. }, .. } = self;
-        let thrust = dynamics.external().is_some();
+        let thrust = dynamics.elements().acts_from_outside();
         let free = dynamics.free_hinges().len();
         let (unknowns, dashpots) = (Unknowns::Velocities, false);
         let layout = VariableLayout { unknowns, free, thrust, dashpots };
         let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
         fixed.extend(state.center.velocity.to_array());
+        fixed.push(state.time);
         self.sizes.enter(dynamics.free_hinges());
         self.sizes.saw_omega(&state.omega_body.to_array().map(|rate| rate.to_f64()));
         let free = dynamics.free_hinges().iter();

@@ -114,12 +114,12 @@ impl PreparedMode {
         Selection { since, ..selection.clone() }
     }
 
-    /// Writes ẏ at `y` to `dy`, in the layout of `rates`; without thrust the mass centre would fall with the
-    /// velocity `free_fall`, inertial axes.
+    /// Writes ẏ at `y` to `dy`, in the layout of `rates`; without thrust the mass centre would fall at `time` with
+    /// the velocity `free_fall`, inertial axes.
     pub fn rates(
         &mut self,
         rates: &mut Rates<f64>,
-        free_fall: Vec3<f64>,
+        (time, free_fall): (f64, Vec3<f64>),
         y: &[f64],
         dy: &mut [f64],
     ) {
@@ -134,7 +134,7 @@ impl PreparedMode {
                     |dynamics: &mut Recursive<f64>, motion: &Motion<'_, f64>, out: &mut _| {
                         code.accelerations(dynamics, motion, out);
                     };
-                rates.write(dynamics, accelerate, free_fall, y, dy);
+                rates.write(dynamics, accelerate, (time, free_fall), y, dy);
                 if let (AccelerationCode::UnderOwnLaws(own), [work]) =
                     (code, &mut dy[rates.layout.dashpot_work()])
                 {

@@ -33,17 +33,18 @@ impl<R: Real> Rates<R> {
     }
 
     /// Writes ẏ at `y` to `dy`. `dynamics` is in the same mode, `accelerate` computes accelerations
-    /// there, and the mass centre would fall with the velocity `free_fall` (inertial axes) without
+    /// there, and at `time` the mass centre would fall with the velocity `free_fall` (inertial axes) without
     /// thrust.
     pub fn write(
         &mut self,
         dynamics: &mut Recursive<R>,
         accelerate: impl FnOnce(&mut Recursive<R>, &Motion<'_, R>, &mut Accelerations<R>),
-        free_fall: Vec3<R>,
+        (time, free_fall): (R, Vec3<R>),
         y: &[R],
         dy: &mut [R],
     ) {
         let Self { layout, total_mass, tau, accelerations } = self;
+        dynamics.set_outside(attitude(y), time);
         let motion = if let Unknowns::Momenta(at_start) = layout.unknowns {
             let momenta = momenta(layout, at_start, y);
             let rates = &mut dy[layout.hinge_motion()];
@@ -108,13 +109,11 @@ fn write_external<R: Real>(
     let added = &y[displacement + 3..][..3];
     let velocity = free_fall + Vec3::new(added[0], added[1], added[2]);
     let found = dynamics.invariants(motion, to_inertial.transpose_mul(velocity));
-    let elements = dynamics.elements();
-    let force = to_inertial * elements.external().map_or(Vec3::zero(), |wrench| wrench.force);
-    let moment = to_inertial * elements.external_moment_about(found.mass_center);
-    let acceleration = force * (R::one() / total_mass);
+    let outside = dynamics.outside(motion, &found);
+    let acceleration = to_inertial * outside.force * (R::one() / total_mass);
+    let moment = to_inertial * outside.moment;
     dy[displacement..][..3].copy_from_slice(added);
     dy[displacement + 3..][..3].copy_from_slice(&acceleration.to_array());
-    dy[layout.thrust_work().start] =
-        elements.external_power(found.origin_velocity, motion.omega_body);
+    dy[layout.thrust_work().start] = outside.power;
     dy[layout.angular_impulse()].copy_from_slice(&moment.to_array());
 }
