@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use nboom::io::SceneFile;
 use nboom::model::{
-    Dashpot, Gravity, HingeState, Scene, SceneDescription, Spring, Structure, Thrust,
+    Dashpot, External, Gravity, HingeState, Scene, SceneDescription, Spring, Structure,
 };
 use nboom::scalar::{Quaternion, Vec3};
 use nboom::sim::{
@@ -142,7 +142,7 @@ fn cases() -> Vec<Case> {
     };
     let mut all = vec![
         Case::new("nothing", |_| ()),
-        Case::new("thrust", |scene| scene.thrust = None),
+        Case::new("thrust", |scene| scene.externals.clear()),
         Case::new("gravity", |scene| scene.gravity = None),
         Case::new("kick_off_springs", hinges(|hinge| hinge.kick_off = None)),
         Case::new("dashpots", hinges(|hinge| hinge.dashpot = Dashpot::default())),
@@ -161,7 +161,8 @@ fn cases() -> Vec<Case> {
         Case::new("detail", |_| ()),
         Case::new("output_times", |_| ()),
         Case::new("all_but_hinges_that_lock", |scene| {
-            (scene.thrust, scene.gravity) = (None, None);
+            scene.externals.clear();
+            scene.gravity = None;
             along_axes(scene);
             centred(scene);
             for body in &mut scene.bodies {
@@ -203,7 +204,7 @@ fn stresses(scene: &Scene) -> StressAnalysis {
 fn full() -> SceneDescription {
     let mut scene = deck();
     let (force, point) = (Vec3::new(30.0, 5.0, -2.0), Vec3::new(-10.0, 1.0, 0.5));
-    scene.thrust = Some(Thrust { force, point, on: 0.05, off: 0.8 });
+    scene.externals = vec![External::thrust(force, point, [0.05, 0.8])];
     scene.gravity = Some(Gravity { acceleration: 386.0, up: Vec3::unit_z() });
     let turn = Quaternion { scalar: 0.8, vector: Vec3::new(0.36, 0.48, 0.0) }.to_matrix();
     for mass in masses(&mut scene) {

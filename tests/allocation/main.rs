@@ -24,7 +24,8 @@ fn scene_and_mode() -> (Scene, Mode) {
     let scene = (0..)
         .map(|seed| random_scene::description(9, seed))
         .find(|scene| {
-            scene.thrust.is_some() && scene.bodies.iter().any(|body| body.hinge.kick_off.is_some())
+            !scene.externals.is_empty()
+                && scene.bodies.iter().any(|body| body.hinge.kick_off.is_some())
         })
         .expect("one in a few has both");
     let scene = Scene::new(scene).expect("a physical scene");
@@ -116,6 +117,7 @@ fn loads_allocate_nothing() {
         tau: &values,
         acceleration: change,
         force_densities: &values,
+        outside: &[],
     };
     let share = LockUpShare { pulse_constant: 0.1, jump: change };
     assert_eq!(allocations(|| loads.continuous(&motion, &mut found)), 0);

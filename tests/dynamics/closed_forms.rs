@@ -23,10 +23,10 @@ fn articulated_gives_the_accelerations_of_the_recursive_path() {
         dynamics.hinge_forces(&motion, &mut torques);
         let hinge =
             |&j: &usize| HingeCoordinates { beta: beta[j], tau: tau[j], torque: torques[j] };
-        let external = case.scene.thrust.filter(|_| case.mode.thrust);
+        let external = crate::random_scene::thrust(&case.scene, &case.mode);
         let coordinates = Coordinates {
             omega: case.omega,
-            external: external.map_or(Wrench::zero(), |t| Wrench::of_force(t.point, t.force)),
+            external: external.map_or(Wrench::zero(), |t| Wrench::of_force(t.point, t.amount)),
             hinges: recognised.links.iter().map(hinge).collect(),
         };
         let found = Formulation::Articulated.solve(

@@ -37,7 +37,7 @@ fn case(value: &Value) -> Case {
     }
     let scene = Scene::new(description).expect("reference cases are valid");
     let mut mode = Mode::at_start(&scene);
-    mode.thrust = value["thrust_on"] == true;
+    mode.externals.fill(usize::from(value["thrust_on"] == true));
     let lengths = numbers(&value["expected"]["kick_extension"]);
     for (i, body) in scene.bodies.iter().enumerate() {
         if let Some(kick_off) = body.hinge.kick_off {

@@ -3,8 +3,8 @@
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::Formulation;
 use nboom::model::{
-    Body, BodyName, Hinge, InitialMotion, Joint, MassDefect, MassProperties, Mode, ModelError,
-    Mount, Scene, SceneDescription, Thrust,
+    Body, BodyName, External, Hinge, InitialMotion, Joint, MassDefect, MassProperties, Mode,
+    ModelError, Mount, Scene, SceneDescription,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{Form, Nobody, Options, SimError, simulate};
@@ -31,12 +31,11 @@ fn stage() -> Scene {
             body(None, 4.146, y, ring),
             body(Some(2), 0.0, z, of(25.61, -0.186, 20.62, 16.62)),
         ],
-        thrust: Some(Thrust {
-            force: Vec3::unit_x() * 15000.0,
-            point: Vec3::zero(),
-            on: 0.0,
-            off: f64::INFINITY,
-        }),
+        externals: vec![External::thrust(
+            Vec3::unit_x() * 15000.0,
+            Vec3::zero(),
+            [0.0, f64::INFINITY],
+        )],
         initial: InitialMotion {
             omega_body: Vec3::new(4.1888, 0.0495, 0.0),
             ..InitialMotion::at_rest()
@@ -51,7 +50,7 @@ fn two_tanks_on_gimbals_accelerate_as_nasa_printed_in_1982() {
     let scene = stage();
     let mut dynamics = Recursive::<f64>::new(&scene);
     let at_rest = [0.0; 4];
-    dynamics.set_mode(&Mode { thrust: true, ..Mode::at_start(&scene) }, &at_rest);
+    dynamics.set_mode(&Mode { externals: vec![1], ..Mode::at_start(&scene) }, &at_rest);
     let motion = Motion { omega_body: scene.initial.omega_body, beta: &at_rest, tau: &at_rest };
     let mut found = Accelerations::for_hinges(4);
     dynamics.accelerations(&motion, &mut found);

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use nboom::dynamics::{Accelerations, Momenta, Motion, Recursive};
-use nboom::scalar::{Dual, Real, Vec3};
+use nboom::scalar::{Dual, Quaternion, Real, Vec3};
 
 use crate::random_scene::{Moment, moment};
 use crate::support::relative_error;
@@ -10,7 +10,7 @@ use crate::support::relative_error;
 /// Sums over up to eight bodies, and a solution with a condition of up to about a hundred.
 const ROUNDING: f64 = 1e-12;
 
-/// Random trees, a quarter of whose hinges are held, half of them under thrust.
+/// Random trees, a quarter of whose hinges are held, most of them under forces and torques from outside.
 fn moments() -> impl Iterator<Item = Moment> {
     (0..400).map(|seed| moment(1 + seed as usize % 8, seed, 0.25))
 }
@@ -19,6 +19,9 @@ fn dynamics<R: Real>(moment: &Moment) -> Recursive<R> {
     let beta: Vec<R> = moment.beta.iter().map(|&angle| R::constant(angle)).collect();
     let mut dynamics = Recursive::new(&moment.scene);
     dynamics.set_mode(&moment.mode, &beta);
+    let Quaternion { scalar, vector } = moment.scene.initial.attitude;
+    let attitude = Quaternion { scalar: R::constant(scalar), vector: Vec3::constant(vector) };
+    dynamics.set_outside(attitude, R::zero());
     dynamics
 }
 
@@ -74,24 +77,22 @@ fn along_the_motion(moment: &Moment, beta: &[f64], tau: &[f64]) -> (Vec3<f64>, V
 
 #[test]
 fn rates_of_the_momenta_are_their_derivatives_along_the_motion() {
-    let mut under_thrust = 0;
+    let mut pushed = 0;
     for moment in moments() {
         let mut dynamics = dynamics::<f64>(&moment);
         let (beta, tau) = (of_free(&moment.beta, &dynamics), of_free(&moment.tau, &dynamics));
         let motion = Motion { omega_body: moment.omega, beta: &beta, tau: &tau };
         let mut hinges = vec![0.0; tau.len()];
         let angular_body = dynamics.momenta(&motion, &mut hinges);
-        let center = dynamics.invariants(&motion, Vec3::zero()).mass_center;
-        let thrust = moment.scene.thrust.filter(|_| moment.mode.thrust);
+        let found = dynamics.invariants(&motion, Vec3::zero());
+        let outside = dynamics.outside(&motion, &found);
         let momenta = Momenta { angular_body, beta: &beta, hinges: &hinges };
         let (mut back, mut rates) = (tau.clone(), tau.clone());
         dynamics.momentum_rates(&momenta, &mut back, &mut rates);
-        let moment_of_thrust =
-            thrust.map_or(Vec3::zero(), |thrust| (thrust.point - center).cross(thrust.force));
-        under_thrust += usize::from(thrust.is_some());
+        pushed += usize::from(dynamics.elements().on_links().next().is_some());
         let (angular_rate, expected) = along_the_motion(&moment, &beta, &tau);
-        // Ḣ_c along inertial axes is the moment of the thrust about the mass centre.
-        let inertial = angular_rate + moment.omega.cross(angular_body) - moment_of_thrust;
+        // Ḣ_c along inertial axes is the moment from outside about the mass centre.
+        let inertial = angular_rate + moment.omega.cross(angular_body) - outside.moment;
         let largest = expected.iter().fold(angular_body.norm(), |most, rate| most.max(rate.abs()));
         assert!(inertial.norm() < ROUNDING * largest.max(1.0), "{:e}", inertial.norm());
         for (rate, expected) in rates.iter().zip(&expected) {
@@ -99,5 +100,5 @@ fn rates_of_the_momenta_are_their_derivatives_along_the_motion() {
             assert!(apart < ROUNDING * largest.max(1.0), "{apart:e} of {largest:e}");
         }
     }
-    assert!(under_thrust > 100, "{under_thrust}");
+    assert!(pushed > 100, "{pushed}");
 }

@@ -41,7 +41,7 @@ fn pushed(seed: u64) -> Moment {
     }
     let scene = Scene::new(description).expect("random bodies are physical");
     let mut mode = all_acting(&scene, of_seed.mode.hinges);
-    mode.thrust &= of_seed.mode.thrust;
+    mode.externals.clone_from(&of_seed.mode.externals);
     for piece in &mut mode.pieces {
         *piece = usize::from(dice.chance(0.3));
     }
@@ -155,7 +155,7 @@ fn all_formulations_give_the_right_side_that_a_run_composes() {
 fn numbers_that_are_written_are_read_back_and_stand_where_the_layout_says() {
     let pushed = (0..).map(Pushed::random).find(|pushed| {
         let pushing = pushed.dynamics.elements().pushing().count();
-        pushed.forces.is_some() && pushing > 1 && pushed.dynamics.external().is_some()
+        pushed.forces.is_some() && pushing > 1 && pushed.dynamics.elements().external().is_some()
     });
     let pushed = pushed.expect("there are infinitely many");
     let forces = pushed.forces.expect("it was looked for");

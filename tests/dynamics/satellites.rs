@@ -4,13 +4,13 @@ use nalgebra::DMatrix;
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::{Coordinates, HingeCoordinates, Recognised, Solution, recognise};
 use nboom::model::{
-    Appendage, Dashpot, Hinge, HingeState, Mode, Mount, Scene, SceneDescription, Segment, Spring,
-    Thrust, WeldedTree,
+    Appendage, Dashpot, External, Hinge, HingeState, Mode, Mount, Scene, SceneDescription, Segment,
+    Spring, WeldedTree,
 };
 use nboom::scalar::{DoubleDouble, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, condition};
-use crate::random_scene::{Moment, Rng};
+use crate::random_scene::{Moment, Rng, thrust};
 
 /// A satellite in one state with what the recursive path says about it.
 pub struct Satellite {
@@ -53,10 +53,10 @@ impl Satellite {
             tau: free_tau[j],
             torque,
         };
-        let thrust = scene.thrust.filter(|_| mode.thrust);
+        let acting = thrust(&scene, &mode);
         let coordinates = Coordinates {
             omega,
-            external: thrust.map_or(Wrench::zero(), |t| Wrench::of_force(t.point, t.force)),
+            external: acting.map_or(Wrench::zero(), |t| Wrench::of_force(t.point, t.amount)),
             hinges: torques.iter().enumerate().map(hinge).collect(),
         };
         Self {
@@ -173,15 +173,15 @@ fn of_kind(seed: u64, kind: Kind) -> Moment {
     }
     if dice.chance(0.5) {
         let (force, point) = (dice.vector(10.0), dice.vector(1.0));
-        description.thrust = Some(Thrust { force, point, on: 0.0, off: 0.5 });
+        description.externals = vec![External::thrust(force, point, [0.0, 0.5])];
     }
     let scene = Scene::new(description).expect("random bodies are physical");
     let held = |dice: &mut Rng| {
         if dice.chance(0.25) { HingeState::Locked } else { HingeState::Free }
     };
     let hinges: Vec<HingeState> = scene.bodies.iter().map(|_| held(dice)).collect();
-    let thrust = scene.thrust.is_some();
-    let mode = Mode { thrust, hinges, ..Mode::at_start(&scene) };
+    let externals = vec![1; scene.externals.len()];
+    let mode = Mode { externals, hinges, ..Mode::at_start(&scene) };
     let beta = scene.bodies.iter().map(|_| dice.between(-3.0, 3.0)).collect();
     let mut rate = |i: usize| {
         let rate = dice.between(-2.0, 2.0);

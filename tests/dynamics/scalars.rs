@@ -97,9 +97,9 @@ impl Prepared {
             let i = self.tree.links[j].hinge;
             HingeCoordinates { beta: state.beta[i], tau: state.tau[i], torque: torques[j] }
         };
-        let thrust = self.case.scene.thrust.filter(|_| self.case.mode.thrust);
+        let thrust = crate::random_scene::thrust(&self.case.scene, &self.case.mode);
         let external = thrust.map_or(Wrench::zero(), |thrust| {
-            Wrench::of_force(Vec3::constant(thrust.point), Vec3::constant(thrust.force))
+            Wrench::of_force(Vec3::constant(thrust.point), Vec3::constant(thrust.amount))
         });
         let hinges = self.recognised.links.iter().map(hinge).collect();
         Coordinates { omega: state.omega, external, hinges }
@@ -181,7 +181,7 @@ fn turned_by_hinges(case: &Case) -> Case {
     let scene = Scene::new(SceneDescription { bodies, ..SceneDescription::clone(&case.scene) })
         .expect("a valid scene with more hinges");
     let mut mode = Mode::at_start(&scene);
-    mode.thrust = case.mode.thrust;
+    mode.externals.clone_from(&case.mode.externals);
     // What turns has no springs.
     mode.pieces.clone_from(&case.mode.pieces);
     let held = |body: &Body| body.hinge.start.angle;

@@ -1,7 +1,7 @@
 //! What is told, and when: output times, rows at events, the order within an instant, and that
 //! output does not touch the motion.
 
-use nboom::model::{HingeState, Release, Thrust};
+use nboom::model::{External, HingeState, Release};
 use nboom::scalar::Vec3;
 use nboom::sim::{EventKind, Options};
 
@@ -74,7 +74,7 @@ fn events_of_an_instant_come_as_lock_ups_releases_others() {
     ];
     let mut description = description(&hinges, 1.0);
     let (force, point) = (Vec3::new(0.0, 0.0, 1.0), Vec3::zero());
-    description.thrust = Some(Thrust { force, point, on: 0.5, off: 0.75 });
+    description.externals = vec![External::thrust(force, point, [0.5, 0.75])];
     let scene = nboom::model::Scene::new(description).expect("rotors are bodies");
     let (found, _) = run(&scene, &tight(1));
     let kinds: Vec<_> = found.happenings().iter().map(|h| (h.0, h.1)).collect();

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use nboom::dynamics::{Motion, Recursive};
-use nboom::model::{HingeState, Release, Scene, SceneDescription, Thrust};
+use nboom::model::{Course, HingeState, Release, Scene, SceneDescription};
 use nboom::sim::Options;
 
 use crate::collect::run;
@@ -22,9 +22,9 @@ fn eventful(seed: u64) -> SceneDescription {
     let bodies = 1 + dice.below(6);
     let mut scene = description(bodies, seed);
     scene.end_time = 1.0;
-    if let Some(thrust) = scene.thrust {
+    for thrust in &mut scene.externals {
         let on = dice.between(-0.3, 1.0);
-        scene.thrust = Some(Thrust { on, off: on + dice.between(0.0, 0.8), ..thrust });
+        thrust.course = Course::Pulse { on, off: on + dice.between(0.0, 0.8) };
     }
     for i in 0..bodies {
         let hinge = &mut scene.bodies[i].hinge;

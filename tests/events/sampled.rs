@@ -3,7 +3,7 @@
 //! by taking the step again. Of the run's own code it shares accelerations and impulses alone.
 
 use nboom::dynamics::{Accelerations, LockUp, Motion, Recursive};
-use nboom::model::{Hinge, HingeState, Mode, Release, Scene};
+use nboom::model::{Course, External, Hinge, HingeState, Mode, Release, Scene};
 use nboom::scalar::Vec3;
 use nboom::sim::EventKind;
 
@@ -56,7 +56,7 @@ impl<'a> Sampled<'a> {
             guards: Vec::new(),
             events: Vec::new(),
         };
-        found.mode.thrust = found.thrust();
+        found.mode.externals = found.externals();
         found.enter(&[]);
         for i in 0..scene.bodies.len() {
             if scene.bodies[i].hinge.kick_off.is_some() {
@@ -179,11 +179,18 @@ impl<'a> Sampled<'a> {
             let kind = if *piece == 0 { ENGAGES } else { DISENGAGES };
             self.events.push((kind, Some(i), self.time));
         }
-        let thrust = self.thrust();
-        if thrust != self.mode.thrust {
-            self.mode.thrust = thrust;
-            let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
-            self.events.push((kind, None, self.time));
+        let externals = self.externals();
+        if externals != self.mode.externals {
+            let pieces = externals.iter().zip(&self.mode.externals);
+            for (external, (&after, &before)) in self.scene.externals.iter().zip(pieces) {
+                // Pulses act in their second piece.
+                if (after == 1) != (before == 1) {
+                    let is_on = after == 1;
+                    let kind = if is_on { EventKind::ThrustOn } else { EventKind::ThrustOff };
+                    self.events.push((kind, external.body, self.time));
+                }
+            }
+            self.mode.externals = externals;
         } else if locks.is_empty() && springs.is_empty() && !released {
             return;
         }
@@ -234,9 +241,11 @@ impl<'a> Sampled<'a> {
         !due.is_empty()
     }
 
-    fn thrust(&self) -> bool {
+    /// The pieces of pulses.
+    fn externals(&self) -> Vec<usize> {
         let now = self.time + ONE_INSTANT;
-        self.scene.thrust.is_some_and(|thrust| thrust.on <= now && now < thrust.off)
+        let passed = |times: [f64; 2]| times.iter().filter(|&&at| at <= now).count();
+        self.scene.externals.iter().map(|external| passed(times(external))).collect()
     }
 
     fn next_scheduled(&self) -> f64 {
@@ -247,7 +256,7 @@ impl<'a> Sampled<'a> {
                 Release::AfterLock { hinge, delay } => Some(self.locked_at[hinge] + delay),
                 _ => None,
             });
-        let thrust = self.scene.thrust.iter().flat_map(|thrust| [thrust.on, thrust.off]);
+        let thrust = self.scene.externals.iter().flat_map(times);
         let later = |at: &f64| *at > self.time + ONE_INSTANT;
         releases.chain(thrust).filter(later).fold(self.scene.end_time, f64::min)
     }
@@ -298,4 +307,12 @@ fn split(variables: &[f64]) -> Motion<'_, f64> {
     let (omega, hinges) = variables.split_at(3);
     let (beta, tau) = hinges.split_at(hinges.len() / 2);
     Motion { omega_body: Vec3::new(omega[0], omega[1], omega[2]), beta, tau }
+}
+
+/// When a pulse starts and stops.
+fn times(external: &External) -> [f64; 2] {
+    match external.course {
+        Course::Pulse { on, off } => [on, off],
+        Course::Table(_) => panic!("a pulse"),
+    }
 }

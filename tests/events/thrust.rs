@@ -1,6 +1,6 @@
 //! The thrust pulse: on while t_on <= t < t_off.
 
-use nboom::model::{Scene, SceneDescription, Thrust};
+use nboom::model::{External, Scene, SceneDescription};
 use nboom::scalar::Vec3;
 use nboom::sim::EventKind::{self, ThrustOff, ThrustOn};
 
@@ -20,7 +20,7 @@ fn pushed(force: f64, on: f64, off: f64) -> Collected {
     let mut description = SceneDescription::at_rest("pushed", ball(1.0), END);
     description.initial.time = START;
     let force = Vec3::new(force, 0.0, 0.0);
-    description.thrust = Some(Thrust { force, point: Vec3::zero(), on, off });
+    description.externals = vec![External::thrust(force, Vec3::zero(), [on, off])];
     run(&Scene::new(description).expect("a ball is a body"), &tight(8)).0
 }
 

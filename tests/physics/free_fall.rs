@@ -10,7 +10,7 @@ use super::random_scene::{Rng, description};
 
 fn scene(seed: u64) -> SceneDescription {
     let mut scene = description(6, seed);
-    scene.thrust = None;
+    scene.externals.clear();
     scene.end_time = 1.0;
     let dice = &mut Rng::new(seed ^ 0xfa11);
     for body in &mut scene.bodies {

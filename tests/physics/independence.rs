@@ -3,7 +3,7 @@
 //! kind of event.
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
-use nboom::model::{HingeState, Release, Scene, SceneDescription};
+use nboom::model::{Course, HingeState, Release, Scene, SceneDescription};
 use nboom::scalar::{Mat3, Vec3};
 use nboom::sim::{EventKind, Snapshot};
 
@@ -23,8 +23,8 @@ pub fn eventful(seed: u64) -> SceneDescription {
     let mut scene = description(BODIES, seed);
     let dice = &mut Rng::new(seed ^ 0xe4e17);
     scene.end_time = 1.2;
-    if let Some(thrust) = &mut scene.thrust {
-        (thrust.on, thrust.off) = (0.21, 0.77);
+    for thrust in &mut scene.externals {
+        thrust.course = Course::Pulse { on: 0.21, off: 0.77 };
     }
     for i in 0..BODIES {
         let trigger = (i + 1) % BODIES;

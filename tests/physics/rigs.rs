@@ -119,7 +119,7 @@ fn a_free_main_body_moves_likewise_under_the_reaction() {
         let mut scene = hinged(bodies, seed);
         (scene.base, scene.initial.omega_body) = (Base::Fixed, Vec3::zero());
         scene.initial.velocity_inertial = Vec3::zero();
-        scene.thrust = None;
+        scene.externals.clear();
         scene.gravity = Some(Gravity { acceleration: 3.0, up: Vec3::unit_y() });
         let scene = Scene::new(scene).expect("a valid scene");
         let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
@@ -134,7 +134,7 @@ fn a_free_main_body_moves_likewise_under_the_reaction() {
         // Gravity is no acceleration here, so the rig accelerates upward.
         let upward = scene.initial.attitude.to_matrix().transpose() * Vec3::unit_y() * 3.0;
         assert!((found.origin_body - upward).norm() < 1e-14);
-        let reaction = dynamics.from_outside(&motion, &found);
+        let reaction = dynamics.reaction(&motion, &found);
 
         let size = 6 + bodies;
         let (mut matrix, mut right) = (vec![0.0; size * size], vec![0.0; size]);

@@ -1,6 +1,6 @@
 //! A body under the thrust pulse: closed forms for thrust along and across the spin axis.
 
-use nboom::model::{MassProperties, SceneDescription, Thrust};
+use nboom::model::{External, MassProperties, SceneDescription};
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::EventKind;
 
@@ -24,7 +24,7 @@ fn scene(force: Vec3<f64>, point: Vec3<f64>) -> SceneDescription {
     let center = Vec3::new(0.0, 0.0, 0.6);
     let body = MassProperties::new(MASS, center, Sym3::diagonal(2.0, 2.0, AXIAL));
     let mut scene = SceneDescription::at_rest("thruster", body, END);
-    scene.thrust = Some(Thrust { force, point, on: ON, off: OFF });
+    scene.externals = vec![External::thrust(force, point, [ON, OFF])];
     scene.initial.attitude = dice.attitude();
     scene.initial.position_inertial = dice.vector(2.0);
     scene.initial.velocity_inertial = dice.vector(2.0);

@@ -1,6 +1,6 @@
 //! A scene told in other words, and how to read its motion back in the first ones.
 
-use nboom::model::{Joint, Release, SceneDescription};
+use nboom::model::{ExternalAxes, Joint, Release, SceneDescription};
 use nboom::scalar::{Mat3, Quaternion, Vec3};
 
 use super::scaled::Units;
@@ -113,8 +113,11 @@ pub fn other_main_body_axes(
             spring.main_body_point = point(spring.main_body_point);
         }
     }
-    if let Some(thrust) = &mut scene.thrust {
-        (thrust.force, thrust.point) = (rot * thrust.force, point(thrust.point));
+    for external in scene.externals.iter_mut().filter(|external| external.body.is_none()) {
+        external.point = point(external.point);
+        if external.axes == ExternalAxes::Body {
+            external.amount = rot * external.amount;
+        }
     }
     let initial = &mut scene.initial;
     let to_inertial = initial.attitude.to_matrix();
@@ -149,6 +152,11 @@ pub fn other_inertial_axes(original: &SceneDescription, turn: Quaternion<f64>) -
     if let Some(gravity) = &mut scene.gravity {
         gravity.up = rot * gravity.up;
     }
+    for external in &mut scene.externals {
+        if external.axes == ExternalAxes::Inertial {
+            external.amount = rot * external.amount;
+        }
+    }
     Variant::new("other inertial axes", scene, move |view| View {
         position: rot.transpose_mul(view.position),
         velocity: rot.transpose_mul(view.velocity),
@@ -182,6 +190,12 @@ pub fn other_body_axes(
     body.mass_properties.inertia = body.mass_properties.inertia.rotated(&rot);
     if let Some(spring) = &mut body.hinge.kick_off {
         spring.body_point = point(spring.body_point);
+    }
+    for external in scene.externals.iter_mut().filter(|external| external.body == Some(i)) {
+        external.point = point(external.point);
+        if external.axes == ExternalAxes::Body {
+            external.amount = rot * external.amount;
+        }
     }
     Variant::new("other body axes", scene, |view| view)
 }

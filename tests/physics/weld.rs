@@ -148,7 +148,7 @@ fn a_hinge_that_locks_on_the_way() {
             body.hinge.release = Release::Never;
             body.hinge.dashpot = Default::default();
         }
-        scene.thrust = None;
+        scene.externals.clear();
         let log = run(&scene, &options(3, 1e-12));
         let locks = log.of_kind(EventKind::LockUp);
         let Some((event, after)) = locks.first() else { continue };

@@ -186,6 +186,7 @@ fn trees_with_rotors_move_as_by_newton_and_euler() {
             tau: &tau,
             acceleration,
             force_densities: &densities,
+            outside: &[],
         };
         of_loads.continuous(&motion, &mut set);
         let outermost = bodies - 1;

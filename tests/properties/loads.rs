@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use nboom::elements::KickOffLaw;
 use nboom::loads::{LoadEquations, LoadSet, Loads, SceneMotion, VelocityChange};
 use nboom::model::{
-    Body, Hinge, Joint, Material, Mount, Scene, SceneDescription, SectionShape, SegmentStructure,
-    Station, Structure,
+    Body, Course, External, ExternalAxes, Hinge, Joint, Material, Mount, Scene, SceneDescription,
+    SectionShape, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{RigidInertia, Twist, Vec3, Wrench};
 use nboom::sections::Section;
@@ -28,6 +28,8 @@ pub struct Sliced {
     pub tau_dot: Vec<f64>,
     /// Force of every kick-off spring that pushes, over its length.
     force_densities: Vec<f64>,
+    /// What acts on hinged bodies from outside.
+    outside: Vec<[f64; 3]>,
 }
 
 fn stations(dice: &mut Rng) -> Vec<Station> {
@@ -64,7 +66,9 @@ impl Sliced {
         let part = |at: usize| Vec3::new(found[at], found[at + 1], found[at + 2]);
         let tau_dot = of_all(prepared.dynamics.free_hinges(), &found.as_slice()[6..], bodies);
         let force_densities = force_densities(&moment);
-        Self { structure, origin: part(0), omega_dot: part(3), tau_dot, force_densities, moment }
+        let outside = outside(&moment.scene);
+        let (origin, omega_dot) = (part(0), part(3));
+        Self { structure, origin, omega_dot, tau_dot, force_densities, outside, moment }
     }
 
     /// Random trees of one to eight hinged bodies.
@@ -76,8 +80,8 @@ impl Sliced {
         let Moment { omega, beta, tau, .. } = &self.moment;
         let (origin_body, omega_body) = (self.origin, self.omega_dot);
         let acceleration = VelocityChange { origin_body, omega_body, tau: &self.tau_dot };
-        let force_densities = &self.force_densities;
-        SceneMotion { omega_body: *omega, beta, tau, acceleration, force_densities }
+        let Self { force_densities, outside, .. } = self;
+        SceneMotion { omega_body: *omega, beta, tau, acceleration, force_densities, outside }
     }
 
     fn continuous(&self) -> (Loads, LoadSet) {
@@ -108,6 +112,27 @@ fn force_densities(moment: &Moment) -> Vec<f64> {
         })
     };
     placed(moment).into_iter().skip(1).enumerate().map(density).collect()
+}
+
+/// Forces and torques on hinged bodies at the initial time and attitude, along body or main-body axes.
+fn outside(scene: &Scene) -> Vec<[f64; 3]> {
+    let acting = |external: &External| {
+        let share = match &external.course {
+            Course::Pulse { .. } => 1.0,
+            Course::Table(points) => {
+                let ([t0, s0], [t1, s1]) = (points[0], points[1]);
+                s0 - (s1 - s0) * t0 / (t1 - t0)
+            }
+        };
+        let amount = match external.axes {
+            ExternalAxes::Body => external.amount,
+            ExternalAxes::Inertial => {
+                scene.initial.attitude.to_matrix().transpose() * external.amount
+            }
+        };
+        (amount * share).to_array()
+    };
+    scene.externals.iter().filter(|external| external.body.is_some()).map(acting).collect()
 }
 
 /// Values of the free hinges among those of all, zero for held ones.
@@ -289,7 +314,11 @@ fn recorded_loads_are_those_of_the_equations() {
         let (name, scalar_path) = ("Stresses".to_owned(), "::nboom_scalar".to_owned());
         let numbers = equations.numbers().len();
         let request = StressRequest { name, scalar_path, equations, level: Level::Exact };
-        let mut inputs = vec![f64::NAN; numbers + SceneMotion::<f64>::count(case.tau_dot.len())];
+        let mut inputs =
+            vec![
+                f64::NAN;
+                numbers + SceneMotion::<f64>::count(case.tau_dot.len(), case.outside.len())
+            ];
         case.motion().write(&mut inputs[numbers..]);
         assert_eq!(request.trace().evaluate(&inputs), expected.numbers());
     }
@@ -323,6 +352,16 @@ fn load_of_cut(case: &Sliced, i: usize, segment: &SegmentStructure, j: usize) ->
     if let Some(spring) = &mut hinge.kick_off {
         spring.body_point -= cut;
         scene.bodies[i].hinge.kick_off = None;
+    }
+    for external in &mut scene.externals {
+        external.body = external.body.map(|body| match body {
+            _ if body > i => body + 1,
+            _ if body == i && is_outboard(external.point) => {
+                external.point -= cut;
+                i + 1
+            }
+            _ => body,
+        });
     }
     let outer = Body {
         inboard: Some(i),

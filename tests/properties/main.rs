@@ -48,6 +48,7 @@ impl Prepared {
     fn new(moment: &Moment) -> Self {
         let mut dynamics = Recursive::new(&moment.scene);
         dynamics.set_mode(&moment.mode, &moment.beta);
+        dynamics.set_outside(moment.scene.initial.attitude, moment.scene.initial.time);
         let free = dynamics.free_hinges();
         let beta = free.iter().map(|&i| moment.beta[i]).collect();
         let tau = free.iter().map(|&i| moment.tau[i]).collect();

@@ -4,7 +4,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
 use nboom::model::{
-    Body, Coupling, HingeState, Joint, MassProperties, Mode, Rotor, SceneDescription,
+    Body, Coupling, Course, External, ExternalAxes, ExternalKind, HingeState, Joint,
+    MassProperties, Mode, Rotor, SceneDescription,
 };
 use nboom::scalar::{Mat3, Vec3};
 
@@ -168,7 +169,8 @@ pub struct Loads {
     pub outside: (V3, V3),
 }
 
-/// Springs, dashpots, kick-off springs and thrust by eqs. (6.1), (6.4) and (6.10) as printed.
+/// Springs, dashpots, kick-off springs and forces from outside by eqs. (6.1), (6.4) and (6.10) as printed, at the initial
+/// time and attitude.
 pub fn loads(
     scene: &SceneDescription,
     mode: &Mode,
@@ -219,10 +221,10 @@ pub fn loads(
             loads.push(placed, 0, from, -force);
         }
     }
-    if let Some(thrust) = scene.thrust.filter(|_| mode.thrust) {
-        let (point, force) = (vector(thrust.point), vector(thrust.force));
-        loads.push(placed, 0, point, force);
-        loads.outside = (force, point.cross(&force));
+    for (external, &piece) in scene.externals.iter().zip(&mode.externals) {
+        if external.course.acts(piece) {
+            loads.push_from_outside(scene, placed, external, piece);
+        }
     }
     loads
 }
@@ -250,6 +252,42 @@ impl Loads {
         self.forces[body].0 += force;
         self.forces[body].1 += (point - placed[body].center).cross(&force);
         self.power += force.dot(&placed[body].velocity_at(point));
+    }
+
+    fn push_from_outside(
+        &mut self,
+        scene: &SceneDescription,
+        placed: &[Placed],
+        external: &External,
+        piece: usize,
+    ) {
+        let body = external.body.map_or(0, |i| i + 1);
+        let share = match &external.course {
+            Course::Pulse { .. } => 1.0,
+            Course::Table(points) => {
+                let ([t0, s0], [t1, s1], t) =
+                    (points[piece - 1], points[piece], scene.initial.time);
+                (s0 * (t1 - t) + s1 * (t - t0)) / (t1 - t0)
+            }
+        };
+        let rot = match external.axes {
+            ExternalAxes::Body => placed[body].rot,
+            ExternalAxes::Inertial => matrix(&scene.initial.attitude.to_matrix()).transpose(),
+        };
+        let acting = rot * vector(external.amount) * share;
+        match external.kind {
+            ExternalKind::Force => {
+                let point = placed[body].origin + placed[body].rot * vector(external.point);
+                self.push(placed, body, point, acting);
+                self.outside.0 += acting;
+                self.outside.1 += point.cross(&acting);
+            }
+            ExternalKind::Torque => {
+                self.forces[body].1 += acting;
+                self.power += acting.dot(&placed[body].omega);
+                self.outside.1 += acting;
+            }
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 //! The decks were written from the same numbers in degrees with 17 digits, so that both scenes
 //! agree to the rounding of a conversion between degrees and radians.
 
-use nboom::model::{Body, Release, Scene};
+use nboom::model::{Body, Course, Release, Scene};
 use nboom::scalar::{Mat3, Vec3};
 
 use crate::catalog::Reference;
@@ -65,10 +65,11 @@ fn environment(scene: &Scene) -> Vec<Vec<f64>> {
     if let Some(gravity) = scene.gravity {
         groups.push((gravity.up * gravity.acceleration).to_array().to_vec());
     }
-    if let Some(thrust) = scene.thrust {
-        groups.push(thrust.force.to_array().to_vec());
+    for thrust in &scene.externals {
+        groups.push(thrust.amount.to_array().to_vec());
         groups.push(thrust.point.to_array().to_vec());
-        groups.push(vec![thrust.on, thrust.off]);
+        let Course::Pulse { on, off } = thrust.course else { panic!("a deck has pulses") };
+        groups.push(vec![on, off]);
     }
     groups
 }

@@ -76,7 +76,7 @@ fn scenes_beside(scene: &Scene) -> Vec<Scene> {
         &|s| s.bodies.iter_mut().for_each(|body| body.hinge.start.angle += 0.1),
         &|s| s.main_body.mass *= 2.0,
         &|s| s.bodies.iter_mut().for_each(|body| body.hinge.spring.linear *= 0.5),
-        &|s| s.thrust.iter_mut().for_each(|thrust| thrust.force = thrust.force * 1.5),
+        &|s| s.externals.iter_mut().for_each(|thrust| thrust.amount = thrust.amount * 1.5),
         &|s| s.gravity.iter_mut().for_each(|gravity| gravity.acceleration *= 0.5),
         &|s| {
             let table = TorqueTable { hinge: 0, points: vec![[-10.0, 0.0], [10.0, 1.0]] };

@@ -5,8 +5,8 @@
 //! two, so that every result is the same to the last bit. In others roundings differ.
 
 use nboom::model::{
-    Appendage, Dashpot, Hinge, HingeStart, HingeState, Joint, MassProperties, Mount, Scene,
-    SceneDescription, Segment, Spring, Thrust,
+    Appendage, Dashpot, External, Hinge, HingeStart, HingeState, Joint, MassProperties, Mount,
+    Scene, SceneDescription, Segment, Spring,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{EventKind, Method, Options};
@@ -132,7 +132,7 @@ fn driven() -> SceneDescription {
     let segments = vec![boom(1.0, 0.6, hinge), boom(0.5, 0.4, hinge)];
     scene.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
     let (force, point) = (Vec3::new(1.0, 0.5, -0.3), Vec3::new(0.0, 0.3, 0.1));
-    scene.thrust = Some(Thrust { force, point, on: 0.5, off: 1.5 });
+    scene.externals = vec![External::thrust(force, point, [0.5, 1.5])];
     scene
 }
 

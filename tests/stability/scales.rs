@@ -1,6 +1,6 @@
 //! Spins, times and positions that are far from 1.
 
-use nboom::model::{Gravity, Scene, SceneDescription, Spring, Thrust};
+use nboom::model::{External, Gravity, Scene, SceneDescription, Spring};
 use nboom::scalar::Vec3;
 use nboom::sim::Options;
 
@@ -66,7 +66,7 @@ fn displaced(offset: f64) -> SceneDescription {
     scene.initial.omega_body = Vec3::new(0.2, -0.3, 0.5);
     scene.initial.position_inertial = Vec3::new(1.0, -0.5, 0.25) * offset;
     scene.gravity = Some(Gravity { acceleration: 9.81, up: Vec3::unit_z() });
-    scene.thrust = Some(Thrust { force: Vec3::unit_x(), point: Vec3::unit_z(), on: 0.5, off: 1.5 });
+    scene.externals = vec![External::thrust(Vec3::unit_x(), Vec3::unit_z(), [0.5, 1.5])];
     scene
 }
 

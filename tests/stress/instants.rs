@@ -3,16 +3,17 @@
 use std::f64::consts::TAU;
 
 use nboom::model::{
-    Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Release, Scene, SceneDescription,
-    Spring, Thrust,
+    Dashpot, External, Hinge, HingeStart, HingeState, KickOffSpring, Release, Scene,
+    SceneDescription, Spring,
 };
 use nboom::scalar::Vec3;
 use nboom::strength::{Cause, Settings, Worst};
 
 use crate::follow::{Follow, HUB_MASS, LENGTH, MASS, RADIUS, STATIONS, THICKNESS, boom, held};
 
-fn with_thrust(scene: &Scene, thrust: Thrust) -> Scene {
-    let description = SceneDescription { thrust: Some(thrust), ..SceneDescription::clone(scene) };
+fn with_thrust(scene: &Scene, thrust: External) -> Scene {
+    let externals = vec![thrust];
+    let description = SceneDescription { externals, ..SceneDescription::clone(scene) };
     Scene::new(description).expect("a thrust may be added")
 }
 
@@ -51,7 +52,7 @@ fn is_approached(scene: &Scene, event: f64) {
 #[test]
 fn a_thrust_between_output_times_loads_what_it_accelerates() {
     let force = 40.0;
-    let thrust = Thrust { force: Vec3::unit_y() * force, point: Vec3::zero(), on: 0.3, off: 0.6 };
+    let thrust = External::thrust(Vec3::unit_y() * force, Vec3::zero(), [0.3, 0.6]);
     let area = TAU * RADIUS * THICKNESS;
     for (worst, s) in worst(&with_thrust(&held(Vec3::zero()), thrust)).iter().zip(STATIONS) {
         let outboard = MASS * (LENGTH - s) / LENGTH;

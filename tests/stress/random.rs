@@ -161,6 +161,7 @@ impl BruteForce {
                 tau: motion.beta_ddot,
             },
             force_densities: &densities,
+            outside: motion.outside,
         };
         let mut found = self.loads.load_set();
         self.loads.continuous(&motion, &mut found);

@@ -1,8 +1,8 @@
 //! Scenes of the reference data: angles in radians, hinges numbered from 0.
 
 use nboom::model::{
-    Appendage, Dashpot, Gravity, Hinge, HingeStart, HingeState, InitialMotion, KickOffSpring,
-    MassProperties, Mount, Release, Scene, SceneDescription, Segment, Spring, Thrust,
+    Appendage, Dashpot, External, Gravity, Hinge, HingeStart, HingeState, InitialMotion,
+    KickOffSpring, MassProperties, Mount, Release, Scene, SceneDescription, Segment, Spring,
 };
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 use serde_json::Value;
@@ -41,12 +41,9 @@ pub fn bodies(value: &Value, end_time: f64) -> SceneDescription {
     }
     let thrust = &value["thrust"];
     if thrust["magnitude"].as_f64().is_some_and(|f| f != 0.0) {
-        description.thrust = Some(Thrust {
-            force: vector(&thrust["direction"]) * number(thrust, "magnitude"),
-            point: vector(&thrust["point"]),
-            on: number(thrust, "t_on"),
-            off: number(thrust, "t_off"),
-        });
+        let force = vector(&thrust["direction"]) * number(thrust, "magnitude");
+        let times = [number(thrust, "t_on"), number(thrust, "t_off")];
+        description.externals = vec![External::thrust(force, vector(&thrust["point"]), times)];
     }
     description
 }

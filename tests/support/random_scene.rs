@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use nboom::model::{
-    Body, Dashpot, Gravity, Hinge, HingeState, Joint, KickOffSpring, MassProperties, Mode, Mount,
-    Scene, SceneDescription, Spring, Thrust,
+    Body, Course, Dashpot, External, ExternalAxes, ExternalKind, Gravity, Hinge, HingeState, Joint,
+    KickOffSpring, MassProperties, Mode, Mount, Scene, SceneDescription, Spring,
 };
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 
@@ -97,7 +97,7 @@ pub fn hinged(bodies: usize, seed: u64) -> SceneDescription {
     }
     if dice.chance(0.5) {
         let (force, point) = (dice.vector(10.0), dice.vector(1.0));
-        scene.thrust = Some(Thrust { force, point, on: 0.0, off: 0.5 });
+        scene.externals = vec![External::thrust(force, point, [0.0, 0.5])];
     }
     scene.initial.attitude = dice.attitude();
     scene.initial.position_inertial = dice.vector(3.0);
@@ -140,7 +140,7 @@ fn body(dice: &mut Rng, inboard: Option<usize>) -> Body {
 /// A random tree without anything that takes or gives energy: no dashpot rates and no thrust.
 pub fn conservative(bodies: usize, seed: u64) -> SceneDescription {
     let mut scene = description(bodies, seed);
-    scene.thrust = None;
+    scene.externals.clear();
     for body in &mut scene.bodies {
         body.hinge.dashpot.rate_quadratic = 0.0;
         body.hinge.dashpot.rate_linear = 0.0;
@@ -158,10 +158,15 @@ pub struct Moment {
     pub velocity_body: Vec3<f64>,
 }
 
-/// The mode with these hinges in which every spring pushes and the thrust, if there is one, is on.
+/// The mode with these hinges in which every spring pushes and all from outside is in its first piece.
 pub fn all_acting(scene: &Scene, hinges: Vec<HingeState>) -> Mode {
     let pieces = vec![0; Mode::at_start(scene).pieces.len()];
-    Mode { hinges, pieces, thrust: scene.thrust.is_some() }
+    Mode { hinges, pieces, externals: vec![1; scene.externals.len()] }
+}
+
+/// The thrust of a scene of one, while it is on.
+pub fn thrust<'s>(scene: &'s SceneDescription, mode: &Mode) -> Option<&'s External> {
+    scene.externals.first().filter(|thrust| thrust.course.acts(mode.externals[0]))
 }
 
 /// The place of the kick-off spring of body `i` among the lines of a scene.
@@ -169,9 +174,32 @@ pub fn spring(bodies: &[Body], i: usize) -> usize {
     bodies[..i].iter().filter(|body| body.hinge.kick_off.is_some()).count()
 }
 
-/// A random tree in a random mode; each hinge is held with probability `held`.
+/// A force or torque from outside on any of so many hinged bodies or on the main body, along any axes, always on or by a
+/// table over time, in whose first piece time zero is.
+pub fn external(dice: &mut Rng, bodies: usize) -> External {
+    let either = |dice: &mut Rng| dice.chance(0.5);
+    let body = dice.below(bodies + 1).checked_sub(1);
+    let kind = if either(dice) { ExternalKind::Force } else { ExternalKind::Torque };
+    let axes = if either(dice) { ExternalAxes::Body } else { ExternalAxes::Inertial };
+    let (amount, point) = (dice.vector(10.0), dice.vector(1.0));
+    let course = if either(dice) {
+        Course::Pulse { on: -1.0, off: 2.0 }
+    } else {
+        let mut share = || dice.between(-1.0, 1.0);
+        Course::Table(vec![[-0.7, share()], [0.3, share()], [0.6, share()]])
+    };
+    External { body, kind, amount, axes, point, course }
+}
+
+/// A random tree in a random mode, often under forces and torques from outside; each hinge is held with probability
+/// `held`.
 pub fn moment(bodies: usize, seed: u64, held: f64) -> Moment {
-    let scene = Scene::new(description(bodies, seed)).expect("random bodies are physical");
+    let mut description = description(bodies, seed);
+    let dice = &mut Rng::new(seed ^ 0x0075);
+    for _ in 0..dice.below(4) {
+        description.externals.push(external(dice, bodies));
+    }
+    let scene = Scene::new(description).expect("random bodies are physical");
     let dice = &mut Rng::new(seed ^ 0x5eed);
     let states = [HingeState::Unreleased, HingeState::Locked];
     let hinges = (0..bodies).map(|_| match dice.chance(held) {

@@ -1,7 +1,7 @@
 //! A scene written in other units.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
-use nboom::model::{Joint, MassProperties, Release, SceneDescription};
+use nboom::model::{Course, ExternalKind, Joint, MassProperties, Release, SceneDescription};
 
 /// How many new units there are in one old unit.
 #[derive(Clone, Copy, Debug)]
@@ -81,11 +81,17 @@ impl Units {
         if let Some(gravity) = &mut scene.gravity {
             gravity.acceleration *= length / (time * time);
         }
-        if let Some(thrust) = &mut scene.thrust {
-            thrust.force = thrust.force * force;
-            thrust.point = thrust.point * length;
-            thrust.on *= time;
-            thrust.off *= time;
+        for external in &mut scene.externals {
+            let amount = match external.kind {
+                ExternalKind::Force => force,
+                ExternalKind::Torque => torque,
+            };
+            external.amount = external.amount * amount;
+            external.point = external.point * length;
+            match &mut external.course {
+                Course::Pulse { on, off } => [on, off].into_iter().for_each(|at| *at *= time),
+                Course::Table(points) => points.iter_mut().for_each(|point| point[0] *= time),
+            }
         }
         let initial = &mut scene.initial;
         initial.time *= time;

@@ -8,7 +8,8 @@ use nboom_sim::{Form, Method};
 use crate::Routines;
 
 /// Names of the tables of a scene that describe laws.
-const LAWS: [&str; 6] = ["spring", "damper", "coupling", "kick_off", "gravity", "thrust"];
+const LAWS: [&str; 8] =
+    ["spring", "damper", "coupling", "kick_off", "gravity", "thrust", "thruster", "torque"];
 
 /// All that a run can choose from: formulations, integrators, laws, joints, outputs, stock routines.
 pub(crate) fn text(routines: &Routines) -> String {

@@ -1,6 +1,6 @@
 use nboom_model::{
-    Body, Coupling, Dashpot, Hinge, HingeLabel, HingePlace, HingeState, Joint, KickOffSpring,
-    MassProperties, Posture, Release, Scene, Spring,
+    Base, Body, Coupling, Course, Dashpot, DrivePoint, External, ExternalAxes, ExternalKind, Hinge, HingeLabel,
+    HingePlace, HingeState, Joint, KickOffSpring, MassProperties, Posture, Release, Scene, Spring,
 };
 use nboom_scalar::Vec3;
 
@@ -10,7 +10,7 @@ use crate::format::{count, degrees, short, vector};
 pub(crate) fn text(scene: &Scene) -> String {
     let mut lines = vec![heading(scene)];
     lines.push(format!("main body: {}", mass_properties(&scene.main_body)));
-    lines.extend(scene.base.is_held().then(|| "  fixed to the ground".to_owned()));
+    lines.extend(held(&scene.base).map(|held| format!("  {held}")));
     lines.extend(rotors(scene, None).map(|rotor| format!("  {rotor}")));
     let postures = [Posture::at_start(scene), Posture::locked(scene)];
     for branch in branches(scene) {
@@ -37,6 +37,21 @@ fn mass_properties(body: &MassProperties) -> String {
     let [a, b, c] = body.principal_moments().map(|moment| short(moment, 6));
     let (mass, center) = (short(body.mass, 6), vector(body.center_of_mass));
     format!("mass {mass}, mass centre {center}, principal moments of inertia {a}, {b}, {c}")
+}
+
+fn held(base: &Base) -> Option<String> {
+    match base {
+        Base::Free => None,
+        Base::Fixed => Some("fixed to the ground".to_owned()),
+        Base::Driven(drive) => {
+            let point = |point: &DrivePoint| {
+                let (rate, speed) = (degrees(point.rate), short(point.speed, 6));
+                format!("{rate} and {speed} per time unit at {}", short(point.time, 6))
+            };
+            let points = drive.points.iter().map(point).collect::<Vec<_>>().join(", ");
+            Some(format!("driven about and along {}: {points}", vector(drive.axis)))
+        }
+    }
 }
 
 fn rotors(scene: &Scene, body: Option<usize>) -> impl Iterator<Item = String> {
@@ -212,20 +227,44 @@ fn kick_off(spring: &KickOffSpring) -> String {
     format!("kick-off spring: {from} to {to}, coefficients {coefficients}, up to length {limit}")
 }
 
-fn environment(scene: &Scene) -> [String; 2] {
+fn environment(scene: &Scene) -> Vec<String> {
     let gravity = scene.gravity.as_ref().map_or_else(
         || "gravity: none".to_owned(),
         |g| format!("gravity: {}, up is {}", short(g.acceleration, 6), vector(g.up)),
     );
-    let thrust = scene.thrust.as_ref().map_or_else(
-        || "thrust: none".to_owned(),
-        |thrust| {
-            let (force, point) = (vector(thrust.force), vector(thrust.point));
-            let (on, off) = (short(thrust.on, 10), short(thrust.off, 10));
-            format!("thrust: {force} at {point}, on from {on} to {off}")
-        },
-    );
-    [gravity, thrust]
+    let mut lines = vec![gravity];
+    if scene.externals.is_empty() {
+        lines.push("thrust: none".to_owned());
+    }
+    lines.extend(scene.externals.iter().map(|external| outside(scene, external)));
+    lines
+}
+
+/// A force or torque from outside.
+fn outside(scene: &Scene, external: &External) -> String {
+    let kind = external.kind.name();
+    let on = external.body.map(|body| format!(" on the body of hinge {}", scene.label(body)));
+    let at = match external.kind {
+        ExternalKind::Force => format!(" at {}", vector(external.point)),
+        ExternalKind::Torque => String::new(),
+    };
+    let along = match external.axes {
+        ExternalAxes::Body => "",
+        ExternalAxes::Inertial => ", along inertial axes",
+    };
+    let when = match &external.course {
+        Course::Table(points) => {
+            let ends = [points.first(), points.last()].map(|end| end.map_or(0.0, |end| end[0]));
+            let [from, to] = ends.map(|time| short(time, 10));
+            format!("by a table of {} points from {from} to {to}", points.len())
+        }
+        always if *always == Course::ALWAYS => "always on".to_owned(),
+        Course::Pulse { on, off } => {
+            format!("on from {} to {}", short(*on, 10), short(*off, 10))
+        }
+    };
+    let (on, amount) = (on.unwrap_or_default(), vector(external.amount));
+    format!("{kind}{on}: {amount}{at}{along}, {when}")
 }
 
 fn skipped(scene: &Scene) -> String {
@@ -237,7 +276,7 @@ fn skipped(scene: &Scene) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nboom_model::{Appendage, Gravity, HingeStart, Mount, SceneDescription, Segment, Thrust};
+    use nboom_model::{Appendage, Gravity, HingeStart, Mount, SceneDescription, Segment};
     use nboom_scalar::Sym3;
 
     fn segment(hinge: Hinge) -> Segment {
@@ -259,8 +298,14 @@ mod tests {
         let paddle = Hinge { start, release, ..Hinge::free() };
         let mut description = SceneDescription::at_rest("all", segment(arm).mass_properties, 2.0);
         description.gravity = Some(Gravity { acceleration: 9.81, up: Vec3::unit_z() });
-        let (force, point) = (Vec3::unit_x(), Vec3::zero());
-        description.thrust = Some(Thrust { force, point, on: 0.5, off: 1.5 });
+        let thrust = External::thrust(Vec3::unit_x(), Vec3::zero(), [0.5, 1.5]);
+        let course = Course::Table(vec![[0.0, 0.0], [1.0, 1.0], [3.0, 0.0]]);
+        let (kind, axes) = (ExternalKind::Torque, ExternalAxes::Inertial);
+        description.externals = vec![
+            External { course: Course::ALWAYS, body: Some(0), ..thrust.clone() },
+            External { course, kind, axes, ..thrust.clone() },
+            thrust,
+        ];
         description.attach(&Appendage::Paddle {
             mount: Mount::at(Vec3::zero()),
             arm: segment(arm),
@@ -280,6 +325,8 @@ mod tests {
             "unreleased at 0 deg, released when hinge 1,1 passes 90 deg, never locks",
             "gravity: 9.81, up is (0, 0, 1)",
             "thrust: (1, 0, 0) at (0, 0, 0), on from 0.5 to 1.5",
+            "thrust on the body of hinge 1,1: (1, 0, 0) at (0, 0, 0), always on",
+            "torque: (1, 0, 0), along inertial axes, by a table of 3 points from 0 to 3",
         ] {
             assert!(text.contains(words), "no {words:?} in {text}");
         }

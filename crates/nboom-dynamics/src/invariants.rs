@@ -192,6 +192,11 @@ impl<R: Real> Recursive<R> {
 }
 
 impl<R: Real> Invariants<R> {
+    /// Angular momentum about O.
+    pub fn angular_momentum_about_origin(&self) -> Vec3<R> {
+        self.angular_momentum + self.mass_center.cross(self.linear_momentum)
+    }
+
     /// Adds the rotors of a body that turns at `omega`, whose momentum relative to it is `spin`.
     fn add_rotors(&mut self, omega: Vec3<R>, spin: Vec3<R>) {
         let work = omega.dot(spin);

@@ -82,8 +82,9 @@ impl<R: Real> Recursive<R> {
                 Joint::Prismatic => turning.dot(outboard.force),
             };
         }
-        if let Some(external) = self.elements.external() {
-            let of_center = external.force * (R::one() / R::constant(self.scene.total_mass()));
+        if self.elements.acts_from_outside() {
+            let of_center =
+                self.from_outside().force * (R::one() / R::constant(self.scene.total_mass()));
             self.twists.fill(Twist { angular: Vec3::zero(), linear: of_center });
             self.carry_momenta();
             for (rate, (pose, left_behind)) in

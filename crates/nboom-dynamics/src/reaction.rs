@@ -4,12 +4,12 @@ use crate::invariants::momentum;
 use crate::{Accelerations, Motion, Recursive, articulated_body, composite_body};
 
 impl<R: Real> Recursive<R> {
-    /// What acts on all bodies together from outside beside gravity, so that they move with these
-    /// accelerations: force, and moment about O, main-body axes. Of a held main body on which nothing else
-    /// acts it is the reaction of what holds it.
+    /// What a held main body is held with, so that all move with these accelerations: force, and moment about
+    /// O, main-body axes.
     ///
-    /// It is the rate of change of the momenta, eqs. (8.7) and (8.12), about O.
-    pub fn from_outside(
+    /// It is the rate of change of the momenta, eqs. (8.7) and (8.12), about O without gravity, less what else
+    /// [acts from outside](Self::set_outside).
+    pub fn reaction(
         &mut self,
         motion: &Motion<'_, R>,
         accelerations: &Accelerations<R>,
@@ -28,6 +28,8 @@ impl<R: Real> Recursive<R> {
             twists[j].add(pose.motion(accelerations.tau_dot[j]));
             wrenches[j].add(momentum(&pose.inertia, twists[j]));
         }
-        composite_body::carry_inward(tree, poses, wrenches, main)
+        let mut net = composite_body::carry_inward(tree, poses, wrenches, main);
+        net.subtract(self.from_outside());
+        net
     }
 }

@@ -129,20 +129,16 @@ impl<R: Real> Recursive<R> {
         &self.elements
     }
 
-    /// The external wrench on the main body about O, main-body axes, when there is one.
-    pub fn external(&self) -> Option<Wrench<R>> {
-        self.elements.external()
-    }
-
     /// Whether [`acting_on_main_body`](Self::acting_on_main_body) is anything.
     pub fn acts_on_main_body(&self) -> bool {
-        self.tree.has_rotors || self.elements.external().is_some()
+        self.tree.has_rotors || self.elements.acts_from_outside()
     }
 
-    /// The external wrench on the main body and the gyroscopic moment −ω̄ × h̄ of its rotors at the rate
-    /// `omega_body`, about O, main-body axes.
+    /// All that acts from outside and the gyroscopic moment −ω̄ × h̄ of the rotors of the main body at the rate
+    /// `omega_body`, about O, main-body axes: what belongs to the motion of the main body beside the [generalised
+    /// forces](Self::hinge_forces) of the hinges, in the posture in which they were asked for.
     pub fn acting_on_main_body(&self, omega_body: Vec3<R>) -> Wrench<R> {
-        let mut acting = self.elements.external().unwrap_or(Wrench::zero());
+        let mut acting = self.from_outside();
         if self.tree.has_rotors {
             acting.moment -= omega_body.cross(self.tree.main_spin);
         }
@@ -199,23 +195,31 @@ impl<R: Real> Recursive<R> {
         of_base.copy_from_slice(&[f.x, f.y, f.z, m.x, m.y, m.z]);
     }
 
-    /// Generalised forces conjugate to the free hinges' angles: torques about hinges and forces along
-    /// lines, eqs. (6.1) and (6.17), corrected: note 5.
+    /// Generalised forces conjugate to the free hinges' angles: torques about hinges, forces along lines, and what
+    /// acts on links from outside, eqs. (6.1) and (6.17), corrected: note 5.
     ///
     /// The reaction of a line on the main body leaves no resultant, so nothing else of it enters the
     /// equations.
     pub fn hinge_forces(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
         let Self { elements, free, tree, constants, poses, .. } = self;
         elements.set_torques(free, [motion.beta, motion.tau], out);
-        if elements.pushing().next().is_none() {
+        if elements.pushing().next().is_none() && elements.on_links().next().is_none() {
             return;
         }
         pose::place(tree, constants, motion.beta, poses);
+        let inward = |link| std::iter::successors(Some(link), |&j: &usize| tree.links[j].inboard);
         for (link, line) in elements.pushing() {
             let (end, force) = line.end_and_force(poses);
-            for j in std::iter::successors(Some(link), |&j| tree.links[j].inboard) {
+            for j in inward(link) {
                 let pose = &poses[j];
                 out[j] += pose.along(&Wrench::of_force(end - pose.position, force));
+            }
+        }
+        for (link, push) in elements.on_links() {
+            let wrench = push.wrench(Some(&poses[link].rot));
+            for j in inward(link) {
+                let offset = poses[link].position - poses[j].position;
+                out[j] += poses[j].along(&wrench.seen_from(offset));
             }
         }
         elements.withhold(poses, out);
@@ -265,6 +269,9 @@ impl<R: Real> Recursive<R> {
             main.add(Wrench::of_force(line.main_body_point, force));
         }
         elements.withhold(poses, torques);
+        for (link, push) in elements.on_links() {
+            wrenches[link].subtract(push.wrench(Some(&poses[link].rot)));
+        }
         if let Some(external) = elements.external() {
             main.subtract(external);
         }

@@ -1,28 +1,27 @@
 //! The one place that lists the force elements.
 
 use nboom_model::{Hinge, Mode, Scene, WeldedTree};
-use nboom_scalar::{Real, Vec3, Wrench};
+use nboom_scalar::{Mat3, Real, Twist, Vec3, Wrench};
 
 use crate::{Coordinate, Line, Names, Placed, Switched};
 
 mod commands;
 mod coupling;
+mod external;
 mod gravity;
 mod hinge_law;
 mod kick_off;
 mod own_law;
-mod thrust;
 mod torque_table;
 mod withheld;
 
 pub use commands::{Commands, Reach};
 use coupling::CouplingLaw;
+pub use external::Push;
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
 pub use kick_off::KickOffLaw;
 pub use own_law::{OwnLaw, OwnLaws};
-use thrust::ThrustForce;
-pub use thrust::{thrust_acts, thrust_change};
 use torque_table::TablePiece;
 use withheld::WithheldMoment;
 
@@ -118,7 +117,7 @@ impl HingeTorque<f64> {
 }
 
 /// The force elements of a scene as they act in one mode, by what they act on: torques about
-/// hinges, forces along lines between two bodies, and a wrench on the main body.
+/// hinges, forces along lines between two bodies, and forces and torques from outside.
 ///
 /// Evaluations allocate nothing.
 #[derive(Clone, Debug)]
@@ -127,10 +126,10 @@ pub struct Elements<R> {
     couplings: Vec<CouplingLaw<R>>,
     lines: Vec<Line<R>>,
     withheld: Vec<WithheldMoment<R>>,
-    thrust: Option<ThrustForce<R>>,
+    pushes: Vec<Push<R>>,
     /// What a control law commands on the main body.
     commanded: Option<Wrench<R>>,
-    /// Thrust and command together.
+    /// Pushes on the main link and command together.
     external: Option<Wrench<R>>,
     switched: Vec<Switched>,
 }
@@ -139,14 +138,14 @@ impl<R: Real> Elements<R> {
     /// Those of `scene` in `mode`, whose links are those of `tree`.
     pub fn new(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Self {
         let lines = Line::all(scene, mode, tree);
-        let thrust = scene.thrust.filter(|_| mode.thrust).map(|thrust| ThrustForce::new(&thrust));
+        let pushes = Push::all(scene, mode, tree);
         Self {
             torques: HingeTorque::all(scene, mode),
             couplings: CouplingLaw::all(scene, tree),
             withheld: WithheldMoment::all(scene, mode, tree, &lines),
             lines,
-            external: thrust.map(|thrust| thrust.wrench),
-            thrust,
+            external: on_main_link(&pushes, None),
+            pushes,
             commanded: None,
             switched: Switched::all(scene),
         }
@@ -179,38 +178,60 @@ impl<R: Real> Elements<R> {
             torque.law = law.with_constant(R::constant(commanded));
         }
         self.commanded = commands::held(commands);
-        let thrust = self.thrust.map(|thrust| thrust.wrench);
-        self.external = sum(thrust, self.commanded, |a, b| Wrench {
-            moment: a.moment + b.moment,
-            force: a.force + b.force,
-        });
+        self.external = on_main_link(&self.pushes, self.commanded);
     }
 
-    /// What acts on the main body from outside, about O along main-body axes, if anything does: the
-    /// thrust while it is on, and what a control law commands.
+    /// Sets what acts from outside to what it is at `time` when `rot_inertial_from_main` is the attitude.
+    pub fn set_pushes(&mut self, rot_inertial_from_main: &Mat3<R>, time: R) {
+        let varying = self.pushes.iter_mut().filter(|push| push.varies());
+        varying.for_each(|push| push.set(rot_inertial_from_main, time));
+        self.external = on_main_link(&self.pushes, self.commanded);
+    }
+
+    /// Whether what acts from outside is other at another time or attitude.
+    pub fn pushes_vary(&self) -> bool {
+        self.pushes.iter().any(Push::varies)
+    }
+
+    /// Whether something acts from outside: a force or torque of the scene, or what a control law commands.
+    #[inline]
+    pub fn acts_from_outside(&self) -> bool {
+        !self.pushes.is_empty() || self.commanded.is_some()
+    }
+
+    /// What acts from outside on links other than the main one, each with its link.
+    #[inline]
+    pub fn on_links(&self) -> impl Iterator<Item = (usize, &Push<R>)> {
+        self.pushes.iter().filter_map(|push| Some((push.link?, push)))
+    }
+
+    /// What acts on the main link from outside, about O along main-body axes, if anything does: forces and torques
+    /// of the scene, and what a control law commands.
     #[inline]
     pub fn external(&self) -> Option<Wrench<R>> {
         self.external
     }
 
-    /// Power of what acts on the main body from outside, when O moves with `origin_velocity` and the
-    /// body turns at `omega_body`; main-body axes.
-    pub fn external_power(&self, origin_velocity: Vec3<R>, omega_body: Vec3<R>) -> R {
-        let of_thrust = self.thrust.map(|thrust| {
-            let at_point = origin_velocity + omega_body.cross(thrust.point);
-            thrust.force.dot(at_point)
+    /// Power of what acts on the main link from outside when O moves as `twist`, and its moment about `point`, from O;
+    /// main-body axes.
+    pub fn external_power_and_moment(&self, twist: Twist<R>, point: Vec3<R>) -> (R, Vec3<R>) {
+        let of_pushes = self.pushes.iter().filter(|push| push.link.is_none());
+        let of_pushes = of_pushes.map(|push| push.power_and_moment(None, twist, point));
+        let of_command = self.commanded.map(|Wrench { moment, force }| {
+            let power = force.dot(twist.linear) + moment.dot(twist.angular);
+            (power, moment - point.cross(force))
         });
-        let of_command = self
-            .commanded
-            .map(|Wrench { moment, force }| force.dot(origin_velocity) + moment.dot(omega_body));
-        sum(of_thrust, of_command, |a, b| a + b).unwrap_or(R::zero())
+        let add = |(power, moment), (p, m)| (power + p, moment + m);
+        of_pushes.chain(of_command).reduce(add).unwrap_or((R::zero(), Vec3::zero()))
     }
 
-    /// Moment about `point` of what acts on the main body from outside; main-body axes, from O.
-    pub fn external_moment_about(&self, point: Vec3<R>) -> Vec3<R> {
-        let of_thrust = self.thrust.map(|thrust| (thrust.point - point).cross(thrust.force));
-        let of_command = self.commanded.map(|Wrench { moment, force }| moment - point.cross(force));
-        sum(of_thrust, of_command, |a, b| a + b).unwrap_or(Vec3::zero())
+    /// Sets `out` to the forces and torques from outside on hinged bodies, as the scene lists them; zero where one does
+    /// not act. Body axes, or main-body axes where it is given along inertial ones.
+    pub fn set_on_hinged(&self, out: &mut [[R; 3]]) {
+        out.fill([R::zero(); 3]);
+        for (place, acting) in self.pushes.iter().filter_map(Push::on_hinged) {
+            out[place] = acting.to_array();
+        }
     }
 
     /// The elements with several pieces to their law.
@@ -282,12 +303,11 @@ impl Elements<f64> {
     }
 }
 
-/// The sum of two things of which either may be absent.
-fn sum<T>(a: Option<T>, b: Option<T>, add: impl FnOnce(T, T) -> T) -> Option<T> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(add(a, b)),
-        (a, b) => a.or(b),
-    }
+/// What acts on the main link together.
+fn on_main_link<R: Real>(pushes: &[Push<R>], commanded: Option<Wrench<R>>) -> Option<Wrench<R>> {
+    let pushes = pushes.iter().filter(|push| push.link.is_none());
+    let wrenches = pushes.map(|push| push.wrench(None)).chain(commanded);
+    wrenches.reduce(|a, b| Wrench { moment: a.moment + b.moment, force: a.force + b.force })
 }
 
 /// Energy that the elements about hinges and along lines can store on their way, every term taken by

@@ -168,13 +168,15 @@ impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
     /// `None` where a right side has no place for them: where a free hinge has a torque table or is coupled, where there are rotors, where
-    /// two lines push one link, and where a line does not transmit all of its moment.
+    /// two lines push one link, where a line does not transmit all of its moment, and where something from
+    /// outside acts on a hinged link or is not constant along main-body axes.
     pub fn of(
         elements: &Elements<f64>,
         tree: &WeldedTree<f64>,
         recognised: &Recognised,
     ) -> Option<Self> {
-        if elements.withholds() || elements.couples() || tree.has_rotors {
+        let is_pushed = elements.pushes_vary() || elements.on_links().next().is_some();
+        if elements.withholds() || elements.couples() || tree.has_rotors || is_pushed {
             return None;
         }
         let mut forces = Self::none(recognised.links.len());

@@ -1,6 +1,6 @@
 //! Loads of a motion on any scalar.
 
-use nboom_model::{Joint, Scene, Structure};
+use nboom_model::{ExternalAxes, ExternalKind, Joint, Scene, Structure};
 use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::load_set::LoadSet;
@@ -113,6 +113,11 @@ impl<R: Real> LoadEquations<R> {
     /// How many hinges there are.
     pub fn hinges(&self) -> usize {
         self.segments.len()
+    }
+
+    /// How many forces and torques act from outside on hinged bodies.
+    pub fn externals(&self) -> usize {
+        self.segments.iter().map(|segment| segment.outside.len()).sum()
     }
 
     /// Zero loads of this scene, to be filled in.
@@ -239,6 +244,7 @@ fn gather<R: Real>(
     }
     for (i, segment) in segments.iter().enumerate().rev() {
         push_apart(segment, &mut places[i], motion.force_densities[i], i, out);
+        push_from_outside(segment, &mut places[i], motion.outside, i, out);
         let place = places[i];
         let Size { moment, force } = place.size;
         out.sizes[i] = match segment.joint {
@@ -273,6 +279,36 @@ fn push_apart<R: Real>(
     carry(i, push.carried_from, Wrench::of_force(push.body_point, -force), out);
     let size = force.norm();
     place.size.add(Size { moment: push.body_point.norm() * size, force: size });
+}
+
+/// Takes what acts on segment `i` from outside off its loads.
+fn push_from_outside<R: Real>(
+    segment: &Segment<R>,
+    place: &mut SegmentMotion<R>,
+    outside: &[[R; 3]],
+    i: usize,
+    out: &mut LoadSet<R>,
+) {
+    for external in &segment.outside {
+        let given = Vec3::from(outside[external.place]);
+        let acting = match external.axes {
+            ExternalAxes::Body => given,
+            ExternalAxes::Inertial => place.rot_main_from_body.transpose_mul(given),
+        };
+        let size = acting.norm();
+        let (wrench, size) = match external.kind {
+            ExternalKind::Force => (
+                Wrench::of_force(external.point, -acting),
+                Size { moment: external.point.norm() * size, force: size },
+            ),
+            ExternalKind::Torque => (
+                Wrench { moment: -acting, force: Vec3::zero() },
+                Size { moment: size, force: R::zero() },
+            ),
+        };
+        carry(i, external.carried_from, wrench, out);
+        place.size.add(size);
+    }
 }
 
 /// Adds a wrench about the hinge point of segment `i` to its hinge and the stations that carry it.

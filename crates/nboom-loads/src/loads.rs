@@ -15,8 +15,15 @@ pub struct Loads {
     code: LoadCode,
     /// Of one lock-up.
     impulses: LoadSet,
-    /// One zero for each hinge.
-    still: Vec<f64>,
+    still: Still,
+}
+
+/// Zeros of a motion at rest.
+#[derive(Clone, Debug)]
+struct Still {
+    /// One for each hinge.
+    of_hinges: Vec<f64>,
+    outside: Vec<[f64; 3]>,
 }
 
 /// The equations, and code in their place.
@@ -35,11 +42,17 @@ impl LoadCode {
     }
 }
 
-/// The motion whose loads are the impulses of `jump`: at rest, with jumps for accelerations;
-/// `still` has a zero for each hinge.
-fn suddenly<'a>(still: &'a [f64], beta: &'a [f64], jump: &VelocityChange<'a>) -> SceneMotion<'a> {
-    let acceleration = *jump;
-    SceneMotion { omega_body: Vec3::zero(), beta, tau: still, acceleration, force_densities: still }
+/// The motion whose loads are the impulses of `jump`: at rest, with jumps for accelerations.
+fn suddenly<'a>(still: &'a Still, beta: &'a [f64], jump: &VelocityChange<'a>) -> SceneMotion<'a> {
+    let Still { of_hinges, outside } = still;
+    SceneMotion {
+        omega_body: Vec3::zero(),
+        beta,
+        tau: of_hinges,
+        acceleration: *jump,
+        force_densities: of_hinges,
+        outside,
+    }
 }
 
 impl Loads {
@@ -54,7 +67,10 @@ impl Loads {
     pub fn by(equations: LoadEquations) -> Self {
         Self {
             impulses: equations.load_set(),
-            still: vec![0.0; equations.hinges()],
+            still: Still {
+                of_hinges: vec![0.0; equations.hinges()],
+                outside: vec![[0.0; 3]; equations.externals()],
+            },
             code: LoadCode { equations, generated: None },
         }
     }
@@ -80,7 +96,7 @@ impl Loads {
         self.code.equations.load_set()
     }
 
-    /// Loads by the motion and the forces along lines: eqs. (10.4) to (10.6), corrected: note 24.
+    /// Loads by the motion, the forces along lines and what acts from outside: eqs. (10.4) to (10.6), corrected: note 24.
     pub fn continuous(&mut self, motion: &SceneMotion<'_>, out: &mut LoadSet) {
         self.code.evaluate(motion, out);
     }

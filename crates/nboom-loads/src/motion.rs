@@ -26,21 +26,25 @@ pub struct SceneMotion<'a, R = f64> {
     /// Force along the line from the main body to the body of each hinge over its length, its force
     /// density; zero where none acts \[F/L\].
     pub force_densities: &'a [R],
+    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where one does not act. Body
+    /// axes, or main-body axes where it is given along inertial ones \[F, FL\].
+    pub outside: &'a [[R; 3]],
 }
 
 impl<'a, R: Real> SceneMotion<'a, R> {
-    /// How many numbers a motion of so many hinges is.
-    pub fn count(hinges: usize) -> usize {
-        9 + 4 * hinges
+    /// How many numbers a motion is of so many hinges and so many forces and torques from outside on hinged bodies.
+    pub fn count(hinges: usize, externals: usize) -> usize {
+        9 + 4 * hinges + 3 * externals
     }
 
     /// The motion in a row of numbers: ω, the acceleration of O, ω̇, then β, τ, τ̇ and the force
-    /// densities of all hinges.
+    /// densities of all hinges, then what acts from outside.
     ///
     /// # Panics
     /// When there are not [`count`](Self::count) of them.
-    pub fn of_numbers(numbers: &'a [R], hinges: usize) -> Self {
-        assert_eq!(numbers.len(), Self::count(hinges), "one number for each quantity");
+    pub fn of_numbers(numbers: &'a [R], hinges: usize, externals: usize) -> Self {
+        let count = Self::count(hinges, externals);
+        assert_eq!(numbers.len(), count, "one number for each quantity");
         let vector = |at: usize| Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2]);
         let of_hinges = |row: usize| &numbers[9 + row * hinges..9 + (row + 1) * hinges];
         Self {
@@ -53,6 +57,7 @@ impl<'a, R: Real> SceneMotion<'a, R> {
                 tau: of_hinges(2),
             },
             force_densities: of_hinges(3),
+            outside: numbers[9 + 4 * hinges..].as_chunks().0,
         }
     }
 
@@ -68,6 +73,8 @@ impl<'a, R: Real> SceneMotion<'a, R> {
             place.copy_from_slice(&vector.to_array());
         }
         let hinges = self.beta.len();
+        let (of_hinges, outside) = of_hinges.split_at_mut(4 * hinges);
+        outside.copy_from_slice(self.outside.as_flattened());
         for (row, values) in [self.beta, self.tau, tau, self.force_densities].iter().enumerate() {
             of_hinges[row * hinges..(row + 1) * hinges].copy_from_slice(values);
         }

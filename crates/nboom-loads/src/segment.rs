@@ -1,5 +1,8 @@
 use nboom_elements::Ends;
-use nboom_model::{Joint, MassProperties, Scene, SegmentStructure, Station, Structure};
+use nboom_model::{
+    External, ExternalAxes, ExternalKind, Joint, MassProperties, Scene, SegmentStructure, Station,
+    Structure,
+};
 use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
 
 /// Share of a segment's outermost station within which an attachment is at a station.
@@ -23,6 +26,19 @@ pub(crate) struct Segment<R> {
     pub carried_from: usize,
     pub stations: Vec<Cut<R>>,
     pub push: Option<Push<R>>,
+    pub outside: Vec<Outside<R>>,
+}
+
+/// A force or torque from outside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outside<R> {
+    /// Its place among those on hinged bodies.
+    pub place: usize,
+    pub kind: ExternalKind,
+    pub axes: ExternalAxes,
+    pub point: Vec3<R>,
+    /// The outermost station that carries it.
+    pub carried_from: usize,
 }
 
 /// A station and what of its segment is outboard of it.
@@ -63,18 +79,26 @@ impl<R: Copy> Segment<R> {
             carried_from: self.carried_from,
             stations: self.stations.iter().map(|cut| cut.map(&mut f)).collect(),
             push: self.push.map(|push| push.map(&mut f)),
+            outside: self.outside.iter().map(|external| external.map(&mut f)).collect(),
         }
     }
 
     /// How it is attached, as numbers that no other arrangement has.
-    pub fn arrangement(&self) -> [f64; 7] {
+    pub fn arrangement(&self) -> Vec<f64> {
         let counted = |place: Option<usize>| place.map_or(0, |place| place + 1);
         let push = self.push.as_ref().map(|push| push.carried_from);
         let sections = self.stations.iter().filter(|cut| cut.influence.is_some()).count();
         let stations = self.stations.len();
         let [slides, spins] = [self.joint.slides(), self.spin.is_some()].map(usize::from);
-        [counted(self.inboard), self.carried_from, stations, sections, counted(push), slides, spins]
-            .map(|count| count as f64)
+        let (inboard, push, outside) = (counted(self.inboard), counted(push), self.outside.len());
+        let mut counts =
+            vec![inboard, self.carried_from, stations, sections, push, slides, spins, outside];
+        for Outside { place, kind, axes, carried_from, .. } in &self.outside {
+            let turns = usize::from(*axes == ExternalAxes::Inertial);
+            let is_torque = usize::from(*kind == ExternalKind::Torque);
+            counts.extend([*place, is_torque, turns, *carried_from]);
+        }
+        counts.into_iter().map(|count| count as f64).collect()
     }
 }
 
@@ -108,6 +132,13 @@ impl<R: Copy> Push<R> {
     }
 }
 
+impl<R: Copy> Outside<R> {
+    fn map<S>(&self, f: impl FnMut(R) -> S) -> Outside<S> {
+        let Self { place, kind, axes, carried_from, .. } = *self;
+        Outside { place, kind, axes, point: self.point.map(f), carried_from }
+    }
+}
+
 impl Segment<f64> {
     pub fn all(scene: &Scene, structure: Option<&Structure>) -> Vec<Self> {
         (0..scene.bodies.len()).map(|i| Self::new(scene, structure, i)).collect()
@@ -123,6 +154,15 @@ impl Segment<f64> {
             main_body_point: ends.main_body_point,
             carried_from: carried_from(stations_of(i), ends.body_point),
         });
+        let externals = scene.externals_on_hinged().enumerate();
+        let on_it = externals.filter(|(_, external)| external.body == Some(i));
+        let outside = on_it.map(|(place, &External { kind, axes, point, .. })| Outside {
+            place,
+            kind,
+            axes,
+            point,
+            carried_from: carried_from(stations_of(i), point),
+        });
         let rotors = scene.rotors_of(Some(i));
         let mut inertia = about_hinge(&body.mass_properties);
         inertia.about_origin += rotors.inertia;
@@ -137,6 +177,7 @@ impl Segment<f64> {
             carried_from: carried_from(inboard_stations, body.mount.point),
             stations: of(i).map(cuts).unwrap_or_default(),
             push,
+            outside: outside.collect(),
         }
     }
 }

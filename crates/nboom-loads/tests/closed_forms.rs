@@ -66,8 +66,14 @@ fn rigid(
     let mut found = loads.load_set();
     let acceleration = VelocityChange { origin_body: origin, omega_body: omega_dot, tau: &[0.0] };
     let force_densities = &[if kick_off { (1.0 + 2.0 * 1.5) / 1.5 } else { 0.0 }];
-    let motion =
-        SceneMotion { omega_body, beta: &[0.0], tau: &[0.0], acceleration, force_densities };
+    let motion = SceneMotion {
+        omega_body,
+        beta: &[0.0],
+        tau: &[0.0],
+        acceleration,
+        force_densities,
+        outside: &[],
+    };
     loads.continuous(&motion, &mut found);
     found
 }
@@ -134,7 +140,8 @@ fn a_swinging_boom_has_the_hinge_rates_and_its_own_axes() {
     let zero = Vec3::zero();
     let acceleration = VelocityChange { origin_body: zero, omega_body: zero, tau: &[2.5] };
     let (omega_body, beta, tau) = (zero, &[0.4], &[0.6]);
-    let motion = SceneMotion { omega_body, beta, tau, acceleration, force_densities: &[0.0] };
+    let motion =
+        SceneMotion { omega_body, beta, tau, acceleration, force_densities: &[0.0], outside: &[] };
     loads.continuous(&motion, &mut found);
     for (load, s) in found.stations(0).iter().zip(STATIONS) {
         let (force, moment) = bending(0.0, 2.5, s);
@@ -200,7 +207,14 @@ fn a_station_does_not_depend_on_others() {
         let [omega_body, origin_body] = accelerations;
         let acceleration = VelocityChange { origin_body, omega_body, tau: &[0.0] };
         let (beta, tau, force_densities) = (&[0.0], &[0.0], &[0.0]);
-        let motion = SceneMotion { omega_body: omega, beta, tau, acceleration, force_densities };
+        let motion = SceneMotion {
+            omega_body: omega,
+            beta,
+            tau,
+            acceleration,
+            force_densities,
+            outside: &[],
+        };
         loads.continuous(&motion, &mut found);
         for (alone, beside) in [(0, j), (1, STATIONS.len() - 1)] {
             let (alone, beside) = (found.stations(0)[alone], many.stations(0)[beside]);
@@ -251,7 +265,8 @@ fn a_second_boom_is_carried_by_the_stations_inboard_of_it() {
     let acceleration =
         VelocityChange { origin_body: Vec3::unit_x(), omega_body: zero, tau: &[0.0; 2] };
     let (beta, tau, force_densities) = (&[0.0; 2], &[0.0; 2], &[0.0; 2]);
-    let motion = SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities };
+    let motion =
+        SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities, outside: &[] };
     loads.continuous(&motion, &mut found);
     assert_near(found.hinge(1).force, [MASS, 0.0, 0.0]);
     assert_near(found.hinge(1).moment, [0.0, 0.0, -MASS]);
@@ -275,7 +290,8 @@ fn the_hinge_that_is_out_of_balance_most_is_named_wherever_it_is() {
     let (zero, tau_dot) = (Vec3::zero(), [2.0, 3.0]);
     let acceleration = VelocityChange { origin_body: zero, omega_body: zero, tau: &tau_dot };
     let (beta, tau, force_densities) = (&[0.0; 2], &[0.0; 2], &[0.0; 2]);
-    let motion = SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities };
+    let motion =
+        SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities, outside: &[] };
     loads.continuous(&motion, &mut found);
     let torques = tau_dot.map(|tau_dot| MASS * LENGTH * LENGTH / 3.0 * tau_dot);
     let free = [HingeState::Free; 2];

@@ -1,16 +1,119 @@
+use nboom_scalar::Vec3;
+
+use crate::{Gravity, InitialMotion};
+
 /// How the main body is held.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Base {
     /// It moves freely.
     #[default]
     Free,
     /// It is fixed to the ground, a test rig: it keeps its attitude and position.
     Fixed,
+    /// It moves as prescribed.
+    Driven(Drive),
+}
+
+/// A motion that is prescribed for the main body: it turns about an axis through O and slides along it. The axis
+/// keeps its direction in the main body and in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// Unit vector along the axis, main-body axes.
+    pub axis: Vec3<f64>,
+    /// Rate \[rad/T\] about the axis and speed \[L/T\] along it over time.
+    pub points: Vec<DrivePoint>,
+}
+
+/// A time of a prescribed motion: rate and speed are straight between two of them, and constant before the first
+/// and after the last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivePoint {
+    /// \[T\]
+    pub time: f64,
+    /// Rate about the axis \[rad/T\].
+    pub rate: f64,
+    /// Speed along the axis \[L/T\].
+    pub speed: f64,
 }
 
 impl Base {
     /// Whether something other than the equations of motion says how the main body moves.
-    pub fn is_held(self) -> bool {
-        self != Self::Free
+    pub fn is_held(&self) -> bool {
+        *self != Self::Free
+    }
+
+    /// How it is driven, if it is.
+    pub fn drive(&self) -> Option<&Drive> {
+        match self {
+            Self::Driven(drive) => Some(drive),
+            Self::Free | Self::Fixed => None,
+        }
+    }
+
+    /// The piece of the prescribed motion that holds at `time`: 0 before its first point.
+    pub fn piece_at(&self, time: f64) -> usize {
+        let points = self.drive().map_or(&[][..], |drive| &drive.points);
+        points.iter().take_while(|point| point.time <= time).count()
+    }
+
+    /// When a piece of the prescribed motion ends, unless it is the last one.
+    pub fn end_of(&self, piece: usize) -> Option<f64> {
+        Some(self.drive()?.points.get(piece)?.time)
+    }
+
+    /// Angular acceleration of a main body that is held, and that of O, main-body axes, in a piece of its
+    /// prescribed motion.
+    pub fn accelerations(&self, piece: usize) -> [Vec3<f64>; 2] {
+        let Some(drive) = self.drive() else { return [Vec3::zero(); 2] };
+        let [before, after] = drive.around(piece);
+        let duration = after.time - before.time;
+        let slope = |change: f64| if duration > 0.0 { change / duration } else { 0.0 };
+        [after.rate - before.rate, after.speed - before.speed].map(|of| drive.axis * slope(of))
+    }
+}
+
+/// Departure from a unit vector, or of gravity from the axis, that is taken for rounding in the input.
+const SAME_DIRECTION: f64 = 1e-9;
+
+impl Drive {
+    /// What is wrong with it in a scene that begins so and has this gravity, and what would be right.
+    pub(crate) fn defect(
+        &self,
+        initial: &InitialMotion,
+        gravity: Option<&Gravity>,
+    ) -> Option<(String, &'static str)> {
+        let length = self.axis.norm();
+        let is_unit = (length - 1.0).abs() <= SAME_DIRECTION;
+        if !is_unit {
+            return Some((format!("an axis of length {length}"), "a unit vector"));
+        }
+        let numbers = |point: &DrivePoint| [point.time, point.rate, point.speed];
+        let all = || self.points.iter().map(numbers);
+        let ascend = self.points.windows(2).all(|pair| pair[0].time < pair[1].time);
+        if self.points.is_empty() || !ascend || !all().flatten().all(f64::is_finite) {
+            let points: Vec<[f64; 3]> = all().collect();
+            let expected = "finite rates or speeds at ascending times, at least one";
+            return Some((format!("times, rates and speeds {points:?}"), expected));
+        }
+        let turns = self.points.iter().any(|point| point.rate != 0.0);
+        let axis = initial.attitude.normalized().to_matrix() * self.axis;
+        let aside = gravity.is_some_and(|gravity| gravity.up.cross(axis).norm() > SAME_DIRECTION);
+        (turns && aside).then(|| ("gravity across its axis".to_owned(), "gravity along it"))
+    }
+
+    /// Rate about the axis and speed along it at `time`.
+    pub fn rates_at(&self, time: f64) -> [f64; 2] {
+        let piece = self.points.iter().take_while(|point| point.time <= time).count();
+        let [before, after] = self.around(piece);
+        let duration = after.time - before.time;
+        let share = if duration > 0.0 { (time - before.time) / duration } else { 0.0 };
+        let between = |from: f64, to: f64| from + share * (to - from);
+        [between(before.rate, after.rate), between(before.speed, after.speed)]
+    }
+
+    /// The points between which a piece is straight, the same one twice where it is constant.
+    fn around(&self, piece: usize) -> [DrivePoint; 2] {
+        let last = self.points.len() - 1;
+        [piece.saturating_sub(1), piece].map(|i| self.points[i.min(last)])
     }
 }

@@ -6,8 +6,8 @@ mod repeat;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Body, BodyShape, Hinge, Joint, MassProperties, Mount, Release, Rotor, SceneDescription,
-    SegmentStructure, TorqueTable,
+    Body, BodyShape, External, Hinge, Joint, MassProperties, Mount, Release, Rotor,
+    SceneDescription, SegmentStructure, TorqueTable,
 };
 use names::Names;
 
@@ -49,6 +49,8 @@ pub struct BodyDraft {
     pub couplings: Vec<CouplingDraft>,
     /// Rotors in it; their `body` does not count.
     pub rotors: Vec<Rotor>,
+    /// Forces and torques on it from outside; their `body` does not count.
+    pub externals: Vec<External>,
     /// Of a body on the main body: how often it is there, with all that is outboard of it.
     pub repeat: Option<Repeat>,
     /// Material, lock-up pulse and stations.
@@ -123,6 +125,7 @@ impl BodyDraft {
             torque_table: Vec::new(),
             couplings: Vec::new(),
             rotors: Vec::new(),
+            externals: Vec::new(),
             repeat: None,
             structure: None,
             shape: None,
@@ -276,6 +279,8 @@ impl SceneDraft {
             }
             let in_body = |rotor: &Rotor| Rotor { body: Some(i), ..*rotor };
             description.rotors.extend(draft.rotors.iter().map(in_body));
+            let on_body = |external: &External| External { body: Some(i), ..external.clone() };
+            description.externals.extend(draft.externals.iter().map(on_body));
             for coupling in &draft.couplings {
                 match names.coupling(i, place, coupling) {
                     Ok(coupling) => description.couplings.push(coupling),

@@ -9,20 +9,6 @@ pub struct Gravity {
     pub up: Vec3<f64>,
 }
 
-/// A thrust fixed in the main body, on while `on <= t < off`, eqs. (6.4) to (6.8):
-/// note 5.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Thrust {
-    /// Force, main-body axes.
-    pub force: Vec3<f64>,
-    /// Point of application from O, main-body axes.
-    pub point: Vec3<f64>,
-    /// Time at which it starts \[T\].
-    pub on: f64,
-    /// Time at which it stops \[T\].
-    pub off: f64,
-}
-
 /// Motion of the main body at the initial time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InitialMotion {

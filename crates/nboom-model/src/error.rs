@@ -4,7 +4,8 @@ use nboom_scalar::Vec3;
 
 use crate::mass::MassDefect;
 use crate::{
-    Body, Coupling, HingeLabel, HingeState, Joint, Release, Rotor, SAME_ANGLE, SceneDescription,
+    Body, Coupling, ExternalKind, ExternalPart, HingeLabel, HingeState, Joint, Release, Rotor,
+    SAME_ANGLE, SceneDescription,
 };
 
 /// Which body a message is about.
@@ -55,11 +56,23 @@ pub enum ModelError {
         /// Index of the inboard body, from 0.
         inboard: usize,
     },
-    /// A fixed main body moves, or a thrust acts on it.
-    #[error("main body: {found} found, none of a main body that is fixed expected")]
-    FixedBase {
-        /// What there is.
-        found: &'static str,
+    /// A main body that is held starts otherwise than it is held.
+    #[error("main body: {quantity} of {found:?} found, {expected:?} of a main body that is held expected")]
+    HeldBase {
+        /// What starts otherwise.
+        quantity: &'static str,
+        /// Its components.
+        found: [f64; 3],
+        /// What they would be.
+        expected: [f64; 3],
+    },
+    /// A prescribed motion of the main body is none.
+    #[error("main body: prescribed motion with {defect} found, {expected} expected")]
+    Drive {
+        /// What is wrong with it.
+        defect: String,
+        /// What would be right.
+        expected: &'static str,
     },
     /// A hinge axis is not a unit vector.
     #[error("segment {label}: hinge axis of length {length} found, 1 expected")]
@@ -169,244 +182,18 @@ pub enum ModelError {
         /// What would have been right.
         expected: &'static str,
     },
-    /// The thrust stops before it starts.
-    #[error("thrust from {on} to {off} found, an end not before its start expected")]
-    ThrustTimes {
-        /// Start.
-        on: f64,
-        /// Stop.
-        off: f64,
+    /// A force or torque from outside acts on no body of the scene, or its numbers or times are wrong.
+    #[error("{} {defect} found, {expected} expected", .kind.name())]
+    External {
+        /// Its place in [`SceneDescription::externals`].
+        index: usize,
+        /// A force or a torque.
+        kind: ExternalKind,
+        /// What of it is wrong.
+        part: ExternalPart,
+        /// What was found.
+        defect: String,
+        /// What would have been right.
+        expected: &'static str,
     },
-}
-
-/// Departure from a unit vector or a rotation that is taken for rounding in the input.
-const UNIT_TOLERANCE: f64 = 1e-9;
-
-pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<ModelError> {
-    let mut errors = Vec::new();
-    if let Some(defect) = scene.main_body.defect() {
-        errors.push(ModelError::Mass { body: BodyName::MainBody, defect });
-    }
-    find_in_motion(scene, &mut errors);
-    for (i, body) in scene.bodies.iter().enumerate() {
-        find_in_tree(scene, labels, i, &mut errors);
-        find_in_mass(scene, &labels[i], i, &mut errors);
-        find_in_hinge(body, &labels[i], labels.len(), i, &mut errors);
-    }
-    find_in_tables(scene, &mut errors);
-    find_in_couplings(scene, labels, &mut errors);
-    find_in_rotors(scene, &mut errors);
-    errors
-}
-
-fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
-    for (i, rotor) in scene.rotors.iter().enumerate() {
-        let Rotor { body, axis, inertia, speed } = *rotor;
-        let mut error = |defect, expected| {
-            errors.push(ModelError::Rotor { rotor: i + 1, body, defect, expected });
-        };
-        if body.is_some_and(|body| body >= scene.bodies.len()) {
-            error("body that is not there".to_owned(), "a body of the scene");
-        }
-        if !is_unit(axis.norm()) {
-            error(format!("axis of length {}", axis.norm()), "a unit vector");
-        }
-        if !(inertia > 0.0 && inertia.is_finite()) {
-            error(format!("inertia {inertia}"), "a positive finite inertia");
-        }
-        if !speed.is_finite() {
-            error(format!("speed {speed}"), "a finite speed");
-        }
-    }
-}
-
-fn find_in_couplings(
-    scene: &SceneDescription,
-    labels: &[HingeLabel],
-    errors: &mut Vec<ModelError>,
-) {
-    for coupling in &scene.couplings {
-        let [first, second] = coupling.hinges;
-        let label = labels.get(first).cloned().unwrap_or(HingeLabel::new(0, 0));
-        let mut error = |defect, expected| {
-            errors.push(ModelError::Coupling { label: label.clone(), defect, expected });
-        };
-        if first.max(second) >= labels.len() || first == second {
-            let defect = format!("of hinges number {} and {}", first + 1, second + 1);
-            error(defect, "one of two hinges of the scene");
-        }
-        let Coupling { ratio, stiffness, rest, damping, .. } = *coupling;
-        if ![ratio, stiffness, rest, damping].iter().all(|number| number.is_finite()) {
-            let defect = format!(
-                "with ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}"
-            );
-            error(defect, "finite numbers");
-        }
-    }
-}
-
-fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
-    let (tables, count) = (&scene.torque_tables, scene.bodies.len());
-    for (i, table) in tables.iter().enumerate() {
-        let hinge = table.hinge;
-        if hinge >= count || tables[..i].iter().any(|other| other.hinge == hinge) {
-            errors.push(ModelError::TableHinge { table: i + 1, hinge: hinge + 1, count });
-        }
-        let defect = match &table.points[..] {
-            few @ ([] | [_]) => Some(format!("{} points", few.len())),
-            points => points.iter().enumerate().find_map(|(k, &[angle, torque])| {
-                let is_finite = angle.is_finite() && torque.is_finite();
-                let ascends = k == 0 || angle > points[k - 1][0] + SAME_ANGLE;
-                (!(is_finite && ascends)).then(|| format!("point {} at {angle}, {torque}", k + 1))
-            }),
-        };
-        errors.extend(defect.map(|defect| ModelError::TablePoints { table: i + 1, defect }));
-    }
-}
-
-fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
-    let initial = &scene.initial;
-    let main_body_is = |quantity| ModelError::NotFinite { body: BodyName::MainBody, quantity };
-    let finite = [
-        (initial.time.is_finite(), "initial time"),
-        (initial.position_inertial.is_finite(), "initial position"),
-        (initial.velocity_inertial.is_finite(), "initial velocity"),
-        (initial.omega_body.is_finite(), "initial angular rate"),
-        (scene.end_time.is_finite(), "end time"),
-        (scene.gravity.is_none_or(|g| g.acceleration.is_finite()), "gravity"),
-        (scene.thrust.is_none_or(|f| f.force.is_finite() && f.point.is_finite()), "thrust"),
-        (scene.thrust.is_none_or(|f| !f.on.is_nan() && !f.off.is_nan()), "thrust time"),
-    ];
-    errors.extend(finite.iter().filter(|(ok, _)| !ok).map(|(_, name)| main_body_is(name)));
-    check_unit("initial attitude", initial.attitude.norm_squared().sqrt(), errors);
-    if let Some(gravity) = scene.gravity {
-        check_unit("direction of gravity", gravity.up.norm(), errors);
-    }
-    if scene.base.is_held() {
-        let found = [
-            (initial.velocity_inertial != Vec3::zero(), "velocity"),
-            (initial.omega_body != Vec3::zero(), "angular rate"),
-            (scene.thrust.is_some(), "thrust"),
-        ];
-        let found = found.into_iter().filter(|&(is_there, _)| is_there);
-        errors.extend(found.map(|(_, found)| ModelError::FixedBase { found }));
-    }
-    if scene.end_time < initial.time {
-        errors.push(ModelError::EndTime { start: initial.time, end: scene.end_time });
-    }
-    if let Some(thrust) = scene.thrust.filter(|thrust| thrust.off < thrust.on) {
-        errors.push(ModelError::ThrustTimes { on: thrust.on, off: thrust.off });
-    }
-}
-
-fn check_unit(quantity: &'static str, length: f64, errors: &mut Vec<ModelError>) {
-    if !is_unit(length) {
-        errors.push(ModelError::NotUnit { quantity, length });
-    }
-}
-
-/// False also for a length that is not a number.
-fn is_unit(length: f64) -> bool {
-    (length - 1.0).abs() <= UNIT_TOLERANCE
-}
-
-fn find_in_tree(
-    scene: &SceneDescription,
-    labels: &[HingeLabel],
-    i: usize,
-    errors: &mut Vec<ModelError>,
-) {
-    let (body, label) = (&scene.bodies[i], || labels[i].clone());
-    let of_this_branch =
-        |&inboard: &usize| inboard < i && labels[inboard].appendage == labels[i].appendage;
-    if let Some(inboard) = body.inboard.filter(|inboard| !of_this_branch(inboard)) {
-        errors.push(ModelError::Order { label: label(), inboard });
-    }
-    let length = body.axis.norm();
-    if !is_unit(length) {
-        errors.push(ModelError::Axis { label: label(), length });
-    }
-    let defect = body.mount.rot_inboard_from_hinge.rotation_defect();
-    let is_rotation = defect <= UNIT_TOLERANCE;
-    if !is_rotation {
-        errors.push(ModelError::MountRotation { label: label(), defect });
-    }
-}
-
-/// A body that carries others may be without mass, as the ring between the axes of a gimbal; so may a wheel
-/// on which nothing hangs, whose inertia is about its axis alone.
-fn find_in_mass(
-    scene: &SceneDescription,
-    label: &HingeLabel,
-    i: usize,
-    errors: &mut Vec<ModelError>,
-) {
-    let body = &scene.bodies[i].mass_properties;
-    let carries = || scene.bodies.iter().any(|other| other.inboard == Some(i));
-    let wheel = |of: &Body| of.joint == Joint::Revolute && body.is_wheel(of.axis);
-    if body.is_nothing() && carries() || wheel(&scene.bodies[i]) && !carries() {
-        return;
-    }
-    let name = BodyName::Segment(label.clone());
-    errors.extend(body.defect().map(|defect| ModelError::Mass { body: name, defect }));
-}
-
-fn find_in_hinge(
-    body: &Body,
-    label: &HingeLabel,
-    count: usize,
-    i: usize,
-    errors: &mut Vec<ModelError>,
-) {
-    let label = || label.clone();
-    let name = || BodyName::Segment(label());
-    let hinge = &body.hinge;
-    let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
-    let spring_numbers = [spring.quadratic, spring.linear, spring.preload_angle];
-    let dashpot_numbers = [
-        dashpot.rate_quadratic,
-        dashpot.rate_linear,
-        dashpot.angle_quadratic,
-        dashpot.angle_linear,
-        dashpot.preload_angle,
-    ];
-    let all_finite = |numbers: &[f64]| numbers.iter().all(|n| n.is_finite());
-    let release_finite = match hinge.release {
-        Release::Time(time) => !time.is_nan(),
-        Release::Angle { angle, .. } => angle.is_finite(),
-        Release::AfterLock { delay, .. } => delay.is_finite(),
-        Release::Never => true,
-    };
-    let finite_points = |points: &[Vec3<f64>]| points.iter().all(|p| p.is_finite());
-    let checks = [
-        (finite_points(&[body.mount.point, body.tip]), "hinge point or outer end"),
-        (all_finite(&spring_numbers), "hinge spring"),
-        (all_finite(&dashpot_numbers), "hinge dashpot"),
-        (all_finite(&[hinge.start.angle, hinge.start.rate]), "initial angle or rate"),
-        (hinge.lock_angle.is_none_or(f64::is_finite), "lock angle"),
-        (release_finite, "release"),
-        (
-            hinge.kick_off.is_none_or(|k| {
-                finite_points(&[k.main_body_point, k.body_point])
-                    && all_finite(&k.coefficients)
-                    && k.limit_length.is_finite()
-            }),
-            "kick-off spring",
-        ),
-    ];
-    let bad = checks.into_iter().filter(|(ok, _)| !ok);
-    errors.extend(bad.map(|(_, quantity)| ModelError::NotFinite { body: name(), quantity }));
-    if let Some(trigger) = hinge.release.trigger()
-        && (trigger >= count || trigger == i)
-    {
-        errors.push(ModelError::Trigger { label: label(), trigger: trigger + 1, count });
-    }
-    if let Release::AfterLock { delay, .. } = hinge.release
-        && delay < 0.0
-    {
-        errors.push(ModelError::ReleaseDelay { label: label(), delay });
-    }
-    if hinge.start.state != HingeState::Free && hinge.start.rate != 0.0 {
-        errors.push(ModelError::HeldRate { label: label(), rate: hinge.start.rate });
-    }
 }

@@ -26,12 +26,14 @@
 
 mod appendage;
 mod base;
+mod check;
 mod column;
 mod coupling;
 mod departures;
 mod draft;
 mod environment;
 mod error;
+mod external;
 mod hinge;
 mod joint;
 mod label;
@@ -52,7 +54,7 @@ mod warning;
 mod welded;
 
 pub use appendage::{Appendage, Segment};
-pub use base::Base;
+pub use base::{Base, Drive, DrivePoint};
 pub use column::{Column, UnknownColumn, WantedTable};
 pub use coupling::Coupling;
 pub use departures::{Departures, TurnOrder, TurnedInertia, Withheld};
@@ -60,8 +62,9 @@ pub use draft::{
     BodyDraft, CouplingDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat, Resolved,
     SceneDraft,
 };
-pub use environment::{Gravity, InitialMotion, Thrust};
+pub use environment::{Gravity, InitialMotion};
 pub use error::{BodyName, ModelError};
+pub use external::{Course, External, ExternalAxes, ExternalKind, ExternalPart};
 pub use hinge::{
     Dashpot, Hinge, HingeStart, HingeState, KickOffSpring, Mount, Release, SAME_ANGLE, Spring,
 };

@@ -10,17 +10,21 @@ pub struct Mode {
     /// The piece that holds of each force law that has several, counted from 0, in the order of
     /// [`SceneDescription::pieces_at_rest`](crate::SceneDescription::pieces_at_rest).
     pub pieces: Vec<usize>,
-    /// Whether the thrust is on.
-    pub thrust: bool,
+    /// The piece that holds of the [`Course`](crate::Course) of each force and torque from outside, as the scene
+    /// lists them.
+    pub externals: Vec<usize>,
+    /// The piece that holds of the prescribed motion of the main body.
+    pub drive: usize,
 }
 
 impl Mode {
-    /// Hinge states as the scene starts, no kick-off spring and no thrust acting.
+    /// Hinge states as the scene starts, no kick-off spring acting and nothing from outside.
     pub fn at_start(scene: &Scene) -> Self {
         Self {
             hinges: scene.bodies.iter().map(|body| body.hinge.start.state).collect(),
             pieces: scene.pieces_at_rest(),
-            thrust: false,
+            externals: vec![0; scene.externals.len()],
+            drive: 0,
         }
     }
 

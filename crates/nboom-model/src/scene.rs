@@ -3,8 +3,8 @@ use std::ops::Deref;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Appendage, Base, Coupling, Departures, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
-    MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, Thrust, error, warning,
+    Appendage, Base, Coupling, Departures, External, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
+    MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, check, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -60,8 +60,8 @@ pub struct SceneDescription {
     pub rotors: Vec<Rotor>,
     /// Uniform gravity.
     pub gravity: Option<Gravity>,
-    /// The thrust pulse.
-    pub thrust: Option<Thrust>,
+    /// Forces and torques from outside.
+    pub externals: Vec<External>,
     /// Motion of the main body at the initial time.
     pub initial: InitialMotion,
     /// Time at which the run ends \[T\].
@@ -80,7 +80,7 @@ impl SceneDescription {
             couplings: Vec::new(),
             rotors: Vec::new(),
             gravity: None,
-            thrust: None,
+            externals: Vec::new(),
             initial: InitialMotion::at_rest(),
             end_time,
         }
@@ -96,6 +96,26 @@ impl SceneDescription {
             table.points.iter().filter(|[angle, _]| *angle < start).count()
         });
         springs.chain(tables).collect()
+    }
+
+    /// The forces and torques from outside that act on hinged bodies.
+    pub fn externals_on_hinged(&self) -> impl Iterator<Item = &External> {
+        self.externals.iter().filter(|external| external.body.is_some())
+    }
+
+    /// Gives a main body that is driven the angular rate and the velocity of its prescribed motion at the initial
+    /// time and attitude, each unless it is `given`.
+    pub fn begin_driven(&mut self, given: [bool; 2]) {
+        let Some(drive) = self.base.drive().filter(|drive| !drive.points.is_empty()) else { return };
+        let [rate, speed] = drive.rates_at(self.initial.time);
+        let [omega_body, along] = [drive.axis * rate, drive.axis * speed];
+        let velocity = self.initial.attitude.normalized().to_matrix() * along;
+        if !given[0] {
+            self.initial.omega_body = omega_body;
+        }
+        if !given[1] {
+            self.initial.velocity_inertial = velocity;
+        }
     }
 
     /// Adds the bodies of one more appendage.
@@ -115,19 +135,19 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Checks a description. A thrust, kick-off spring or coupling that never exerts a force is left out.
+    /// Checks a description. What acts from outside, a kick-off spring or a coupling that never exerts a force is left out.
     ///
     /// # Errors
     /// Everything that is wrong with it, not only the first.
     pub fn new(mut description: SceneDescription) -> Result<Self, Vec<ModelError>> {
-        description.thrust = description.thrust.filter(|thrust| thrust.force != Vec3::zero());
         for body in &mut description.bodies {
             let kick_off = &mut body.hinge.kick_off;
             *kick_off = kick_off.filter(|spring| spring.coefficients != [0.0; 4]);
         }
         description.couplings.retain(|coupling| !coupling.is_nothing());
         let labels = labels(&description.bodies);
-        let errors = error::find(&description, &labels);
+        let errors = check::find(&description, &labels);
+        description.externals.retain(|external| !external.is_nothing());
         let departures = Departures::default();
         if errors.is_empty() {
             Ok(Self { description, labels, shapes: Shapes::default(), departures })

@@ -6,7 +6,7 @@ pub fn skipped(scene: &Scene) -> Vec<String> {
     if scene.gravity.is_none() {
         skipped.push("gravity".to_owned());
     }
-    if scene.thrust.is_none() {
+    if scene.externals.is_empty() {
         skipped.push("thrust and the integration of the mass centre".to_owned());
     }
     let mut count = |what: &str, lacks: fn(&Hinge) -> bool| {

@@ -61,7 +61,7 @@ impl<R: Real> WeldedTree<R> {
     pub fn new(scene: &Scene, mode: &Mode, beta: &[R]) -> Self {
         let mut tree = Self {
             main: rigid(&scene.main_body),
-            held: held(scene),
+            held: held(scene, mode),
             main_spin: Vec3::zero(),
             has_rotors: !scene.rotors.is_empty(),
             links: Vec::new(),
@@ -149,11 +149,13 @@ impl<R: Real> WeldedTree<R> {
 }
 
 /// What holds a main body against gravity accelerates it upward beside a fall.
-fn held<R: Real>(scene: &Scene) -> Option<Twist<R>> {
+fn held<R: Real>(scene: &Scene, mode: &Mode) -> Option<Twist<R>> {
     let upward = scene.gravity.map_or(Vec3::zero(), |gravity| gravity.up * gravity.acceleration);
     let to_inertial = scene.initial.attitude.normalized().to_matrix();
-    let linear = Vec3::constant(to_inertial.transpose_mul(upward));
-    scene.base.is_held().then_some(Twist { angular: Vec3::zero(), linear })
+    let [angular, linear] = scene.base.accelerations(mode.drive);
+    let linear = linear + to_inertial.transpose_mul(upward);
+    let [angular, linear] = [angular, linear].map(Vec3::constant);
+    scene.base.is_held().then_some(Twist { angular, linear })
 }
 
 fn rigid<R: Real>(body: &MassProperties) -> RigidInertia<R> {

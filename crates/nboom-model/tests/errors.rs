@@ -1,8 +1,8 @@
 //! What is no scene is refused, each defect by its own words.
 
 use nboom_model::{
-    Appendage, Gravity, Hinge, HingeState, MassProperties, Mount, Release, Scene, SceneDescription,
-    Segment, Thrust, TorqueTable,
+    Appendage, Course, External, ExternalKind, Gravity, Hinge, HingeState, MassProperties, Mount,
+    Release, Scene, SceneDescription, Segment, TorqueTable,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -14,7 +14,8 @@ fn sound() -> SceneDescription {
     let mount = Mount::at(Vec3::unit_x());
     scene.attach(&Appendage::Regular { mount, segments: vec![segment.clone(), segment] });
     scene.gravity = Some(Gravity { acceleration: 9.8, up: Vec3::unit_z() });
-    scene.thrust = Some(Thrust { force: Vec3::unit_x(), point: Vec3::unit_y(), on: 0.2, off: 0.4 });
+    let thrust = External::thrust(Vec3::unit_x(), Vec3::unit_y(), [0.2, 0.4]);
+    scene.externals = vec![External { body: Some(1), ..thrust.clone() }, thrust];
     scene
 }
 
@@ -35,16 +36,13 @@ fn numbers_that_are_none_are_refused() {
     let nan = f64::NAN;
     let bad = Vec3::new(0.0, nan, 0.0);
     type Change = fn(&mut SceneDescription, f64, Vec3<f64>);
-    let cases: [(&str, Change); 15] = [
+    let cases: [(&str, Change); 12] = [
         ("initial time", |s, nan, _| s.initial.time = nan),
         ("initial position", |s, _, bad| s.initial.position_inertial = bad),
         ("initial velocity", |s, _, bad| s.initial.velocity_inertial = bad),
         ("initial angular rate", |s, _, bad| s.initial.omega_body = bad),
         ("end time", |s, nan, _| s.end_time = nan),
         ("gravity", |s, nan, _| s.gravity.as_mut().expect("given").acceleration = nan),
-        ("thrust", |s, _, bad| s.thrust.as_mut().expect("given").force = bad),
-        ("thrust", |s, _, bad| s.thrust.as_mut().expect("given").point = bad),
-        ("thrust time", |s, nan, _| s.thrust.as_mut().expect("given").on = nan),
         ("hinge point", |s, _, bad| s.bodies[1].mount.point = bad),
         ("hinge spring", |s, nan, _| s.bodies[1].hinge.spring.linear = nan),
         ("hinge dashpot", |s, nan, _| s.bodies[1].hinge.dashpot.rate_quadratic = nan),
@@ -82,7 +80,6 @@ fn what_contradicts_itself_is_refused() {
         (told(after_lock(1, 0.5)), "release by hinge number 2 found, another of the 2 hinges"),
         (told(after_lock(0, -0.5)), "release -0.5 time units after a lock-up found, zero or more"),
         (told(|s| s.end_time = -1.0), "end time -1 found, a time not before the initial time 0"),
-        (told(|s| s.thrust.as_mut().expect("given").off = 0.1), "thrust from 0.2 to 0.1 found"),
         (told(|s| s.gravity.as_mut().expect("given").up = Vec3::unit_z() * 1.1), "of length 1.1"),
         (told(|s| s.bodies[0].axis = Vec3::unit_x() * 2.0), "hinge axis of length 2 found"),
         (told(|s| s.bodies[0].inboard = Some(1)), "inboard body 1 found, an earlier body"),
@@ -115,6 +112,55 @@ fn tables_that_give_no_torque_are_refused() {
     ] {
         assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:?}");
     }
+}
+
+#[test]
+fn what_acts_from_outside_is_checked() {
+    let with = |change: fn(&mut External)| told(|scene| change(&mut scene.externals[0]));
+    let over = |points: &[[f64; 2]]| {
+        told(|scene| scene.externals[1].course = Course::Table(points.to_vec()))
+    };
+    let fine = [[0.0, 2.0], [0.5, -3.0]];
+    assert_eq!(over(&fine), [""; 0]);
+    assert_eq!(with(|one| one.course = Course::ALWAYS), [""; 0]);
+    for (found, words) in [
+        (with(|one| one.body = Some(2)), "thrust on a body that is not there found, one on a body"),
+        (with(|one| one.amount.y = f64::NAN), "thrust [1.0, NaN, 0.0] at [0.0, 1.0, 0.0] found"),
+        (with(|one| one.point.z = f64::INFINITY), "at [0.0, 1.0, inf] found, finite numbers"),
+        (
+            told(|scene| {
+                scene.externals[0].kind = ExternalKind::Torque;
+                scene.externals[0].body = Some(9);
+            }),
+            "torque on a body that is not there found",
+        ),
+        (
+            with(|one| one.course = Course::Pulse { on: 0.2, off: 0.1 }),
+            "thrust from 0.2 to 0.1 found",
+        ),
+        (
+            with(|one| one.course = Course::Pulse { on: f64::NAN, off: 0.1 }),
+            "from NaN to 0.1 found",
+        ),
+        (over(&[]), "thrust over 0 points found, two or more points"),
+        (over(&fine[..1]), "thrust over 1 points found, two or more points"),
+        (over(&[fine[0], [0.5, f64::NAN]]), "point 2 at 0.5, NaN found"),
+        (over(&[[f64::NEG_INFINITY, 1.0], fine[1]]), "point 1 at -inf, 1 found"),
+        (over(&[fine[1], fine[0]]), "point 2 at 0, 2 found, two or more points of finite"),
+        (over(&[fine[0], fine[0]]), "point 2 at 0, 2 found"),
+    ] {
+        assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:?}");
+    }
+}
+
+/// Times of what never does anything are not looked at.
+#[test]
+fn what_never_acts_from_outside_is_left_out() {
+    let mut scene = sound();
+    scene.externals[0].amount = Vec3::zero();
+    scene.externals[0].course = Course::Pulse { on: 1.0, off: 0.0 };
+    let kept = scene.externals[1].clone();
+    assert_eq!(Scene::new(scene).expect("sound").externals, [kept]);
 }
 
 fn held_at_rate(rate: f64) -> nboom_model::HingeStart {

@@ -82,7 +82,7 @@ impl Equations {
             repertoire: Repertoire::new(options),
             own,
             commands,
-            variables: Variables::new(scene, layout, &state),
+            variables: Variables::new(scene, &at_start, layout, &state),
             gravity: gravity(scene),
             total_mass: scene.total_mass(),
             reach: reach(scene),
@@ -117,16 +117,17 @@ impl Equations {
         let Self { entered, others, commands, own, .. } = self;
         change_mode(entered, others, mode, commands, |i| state.beta[i]);
         let elements = entered.dynamics.elements();
-        let thrust = elements.external().is_some();
+        let held = self.scene.base.is_held();
+        let thrust = elements.acts_from_outside() || self.scene.base.drive().is_some();
         let free = entered.dynamics.free_hinges();
         let dashpots = elements.has_rate_power(free) || free.iter().any(|&i| own.act_about(i));
         let free = free.len();
         let unknowns = self.unknowns(state, thrust);
-        let layout = VariableLayout { unknowns, free, thrust, dashpots };
+        let layout = VariableLayout { unknowns, free, held, thrust, dashpots };
         self.accelerations.tau_dot.resize(free, 0.0);
         self.rates.set_layout(layout);
         self.series = None;
-        self.variables.begin(layout, state);
+        self.variables.begin(&self.scene, mode, layout, state);
         self.variables.write(&mut self.entered.dynamics, y);
         self.size_up(state);
     }
@@ -146,6 +147,7 @@ impl Equations {
 
     /// Notes how fast `state` is, and how fast it soon will be.
     fn size_up(&mut self, state: &mut State) {
+        self.entered.dynamics.set_outside(state.attitude, state.time);
         let motion = state.motion(&self.entered.dynamics);
         self.sizes.enter(self.entered.dynamics.free_hinges());
         self.sizes.saw_omega(&motion.omega_body.to_array());
@@ -153,9 +155,8 @@ impl Equations {
         let Self { entered, own, accelerations, .. } = self;
         under_own_laws(own, &mut entered.dynamics, &motion, accelerations);
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
-        let external = self.entered.dynamics.external();
-        let force = external.map_or(Vec3::zero(), |external| external.force);
-        let linear = force * (1.0 / self.total_mass);
+        let force = self.entered.dynamics.outside_force(motion.beta);
+        let linear = force.unwrap_or(Vec3::zero()) * (1.0 / self.total_mass);
         self.sizes.saw_accelerations(*omega_dot_body, tau_dot, linear);
         let has_momenta = self.variables.layout.has_momenta();
         self.sizes
@@ -184,7 +185,7 @@ impl Equations {
         entered.select(scene, own, repertoire, options, since)
     }
 
-    /// Accelerations without gravity in the mode that was entered.
+    /// Accelerations without gravity in the mode that was entered, under what [acts from outside](Recursive::set_outside).
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>) -> &Accelerations<f64> {
         self.entered.accelerations(motion, &mut self.accelerations);
         &self.accelerations
@@ -200,13 +201,17 @@ impl Equations {
         }
     }
 
-    /// The acceleration of the mass centre, inertial axes, when something acts from outside beside gravity,
-    /// main-body axes.
-    pub fn center_acceleration(&self, state: &State, acting: Option<Wrench<f64>>) -> Vec3<f64> {
-        let acceleration = |acting: Wrench<f64>| {
-            state.attitude.to_matrix() * acting.force * (1.0 / self.total_mass)
-        };
-        self.gravity + acting.map_or(Vec3::zero(), acceleration)
+    /// The acceleration of the mass centre, inertial axes, under what [acts from outside](Recursive::set_outside)
+    /// and the `reaction` of what holds the main body.
+    pub fn center_acceleration(
+        &mut self,
+        state: &mut State,
+        reaction: Option<Wrench<f64>>,
+    ) -> Vec3<f64> {
+        let beta = state.motion(&self.entered.dynamics).beta;
+        let outside = self.entered.dynamics.outside_force(beta).unwrap_or(Vec3::zero());
+        let force = outside + reaction.map_or(Vec3::zero(), |reaction| reaction.force);
+        self.gravity + state.attitude.to_matrix() * force * (1.0 / self.total_mass)
     }
 
     /// What holds the main body exerts on it at O, main-body axes, in a motion with the accelerations
@@ -214,7 +219,7 @@ impl Equations {
     pub fn reaction(&mut self, motion: &Motion<'_, f64>) -> Option<Wrench<f64>> {
         let Self { scene, entered, accelerations, .. } = self;
         let held = scene.base.is_held();
-        held.then(|| entered.dynamics.from_outside(motion, accelerations))
+        held.then(|| entered.dynamics.reaction(motion, accelerations))
     }
 
     /// The largest rate so far.
@@ -272,8 +277,8 @@ impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let Self { variables, entered, rates, evaluations, .. } = self;
         *evaluations += usize::from(variables.layout.needs_elimination());
-        let free_fall = variables.free_fall(t).velocity;
-        entered.rates(rates, free_fall, y, dy);
+        let carried = variables.carried(t).velocity;
+        entered.rates(rates, (t, carried), y, dy);
     }
 
     fn derivatives(&mut self, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
@@ -308,9 +313,9 @@ impl System for Equations {
         if !self.own.is_empty() {
             return false;
         }
-        let free_fall = self.variables.free_fall(t).velocity;
+        let carried = self.variables.carried(t).velocity;
         let Self { scene, entered, commands, variables, .. } = self;
-        entered.jacobian(scene, commands).write(variables.layout, free_fall, y, out);
+        entered.jacobian(scene, commands).write(variables.layout, (t, carried), y, out);
         true
     }
 

@@ -80,6 +80,7 @@ impl LoadFinder {
                 tau: motion.beta_ddot,
             },
             force_densities: &self.force_densities,
+            outside: motion.outside,
         };
         self.loads.continuous(&scene_motion, &mut self.found);
         self.check_balance(motion)?;

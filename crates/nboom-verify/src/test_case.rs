@@ -314,7 +314,7 @@ fn recursive<R: Real>(scene: &Scene, held: &[Option<f64>]) -> Recursive<R> {
     };
     let mode = Mode {
         hinges: held.iter().map(state).collect(),
-        thrust: scene.thrust.is_some(),
+        externals: vec![1; scene.externals.len()],
         ..Mode::at_start(scene)
     };
     let beta: Vec<R> = held.iter().map(|angle| R::constant(angle.unwrap_or(0.0))).collect();

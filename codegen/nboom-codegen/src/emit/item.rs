@@ -50,7 +50,7 @@ impl Signature {
             formulation: "",
             external: true,
             assumptions: request.assumptions(),
-            coordinates: SceneMotion::<f64>::count(equations.hinges()),
+            coordinates: SceneMotion::<f64>::count(equations.hinges(), equations.externals()),
             outputs: equations.load_set().count(),
         }
     }

@@ -68,13 +68,16 @@ impl Names {
         Self { parameters, coordinates, outputs }
     }
 
-    /// Those of a routine for loads and stresses of so many hinges, in the order of
+    /// Those of a routine for loads and stresses of so many hinges and so many forces and torques from outside, in the order of
     /// `nboom_loads::SceneMotion`; numbers of the scene and results have none.
-    pub fn of_motion(hinges: usize) -> Self {
+    pub fn of_motion(hinges: usize, externals: usize) -> Self {
         let (omega_dot, origin) = MAIN_RATES.numbers.split_at(3);
         let mut coordinates = owned(&[OMEGA.numbers, origin, omega_dot]);
         for quantity in ["beta", "tau", "tau_dot", "density"] {
             coordinates.extend((1..=hinges).map(|hinge| format!("{quantity}_{hinge}")));
+        }
+        for external in 1..=externals {
+            coordinates.extend(["x", "y", "z"].map(|axis| format!("outside_{external}_{axis}")));
         }
         Self { parameters: Vec::new(), coordinates, outputs: Vec::new() }
     }

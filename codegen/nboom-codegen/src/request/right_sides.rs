@@ -97,7 +97,8 @@ impl Request {
 /// Notes what acts on a scene in which the hinges that are not `free` are held at angles around `angle`,
 /// and lines push or do not.
 fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bool) {
-    let mut mode = Mode { thrust: false, ..mode_with(scene, free) };
+    let externals = vec![0; scene.externals.len()];
+    let mut mode = Mode { externals, ..mode_with(scene, free) };
     let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
     mode.pieces[..lines].fill(usize::from(!pushing));
     let tree = held(scene, free, angle);

@@ -26,8 +26,8 @@ const LOCK_STATES: usize = 32;
 pub(crate) const ANGLES: [f64; 2] = [0.723, -1.931];
 
 impl Request {
-    /// Code for a scene whose hinges are all free, with external wrench if the scene has a
-    /// thrust. The type's name is that of the topology after `Satellite` or `Baked`.
+    /// Code for a scene whose hinges are all free, with external wrench if something acts on the scene from
+    /// outside. The type's name is that of the topology after `Satellite` or `Baked`.
     ///
     /// # Errors
     /// When the scene is not made of chains and paddles.
@@ -40,7 +40,8 @@ impl Request {
             Numbers::Baked => "Baked",
         };
         let request = Self::new(&name(word, &topology), topology.clone(), level);
-        let request = if scene.thrust.is_some() { request.with_external_wrench() } else { request };
+        let is_pushed = !scene.externals.is_empty();
+        let request = if is_pushed { request.with_external_wrench() } else { request };
         Ok(match numbers {
             Numbers::RunTime => Self { assumptions: fixed(&topology, &[parameters]), ..request },
             Numbers::Baked => request.baked(&parameters),
@@ -93,7 +94,7 @@ impl Request {
             .into_iter()
             .map(|(topology, cases)| Self {
                 assumptions: fixed(&topology, &cases),
-                external: scene.thrust.is_some(),
+                external: !scene.externals.is_empty(),
                 ..Self::new(&name("Satellite", &topology), topology, level)
             })
             .collect();
@@ -133,7 +134,7 @@ pub(crate) fn mode_with(scene: &Scene, free: &[bool]) -> Mode {
     let state = |&free: &bool| if free { HingeState::Free } else { HingeState::Locked };
     Mode {
         hinges: free.iter().map(state).collect(),
-        thrust: scene.thrust.is_some(),
+        externals: vec![1; scene.externals.len()],
         ..Mode::at_start(scene)
     }
 }

@@ -10,12 +10,13 @@ impl StressRequest {
         let Self { equations, .. } = self;
         let mut inputs = self.assumptions();
         let numbers = inputs.len();
-        inputs.resize(numbers + SceneMotion::<f64>::count(equations.hinges()), None);
+        let (hinges, externals) = (equations.hinges(), equations.externals());
+        inputs.resize(numbers + SceneMotion::<f64>::count(hinges, externals), None);
         Graph::trace_with(&inputs, |inputs| {
             let (of_scene, of_motion) = inputs.split_at(numbers);
             let mut equations = equations.with_numbers(of_scene);
             let mut found = equations.load_set();
-            let motion = SceneMotion::of_numbers(of_motion, equations.hinges());
+            let motion = SceneMotion::of_numbers(of_motion, hinges, externals);
             equations.evaluate(&motion, &mut found);
             found.numbers()
         })

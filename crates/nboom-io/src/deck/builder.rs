@@ -33,7 +33,7 @@ impl Builder<'_, '_, '_> {
         let end_time = self.values.get("TF", 0).unwrap_or(initial.time);
         let mut description = SceneDescription::at_rest(name, main_body, end_time);
         description.gravity = self.gravity();
-        description.thrust = self.thrust();
+        description.externals.extend(self.thrust());
         description.initial = initial;
         for place in self.layout().unwrap_or_default() {
             description.attach(&self.appendage(&place));

@@ -1,4 +1,4 @@
-use nboom_model::{BodyName, HingeLabel, ModelError};
+use nboom_model::{BodyName, ExternalPart, HingeLabel, ModelError};
 
 use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
@@ -89,7 +89,8 @@ fn responsible(error: &ModelError, builder: &Builder<'_, '_, '_>) -> (&'static s
         ModelError::HeldRate { label, .. } => (builder.initial_rate_name(), number(label)),
         ModelError::NotUnit { quantity: "direction of gravity", .. } => ("GHAT", 0),
         ModelError::NotUnit { .. } => (builder.orientation_name(), 0),
-        ModelError::ThrustTimes { .. } => ("TFIN", 0),
+        ModelError::External { part: ExternalPart::Course, .. } => ("TFIN", 0),
+        ModelError::External { .. } => ("FT", 0),
         // Errors of the end of the run, and of the whole scene in later versions of the model.
         _ => ("TF", 0),
     }
@@ -101,7 +102,6 @@ fn not_finite(quantity: &str, i: usize, builder: &Builder<'_, '_, '_>) -> (&'sta
         "initial position" => ("RHO", 0),
         "initial velocity" => ("VBAR", 0),
         "initial angular rate" => ("OMEG", 0),
-        "thrust" => ("FT", 0),
         "hinge point or outer end" => ("ELIK", i),
         "initial angle or rate" => (builder.initial_angle_name(), i),
         _ => ("TF", 0),

@@ -1,4 +1,4 @@
-use nboom_model::{Gravity, InitialMotion, Thrust};
+use nboom_model::{External, Gravity, InitialMotion};
 use nboom_scalar::{Mat3, Quaternion, Vec3};
 
 use super::builder::Builder;
@@ -89,7 +89,7 @@ impl Builder<'_, '_, '_> {
         Some(Gravity { acceleration, up: self.unit_vector("GHAT")? })
     }
 
-    pub fn thrust(&mut self) -> Option<Thrust> {
+    pub fn thrust(&mut self) -> Option<External> {
         let magnitude = self.positive_magnitude("FT")?;
         let direction = self.unit_vector("FTHAT")?;
         let (on, off) = (self.values.real("TINT", 0), self.values.real("TFIN", 0));
@@ -98,7 +98,7 @@ impl Builder<'_, '_, '_> {
             self.warn(plain("TFIN"), 0, found, "a later end; the thrust never acts");
         }
         let point = self.values.vector("FTBAR", 0);
-        Some(Thrust { force: direction * magnitude, point, on, off })
+        Some(External::thrust(direction * magnitude, point, [on, off]))
     }
 
     /// A magnitude, of which zero means that there is none.

@@ -15,6 +15,7 @@ use crate::SceneFile;
 use crate::angles::{rotation_from_degrees, vector_to_radians};
 use appendages::{DeckAppendage, DeckSegment};
 use cards::Cards;
+use hinges::as_thrust;
 use inverse::{degrees, euler_degrees, euler_degrees_of_axes, nearest};
 use obstacle::Obstacles;
 
@@ -177,11 +178,11 @@ fn surroundings(cards: &mut Cards, scene: &Scene) {
         let unit = to_unit(vector);
         nearest(unit, |near| (to_unit(near) - unit).norm()).to_array()
     };
-    if let Some(thrust) = &scene.thrust {
-        cards.values("FT", &[thrust.force.norm()]);
-        cards.values("FTHAT", &direction(thrust.force));
+    if let Some((thrust, times)) = scene.externals.first().and_then(as_thrust) {
+        cards.values("FT", &[thrust.amount.norm()]);
+        cards.values("FTHAT", &direction(thrust.amount));
         cards.unless_zero("FTBAR", &thrust.point.to_array());
-        let [on, off] = [thrust.on, thrust.off].map(|time| time.clamp(f64::MIN, f64::MAX));
+        let [on, off] = times.map(|time| time.clamp(f64::MIN, f64::MAX));
         cards.values("TINT", &[on]);
         cards.values("TFIN", &[off]);
     }

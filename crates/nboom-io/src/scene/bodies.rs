@@ -38,6 +38,7 @@ impl Reader<'_, '_> {
         }
         body.hinge.kick_off = self.table(fields, "kick_off").and_then(|t| self.kick_off(&t));
         body.rotors = self.rotors(fields);
+        body.externals = self.externals(fields);
         body.couplings = self.couplings(fields, body.joint);
         body.repeat = self.table(fields, "repeat").and_then(|repeat| {
             let count = self.count(&repeat, "count", MOST_BODIES);

@@ -1,6 +1,8 @@
 //! The tables of a scene and their keys.
 
 mod coupling;
+mod drive;
+mod external;
 mod output;
 mod rotor;
 mod shape;
@@ -14,6 +16,9 @@ use super::keys::Holds::{
 use super::keys::{Holds, Key, TableKind};
 pub(crate) use coupling::ACTS_ON;
 use coupling::COUPLING;
+use drive::DRIVE;
+pub(crate) use external::ALONG;
+use external::{THRUSTER, TORQUE};
 use output::OUTPUT;
 use rotor::ROTOR;
 use shape::SHAPE;
@@ -88,7 +93,11 @@ pub static SCENE: TableKind = table(
             "Motion of the main body at the start; by default at rest.",
         ),
         optional("gravity", Table(&GRAVITY), "Uniform gravity."),
-        optional("thrust", Table(&THRUST), "A thrust fixed in the main body."),
+        optional(
+            "thrust",
+            Table(&THRUST),
+            "A thrust fixed in the main body: short for a thruster of it.",
+        ),
         optional("materials", Named(&MATERIAL), "Materials by name."),
         optional("body", Tables(&BODY), "The hinged bodies."),
     ],
@@ -138,7 +147,10 @@ static MAIN_BODY: TableKind = table(
             Choice(BASES),
             "How it is held: \"free\" (the default), or \"fixed\" to the ground, as on a test rig.",
         ),
+        optional("drive", Table(&DRIVE), "The motion that is prescribed for it."),
         optional("rotor", Tables(&ROTOR), "Rotors in it at constant speed."),
+        optional("thruster", Tables(&THRUSTER), "Forces on it from outside."),
+        optional("torque", Tables(&TORQUE), "Torques on it from outside."),
         optional("shape", Table(&SHAPE), "What it looks like in pictures."),
     ],
 );
@@ -245,6 +257,8 @@ static BODY: TableKind = choice(
             "Springs and dampers between its hinge and others.",
         ),
         optional("rotor", Tables(&ROTOR), "Rotors in it at constant speed."),
+        optional("thruster", Tables(&THRUSTER), "Forces on it from outside."),
+        optional("torque", Tables(&TORQUE), "Torques on it from outside."),
         optional(
             "repeat",
             Table(&REPEAT),

@@ -288,6 +288,14 @@ impl Reader<'_, '_> {
         rows.map(|[angle, value]| [in_radians((angle, degrees)), value]).collect()
     }
 
+    /// Pairs of a time and a rate, in radians.
+    pub fn angles_over_time(&mut self, fields: &Fields<'_>, key: &'static str) -> Vec<[f64; 2]> {
+        let Some((entry, ending)) = fields.entry(key) else { return Vec::new() };
+        let rows = self.rows_in::<2>(&entry.key, &entry.node).into_iter();
+        let degrees = is_degrees(ending);
+        rows.map(|[time, rate]| [time, in_radians((rate, degrees))]).collect()
+    }
+
     pub fn numbers<const N: usize>(
         &mut self,
         fields: &Fields<'_>,

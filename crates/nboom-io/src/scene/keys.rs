@@ -51,6 +51,8 @@ pub enum Holds {
     Rows(usize),
     /// Pairs of an angle and a number; the key ends in `_deg` or `_rad`.
     AnglePairs,
+    /// Pairs of a time and an angle or a rate; the key ends in `_deg` or `_rad`.
+    AnglesOverTime,
     /// A direction: `"x"`, `"-x"`, `"y"`, … or three numbers.
     Direction,
     /// Three moments of inertia, or a table of moments and products.
@@ -73,7 +75,10 @@ pub(crate) const ENDINGS: [&str; 2] = ["_deg", "_rad"];
 impl Holds {
     /// Whether its keys end in `_deg` or `_rad`.
     pub fn is_angle(&self) -> bool {
-        matches!(self, Self::Angle | Self::Angles | Self::AnglePairs)
+        matches!(
+            self,
+            Self::Angle | Self::Angles | Self::AnglePairs | Self::AnglesOverTime
+        )
     }
 
     /// The kinds of tables in it.

@@ -1,14 +1,16 @@
 //! Which place of a scene is responsible for an error found later.
 
 use nboom_model::{
-    BodyName, DraftDefect, DraftError, HingeLabel, Joint, MassDefect, ModelError, Scene,
-    SceneDescription, SceneDraft, SegmentStructure, Structure, StructureDefect, StructureError,
+    BodyName, Course, DraftDefect, DraftError, External, ExternalKind, ExternalPart, HingeLabel,
+    Joint, MassDefect, ModelError, Scene, SceneDescription, SceneDraft, SegmentStructure,
+    Structure, StructureDefect, StructureError,
 };
 
+use super::externals::number_on_body;
 use super::fields::{Fields, Reader};
 use super::suggest;
 use crate::deck::phrases;
-use crate::words::joint_table;
+use crate::words::{external_table, joint_table};
 
 /// The tables of a scene by what they describe.
 pub(super) struct Responsible<'t> {
@@ -110,7 +112,6 @@ impl Responsible<'_> {
             },
             ModelError::NotFinite { quantity, .. } => match *quantity {
                 "gravity" => (outer("gravity"), "acceleration"),
-                "thrust" | "thrust time" => (outer("thrust"), "force"),
                 "initial time" | "end time" => (outer("run"), "end"),
                 _ => (outer("initial"), "rate"),
             },
@@ -135,11 +136,43 @@ impl Responsible<'_> {
                 (body.map_or_else(|| outer("main_body"), |body| self.body(body)), "rotor")
             }
             ModelError::Coupling { label, .. } => (body(label), "coupling"),
-            ModelError::FixedBase { .. } => (outer("main_body"), "base"),
-            ModelError::ThrustTimes { .. } => (outer("thrust"), "until"),
+            ModelError::HeldBase { quantity, .. } => match *quantity {
+                "velocity" => (outer("initial"), "velocity"),
+                _ => (outer("initial"), "rate"),
+            },
+            ModelError::Drive { .. } => (outer("main_body"), "drive"),
+            ModelError::External { index, part, .. } => self.external(scene, *index, *part),
             // The end of the run, and whatever words cannot say.
             _ => (outer("run"), "end"),
         }
+    }
+
+    /// The table of a force or torque from outside, and the key that is wrong.
+    fn external(
+        &self,
+        scene: &SceneDescription,
+        index: usize,
+        part: ExternalPart,
+    ) -> (Fields<'_>, &'static str) {
+        let External { body, kind, ref course, .. } = scene.externals[index];
+        let key = match (part, course, kind) {
+            (ExternalPart::Course, Course::Table(_), _) => "over_time",
+            (ExternalPart::Course, Course::Pulse { .. }, _) => "until",
+            (_, _, ExternalKind::Force) => "force",
+            (_, _, ExternalKind::Torque) => "torque",
+        };
+        let thrust = self.root.inner("thrust");
+        let number = number_on_body(scene, index);
+        let (owner, number) = match (body, kind, thrust) {
+            (None, ExternalKind::Force, Some(thrust)) if number == 0 => return (thrust, key),
+            (None, kind, thrust) => {
+                let first = usize::from(kind == ExternalKind::Force && thrust.is_some());
+                (self.root.inner("main_body"), number - first)
+            }
+            (Some(body), ..) => (Some(self.body(body)), number),
+        };
+        let owner = owner.unwrap_or_else(|| self.root.clone());
+        (owner.nth(external_table(kind), number).unwrap_or(owner), key)
     }
 
     fn body(&self, number: usize) -> Fields<'_> {

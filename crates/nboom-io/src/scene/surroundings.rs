@@ -1,9 +1,8 @@
 //! What a scene has besides bodies: times, initial motion, gravity, thrust.
 
-use nboom_model::{Base, Gravity, InitialMotion, SceneDescription, Thrust};
+use nboom_model::{External, Gravity, InitialMotion, SceneDescription};
 use nboom_scalar::Vec3;
 
-use super::catalog::BASES;
 use super::fields::{Fields, Reader};
 
 impl Reader<'_, '_> {
@@ -22,12 +21,18 @@ impl Reader<'_, '_> {
             self.initial(&initial, &mut scene.initial);
         }
         if let Some(main_body) = root.inner("main_body") {
-            let base = self.choice(&main_body, "base", BASES);
-            scene.base = if base == Some(BASES[1]) { Base::Fixed } else { Base::Free };
+            scene.base = self.base(&main_body);
+            let given = root.inner("initial").map(|initial| {
+                ["rate", "velocity"].map(|key| initial.has(key))
+            });
+            scene.begin_driven(given.unwrap_or_default());
             scene.rotors = self.rotors(&main_body);
+            scene.externals = self.externals(&main_body);
         }
         scene.gravity = self.table(root, "gravity").and_then(|fields| self.gravity(&fields));
-        scene.thrust = self.table(root, "thrust").and_then(|fields| self.thrust(&fields));
+        if let Some(thrust) = self.table(root, "thrust").and_then(|fields| self.thrust(&fields)) {
+            scene.externals.insert(0, thrust);
+        }
         scene
     }
 
@@ -52,9 +57,9 @@ impl Reader<'_, '_> {
         (acceleration > 0.0).then_some(Gravity { acceleration, up })
     }
 
-    fn thrust(&mut self, fields: &Fields<'_>) -> Option<Thrust> {
+    fn thrust(&mut self, fields: &Fields<'_>) -> Option<External> {
         let (force, point) = (self.vector(fields, "force"), self.vector(fields, "point"));
         let (on, off) = (self.number(fields, "from"), self.number(fields, "until"));
-        Some(Thrust { force: force?, point: point?, on: on?, off: off? })
+        Some(External::thrust(force?, point?, [on?, off?]))
     }
 }

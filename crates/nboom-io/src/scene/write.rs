@@ -3,14 +3,15 @@
 mod lines;
 
 use nboom_model::{
-    Body, BodyShape, Coupling, Hinge, HingeState, Joint, MassProperties, Material, Release, Scene,
-    SectionShape, SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
+    Base, Body, BodyShape, Coupling, Drive, DrivePoint, Course, ExternalAxes, ExternalKind, Hinge, HingeState, Joint,
+    MassProperties, Material, Release, Scene, SectionShape, SegmentStructure, Solid, Station,
+    Structure, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 
 use super::catalog::{BASES, FILES_ON_REQUEST};
 use crate::angles::in_degrees;
-use crate::words::joint_table;
+use crate::words::{external_table, joint_table};
 use crate::{Sampling, SceneFile, SceneSettings};
 use lines::{Lines, angle, inertia, list, listed, number, text, vector};
 
@@ -31,9 +32,13 @@ pub fn write_scene(file: &SceneFile) -> String {
     output(&mut lines, file);
     lines.table("main_body");
     mass_properties(&mut lines, &scene.main_body);
-    lines.optional("base", scene.base.is_held().then(|| text(BASES[1])));
+    lines.optional("base", (scene.base == Base::Fixed).then(|| text(BASES[1])));
     lines.optional("shape", scene.shapes().main_body.as_ref().map(shape));
+    if let Some(drive) = scene.base.drive() {
+        prescribed(&mut lines, drive);
+    }
     rotors(&mut lines, scene, None);
+    externals(&mut lines, scene, None);
     surroundings(&mut lines, scene);
     let materials = materials(structure.as_ref());
     for (i, material) in materials.iter().enumerate() {
@@ -52,6 +57,7 @@ pub fn write_scene(file: &SceneFile) -> String {
         joint(&mut lines, scene, i, of_body);
         couplings(&mut lines, scene, i);
         rotors(&mut lines, scene, Some(i));
+        externals(&mut lines, scene, Some(i));
         segment.into_iter().for_each(|segment| stations(&mut lines, segment));
     }
     lines.text
@@ -116,13 +122,6 @@ fn surroundings(lines: &mut Lines, scene: &Scene) {
         lines.value("acceleration", number(gravity.acceleration));
         lines.value("up", vector(gravity.up));
     }
-    if let Some(thrust) = &scene.thrust {
-        lines.table("thrust");
-        lines.value("force", vector(thrust.force));
-        lines.value("point", vector(thrust.point));
-        lines.value("from", number(thrust.on));
-        lines.value("until", number(thrust.off));
-    }
 }
 
 /// The name of a body; one without is called by its hinge's numbers.
@@ -148,12 +147,54 @@ fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
 }
 
 /// The rotors of a body, as tables of it.
+fn prescribed(lines: &mut Lines, Drive { axis, points }: &Drive) {
+    lines.table("main_body.drive");
+    lines.value("axis", direction(*axis));
+    let over_time = |value: &dyn Fn(&DrivePoint) -> f64| {
+        listed(points.iter().map(|point| list([point.time, value(point)])))
+    };
+    if points.iter().all(|point| in_degrees(point.rate).is_some()) {
+        let degrees = |point: &DrivePoint| in_degrees(point.rate).unwrap_or_default();
+        lines.value("rate_deg", over_time(&degrees));
+    } else {
+        lines.value("rate_rad", over_time(&|point| point.rate));
+    }
+    lines.value("speed", over_time(&|point| point.speed));
+}
+
 fn rotors(lines: &mut Lines, scene: &Scene, body: Option<usize>) {
     for rotor in scene.rotors.iter().filter(|rotor| rotor.body == body) {
         lines.tables(if body.is_some() { "body.rotor" } else { "main_body.rotor" });
         lines.value("axis", direction(rotor.axis));
         lines.value("inertia", number(rotor.inertia));
         lines.line(angle("speed", rotor.speed));
+    }
+}
+
+/// What acts on a body from outside, as tables of it.
+fn externals(lines: &mut Lines, scene: &Scene, body: Option<usize>) {
+    for external in scene.externals.iter().filter(|external| external.body == body) {
+        let owner = if body.is_some() { "body" } else { "main_body" };
+        lines.tables(&format!("{owner}.{}", external_table(external.kind)));
+        let amount = match external.kind {
+            ExternalKind::Force => "force",
+            ExternalKind::Torque => "torque",
+        };
+        lines.value(amount, vector(external.amount));
+        lines.value("point", vector(external.point));
+        if external.axes == ExternalAxes::Inertial {
+            lines.value("axes", text("inertial"));
+        }
+        match &external.course {
+            Course::Pulse { on, off } => {
+                let times = [("from", on), ("until", off)].into_iter();
+                let times = times.filter(|(_, time)| time.is_finite());
+                times.for_each(|(key, time)| lines.value(key, number(*time)));
+            }
+            Course::Table(points) => {
+                lines.value("over_time", listed(points.iter().map(|&point| list(point))));
+            }
+        }
     }
 }
 

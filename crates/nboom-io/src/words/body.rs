@@ -1,12 +1,14 @@
 use nboom_model::{
-    BodyDraft, BodyShape, KickOffSpring, MOST_BODIES, MassProperties, Repeat, SegmentStructure,
+    BodyDraft, BodyShape, External, KickOffSpring, MOST_BODIES, MassProperties, Repeat,
+    SegmentStructure,
 };
 use nboom_scalar::Vec3;
 
 use super::error::of_body;
 use super::surroundings::MassWords;
 use super::{
-    CouplingWords, Direction, HingeWords, Inertia, RotorWords, SlideWords, WordsError, hinge,
+    CouplingWords, Direction, ExternalWords, HingeWords, Inertia, RotorWords, SlideWords,
+    WordsError, hinge,
 };
 
 /// A hinged body, in words.
@@ -21,6 +23,7 @@ pub struct BodyWords {
     kick_off: Option<KickOff>,
     couplings: Vec<CouplingWords>,
     rotors: Vec<RotorWords>,
+    externals: Vec<External>,
     repeat: Option<(usize, Direction)>,
     structure: Option<SegmentStructure>,
     shape: Option<BodyShape>,
@@ -50,6 +53,7 @@ pub fn body(name: &str) -> BodyWords {
         kick_off: None,
         couplings: Vec::new(),
         rotors: Vec::new(),
+        externals: Vec::new(),
         repeat: None,
         structure: None,
         shape: None,
@@ -128,6 +132,12 @@ impl BodyWords {
         self
     }
 
+    /// One more force or torque on it from outside.
+    pub fn external(mut self, external: ExternalWords) -> Self {
+        self.externals.push(external.into());
+        self
+    }
+
     /// Makes several of it, with all that is outboard of it, evenly about an axis through O; for a body
     /// on the main body. Copies are called "name 1", "name 2", …
     pub fn repeat(mut self, count: usize, about: impl Into<Direction>) -> Self {
@@ -159,6 +169,7 @@ impl BodyWords {
         self.hinge.act_on(&mut body);
         body.hinge.kick_off = self.kick_off.map(KickOffSpring::from);
         body.rotors = self.rotors.iter().filter_map(|rotor| rotor.rotor(&of, errors)).collect();
+        body.externals = self.externals;
         body.couplings = self.couplings.into_iter().map(Into::into).collect();
         body.repeat = self.repeat.and_then(|(count, about)| {
             let wrong = |(found, expected)| {

@@ -120,12 +120,17 @@ impl SceneWords {
         let end = self.end.unwrap_or(self.start);
         let rotors = self.main_body.rotors.iter();
         let rotors = rotors.filter_map(|rotor| rotor.rotor("main_body", errors)).collect();
-        let base = self.main_body.base;
+        let externals = self.thrust.map(Into::into).into_iter();
+        let externals = externals.chain(self.main_body.externals.iter().cloned()).collect();
+        let drive = self.main_body.drive.as_ref().and_then(|drive| drive.drive(errors));
+        let base = drive.map_or(self.main_body.base.clone(), Base::Driven);
+        let given = self.initial.given();
         let main_body = self.main_body.properties(errors);
         let mut scene = SceneDescription::at_rest(&self.name, main_body, end);
-        (scene.base, scene.rotors) = (base, rotors);
+        (scene.base, scene.rotors, scene.externals) = (base, rotors, externals);
         scene.initial.time = self.start;
         self.initial.set(&mut scene.initial, errors);
+        scene.begin_driven(given);
         scene.gravity = self.gravity.and_then(|(acceleration, up)| {
             let mut wrong = |key, found, expected| {
                 let of = "gravity".to_owned();
@@ -143,7 +148,6 @@ impl SceneWords {
             }
             None
         });
-        scene.thrust = self.thrust.map(Into::into);
         let bodies = self.bodies.into_iter().map(|body| body.draft(errors)).collect();
         SceneDraft { scene, bodies }
     }

@@ -1,9 +1,9 @@
-use nboom_model::{Base, BodyShape, InitialMotion, MassProperties};
+use nboom_model::{Base, BodyShape, External, InitialMotion, MassProperties};
 use nboom_scalar::{Sym3, Vec3};
 
-use super::{Axes, RotorWords, WordsError};
+use super::{Axes, DriveWords, ExternalWords, RotorWords, WordsError};
 
-/// A thrust fixed in the main body.
+/// A thrust fixed in the main body: short for a [`thruster`](super::thruster) of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {
     /// Force on the main body, its axes.
@@ -16,9 +16,9 @@ pub struct Thrust {
     pub until: f64,
 }
 
-impl From<Thrust> for nboom_model::Thrust {
+impl From<Thrust> for External {
     fn from(Thrust { force, point, from, until }: Thrust) -> Self {
-        Self { force: force.into(), point: point.into(), on: from, off: until }
+        Self::thrust(force.into(), point.into(), [from, until])
     }
 }
 
@@ -28,7 +28,9 @@ impl From<Thrust> for nboom_model::Thrust {
 pub struct MainBodyWords {
     mass: MassWords,
     pub(super) base: Base,
+    pub(super) drive: Option<DriveWords>,
     pub(super) rotors: Vec<RotorWords>,
+    pub(super) externals: Vec<External>,
     pub(super) shape: Option<BodyShape>,
 }
 
@@ -62,9 +64,21 @@ impl MainBodyWords {
         self
     }
 
+    /// Moved as prescribed; it starts with that motion.
+    pub fn driven(mut self, drive: DriveWords) -> Self {
+        self.drive = Some(drive);
+        self
+    }
+
     /// One more rotor in it.
     pub fn rotor(mut self, rotor: RotorWords) -> Self {
         self.rotors.push(rotor);
+        self
+    }
+
+    /// One more force or torque on it from outside.
+    pub fn external(mut self, external: ExternalWords) -> Self {
+        self.externals.push(external.into());
         self
     }
 
@@ -170,6 +184,11 @@ impl InitialWords {
     pub fn velocity(mut self, velocity: impl Into<Vec3<f64>>) -> Self {
         self.velocity = Some(velocity.into());
         self
+    }
+
+    /// Whether it says the rate, and the velocity.
+    pub(super) fn given(&self) -> [bool; 2] {
+        [self.rate.is_some(), self.velocity.is_some()]
     }
 
     /// Changes what the words say.

@@ -1,5 +1,6 @@
 //! Orientation, velocity, gravity and thrust.
 
+use nboom_model::External;
 use nboom_scalar::{Mat3, Vec3};
 
 use super::{errors, lines, read, replaced, with_cards};
@@ -89,13 +90,12 @@ fn gravity_by_any_of_its_names() {
 #[test]
 fn thrust() {
     let cards = " FT=5.0,FTHAT=0.0,-1.0,0.0,FTBAR=1.0,2.0,3.0,TINT=0.5,TFIN=0.75,";
-    let thrust = read(&with_cards(cards)).scene.thrust.expect("there is a thrust");
-    assert_eq!(thrust.force, Vec3::new(0.0, -5.0, 0.0));
-    assert_eq!(thrust.point, Vec3::new(1.0, 2.0, 3.0));
-    assert_eq!((thrust.on, thrust.off), (0.5, 0.75));
+    let scene = read(&with_cards(cards)).scene;
+    let expected = (Vec3::new(0.0, -5.0, 0.0), Vec3::new(1.0, 2.0, 3.0), [0.5, 0.75]);
+    assert_eq!(scene.externals, [External::thrust(expected.0, expected.1, expected.2)]);
     let never = read(&with_cards(" FT=5.0,FTHAT=1.0,0.0,0.0,"));
     assert_eq!(never.warnings[0].symbol, "TFIN");
-    assert!(read(&with_cards(" FT=0.0,FTHAT=3*0.0,")).scene.thrust.is_none());
+    assert!(read(&with_cards(" FT=0.0,FTHAT=3*0.0,")).scene.externals.is_empty());
 }
 
 #[test]

@@ -149,7 +149,7 @@ fn the_motion_and_the_settings() {
     assert_eq!(initial.position_inertial, Vec3::zero());
     assert_eq!(initial.velocity_inertial, Vec3::zero());
     assert_eq!((initial.time, file.scene.end_time), (0.0, 1.0));
-    assert!(file.scene.gravity.is_none() && file.scene.thrust.is_none());
+    assert!(file.scene.gravity.is_none() && file.scene.externals.is_empty());
     assert_eq!(
         file.legacy,
         nboom_io::LegacySettings {

@@ -1,7 +1,7 @@
 //! Decks beside the same scenes as JSON, in radians and 0-based.
 
 use nboom_io::{SceneFile, parse_deck};
-use nboom_model::{Body, HingeState, MassProperties, Release};
+use nboom_model::{Body, Course, HingeState, MassProperties, Release};
 use nboom_scalar::{Mat3, Sym3, Vec3};
 use serde_json::Value;
 
@@ -46,12 +46,13 @@ fn compare_environment(file: &SceneFile, expected: &Value) {
     }
     let thrust = &expected["thrust"];
     let magnitude = number(&thrust["magnitude"]);
-    assert_eq!(scene.thrust.is_some(), magnitude != 0.0);
-    if let Some(found) = scene.thrust {
+    assert_eq!(scene.externals.len(), usize::from(magnitude != 0.0));
+    for found in &scene.externals {
         let force = vector(&thrust["direction"]) * magnitude;
-        compare_vectors(found.force, force, magnitude, "thrust");
+        compare_vectors(found.amount, force, magnitude, "thrust");
         assert_eq!(found.point, vector(&thrust["point"]));
-        assert_eq!([found.on, found.off], [number(&thrust["t_on"]), number(&thrust["t_off"])]);
+        let (on, off) = (number(&thrust["t_on"]), number(&thrust["t_off"]));
+        assert_eq!(found.course, Course::Pulse { on, off });
     }
 }
 

@@ -275,7 +275,7 @@ fn a_turned_main_body_is_where_it_was() {
         (a.position_inertial, b.position_inertial),
         (a.velocity_inertial, b.velocity_inertial),
         (before.gravity.expect("given").up, after.gravity.expect("given").up),
-        (before.thrust.expect("given").force, after.thrust.expect("given").force),
+        (before.externals[0].amount, after.externals[0].amount),
     ];
     for (a, b) in vectors {
         assert!((a - b).norm() <= 2e-15 * a.norm(), "{a:?}, {b:?}");

@@ -14,7 +14,7 @@ use nboom_codegen::{CodegenError, OPERATION_LIMIT};
 use nboom_formulation::{Formulation, Layout};
 use nboom_io::read_scene;
 use nboom_model::{
-    Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Spring, Thrust,
+    Appendage, External, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Spring,
     Topology,
 };
 use nboom_package::{
@@ -33,7 +33,7 @@ fn satellite(name: &str, chains: &[usize]) -> Scene {
     let mut description = SceneDescription::at_rest(name, hub, 10.0);
     description.initial.omega_body = Vec3::new(0.8, 0.1, -0.2);
     let (force, point) = (Vec3::new(5.0, -3.0, 1.0), Vec3::new(0.0, 0.2, 0.4));
-    description.thrust = Some(Thrust { force, point, on: 1.0, off: 2.0 });
+    description.externals = vec![External::thrust(force, point, [1.0, 2.0])];
     for (i, &links) in chains.iter().enumerate() {
         let mount = Mount::at(Vec3::new(0.2, 0.5, 0.3 * i as f64));
         description.attach(&Appendage::Regular { mount, segments: vec![segment.clone(); links] });

@@ -142,13 +142,15 @@ impl<'a> Replay<'a> {
     fn enter(&mut self) -> Course {
         self.situation.watch(self.scene, &self.dynamics);
         let Self { scene, dynamics, situation: Situation { state, mode, .. }, .. } = self;
-        let thrust = dynamics.external().is_some();
+        let held = scene.base.is_held();
+        let thrust = dynamics.elements().acts_from_outside() || scene.base.drive().is_some();
         let free = dynamics.free_hinges().len();
         let (unknowns, dashpots) = (Unknowns::Velocities, false);
-        let layout = VariableLayout { unknowns, free, thrust, dashpots };
+        let layout = VariableLayout { unknowns, free, held, thrust, dashpots };
         let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
-        fixed.extend(state.center.velocity.to_array());
+        fixed.extend(state.carried().velocity.to_array());
+        fixed.push(state.time);
         self.sizes.enter(dynamics.free_hinges());
         self.sizes.saw_omega(&state.omega_body.to_array().map(|rate| rate.to_f64()));
         let free = dynamics.free_hinges().iter();
@@ -157,7 +159,7 @@ impl<'a> Replay<'a> {
         self.sizes.write(&layout, &mut sizes);
         sizes.truncate(layout.controlled());
         let expansion = Expansion::new(&graph, &fixed, sizes, self.accuracy);
-        let mut variables = Variables::new(scene, layout, state);
+        let mut variables = Variables::new(scene, mode, layout, state);
         let mut now = Vec::new();
         variables.write(dynamics, &mut now);
         Course { variables, expansion, then: now.clone(), now }

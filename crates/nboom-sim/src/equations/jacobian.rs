@@ -32,12 +32,12 @@ impl Jacobian {
         self.dynamics.command(commands);
     }
 
-    /// Writes ∂ẏ/∂y at `y`, which stands as in `layout`, to `out`, row by row; `free_fall` is the velocity
-    /// of the mass centre without thrust, inertial axes.
+    /// Writes ∂ẏ/∂y at `y`, which stands as in `layout`, to `out`, row by row; at `time`
+    /// `carried` is the velocity of what is [carried](Variables::carried), inertial axes.
     pub fn write(
         &mut self,
         layout: VariableLayout,
-        free_fall: Vec3<f64>,
+        (time, carried): (f64, Vec3<f64>),
         y: &[f64],
         out: &mut [f64],
     ) {
@@ -52,7 +52,7 @@ impl Jacobian {
         // Nothing depends on the integrals that follow the controlled variables.
         for column in 0..layout.controlled() {
             self.variables[column] = Dual::variable(y[column]);
-            self.differentiate(free_fall);
+            self.differentiate(time, carried);
             for (row, rate) in self.derivatives.iter().enumerate() {
                 out[row * size + column] = rate.derivative;
             }
@@ -60,10 +60,10 @@ impl Jacobian {
         }
     }
 
-    fn differentiate(&mut self, free_fall: Vec3<f64>) {
+    fn differentiate(&mut self, time: f64, carried: Vec3<f64>) {
         let Self { dynamics, rates, variables, derivatives, .. } = self;
-        let free_fall = Vec3::constant(free_fall);
-        rates.write(dynamics, Recursive::accelerations, free_fall, variables, derivatives);
+        let at = (Dual::constant(time), Vec3::constant(carried));
+        rates.write(dynamics, Recursive::accelerations, at, variables, derivatives);
     }
 }
 
@@ -92,7 +92,8 @@ mod tests {
         let mode = Mode {
             hinges: vec![HingeState::Free; scene.bodies.len()],
             pieces: vec![0; Mode::at_start(&scene).pieces.len()],
-            thrust: scene.thrust.is_some(),
+            externals: vec![1; scene.externals.len()],
+            drive: 0,
         };
         let options = Options { formulation, ..Options::default() };
         let (mut equations, mut y) =

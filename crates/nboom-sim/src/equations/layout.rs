@@ -23,6 +23,8 @@ pub(crate) enum Unknowns {
 pub(crate) struct VariableLayout {
     pub unknowns: Unknowns,
     pub free: usize,
+    /// Whether the main body is held, so that nothing displaces the mass centre but the hinges.
+    pub held: bool,
     pub thrust: bool,
     pub dashpots: bool,
 }
@@ -32,7 +34,7 @@ impl VariableLayout {
 
     /// Of the velocities of a satellite whose hinges are held and on which nothing acts.
     pub fn of_no_hinges() -> Self {
-        Self { unknowns: Unknowns::Velocities, free: 0, thrust: false, dashpots: false }
+        Self { unknowns: Unknowns::Velocities, free: 0, held: false, thrust: false, dashpots: false }
     }
 
     pub fn omega(&self) -> Range<usize> {
@@ -63,7 +65,7 @@ impl VariableLayout {
     /// Displacement of the mass centre by the thrust, then its velocity.
     pub fn thrust_motion(&self) -> Range<usize> {
         let start = self.hinge_motion().end;
-        start..start + if self.thrust { 6 } else { 0 }
+        start..start + if self.thrust && !self.held { 6 } else { 0 }
     }
 
     /// Variables that decide on the step size; the others are integrals along the way.
@@ -89,7 +91,7 @@ impl VariableLayout {
     }
 
     fn impulses(&self) -> usize {
-        if self.thrust { 3 } else { 0 }
+        if self.thrust && !self.held { 3 } else { 0 }
     }
 
     /// The variable that is the derivative of variable `i`, if there is one.

@@ -114,12 +114,12 @@ impl PreparedMode {
         Selection { since, ..selection.clone() }
     }
 
-    /// Writes ẏ at `y` to `dy`, in the layout of `rates`; without thrust the mass centre would fall with the
-    /// velocity `free_fall`, inertial axes.
+    /// Writes ẏ at `y` to `dy`, in the layout of `rates`; at `time` the velocity of what is
+    /// [carried](crate::equations::variables::Variables::carried) is `carried`, inertial axes.
     pub fn rates(
         &mut self,
         rates: &mut Rates<f64>,
-        free_fall: Vec3<f64>,
+        (time, carried): (f64, Vec3<f64>),
         y: &[f64],
         dy: &mut [f64],
     ) {
@@ -127,14 +127,14 @@ impl PreparedMode {
         match right_sides {
             Some(right_sides) if rates.layout.unknowns == Unknowns::Velocities => {
                 let power = right_sides.of_one.write(y, dy);
-                rates.complete(dynamics, power, free_fall, y, dy);
+                rates.complete(dynamics, power, carried, y, dy);
             }
             _ => {
                 let accelerate =
                     |dynamics: &mut Recursive<f64>, motion: &Motion<'_, f64>, out: &mut _| {
                         code.accelerations(dynamics, motion, out);
                     };
-                rates.write(dynamics, accelerate, free_fall, y, dy);
+                rates.write(dynamics, accelerate, (time, carried), y, dy);
                 if let (AccelerationCode::UnderOwnLaws(own), [work]) =
                     (code, &mut dy[rates.layout.dashpot_work()])
                 {

@@ -33,17 +33,18 @@ impl<R: Real> Rates<R> {
     }
 
     /// Writes ẏ at `y` to `dy`. `dynamics` is in the same mode, `accelerate` computes accelerations
-    /// there, and the mass centre would fall with the velocity `free_fall` (inertial axes) without
-    /// thrust.
+    /// there, and at `time` the velocity of what is [carried](crate::equations::variables::Variables::carried) is
+    /// `carried`, inertial axes.
     pub fn write(
         &mut self,
         dynamics: &mut Recursive<R>,
         accelerate: impl FnOnce(&mut Recursive<R>, &Motion<'_, R>, &mut Accelerations<R>),
-        free_fall: Vec3<R>,
+        (time, carried): (R, Vec3<R>),
         y: &[R],
         dy: &mut [R],
     ) {
         let Self { layout, total_mass, tau, accelerations } = self;
+        dynamics.set_outside(attitude(y), time);
         let motion = if let Unknowns::Momenta(at_start) = layout.unknowns {
             let momenta = momenta(layout, at_start, y);
             let rates = &mut dy[layout.hinge_motion()];
@@ -68,13 +69,20 @@ impl<R: Real> Rates<R> {
             let free = dynamics.free_hinges();
             *work = dynamics.elements().rate_power(free, [motion.beta, motion.tau]);
         }
-        if layout.thrust {
-            write_external(layout, dynamics, (&motion, (*total_mass, free_fall)), y, dy);
+        if !layout.thrust {
+            return;
+        }
+        if layout.held {
+            let velocity = attitude(y).normalized().to_matrix().transpose_mul(carried);
+            let power = power_on_held(dynamics, &motion, accelerations, velocity);
+            dy[layout.thrust_work().start] = power;
+        } else {
+            write_external(layout, dynamics, (&motion, (*total_mass, carried)), y, dy);
         }
     }
 
     /// Writes what is left of ẏ at `y` where the rates of attitude, ω, β and τ stand in `dy` already, and
-    /// the parts of hinge torques that depend on rates have the power `power`.
+    /// the parts of hinge torques that depend on rates have the power `power`; the main body is free.
     pub fn complete(
         &self,
         dynamics: &mut Recursive<R>,
@@ -96,6 +104,21 @@ impl<R: Real> Rates<R> {
     }
 }
 
+/// Power of what acts from outside and of what moves a held main body, whose O has the velocity `velocity`,
+/// main-body axes.
+fn power_on_held<R: Real>(
+    dynamics: &mut Recursive<R>,
+    motion: &Motion<'_, R>,
+    accelerations: &Accelerations<R>,
+    velocity: Vec3<R>,
+) -> R {
+    let reaction = dynamics.reaction(motion, accelerations);
+    let of_reaction = reaction.force.dot(velocity) + reaction.moment.dot(motion.omega_body);
+    let mut found = dynamics.invariants(motion, Vec3::zero());
+    found.origin_velocity = velocity;
+    dynamics.outside(motion, &found).power + of_reaction
+}
+
 fn write_external<R: Real>(
     layout: &VariableLayout,
     dynamics: &mut Recursive<R>,
@@ -108,13 +131,11 @@ fn write_external<R: Real>(
     let added = &y[displacement + 3..][..3];
     let velocity = free_fall + Vec3::new(added[0], added[1], added[2]);
     let found = dynamics.invariants(motion, to_inertial.transpose_mul(velocity));
-    let elements = dynamics.elements();
-    let force = to_inertial * elements.external().map_or(Vec3::zero(), |wrench| wrench.force);
-    let moment = to_inertial * elements.external_moment_about(found.mass_center);
-    let acceleration = force * (R::one() / total_mass);
+    let outside = dynamics.outside(motion, &found);
+    let acceleration = to_inertial * outside.force * (R::one() / total_mass);
+    let moment = to_inertial * outside.moment;
     dy[displacement..][..3].copy_from_slice(added);
     dy[displacement + 3..][..3].copy_from_slice(&acceleration.to_array());
-    dy[layout.thrust_work().start] =
-        elements.external_power(found.origin_velocity, motion.omega_body);
+    dy[layout.thrust_work().start] = outside.power;
     dy[layout.angular_impulse()].copy_from_slice(&moment.to_array());
 }

@@ -1,5 +1,5 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_elements::{Commands, Reach, gravity};
+use nboom_elements::{Commands, Reach};
 use nboom_expr::{Expr, Graph};
 use nboom_formulation::Formulation;
 use nboom_model::{Mode, Scene, WeldedTree};
@@ -8,7 +8,7 @@ use nboom_scalar::{Real, Vec3};
 use crate::code::closed_form::ClosedForm;
 use crate::equations::layout::VariableLayout;
 use crate::equations::rates::Rates;
-use crate::equations::variables::Variables;
+use crate::equations::variables::{Variables, carrying_acceleration};
 
 /// What the equations of a mode compute: its variables and the time in, their rates out. They do
 /// not branch, so that one recording holds for the whole mode.
@@ -32,43 +32,59 @@ pub(crate) fn graph(
         }
         let tree = WeldedTree::new(scene, mode, &origin.beta);
         let form = ClosedForm::fit(scene, &tree, Formulation::Articulated);
-        let center_velocity = Vec3::constant(origin.center.velocity);
+        let at_start = Vec3::constant(origin.carried().velocity);
         let since = t - Expr::constant(origin.time);
-        let free_fall = center_velocity + gravity(scene) * since;
-        rates(scene, *layout, &mut dynamics, y, free_fall, |dynamics, motion, out| match form {
-            Ok(mut form) => form.accelerations(dynamics, motion, out),
-            Err(_) => dynamics.accelerations(motion, out),
-        })
+        let carried = at_start + carrying_acceleration(scene, mode) * since;
+        rates(
+            scene,
+            *layout,
+            &mut dynamics,
+            y,
+            (t, carried),
+            |dynamics, motion, out| match form {
+                Ok(mut form) => form.accelerations(dynamics, motion, out),
+                Err(_) => dynamics.accelerations(motion, out),
+            },
+        )
     })
 }
 
 /// The graph of the rates by the recursion, without rounding, for any state that the mode begins
-/// in. The time counts from that state; the angle of every hinge and the velocity of the mass
-/// centre in it are further inputs, after the time.
+/// in. The time counts from that state; the angle of every hinge, the velocity of what is
+/// [carried](crate::equations::state::State::carried) and the time in it are further inputs, after the time.
 pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) -> Graph {
     let hinges = scene.bodies.len();
-    Graph::trace_exactly(layout.len() + 1 + hinges + 3, |inputs| {
+    Graph::trace_exactly(layout.len() + 1 + hinges + 4, |inputs| {
         let (y, rest) = inputs.split_at(layout.len());
         let (since, beta, v) = (rest[0], &rest[1..=hinges], &rest[hinges + 1..]);
         let mut dynamics = Recursive::new(scene);
         dynamics.set_mode(mode, beta);
-        let free_fall = Vec3::new(v[0], v[1], v[2]) + gravity(scene) * since;
-        rates(scene, layout, &mut dynamics, y, free_fall, |dynamics, motion, out| {
-            dynamics.accelerations(motion, out);
-        })
+        let at_start = Vec3::new(v[0], v[1], v[2]);
+        let carried = at_start + carrying_acceleration(scene, mode) * since;
+        rates(
+            scene,
+            layout,
+            &mut dynamics,
+            y,
+            (v[3] + since, carried),
+            |dynamics, motion, out| {
+                dynamics.accelerations(motion, out);
+            },
+        )
     })
 }
 
-/// The rates of the variables `y`, where `accelerate` computes the accelerations.
+/// The rates of the variables `y` at a time, at which what is carried has a velocity, where `accelerate` computes the
+/// accelerations.
 fn rates(
     scene: &Scene,
     layout: VariableLayout,
     dynamics: &mut Recursive<Expr>,
     y: &[Expr],
-    free_fall: Vec3<Expr>,
+    at: (Expr, Vec3<Expr>),
     accelerate: impl FnOnce(&mut Recursive<Expr>, &Motion<'_, Expr>, &mut Accelerations<Expr>),
 ) -> Vec<Expr> {
     let mut rates = vec![Expr::zero(); layout.len()];
-    Rates::new(scene, layout).write(dynamics, accelerate, free_fall, y, &mut rates);
+    Rates::new(scene, layout).write(dynamics, accelerate, at, y, &mut rates);
     rates
 }

@@ -1,5 +1,5 @@
 use nboom_dynamics::EffectiveInertias;
-use nboom_model::{MassProperties, Scene};
+use nboom_model::{External, MassProperties, Scene};
 use nboom_scalar::Vec3;
 
 use crate::equations::layout::VariableLayout;
@@ -27,7 +27,7 @@ const START: f64 = 1e-3;
 impl Sizes {
     /// At the beginning of `scene`.
     pub fn of(scene: &Scene) -> Self {
-        let point = scene.thrust.map_or(0.0, |thrust| thrust.point.norm());
+        let point = scene.externals.iter().map(|one| distance(scene, one)).fold(0.0, f64::max);
         let of_hinges: Vec<f64> =
             (0..scene.bodies.len()).map(|i| scene.coordinate_scale(i)).collect();
         let mut sizes = Self {
@@ -106,6 +106,12 @@ impl Sizes {
 /// The largest size of these and of one before; what is no number any more is no size.
 fn largest(before: f64, rates: impl Iterator<Item = f64>) -> f64 {
     rates.map(f64::abs).filter(|size| size.is_finite()).fold(before, f64::max)
+}
+
+/// How far from O something from outside can act, about.
+fn distance(scene: &Scene, one: &External) -> f64 {
+    let inward = std::iter::successors(one.body, |&body| scene.bodies[body].inboard);
+    one.point.norm() + inward.map(|body| scene.bodies[body].mount.point.norm()).sum::<f64>()
 }
 
 /// How far from O matter of the satellite can be, about: hinge distances along a branch, and the

@@ -152,6 +152,11 @@ impl<R: Number> State<R> {
         self.momenta.hinges.clone_from(&momenta.hinges);
     }
 
+    /// What free fall, or the motion of a main body that is held, carries on: the mass centre, or O.
+    pub fn carried(&self) -> PointMotion<R> {
+        self.held.unwrap_or(self.center)
+    }
+
     /// Energy and momenta in main-body axes; `dynamics` is in the mode of the state.
     pub fn invariants(&mut self, dynamics: &mut Recursive<R>) -> Invariants<R> {
         let to_inertial = self.attitude.to_matrix();
@@ -187,7 +192,7 @@ impl<R: Number> State<R> {
 }
 
 impl<R: Number> PointMotion<R> {
-    /// Where free fall with `acceleration` takes it in `duration`.
+    /// Where a constant `acceleration` takes it in `duration`.
     pub fn after(self, duration: R, acceleration: Vec3<R>) -> Self {
         let halfway = self.velocity + acceleration * (R::constant(0.5) * duration);
         Self {

@@ -1,6 +1,6 @@
 use nboom_dynamics::{Momenta, Motion, Recursive};
 use nboom_elements::gravity;
-use nboom_model::Scene;
+use nboom_model::{Base, Mode, Scene};
 use nboom_scalar::{Number, Quaternion, Real, Vec3};
 
 use crate::equations::layout::{Unknowns, VariableLayout};
@@ -12,7 +12,8 @@ pub(crate) struct Variables<R> {
     pub layout: VariableLayout,
     /// The state in which the mode began; held hinges keep its angles.
     pub origin: State<R>,
-    gravity: Vec3<R>,
+    /// Acceleration of what is [carried](Self::carried), inertial axes.
+    carrying: Vec3<R>,
     total_mass: R,
     /// τ of the free hinges where it is no variable.
     tau: Vec<R>,
@@ -20,15 +21,23 @@ pub(crate) struct Variables<R> {
 
 impl<R: Number> Variables<R> {
     /// Of a mode of `scene` that begins at `origin`.
-    pub fn new(scene: &Scene, layout: VariableLayout, origin: &State<R>) -> Self {
+    pub fn new(scene: &Scene, mode: &Mode, layout: VariableLayout, origin: &State<R>) -> Self {
         let total_mass = R::constant(scene.total_mass());
         let tau = vec![R::zero(); layout.free];
-        Self { layout, origin: origin.clone(), gravity: gravity(scene), total_mass, tau }
+        let carrying = carrying_acceleration(scene, mode);
+        Self { layout, origin: origin.clone(), carrying, total_mass, tau }
     }
 
     /// Goes on with another mode of the scene, which begins at `origin`, without allocation.
-    pub fn begin(&mut self, layout: VariableLayout, origin: &State<R>) {
+    pub fn begin(
+        &mut self,
+        scene: &Scene,
+        mode: &Mode,
+        layout: VariableLayout,
+        origin: &State<R>,
+    ) {
         self.layout = layout;
+        self.carrying = carrying_acceleration(scene, mode);
         self.origin.copy_from(origin);
         self.tau.resize(layout.free, R::zero());
     }
@@ -94,13 +103,13 @@ impl<R: Number> Variables<R> {
         if let [_, _, _, vx, vy, vz] = y[layout.thrust_motion()] {
             state.work.thrust_impulse += Vec3::new(vx, vy, vz) * self.total_mass;
         }
-        state.held = self.origin.held;
+        state.held = self.origin.held.map(|_| self.carried(t));
         state.follow_hinges(dynamics);
     }
 
-    /// The system mass centre: free fall since the mode began, and what the thrust added.
+    /// The system mass centre of a free main body: free fall since the mode began, and what the thrust added.
     fn center(&self, t: R, y: &[R]) -> PointMotion<R> {
-        let mut center = self.free_fall(t);
+        let mut center = self.carried(t);
         if let [x, y, z, vx, vy, vz] = y[self.layout.thrust_motion()] {
             center.position += Vec3::new(x, y, z);
             center.velocity += Vec3::new(vx, vy, vz);
@@ -108,9 +117,20 @@ impl<R: Number> Variables<R> {
         center
     }
 
-    /// The system mass centre as if there were no thrust.
-    pub fn free_fall(&self, t: R) -> PointMotion<R> {
-        self.origin.center.after(t - self.origin.time, self.gravity)
+    /// The system mass centre as if there were no thrust, or O of a main body that is held.
+    pub fn carried(&self, t: R) -> PointMotion<R> {
+        self.origin.carried().after(t - self.origin.time, self.carrying)
+    }
+}
+
+/// Acceleration of free fall, or of O of a main body that is held, inertial axes.
+pub(crate) fn carrying_acceleration<R: Real>(scene: &Scene, mode: &Mode) -> Vec3<R> {
+    match &scene.base {
+        Base::Free => gravity(scene),
+        held => {
+            let [_, of_origin] = held.accelerations(mode.drive);
+            Vec3::constant(scene.initial.attitude.normalized().to_matrix() * of_origin)
+        }
     }
 }
 

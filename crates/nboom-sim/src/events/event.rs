@@ -14,9 +14,9 @@ pub enum EventKind {
     Rise(Kind),
     /// It falls below such a bound.
     Fall(Kind),
-    /// The thrust starts.
+    /// A force or torque from outside starts.
     ThrustOn,
-    /// The thrust stops.
+    /// A force or torque from outside stops.
     ThrustOff,
     /// The run has reached its end time.
     End,
@@ -44,7 +44,7 @@ pub struct Event {
     pub time: f64,
     /// What happens.
     pub kind: EventKind,
-    /// Index of the hinge it happens to, if to one.
+    /// Index of the hinge it happens to, if to one; of what acts from outside, that of the body it acts on.
     pub hinge: Option<usize>,
     /// Impulsive torque of a lock-up on the outboard side, positive along the hinge axis.
     pub impulse: Option<f64>,

@@ -1,6 +1,5 @@
 use nboom_dynamics::{LockUp, Recursive, VelocityJump};
-use nboom_elements::thrust_acts;
-use nboom_model::{HingeState, Mode, Release, SAME_ANGLE, Scene};
+use nboom_model::{External, HingeState, Mode, Release, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
 use crate::equations::state::State;
@@ -220,7 +219,7 @@ impl<R: Number> Outcome<R> {
     }
 
     /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force laws
-    /// and thrust. `dynamics` is in the mode before and is left there.
+    /// and what acts from outside. `dynamics` is in the mode before and is left there.
     pub fn pass(
         &mut self,
         scene: &Scene,
@@ -237,8 +236,11 @@ impl<R: Number> Outcome<R> {
                     || is_triggered(scene, arrivals, *i))
         };
         self.released.extend((0..scene.bodies.len()).filter(due));
-        let thrust = thrust_switch(scene, mode, time + arrivals.duration);
-        if arrivals.is_empty() && self.released.is_empty() && thrust.is_none() {
+        let end = time + arrivals.duration;
+        let goes_on = |(one, &piece): (&External, &usize)| one.course.piece_at(end) == piece;
+        let drive = scene.base.piece_at(end);
+        let go_on = scene.externals.iter().zip(&mode.externals).all(goes_on) && drive == mode.drive;
+        if arrivals.is_empty() && self.released.is_empty() && go_on {
             return Ok(());
         }
         let before = totals(state, dynamics);
@@ -263,10 +265,14 @@ impl<R: Number> Outcome<R> {
             let kind = GuardKind::Bound(bound);
             events.push(event(kind.event(), Some(kind.hinge()), None, after));
         }
-        if let Some(thrust) = thrust {
-            mode.thrust = thrust;
-            let kind = if thrust { EventKind::ThrustOn } else { EventKind::ThrustOff };
-            events.push(event(kind, None, None, after));
+        mode.drive = drive;
+        for (one, piece) in scene.externals.iter().zip(&mut mode.externals) {
+            let next = one.course.piece_at(end);
+            let before = one.course.acts(std::mem::replace(piece, next));
+            if one.course.acts(next) != before {
+                let kind = if before { EventKind::ThrustOff } else { EventKind::ThrustOn };
+                events.push(event(kind, one.body, None, after));
+            }
         }
         Ok(())
     }
@@ -290,6 +296,7 @@ impl<R: Number> Outcome<R> {
             }
         }
         let (time, hinge) = (state.time.to_f64(), Some(scene.label(first)));
+        let before = state.invariants(dynamics);
         let motion = state.motion(dynamics);
         let locked = dynamics.lock_up(motion.beta, motion.tau, locking, lock_up);
         locked.map_err(|_| SimError::LockUp { time, hinge })?;
@@ -303,6 +310,13 @@ impl<R: Number> Outcome<R> {
             mode.hinges[i] = HingeState::Locked;
         }
         state.follow_hinges(dynamics);
+        if state.held.is_some() {
+            // What moves the main body holds out against the impulse.
+            let after = state.invariants(dynamics);
+            let force = after.linear_momentum - before.linear_momentum;
+            let moment = after.angular_momentum_about_origin() - before.angular_momentum_about_origin();
+            state.work.thrust += force.dot(after.origin_velocity) + moment.dot(state.omega_body);
+        }
         Ok(())
     }
 }
@@ -325,10 +339,4 @@ fn is_triggered(scene: &Scene, arrivals: &Arrivals, i: usize) -> bool {
         }
         Release::Time(_) | Release::AfterLock { .. } | Release::Never => false,
     }
-}
-
-/// Whether the thrust is on from the end of an instant on, if that is a change.
-fn thrust_switch(scene: &Scene, mode: &Mode, end: f64) -> Option<bool> {
-    let on = thrust_acts(&scene.thrust?, end);
-    (on != mode.thrust).then_some(on)
 }

@@ -1,8 +1,7 @@
-use nboom_elements::thrust_change;
 use nboom_model::{HingeState, Mode, Release, Scene};
 use nboom_scalar::Number;
 
-/// The times at which the scene itself changes the mode, of releases and of the thrust; and that at which
+/// The times at which the scene itself changes the mode, of releases and of what acts from outside; and that at which
 /// a control law is asked next.
 #[derive(Clone, Debug)]
 pub(crate) struct Schedule<R> {
@@ -56,9 +55,12 @@ impl<R: Number> Schedule<R> {
     pub fn next(&self, scene: &Scene, mode: &Mode, time: f64) -> R {
         let unreleased = |(_, state): &(&R, &HingeState)| **state == HingeState::Unreleased;
         let releases = self.releases.iter().zip(&mode.hinges).filter(unreleased).map(|(&at, _)| at);
-        let thrust = scene.thrust.map(|thrust| R::constant(thrust_change(&thrust, mode.thrust)));
+        let courses = scene.externals.iter().zip(&mode.externals);
+        let changes = courses.filter_map(|(one, &piece)| one.course.end_of(piece));
+        let changes = changes.chain(scene.base.end_of(mode.drive));
         let sample = [R::constant(self.sample)];
-        let later = releases.chain(thrust).chain(sample).filter(|at| at.to_f64() > time);
+        let later =
+            releases.chain(changes.map(R::constant)).chain(sample).filter(|at| at.to_f64() > time);
         let end = R::constant(scene.end_time);
         later.fold(end, |first, at| if at.to_f64() < first.to_f64() { at } else { first })
     }

@@ -1,5 +1,4 @@
 use nboom_dynamics::Recursive;
-use nboom_elements::thrust_acts;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::Number;
 
@@ -56,7 +55,10 @@ impl<R: Number> Situation<R> {
             let [value, _] = state.coordinate(dynamics, element.coordinate);
             *piece = element.piece_at(value);
         }
-        mode.thrust = scene.thrust.is_some_and(|f| thrust_acts(&f, scene.initial.time));
+        for (piece, external) in mode.externals.iter_mut().zip(&scene.externals) {
+            *piece = external.course.piece_at(scene.initial.time);
+        }
+        mode.drive = scene.base.piece_at(scene.initial.time);
         for (i, side) in lock_sides.iter_mut().enumerate() {
             *side = LockSide::of(scene, i, state.beta[i]);
         }

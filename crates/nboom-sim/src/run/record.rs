@@ -180,6 +180,9 @@ pub struct Detail {
     pub hinge_torque: Vec<f64>,
     /// The forces along lines, by hinge.
     pub lines: Vec<LineReading>,
+    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where one does not act. Body
+    /// axes, or main-body axes where it is given along inertial ones.
+    pub outside: Vec<[f64; 3]>,
     /// S̄: system mass centre from O, main-body axes.
     pub mass_center_body: Vec3<f64>,
     /// System mass centre, inertial axes.
@@ -202,6 +205,7 @@ impl Detail {
             alpha_ddot: none(),
             hinge_torque: none(),
             lines: Vec::new(),
+            outside: Vec::new(),
             mass_center_body: zero,
             mass_center_inertial: zero,
             mass_center_velocity_inertial: zero,

@@ -138,8 +138,10 @@ fn is_same_satellite(a: &Scene, b: &Scene) -> bool {
     a.bodies.len() == b.bodies.len()
         && a.bodies.iter().zip(&b.bodies).all(are_same)
         && a.main_body == b.main_body
-        && a.thrust == b.thrust
+        && a.externals == b.externals
         && a.gravity == b.gravity
         && a.torque_tables == b.torque_tables
+        && a.couplings == b.couplings
+        && a.rotors == b.rotors
         && a.departures() == b.departures()
 }

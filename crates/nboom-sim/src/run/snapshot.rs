@@ -56,6 +56,7 @@ pub(crate) fn write_detail(
     let Room { beta, tau, beta_ddot, forces, .. } = room;
     beta.copy_from_slice(&state.beta);
     tau.copy_from_slice(&state.tau);
+    equations.entered.dynamics.set_outside(state.attitude, state.time);
     let motion = state.motion(&equations.entered.dynamics);
     beta_ddot.fill(0.0);
     let accelerations = equations.accelerations(&motion);
@@ -70,9 +71,9 @@ pub(crate) fn write_detail(
     forces.set(&mut entered.dynamics, own, [beta, tau], motion.beta);
     out.hinge_torque.clone_from(&forces.torque);
     out.lines.clone_from(&forces.lines);
+    out.outside.clone_from(&forces.outside);
     out.mass_center_body = mass_center_body;
     out.mass_center_inertial = state.center.position;
     out.mass_center_velocity_inertial = state.center.velocity;
-    let acting = out.reaction.or_else(|| equations.entered.dynamics.external());
-    out.mass_center_acceleration_inertial = equations.center_acceleration(state, acting);
+    out.mass_center_acceleration_inertial = equations.center_acceleration(state, out.reaction);
 }

@@ -8,7 +8,7 @@ use nboom_scalar::Vec3;
 
 use crate::equations::Equations;
 use crate::equations::layout::{Unknowns, VariableLayout};
-use crate::equations::variables::motion;
+use crate::equations::variables::{attitude, motion};
 use crate::run::record::{Detail, Snapshot};
 
 /// A step of the motion, from its start to its end or to the instant that cuts it off; in between
@@ -45,6 +45,9 @@ pub struct MotionAt<'a> {
     pub hinge_torque: &'a [f64],
     /// The forces along lines, by hinge; one entry for each of them.
     pub lines: &'a [LineReading],
+    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where one does not act. Body
+    /// axes, or main-body axes where it is given along inertial ones.
+    pub outside: &'a [[f64; 3]],
 }
 
 impl<'a> MotionAt<'a> {
@@ -61,25 +64,28 @@ impl<'a> MotionAt<'a> {
             beta_ddot: &detail.beta_ddot,
             hinge_torque: &detail.hinge_torque,
             lines: &detail.lines,
+            outside: &detail.outside,
         }
     }
 }
 
-/// Torques about all hinges, and forces along lines.
+/// Torques about all hinges, forces along lines, and what acts on hinged bodies from outside.
 #[derive(Clone, Debug)]
 pub(crate) struct Forces {
     pub torque: Vec<f64>,
     pub lines: Vec<LineReading>,
+    pub outside: Vec<[f64; 3]>,
     lengths_squared: Vec<f64>,
 }
 
 impl Forces {
     /// Room for those of a scene.
-    pub fn new(elements: &Elements<f64>) -> Self {
+    pub fn new(scene: &Scene, elements: &Elements<f64>) -> Self {
         let lines = elements.lines();
         Self {
             torque: vec![0.0; elements.torques().len()],
             lines: lines.iter().map(|line| line.reading(0.0)).collect(),
+            outside: vec![[0.0; 3]; scene.externals_on_hinged().count()],
             lengths_squared: vec![0.0; lines.len()],
         }
     }
@@ -96,6 +102,7 @@ impl Forces {
         for law in own.iter() {
             self.torque[law.hinge] += law.torque(beta[law.hinge], tau[law.hinge]);
         }
+        dynamics.elements().set_on_hinged(&mut self.outside);
         if self.lines.is_empty() {
             return;
         }
@@ -123,7 +130,7 @@ impl Room {
     pub fn new(scene: &Scene, elements: &Elements<f64>) -> Self {
         let free = scene.bodies.len();
         let unknowns = Unknowns::Velocities;
-        let largest = VariableLayout { unknowns, free, thrust: true, dashpots: true };
+        let largest = VariableLayout { unknowns, free, held: false, thrust: true, dashpots: true };
         let none = vec![0.0; free];
         Self {
             variables: Vec::with_capacity(largest.len()),
@@ -131,7 +138,7 @@ impl Room {
             beta: none.clone(),
             tau: none.clone(),
             beta_ddot: none,
-            forces: Forces::new(elements),
+            forces: Forces::new(scene, elements),
         }
     }
 }
@@ -178,6 +185,7 @@ impl StepMotion for DenseStep<'_> {
         let Room { variables, free_tau, beta, tau, beta_ddot, forces } = &mut **room;
         stepper.interpolate((time - *start) / *full, variables);
         let layout = &equations.variables.layout;
+        equations.entered.dynamics.set_outside(attitude(variables), time);
         let motion = motion(layout, &mut equations.entered.dynamics, variables, free_tau);
         let found = equations.accelerations(&motion);
         let (omega_dot_body, origin_acceleration_body) = (found.omega_dot_body, found.origin_body);
@@ -195,6 +203,7 @@ impl StepMotion for DenseStep<'_> {
             beta_ddot,
             hinge_torque: &forces.torque,
             lines: &forces.lines,
+            outside: &forces.outside,
         }
     }
 }

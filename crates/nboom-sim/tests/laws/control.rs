@@ -2,7 +2,7 @@
 
 use nboom_formulation::Formulation;
 use nboom_model::{
-    Gravity, Hinge, HingeState, Release, Scene, SceneDescription, Thrust, TorqueTable,
+    External, Gravity, Hinge, HingeState, Release, Scene, SceneDescription, TorqueTable,
 };
 use nboom_ode::Method;
 use nboom_scalar::{Vec3, Wrench};
@@ -84,11 +84,13 @@ fn constant_commands_are_a_thrust_and_a_table() {
     let (force, point) = (Vec3::new(0.3, -0.2, 0.5), Vec3::new(0.1, 0.4, -0.2));
     let torque = 0.7;
     let mut by_scene = deck.clone();
-    (by_scene.end_time, by_scene.thrust) = (1.0, Some(thrust(force, point, [0.0, 9.0])));
+    by_scene.end_time = 1.0;
+    by_scene.externals = vec![External::thrust(force, point, [0.0, 9.0])];
     by_scene.torque_tables =
         vec![TorqueTable { hinge: 0, points: vec![[-20.0, torque], [20.0, torque]] }];
     let mut bare = deck;
-    (bare.end_time, bare.thrust) = (1.0, None);
+    bare.end_time = 1.0;
+    bare.externals.clear();
     let law = |_: &Snapshot, commands: &mut Commands| {
         commands.hinge_torques_mut()[0] = torque;
         commands.main_body = Wrench::of_force(point, force);
@@ -105,10 +107,6 @@ fn constant_commands_are_a_thrust_and_a_table() {
         assert!((torques(found) - torques(expected)).abs() < 1e-9);
     }
     assert!(summary.conservation.energy < 1e-11, "{:?}", summary.conservation);
-}
-
-fn thrust(force: Vec3<f64>, point: Vec3<f64>, [on, off]: [f64; 2]) -> Thrust {
-    Thrust { force, point, on, off }
 }
 
 /// A law that changes all it can, now and then nothing.
@@ -132,7 +130,7 @@ fn eventful() -> Scene {
     description.end_time = 1.0;
     description.gravity = Some(Gravity { acceleration: 2.0, up: Vec3::unit_z() });
     let force = Vec3::new(0.0, 0.4, 0.1);
-    description.thrust = Some(thrust(force, Vec3::unit_x(), [0.2, 0.6]));
+    description.externals = vec![External::thrust(force, Vec3::unit_x(), [0.2, 0.6])];
     for body in &mut description.bodies {
         let start = body.hinge.start;
         body.hinge.lock_angle = Some(start.angle + 0.3 * start.rate.signum());

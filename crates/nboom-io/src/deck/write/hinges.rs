@@ -1,4 +1,7 @@
-use nboom_model::{Dashpot, Hinge, HingeState, KickOffSpring, Release, Scene, Spring};
+use nboom_model::{
+    Course, Dashpot, External, ExternalAxes, ExternalKind, Hinge, HingeState, KickOffSpring,
+    Release, Scene, Spring,
+};
 use nboom_scalar::Vec3;
 
 use super::super::NEVER;
@@ -7,6 +10,7 @@ use super::cards::Cards;
 use super::inverse::degrees;
 use super::obstacle::{DeckDefect, Obstacles};
 use super::{numbers, vectors};
+use crate::words::external_table;
 
 /// Reports what a deck cannot say of the hinges of a scene.
 pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
@@ -19,6 +23,7 @@ pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
     if scene.base.is_held() {
         obstacles.add_to_main_body("base", DeckDefect::Held);
     }
+    check_externals(scene, obstacles);
     for (i, body) in scene.bodies.iter().enumerate() {
         let hinge = &body.hinge;
         if body.joint.slides() {
@@ -46,6 +51,38 @@ pub(super) fn check(scene: &Scene, obstacles: &mut Obstacles<'_>) {
             _ => continue,
         };
         obstacles.add(i, "hinge.release", defect);
+    }
+}
+
+fn check_externals(scene: &Scene, obstacles: &mut Obstacles<'_>) {
+    for (i, external) in scene.externals.iter().enumerate() {
+        let found = match (as_thrust(external), i) {
+            (Some(_), 0) => continue,
+            (Some(_), _) => "another thrust",
+            (None, _) if external.kind == ExternalKind::Torque => "a torque from outside",
+            (None, _) if external.body.is_some() => "a force on a hinged body",
+            (None, _) if external.axes == ExternalAxes::Inertial => "a force along inertial axes",
+            (None, _) => "a force by a table over time",
+        };
+        let (key, defect) = (external_table(external.kind), DeckDefect::External(found.to_owned()));
+        match external.body {
+            Some(body) => obstacles.add(body, key, defect),
+            None => obstacles.add_to_main_body(key, defect),
+        }
+    }
+}
+
+/// What a deck says as its thrust, with the times from and until which it acts.
+pub(super) fn as_thrust(external: &External) -> Option<(&External, [f64; 2])> {
+    match external {
+        External {
+            body: None,
+            kind: ExternalKind::Force,
+            axes: ExternalAxes::Body,
+            course: Course::Pulse { on, off },
+            ..
+        } => Some((external, [*on, *off])),
+        _ => None,
     }
 }
 

@@ -56,6 +56,11 @@ pub enum DeckDefect {
     /// A rotor.
     #[error("found a rotor, expected none")]
     Rotor,
+    /// A second thrust, or one that is not fixed in the main body or goes by a table.
+    #[error(
+        "found {0}, expected at most one force, fixed in the main body and constant while it is on"
+    )]
+    External(String),
     /// A spring or damper between two hinges.
     #[error("found a spring or damper between two hinges, expected none")]
     Coupling,
