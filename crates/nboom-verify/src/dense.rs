@@ -1,6 +1,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{ColMut, MatRef, Side};
 use nboom_dynamics::{Motion, Recursive};
+use nboom_scalar::{Twist, Vec3};
 
 /// Accelerations from the whole mass matrix: by composite bodies, factored by Cholesky's method.
 ///
@@ -27,10 +28,31 @@ impl Dense {
         let Self { dynamics, matrix, right } = self;
         dynamics.equations(motion, matrix, right);
         let size = right.len();
+        if let Some(held) = dynamics.tree().held {
+            hold(matrix, right, held);
+        }
         match MatRef::from_row_major_slice(matrix, size, size).llt(Side::Lower) {
             Ok(factors) => factors.solve_in_place(ColMut::from_slice_mut(right)),
             Err(_) => right.fill(f64::NAN),
         }
         right
+    }
+}
+
+/// Puts a_O = v and ω̇ = α in place of the equations of the main body.
+fn hold(matrix: &mut [f64], right: &mut [f64], held: Twist<f64>) {
+    let size = right.len();
+    let [v, alpha] = [held.linear, held.angular].map(Vec3::to_array);
+    let given = [v[0], v[1], v[2], alpha[0], alpha[1], alpha[2]];
+    for (row, right) in matrix.chunks_exact_mut(size).zip(&mut *right).skip(6) {
+        for (entry, given) in row.iter_mut().zip(given) {
+            *right -= *entry * given;
+            *entry = 0.0;
+        }
+    }
+    for (i, (row, right)) in matrix.chunks_exact_mut(size).zip(right).take(6).enumerate() {
+        row.fill(0.0);
+        row[i] = 1.0;
+        *right = given[i];
     }
 }
