@@ -1,6 +1,7 @@
 use nboom_model::{
-    Base, Body, Coupling, Course, Dashpot, DrivePoint, External, ExternalAxes, ExternalKind, Hinge, HingeLabel,
-    HingePlace, HingeState, Joint, KickOffSpring, MassProperties, Posture, Release, Scene, Spring,
+    Base, Body, Coupling, Course, Dashpot, DrivePoint, External, ExternalAxes, ExternalKind, Hinge,
+    HingeLabel, HingePlace, HingeState, Joint, KickOffSpring, MassProperties, Posture, Release,
+    Scene, Spring,
 };
 use nboom_scalar::Vec3;
 

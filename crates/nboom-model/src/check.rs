@@ -3,7 +3,6 @@
 use nboom_scalar::Vec3;
 
 use crate::error::{BodyName, ModelError};
-use crate::mass::MassDefect;
 use crate::{
     Body, Coupling, HingeLabel, HingeState, Joint, Release, Rotor, SAME_ANGLE, SceneDescription,
 };

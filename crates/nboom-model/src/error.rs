@@ -1,12 +1,7 @@
 use std::fmt;
 
-use nboom_scalar::Vec3;
-
 use crate::mass::MassDefect;
-use crate::{
-    Body, Coupling, ExternalKind, ExternalPart, HingeLabel, HingeState, Joint, Release, Rotor,
-    SAME_ANGLE, SceneDescription,
-};
+use crate::{ExternalKind, ExternalPart, HingeLabel};
 
 /// Which body a message is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -57,7 +52,9 @@ pub enum ModelError {
         inboard: usize,
     },
     /// A main body that is held starts otherwise than it is held.
-    #[error("main body: {quantity} of {found:?} found, {expected:?} of a main body that is held expected")]
+    #[error(
+        "main body: {quantity} of {found:?} found, {expected:?} of a main body that is held expected"
+    )]
     HeldBase {
         /// What starts otherwise.
         quantity: &'static str,

@@ -3,8 +3,8 @@ use std::ops::Deref;
 use nboom_scalar::Vec3;
 
 use crate::{
-    Appendage, Base, Coupling, Departures, External, Gravity, Hinge, HingeLabel, InitialMotion, Joint,
-    MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, check, warning,
+    Appendage, Base, Coupling, Departures, External, Gravity, Hinge, HingeLabel, InitialMotion,
+    Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, check, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -106,7 +106,9 @@ impl SceneDescription {
     /// Gives a main body that is driven the angular rate and the velocity of its prescribed motion at the initial
     /// time and attitude, each unless it is `given`.
     pub fn begin_driven(&mut self, given: [bool; 2]) {
-        let Some(drive) = self.base.drive().filter(|drive| !drive.points.is_empty()) else { return };
+        let Some(drive) = self.base.drive().filter(|drive| !drive.points.is_empty()) else {
+            return;
+        };
         let [rate, speed] = drive.rates_at(self.initial.time);
         let [omega_body, along] = [drive.axis * rate, drive.axis * speed];
         let velocity = self.initial.attitude.normalized().to_matrix() * along;

@@ -75,10 +75,7 @@ pub(crate) const ENDINGS: [&str; 2] = ["_deg", "_rad"];
 impl Holds {
     /// Whether its keys end in `_deg` or `_rad`.
     pub fn is_angle(&self) -> bool {
-        matches!(
-            self,
-            Self::Angle | Self::Angles | Self::AnglePairs | Self::AnglesOverTime
-        )
+        matches!(self, Self::Angle | Self::Angles | Self::AnglePairs | Self::AnglesOverTime)
     }
 
     /// The kinds of tables in it.

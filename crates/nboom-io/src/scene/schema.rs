@@ -88,7 +88,9 @@ fn of_value(holds: &Holds) -> Value {
         Holds::Numbers(count) => list(number(), *count),
         Holds::List => json!({ "type": "array", "items": number() }),
         Holds::Rows(count) => json!({ "type": "array", "items": list(number(), *count) }),
-        Holds::AnglePairs | Holds::AnglesOverTime => json!({ "type": "array", "items": list(number(), 2) }),
+        Holds::AnglePairs | Holds::AnglesOverTime => {
+            json!({ "type": "array", "items": list(number(), 2) })
+        }
         Holds::Direction => json!({
             "anyOf": [{ "enum": ["x", "-x", "y", "-y", "z", "-z"] }, list(number(), 3)],
         }),

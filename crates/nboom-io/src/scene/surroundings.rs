@@ -22,9 +22,9 @@ impl Reader<'_, '_> {
         }
         if let Some(main_body) = root.inner("main_body") {
             scene.base = self.base(&main_body);
-            let given = root.inner("initial").map(|initial| {
-                ["rate", "velocity"].map(|key| initial.has(key))
-            });
+            let given = root
+                .inner("initial")
+                .map(|initial| ["rate", "velocity"].map(|key| initial.has(key)));
             scene.begin_driven(given.unwrap_or_default());
             scene.rotors = self.rotors(&main_body);
             scene.externals = self.externals(&main_body);

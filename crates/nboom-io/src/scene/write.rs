@@ -3,9 +3,9 @@
 mod lines;
 
 use nboom_model::{
-    Base, Body, BodyShape, Coupling, Drive, DrivePoint, Course, ExternalAxes, ExternalKind, Hinge, HingeState, Joint,
-    MassProperties, Material, Release, Scene, SectionShape, SegmentStructure, Solid, Station,
-    Structure, UnitSystem, WantedTable,
+    Base, Body, BodyShape, Coupling, Course, Drive, DrivePoint, ExternalAxes, ExternalKind, Hinge,
+    HingeState, Joint, MassProperties, Material, Release, Scene, SectionShape, SegmentStructure,
+    Solid, Station, Structure, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 

@@ -1,5 +1,5 @@
 use nboom_model::{
-    Gravity, Scene, SceneDescription, SceneDraft, SegmentStructure, Shapes, Structure,
+    Base, Gravity, Scene, SceneDescription, SceneDraft, SegmentStructure, Shapes, Structure,
 };
 
 use super::error::of_body;

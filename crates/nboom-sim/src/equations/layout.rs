@@ -34,7 +34,13 @@ impl VariableLayout {
 
     /// Of the velocities of a satellite whose hinges are held and on which nothing acts.
     pub fn of_no_hinges() -> Self {
-        Self { unknowns: Unknowns::Velocities, free: 0, held: false, thrust: false, dashpots: false }
+        Self {
+            unknowns: Unknowns::Velocities,
+            free: 0,
+            held: false,
+            thrust: false,
+            dashpots: false,
+        }
     }
 
     pub fn omega(&self) -> Range<usize> {

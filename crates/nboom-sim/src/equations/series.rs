@@ -35,17 +35,10 @@ pub(crate) fn graph(
         let at_start = Vec3::constant(origin.carried().velocity);
         let since = t - Expr::constant(origin.time);
         let carried = at_start + carrying_acceleration(scene, mode) * since;
-        rates(
-            scene,
-            *layout,
-            &mut dynamics,
-            y,
-            (t, carried),
-            |dynamics, motion, out| match form {
-                Ok(mut form) => form.accelerations(dynamics, motion, out),
-                Err(_) => dynamics.accelerations(motion, out),
-            },
-        )
+        rates(scene, *layout, &mut dynamics, y, (t, carried), |dynamics, motion, out| match form {
+            Ok(mut form) => form.accelerations(dynamics, motion, out),
+            Err(_) => dynamics.accelerations(motion, out),
+        })
     })
 }
 
@@ -61,16 +54,9 @@ pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) ->
         dynamics.set_mode(mode, beta);
         let at_start = Vec3::new(v[0], v[1], v[2]);
         let carried = at_start + carrying_acceleration(scene, mode) * since;
-        rates(
-            scene,
-            layout,
-            &mut dynamics,
-            y,
-            (v[3] + since, carried),
-            |dynamics, motion, out| {
-                dynamics.accelerations(motion, out);
-            },
-        )
+        rates(scene, layout, &mut dynamics, y, (v[3] + since, carried), |dynamics, motion, out| {
+            dynamics.accelerations(motion, out);
+        })
     })
 }
 

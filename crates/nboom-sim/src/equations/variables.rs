@@ -29,13 +29,7 @@ impl<R: Number> Variables<R> {
     }
 
     /// Goes on with another mode of the scene, which begins at `origin`, without allocation.
-    pub fn begin(
-        &mut self,
-        scene: &Scene,
-        mode: &Mode,
-        layout: VariableLayout,
-        origin: &State<R>,
-    ) {
+    pub fn begin(&mut self, scene: &Scene, mode: &Mode, layout: VariableLayout, origin: &State<R>) {
         self.layout = layout;
         self.carrying = carrying_acceleration(scene, mode);
         self.origin.copy_from(origin);

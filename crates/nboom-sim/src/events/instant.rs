@@ -314,7 +314,8 @@ impl<R: Number> Outcome<R> {
             // What moves the main body holds out against the impulse.
             let after = state.invariants(dynamics);
             let force = after.linear_momentum - before.linear_momentum;
-            let moment = after.angular_momentum_about_origin() - before.angular_momentum_about_origin();
+            let moment =
+                after.angular_momentum_about_origin() - before.angular_momentum_about_origin();
             state.work.thrust += force.dot(after.origin_velocity) + moment.dot(state.omega_body);
         }
         Ok(())
