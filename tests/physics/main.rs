@@ -19,6 +19,7 @@ mod independence;
 mod latch;
 mod masts;
 mod oscillators;
+mod outside;
 mod thrust;
 mod torque_free;
 mod torque_table;
