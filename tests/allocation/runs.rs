@@ -5,8 +5,9 @@ use std::path::Path;
 
 use nboom::elements::Kind;
 use nboom::formulation::Formulation;
-use nboom::model::{HingeState, Release, Scene, SceneDescription};
+use nboom::model::{Course, External, ExternalAxes, HingeState, Release, Scene, SceneDescription};
 use nboom::ode::Method;
+use nboom::scalar::Vec3;
 use nboom::sim::{
     Commands, Control, Event, EventKind, Form, Nobody, Options, OwnLaw, Recorder, Simulator,
     Snapshot, StepMotion, simulate,
@@ -148,9 +149,23 @@ fn runs_after_the_first_allocate_nothing() {
                 let options = Options { integrator, ..options };
                 let options = Options { rtol: 1e-6, atol: 1e-9, ..options };
                 later_runs_allocate_nothing(&deck(path), options, path);
+                later_runs_allocate_nothing(&pushed(path), options, path);
             }
         }
     }
+}
+
+/// The deck with more from outside: on a hinged body, along inertial axes, over time.
+fn pushed(path: &str) -> Scene {
+    let mut scene = SceneDescription::clone(&deck(path));
+    let span = scene.end_time - scene.initial.time;
+    let time = |share: f64| scene.initial.time + share * span;
+    let course = Course::Table(vec![[time(0.1), 0.0], [time(0.4), 1.0], [time(0.9), 0.5]]);
+    let thrust = External::thrust(Vec3::unit_x() * 1e-3, Vec3::unit_y(), [time(0.2), time(0.7)]);
+    let inertial = ExternalAxes::Inertial;
+    scene.externals.push(External { body: Some(0), ..thrust.clone() });
+    scene.externals.push(External { course, axes: inertial, ..thrust });
+    Scene::new(scene).expect("a valid deck under more forces")
 }
 
 fn later_runs_allocate_nothing(scene: &Scene, options: Options, name: &str) {

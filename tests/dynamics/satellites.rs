@@ -10,7 +10,7 @@ use nboom::model::{
 use nboom::scalar::{DoubleDouble, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, condition};
-use crate::random_scene::{Moment, Rng, thrust};
+use crate::random_scene::{Moment, Rng};
 
 /// A satellite in one state with what the recursive path says about it.
 pub struct Satellite {
@@ -53,10 +53,9 @@ impl Satellite {
             tau: free_tau[j],
             torque,
         };
-        let acting = thrust(&scene, &mode);
         let coordinates = Coordinates {
             omega,
-            external: acting.map_or(Wrench::zero(), |t| Wrench::of_force(t.point, t.amount)),
+            external: dynamics.acting_on_main_body(omega),
             hinges: torques.iter().enumerate().map(hinge).collect(),
         };
         Self {

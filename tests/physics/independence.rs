@@ -9,7 +9,7 @@ use nboom::sim::{EventKind, Snapshot};
 
 use super::collect::{DISENGAGES, ENGAGES};
 use super::log::{Log, options, run};
-use super::random_scene::{Rng, all_acting, description};
+use super::random_scene::{Rng, all_acting, description, external};
 use super::transforms::{
     Variant, View, in_units, other_angle, other_body_axes, other_inertial_axes,
     other_main_body_axes, renumbered,
@@ -18,7 +18,7 @@ use super::transforms::{
 const BODIES: usize = 7;
 
 /// A random tree in which hinges are released by time and by angle, lock, and push off, and
-/// the thrust comes and goes.
+/// the thrust comes and goes, under more from outside.
 pub fn eventful(seed: u64) -> SceneDescription {
     let mut scene = description(BODIES, seed);
     let dice = &mut Rng::new(seed ^ 0xe4e17);
@@ -26,6 +26,7 @@ pub fn eventful(seed: u64) -> SceneDescription {
     for thrust in &mut scene.externals {
         thrust.course = Course::Pulse { on: 0.21, off: 0.77 };
     }
+    scene.externals.extend((0..2).map(|_| external(dice, BODIES)));
     for i in 0..BODIES {
         let trigger = (i + 1) % BODIES;
         let of_trigger = scene.bodies[trigger].hinge.start;
@@ -87,6 +88,7 @@ fn evaluated(description: &SceneDescription) -> View {
     let mode = all_acting(&scene, vec![HingeState::Free; beta.len()]);
     dynamics.set_mode(&mode, &beta);
     let initial = &scene.initial;
+    dynamics.set_outside(initial.attitude, initial.time);
     let motion = Motion { omega_body: initial.omega_body, beta: &beta, tau: &tau };
     let mut found = Accelerations::for_hinges(beta.len());
     dynamics.accelerations(&motion, &mut found);

@@ -19,6 +19,7 @@ mod independence;
 mod latch;
 mod masts;
 mod oscillators;
+mod outside;
 mod rigs;
 mod thrust;
 mod torque_free;

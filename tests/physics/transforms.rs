@@ -56,6 +56,9 @@ pub fn reordered(original: &SceneDescription, order: &[usize]) -> SceneDescripti
             *hinge = new(*hinge);
         }
     }
+    for external in &mut scene.externals {
+        external.body = external.body.map(new);
+    }
     scene
 }
 

@@ -15,6 +15,7 @@ mod random_scene;
 #[path = "../support/scaled.rs"]
 mod scaled;
 
+mod ats;
 mod catalog;
 mod code;
 mod compare;

@@ -65,7 +65,7 @@ fn compared(scene: &Scene, seen: &Snapshot, printed: &Value) -> Vec<Compared> {
 }
 
 /// Half a unit of the last printed digit.
-fn half_of_last_digit(printed: &str) -> f64 {
+pub fn half_of_last_digit(printed: &str) -> f64 {
     let (mantissa, exponent) = printed.split_once('e').expect("an exponent");
     let (_, decimals) = mantissa.split_once('.').expect("decimals");
     let exponent: i32 = exponent.parse().expect("a number");

@@ -5,8 +5,8 @@
 //! two, so that every result is the same to the last bit. In others roundings differ.
 
 use nboom::model::{
-    Appendage, Dashpot, External, Hinge, HingeStart, HingeState, Joint, MassProperties, Mount,
-    Scene, SceneDescription, Segment, Spring,
+    Appendage, Course, Dashpot, External, ExternalAxes, ExternalKind, Hinge, HingeStart,
+    HingeState, Joint, MassProperties, Mount, Scene, SceneDescription, Segment, Spring,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{EventKind, Method, Options};
@@ -132,7 +132,11 @@ fn driven() -> SceneDescription {
     let segments = vec![boom(1.0, 0.6, hinge), boom(0.5, 0.4, hinge)];
     scene.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
     let (force, point) = (Vec3::new(1.0, 0.5, -0.3), Vec3::new(0.0, 0.3, 0.1));
-    scene.externals = vec![External::thrust(force, point, [0.5, 1.5])];
+    let thrust = External::thrust(force, point, [0.5, 1.5]);
+    let course = Course::Table(vec![[0.25, 0.5], [1.0, -1.0], [2.5, 0.25]]);
+    let (kind, axes) = (ExternalKind::Torque, ExternalAxes::Inertial);
+    let torque = External { body: Some(1), kind, axes, course, ..thrust.clone() };
+    scene.externals = vec![torque, External { body: Some(0), ..thrust.clone() }, thrust];
     scene
 }
 

@@ -5,6 +5,7 @@ mod support;
 
 mod decks;
 mod examples;
+mod externals;
 mod messages;
 mod outputs;
 mod robustness;

@@ -75,14 +75,21 @@ mod tests {
     use crate::options::{Form, Options};
     use nboom_elements::OwnLaws;
     use nboom_formulation::Formulation;
-    use nboom_model::HingeState;
+    use nboom_model::{Course, External, ExternalAxes, ExternalKind, HingeState, SceneDescription};
     use nboom_ode::System;
 
     /// A reference scene, in motion, with every hinge free and every force acting.
     fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Vec<f64>) {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/scenes");
         let path = std::path::Path::new(folder).join(name).with_extension("nml");
-        let scene = nboom_io::read_scene(&path).expect("reference decks are valid").scene;
+        let deck = nboom_io::read_scene(&path).expect("reference decks are valid").scene;
+        let mut description = SceneDescription::clone(&deck);
+        let thrust = External::thrust(Vec3::new(0.3, -0.2, 0.5), Vec3::unit_y(), [0.0, 1.0]);
+        let course = Course::Table(vec![[0.0, 1.0], [2.0, -0.5]]);
+        let (axes, body) = (ExternalAxes::Inertial, description.bodies.len().checked_sub(1));
+        description.externals.push(External { axes, body, course, ..thrust.clone() });
+        description.externals.push(External { kind: ExternalKind::Torque, body, ..thrust });
+        let scene = Scene::new(description).expect("a valid deck under more forces");
         let mut state = State::initial(&scene);
         for (i, (beta, tau)) in state.beta.iter_mut().zip(&mut state.tau).enumerate() {
             *beta += 0.2 + 0.1 * i as f64;
