@@ -246,7 +246,9 @@ impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let Self { variables, entered, rates, evaluations, .. } = self;
         *evaluations += usize::from(variables.layout.needs_elimination());
-        let free_fall = variables.free_fall(t).velocity;
+        // Without thrust nothing asks for it.
+        let falls = variables.layout.thrust;
+        let free_fall = if falls { variables.free_fall(t).velocity } else { Vec3::zero() };
         entered.rates(rates, free_fall, y, dy);
     }
 
