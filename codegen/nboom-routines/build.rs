@@ -78,8 +78,8 @@ const FEW_HINGES: usize = 4;
 const MOST_EQUAL: usize = 4;
 
 /// Right sides for topologies of the stock, without external wrench; of few hinges two more that
-/// assume nothing: one takes an external wrench, which a thrust is, the other lines that push the links, and
-/// of fewer hinges the wrench, too.
+/// assume nothing: one takes an external wrench, which a thrust is, the other a line that pushes each link, and
+/// of fewer hinges two of them and the wrench.
 ///
 /// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
 /// eight states at once, too.
@@ -96,11 +96,15 @@ fn right_sides() -> Vec<Request> {
             let general = || request.clone();
             let named = |kind: &str| Request { name: format!("{kind}{name}"), ..general() };
             let is_pushed = has_few && !principal && topology.hinges() > 0;
-            // With more hinges, lines and a wrench together take too much straight code.
+            // With more hinges, more lines or a wrench beside them take too much straight code.
             let takes_both = topology.hinges() < FEW_HINGES;
             let pushed = is_pushed.then(|| {
-                let pushed = named("Pushed").with_lines();
-                if takes_both { pushed.with_external_wrench() } else { pushed }
+                let pushed = named("Pushed").on_eight_states();
+                if takes_both {
+                    pushed.with_lines(RightSideLayout::LINES_OF_LINK).with_external_wrench()
+                } else {
+                    pushed.with_lines(1)
+                }
             });
             let thrust = (has_few && !principal).then(|| named("Thrust").with_external_wrench());
             let on_eight = has_few || topology.shapes().len() == 1;
@@ -146,8 +150,8 @@ fn exact_right_sides() -> Vec<Request> {
         unequal_laws(unequal(satellite("RolledUnequal", vec![Chain(2); 4]))),
         satellite("StraightM", vec![]),
         satellite("StraightS1P", vec![Chain(1), Paddle]).with_principal_axes(),
-        satellite("PushedS2P", vec![Chain(2), Paddle]).with_external_wrench().with_lines(),
-        satellite("PushedS3", vec![Chain(3)]).with_lines().by(Formulation::Relative),
+        satellite("PushedS2P", vec![Chain(2), Paddle]).with_external_wrench().with_lines(2),
+        satellite("PushedS3", vec![Chain(3)]).with_lines(1).by(Formulation::Relative),
     ]
 }
 

@@ -3,8 +3,8 @@
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::{
-    Embedding, Forces, Formulation, HingeCoordinates, Parameters, Recognised, RightSideLayout,
-    right_side,
+    Embedding, Forces, Formulation, HingeCoordinates, LinkLine, Parameters, Recognised,
+    RightSideLayout, right_side,
 };
 use nboom::model::{KickOffSpring, Scene, Topology};
 use nboom::scalar::Quaternion;
@@ -111,22 +111,25 @@ impl Pushed {
 
 #[test]
 fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
-    let (mut lines, mut several) = (0, 0);
+    let (mut lines, mut of_two, mut too_many) = (0, 0, 0);
     for seed in 0..RANDOM_SATELLITES {
         let pushed = Pushed::random(seed);
         let pushing = pushed.dynamics.elements().pushing().count();
         let Some(forces) = &pushed.forces else {
-            several += 1;
+            too_many += 1;
             continue;
         };
         let Recognised { topology, parameters, .. } = &pushed.recognised;
+        let second = &forces.lines[topology.hinges()..];
+        of_two += usize::from(second.iter().any(|line| *line != LinkLine::absent()));
         let [beta, tau, expected] = pushed.of_hinges();
         let found = forces.torques(topology, parameters, [&beta, &tau]);
         let error = relative_error(&found, &expected, 1.0);
         assert!(error < ROUNDING, "seed {seed}, {topology}: {error:e}");
         lines += pushing;
     }
-    assert!(lines > 1000 && several > 50, "{lines} lines, {several} modes with two on one link");
+    let told = format!("{lines} lines, {of_two} modes with two on one link, {too_many} with more");
+    assert!(lines > 1000 && of_two > 50 && too_many > 0, "{told}");
 }
 
 #[test]
@@ -168,9 +171,11 @@ fn numbers_that_are_written_are_read_back_and_stand_where_the_layout_says() {
     assert_eq!(external[..3], forces.external.moment.to_array());
     for hinge in 0..topology.hinges() {
         assert_eq!(all[RightSideLayout::law(topology, hinge)], forces.laws[hinge].numbers());
-        let (line, law) = (&all[RightSideLayout::line(topology, hinge)], &forces.lines[hinge].law);
-        assert_eq!(line[..3], forces.lines[hinge].point.to_array());
-        assert_eq!(all[RightSideLayout::coefficients(topology, hinge)], law.numbers());
+    }
+    assert_eq!(forces.lines.len(), RightSideLayout::lines(topology));
+    for (place, LinkLine { point, law, .. }) in forces.lines.iter().enumerate() {
+        assert_eq!(all[RightSideLayout::line(topology, place)][..3], point.to_array());
+        assert_eq!(all[RightSideLayout::coefficients(topology, place)], law.numbers());
     }
 }
 

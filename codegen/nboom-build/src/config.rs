@@ -120,8 +120,8 @@ impl Config {
     }
 
     /// Beside each routine for accelerations there is one for the right side of a mode's differential
-    /// equations, `RightSideSatelliteS2P`, and for a scene with kick-off springs one whose links they
-    /// push, `PushedBakedS2P`, where that is not too long.
+    /// equations, `RightSideSatelliteS2P`, and where kick-off springs push links one that takes them,
+    /// `PushedSatelliteS2P`, if that is not too long.
     pub fn with_right_sides(self) -> Self {
         Self { right_sides: true, ..self }
     }

@@ -40,7 +40,7 @@ fn right_side() -> Request {
     Request::new("RightSideS1", Topology::new([Shape::Chain(1)]), Level::Exact)
         .with_external_wrench()
         .for_right_side()
-        .with_lines()
+        .with_lines(1)
 }
 
 /// A boom of a tube and a triangle on a hub, with a kick-off spring.
@@ -354,7 +354,7 @@ fn what_a_formulation_cannot_give_is_refused() {
         let expected = CodegenError::Lines { topology: name.to_owned(), limit: STRAIGHT_LIMIT };
         let right_side = of(name, Formulation::Articulated).for_right_side();
         assert!(source(&right_side).is_ok());
-        assert_eq!(refusal(&right_side.with_lines()), expected);
+        assert_eq!(refusal(&right_side.with_lines(2)), expected);
     }
     let long = refusal(&of("S101", Formulation::Symmetric));
     assert!(matches!(long, CodegenError::TooLarge { links: 101, .. }), "{long}");

@@ -2,9 +2,7 @@
 //! rounding at level `fast`, in code of every instruction set and on eight states at once; and what a
 //! routine assumes is never read.
 
-use nboom_formulation::{
-    Forces, Formulation, Layout, LinkLine, Parameters, RightSideLayout, right_side,
-};
+use nboom_formulation::{Forces, Formulation, Layout, Parameters, RightSideLayout, right_side};
 use nboom_model::Topology;
 use nboom_scalar::{Batch, Eight, InstructionSet, Kernel, Routine};
 
@@ -52,7 +50,7 @@ impl Case {
         let of_lines = RightSideLayout::external(&topology).end;
         parameters.resize_with(of_lines, || numbers.between(-1.0, 1.0));
         let all = forces.write();
-        let start = all.len() - RightSideLayout::LINE * topology.hinges();
+        let start = all.len() - RightSideLayout::LINE * RightSideLayout::lines(&topology);
         parameters.extend(&all[start..]);
         assumptions.iter().for_each(|&(i, value)| parameters[i] = value);
         let count = RightSideLayout::coordinates(&topology);
@@ -215,11 +213,11 @@ fn a_link_that_no_line_pushes_is_not_divided_by() {
             let start = Layout::MAIN + Layout::BRANCH * branch + Layout::LINK * before;
             case.parameters[start + 9..start + 12].fill(0.0);
         }
-        let absent = Forces { lines: vec![LinkLine::absent(); hinges], ..Forces::none(hinges) };
         let of_lines = RightSideLayout::external(&case.topology).end;
-        let absent = absent.write();
+        let absent = Forces::none(hinges).write();
         case.parameters.truncate(of_lines);
-        case.parameters.extend(&absent[absent.len() - RightSideLayout::LINE * hinges..]);
+        let count = RightSideLayout::LINE * RightSideLayout::lines(&case.topology);
+        case.parameters.extend(&absent[absent.len() - count..]);
         let expected = case.expected(kernel.formulation);
         assert!(expected.iter().all(|number| number.is_finite()));
         assert_near(&case.found(kernel), &expected, kernel.topology);

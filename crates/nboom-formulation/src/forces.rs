@@ -16,7 +16,8 @@ pub struct Forces<R> {
     pub laws: Vec<HingeLaw<R>>,
     /// External wrench about O, main-body axes.
     pub external: Wrench<R>,
-    /// The line that pushes the link of each hinge; empty where nothing pushes any.
+    /// The lines that push the hinges' links, at the places of [`RightSideLayout::lines`]; empty where
+    /// nothing pushes any.
     pub lines: Vec<LinkLine<R>>,
 }
 
@@ -60,12 +61,18 @@ impl<R: Real> Forces<R> {
         Self {
             laws: vec![HingeLaw::of_numbers([R::zero(); RightSideLayout::LAW]); hinges],
             external: Wrench::zero(),
-            lines: vec![LinkLine::absent(); hinges],
+            lines: vec![LinkLine::absent(); RightSideLayout::LINES_OF_LINK * hinges],
         }
     }
 
-    fn line(&self, hinge: usize) -> LinkLine<R> {
-        self.lines.get(hinge).copied().unwrap_or_else(LinkLine::absent)
+    fn line(&self, place: usize) -> LinkLine<R> {
+        self.lines.get(place).copied().unwrap_or_else(LinkLine::absent)
+    }
+
+    /// The places of the lines that may push the link of a hinge.
+    fn places(&self, hinge: usize) -> impl Iterator<Item = usize> + use<R> {
+        let hinges = self.laws.len();
+        (0..RightSideLayout::LINES_OF_LINK).map(move |number| hinges * number + hinge)
     }
 
     /// Reads what [`write`](Self::write) writes.
@@ -74,7 +81,8 @@ impl<R: Real> Forces<R> {
         let mut law = || HingeLaw::of_numbers(std::array::from_fn(|_| reader.next()));
         let laws = (0..hinges).map(|_| law()).collect();
         let external = Wrench { moment: reader.vector(), force: reader.vector() };
-        let lines = (0..hinges).map(|_| LinkLine::read(&mut reader)).collect();
+        let places = 0..RightSideLayout::LINES_OF_LINK * hinges;
+        let lines = places.map(|_| LinkLine::read(&mut reader)).collect();
         Self { laws, external, lines }
     }
 
@@ -84,8 +92,8 @@ impl<R: Real> Forces<R> {
         let mut numbers: Vec<R> = self.laws.iter().flat_map(HingeLaw::numbers).collect();
         numbers.extend(self.external.moment.to_array());
         numbers.extend(self.external.force.to_array());
-        for hinge in 0..self.laws.len() {
-            let LinkLine { point, main_body_point, law } = self.line(hinge);
+        for place in 0..RightSideLayout::LINES_OF_LINK * self.laws.len() {
+            let LinkLine { point, main_body_point, law } = self.line(place);
             numbers.extend(point.to_array());
             numbers.extend(main_body_point.to_array());
             numbers.extend(law.numbers());
@@ -98,7 +106,10 @@ impl<R: Real> Forces<R> {
         let mut outer = Self::none(embedding.outer().hinges());
         outer.external = self.external;
         for (inner, &hinge) in embedding.hinges().iter().enumerate() {
-            (outer.laws[hinge], outer.lines[hinge]) = (self.laws[inner], self.line(inner));
+            outer.laws[hinge] = self.laws[inner];
+            for (to, from) in outer.places(hinge).zip(self.places(inner)) {
+                outer.lines[to] = self.line(from);
+            }
         }
         outer
     }
@@ -123,9 +134,12 @@ impl<R: Real> Forces<R> {
         for (number, (&shape, branch)) in appendages.enumerate() {
             let hinges = first..first + shape.hinges();
             first = hinges.end;
-            let Some(lines) = self.lines.get(hinges.clone()) else { continue };
+            if self.lines.is_empty() {
+                continue;
+            }
             R::remark(|| format!("Appendage {}: torques of the lines that push it.", number + 1));
             let turns = pose::turns(shape, &beta[hinges.clone()]);
+            let lines = hinges.clone().map(|hinge| self.places(hinge).map(|at| self.lines[at]));
             push(branch, &turns, lines, &mut torques[hinges]);
         }
         torques
@@ -146,18 +160,20 @@ impl<R: Real> Forces<R> {
 fn push<R: Real>(
     branch: &Branch<R>,
     turns: &[(Mat3<R>, Vec3<R>)],
-    lines: &[LinkLine<R>],
+    lines: impl Iterator<Item = impl Iterator<Item = LinkLine<R>>>,
     torques: &mut [R],
 ) {
     let mut position = branch.point;
     let mut inboard = Vec::new();
-    for (((rot, axis), line), link) in turns.iter().zip(lines).zip(&branch.links) {
+    for (((rot, axis), lines), link) in turns.iter().zip(lines).zip(&branch.links) {
         inboard.push((*axis, position));
-        let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
-        let end = position + *rot * line.point;
-        let force = line.law.push(end - fixed);
-        for ((axis, position), torque) in inboard.iter().zip(torques.iter_mut()) {
-            *torque += axis.dot((end - *position).cross(force));
+        for line in lines {
+            let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
+            let end = position + *rot * line.point;
+            let force = line.law.push(end - fixed);
+            for ((axis, position), torque) in inboard.iter().zip(torques.iter_mut()) {
+                *torque += axis.dot((end - *position).cross(force));
+            }
         }
         let [ly, lz] = link.next;
         position += *rot * Vec3::new(R::zero(), ly, lz);
@@ -168,8 +184,9 @@ impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
     /// `None` where a right side has no place for them: where a free hinge has a torque table or is coupled, where there are rotors, where
-    /// two lines push one link, where a line does not transmit all of its moment, and where something from
-    /// outside acts on a hinged link or is not constant along main-body axes.
+    /// more lines push one link than [`RightSideLayout::LINES_OF_LINK`], where a line does not transmit all of
+    /// its moment, and where something from outside acts on a hinged link or is not constant along main-body
+    /// axes.
     pub fn of(
         elements: &Elements<f64>,
         tree: &WeldedTree<f64>,
@@ -188,10 +205,9 @@ impl Forces<f64> {
         }
         for (link, line) in elements.pushing() {
             let hinge = recognised.links.iter().position(|&other| other == link)?;
-            if forces.lines[hinge] != LinkLine::absent() {
-                return None;
-            }
-            forces.lines[hinge] = LinkLine {
+            let is_empty = |&place: &usize| forces.lines[place] == LinkLine::absent();
+            let place = forces.places(hinge).find(is_empty)?;
+            forces.lines[place] = LinkLine {
                 point: recognised.frames[hinge].point(line.point),
                 main_body_point: line.main_body_point,
                 law: *line.law(),

@@ -32,6 +32,8 @@ impl RightSideLayout {
     pub const EXTERNAL: usize = 6;
     /// Numbers of a line: its end on the link, that on the main body, a₀ to a₃.
     pub const LINE: usize = 10;
+    /// Lines that may push one link: kick-off springs of bodies that are held together push as one link.
+    pub const LINES_OF_LINK: usize = 2;
 
     /// How many numbers y has.
     pub fn coordinates(topology: &Topology) -> usize {
@@ -61,8 +63,12 @@ impl RightSideLayout {
 
     /// How many numbers parameters take.
     pub fn parameters(topology: &Topology) -> usize {
-        let hinges = topology.hinges();
-        Self::external(topology).end + Self::LINE * hinges
+        Self::external(topology).end + Self::LINE * Self::lines(topology)
+    }
+
+    /// How many places for lines there are: first one for each hinge's link, then one more for each.
+    pub fn lines(topology: &Topology) -> usize {
+        Self::LINES_OF_LINK * topology.hinges()
     }
 
     /// Where the law of a hinge stands among the parameters.
@@ -77,15 +83,15 @@ impl RightSideLayout {
         start..start + Self::EXTERNAL
     }
 
-    /// Where the line that pushes the link of a hinge stands among the parameters.
-    pub fn line(topology: &Topology, hinge: usize) -> Range<usize> {
-        let start = Self::external(topology).end + Self::LINE * hinge;
+    /// Where the line at a place stands among the parameters.
+    pub fn line(topology: &Topology, place: usize) -> Range<usize> {
+        let start = Self::external(topology).end + Self::LINE * place;
         start..start + Self::LINE
     }
 
     /// Where that line's a₀ to a₃ stand; they are zero where nothing pushes.
-    pub fn coefficients(topology: &Topology, hinge: usize) -> Range<usize> {
-        let Range { end, .. } = Self::line(topology, hinge);
+    pub fn coefficients(topology: &Topology, place: usize) -> Range<usize> {
+        let Range { end, .. } = Self::line(topology, place);
         end - 4..end
     }
 }

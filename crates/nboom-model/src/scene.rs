@@ -132,6 +132,8 @@ impl SceneDescription {
 pub struct Scene {
     description: SceneDescription,
     labels: Vec<HingeLabel>,
+    /// Which hinges add to the angle of their inboard hinge.
+    adding: Vec<bool>,
     shapes: Shapes,
     departures: Departures,
 }
@@ -150,12 +152,13 @@ impl Scene {
         let labels = labels(&description.bodies);
         let errors = check::find(&description, &labels);
         description.externals.retain(|external| !external.is_nothing());
-        let departures = Departures::default();
-        if errors.is_empty() {
-            Ok(Self { description, labels, shapes: Shapes::default(), departures })
-        } else {
-            Err(errors)
+        if !errors.is_empty() {
+            return Err(errors);
         }
+        let (shapes, departures) = (Shapes::default(), Departures::default());
+        let bodies = &description.bodies;
+        let adding = bodies.iter().map(|body| adds_to_inboard_angle(bodies, body)).collect();
+        Ok(Self { description, labels, adding, shapes, departures })
     }
 
     /// The scene with another end of the run.
@@ -266,13 +269,7 @@ impl Scene {
     /// Whether hinge `i` turns about an axis parallel to its inboard hinge, so that the angles
     /// of the two add up to α.
     pub fn adds_to_inboard_angle(&self, i: usize) -> bool {
-        let body = &self.description.bodies[i];
-        let inboard = body.inboard.map(|inboard| &self.description.bodies[inboard]);
-        inboard.is_some_and(|inboard| {
-            let turn = [body.joint, inboard.joint] == [Joint::Revolute; 2];
-            let axis_inboard = body.mount.rot_inboard_from_hinge * body.axis;
-            turn && (axis_inboard - inboard.axis).norm() < 1e-9
-        })
+        self.adding[i]
     }
 
     /// The arm, if body `i` is a paddle: hinged to a body of the main body, about another axis.
@@ -301,6 +298,15 @@ impl Deref for Scene {
     fn deref(&self) -> &SceneDescription {
         &self.description
     }
+}
+
+fn adds_to_inboard_angle(bodies: &[Body], body: &Body) -> bool {
+    body.inboard.is_some_and(|inboard| {
+        let inboard = &bodies[inboard];
+        let turn = [body.joint, inboard.joint] == [Joint::Revolute; 2];
+        let axis_inboard = body.mount.rot_inboard_from_hinge * body.axis;
+        turn && (axis_inboard - inboard.axis).norm() < 1e-9
+    })
 }
 
 fn labels(bodies: &[Body]) -> Vec<HingeLabel> {

@@ -39,9 +39,15 @@ impl Bernstein {
         Self { degree, coefficients }
     }
 
-    /// Its value at `x` (de Casteljau).
+    /// Its value at `x`: Horner's rule in x / (1 − x) or, beyond the middle, in its inverse, so that on
+    /// [0, 1] no term is weighted by more than one.
     pub fn at(&self, x: f64) -> f64 {
-        self.value_and_slope(x).0
+        let (c, weights) = (self.coefficients(), &BINOMIALS[self.degree][..=self.degree]);
+        let (near, ratio) = if x < 0.5 { (1.0 - x, x / (1.0 - x)) } else { (x, (1.0 - x) / x) };
+        let next = |sum: f64, (c, weight): (&f64, &f64)| sum * ratio + c * weight;
+        let terms = c.iter().zip(weights);
+        let sum = if x < 0.5 { terms.rev().fold(0.0, next) } else { terms.fold(0.0, next) };
+        sum * near.powi(self.degree as i32)
     }
 
     /// Σ c_k xᵏ, whose degree is one less than the number of coefficients.
@@ -200,6 +206,21 @@ const TERM_COEFFICIENTS: [[[f64; TERMS + 1]; TERMS]; TERMS + 1] = {
             term += 1;
         }
         degree += 1;
+    }
+    tables
+};
+
+/// C(n, k) up to the highest degree.
+const BINOMIALS: [[f64; HIGHEST + 1]; HIGHEST + 1] = {
+    let mut tables = [[0.0; HIGHEST + 1]; HIGHEST + 1];
+    let mut n = 0;
+    while n <= HIGHEST {
+        let mut k = 0;
+        while k <= n {
+            tables[n][k] = binomial(n, k);
+            k += 1;
+        }
+        n += 1;
     }
     tables
 };

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use collocation::{Collocation, dot};
+use collocation::Collocation;
 use control::{
     CLEARLY, HALF, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, TELLING,
     error_of_end, factor,
@@ -148,8 +148,8 @@ impl GaussLanes {
             self.window.counts.evaluations += STAGES;
             let start = Start { state: &self.window.state, lost: &self.lost, step };
             let squares = self.stages.absorb(start, &self.per_tolerance, self.collocation);
-            let square = dot(&self.collocation.weights.0, &squares) / self.count.max(1) as f64;
-            match self.iteration.note(square.sqrt(), most) {
+            let mean_square = self.collocation.weights.dot(&squares) / self.count.max(1) as f64;
+            match self.iteration.note(mean_square.sqrt(), most) {
                 Progress::Converging if most == MOST && self.iteration.count == TELLING => {
                     if self.error() > CLEARLY * REFUSED {
                         return true;
@@ -170,8 +170,8 @@ impl GaussLanes {
 
     /// Error of an evaluated variable, in units of the tolerance.
     fn error_at_end(&self, i: usize) -> f64 {
-        let slopes = &self.stages.slopes[i].0;
-        let terms = self.collocation.last_terms.map(|row| dot(&row.0, slopes));
+        let slopes = &self.stages.slopes[i];
+        let terms = self.collocation.last_terms.map(|row| row.dot(slopes));
         let magnitude = self.window.sizes[i] + self.window.state[i].abs();
         error_of_end(terms, magnitude, self.per_tolerance[i])
     }
@@ -195,11 +195,11 @@ impl GaussLanes {
         self.curve = Curve { length: step, from: 0.0 };
         let Self { collocation, window, stages, lost, end_lost, known, .. } = self;
         for &i in &stages.variables.evaluated {
-            let increment = lost[i] + dot(&collocation.weights.0, &known[i].0);
+            let increment = lost[i] + collocation.weights.dot(&known[i]);
             end_lost[i] = window.end_after(i, increment);
         }
         for &(i, rate) in &stages.variables.integrals {
-            let inner = dot(&collocation.weights_twice.0, &known[rate].0);
+            let inner = collocation.weights_twice.dot(&known[rate]);
             let increment = lost[i] + step * (window.state[rate] + lost[rate] + inner);
             end_lost[i] = window.end_after(i, increment);
         }

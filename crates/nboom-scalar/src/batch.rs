@@ -12,6 +12,14 @@ impl Eight {
     pub fn splat(value: f64) -> Self {
         Self([value; 8])
     }
+
+    /// The sum of products, halves added to halves.
+    #[inline]
+    pub fn dot(&self, other: &Self) -> f64 {
+        let products: [f64; 8] = std::array::from_fn(|i| self.0[i] * other.0[i]);
+        let pairs: [f64; 4] = std::array::from_fn(|i| products[i] + products[i + 4]);
+        (pairs[0] + pairs[2]) + (pairs[1] + pairs[3])
+    }
 }
 
 /// Eight scalars without any vector instructions.

@@ -277,7 +277,9 @@ impl System for Equations {
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let Self { variables, entered, rates, evaluations, .. } = self;
         *evaluations += usize::from(variables.layout.needs_elimination());
-        let carried = variables.carried(t).velocity;
+        // Without thrust nothing asks for it.
+        let moves = variables.layout.thrust;
+        let carried = if moves { variables.carried(t).velocity } else { Vec3::zero() };
         entered.rates(rates, (t, carried), y, dy);
     }
 

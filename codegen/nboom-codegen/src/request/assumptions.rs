@@ -131,7 +131,8 @@ fn owners_of_forces(topology: &Topology) -> Vec<(String, &'static [&'static str]
             hinges.iter().map(|hinge| (format!("{what} {hinge}"), names)).collect()
         };
     let external = ("the external wrench".to_owned(), &WRENCH[..]);
-    [of("hinge", &LAW), vec![external], of("line", &LINE)].concat()
+    let lines = [of("line", &LINE), of("second line", &LINE)].concat();
+    [of("hinge", &LAW), vec![external], lines].concat()
 }
 
 /// Torque about a hinge.
@@ -221,7 +222,7 @@ mod tests {
         assert_eq!(phrases(&right_side), expected);
         right_side.assumptions[RightSideLayout::law(&topology, 1).start] = Some(0.0);
         assert_eq!(phrases(&right_side)[2..], ["q₁ = 0 of hinge 1,2"]);
-        assert_eq!(phrases(&right_side.with_lines())[1..], ["q₁ = 0 of hinge 1,2"]);
+        assert_eq!(phrases(&right_side.with_lines(2))[1..], ["q₁ = 0 of hinge 1,2"]);
         let parameters = vec![2.0; general.assumptions.len()];
         assert_eq!(phrases(&general.baked(&parameters))[1..], ["all 82 parameters"]);
     }

@@ -60,6 +60,8 @@ impl Names {
         parameters.extend(hinges.iter().flat_map(|hinge| of_owner(LAW.numbers, hinge)));
         parameters.extend(owned(&[EXTERNAL.numbers]));
         parameters.extend(hinges.iter().flat_map(|hinge| of_owner(LINE.numbers, hinge)));
+        let second = |hinge: &String| of_owner(LINE.numbers, &format!("{hinge}_second"));
+        parameters.extend(hinges.iter().flat_map(second));
         let mut coordinates = owned(&[ATTITUDE.numbers, OMEGA.numbers]);
         coordinates.extend(of_hinges("beta").chain(of_hinges("tau")));
         let mut outputs = owned(&[ATTITUDE_RATE.numbers, &MAIN_RATES.numbers[..3]]);

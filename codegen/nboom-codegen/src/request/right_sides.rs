@@ -18,28 +18,22 @@ const MOST_ON_EIGHT_STATES: usize = 20;
 
 impl Request {
     /// The right sides beside requests for the `accelerations` of a scene's modes: for each request one
-    /// that assumes as much and that no line pushes a link. Where the scene has kick-off springs, there
-    /// is one more with lines for each request that assumes all numbers or none. Modes in which a right
-    /// side has no place for what acts have none.
+    /// that assumes as much and that no line pushes a link, and one whose links kick-off springs push,
+    /// where they do. Modes in which a right side has no place for what acts have none.
     pub fn right_sides(scene: &Scene, accelerations: &[Self]) -> Vec<Self> {
         let all_free = vec![true; scene.bodies.len()];
-        let mut cases = Cases::new();
+        let (mut cases, mut pushed) = (Cases::new(), Cases::new());
         for free in combinations(scene).iter().chain([&all_free]) {
             for angle in ANGLES {
                 note(&mut cases, scene, free, angle, false);
             }
+            note(&mut pushed, scene, free, ANGLES[0], true);
         }
-        let mut pushed = Cases::new();
-        note(&mut pushed, scene, &all_free, 0.0, true);
-        let has_springs = scene.bodies.iter().any(|body| body.hinge.kick_off.is_some());
         let mut requests = Vec::new();
         for request in accelerations {
             let of_topology = |cases: &Cases| cases.get(&request.topology).cloned().flatten();
             requests.extend(of_topology(&cases).map(|cases| request.right_side(&cases)));
-            let whole_or_nothing = request.is_baked() || request.is_general();
-            if has_springs && whole_or_nothing {
-                requests.extend(of_topology(&pushed).map(|cases| request.pushed(&cases[0])));
-            }
+            requests.extend(of_topology(&pushed).and_then(|cases| request.pushed(&cases)));
         }
         requests
     }
@@ -55,8 +49,10 @@ impl Request {
     /// No line pushes; numbers of laws are built in, or zeros that they have in all cases, or nothing.
     fn right_side(&self, cases: &[Vec<f64>]) -> Self {
         let name = format!("RightSide{}", self.name);
-        // What assumes nothing is taken where nothing else is; it is not worth compilers' time.
-        let on_eight_states = !self.is_general() && self.topology.hinges() <= MOST_ON_EIGHT_STATES;
+        // What assumes nothing is taken where nothing else is; it is not worth compilers' time, but of a
+        // main body alone.
+        let is_special = !self.is_general() || self.topology.hinges() == 0;
+        let on_eight_states = is_special && self.topology.hinges() <= MOST_ON_EIGHT_STATES;
         let mut request = Self { name, on_eight_states, ..self.clone() }.for_right_side();
         let of_laws = RightSideLayout::external(&self.topology).start;
         let start = Layout::parameters(&self.topology);
@@ -76,21 +72,24 @@ impl Request {
     }
 
     /// Lines push, with numbers at run time, so that the code is for modes in which some have let go, too;
-    /// where there is none, that is built in with all other numbers.
-    fn pushed(&self, case: &[f64]) -> Self {
+    /// where there is none, that is built in. `None` where none pushes.
+    fn pushed(&self, cases: &[Vec<f64>]) -> Option<Self> {
+        let (topology, start) = (&self.topology, Layout::parameters(&self.topology));
+        let pushes = |&place: &usize| {
+            let mut numbers = RightSideLayout::coefficients(topology, place);
+            numbers.any(|at| cases.iter().any(|case| case[at - start] != 0.0))
+        };
+        let places: Vec<usize> = (0..RightSideLayout::lines(topology)).filter(pushes).collect();
         let name = format!("Pushed{}", self.name);
-        if self.is_general() {
-            return Self { name, ..self.clone() }.for_right_side().with_lines();
+        if self.is_general() && !places.is_empty() {
+            // States with held hinges that have no code of their own run in this one.
+            return Some(Self { name, ..self.clone() }.for_right_side().with_lines(1));
         }
-        let right_side = self.right_side(&[case.to_vec()]);
-        let mut request = Self { name, on_eight_states: false, ..right_side };
-        for hinge in 0..self.topology.hinges() {
-            let coefficients = RightSideLayout::coefficients(&self.topology, hinge);
-            if request.assumptions[coefficients].iter().any(|assumed| *assumed != Some(0.0)) {
-                request.assumptions[RightSideLayout::line(&self.topology, hinge)].fill(None);
-            }
+        let mut request = Self { name, ..self.right_side(cases) };
+        for &place in &places {
+            request.assumptions[RightSideLayout::line(topology, place)].fill(None);
         }
-        request
+        (!places.is_empty()).then_some(request)
     }
 }
 
@@ -107,6 +106,8 @@ fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bo
     let known = cases.entry(recognised.topology).or_insert_with(|| Some(Vec::new()));
     match (known.as_mut(), forces) {
         (Some(all), Some(forces)) => all.push(forces.write()),
+        // Other modes of the topology may have fewer lines.
+        _ if pushing => {}
         _ => *known = None,
     }
 }

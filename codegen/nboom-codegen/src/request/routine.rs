@@ -103,8 +103,8 @@ impl Request {
         if !self.external {
             self.assumptions[RightSideLayout::external(topology)].fill(Some(0.0));
         }
-        for hinge in 0..topology.hinges() {
-            self.assumptions[RightSideLayout::coefficients(topology, hinge)].fill(Some(0.0));
+        for place in 0..RightSideLayout::lines(topology) {
+            self.assumptions[RightSideLayout::coefficients(topology, place)].fill(Some(0.0));
         }
         self
     }
@@ -115,21 +115,22 @@ impl Request {
         self
     }
 
-    /// Code for a right side whose links may be pushed by lines.
-    pub fn with_lines(mut self) -> Self {
-        for hinge in 0..self.topology.hinges() {
-            self.assumptions[RightSideLayout::coefficients(&self.topology, hinge)].fill(None);
+    /// Code for a right side each of whose links may be pushed by so many lines, up to
+    /// [`RightSideLayout::LINES_OF_LINK`].
+    pub fn with_lines(mut self, of_link: usize) -> Self {
+        for place in 0..of_link * self.topology.hinges() {
+            self.assumptions[RightSideLayout::coefficients(&self.topology, place)].fill(None);
         }
         self
     }
 
     /// Whether a line may push a link.
     pub(crate) fn has_lines(&self) -> bool {
-        let pushes = |hinge| {
-            let coefficients = RightSideLayout::coefficients(&self.topology, hinge);
+        let pushes = |place| {
+            let coefficients = RightSideLayout::coefficients(&self.topology, place);
             self.assumptions[coefficients].iter().any(|assumed| *assumed != Some(0.0))
         };
-        self.output == Output::RightSide && (0..self.topology.hinges()).any(pushes)
+        self.output == Output::RightSide && (0..RightSideLayout::lines(&self.topology)).any(pushes)
     }
 
     /// Assumes every parameter: code for one satellite.

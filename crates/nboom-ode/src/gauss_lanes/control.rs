@@ -63,8 +63,8 @@ impl Iteration {
             self.contraction = change / self.last_change;
         }
         self.last_change = change;
-        let left = change * self.contraction / (1.0 - self.contraction);
-        if change == 0.0 || stalls || (0.0..CONVERGED).contains(&left) {
+        let is_left = change * self.contraction < CONVERGED * (1.0 - self.contraction);
+        if change == 0.0 || stalls || (self.contraction < 1.0 && is_left) {
             return Progress::Converged;
         }
         let slow = most == MOST && self.count > 2 && self.contraction > SLOW;
@@ -99,7 +99,12 @@ pub(super) const HALF: f64 = 0.5;
 
 /// By how much a step should be longer that has this error, in units of the tolerance.
 pub(super) fn factor(error: f64) -> f64 {
-    let factor = SAFETY * error.powf(EXPONENT);
+    limited(error.powf(EXPONENT))
+}
+
+/// By how much a step should be longer that would just do if it were `just` times as long.
+fn limited(just: f64) -> f64 {
+    let factor = SAFETY * just;
     if factor.is_nan() { HALF } else { factor.clamp(SHRINK, GROW_FIRST) }
 }
 
@@ -112,8 +117,8 @@ pub(super) struct History {
     count: usize,
     /// Length of the last one.
     step: f64,
-    /// Its error, in units of the tolerance.
-    error: f64,
+    /// How many times as long it would just do.
+    just: f64,
 }
 
 impl History {
@@ -125,20 +130,20 @@ impl History {
             _ if iteration.count > MANY => EASE,
             _ => GROW,
         };
-        let error = error.max(SMALL);
-        let trend = step / self.step * (error / self.error).powf(EXPONENT);
-        let trend = if self.count > 0 { trend.min(1.0) } else { 1.0 };
-        *self = Self { count: self.count + 1, step, error };
-        (factor(error) * trend).clamp(SHRINK, most)
+        let just = error.max(SMALL).powf(EXPONENT);
+        let trend = if self.count > 0 { step / self.step * (just / self.just) } else { 1.0 };
+        *self = Self { count: self.count + 1, step, just };
+        (limited(just) * trend.min(1.0)).clamp(SHRINK, most)
     }
 
     /// Whether the last step could be much longer, were it for its error.
     pub fn is_accurate(&self) -> bool {
-        self.error < ACCURATE
+        self.just > ACCURATE
     }
 }
 
-const ACCURATE: f64 = 0.01;
+/// An error of a hundredth of the tolerance.
+const ACCURATE: f64 = 1.3335214321633240;
 /// Errors below this tell nothing about the next one.
 const SMALL: f64 = 1e-8;
 

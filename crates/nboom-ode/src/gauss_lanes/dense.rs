@@ -163,7 +163,7 @@ impl Work for Fit<'_> {
             for (lane, derivative) in derivatives[i].0.into_iter().enumerate() {
                 values[node(lane)] = taken.step * derivative;
             }
-            let increment = dot(&taken.weights.0, &taken.known[i].0);
+            let increment = taken.weights.dot(&taken.known[i]);
             values[MIDDLE] = (increment - dot(&rule.weights, &values)) / rule.weights[MIDDLE];
             let mut spectrum = [0.0; NODES];
             for (column, value) in rule.spectrum.iter().zip(values) {

@@ -101,7 +101,7 @@ impl Stages {
         start: Start<'_>,
         weights: &[f64],
         collocation: &Collocation,
-    ) -> [f64; STAGES] {
+    ) -> Eight {
         let Self { variables, slopes, values, derivatives, .. } = self;
         in_registers(Absorb { variables, start, collocation, weights, derivatives, slopes, values })
     }
@@ -170,10 +170,10 @@ struct Absorb<'a> {
 }
 
 impl WorkOnEight for Absorb<'_> {
-    type Output = [f64; STAGES];
+    type Output = Eight;
 
     #[inline(always)]
-    fn carry_out<R: EightNumbers>(self) -> [f64; STAGES] {
+    fn carry_out<R: EightNumbers>(self) -> Eight {
         let Self { variables, start, collocation, weights, derivatives, slopes, values } = self;
         let (step, mut squares) = (R::constant(start.step), R::zero());
         for &i in &variables.evaluated {
@@ -185,6 +185,6 @@ impl WorkOnEight for Absorb<'_> {
         Place { variables, start, collocation, slopes, values }.carry_out::<R>();
         let mut of_stages = Eight::default();
         squares.store(&mut of_stages);
-        of_stages.0
+        of_stages
     }
 }

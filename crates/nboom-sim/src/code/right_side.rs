@@ -10,8 +10,8 @@ use crate::code::fit::{Fit, Repertoire};
 pub(crate) struct RightSide<N> {
     routine: RoutineOn<N>,
     constants: Vec<N>,
-    /// For each free hinge, the routine's.
-    hinges: Vec<usize>,
+    /// For each free hinge, the routine's; none where they are the same.
+    hinges: Option<Vec<usize>>,
     /// Hinges of the routine.
     all_hinges: usize,
     coordinates: Vec<N>,
@@ -51,10 +51,12 @@ impl RightSides {
 impl<N: Numbers> RightSide<N> {
     fn new(routine: RoutineOn<N>, fit: &Fit, hinges: Vec<usize>) -> Self {
         let zeros = |count| vec![N::splat(0.0); count];
+        let all_hinges = fit.embedding.outer().hinges();
+        let differ = !hinges.iter().copied().eq(0..all_hinges);
         Self {
             constants: fit.constants().into_iter().map(N::splat).collect(),
-            hinges,
-            all_hinges: fit.embedding.outer().hinges(),
+            hinges: differ.then_some(hinges),
+            all_hinges,
             coordinates: zeros(routine.coordinates),
             rates: zeros(routine.outputs),
             routine,
@@ -62,16 +64,23 @@ impl<N: Numbers> RightSide<N> {
     }
 
     /// Writes the rates of attitude, ω, β and τ at `y`, which begins with these, to the beginning of
-    /// `dy`; returns the power of the parts of the hinge torques that depend on rates.
+    /// `dy`, and anything to the rest; returns the power of the parts of the hinge torques that depend on
+    /// rates.
     pub fn write(&mut self, y: &[N], dy: &mut [N]) -> N {
         let Self { routine, constants, hinges, all_hinges, coordinates, rates } = self;
         let first = RightSideLayout::STATE;
-        let (end, power) = (first + 2 * hinges.len(), first + 2 * *all_hinges);
-        if hinges.iter().copied().eq(0..*all_hinges) {
-            routine.evaluate(constants, &y[..end], rates);
-            dy[..end].copy_from_slice(&rates[..end]);
+        let power = first + 2 * *all_hinges;
+        let Some(hinges) = hinges else {
+            if let Some(dy) = dy.get_mut(..=power) {
+                // What belongs in the place of the power is not written yet.
+                routine.evaluate(constants, &y[..power], dy);
+                return dy[power];
+            }
+            routine.evaluate(constants, &y[..power], rates);
+            dy.copy_from_slice(&rates[..power]);
             return rates[power];
-        }
+        };
+        let end = first + 2 * hinges.len();
         coordinates[..first].copy_from_slice(&y[..first]);
         let (of_beta, of_tau) = y[first..end].split_at(hinges.len());
         for (&hinge, (beta, tau)) in hinges.iter().zip(of_beta.iter().zip(of_tau)) {
