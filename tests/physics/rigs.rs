@@ -2,8 +2,8 @@
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::model::{
-    Base, Body, Gravity, Hinge, HingeStart, HingeState, InitialMotion, Joint, MassProperties,
-    Mount, Release, Scene, SceneDescription,
+    Base, Body, Drive, DrivePoint, Gravity, Hinge, HingeStart, HingeState, InitialMotion, Joint,
+    MassProperties, Mount, Release, Scene, SceneDescription,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{EventKind, Form, Options};
@@ -33,6 +33,16 @@ fn on_rig(
     let tip = Vec3::unit_x();
     scene.bodies = vec![Body { inboard: None, mount, joint, axis, mass_properties, tip, hinge }];
     scene
+}
+
+/// Fixes the main body, or moves it about and along `axis` with these changes of rate and speed.
+fn hold(scene: &mut SceneDescription, axis: Vec3<f64>, [alpha, a]: [f64; 2]) {
+    let point = |time: f64| DrivePoint { time, rate: 0.4 + alpha * time, speed: -0.3 + a * time };
+    let points = vec![point(0.0), point(0.25), point(2.0)];
+    let is_fixed = [alpha, a] == [0.0, 0.0];
+    scene.base = if is_fixed { Base::Fixed } else { Base::Driven(Drive { axis, points }) };
+    (scene.initial.omega_body, scene.initial.velocity_inertial) = (Vec3::zero(), Vec3::zero());
+    scene.begin_driven([false; 2]);
 }
 
 /// A quarter of the period of a pendulum of the natural frequency 1 that turns back at `amplitude`, by the
@@ -117,23 +127,26 @@ fn a_free_main_body_moves_likewise_under_the_reaction() {
     for seed in 0..60 {
         let bodies = 1 + (seed % 6) as usize;
         let mut scene = hinged(bodies, seed);
-        (scene.base, scene.initial.omega_body) = (Base::Fixed, Vec3::zero());
-        scene.initial.velocity_inertial = Vec3::zero();
-        scene.externals.clear();
-        scene.gravity = Some(Gravity { acceleration: 3.0, up: Vec3::unit_y() });
+        let axis = Vec3::new(0.6, 0.0, 0.8);
+        let up = scene.initial.attitude.to_matrix() * axis;
+        scene.gravity = Some(Gravity { acceleration: 3.0, up });
+        let (alpha, a) = if seed % 2 == 0 { (0.0, 0.0) } else { (0.7, -1.1) };
+        hold(&mut scene, axis, [alpha, a]);
+        let omega_body = scene.initial.omega_body;
         let scene = Scene::new(scene).expect("a valid scene");
         let beta: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
         let tau: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.rate).collect();
         let mode = all_acting(&scene, vec![HingeState::Free; bodies]);
+        let mode = Mode { drive: 1, ..mode };
         let mut dynamics = Recursive::new(&scene);
         dynamics.set_mode(&mode, &beta);
         let mut found = Accelerations::for_hinges(bodies);
-        let motion = Motion { omega_body: Vec3::zero(), beta: &beta, tau: &tau };
+        let motion = Motion { omega_body, beta: &beta, tau: &tau };
+        dynamics.set_outside(scene.initial.attitude, 0.0);
         dynamics.accelerations(&motion, &mut found);
-        assert_eq!(found.omega_dot_body, Vec3::zero());
+        assert!((found.omega_dot_body - axis * alpha).norm() < 1e-15);
         // Gravity is no acceleration here, so the rig accelerates upward.
-        let upward = scene.initial.attitude.to_matrix().transpose() * Vec3::unit_y() * 3.0;
-        assert!((found.origin_body - upward).norm() < 1e-14);
+        assert!((found.origin_body - axis * (3.0 + a)).norm() < 1e-14);
         let reaction = dynamics.reaction(&motion, &found);
 
         let size = 6 + bodies;
@@ -156,20 +169,92 @@ fn a_free_main_body_moves_likewise_under_the_reaction() {
 
 #[test]
 fn trees_on_a_rig_keep_their_energy_by_all_code_that_covers_them() {
+    let mut latches = 0;
     for seed in 0..20 {
         let bodies = 1 + (seed % 5) as usize;
         let mut scene = conservative(bodies, seed);
-        (scene.base, scene.initial.omega_body) = (Base::Fixed, Vec3::zero());
-        (scene.initial.velocity_inertial, scene.end_time) = (Vec3::zero(), 0.5);
+        let axis = Vec3::new(0.6, 0.0, 0.8);
+        let up = scene.initial.attitude.to_matrix() * axis;
+        scene.gravity = Some(Gravity { acceleration: 3.0, up });
+        scene.end_time = 0.5;
+        hold(&mut scene, axis, if seed % 2 == 0 { [0.0, 0.0] } else { [0.7, -1.1] });
+        for hinge in scene.bodies.iter_mut().map(|body| &mut body.hinge) {
+            hinge.lock_angle = Some(hinge.start.angle + 0.2 * hinge.start.rate);
+        }
         let mut ends = Vec::new();
         for formulation in [None, Form::named("symmetric")] {
             let options = Options { formulation, ..options(2, 1e-12) };
             let found = run(&scene, &options);
             assert!(found.summary.conservation.energy < 1e-9, "{seed}");
+            latches += found.of_kind(EventKind::LockUp).len();
             ends.push(found.last().beta.clone());
         }
         for (a, b) in ends[0].iter().zip(&ends[1]) {
             assert!((a - b).abs() < 1e-9, "seed {seed}: {a} {b}");
         }
     }
+    assert!(latches > 20, "{latches}");
+}
+
+/// A table speeds up and slows down under a boom on its axis, which stays as it is in space, whatever gravity
+/// along the axis; it turns half a turn on the table until its latch takes it along.
+#[test]
+fn a_boom_on_the_axis_of_a_spin_table_stays_behind() {
+    let boom = MassProperties::new(2.0, Vec3::unit_x() * 1.5, Sym3::diagonal(0.1, 0.4, 0.5));
+    let half_turn = std::f64::consts::PI;
+    let hinge = Hinge { lock_angle: Some(-half_turn), ..Hinge::free() };
+    let mut scene = on_rig(boom, Joint::Revolute, Vec3::unit_z(), hinge);
+    let rates = [(0.0, 0.0), (2.0, 1.0), (4.0, 1.5), (5.0, 0.5)];
+    let points = rates.map(|(time, rate)| DrivePoint { time, rate, speed: 0.0 }).to_vec();
+    scene.base = Base::Driven(Drive { axis: Vec3::unit_z(), points });
+    scene.gravity = Some(Gravity { acceleration: 9.81, up: Vec3::unit_z() });
+    scene.end_time = 6.0;
+    let found = run(&scene, &options(60, 1e-13));
+    // The table has turned by 1 at 2, by 1 + s + s²/8 later on.
+    let latch_time = 2.0 + 4.0 * (-1.0 + (1.0 + 0.5 * (half_turn - 1.0)).sqrt());
+    let [(latch, after)] = found.of_kind(EventKind::LockUp)[..] else { panic!("one latch") };
+    is_close(latch.time, latch_time);
+    let rate = 1.0 + 0.25 * (latch_time - 2.0);
+    let about_axis = 0.5 + 2.0 * 1.5 * 1.5;
+    is_close(latch.impulse.expect("a latch has an impulse"), about_axis * rate);
+    is_close(after.omega_body.z, rate);
+    for seen in &found.samples {
+        let behind = seen.beta[0] + 2.0 * seen.attitude.vector.z.atan2(seen.attitude.scalar);
+        if seen.time < latch_time {
+            assert!(behind.abs() < 1e-12 && (seen.tau[0] + seen.omega_body.z).abs() < 1e-12);
+            continue;
+        }
+        let reaction = detail(seen).reaction.expect("the table holds the main body");
+        let alpha = match seen.time {
+            time if time < 4.0 => 0.25,
+            time if time < 5.0 => -1.0,
+            _ => 0.0,
+        };
+        let torque = (about_axis + 4.0) * alpha;
+        assert!((reaction.moment.z - torque).abs() < 1e-12, "{} {reaction:?}", seen.time);
+    }
+    assert!(found.summary.conservation.energy < 1e-12, "{:?}", found.summary.conservation);
+}
+
+/// A shaker pulls the rig away from a sprung mass: an oscillator under the opposite acceleration.
+#[test]
+fn a_sprung_mass_on_a_shaker_swings_about_another_point() {
+    let (mass, k, a) = (3.0, 12.0, 0.8);
+    let body = MassProperties::new(mass, Vec3::zero(), Sym3::diagonal(0.3, 0.4, 0.5));
+    let mut hinge = Hinge::free();
+    hinge.spring.linear = -k;
+    let mut scene = on_rig(body, Joint::Prismatic, Vec3::unit_x(), hinge);
+    let point = |time: f64, speed: f64| DrivePoint { time, rate: 0.0, speed };
+    let points = vec![point(0.0, -0.5), point(10.0, -0.5 + 10.0 * a)];
+    scene.base = Base::Driven(Drive { axis: Vec3::unit_x(), points });
+    scene.begin_driven([false; 2]);
+    let found = run(&scene, &options(20, 1e-13));
+    let (frequency, rest) = ((k / mass).sqrt(), -mass * a / k);
+    for seen in &found.samples {
+        let x = rest * (1.0 - (frequency * seen.time).cos());
+        assert!((seen.beta[0] - x).abs() < 1e-12, "{}", seen.time);
+        let place = (-0.5 + 0.5 * a * seen.time) * seen.time;
+        assert!((seen.position_inertial.x - place).abs() < 1e-12);
+    }
+    assert!(found.summary.conservation.energy < 1e-12);
 }

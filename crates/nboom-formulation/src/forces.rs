@@ -183,10 +183,10 @@ fn push<R: Real>(
 impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
-    /// `None` where a right side has no place for them: where a free hinge has a torque table or is coupled, where there are rotors, where
-    /// more lines push one link than [`RightSideLayout::LINES_OF_LINK`], where a line does not transmit all of
-    /// its moment, and where something from outside acts on a hinged link or is not constant along main-body
-    /// axes.
+    /// `None` where a right side has no place for them: where a free hinge has a torque table or is coupled,
+    /// where there are rotors, where more lines push one link than [`RightSideLayout::LINES_OF_LINK`], where a
+    /// line does not transmit all of its moment, and where something from outside acts on a hinged link or is
+    /// not constant along main-body axes.
     pub fn of(
         elements: &Elements<f64>,
         tree: &WeldedTree<f64>,
