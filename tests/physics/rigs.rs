@@ -3,7 +3,7 @@
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::model::{
     Base, Body, Drive, DrivePoint, Gravity, Hinge, HingeStart, HingeState, InitialMotion, Joint,
-    MassProperties, Mount, Release, Scene, SceneDescription,
+    MassProperties, Mode, Mount, Release, Scene, SceneDescription,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::{EventKind, Form, Options};
