@@ -117,7 +117,7 @@ impl RunDirectory {
         }
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
         let instants = open(path, INSTANTS_FILE, |out| StatesWriter::new(out, &labels))?;
-        let ledger = open(path, LEDGER_FILE, LedgerWriter::new)?;
+        let ledger = open(path, LEDGER_FILE, |out| LedgerWriter::new(out, scene))?;
         let events = open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone()))?;
         let output = run
             .output

@@ -10,9 +10,9 @@ pub struct Account {
     pub potential_energy: f64,
     /// Work of the rate-dependent torques at joints; negative where they damp.
     pub dashpot_work: f64,
-    /// Work of the thrust.
+    /// Work of what acts from outside, and of what moves a main body that is held.
     pub thrust_work: f64,
-    /// Work of what drives rotors and a moved base.
+    /// Work of the motors of rotors.
     pub motor_work: f64,
     /// Kinetic energy taken away by lock-ups.
     pub lock_up_loss: f64,

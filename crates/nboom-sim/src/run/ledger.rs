@@ -70,7 +70,7 @@ impl Ledger {
     }
 
     /// Residuals relative to the largest scales so far.
-    fn relative(&self, found: &Conservation) -> Conservation {
+    fn relative(&self, found: &Balances) -> Conservation {
         let scales = &self.scales;
         // All of the energy in one motion, of a point for linear momentum.
         let momentum = (2.0 * self.mass).sqrt() * scales.energy.sqrt();
@@ -129,7 +129,7 @@ impl Ledger {
             check.numbers(&[(quantity, value)])?;
             *largest = largest.max(value);
         }
-        let residuals = self.relative(&Conservation {
+        let residuals = self.relative(&Balances {
             linear_momentum: linear.norm(),
             angular_momentum: angular.norm(),
             energy: energy.abs(),
