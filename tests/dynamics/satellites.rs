@@ -7,7 +7,7 @@ use nboom::model::{
     Appendage, Dashpot, External, Hinge, HingeState, Mode, Mount, Scene, SceneDescription, Segment,
     Spring, WeldedTree,
 };
-use nboom::scalar::{DoubleDouble, Vec3, Wrench};
+use nboom::scalar::{DoubleDouble, Vec3};
 
 use crate::forward_dynamics::{Case, condition};
 use crate::random_scene::{Moment, Rng};

@@ -49,8 +49,10 @@ fn compared(scene: &Scene, seen: &Snapshot) -> Vec<Compared> {
         add(&format!("body_{}_velocity", i + 1), along(body.velocity_inertial), length * rate);
     }
     add("body_1_angular_acceleration", detail.omega_dot_body.to_array().to_vec(), rate);
-    let of_origin = detail.origin_acceleration_body.to_array().to_vec();
-    add("origin_acceleration", of_origin, length * rate);
+    // Of the components of the velocity, whose axes turn.
+    let carried = seen.omega_body.cross(to_main * seen.velocity_inertial);
+    let of_origin = detail.origin_acceleration_body - carried;
+    add("origin_acceleration", of_origin.to_array().to_vec(), length * rate);
     let angular = bodies
         .iter()
         .fold(Vec3::zero(), |sum, body| sum + body.angular_momentum_about(Vec3::zero()));

@@ -44,14 +44,10 @@ fn check(from: &str, scene_of: impl Fn(&Reference) -> Scene) {
         agrees(&format!("from {from}, as shipped"), &as_shipped, &reference);
         // A stock routine fits every mode of every one of these scenes.
         assert!(summary.selections.iter().all(|s| s.path == "generated"), "{summary:?}");
-        // And that of its whole right side, thrust and kick-off springs included, unless two springs push one
-        // link: arm and paddle of the report's sample while the paddle is held on the arm.
+        // And that of its whole right side, thrust and kick-off springs included, also where two of these push
+        // one link: arm and paddle of the report's sample while the paddle is held on the arm.
         let is_whole = |reason: &str| reason.contains("; whole right side");
-        let pushes_one_link_twice = reference.name == "report_testcase";
-        assert!(
-            pushes_one_link_twice || summary.selections.iter().all(|s| is_whole(&s.reason)),
-            "{summary:?}"
-        );
+        assert!(summary.selections.iter().all(|s| is_whole(&s.reason)), "{summary:?}");
         routines.extend(summary.selections.into_iter().map(|s| s.reason));
         // Other operations leave other roundings; with the same ones it is the same code.
         let rounded_alike = as_shipped.samples == by_recursion.samples;

@@ -132,11 +132,19 @@ fn driven() -> SceneDescription {
     let segments = vec![boom(1.0, 0.6, hinge), boom(0.5, 0.4, hinge)];
     scene.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
     let (force, point) = (Vec3::new(1.0, 0.5, -0.3), Vec3::new(0.0, 0.3, 0.1));
-    let thrust = External::thrust(force, point, [0.5, 1.5]);
+    scene.externals = vec![External::thrust(force, point, [0.5, 1.5])];
+    scene
+}
+
+/// The same under more from outside: on its booms, along inertial axes, over time.
+fn pushed() -> SceneDescription {
+    let mut scene = driven();
+    let thrust = scene.externals[0].clone();
     let course = Course::Table(vec![[0.25, 0.5], [1.0, -1.0], [2.5, 0.25]]);
     let (kind, axes) = (ExternalKind::Torque, ExternalAxes::Inertial);
     let torque = External { body: Some(1), kind, axes, course, ..thrust.clone() };
-    scene.externals = vec![torque, External { body: Some(0), ..thrust.clone() }, thrust];
+    scene.externals.extend([torque, External { body: Some(0), ..thrust }]);
+    scene.name = "pushed".to_owned();
     scene
 }
 
@@ -162,7 +170,7 @@ fn by_default() -> Options {
 
 #[test]
 fn units_by_powers_of_two_change_no_bit() {
-    for scene in references().chain(random()).chain([two_latches(3e-12), driven()]) {
+    for scene in references().chain(random()).chain([two_latches(3e-12), driven(), pushed()]) {
         same_to_the_last_bit(&scene, &by_default());
     }
 }
@@ -183,7 +191,7 @@ fn no_integrator_has_units() {
 
 #[test]
 fn units_change_no_event_and_no_impulse() {
-    for scene in references().chain(random()).chain([driven()]) {
+    for scene in references().chain(random()).chain([driven(), pushed()]) {
         same_events_and_impulses(&scene, &by_default());
     }
 }
@@ -206,7 +214,7 @@ fn latches_that_close_near_one_instant_do_so_in_any_unit() {
 #[test]
 fn references_in_double_double_have_no_units() {
     use nboom::sim::{Nobody, Reference as Truth, Witness, simulate, trust};
-    for scene in [driven(), two_latches(4e-12), two_latches(6e-12)] {
+    for scene in [driven(), pushed(), two_latches(4e-12), two_latches(6e-12)] {
         let differences = |units: Units| {
             let (scene, mut witness) = (checked(units.scene(&scene)), Witness::new());
             simulate(&scene, &by_default(), &mut witness).expect("it runs to its end");

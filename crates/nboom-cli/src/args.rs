@@ -7,7 +7,7 @@ use nboom_sim::{Form, Method, Reference};
 
 #[cfg(feature = "generator")]
 use crate::{CompileArgs, GenerateArgs, NewArgs};
-use crate::{ConvertArgs, SceneArgs, SlipArgs, StressArgs, choice};
+use crate::{ConvertArgs, ReportArgs, SceneArgs, SlipArgs, StressArgs, choice};
 
 const EXIT_CODES: &str = "\
 Exit codes: 0 done; 1 a comparison failed (verify, \
@@ -28,11 +28,17 @@ pub struct Cli {
 pub enum Command {
     /// Simulate a scene and write what happens.
     ///
-    /// Writes states.csv, events.csv and summary.json, and prints a short summary. The files are
-    /// written in DIR.partial and moved to DIR when the run is complete; docs/results.md says what
+    /// Writes states.csv, events.csv, summary.json and other tables, report.html that shows them in a
+    /// browser, and prints a short summary. The files are written in DIR.partial and moved to DIR when the run is complete; docs/results.md says what
     /// happens to them otherwise. The first Ctrl-C or SIGTERM ends the run in order, the second at
     /// once.
     Run(RunArgs),
+    /// Make the page of a run from its files, or one page that compares several runs.
+    ///
+    /// The page of a run is report.html in its directory; it needs a browser and no network. Of a run that is
+    /// not complete it has what is there, and names what is missing. Several runs share axes: designs,
+    /// formulations, a run with --as-1970 beside one without.
+    Report(ReportArgs),
     /// Read and validate a scene, and say what it contains.
     ///
     /// No motion is computed. Also says what the scene does not pay for because it lacks it, what
@@ -186,7 +192,7 @@ pub struct RunArgs {
     #[command(flatten)]
     pub stresses: StressArgs,
 
-    /// Ignored, with a note: this build writes no report.html.
+    /// Write no report.html, the page that shows the run.
     #[arg(long)]
     pub no_report: bool,
 

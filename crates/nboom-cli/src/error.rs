@@ -5,6 +5,7 @@ use nboom_io::{DeckObstacle, InputError, TooManyTimes};
 use nboom_model::ModelError;
 #[cfg(feature = "generator")]
 use nboom_package::PackageError;
+use nboom_report::ReportError;
 use nboom_results::{ResultsError, with_causes};
 use nboom_sim::SimError;
 use nboom_strength::StrengthError;
@@ -150,6 +151,9 @@ pub enum CliError {
     /// The results cannot be written.
     #[error(transparent)]
     Results(#[from] ResultsError),
+    /// There is nothing to make a page of.
+    #[error(transparent)]
+    Report(#[from] ReportError),
     /// Two codes for accelerations differ too much.
     #[error("{code} deviates by {deviation:.1e} in state {state}, above the tolerance {tol:e}")]
     Deviation {
@@ -201,7 +205,7 @@ impl CliError {
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
             Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
-            Self::OutputTimes(_) => 2,
+            Self::OutputTimes(_) | Self::Report(_) => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },

@@ -69,7 +69,6 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),
         (words("NOPLT=0", file.legacy.plots == Some(true)), "nothing is plotted"),
         (words("XNU, E", stresses && file.format == Format::Nml), "no stress depends on them"),
-        (words("--no-report", args.is_some_and(|args| args.no_report)), "no report is written"),
         (tolerances, "EU1 of the deck bounds the errors of rkam"),
         (slips, "nothing in this run shows these slips of 1970"),
     ];

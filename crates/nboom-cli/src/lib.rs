@@ -37,6 +37,7 @@ mod print_run;
 mod print_scene;
 mod progress;
 mod reference;
+mod report;
 mod run;
 mod scene_args;
 mod section;
@@ -66,6 +67,7 @@ pub use generate::GenerateArgs;
 #[cfg(feature = "generator")]
 pub use new::{Kind, NewArgs};
 pub use reference::reference;
+pub use report::ReportArgs;
 pub use scene_args::SceneArgs;
 pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
@@ -105,6 +107,7 @@ pub fn execute(cli: &Cli) -> ExitCode {
 pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
     let printed = match &cli.command {
         Command::Run(args) => run::run(args, routines),
+        Command::Report(args) => report::report(args),
         Command::Check(args) => check::check(args, routines),
         Command::Verify(args) => verify::verify(args, routines),
         Command::Bench(args) => bench::bench(args, routines),

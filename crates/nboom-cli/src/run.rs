@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, TooManyTimes};
+use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, TooManyTimes, write_scene};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::{
-    Outcome, RunDescription, RunDirectory, StressTables, WantedOutput, with_causes,
+    Kept, Outcome, RunDescription, RunDirectory, StressTables, WantedOutput, with_causes,
 };
 use nboom_sim::{
     Bound, Form, Method, Options, OutputTimes, Path, RkamSettings, Tolerance, Witness, check_start,
@@ -25,6 +25,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let file = args.scene.read()?;
     refuse_idle(args, &file)?;
     let ignored = ignored(&file, Some(args));
+    let scene_text = Some(write_scene(&file));
     let file = SceneFile { scene: slips.scene(file.scene), ..file };
     let kernels = if args.path == PathChoice::Generic { &[] } else { routines.for_runs };
     let stresses = args.stresses.analysis(&file, slips, kernels)?;
@@ -55,6 +56,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         warnings,
         print_interval: file.legacy.print_interval.unwrap_or(1),
         input_sha256: Some(file.sha256),
+        scene_text,
         parameters: file.settings.parameters,
         output,
         ..RunDescription::new(&scene, &options, units)
@@ -193,6 +195,7 @@ fn simulate_into_files(
     negative.iter().for_each(|warning| say("warning", warning));
     // The error that stopped the run says more than one in writing the files afterwards.
     if let Some(error) = failed {
+        let _ = write_report(args, &kept);
         return Err(CliError::Simulation { error, directory: Some(kept.directory) });
     }
     let certified = match watch.witness.as_ref().zip(args.certify) {
@@ -201,10 +204,20 @@ fn simulate_into_files(
         }
         _ => None,
     };
+    write_report(args, &kept)?;
     kept.written?;
     let (outcome, events) = (&outcome, watch.events);
     let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
     Ok(account.text(&directory))
+}
+
+/// The page of the run, made from its files, unless nobody wants it.
+fn write_report(args: &RunArgs, kept: &Kept) -> Result<(), CliError> {
+    if args.no_report {
+        return Ok(());
+    }
+    let run = nboom_report::Run::read(&kept.directory)?;
+    Ok(kept.add_report(&nboom_report::page(vec![run]))?)
 }
 
 /// `out/` and the scene's name, with characters replaced that a file name cannot have.

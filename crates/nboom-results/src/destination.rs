@@ -91,11 +91,16 @@ impl Destination {
         Ok(&self.finished)
     }
 
-    /// Adds a file to the finished results.
-    pub fn add(&self, name: &'static str, text: &str) -> Result<(), ResultsError> {
+    /// Adds a file to the results, which are in `directory`.
+    pub fn add(
+        &self,
+        directory: &Path,
+        name: &'static str,
+        publish: impl FnOnce(Draft, &Path) -> io::Result<()>,
+    ) -> Result<(), ResultsError> {
         assert!(FILES.contains(&name), "{name} is in the table of names");
-        let (path, target) = (self.partial.join(name), self.finished.join(name));
-        let added = Draft::create(path).and_then(|draft| draft.publish(&target, text.as_bytes()));
+        let (path, target) = (self.partial.join(name), directory.join(name));
+        let added = Draft::create(path).and_then(|draft| publish(draft, &target));
         added.map_err(ResultsError::writing(&target))
     }
 
@@ -165,7 +170,7 @@ enum Step {
 /// The summary of complete results comes last, that of incomplete ones first.
 fn steps(new: &Earlier, old: Option<&Earlier>) -> Vec<Step> {
     let is_new = |name: &&str| new.files.iter().any(|file| file == name);
-    let is_old = |name: &str| old.is_some_and(|old| old.files.iter().any(|file| file == name));
+    let is_old = |name: &str| old.is_some_and(|old| old.owns(name));
     let all = FILES.into_iter().filter(|name| is_new(name) || is_old(name));
     let all: Vec<String> = all.map(str::to_owned).collect();
     let stale = FILES.into_iter().filter(|name| is_old(name) && !is_new(name));
@@ -211,10 +216,9 @@ fn check(directory: &Path) -> Result<Option<Earlier>, ResultsError> {
     let earlier = Earlier::in_directory(directory)?;
     for name in FILES {
         let path = directory.join(name);
-        let is_ours = |earlier: &Earlier| earlier.files.iter().any(|file| file == name);
         match Kind::of(&path).map_err(ResultsError::writing(&path))? {
             Kind::Nothing => {}
-            Kind::File if earlier.as_ref().is_some_and(is_ours) => {}
+            Kind::File if earlier.as_ref().is_some_and(|earlier| earlier.owns(name)) => {}
             found => return Err(ResultsError::Foreign { path, found }),
         }
     }

@@ -1,4 +1,4 @@
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use nboom_model::{HingeLabel, Scene, WantedTable};
@@ -8,13 +8,15 @@ use nboom_sim::{
 use nboom_strength::StressAnalysis;
 
 use crate::destination::Destination;
+use crate::ledger::LedgerWriter;
 use crate::rows::{self, Output};
 use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
-    EVENTS_FILE, EventsWriter, LISTING_FILE, ListingWriter, OUTPUT_FILE, PeakDigits, ResultsError,
-    RunDescription, STATES_FILE, SUMMARY_FILE, StatesWriter, StressDescription, StressTables,
-    SummaryFile, TRUST_FILE, WorstLoads, trust, with_causes,
+    EVENTS_FILE, EventsWriter, INSTANTS_FILE, LEDGER_FILE, LISTING_FILE, ListingWriter,
+    OUTPUT_FILE, PeakDigits, REPORT_FILE, ResultsError, RunDescription, SCENE_FILE, STATES_FILE,
+    SUMMARY_FILE, StatesWriter, StressDescription, StressTables, SummaryFile, TRUST_FILE,
+    WorstLoads, trust, with_causes,
 };
 
 /// Space on disk reserved for the summary, which must be able to report a full disk \[bytes\].
@@ -32,6 +34,9 @@ pub struct RunDirectory {
     /// The summary to come; taken when it is written.
     draft: Option<Draft>,
     states: StatesWriter<Output>,
+    /// The motion on both sides of each instant.
+    instants: StatesWriter<Output>,
+    ledger: LedgerWriter<Output>,
     /// The table that is asked for.
     output: Option<StatesWriter<Output>>,
     events: EventsWriter<Output>,
@@ -63,7 +68,18 @@ impl Kept {
         found: &Trust,
         peaks: &[PeakDigits],
     ) -> Result<(), ResultsError> {
-        self.place.add(TRUST_FILE, &trust::text(scene, found, peaks))
+        let text = trust::text(scene, found, peaks);
+        let publish = |draft: Draft, target: &Path| draft.publish(target, text.as_bytes());
+        self.place.add(&self.directory, TRUST_FILE, publish)
+    }
+
+    /// Adds the page that shows the run.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn add_report(&self, page: &str) -> Result<(), ResultsError> {
+        let publish = |draft: Draft, target: &Path| draft.publish_unsynced(target, page.as_bytes());
+        self.place.add(&self.directory, REPORT_FILE, publish)
     }
 }
 
@@ -94,7 +110,14 @@ impl RunDirectory {
         let draft = announce(&place, &run)?;
         let path = place.partial();
         let labels = scene.labels().to_vec();
+        if let Some(text) = &run.scene_text {
+            let written =
+                rows::create(path, SCENE_FILE).and_then(|mut out| write_all(&mut out, text));
+            written.map_err(ResultsError::writing(&path.join(SCENE_FILE)))?;
+        }
         let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
+        let instants = open(path, INSTANTS_FILE, |out| StatesWriter::new(out, &labels))?;
+        let ledger = open(path, LEDGER_FILE, |out| LedgerWriter::new(out, scene))?;
         let events = open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone()))?;
         let output = run
             .output
@@ -108,6 +131,8 @@ impl RunDirectory {
             run,
             draft: Some(draft),
             states,
+            instants,
+            ledger,
             output,
             events,
             listing,
@@ -167,11 +192,14 @@ impl RunDirectory {
     pub fn finish(mut self, outcome: &Outcome) -> Kept {
         let instant = self.close_instant();
         let states = self.states.flush().map_err(self.writing(STATES_FILE));
+        let instants = self.instants.flush().map_err(self.writing(INSTANTS_FILE));
+        let ledger = self.ledger.flush().map_err(self.writing(LEDGER_FILE));
         let output = self.output.as_mut().map_or(Ok(()), StatesWriter::flush);
         let output = output.map_err(self.writing(OUTPUT_FILE));
         let listing = self.flush_listing();
         let stresses = self.stresses.as_mut().map_or(Ok(()), StressWriter::finish);
-        let tables = instant.and(states).and(output).and(listing).and(stresses);
+        let tables =
+            instant.and(states).and(instants).and(ledger).and(output).and(listing).and(stresses);
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
         let summary = self.write_summary(outcome, error);
@@ -224,6 +252,7 @@ impl RunDirectory {
     fn write_sample(&mut self, snapshot: &Snapshot) -> Result<(), ResultsError> {
         self.close_instant()?;
         self.states.write(snapshot).map_err(self.writing(STATES_FILE))?;
+        self.ledger.write(snapshot).map_err(self.writing(LEDGER_FILE))?;
         let output = self.output.as_mut().map_or(Ok(()), |output| output.write(snapshot));
         output.map_err(self.writing(OUTPUT_FILE))?;
         if let Some(stresses) = &mut self.stresses {
@@ -278,10 +307,12 @@ impl Recorder for RunDirectory {
     }
 
     fn needs_instants(&self) -> bool {
-        self.stresses.is_some()
+        true
     }
 
     fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        let mut both = instant.before.iter().chain([&instant.after]);
+        both.try_for_each(|side| self.instants.write(side))?;
         let Some(stresses) = &mut self.stresses else { return Ok(()) };
         stresses.instant(instant).map_err(ResultsError::into_io)?;
         self.write_stresses().map_err(ResultsError::into_io)
@@ -312,6 +343,11 @@ fn open<T>(
 ) -> Result<T, ResultsError> {
     let started = rows::create(directory, file).and_then(start);
     started.map_err(ResultsError::writing(&directory.join(file)))
+}
+
+fn write_all(out: &mut Output, text: &str) -> io::Result<()> {
+    out.write_all(text.as_bytes())?;
+    out.flush()
 }
 
 fn open_listing(

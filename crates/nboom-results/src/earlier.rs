@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::kind::Kind;
-use crate::{FILES, ResultsError, SUMMARY_FILE};
+use crate::{FILES, REPORT_FILE, ResultsError, SUMMARY_FILE};
 
 /// The longest summary that is read \[bytes\]; a run with a million changes of code is shorter.
 const LONGEST: u64 = 1 << 28;
@@ -52,6 +52,11 @@ impl Earlier {
         let all = || FILES.map(str::to_owned).to_vec();
         let files = keys.get("files").and_then(Value::as_array).map_or_else(all, named);
         Some(Self { keys, complete, files })
+    }
+
+    /// Whether a file of this name is the run's, or was made from its files later.
+    pub fn owns(&self, name: &str) -> bool {
+        name == REPORT_FILE || self.files.iter().any(|file| file == name)
     }
 
     /// A summary that says that these results are about to be replaced by others, with `files`.

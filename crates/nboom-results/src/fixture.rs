@@ -3,7 +3,7 @@
 use nboom_elements::{Kind, LineReading};
 use nboom_model::{HingeLabel, HingeState};
 use nboom_scalar::{Quaternion, Vec3};
-use nboom_sim::{Detail, Event, EventKind, Snapshot, Totals};
+use nboom_sim::{Account, Detail, Event, EventKind, Snapshot, Totals};
 
 pub(crate) fn labels() -> Vec<HingeLabel> {
     [(0, 0), (0, 1), (1, 0)].map(|(appendage, segment)| HingeLabel::new(appendage, segment)).into()
@@ -27,6 +27,7 @@ pub(crate) fn snapshot(time: f64) -> Snapshot {
         angular_momentum_inertial: Vec3::new(8.1, 8.2, 8.3),
         nutation: std::f64::consts::FRAC_PI_4,
         detail: Some(detail()),
+        account: Some(Account::default()),
         steps: 42,
         next_step: 0.125,
     }

@@ -28,6 +28,7 @@ mod events;
 mod kind;
 mod label_keys;
 mod layout;
+mod ledger;
 mod listing;
 mod lock;
 mod names;
@@ -55,8 +56,9 @@ pub use kind::Kind;
 pub use listing::ListingWriter;
 pub use lock::Holder;
 pub use names::{
-    ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, LATCH_IMPULSES_FILE,
-    LISTING_FILE, OUTPUT_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
+    ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, INSTANTS_FILE,
+    LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, REPORT_FILE, SCENE_FILE,
+    STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 pub use peaks::{PeakDigits, peak_digits};
 pub use signs::StressSigns;

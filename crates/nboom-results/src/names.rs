@@ -6,6 +6,12 @@ pub const STATES_FILE: &str = "states.csv";
 pub const OUTPUT_FILE: &str = "output.csv";
 /// Name of the table of events within a run's directory.
 pub const EVENTS_FILE: &str = "events.csv";
+/// Name of the scene as it was read, within a run's directory.
+pub const SCENE_FILE: &str = "scene.toml";
+/// Name of the table of the motion on both sides of each instant with events within a run's directory.
+pub const INSTANTS_FILE: &str = "instants.csv";
+/// Name of the table of what became of energy and momentum within a run's directory.
+pub const LEDGER_FILE: &str = "ledger.csv";
 /// Name of the summary within a run's directory.
 pub const SUMMARY_FILE: &str = "summary.json";
 /// Name of the table of stresses within a run's directory.
@@ -23,9 +29,15 @@ pub const LISTING_FILE: &str = "listing.txt";
 /// Name of the certificate, which says how many digits of the run can be trusted.
 pub const TRUST_FILE: &str = "certificate.json";
 
+/// Name of the page that shows a run; it is made from the other files, at any time.
+pub const REPORT_FILE: &str = "report.html";
+
 /// All names that a run may write; files of other names in its directory are not its own.
-pub const FILES: [&str; 11] = [
+pub const FILES: [&str; 15] = [
+    SCENE_FILE,
     STATES_FILE,
+    INSTANTS_FILE,
+    LEDGER_FILE,
     OUTPUT_FILE,
     EVENTS_FILE,
     STRESS_FILE,
@@ -35,5 +47,6 @@ pub const FILES: [&str; 11] = [
     ENVELOPE_FILE,
     LISTING_FILE,
     TRUST_FILE,
+    REPORT_FILE,
     SUMMARY_FILE,
 ];

@@ -38,6 +38,8 @@ pub struct RunDescription {
     /// SHA-256 of the scene's file, in hexadecimal digits; `None` for a scene that was made in
     /// memory.
     pub input_sha256: Option<String>,
+    /// The scene as a text that stands alone, if there is one.
+    pub scene_text: Option<String>,
     /// Parameters of the scene with the values of this run, by name.
     pub parameters: Vec<(String, f64)>,
     /// Labels of the scene's hinges.
@@ -61,6 +63,7 @@ impl RunDescription {
             skipped: nboom_model::skipped(scene),
             warnings: Vec::new(),
             input_sha256: None,
+            scene_text: None,
             parameters: Vec::new(),
             hinges: scene.labels().to_vec(),
         }

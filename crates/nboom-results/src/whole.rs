@@ -66,6 +66,12 @@ impl Draft {
         self.put(target)
     }
 
+    /// As [`Self::publish`], of a text that can be made again: after a power failure the file may be empty.
+    pub fn publish_unsynced(mut self, target: &Path, text: &[u8]) -> io::Result<()> {
+        self.file.write_all(text)?;
+        self.put(target)
+    }
+
     /// Writes a text into the file and moves it to `target`; if there is no space for the text,
     /// writes one that says so.
     ///

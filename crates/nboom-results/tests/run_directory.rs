@@ -12,8 +12,8 @@ use nboom_results::{
 };
 use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
-    Choice, Conservation, Detail, Event, EventKind, HingeVerdict, Integration, LockUpImpulse,
-    Method, Options, Recorder, Selection, Snapshot, Summary, Totals, Verdict,
+    Account, Choice, Conservation, Detail, Event, EventKind, HingeVerdict, Integration,
+    LockUpImpulse, Method, Options, Recorder, Selection, Snapshot, Summary, Totals, Verdict,
 };
 use nboom_strength::{Settings, StressAnalysis};
 
@@ -64,6 +64,7 @@ fn snapshot(time: f64) -> Snapshot {
             mass_center_velocity_inertial: Vec3::zero(),
             mass_center_acceleration_inertial: Vec3::zero(),
         }),
+        account: Some(Account::default()),
         steps: 3,
         next_step: 0.5,
     }

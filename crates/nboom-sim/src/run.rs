@@ -17,6 +17,7 @@ use crate::run::ledger::Ledger;
 use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
 
+pub(crate) mod account;
 pub(crate) mod beforehand;
 pub(crate) mod bodies;
 pub(crate) mod conservation;

@@ -19,7 +19,8 @@ const MOST_ON_EIGHT_STATES: usize = 20;
 impl Request {
     /// The right sides beside requests for the `accelerations` of a scene's modes: for each request one
     /// that assumes as much and that no line pushes a link, and one whose links kick-off springs push,
-    /// where they do. Modes in which a right side has no place for what acts have none.
+    /// where they do; of a topology with all numbers built in, that one takes the place of others that
+    /// assume something. Modes in which a right side has no place for what acts have none.
     pub fn right_sides(scene: &Scene, accelerations: &[Self]) -> Vec<Self> {
         let all_free = vec![true; scene.bodies.len()];
         let (mut cases, mut pushed) = (Cases::new(), Cases::new());
@@ -33,7 +34,11 @@ impl Request {
         for request in accelerations {
             let of_topology = |cases: &Cases| cases.get(&request.topology).cloned().flatten();
             requests.extend(of_topology(&cases).map(|cases| request.right_side(&cases)));
-            requests.extend(of_topology(&pushed).and_then(|cases| request.pushed(&cases)));
+            let is_built_in = |other: &Self| other.is_baked() && other.topology == request.topology;
+            let stands_alone = request.is_baked() || request.is_general();
+            if stands_alone || !accelerations.iter().any(is_built_in) {
+                requests.extend(of_topology(&pushed).and_then(|cases| request.pushed(&cases)));
+            }
         }
         requests
     }

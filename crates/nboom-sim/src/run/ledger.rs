@@ -6,6 +6,7 @@ use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
+use crate::run::account::Account;
 use crate::run::conservation::Conservation;
 use crate::run::finite::Check;
 
@@ -63,8 +64,14 @@ impl Ledger {
         self.start_energy += potential(equations, state).sum;
     }
 
+    /// The largest residuals so far.
     pub fn residuals(&self) -> Conservation {
-        let (found, scales) = (&self.residuals, &self.scales);
+        self.relative(&self.residuals)
+    }
+
+    /// Residuals relative to the largest scales so far.
+    fn relative(&self, found: &Balances) -> Conservation {
+        let scales = &self.scales;
         // All of the energy in one motion, of a point for linear momentum.
         let momentum = (2.0 * self.mass).sqrt() * scales.energy.sqrt();
         let relative = |residual: f64, scale: f64, of_energy: f64| {
@@ -80,7 +87,8 @@ impl Ledger {
         }
     }
 
-    /// Compares `state`, whose invariants are given, with what impulses and work account for.
+    /// Compares `state`, whose invariants are given, with what impulses and work account for, and returns
+    /// what became of them.
     ///
     /// # Errors
     /// When an energy or a momentum is not finite, so that nothing can be said about it.
@@ -89,7 +97,7 @@ impl Ledger {
         equations: &Equations,
         state: &State,
         invariants: &Invariants<f64>,
-    ) -> Result<(), SimError> {
+    ) -> Result<Account, SimError> {
         let now = Totals::of(state, invariants);
         let work = &state.work;
         let weight = equations.gravity() * self.mass;
@@ -121,7 +129,19 @@ impl Ledger {
             check.numbers(&[(quantity, value)])?;
             *largest = largest.max(value);
         }
-        Ok(())
+        let residuals = self.relative(&Balances {
+            linear_momentum: linear.norm(),
+            angular_momentum: angular.norm(),
+            energy: energy.abs(),
+        });
+        Ok(Account {
+            potential_energy: potential.sum,
+            dashpot_work: work.dashpots,
+            thrust_work: work.thrust,
+            motor_work: invariants.motor_work,
+            lock_up_loss: work.lock_ups,
+            residuals,
+        })
     }
 }
 

@@ -8,6 +8,7 @@ use nboom_scalar::{Quaternion, Vec3, Wrench};
 use crate::code::selection::{CodeOfRun, Selection};
 use crate::error::SimError;
 use crate::events::event::{Event, Jump};
+use crate::run::account::Account;
 use crate::run::conservation::Conservation;
 use crate::run::output_times::OutputTimes;
 use crate::run::step_motion::StepMotion;
@@ -131,6 +132,8 @@ pub struct Snapshot {
     pub nutation: f64,
     /// Accelerations and forces, when the recorder asked for them.
     pub detail: Option<Detail>,
+    /// What became of momentum and energy, at output times and after events.
+    pub account: Option<Account>,
     /// Steps accepted since the initial time.
     pub steps: usize,
     /// The step that the integrator tries next.
@@ -157,6 +160,7 @@ impl Snapshot {
             angular_momentum_inertial: zero,
             nutation: 0.0,
             detail: None,
+            account: None,
             steps: 0,
             next_step: 0.0,
         }

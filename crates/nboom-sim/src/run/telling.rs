@@ -80,8 +80,10 @@ impl Run<'_> {
 
     /// Enters the state shown in the ledger and sees all of it that the recorder wants.
     fn look(&mut self, found: &Invariants<f64>) -> Result<(), SimError> {
-        self.ledger.check(self.equations, self.shown, found)?;
-        self.see(found, self.recorder.needs_detail())
+        let account = self.ledger.check(self.equations, self.shown, found)?;
+        self.see(found, self.recorder.needs_detail())?;
+        self.seen.account = Some(account);
+        Ok(())
     }
 
     pub(super) fn see(&mut self, found: &Invariants<f64>, detailed: bool) -> Result<(), SimError> {
@@ -93,6 +95,7 @@ impl Run<'_> {
         } else {
             seen.detail = None;
         }
+        seen.account = None;
         let (scene, window) = (&equations.scene, self.stepper.window());
         seen.steps = window.counts.accepted;
         seen.next_step = window.next_step.min(scene.end_time - scene.initial.time);

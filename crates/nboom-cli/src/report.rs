@@ -1,0 +1,40 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use nboom_report::{Run, page};
+use nboom_results::{REPORT_FILE, write_file};
+
+use crate::{CliError, say};
+
+/// Options of `nboom report`.
+#[derive(Args, Debug)]
+pub struct ReportArgs {
+    /// Directories that nboom run has written; of several the page shows each run beside the others.
+    #[arg(value_name = "DIR", required = true)]
+    pub directories: Vec<PathBuf>,
+
+    /// The page; by default report.html in the directory, of several runs comparison.html.
+    #[arg(short, long, value_name = "FILE.html")]
+    pub output: Option<PathBuf>,
+}
+
+/// The page of several runs where no name is given.
+const COMPARISON: &str = "comparison.html";
+
+/// Makes the page of runs, and returns the text for standard output.
+pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
+    let several = args.directories.len() > 1;
+    let read = |directory: &PathBuf| {
+        let run = Run::read(directory)?;
+        run.gaps().iter().for_each(|gap| say("note", &format!("{}: {gap}", directory.display())));
+        Ok(if several { run.named_by(directory) } else { run })
+    };
+    let runs: Result<Vec<Run>, CliError> = args.directories.iter().map(read).collect();
+    let output = match (&args.output, &args.directories[..]) {
+        (Some(output), _) => output.clone(),
+        (None, [directory]) => directory.join(REPORT_FILE),
+        (None, _) => Path::new(COMPARISON).to_owned(),
+    };
+    write_file(&output, &page(runs?))?;
+    Ok(format!("{}\n", output.display()))
+}

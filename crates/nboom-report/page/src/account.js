@@ -1,0 +1,83 @@
+// How a run was made, and the scene as it was read.
+
+import { digits, element, numeric, order, table } from './text.js';
+
+/** Version, input, formulation, integrator and effort. */
+export function account(run) {
+  const { summary } = run;
+  if (!summary) return null;
+  const rows = [
+    ['Program', `nboom ${summary.version}`],
+    ['Scene', summary.scene],
+    ['SHA-256 of the input', summary.input_sha256],
+    ['Parameters', Object.entries(summary.parameters ?? {}).map(([name, value]) => `${name} = ${value}`).join(', ') || null],
+    ['Units', summary.units],
+    ['Code', `${summary.path}, formulation ${summary.formulation}; ${digits(100 * summary.generated_share, 3)} % of evaluations by generated code`],
+    ['Integrator', `${summary.integrator}, relative tolerance ${order(summary.rtol)}, absolute ${order(summary.atol)}`],
+    ['Steps', `${count(summary.steps_accepted)} accepted, ${count(summary.steps_rejected)} rejected`],
+    ['Evaluations', count(summary.evaluations)],
+    ['Wall-clock time', `${digits(summary.wall_seconds, 3)} s`],
+    ['Attitude drift', order(summary.attitude_drift)],
+    ['Stresses', summary.stresses ? `${summary.stresses.signs}; pulses ${summary.stresses.pulses}; ${summary.stresses.left_out}` : null],
+    ['Not computed', (summary.skipped ?? []).join('; ') || null],
+  ].filter(([, value]) => value !== null && value !== undefined);
+  return element('div', {}, table(['', ''], rows, { class: 'account' }), routines(run), certificate(run));
+}
+
+function count(number) {
+  return number?.toLocaleString('en') ?? '–';
+}
+
+/** Modes that are listed; more would fill the page. */
+const MOST = 60;
+
+function routines({ summary, units }) {
+  const { selections = [] } = summary;
+  if (selections.length === 0) return null;
+  const rows = selections.slice(0, MOST).map(({ since, path, formulation, reason, evaluations }) =>
+    [numeric(digits(since, 6)), path, formulation, reason, numeric(count(evaluations))]);
+  const more = selections.length - rows.length;
+  return element('div', {}, element('h3', {}, 'Routines by mode'),
+    table([`Since [${units.time}]`, 'Path', 'Formulation', 'Why', 'Evaluations'], rows),
+    more > 0 ? element('p', { class: 'note' }, `${more} more are in summary.json.`) : null);
+}
+
+function certificate({ data }) {
+  const { certificate: found } = data;
+  if (!found) return null;
+  const rows = [...found.end, ...found.peaks.map((peak) => ({ ...peak, quantity: `${peak.quantity}, ${peak.name ?? `${peak.appendage},${peak.segment}`}${peak.station ? ` station ${peak.station}` : ''}` }))]
+    .map(({ quantity, difference, digits: sure }) => [quantity, numeric(order(difference)), numeric(String(sure))]);
+  return element('div', {}, element('h3', {}, `Certificate by ${found.reference}`), table(['Quantity', 'Difference', 'Digits'], rows));
+}
+
+/** The largest stresses and hinge loads, worst first. */
+export function envelopes(run) {
+  const { data, units } = run;
+  const label = ({ appendage, segment }) => run.hinge(appendage, segment)?.label ?? `${appendage},${segment}`;
+  const cause = (row) => (row.event === 'lock_up' ? `latch of ${label({ appendage: row.event_appendage, segment: row.event_segment })}` : 'motion');
+  const stresses = [...(data.stress_envelope ?? [])].sort((a, b) => b.von_mises - a.von_mises);
+  const loads = (data.hinge_envelope ?? []);
+  const tables = [];
+  if (stresses.length > 0) {
+    const rows = stresses.slice(0, MOST).map((row) => [label(row), numeric(String(row.station)), numeric(digits(row.von_mises)), row.driver,
+      cause(row), numeric(digits(row.t, 5)), numeric(row.margin === null ? '' : digits(row.margin, 3))]);
+    tables.push(element('h3', {}, 'Largest stresses'),
+      table(['Segment', 'Station', `Von Mises [${units.stress}]`, 'Driver', 'By', `Time [${units.time}]`, 'Margin'], rows));
+  }
+  if (loads.length > 0) {
+    const keys = [...new Set(loads.map(({ appendage, segment }) => `${appendage}_${segment}`))];
+    const rows = keys.slice(0, MOST).map((key) => {
+      const [force, moment] = ['force', 'moment'].map((quantity) => loads.find((row) => row.quantity === quantity && `${row.appendage}_${row.segment}` === key));
+      return [label(force ?? moment), ...[force, moment].flatMap((row) => (row ? [numeric(digits(row.magnitude)), numeric(digits(row.t, 5)), cause(row)] : ['', '', '']))];
+    });
+    tables.push(element('h3', {}, 'Largest hinge loads'),
+      table(['Hinge', `Force [${units.force}]`, `Time [${units.time}]`, 'By', `Moment [${units.torque}]`, `Time [${units.time}]`, 'By'], rows));
+  }
+  return tables.length > 0 ? element('div', {}, tables) : null;
+}
+
+export function sceneText(run) {
+  const { text } = run.data;
+  if (!text) return element('p', { class: 'note' }, 'The directory has no scene.toml.');
+  return element('details', { open: text.split('\n').length < 60 }, element('summary', {}, 'scene.toml'), element('pre', { dir: 'ltr' }, text));
+}

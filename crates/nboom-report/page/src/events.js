@@ -1,0 +1,53 @@
+// What happened, when, and what it did to energy.
+
+import { digits, element, numeric, table } from './text.js';
+
+const NAMES = {
+  lock_up: 'locks', release: 'is released', kick_off_disengage: 'kick-off spring lets go',
+  kick_off_engage: 'kick-off spring takes hold', thrust_on: 'thrust on', thrust_off: 'thrust off', end: 'end of the run',
+};
+
+/** What happens in an event. */
+export function happening({ kind }) {
+  return NAMES[kind] ?? kind.replaceAll('_', ' ');
+}
+
+/** An event in words, with its hinge. */
+export function eventName(event, run) {
+  const hinge = hingeOf(event, run);
+  return hinge ? `${hinge.label}: ${happening(event)}` : happening(event);
+}
+
+export function hingeOf({ appendage, segment }, run) {
+  return appendage ? run.hinge(appendage, segment) : undefined;
+}
+
+/** Rows that are shown before the rest is asked for. */
+const MOST = 40;
+
+/** The table of events; a click goes to one. */
+export function eventTable(run, go) {
+  const { units } = run;
+  const headings = [`Time [${units.time}]`, 'Hinge', 'What happens',
+    `Impulse [${units.angularMomentum}]`, `Kinetic energy before [${units.energy}]`, `after [${units.energy}]`, `change [${units.energy}]`];
+  const slides = run.hinges.some((hinge) => hinge.slides);
+  if (slides) headings[3] = `Impulse [${units.angularMomentum}; of sliding joints ${units.force} ${units.time}]`;
+  let instant = null;
+  const rows = run.events.map((event) => {
+    // Events of one instant share the change.
+    const first = event.t !== instant;
+    instant = event.t;
+    const change = event.after - event.before;
+    return {
+      attributes: { tabindex: 0, class: 'event', 'data-t': event.t, click: () => go(event.t), keydown: ({ key }) => key === 'Enter' && go(event.t) },
+      cells: [numeric(digits(event.t, 6)), hingeOf(event, run)?.label ?? '', happening(event),
+        numeric(event.impulse === null ? '' : digits(event.impulse)),
+        ...(first ? [event.before, event.after, change] : [null, null, null]).map((value) => numeric(value === null ? '″' : digits(value, 5)))],
+    };
+  });
+  const shown = table(headings, rows.slice(0, MOST), { id: `events-${run.number}`, class: 'events' });
+  if (rows.length <= MOST) return shown;
+  const all = element('button', { type: 'button', click: () => shown.replaceChildren(...table(headings, rows).childNodes) }, `Show all ${rows.length} events`);
+  shown.append(all);
+  return shown;
+}

@@ -1,0 +1,58 @@
+// A run as the page sees it: what was computed, by name.
+
+import { Table } from './tables.js';
+import { visible } from './text.js';
+import { labels } from './units.js';
+
+export class Run {
+  constructor(data, number) {
+    this.data = data;
+    this.number = number;
+    this.name = visible(data.label);
+    this.units = labels(data.units);
+    this.scene = data.scene;
+    this.events = data.events ?? [];
+    this.motion = data.motion && new Table(data.motion);
+    this.ledger = data.ledger && new Table(data.ledger);
+    this.hingeLoads = data.hinge_loads && new Table(data.hinge_loads);
+    this.hingePeaks = data.hinge_peaks && new Table(data.hinge_peaks);
+    this.stress = data.stress && new Table(data.stress);
+    this.stressPeaks = data.stress_peaks && new Table(data.stress_peaks);
+    this.summary = data.summary;
+    this.hinges = hinges(this);
+  }
+
+  /** First and last time of the motion. */
+  get span() {
+    const { times } = this.motion;
+    return [times[0], times[times.length - 1]];
+  }
+
+  /** The hinge with these numbers, which count from 1. */
+  hinge(appendage, segment) {
+    return this.hinges.find((hinge) => hinge.appendage === appendage && hinge.segment === segment);
+  }
+
+  /** Its hinges in the motion, with their bodies. */
+  get bodies() {
+    return this.scene?.bodies ?? [];
+  }
+}
+
+/** The hinges by the scene; without it by the columns of the motion. */
+function hinges({ scene, motion, summary }) {
+  if (scene) {
+    return scene.bodies.map(({ appendage, segment, name, slides }) =>
+      hinge(appendage, segment, name, slides));
+  }
+  const told = summary?.verdict?.hinges;
+  if (told) return told.map(({ appendage, segment, name }) => hinge(appendage, segment, name, false));
+  const columns = motion?.names ?? [];
+  const numbers = columns.map((name) => /^beta_(\d+)_(\d+)$/.exec(name)).filter(Boolean);
+  return numbers.map(([, appendage, segment]) => hinge(Number(appendage), Number(segment), null, false));
+}
+
+function hinge(appendage, segment, name, slides) {
+  const key = `${appendage}_${segment}`;
+  return { appendage, segment, key, slides, label: visible(name ?? `${appendage},${segment}`) };
+}

@@ -1,0 +1,75 @@
+// Elements of the page. All text goes through `textContent`, so no text of a scene becomes markup.
+
+/** Marks that turn the direction of text, and control characters, which could make text read as what it is not. */
+const DECEPTIVE = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
+
+/** The text with everything visible that would not be. */
+export function visible(text) {
+  return String(text).replace(DECEPTIVE, '\ufffd');
+}
+
+/**
+ * An element with attributes and children. An attribute that is a function listens to the event of its name;
+ * one that is false or null is left out. A child is an element, a text, or nothing.
+ */
+export function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === false || value === null || value === undefined) continue;
+    if (typeof value === 'function') made.addEventListener(key, value);
+    else made.setAttribute(key, value === true ? '' : visible(value));
+  }
+  for (const child of children.flat()) {
+    if (child === null || child === undefined || child === false) continue;
+    made.append(child instanceof Node ? child : visible(child));
+  }
+  return made;
+}
+
+/** A name that a scene gave, which cannot turn the direction of what is around it. */
+export function given(text) {
+  return element('bdi', {}, text);
+}
+
+/** A table; cells that are numbers stand to the right. */
+export function table(headings, rows, attributes = {}) {
+  const cell = (name, content) =>
+    element(name, { class: typeof content === 'object' && content?.number ? 'number' : null },
+      typeof content === 'object' && content?.number ? content.number : content);
+  const head = element('tr', {}, headings.map((heading) => cell('th', heading)));
+  const body = rows.map((row) => element('tr', row.attributes ?? {}, (row.cells ?? row).map((content) => cell('td', content))));
+  const made = element('table', attributes, element('thead', {}, head), element('tbody', {}, body));
+  return element('div', { class: 'wide' }, made);
+}
+
+/** A cell with a number. */
+export function numeric(text) {
+  return { number: text === '' ? '\u2013' : text };
+}
+
+/** A number with so many significant digits, without an exponent where that is short. */
+export function digits(value, count = 4) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return '\u2013';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-3) return exponential(value, count);
+  return minus(Number(value.toPrecision(count)).toString());
+}
+
+/** A small number by its order. */
+export function order(value) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return '\u2013';
+  return value === 0 ? '0' : exponential(value, 2);
+}
+
+function exponential(value, count) {
+  const [mantissa, power] = value.toExponential(count - 1).split('e');
+  const raised = [...String(Number(power))].map((c) => '\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079'['-0123456789'.indexOf(c)]);
+  const short = String(Number(mantissa));
+  return `${minus(short)}\u202f\u00b7\u202f10${raised.join('')}`;
+}
+
+/** With a minus sign in place of a hyphen. */
+function minus(text) {
+  return text.replace('-', '\u2212');
+}

@@ -1,0 +1,143 @@
+// What became of the run, first of all.
+
+import { digits, element, given, numeric, order, table } from './text.js';
+import { angleText } from './units.js';
+
+const STATES = { '-1': 'held', 0: 'free', 1: 'locked' };
+
+/** Hinges that are listed before the rest is asked for. */
+const MOST = 30;
+
+/** The verdict in a sentence. */
+export function sentence(run) {
+  const { summary, units } = run;
+  const told = summary?.verdict?.hinges;
+  if (!told) return 'This run has no verdict.';
+  const locked = told.filter(({ state }) => state === 1);
+  const free = told.filter(({ state }) => state === 0).length;
+  const held = told.length - locked.length - free;
+  const times = locked.map(({ time }) => time).filter((time) => time !== null);
+  const by = times.length > 0 ? ` by ${digits(Math.max(...times), 5)} ${units.time}` : '';
+  const count = (number, what) => `${number} ${number === 1 ? 'joint' : 'joints'} ${what}`;
+  if (told.length === 0) return 'A rigid body: no joints.';
+  const all = ['', 'The joint', 'Both joints'][told.length] ?? `All ${told.length} joints`;
+  if (locked.length === told.length) return `${all} locked${by}.`;
+  const parts = [locked.length > 0 && count(locked.length, `locked${by}`), free > 0 && count(free, 'free at the end'), held > 0 && count(held, 'never released')];
+  return `${parts.filter(Boolean).join(', ')}.`;
+}
+
+function figure(name, value, unit, where) {
+  return element('div', { class: 'key' },
+    element('dt', {}, name),
+    element('dd', {}, element('span', { class: 'value' }, value), unit ? element('span', { class: 'unit' }, ` ${unit}`) : null,
+      where ? element('div', { class: 'where' }, where) : null));
+}
+
+function place(at, run) {
+  if (!at) return '';
+  const hinge = run.hinge(at.appendage, at.segment);
+  const station = at.station ? `, station ${at.station}` : '';
+  const event = at.event === 'lock_up' ? ', by a latch' : '';
+  return [given(hinge?.label ?? `${at.appendage},${at.segment}`), `${station}, t = ${digits(at.time, 4)}${event}`];
+}
+
+/** Key figures: name, value, unit and where, of one run. */
+export function keyFigures(run) {
+  const { summary, units } = run;
+  const verdict = summary?.verdict;
+  if (!verdict) return [];
+  const found = [];
+  const add = (name, value, unit, where) => value !== null && value !== undefined && found.push({ name, value, unit, where });
+  const locks = verdict.hinges.filter(({ state, time }) => state === 1 && time !== null);
+  const last = locks.reduce((late, hinge) => (hinge.time > (late?.time ?? -Infinity) ? hinge : late), null);
+  if (last) add('Last lock-up', digits(last.time, 5), units.time, [given(run.hinge(last.appendage, last.segment)?.label ?? '')]);
+  if (verdict.largest_impulse) {
+    const at = verdict.largest_impulse_at;
+    const hinge = run.hinge(at.appendage, at.segment);
+    add('Largest latch impulse', digits(verdict.largest_impulse), hinge?.slides ? `${units.force} ${units.time}` : units.angularMomentum, place(at, run));
+  }
+  if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, place(verdict.worst_load_at, run));
+  if (verdict.smallest_margin !== null && verdict.smallest_margin !== undefined) {
+    const at = verdict.smallest_margin_at;
+    add(`Smallest margin${at?.limit ? ` to ${at.limit}` : ''}`, digits(verdict.smallest_margin, 3), '', place(at, run));
+  }
+  if (verdict.largest_hinge_moment) add('Largest hinge moment', digits(verdict.largest_hinge_moment), units.torque, place(verdict.largest_hinge_moment_at, run));
+  add(...trust(run));
+  return found;
+}
+
+/** Digits to trust: certified ones, else what conservation says. */
+function trust({ data, summary }) {
+  const { certificate } = data;
+  if (certificate) {
+    const all = [...certificate.events.flatMap(({ time, impulse }) => [time, impulse]), ...certificate.end, ...certificate.peaks].filter(Boolean);
+    const fewest = Math.min(...all.map(({ digits: count }) => count));
+    return ['Digits to trust', Number.isFinite(fewest) ? String(fewest) : '–', '', [`certified by ${certificate.reference}`]];
+  }
+  const { linear_momentum: linear, angular_momentum: angular, energy } = summary.conservation ?? {};
+  return ['Worst residual', order(Math.max(linear, angular, energy)), '', ['of momentum and energy, relative; not certified']];
+}
+
+export function verdictSection(run) {
+  const keys = keyFigures(run).map(({ name, value, unit, where }) => figure(name, value, unit, where));
+  const negative = run.summary?.verdict?.smallest_margin < 0;
+  return element('section', { class: 'verdict', id: 'verdict' },
+    element('p', { class: 'sentence' }, sentence(run)),
+    problems(run),
+    negative ? element('p', { class: 'problem' }, 'A margin is negative: a section yields or breaks.') : null,
+    element('dl', { class: 'keys' }, keys),
+    hingeList(run),
+    warnings(run));
+}
+
+/** Gaps and errors. */
+function problems({ summary, data }) {
+  const said = [...data.gaps];
+  if (summary && !summary.complete) said.unshift(`The run is not complete: ${summary.error ?? 'it was ended'}.`);
+  return said.map((text) => element('p', { class: 'problem' }, text));
+}
+
+/** Warnings about the scene, and what the page leaves out. */
+function warnings({ summary, data }) {
+  const said = [...(summary?.warnings ?? [])];
+  const thinned = data.thinned ? element('p', { class: 'note' }, data.thinned) : null;
+  if (said.length === 0) return thinned;
+  return [thinned, element('details', { class: 'warnings' },
+    element('summary', {}, `${said.length} ${said.length === 1 ? 'warning' : 'warnings'} about the scene`),
+    element('ul', {}, said.map((text) => element('li', {}, text))))];
+}
+
+/** What became of each joint. */
+function hingeList(run) {
+  const told = run.summary?.verdict?.hinges ?? [];
+  if (told.length === 0) return null;
+  const { units } = run;
+  const items = told.map(({ appendage, segment, state, time, angle }) => {
+    const hinge = run.hinge(appendage, segment);
+    const at = hinge?.slides ? `${digits(angle)} ${units.length}` : angleText(angle);
+    const since = time === null ? '' : state === 1 ? `at ${digits(time, 6)} ${units.time}` : `since ${digits(time, 6)} ${units.time}`;
+    return element('li', {}, given(hinge?.label ?? ''), element('span', { class: `state state-${STATES[state]}` }, `${STATES[state] ?? state} ${since}`),
+      element('span', { class: 'position' }, at));
+  });
+  const list = element('ul', { class: 'hinges' }, items);
+  return items.length > MOST ? element('details', {}, element('summary', {}, `All ${items.length} joints`), list) : list;
+}
+
+/** Runs side by side: each key figure in a row. */
+export function comparison(runs) {
+  const found = runs.map((run) => [
+    { name: 'Verdict', value: sentence(run) }, ...keyFigures(run),
+    ...(run.summary?.verdict?.hinges ?? []).filter(({ time }) => time !== null).map(({ appendage, segment, time, state }) => ({
+      name: `${run.hinge(appendage, segment)?.label}: ${STATES[state] === 'locked' ? 'locks' : 'free since'}`, value: digits(time, 6), unit: run.units.time })),
+    { name: 'Formulation', value: run.summary?.formulation }, { name: 'Integrator', value: run.summary?.integrator },
+    { name: 'Evaluations', value: run.summary?.evaluations?.toLocaleString('en') },
+  ]);
+  const names = [...new Set(found.flat().map(({ name }) => name))];
+  const rows = names.map((name) => [name, ...found.map((figures) => {
+    const one = figures.find((candidate) => candidate.name === name);
+    return one?.value === undefined ? numeric('') : [String(one.value), one.unit ? `\u00a0${one.unit}` : ''].join('');
+  })]);
+  return element('section', { class: 'verdict', id: 'verdict' },
+    runs.flatMap((run) => problems(run).map((said) => element('div', {}, element('b', {}, given(run.name)), said))),
+    table(['', ...runs.map((run) => run.name)], rows, { class: 'comparison' }));
+}

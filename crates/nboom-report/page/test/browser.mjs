@@ -1,0 +1,227 @@
+// Opens reports in a browser as a person would:
+//
+//     node test/browser.mjs FOLDER
+//
+// FOLDER has the runs that .ci/report makes. Chromium is taken from the path, or from CHROMIUM.
+
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { chromium } from 'playwright-core';
+
+const folder = resolve(process.argv[2]);
+const executablePath = process.env.CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+const browser = await chromium.launch({
+  executablePath, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+
+/** A table of a run, rows by name. */
+function table(run, file) {
+  const [head, ...rows] = readFileSync(join(folder, run, file), 'utf8').trim().split('\n').map((line) => line.split(','));
+  return rows.map((row) => Object.fromEntries(row.map((value, i) => [head[i], value])));
+}
+
+/** A page that was opened from its file, and fails on any error or request. */
+async function open(name, { width = 1280, height = 900, colorScheme = 'light' } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true });
+  const page = await context.newPage();
+  const wrong = [];
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) wrong.push(message.text()); });
+  page.on('pageerror', (error) => wrong.push(error.stack));
+  page.on('dialog', (dialog) => { wrong.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
+  page.on('request', (request) => { if (!/^(file|data|blob):/.test(request.url())) wrong.push(`request: ${request.url()}`); });
+  const path = join(folder, name.endsWith('.html') ? name : `${name}/report.html`);
+  await page.goto(`file://${path}`);
+  await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
+  page.done = async () => {
+    // What SwiftShader says about itself is not the page's.
+    const own = wrong.filter((text) => !/GPU stall|swiftshader|WebGL.*fallback/i.test(text));
+    assert.deepEqual(own, [], `${name} is quiet`);
+    await context.close();
+  };
+  return page;
+}
+
+const angles = (page) => page.$$eval('.angle', (found) => Object.fromEntries(found.map((one) => [one.dataset.joint, Number(one.dataset.radians)])));
+const clock = (page) => page.$eval('.clock', (found) => found.textContent);
+const setTime = (page, share) => page.$eval('#time-0', (slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }, share);
+
+/** Red, green and blue of the picture on a coarse grid, row by row. */
+const pixels = (page, columns, rows) => page.$eval('.picture canvas', (canvas, [across, down]) => {
+  const small = document.createElement('canvas');
+  [small.width, small.height] = [across, down];
+  const flat = small.getContext('2d');
+  flat.drawImage(canvas, 0, 0, across, down);
+  return [...flat.getImageData(0, 0, across, down).data];
+}, [columns, rows]);
+
+const checks = {
+  async 'the slider moves the panels, and nothing else'() {
+    const page = await open('wing');
+    for (const layer of ['axes', 'joints', 'centre', 'momentum']) await page.click(`[data-layer=${layer}]`);
+    const [columns, rows] = [60, 40];
+    await setTime(page, 0);
+    const stowed = await pixels(page, columns, rows);
+    await setTime(page, 1);
+    const deployed = await pixels(page, columns, rows);
+    const covered = (found, column) => {
+      let count = 0;
+      for (let row = 0; row < rows; row++) count += found[4 * (row * columns + column) + 3] > 64 ? 1 : 0;
+      return count;
+    };
+    const where = (found) => Array.from({ length: columns }, (_, column) => column).filter((column) => covered(found, column) > 0);
+    const width = (found) => Math.max(...where(found)) - Math.min(...where(found));
+    // Stowed, all stands in the middle; deployed, the wings reach far to both sides of it.
+    assert.ok(width(deployed) > 1.6 * width(stowed), `${width(stowed)} columns stowed, ${width(deployed)} deployed`);
+    assert.ok(Math.min(...where(deployed)) < Math.min(...where(stowed)) && Math.max(...where(deployed)) > Math.max(...where(stowed)));
+    // A corner of the picture has nothing in it at any time.
+    assert.deepEqual(deployed.slice(0, 4), stowed.slice(0, 4));
+    await setTime(page, 0);
+    assert.deepEqual(await pixels(page, columns, rows), stowed, 'and back');
+    await page.done();
+  },
+
+  async 'events are listed and reached by keys, with the angles of the tables'() {
+    for (const run of ['wing', '1970', 'mast']) {
+      const page = await open(run);
+      const events = table(run, 'events.csv');
+      assert.equal(await page.locator('tr.event').count(), Math.min(events.length, 40));
+      const [states, instants] = [table(run, 'states.csv'), table(run, 'instants.csv')];
+      const times = [...new Set(events.map(({ t }) => Number(t)))];
+      const first = Number(states[0].t);
+      let compared = 0;
+      for (const time of times.filter((t) => t > first)) {
+        await page.keyboard.press('n');
+        const shown = await page.$$eval('tr.event.now', (rows) => rows.map((row) => Number(row.dataset.t)));
+        assert.ok(shown.length > 0 && shown.every((t) => t === time), `${run}: n leads to ${time}`);
+        const found = await angles(page);
+        const of = (rows) => rows.findLast(({ t }) => Number(t) === time);
+        for (const row of [of(states), of(instants)].filter(Boolean)) {
+          for (const [joint, angle] of Object.entries(found)) {
+            assert.equal(angle, Number(row[`beta_${joint}`]), `${run}: ${joint} at ${time}`);
+            compared += 1;
+          }
+        }
+      }
+      assert.ok(compared >= Object.keys(await angles(page)).length * times.length / 2, `${run}: ${compared} angles compared`);
+      await page.keyboard.press('p');
+      assert.deepEqual(await page.$$eval('tr.event.now', (rows) => [...new Set(rows.map((row) => Number(row.dataset.t)))]), [times.at(-2)]);
+      await page.done();
+    }
+  },
+
+  async 'an event at an output time shows the row of states.csv'() {
+    const page = await open('wing-by-seconds');
+    const states = table('wing-by-seconds', 'states.csv');
+    const event = table('wing-by-seconds', 'events.csv').find(({ t }) => states.some((row) => row.t === t));
+    assert.equal(event.kind, 'release');
+    await page.locator(`tr.event[data-t="${Number(event.t)}"]`).first().click();
+    const row = states.find(({ t }) => t === event.t);
+    for (const [joint, angle] of Object.entries(await angles(page))) assert.equal(angle, Number(row[`beta_${joint}`]));
+    await page.done();
+  },
+
+  async 'keys play, step, change the view and the colours'() {
+    const page = await open('gimbal');
+    const start = await clock(page);
+    await page.keyboard.press('ArrowRight');
+    const stepped = await clock(page);
+    assert.notEqual(stepped, start);
+    await page.keyboard.press('ArrowLeft');
+    assert.equal(await clock(page), start);
+    await page.keyboard.press(' ');
+    await page.waitForFunction((text) => document.querySelector('.clock').textContent !== text, start);
+    await page.keyboard.press(' ');
+    const paused = await clock(page);
+    await page.waitForTimeout(200);
+    assert.equal(await clock(page), paused, 'it stands still');
+    await page.keyboard.press('End');
+    const inertial = await pixels(page, 80, 50);
+    await page.keyboard.press('v');
+    assert.match(await page.textContent('#view'), /riding/);
+    assert.notDeepEqual(await pixels(page, 80, 50), inertial);
+    const background = () => page.$eval('body', (body) => getComputedStyle(body).backgroundColor);
+    const light = await background();
+    await page.keyboard.press('t');
+    assert.notEqual(await background(), light);
+    await page.keyboard.press('Home');
+    assert.equal(await clock(page), start);
+    await page.done();
+  },
+
+  async 'it fits a phone, in light and dark'() {
+    for (const colorScheme of ['light', 'dark']) {
+      for (const run of ['1970', 'twenty', 'comparison.html']) {
+        const page = await open(run, { width: 390, height: 844, colorScheme });
+        const [content, screen] = await page.evaluate(() => [document.scrollingElement.scrollWidth, innerWidth]);
+        assert.ok(content <= screen, `${run}: ${content} pixels on a screen of ${screen}`);
+        const sum = await page.$eval('body', (body) => getComputedStyle(body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((a, b) => a + Number(b), 0));
+        assert.equal(sum < 380, colorScheme === 'dark');
+        await page.done();
+      }
+    }
+  },
+
+  async 'twenty segments with stresses are there within two seconds'() {
+    const page = await open('twenty');
+    const picture = Number(await page.$eval('html', (html) => html.dataset.picture));
+    console.log(`    first picture after ${picture} ms, ${Math.round(readFileSync(join(folder, 'twenty/report.html')).length / 1000)} kB`);
+    assert.ok(picture < 2000, `${picture} ms`);
+    assert.ok(await page.locator('[data-layer=stress]').count());
+    await page.keyboard.press('End');
+    const coloured = await pixels(page, 120, 80);
+    await page.click('[data-layer=stress]');
+    assert.notDeepEqual(await pixels(page, 120, 80), coloured);
+    await page.done();
+  },
+
+  async 'texts of a scene stay texts'() {
+    const page = await open('hostile');
+    assert.equal(await page.title(), `<script>alert('1')<!-- & "quoted" \ufffd`);
+    assert.equal(await page.locator('img, b b, script').count(), 2, 'data and program');
+    const text = await page.textContent('body');
+    assert.ok(text.includes('<img src=x onerror=alert(1)>'));
+    assert.ok(!/[\u202a-\u202e\u2066-\u2069]/.test(await page.evaluate(() => document.body.innerText)), 'nothing turns its direction');
+    await page.done();
+  },
+
+  async 'the data of curves can be saved'() {
+    const page = await open('wing');
+    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('.curve .save').first().click()]);
+    const saved = readFileSync(await download.path(), 'utf8').trim().split('\n').map((line) => line.split(','));
+    const [states, instants] = [table('wing', 'states.csv'), table('wing', 'instants.csv')];
+    assert.equal(saved.length - 1, states.length + instants.length);
+    const last = states.at(-1);
+    assert.equal(Number(saved.at(-1)[0]), Number(last.t));
+    assert.ok(Math.abs(Number(saved.at(-1)[1]) - (Number(last.beta_1_1) * 180) / Math.PI) < 1e-12);
+    await page.done();
+  },
+
+  async 'it prints'() {
+    const page = await open('1970');
+    assert.ok((await page.pdf({ format: 'A4' })).length > 50_000);
+    await page.done();
+  },
+
+  async 'runs are compared on the same axes'() {
+    const page = await open('comparison.html');
+    assert.equal(await page.locator('table.comparison thead th').count(), 3);
+    const legends = await page.$$eval('.curve', (figures) => figures.map((figure) => figure.querySelectorAll('.u-legend .u-series').length));
+    assert.ok(legends.length > 5 && legends.filter((count) => count === 3).length > 4, `${legends}`);
+    await page.done();
+  },
+};
+
+let failed = 0;
+for (const [name, check] of Object.entries(checks)) {
+  const started = performance.now();
+  try {
+    await check();
+    console.log(`ok  ${name} (${Math.round(performance.now() - started)} ms)`);
+  } catch (error) {
+    failed += 1;
+    console.log(`FAILED  ${name}\n${error.stack}`);
+  }
+}
+await browser.close();
+process.exit(failed === 0 ? 0 : 1);

@@ -1,0 +1,22 @@
+//! The page that shows a run: `report.html`, one file that needs no network and no program but a browser.
+//!
+//! [`Run::read`] takes what a run left in its directory, and [`page`] puts it into the page. What is missing or
+//! cut off becomes a gap that the page names. Nothing is computed here but the choice of the rows that an eye can
+//! tell apart; positions of bodies follow from joint angles and the scene in the page itself.
+//!
+//! The page is made of the modules in `page/src`, bundled with their libraries into `page/bundle` by
+//! `npm run build`; `cargo build` needs only the bundle.
+
+mod error;
+mod geometry;
+mod loads;
+mod pack;
+mod page;
+mod run;
+mod table;
+mod text;
+mod thin;
+
+pub use error::{Gap, ReportError};
+pub use page::{MOST_BYTES, page};
+pub use run::Run;

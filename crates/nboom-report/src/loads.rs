@@ -1,0 +1,195 @@
+//! Hinge loads and stresses: long tables, of which the page has a column for each hinge or station.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use nboom_results::{ENVELOPE_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, STRESS_FILE};
+use serde::Serialize;
+
+use crate::Gap;
+use crate::table::{Rows, Table, count, number};
+
+/// Loads over time, and their peaks at lock-ups.
+#[derive(Default)]
+pub(crate) struct Loads {
+    pub motion: Table,
+    pub peaks: Table,
+    pub gap: Option<Gap>,
+}
+
+/// Rows of one instant that become one row.
+struct Pivot {
+    table: Table,
+    places: HashMap<String, usize>,
+    row: Vec<f64>,
+}
+
+impl Pivot {
+    fn new() -> Self {
+        Self {
+            table: Table::new(vec!["t".to_owned()]),
+            places: HashMap::new(),
+            row: vec![f64::NAN],
+        }
+    }
+
+    fn set(&mut self, time: f64, name: String, value: f64) {
+        if self.row[0] != time {
+            self.close();
+            self.row[0] = time;
+        }
+        let rows = self.table.rows();
+        let place = *self.places.entry(name).or_insert_with_key(|name| {
+            self.table.names.push(name.clone());
+            self.table.columns.push(vec![0.0; rows]);
+            self.table.names.len() - 1
+        });
+        self.row.resize(self.table.names.len(), 0.0);
+        self.row[place] = value;
+    }
+
+    fn close(&mut self) {
+        if !self.row[0].is_nan() {
+            self.table.push(&self.row);
+            self.row[1..].fill(0.0);
+        }
+    }
+
+    fn finish(mut self) -> Table {
+        self.close();
+        self.table
+    }
+}
+
+/// The size of a force or moment.
+fn size(fields: &[&str], places: &[usize]) -> Result<f64, String> {
+    let mut sum = 0.0;
+    for &place in places {
+        sum += number(fields[place])?.powi(2);
+    }
+    Ok(sum.sqrt())
+}
+
+/// Sizes of the force and the moment of every hinge.
+pub(crate) fn hinge_loads(directory: &Path) -> Result<Option<Loads>, Gap> {
+    let Some(mut rows) = Rows::open(directory, HINGE_LOADS_FILE)? else { return Ok(None) };
+    let [t, event, appendage, segment] = rows.places(["t", "event", "appendage", "segment"])?;
+    let force = rows.places(["p_xi", "p_eta", "p_zeta"])?;
+    let moment = rows.places(["q_xi", "q_eta", "q_zeta"])?;
+    let mut pivots = [Pivot::new(), Pivot::new()];
+    let ended = rows.each(|fields| {
+        let pivot = &mut pivots[usize::from(!fields[event].is_empty())];
+        let time = number(fields[t])?;
+        let hinge = format!("{}_{}", count(fields[appendage])?, count(fields[segment])?);
+        pivot.set(time, format!("force_{hinge}"), size(fields, &force)?);
+        pivot.set(time, format!("moment_{hinge}"), size(fields, &moment)?);
+        Ok(())
+    });
+    Ok(Some(loads(pivots, ended)))
+}
+
+fn loads([motion, peaks]: [Pivot; 2], ended: Result<(), Gap>) -> Loads {
+    Loads { motion: motion.finish(), peaks: peaks.finish(), gap: ended.err() }
+}
+
+/// The largest von Mises stress of every station.
+pub(crate) fn stresses(directory: &Path) -> Result<Option<Loads>, Gap> {
+    let Some(mut rows) = Rows::open(directory, STRESS_FILE)? else { return Ok(None) };
+    let [t, event, appendage, segment, station, point, von_mises] =
+        rows.places(["t", "event", "appendage", "segment", "station", "point", "von_mises"])?;
+    let mut pivots = [Pivot::new(), Pivot::new()];
+    let ended = rows.each(|fields| {
+        if fields[point] != "max" {
+            return Ok(());
+        }
+        let pivot = &mut pivots[usize::from(!fields[event].is_empty())];
+        let [k, i, s] = [appendage, segment, station].map(|place| count(fields[place]));
+        pivot.set(number(fields[t])?, format!("{}_{}_{}", k?, i?, s?), number(fields[von_mises])?);
+        Ok(())
+    });
+    Ok(Some(loads(pivots, ended)))
+}
+
+/// A row of either envelope.
+#[derive(Serialize)]
+pub(crate) struct Worst {
+    appendage: usize,
+    segment: usize,
+    t: f64,
+    event: String,
+    event_appendage: Option<usize>,
+    event_segment: Option<usize>,
+    #[serde(flatten)]
+    what: What,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum What {
+    Hinge { quantity: String, magnitude: f64 },
+    Station { station: usize, von_mises: f64, driver: String, margin: Option<f64> },
+}
+
+/// The rows of an envelope, and what ended it early.
+pub(crate) type Envelope = (Vec<Worst>, Option<Gap>);
+
+/// The largest force and moment of each hinge.
+pub(crate) fn hinge_envelope(directory: &Path) -> Result<Option<Envelope>, Gap> {
+    envelope(directory, HINGE_ENVELOPE_FILE, |rows| {
+        let [quantity, magnitude] = rows.places(["quantity", "magnitude"])?;
+        Ok(move |fields: &[&str]| {
+            Ok(What::Hinge {
+                quantity: fields[quantity].to_owned(),
+                magnitude: number(fields[magnitude])?,
+            })
+        })
+    })
+}
+
+/// The largest stress of each station.
+pub(crate) fn stress_envelope(directory: &Path) -> Result<Option<Envelope>, Gap> {
+    envelope(directory, ENVELOPE_FILE, |rows| {
+        let [station, von_mises, driver, margin] =
+            rows.places(["station", "von_mises", "driver", "margin"])?;
+        Ok(move |fields: &[&str]| {
+            Ok(What::Station {
+                station: count(fields[station])?,
+                von_mises: number(fields[von_mises])?,
+                driver: fields[driver].to_owned(),
+                margin: Some(fields[margin])
+                    .filter(|text| !text.is_empty())
+                    .map(number)
+                    .transpose()?,
+            })
+        })
+    })
+}
+
+fn envelope<F>(
+    directory: &Path,
+    file: &'static str,
+    what: impl FnOnce(&Rows) -> Result<F, Gap>,
+) -> Result<Option<Envelope>, Gap>
+where
+    F: Fn(&[&str]) -> Result<What, String>,
+{
+    let Some(mut rows) = Rows::open(directory, file)? else { return Ok(None) };
+    let [t, event, appendage, segment, event_appendage, event_segment] =
+        rows.places(["t", "event", "appendage", "segment", "event_appendage", "event_segment"])?;
+    let what = what(&rows)?;
+    let mut found = Vec::new();
+    let of_event = |field: &str| Some(field).filter(|text| !text.is_empty()).map(count).transpose();
+    let ended = rows.each(|fields| {
+        found.push(Worst {
+            appendage: count(fields[appendage])?,
+            segment: count(fields[segment])?,
+            t: number(fields[t])?,
+            event: fields[event].to_owned(),
+            event_appendage: of_event(fields[event_appendage])?,
+            event_segment: of_event(fields[event_segment])?,
+            what: what(fields)?,
+        });
+        Ok(())
+    });
+    Ok(Some((found, ended.err())))
+}

@@ -1,0 +1,129 @@
+//! The page: the bundle with a title and the data of runs.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::geometry::{SceneKeys, UnitKeys};
+use crate::loads::Worst;
+use crate::pack::{Packed, Packing};
+use crate::run::{EventKeys, Run};
+use crate::table::Table;
+use crate::text;
+
+/// The page without title and data.
+const TEMPLATE: &str = include_str!("../page/bundle/page.html");
+
+/// Bytes of the tables in a page.
+const TABLES: usize = 6_000_000;
+
+/// No page is longer than this, whatever the run \[bytes\], but for scenes and events of unusual length.
+pub const MOST_BYTES: usize = 10_000_000;
+
+#[derive(Serialize)]
+struct PageKeys<'a> {
+    runs: Vec<RunKeys<'a>>,
+}
+
+#[derive(Serialize)]
+struct RunKeys<'a> {
+    label: &'a str,
+    units: &'a UnitKeys,
+    summary: Option<&'a Value>,
+    certificate: Option<&'a Value>,
+    gaps: Vec<String>,
+    /// What was left out so that the page stays small.
+    thinned: Option<String>,
+    scene: Option<&'a SceneKeys>,
+    text: Option<&'a str>,
+    events: &'a [EventKeys],
+    motion: Option<Packed<'a>>,
+    ledger: Option<Packed<'a>>,
+    hinge_loads: Option<Packed<'a>>,
+    hinge_peaks: Option<Packed<'a>>,
+    stress: Option<Packed<'a>>,
+    stress_peaks: Option<Packed<'a>>,
+    hinge_envelope: &'a [Worst],
+    stress_envelope: &'a [Worst],
+}
+
+/// The page of a run, or of several on the same axes.
+pub fn page(mut runs: Vec<Run>) -> String {
+    let packing = Packing::of(runs.iter().flat_map(Run::tables), TABLES);
+    let thinned: Vec<_> = runs.iter_mut().map(|run| thin(run, packing)).collect();
+    let keys = runs.iter().zip(thinned).map(|(run, thinned)| keys(run, thinned, packing));
+    let data = PageKeys { runs: keys.collect() };
+    let data = serde_json::to_string(&data).expect("the keys are texts and numbers");
+    let title = match &runs[..] {
+        [run] => run.label.clone(),
+        runs => format!("{} runs", runs.len()),
+    };
+    let parts = [("@TITLE@", text::html(&title)), ("@DATA@", text::json(&data))];
+    let mut page = String::with_capacity(TEMPLATE.len() + data.len() + data.len() / 8);
+    let mut rest = TEMPLATE;
+    for (mark, part) in parts {
+        // The bundle has both, in this order; a test looks.
+        let (before, after) = rest.split_once(mark).unwrap_or((rest, ""));
+        page.push_str(before);
+        page.push_str(&part);
+        rest = after;
+    }
+    page + rest
+}
+
+/// Leaves out rows that nobody would see, and says so.
+fn thin(run: &mut Run, packing: Packing) -> Option<String> {
+    let times: Vec<f64> = run.events.iter().map(|event| event.t).collect();
+    let mut told: Option<(usize, usize, f64)> = None;
+    for table in run.tables_mut() {
+        let needed = rows_at(table, &times);
+        let deviation = packing.thin(table, &needed);
+        if deviation.is_none() && table.read == table.rows() {
+            continue;
+        }
+        let deviation = deviation.unwrap_or(0.0).max(told.map_or(0.0, |(_, _, worst)| worst));
+        let (rows, read) = told.map_or((table.rows(), table.read), |(rows, read, _)| (rows, read));
+        told = Some((rows, read, deviation));
+    }
+    let (rows, read, deviation) = told.filter(|(rows, read, _)| rows < read)?;
+    Some(format!(
+        "The page has {rows} of {read} rows. Extremes and events are all there; between them curves are \
+         off by at most {:.2} % of their range. The tables have the rest.",
+        100.0 * deviation
+    ))
+}
+
+/// Rows of a table at these times, which ascend.
+fn rows_at(table: &Table, times: &[f64]) -> Vec<usize> {
+    let Some(of_rows) = table.columns.first() else { return Vec::new() };
+    let is_at = |row: &usize| times.binary_search_by(|time| time.total_cmp(&of_rows[*row])).is_ok();
+    (0..of_rows.len()).filter(is_at).collect()
+}
+
+fn keys(run: &Run, thinned: Option<String>, packing: Packing) -> RunKeys<'_> {
+    let pack = |table| packed(table, packing);
+    let (hinges, stresses) = (run.hinge_loads.as_ref(), run.stresses.as_ref());
+    RunKeys {
+        label: &run.label,
+        units: &run.units,
+        summary: run.summary.as_ref(),
+        certificate: run.certificate.as_ref(),
+        gaps: run.gaps().iter().map(ToString::to_string).collect(),
+        thinned,
+        scene: run.scene.as_ref(),
+        text: run.text.as_deref(),
+        events: &run.events,
+        motion: pack(run.motion.as_ref()),
+        ledger: pack(run.ledger.as_ref()),
+        hinge_loads: pack(hinges.map(|loads| &loads.motion)),
+        hinge_peaks: pack(hinges.map(|loads| &loads.peaks)),
+        stress: pack(stresses.map(|loads| &loads.motion)),
+        stress_peaks: pack(stresses.map(|loads| &loads.peaks)),
+        hinge_envelope: &run.hinge_envelope,
+        stress_envelope: &run.stress_envelope,
+    }
+}
+
+/// A table, unless it is empty.
+fn packed(table: Option<&Table>, packing: Packing) -> Option<Packed<'_>> {
+    table.filter(|table| table.rows() > 0).map(|table| packing.pack(table))
+}

@@ -1,0 +1,296 @@
+//! What a run left in its directory.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use nboom_model::UnitSystem;
+use nboom_results::{
+    EVENTS_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE, STATES_FILE, SUMMARY_FILE, TRUST_FILE,
+};
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::geometry::{self, SceneKeys, UnitKeys};
+use crate::loads::{self, Envelope, Loads, Worst};
+use crate::table::{Rows, Table, count, number, read_columns};
+use crate::{Gap, ReportError};
+
+/// The longest summary or certificate that is read \[bytes\].
+const LONGEST_JSON: u64 = 1 << 26;
+
+/// The longest text of a scene in a page \[bytes\].
+const LONGEST_SCENE: usize = 1 << 18;
+
+/// Most events and rows of an envelope in a page.
+const MOST_EVENTS: usize = 20_000;
+const MOST_WORST: usize = 5_000;
+
+/// Most entries of the lists in a summary or certificate; what is beyond them is in these files.
+const MOST_ENTRIES: usize = 500;
+
+/// An event, as the table of events has it.
+#[derive(Serialize)]
+pub(crate) struct EventKeys {
+    pub t: f64,
+    kind: String,
+    appendage: Option<usize>,
+    segment: Option<usize>,
+    impulse: Option<f64>,
+    before: f64,
+    after: f64,
+}
+
+/// A run, as far as its directory has it.
+pub struct Run {
+    pub(crate) label: String,
+    pub(crate) units: UnitKeys,
+    pub(crate) summary: Option<Value>,
+    pub(crate) certificate: Option<Value>,
+    pub(crate) scene: Option<SceneKeys>,
+    pub(crate) text: Option<String>,
+    pub(crate) events: Vec<EventKeys>,
+    pub(crate) motion: Option<Table>,
+    pub(crate) ledger: Option<Table>,
+    pub(crate) hinge_loads: Option<Loads>,
+    pub(crate) stresses: Option<Loads>,
+    pub(crate) hinge_envelope: Vec<Worst>,
+    pub(crate) stress_envelope: Vec<Worst>,
+    gaps: Vec<Gap>,
+}
+
+impl Run {
+    /// Reads the files of a run in `directory`.
+    ///
+    /// # Errors
+    /// When it is no directory, or has no file of a run. Files that are missing or broken become gaps.
+    pub fn read(directory: &Path) -> Result<Self, ReportError> {
+        let path = directory.to_owned();
+        if !directory.is_dir() {
+            return Err(ReportError::NoDirectory { path });
+        }
+        if ![SUMMARY_FILE, STATES_FILE].iter().any(|name| directory.join(name).is_file()) {
+            let has_partial = partial(directory).is_some_and(|partial| partial.is_dir());
+            return Err(ReportError::NothingOfARun { path, has_partial });
+        }
+        let mut gaps = Vec::new();
+        let summary = json(directory, SUMMARY_FILE, &mut gaps);
+        if summary.is_none() && gaps.is_empty() {
+            gaps.push(Gap::Missing { file: SUMMARY_FILE, shows: "verdict" });
+        }
+        gaps.extend(summary.as_ref().and_then(other_version));
+        let certificate = json(directory, TRUST_FILE, &mut gaps);
+        let file = kept(geometry::read(directory), &mut gaps);
+        let units =
+            summary.as_ref().and_then(|keys| UnitSystem::from_name(keys["units"].as_str()?));
+        let of_scene = file.as_ref().and_then(|file| file.settings.units.clone());
+        let mut run = Self {
+            label: label(directory, summary.as_ref()),
+            units: UnitKeys::from(&units.or(of_scene).unwrap_or_default()),
+            text: text(directory),
+            scene: file.as_ref().map(SceneKeys::from),
+            summary,
+            certificate,
+            events: Vec::new(),
+            motion: None,
+            ledger: None,
+            hinge_loads: None,
+            stresses: None,
+            hinge_envelope: Vec::new(),
+            stress_envelope: Vec::new(),
+            gaps,
+        };
+        run.read_tables(directory);
+        run.check_scene();
+        Ok(run)
+    }
+
+    /// What is missing or cannot be read.
+    pub fn gaps(&self) -> &[Gap] {
+        &self.gaps
+    }
+
+    /// Calls the run by the name of its directory, beside others.
+    #[must_use]
+    pub fn named_by(self, directory: &Path) -> Self {
+        let name = directory.display().to_string();
+        Self { label: name, ..self }
+    }
+
+    /// All tables.
+    pub(crate) fn tables(&self) -> impl Iterator<Item = &Table> + Clone {
+        let loads = self.hinge_loads.iter().chain(&self.stresses);
+        let of_loads = loads.flat_map(|loads| [&loads.motion, &loads.peaks]);
+        self.motion.iter().chain(&self.ledger).chain(of_loads)
+    }
+
+    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = &mut Table> {
+        let loads = self.hinge_loads.iter_mut().chain(&mut self.stresses);
+        let of_loads = loads.flat_map(|loads| [&mut loads.motion, &mut loads.peaks]);
+        self.motion.iter_mut().chain(&mut self.ledger).chain(of_loads)
+    }
+
+    fn read_tables(&mut self, directory: &Path) {
+        let gaps = &mut self.gaps;
+        let mut motion = columns(directory, STATES_FILE, Some("motion"), is_shown, gaps);
+        let instants = columns(directory, INSTANTS_FILE, None, is_shown, gaps);
+        if let (Some(motion), Some(instants)) = (&mut motion, instants)
+            && motion.names == instants.names
+        {
+            motion.merge(&instants);
+        }
+        // A picture of nothing is none.
+        self.motion = motion.filter(|motion| motion.rows() > 0);
+        let ledger = columns(directory, LEDGER_FILE, Some("ledger of energy"), |_| true, gaps);
+        self.ledger = ledger.filter(|ledger| ledger.rows() > 0);
+        self.events = events(directory, gaps);
+        for (loads, read) in [
+            (&mut self.hinge_loads, loads::hinge_loads as fn(&Path) -> _),
+            (&mut self.stresses, loads::stresses),
+        ] {
+            let found: Option<Loads> = kept(read(directory), gaps).flatten();
+            *loads = found.filter(|loads| loads.motion.rows() > 0);
+            gaps.extend(loads.as_mut().and_then(|loads| loads.gap.take()));
+        }
+        self.hinge_envelope = worst(loads::hinge_envelope(directory), gaps);
+        self.stress_envelope = worst(loads::stress_envelope(directory), gaps);
+    }
+
+    /// Leaves the scene out if it is not that of the motion.
+    fn check_scene(&mut self) {
+        let (Some(scene), Some(motion)) = (&self.scene, &self.motion) else { return };
+        let joints = |name: &&String| name.starts_with("beta_");
+        let (scene, table) = (scene.bodies.len(), motion.names.iter().filter(joints).count());
+        if scene != table {
+            self.gaps.push(Gap::OtherScene { scene, table });
+            self.scene = None;
+        }
+    }
+}
+
+/// Whether the page shows a column of the motion: sums of angles follow from them, states from events.
+fn is_shown(name: &str) -> bool {
+    !["alpha_", "sigma_", "state_"].iter().any(|left_out| name.starts_with(left_out))
+}
+
+/// What was read; what was not becomes a gap.
+fn kept<T>(read: Result<T, Gap>, gaps: &mut Vec<Gap>) -> Option<T> {
+    read.map_err(|gap| gaps.push(gap)).ok()
+}
+
+/// Columns of a table; `shows` is what is made of a table that must be there.
+fn columns(
+    directory: &Path,
+    file: &'static str,
+    shows: Option<&'static str>,
+    is_wanted: impl Fn(&str) -> bool,
+    gaps: &mut Vec<Gap>,
+) -> Option<Table> {
+    let Some((table, gap)) = kept(read_columns(directory, file, is_wanted), gaps)? else {
+        gaps.extend(shows.map(|shows| Gap::Missing { file, shows }));
+        return None;
+    };
+    gaps.extend(gap);
+    Some(table)
+}
+
+fn events(directory: &Path, gaps: &mut Vec<Gap>) -> Vec<EventKeys> {
+    let mut events = Vec::new();
+    match read_events(directory, &mut events) {
+        Ok(true) => {}
+        Ok(false) => gaps.push(Gap::Missing { file: EVENTS_FILE, shows: "table of events" }),
+        Err(gap) => gaps.push(gap),
+    }
+    if events.len() > MOST_EVENTS {
+        events.truncate(MOST_EVENTS);
+        gaps.push(Gap::TooMany { file: EVENTS_FILE, most: MOST_EVENTS });
+    }
+    events
+}
+
+/// Reads up to one event more than a page shows; false if there is no such file.
+fn read_events(directory: &Path, events: &mut Vec<EventKeys>) -> Result<bool, Gap> {
+    let Some(mut rows) = Rows::open(directory, EVENTS_FILE)? else { return Ok(false) };
+    let [t, kind, appendage, segment, impulse, before, after] = rows.places([
+        "t",
+        "kind",
+        "appendage",
+        "segment",
+        "impulse",
+        "energy_before",
+        "energy_after",
+    ])?;
+    rows.each(|fields| {
+        let given = |place: usize| Some(fields[place]).filter(|text| !text.is_empty());
+        if events.len() > MOST_EVENTS {
+            return Ok(());
+        }
+        events.push(EventKeys {
+            t: number(fields[t])?,
+            kind: fields[kind].to_owned(),
+            appendage: given(appendage).map(count).transpose()?,
+            segment: given(segment).map(count).transpose()?,
+            impulse: given(impulse).map(number).transpose()?,
+            before: number(fields[before])?,
+            after: number(fields[after])?,
+        });
+        Ok(())
+    })?;
+    Ok(true)
+}
+
+fn worst(read: Result<Option<Envelope>, Gap>, gaps: &mut Vec<Gap>) -> Vec<Worst> {
+    let Some((mut rows, gap)) = kept(read, gaps).flatten() else { return Vec::new() };
+    gaps.extend(gap);
+    rows.truncate(MOST_WORST);
+    rows
+}
+
+/// A file in JSON, with its lists cut to what a page shows; nothing if it is not there.
+fn json(directory: &Path, file: &'static str, gaps: &mut Vec<Gap>) -> Option<Value> {
+    let path = directory.join(file);
+    if !path.is_file() {
+        return None;
+    }
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST_JSON).read_to_end(&mut bytes));
+    kept(read.map_err(|source| Gap::Unreadable { file, source }), gaps)?;
+    let parsed = serde_json::from_slice::<Value>(&bytes);
+    let object = parsed.map_err(|error| error.to_string()).and_then(|keys| {
+        if keys.is_object() { Ok(keys) } else { Err("it has no keys".to_owned()) }
+    });
+    let mut keys = kept(object.map_err(|found| Gap::Json { file, found }), gaps)?;
+    for key in ["selections", "integrations", "events", "peaks"] {
+        if let Some(list) = keys.get_mut(key).and_then(Value::as_array_mut) {
+            list.truncate(MOST_ENTRIES);
+        }
+    }
+    Some(keys)
+}
+
+fn other_version(summary: &Value) -> Option<Gap> {
+    let expected = env!("CARGO_PKG_VERSION");
+    let found = summary.get("version").and_then(Value::as_str).unwrap_or("unknown");
+    (found != expected).then(|| Gap::Version { found: found.to_owned(), expected })
+}
+
+/// The name of the scene, else that of the directory.
+fn label(directory: &Path, summary: Option<&Value>) -> String {
+    let scene =
+        summary.and_then(|keys| keys["scene"].as_str()).filter(|name| !name.trim().is_empty());
+    scene.map_or_else(|| directory.display().to_string(), str::to_owned)
+}
+
+/// The text of the scene.
+fn text(directory: &Path) -> Option<String> {
+    let bytes = fs::read(directory.join(SCENE_FILE)).ok()?;
+    let is_cut = bytes.len() > LONGEST_SCENE;
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LONGEST_SCENE)]).into_owned();
+    Some(if is_cut { text + "\n# The rest is in scene.toml.\n" } else { text })
+}
+
+/// Where unfinished results of a run into `directory` are.
+fn partial(directory: &Path) -> Option<PathBuf> {
+    let name = directory.file_name()?.to_str()?;
+    Some(directory.with_file_name(format!("{name}.partial")))
+}

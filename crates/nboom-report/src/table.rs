@@ -1,0 +1,253 @@
+//! Tables of a run, read row by row up to the first that is none.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::path::Path;
+
+use crate::Gap;
+use crate::thin::thinned;
+
+/// The longest line that is read \[bytes\]: that of tens of thousands of joints.
+const LONGEST_LINE: u64 = 1 << 24;
+
+/// Numbers of a table that are held at once; a longer table is thinned while it is read.
+const MOST_NUMBERS: usize = 1 << 24;
+
+/// Numbers by column, the first of which is time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Table {
+    pub names: Vec<String>,
+    pub columns: Vec<Vec<f64>>,
+    /// Rows that were read, those left out since included.
+    pub read: usize,
+}
+
+impl Table {
+    /// Without rows.
+    pub fn new(names: Vec<String>) -> Self {
+        let columns = vec![Vec::new(); names.len()];
+        Self { names, columns, read: 0 }
+    }
+
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// Adds a row; of a table that grows too long every part keeps what can be seen.
+    pub fn push(&mut self, row: &[f64]) {
+        self.read += 1;
+        self.columns.iter_mut().zip(row).for_each(|(column, value)| column.push(*value));
+        if self.rows() * self.columns.len() > MOST_NUMBERS {
+            let kept = thinned(&self.columns, &[], self.rows() / 2);
+            self.keep(&kept.rows);
+        }
+    }
+
+    /// Keeps these rows, which ascend.
+    pub fn keep(&mut self, rows: &[usize]) {
+        for column in &mut self.columns {
+            *column = rows.iter().map(|&row| column[row]).collect();
+        }
+    }
+
+    /// Puts the rows of another table with the same columns in, by time; of one time, those of this table last.
+    pub fn merge(&mut self, other: &Self) {
+        let (times, others) = (&self.columns[0], &other.columns[0]);
+        let mut order: Vec<(f64, bool, usize)> = Vec::with_capacity(times.len() + others.len());
+        order.extend(others.iter().enumerate().map(|(row, time)| (*time, false, row)));
+        order.extend(times.iter().enumerate().map(|(row, time)| (*time, true, row)));
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        for (own, others) in self.columns.iter_mut().zip(&other.columns) {
+            let value = |&(_, is_own, row): &(f64, bool, usize)| {
+                if is_own { own[row] } else { others[row] }
+            };
+            *own = order.iter().map(value).collect();
+        }
+    }
+}
+
+/// The header and the rows of a file, as text.
+pub(crate) struct Rows {
+    file: &'static str,
+    lines: BufReader<File>,
+    /// Names of the columns.
+    pub names: Vec<String>,
+    line: String,
+    number: usize,
+}
+
+impl Rows {
+    /// Opens a file of a run; nothing if it is not there.
+    pub fn open(directory: &Path, file: &'static str) -> Result<Option<Self>, Gap> {
+        let unreadable = |source| Gap::Unreadable { file, source };
+        let opened = match File::open(directory.join(file)) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            opened => opened.map_err(unreadable)?,
+        };
+        if !opened.metadata().map_err(unreadable)?.is_file() {
+            return Err(unreadable(ErrorKind::InvalidInput.into()));
+        }
+        let mut rows = Self {
+            file,
+            lines: BufReader::with_capacity(1 << 16, opened),
+            names: Vec::new(),
+            line: String::new(),
+            number: 0,
+        };
+        rows.advance()?;
+        rows.names = rows.line.split(',').map(str::to_owned).collect();
+        Ok(Some(rows))
+    }
+
+    /// Where a column is.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn place(&self, name: &str) -> Result<usize, Gap> {
+        let place = self.names.iter().position(|known| known == name);
+        place.ok_or_else(|| Gap::NoColumn { file: self.file, expected: name.to_owned() })
+    }
+
+    /// Where these columns are.
+    pub fn places<const N: usize>(&self, names: [&str; N]) -> Result<[usize; N], Gap> {
+        let mut places = [0; N];
+        for (place, name) in places.iter_mut().zip(names) {
+            *place = self.place(name)?;
+        }
+        Ok(places)
+    }
+
+    /// Reads the next line; false at the end of the file.
+    fn advance(&mut self) -> Result<bool, Gap> {
+        self.line.clear();
+        self.number += 1;
+        let read = self.lines.by_ref().take(LONGEST_LINE).read_line(&mut self.line);
+        match read {
+            Ok(0) => Ok(false),
+            Ok(_) if self.line.ends_with('\n') => {
+                self.line.truncate(self.line.trim_end().len());
+                Ok(true)
+            }
+            Ok(_) => Err(self.wrong("the line is cut off".to_owned())),
+            Err(error) if error.kind() == ErrorKind::InvalidData => {
+                Err(self.wrong("it is not text".to_owned()))
+            }
+            Err(source) => Err(Gap::Unreadable { file: self.file, source }),
+        }
+    }
+
+    /// Hands on the fields of each row, up to the end or to the first that is no row.
+    ///
+    /// # Errors
+    /// When a row has another number of fields than the header, is cut off, or `take` finds it wrong.
+    pub fn each(&mut self, mut take: impl FnMut(&[&str]) -> Result<(), String>) -> Result<(), Gap> {
+        while self.advance()? {
+            let fields: Vec<&str> = self.line.split(',').collect();
+            let (found, expected) = (fields.len(), self.names.len());
+            let taken = if found == expected {
+                take(&fields)
+            } else {
+                Err(format!("{found} fields found, {expected} expected"))
+            };
+            taken.map_err(|found| self.wrong(found))?;
+        }
+        Ok(())
+    }
+
+    fn wrong(&self, found: String) -> Gap {
+        Gap::Row { file: self.file, line: self.number, found }
+    }
+}
+
+/// A number of a table.
+///
+/// # Errors
+/// When it is none.
+pub(crate) fn number(field: &str) -> Result<f64, String> {
+    let value: Option<f64> = field.parse().ok().filter(|value: &f64| value.is_finite());
+    value.ok_or_else(|| {
+        format!("`{}` found, a number expected", field.chars().take(30).collect::<String>())
+    })
+}
+
+/// A count of a table.
+///
+/// # Errors
+/// When it is none.
+pub(crate) fn count(field: &str) -> Result<usize, String> {
+    field.parse().map_err(|_| {
+        format!("`{}` found, a count expected", field.chars().take(30).collect::<String>())
+    })
+}
+
+/// The columns of a file that `is_wanted`, time first; the second value is what ended it early.
+pub(crate) fn read_columns(
+    directory: &Path,
+    file: &'static str,
+    is_wanted: impl Fn(&str) -> bool,
+) -> Result<Option<(Table, Option<Gap>)>, Gap> {
+    let Some(mut rows) = Rows::open(directory, file)? else { return Ok(None) };
+    let time = rows.place("t")?;
+    let others = rows.names.iter().enumerate().filter(|(i, name)| *i != time && is_wanted(name));
+    let places: Vec<usize> = [time].into_iter().chain(others.map(|(i, _)| i)).collect();
+    let names = places.iter().map(|&i| rows.names[i].clone()).collect();
+    let mut table = Table::new(names);
+    let mut row = Vec::with_capacity(places.len());
+    let ended = rows.each(|fields| {
+        row.clear();
+        for &place in &places {
+            row.push(number(fields[place])?);
+        }
+        table.push(&row);
+        Ok(())
+    });
+    Ok(Some((table, ended.err())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn read(text: &str) -> Result<(Table, Option<Gap>), Gap> {
+        let place = tempfile::tempdir().expect("a directory");
+        fs::write(place.path().join("states.csv"), text).expect("writable");
+        let read = read_columns(place.path(), "states.csv", |name| name != "left_out");
+        read.map(|found| found.expect("it is there"))
+    }
+
+    #[test]
+    fn whole_rows_are_read_and_the_first_broken_one_is_named() {
+        let (table, gap) = read("t,a,left_out\n0.0,1.0,x\n1.0,2.0,x\n").expect("a table");
+        assert!(gap.is_none());
+        assert_eq!(table.names, ["t", "a"]);
+        assert_eq!(table.columns, [[0.0, 1.0], [1.0, 2.0]]);
+        for (last, told) in [
+            ("2.0,3.", "line 4: 2 fields found, 3 expected"),
+            ("2.0,3.0,x", "line 4: the line is cut off"),
+            ("2.0,nothing,x\n", "line 4: `nothing` found, a number expected"),
+            ("2.0,NaN,x\n", "line 4: `NaN` found, a number expected"),
+            ("2.0,3.0\n", "line 4: 2 fields found, 3 expected"),
+        ] {
+            let text = format!("t,a,left_out\n0.0,1.0,x\n1.0,2.0,x\n{last}");
+            let (table, gap) = read(&text).expect("a table");
+            let gap = gap.expect("a row is broken").to_string();
+            assert_eq!(table.rows(), 2, "{last}");
+            let is_told = gap.contains(told)
+                || (!last.ends_with('\n') && gap.contains("the line is cut off"));
+            assert!(is_told, "{gap}");
+        }
+        assert!(matches!(read("a,b\n"), Err(Gap::NoColumn { .. })));
+        assert!(read("").is_err());
+    }
+
+    #[test]
+    fn rows_of_one_time_stay_in_order() {
+        let mut states = Table::new(vec!["t".to_owned(), "a".to_owned()]);
+        let mut instants = states.clone();
+        [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0]].iter().for_each(|row| states.push(row));
+        [[1.0, 10.0], [1.0, 20.0]].iter().for_each(|row| instants.push(row));
+        states.merge(&instants);
+        assert_eq!(states.columns, [[0.0, 1.0, 1.0, 1.0, 2.0], [1.0, 10.0, 20.0, 2.0, 3.0]]);
+    }
+}

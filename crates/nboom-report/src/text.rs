@@ -1,0 +1,46 @@
+//! Texts of others within a page.
+
+/// Text for an element or a quoted attribute; characters that steer text and would not be seen are replaced.
+pub(crate) fn html(text: &str) -> String {
+    let shown = |c: char| if steers(c) { char::REPLACEMENT_CHARACTER } else { c };
+    let text: String = text.chars().map(shown).collect();
+    [('&', "&amp;"), ('<', "&lt;"), ('>', "&gt;"), ('"', "&quot;"), ('\'', "&#39;")]
+        .into_iter()
+        .fold(text, |text, (from, to)| text.replace(from, to))
+}
+
+/// Controls, and marks that turn the direction of text.
+fn steers(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+}
+
+/// JSON that may stand in an element of a page: nothing in it ends the element.
+pub(crate) fn json(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
+                safe.push_str(&format!("\\u{:04x}", u32::from(c)));
+            }
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_ends_the_element_that_it_stands_in() {
+        let hostile = "</script><script>alert(\"1\")</script><!-- \u{2028} & 'x' \u{202e}";
+        let safe = json(&serde_json::to_string(hostile).expect("text"));
+        assert!(!safe.contains(['<', '>', '&', '\u{2028}']), "{safe}");
+        assert_eq!(serde_json::from_str::<String>(&safe).expect("still JSON"), hostile);
+        let safe = html(hostile);
+        assert!(!safe.contains(['<', '>', '"', '\'', '\u{202e}', '\u{2028}']), "{safe}");
+        assert!(safe.starts_with("&lt;/script&gt;&lt;script&gt;alert(&quot;1&quot;)"), "{safe}");
+    }
+}

@@ -1,0 +1,53 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("page")
+}
+
+fn hash(path: &Path) -> String {
+    let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() { sources(&path, found) } else { found.push(path) }
+    }
+}
+
+#[test]
+fn the_bundle_is_made_of_these_sources() {
+    let folder = folder();
+    let list = fs::read_to_string(folder.join("bundle/SHA256SUMS")).expect("a list of hashes");
+    let listed: Vec<(&str, &str)> = list.lines().filter_map(|line| line.split_once("  ")).collect();
+    for (expected, name) in &listed {
+        let found = hash(&folder.join(name));
+        assert_eq!(
+            found,
+            *expected,
+            "{name} has changed: run npm run build in {}",
+            folder.display()
+        );
+    }
+    let mut all = Vec::new();
+    sources(&folder.join("src"), &mut all);
+    for path in all {
+        let name =
+            path.strip_prefix(&folder).expect("below it").to_string_lossy().replace('\\', "/");
+        assert!(listed.iter().any(|(_, known)| *known == name), "{name} is not in the bundle");
+    }
+}
+
+#[test]
+fn libraries_come_with_their_licences() {
+    let page = fs::read_to_string(folder().join("bundle/page.html")).expect("the bundle");
+    let licences = fs::read_to_string(folder().join("bundle/LICENSES.md")).expect("licences");
+    for library in ["three 0.187.0, MIT", "uplot 1.6.32, MIT"] {
+        assert!(page.contains(library) && licences.contains(library), "{library}");
+    }
+    assert!(page.contains("Permission is hereby granted"));
+}

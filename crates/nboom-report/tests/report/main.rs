@@ -1,0 +1,7 @@
+//! Pages of directories as runs leave them, whole and broken.
+
+mod budget;
+mod bundle;
+mod directory;
+mod gaps;
+mod hostile;
