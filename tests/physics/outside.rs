@@ -45,8 +45,11 @@ fn a_constant_torque_about_a_principal_axis() {
             assert!((x_axis - Vec3::new(cos, 0.0, -sin)).norm() < CLOSE, "{axes:?}");
         }
         let kept = log.summary.conservation;
-        assert!(kept.energy < 1e-11 && kept.angular_momentum < 1e-11, "{kept:?}");
-        assert!(kept.linear_momentum < 1e-11, "{kept:?}");
+        assert!(
+            kept.energy < 1e-11 && kept.angular_momentum.is_some_and(|off| off < 1e-11),
+            "{kept:?}"
+        );
+        assert!(kept.linear_momentum.is_some_and(|off| off < 1e-11), "{kept:?}");
     }
 }
 
@@ -81,8 +84,11 @@ fn an_inertial_force_moves_the_mass_centre_on_a_parabola() {
     let turned = log.samples[8].omega_body - scene.initial.omega_body;
     assert!(turned.norm() > 0.5, "{turned:?}");
     let kept = log.summary.conservation;
-    assert!(kept.energy < 1e-10 && kept.angular_momentum < 1e-10, "{kept:?}");
-    assert!(kept.linear_momentum < 1e-10, "{kept:?}");
+    assert!(
+        kept.energy < 1e-10 && kept.angular_momentum.is_some_and(|off| off < 1e-10),
+        "{kept:?}"
+    );
+    assert!(kept.linear_momentum.is_some_and(|off| off < 1e-10), "{kept:?}");
 }
 
 /// A table gives the integral of its straight pieces, times are met to the last bit, and corners within it are no events.

@@ -161,7 +161,7 @@ pub struct Moment {
 /// The mode with these hinges in which every spring pushes and all from outside is in its first piece.
 pub fn all_acting(scene: &Scene, hinges: Vec<HingeState>) -> Mode {
     let pieces = vec![0; Mode::at_start(scene).pieces.len()];
-    Mode { hinges, pieces, externals: vec![1; scene.externals.len()] }
+    Mode { hinges, pieces, externals: vec![1; scene.externals.len()], drive: 0 }
 }
 
 /// The thrust of a scene of one, while it is on.

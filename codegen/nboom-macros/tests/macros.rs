@@ -99,7 +99,8 @@ fn sample_in_motion(pushed: bool) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let hinges = scene.bodies.len();
     let start = Mode::at_start(&scene);
     let pieces = vec![usize::from(!pushed); start.pieces.len()];
-    let mode = Mode { hinges: vec![HingeState::Free; hinges], pieces, externals: Vec::new() };
+    let mode =
+        Mode { hinges: vec![HingeState::Free; hinges], pieces, externals: Vec::new(), drive: 0 };
     let mut dynamics = Recursive::<f64>::new(&scene);
     dynamics.set_mode(&mode, &vec![0.0; hinges]);
     let recognised = recognise(dynamics.tree()).expect("a chain and a paddle");
