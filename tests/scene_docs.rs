@@ -62,6 +62,7 @@ fn value(holds: &Holds) -> String {
         Holds::Numbers(count) => format!("{count} numbers"),
         Holds::List => "list of numbers".to_owned(),
         Holds::Rows(count) => format!("list of lists of {count} numbers"),
+        Holds::AnglesOverTime => "list of pairs of a time and an angle".to_owned(),
         Holds::AnglePairs => "list of pairs of an angle and a number".to_owned(),
         Holds::Direction => "`\"x\"`, `\"-x\"`, …, or 3 numbers".to_owned(),
         Holds::Inertia(kind) => format!("3 moments, or table: {}", link(kind)),

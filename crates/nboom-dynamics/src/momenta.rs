@@ -83,8 +83,8 @@ impl<R: Real> Recursive<R> {
             };
         }
         if self.elements.acts_from_outside() {
-            let of_center =
-                self.from_outside().force * (R::one() / R::constant(self.scene.total_mass()));
+            let of_center = self.acting_from_outside().force
+                * (R::one() / R::constant(self.scene.total_mass()));
             self.twists.fill(Twist { angular: Vec3::zero(), linear: of_center });
             self.carry_momenta();
             for (rate, (pose, left_behind)) in

@@ -36,7 +36,7 @@ impl<R: Real> Recursive<R> {
             power += p;
             moment += m;
         }
-        FromOutside { force: self.from_outside().force, moment, power }
+        FromOutside { force: self.acting_from_outside().force, moment, power }
     }
 
     /// The force from outside on all bodies together, main-body axes, at the angles `beta` of the free hinges; `None`
@@ -48,11 +48,11 @@ impl<R: Real> Recursive<R> {
         if self.elements.on_links().next().is_some() {
             self.place(beta);
         }
-        Some(self.from_outside().force)
+        Some(self.acting_from_outside().force)
     }
 
     /// All that acts from outside in the posture that was placed last, about O, main-body axes.
-    pub(crate) fn from_outside(&self) -> Wrench<R> {
+    pub(crate) fn acting_from_outside(&self) -> Wrench<R> {
         let mut all = self.elements.external().unwrap_or(Wrench::zero());
         for (link, push) in self.elements.on_links() {
             let pose = &self.poses[link];

@@ -29,7 +29,7 @@ impl<R: Real> Recursive<R> {
             wrenches[j].add(momentum(&pose.inertia, twists[j]));
         }
         let mut net = composite_body::carry_inward(tree, poses, wrenches, main);
-        net.subtract(self.from_outside());
+        net.subtract(self.acting_from_outside());
         net
     }
 }

@@ -138,7 +138,7 @@ impl<R: Real> Recursive<R> {
     /// `omega_body`, about O, main-body axes: what belongs to the motion of the main body beside the [generalised
     /// forces](Self::hinge_forces) of the hinges, in the posture in which they were asked for.
     pub fn acting_on_main_body(&self, omega_body: Vec3<R>) -> Wrench<R> {
-        let mut acting = self.from_outside();
+        let mut acting = self.acting_from_outside();
         if self.tree.has_rotors {
             acting.moment -= omega_body.cross(self.tree.main_spin);
         }

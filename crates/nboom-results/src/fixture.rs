@@ -40,6 +40,7 @@ fn detail() -> Detail {
         omega_dot_body: Vec3::new(0.31, 0.32, 0.33),
         origin_acceleration_body: Vec3::new(0.41, 0.42, 0.43),
         reaction: None,
+        outside: Vec::new(),
         beta_ddot: vec![0.0, std::f64::consts::TAU, 0.0],
         alpha_ddot: vec![0.0, 1.5, 0.0],
         hinge_torque: vec![-0.4, -0.5, -0.6],

@@ -55,6 +55,7 @@ fn snapshot(time: f64) -> Snapshot {
             omega_dot_body: Vec3::zero(),
             origin_acceleration_body: Vec3::zero(),
             reaction: None,
+            outside: Vec::new(),
             beta_ddot: vec![0.0],
             alpha_ddot: vec![0.0],
             hinge_torque: vec![0.0],

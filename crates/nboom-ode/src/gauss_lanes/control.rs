@@ -143,7 +143,7 @@ impl History {
 }
 
 /// An error of a hundredth of the tolerance.
-const ACCURATE: f64 = 1.3335214321633240;
+const ACCURATE: f64 = 1.333_521_432_163_324;
 /// Errors below this tell nothing about the next one.
 const SMALL: f64 = 1e-8;
 

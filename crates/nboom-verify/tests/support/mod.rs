@@ -3,7 +3,7 @@
 
 use nboom_formulation::{Coordinates, Formulation, Parameters};
 use nboom_model::{
-    Appendage, Body, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Thrust,
+    Appendage, Body, External, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment,
 };
 use nboom_scalar::{Isa, Kernel, Mat3, Real, Routine, Sym3, Vec3};
 use nboom_verify::TestCase;
@@ -18,7 +18,7 @@ fn segment(length: f64) -> Segment {
 
 fn with_thrust(mut description: SceneDescription) -> Scene {
     let (force, point) = (Vec3::unit_x(), Vec3::unit_y());
-    description.thrust = Some(Thrust { force, point, on: 0.0, off: 1.0 });
+    description.externals.push(External::thrust(force, point, [0.0, 1.0]));
     Scene::new(description).expect("the bodies are physical")
 }
 
