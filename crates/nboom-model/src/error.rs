@@ -284,11 +284,7 @@ fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     if scene.end_time < initial.time {
         errors.push(ModelError::EndTime { start: initial.time, end: scene.end_time });
     }
-    let externals = scene.externals.iter().enumerate();
-    errors.extend(externals.filter(|(_, one)| !one.is_nothing()).filter_map(|(index, one)| {
-        let (part, defect, expected) = one.defect(scene.bodies.len())?;
-        Some(ModelError::External { index, kind: one.kind, part, defect, expected })
-    }));
+    crate::external::find(scene, errors);
 }
 
 fn check_unit(quantity: &'static str, length: f64, errors: &mut Vec<ModelError>) {
