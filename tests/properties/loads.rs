@@ -116,6 +116,7 @@ fn force_densities(moment: &Moment) -> Vec<f64> {
 
 /// Forces and torques on hinged bodies at the initial time and attitude, along body or main-body axes.
 fn outside(scene: &Scene) -> Vec<[f64; 3]> {
+    let attitude = scene.initial.attitude.to_matrix();
     let acting = |external: &External| {
         let share = match &external.course {
             Course::Pulse { .. } => 1.0,
@@ -126,9 +127,7 @@ fn outside(scene: &Scene) -> Vec<[f64; 3]> {
         };
         let amount = match external.axes {
             ExternalAxes::Body => external.amount,
-            ExternalAxes::Inertial => {
-                scene.initial.attitude.to_matrix().transpose() * external.amount
-            }
+            ExternalAxes::Inertial => attitude.transpose_mul(external.amount),
         };
         (amount * share).to_array()
     };

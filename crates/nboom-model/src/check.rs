@@ -112,11 +112,7 @@ fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     if scene.end_time < initial.time {
         errors.push(ModelError::EndTime { start: initial.time, end: scene.end_time });
     }
-    let externals = scene.externals.iter().enumerate();
-    errors.extend(externals.filter(|(_, one)| !one.is_nothing()).filter_map(|(index, one)| {
-        let (part, defect, expected) = one.defect(scene.bodies.len())?;
-        Some(ModelError::External { index, kind: one.kind, part, defect, expected })
-    }));
+    crate::external::find(scene, errors);
 }
 
 /// A main body that is held starts as it is held: a jump would take an impulse.

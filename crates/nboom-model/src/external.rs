@@ -1,5 +1,7 @@
 use nboom_scalar::Vec3;
 
+use crate::{ModelError, SceneDescription};
+
 /// A force or a torque on one body from outside, over time, eqs. (6.4) to (6.8): note 5.
 #[derive(Clone, Debug, PartialEq)]
 pub struct External {
@@ -119,7 +121,7 @@ impl External {
 
     /// What is wrong with it in a scene of so many hinged bodies: with which part of it, what was found, and what
     /// would be right.
-    pub(crate) fn defect(&self, bodies: usize) -> Option<(ExternalPart, String, &'static str)> {
+    fn defect(&self, bodies: usize) -> Option<(ExternalPart, String, &'static str)> {
         if self.body.is_some_and(|body| body >= bodies) {
             let found = "on a body that is not there".to_owned();
             return Some((ExternalPart::Body, found, "one on a body of the scene"));
@@ -140,6 +142,15 @@ impl External {
         };
         Some((ExternalPart::Course, found, expected))
     }
+}
+
+/// Adds what is wrong with what acts on a scene from outside; one that never does anything is not looked at.
+pub(crate) fn find(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
+    let externals = scene.externals.iter().enumerate().filter(|(_, one)| !one.is_nothing());
+    errors.extend(externals.filter_map(|(index, one)| {
+        let (part, defect, expected) = one.defect(scene.bodies.len())?;
+        Some(ModelError::External { index, kind: one.kind, part, defect, expected })
+    }));
 }
 
 fn wrong_points(points: &[[f64; 2]]) -> Option<String> {
