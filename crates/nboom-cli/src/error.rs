@@ -154,6 +154,12 @@ pub enum CliError {
     /// There is nothing to make a page of.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// The output of a report is no page by its name.
+    #[error("{}: found another ending, expected a page NAME.html", path.display())]
+    NoPage {
+        /// The file.
+        path: PathBuf,
+    },
     /// Two codes for accelerations differ too much.
     #[error("{code} deviates by {deviation:.1e} in state {state}, above the tolerance {tol:e}")]
     Deviation {
@@ -205,7 +211,7 @@ impl CliError {
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
             Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
-            Self::OutputTimes(_) | Self::Report(_) => 2,
+            Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },

@@ -35,6 +35,9 @@ pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
         (None, [directory]) => directory.join(REPORT_FILE),
         (None, _) => Path::new(COMPARISON).to_owned(),
     };
+    if output.extension().is_none_or(|ending| ending != "html") {
+        return Err(CliError::NoPage { path: output });
+    }
     write_file(&output, &page(runs?))?;
     Ok(format!("{}\n", output.display()))
 }

@@ -4,7 +4,8 @@ use std::time::Instant;
 use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, TooManyTimes, write_scene};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::{
-    Kept, Outcome, RunDescription, RunDirectory, StressTables, WantedOutput, with_causes,
+    Kept, Outcome, RunDescription, RunDirectory, StressTables, WantedOutput, WorstLoads,
+    with_causes,
 };
 use nboom_sim::{
     Bound, Form, Method, Options, OutputTimes, Path, RkamSettings, Tolerance, Witness, check_start,
@@ -189,10 +190,7 @@ fn simulate_into_files(
     let worst = watch.files.worst_loads();
     let kept = interrupt.shielded(|| watch.files.finish(&outcome));
     // Printed even with --quiet, since the results are not what they seem.
-    let poor = outcome.summary.conservation.poor(options.rtol);
-    poor.for_each(|law| say("warning", &law.to_string()));
-    let negative = worst.weakest().and_then(verdict::negative_margin);
-    negative.iter().for_each(|warning| say("warning", warning));
+    warn_of_poor_results(&outcome, options, &worst);
     // The error that stopped the run says more than one in writing the files afterwards.
     if let Some(error) = failed {
         let _ = write_report(args, &kept);
@@ -209,6 +207,13 @@ fn simulate_into_files(
     let (outcome, events) = (&outcome, watch.events);
     let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
     Ok(account.text(&directory))
+}
+
+fn warn_of_poor_results(outcome: &Outcome, options: &Options, worst: &WorstLoads) {
+    let poor = outcome.summary.conservation.poor(options.rtol);
+    poor.for_each(|law| say("warning", &law.to_string()));
+    let negative = worst.weakest().and_then(verdict::negative_margin);
+    negative.iter().for_each(|warning| say("warning", warning));
 }
 
 /// The page of the run, made from its files, unless nobody wants it.

@@ -3,6 +3,7 @@
 mod certificate;
 mod outputs;
 mod pictures;
+mod report;
 mod scenes;
 mod standard_input;
 mod strengths;

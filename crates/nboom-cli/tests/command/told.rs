@@ -68,11 +68,7 @@ fn words_that_do_nothing_are_said_to_be_ignored() {
     let plots = "NOPLT=0 (nothing is plotted)";
     assert_eq!(note(&[]), format!("note: ignored: {rkam}; {iax}; {plots}"));
     assert_eq!(note(&["--listing"]), format!("note: ignored: {rkam}; {plots}"));
-    let report = "--no-report (no report is written)";
-    assert_eq!(
-        note(&["--integrator", "rkam", "--no-report"]),
-        format!("note: ignored: {iax}; {plots}; {report}")
-    );
+    assert_eq!(note(&["--integrator", "rkam"]), format!("note: ignored: {iax}; {plots}"));
     assert_eq!(note(&["--quiet"]), "");
     let check = place.nboom(&["check", "boom.nml"]);
     assert!(stdout(&check).contains(&format!("\nignored: {rkam}; {iax}; {plots}\n")));

@@ -17,7 +17,18 @@ const KILLS: usize = 40;
 fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = contents(directory);
     files.remove("summary.json");
+    // It is made from the others once they are in their place, and has these times.
+    files.remove("report.html");
     files
+}
+
+/// A page in a directory is that of the run there.
+fn page_is_of_the_run(directory: &Path, summary: &serde_json::Value, told: &str) {
+    let Ok(page) = fs::read_to_string(directory.join("report.html")) else { return };
+    let data = page.split_once("type=\"application/json\">").expect("data").1;
+    let data = data.split_once("</script>").expect("its end").0;
+    let keys: serde_json::Value = serde_json::from_str(data).expect("JSON");
+    assert_eq!(keys["runs"][0]["summary"]["samples"], summary["samples"], "{told}");
 }
 
 /// How many kills found what.
@@ -52,6 +63,7 @@ impl Campaign<'_> {
         let left = summary(&partial);
         let is_whole = |files_of: &BTreeMap<String, Vec<u8>>| files(&run) == *files_of;
         if found["complete"] == true {
+            page_is_of_the_run(&run, &found, told);
             let is_new = is_whole(&self.new);
             assert!(is_new || is_whole(&self.old), "{told}: neither the old nor the new result");
             match left {

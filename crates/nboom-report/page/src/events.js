@@ -1,6 +1,8 @@
 // What happened, when, and what it did to energy.
 
-import { digits, element, numeric, table } from './text.js';
+import { hasMomentum } from './motion.js';
+import { rowBefore } from './tables.js';
+import { digits, element, numeric, order, table } from './text.js';
 
 const NAMES = {
   lock_up: 'locks', release: 'is released', kick_off_disengage: 'kick-off spring lets go',
@@ -32,6 +34,8 @@ export function eventTable(run, go) {
     `Impulse [${units.angularMomentum}]`, `Kinetic energy before [${units.energy}]`, `after [${units.energy}]`, `change [${units.energy}]`];
   const slides = run.hinges.some((hinge) => hinge.slides);
   if (slides) headings[3] = `Impulse [${units.angularMomentum}; of sliding joints ${units.force} ${units.time}]`;
+  const momentum = momentumAt(run);
+  if (momentum) headings.push(`Angular momentum [${units.angularMomentum}]`, 'its change');
   let instant = null;
   const rows = run.events.map((event) => {
     // Events of one instant share the change.
@@ -42,7 +46,8 @@ export function eventTable(run, go) {
       attributes: { tabindex: 0, class: 'event', 'data-t': event.t, click: () => go(event.t), keydown: ({ key }) => key === 'Enter' && go(event.t) },
       cells: [numeric(digits(event.t, 6)), hingeOf(event, run)?.label ?? '', happening(event),
         numeric(event.impulse === null ? '' : digits(event.impulse)),
-        ...(first ? [event.before, event.after, change] : [null, null, null]).map((value) => numeric(value === null ? '″' : digits(value, 5)))],
+        ...(first ? [event.before, event.after, change] : [null, null, null]).map((value) => numeric(value === null ? '″' : digits(value, 5))),
+        ...(momentum ? momentum(event.t, first) : [])],
     };
   });
   const shown = table(headings, rows.slice(0, MOST), { id: `events-${run.number}`, class: 'events' });
@@ -50,4 +55,19 @@ export function eventTable(run, go) {
   const all = element('button', { type: 'button', click: () => shown.replaceChildren(...table(headings, rows).childNodes) }, `Show all ${rows.length} events`);
   shown.append(all);
   return shown;
+}
+
+/** The angular momentum after an instant and its change in it, relative, by the rows on both sides. */
+function momentumAt({ motion, scene }) {
+  const parts = ['x', 'y', 'z'].map((axis) => motion?.column(`angular_momentum_${axis}`));
+  if (!parts.every(Boolean) || !hasMomentum({ motion, scene })) return null;
+  return (time, first) => {
+    if (!first) return [numeric('″'), numeric('″')];
+    const after = rowBefore(motion.times, time);
+    let before = after;
+    while (before > 0 && motion.times[before - 1] === time) before -= 1;
+    const [size, change] = [after, before].map((row, i) => Math.hypot(...parts.map((column) => column[row] - (i === 0 ? 0 : column[after]))));
+    const found = motion.times[after] === time;
+    return [numeric(found ? digits(size, 6) : ''), numeric(found && before < after ? order(change / size) : '')];
+  };
 }

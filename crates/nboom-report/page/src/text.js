@@ -33,11 +33,11 @@ export function given(text) {
 
 /** A table; cells that are numbers stand to the right. */
 export function table(headings, rows, attributes = {}) {
-  const cell = (name, content) =>
-    element(name, { class: typeof content === 'object' && content?.number ? 'number' : null },
-      typeof content === 'object' && content?.number ? content.number : content);
-  const head = element('tr', {}, headings.map((heading) => cell('th', heading)));
-  const body = rows.map((row) => element('tr', row.attributes ?? {}, (row.cells ?? row).map((content) => cell('td', content))));
+  const cell = (content) => element('td', { class: content?.number ? 'number' : null }, content?.number ?? content);
+  const cellsOf = (row) => row.cells ?? row;
+  const isNumeric = (column) => rows.length > 0 && Boolean(cellsOf(rows[0])[column]?.number);
+  const head = element('tr', {}, headings.map((heading, column) => element('th', { class: isNumeric(column) ? 'number' : null }, heading)));
+  const body = rows.map((row) => element('tr', row.attributes ?? {}, cellsOf(row).map((content) => cell(content))));
   const made = element('table', attributes, element('thead', {}, head), element('tbody', {}, body));
   return element('div', { class: 'wide' }, made);
 }
@@ -52,7 +52,7 @@ export function digits(value, count = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return '\u2013';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 1e5 || size < 1e-3) return exponential(value, count);
+  if (size >= 1e6 || size < 1e-3) return exponential(value, count);
   return minus(Number(value.toPrecision(count)).toString());
 }
 

@@ -55,7 +55,8 @@ export class Satellite {
     const largest = parts.indexOf(Math.max(...parts));
     // About the axis of a spin; the third axis where there is none.
     const spins = this.motion.hasMomentum && parts[largest] > 0.8 * momentum.length();
-    this.up = new Vector3().setComponent(spins ? largest : 2, spins ? Math.sign(body.getComponent(largest)) : 1);
+    this.upOfBody = new Vector3().setComponent(spins ? largest : 2, spins ? Math.sign(body.getComponent(largest)) : 1);
+    this.upInertial = spins ? momentum.clone().normalize() : this.upOfBody.clone().applyQuaternion(attitude);
   }
 
   /** Points that the picture has room for at all times, from the mass centre, along the axes of the view. */
@@ -121,17 +122,18 @@ export class Satellite {
   /** Puts the camera where all of the motion is seen. */
   look() {
     const { camera } = this;
-    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), this.up);
+    const up = this.riding ? this.upOfBody : this.upInertial;
+    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), up);
     const back = EYE.clone().applyQuaternion(turn);
-    const right = this.up.clone().cross(back).normalize();
+    const right = up.clone().cross(back).normalize();
     const above = back.clone().cross(right);
     const half = Math.tan((camera.fov * Math.PI) / 360);
     const points = this.outline();
-    if (this.motion.hasMomentum) points.push(this.up.clone().multiplyScalar(0.5 * this.size));
+    if (this.motion.hasMomentum) points.push(up.clone().multiplyScalar(0.5 * this.size));
     const needed = points.map((point) => point.dot(back)
       + Math.max(Math.abs(point.dot(right)) / (half * (camera.aspect || 1)), Math.abs(point.dot(above)) / half));
     const distance = MARGIN * Math.max(...needed, 0.1 * this.size);
-    camera.up.copy(this.up);
+    camera.up.copy(up);
     [camera.near, camera.far] = [distance / 100, distance * 10];
     camera.position.copy(back).multiplyScalar(distance);
     this.controls.target.set(0, 0, 0);
@@ -198,6 +200,7 @@ export class Satellite {
     if (this.trails) this.world.remove(this.trails.group);
     this.trails?.dispose();
     this.trails = null;
+    this.look();
   }
 
   draw() {

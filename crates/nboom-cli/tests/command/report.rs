@@ -1,0 +1,96 @@
+//! The page of a run, as the command writes it.
+
+use std::fs;
+
+use crate::{BOOM, Place, code, stderr, stdout};
+
+/// A place with a deck, and a run of it with these options into `out`.
+fn run(place: &Place, args: &[&str]) {
+    place.write("boom.nml", BOOM);
+    let output = place.nboom(&[&["run", "boom.nml", "-o", "out", "--quiet"], args].concat());
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+}
+
+#[test]
+fn a_run_leaves_its_page_and_report_makes_the_same() {
+    let place = Place::new();
+    run(&place, &[]);
+    let of_the_run = fs::read(place.path("out/report.html")).expect("a page");
+    fs::remove_file(place.path("out/report.html")).expect("it is there");
+    let output = place.nboom(&["report", "out"]);
+    assert_eq!((code(&output), stdout(&output)), (0, "out/report.html\n".to_owned()));
+    let made_again = fs::read(place.path("out/report.html")).expect("a page");
+    assert!(of_the_run == made_again, "the page depends on when it is made");
+}
+
+#[test]
+fn no_page_of_an_earlier_run_stays() {
+    let place = Place::new();
+    run(&place, &["--no-report"]);
+    assert!(!place.path("out/report.html").exists());
+    // A page that was made later does not stand in the way of the next run.
+    assert_eq!(code(&place.nboom(&["report", "out"])), 0);
+    run(&place, &["--no-report", "--samples", "7"]);
+    assert!(!place.path("out/report.html").exists());
+    run(&place, &["--samples", "8"]);
+    assert!(place.path("out/report.html").exists());
+}
+
+#[test]
+fn several_runs_share_a_page() {
+    let place = Place::new();
+    run(&place, &[]);
+    let output = place.nboom(&[
+        "run",
+        "boom.nml",
+        "-o",
+        "other",
+        "--quiet",
+        "--formulation",
+        "symmetric",
+        "--path",
+        "generic",
+    ]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let output = place.nboom(&["report", "out", "other"]);
+    assert_eq!((code(&output), stdout(&output)), (0, "comparison.html\n".to_owned()));
+    let page = fs::read_to_string(place.path("comparison.html")).expect("a page");
+    for part in ["\"label\":\"out\"", "\"label\":\"other\"", "\"formulation\":\"symmetric\""] {
+        assert!(page.contains(part), "{part}");
+    }
+    let output = place.nboom(&["report", "out", "-o", "page.html"]);
+    assert_eq!(code(&output), 0);
+    assert!(place.path("page.html").exists());
+}
+
+#[test]
+fn what_is_no_run_is_refused_and_half_a_run_is_shown() {
+    let place = Place::new();
+    for (directory, part) in [
+        ("nowhere", "no directory of a run found"),
+        ("empty", "neither summary.json nor states.csv found"),
+    ] {
+        if directory == "empty" {
+            fs::create_dir(place.path(directory)).expect("writable");
+        }
+        let output = place.nboom(&["report", directory]);
+        assert_eq!(code(&output), 2, "{directory}");
+        assert!(stderr(&output).contains(part), "{}", stderr(&output));
+    }
+    run(&place, &[]);
+    let states = fs::read_to_string(place.path("out/states.csv")).expect("a table");
+    place.write("out/states.csv", &states[..states.len() / 2]);
+    let output = place.nboom(&["report", "out"]);
+    assert_eq!(code(&output), 0);
+    assert!(stderr(&output).contains("note: out: states.csv, line"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_page_is_an_html_file_and_no_input() {
+    let place = Place::new();
+    run(&place, &[]);
+    let states = fs::read(place.path("out/states.csv")).expect("a table");
+    let output = place.nboom(&["report", "out", "-o", "out/states.csv"]);
+    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    assert!(fs::read(place.path("out/states.csv")).expect("a table") == states);
+}
