@@ -40,7 +40,7 @@ fn right_side() -> Request {
     Request::new("RightSideS1", Topology::new([Shape::Chain(1)]), Level::Exact)
         .with_external_wrench()
         .for_right_side()
-        .with_lines(1)
+        .with_lines(2)
 }
 
 /// A boom of a tube and a triangle on a hub, with a kick-off spring.

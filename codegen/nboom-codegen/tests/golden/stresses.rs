@@ -2,7 +2,7 @@
 /// Loads and stresses of 1 hinge, level exact.
 /// Evaluation: 92 add, 121 mul, 0 div, 6 sqrt, 1 sin_cos.
 /// Preparation: 0 add, 0 mul, 0 div, 0 sin_cos.
-/// Assumptions: all 134 numbers of the scene.
+/// Assumptions: all 136 numbers of the scene.
 #[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
 pub mod routine_stresses_s1 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
@@ -20,7 +20,7 @@ pub mod routine_stresses_s1 {
                 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85,
                 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104,
                 105, 106, 107, 108, 109, 110, 111, 112, 113, 114, 115, 116, 117, 118, 119, 120,
-                121, 122, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133,
+                121, 122, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133, 134, 135,
             ],
             [
                 0.0,
@@ -28,6 +28,8 @@ pub mod routine_stresses_s1 {
                 2.0,
                 2.0,
                 2.0,
+                0.0,
+                0.0,
                 0.1,
                 1.0,
                 -0.2,
@@ -160,12 +162,12 @@ pub mod routine_stresses_s1 {
             ],
         );
         const EXTERNAL: bool = true;
-        const PARAMETERS: usize = 134;
+        const PARAMETERS: usize = 136;
         const CONSTANTS: usize = 0;
         const COORDINATES: usize = 13;
         const OUTPUTS: usize = 31;
         fn prepare<R: Real>(p: &[R], k: &mut [R]) {
-            let p: &[R; 134] = p.try_into().expect("one value for each parameter");
+            let p: &[R; 136] = p.try_into().expect("one value for each parameter");
             let k: &mut [R; 0] = k.try_into().expect("room for each constant");
         }
         #[inline(always)]
@@ -198,42 +200,42 @@ pub mod routine_stresses_s1 {
         let t73 = R::constant(0.1) * omega_z - R::constant(-0.2) * omega_x;
         let t75 = omega_x - R::constant(0.1) * omega_y;
         let t89 = omega_x * omega_x + omega_y * omega_y + omega_z * omega_z;
-        let t90 = omega_x + tau_1;
-        let t97 = omega_dot_x + tau_dot_1;
-        let t100 = omega_dot_y * cos_beta_1 + omega_dot_z * sin_beta_1 + tau_1 * t58;
-        let t101 = omega_dot_z * cos_beta_1 - omega_dot_y * sin_beta_1 - tau_1 * t57;
+        let t91 = tau_1 * t89.sqrt();
+        let t98 = (t44 + t89) * R::constant(1.02469507659596);
+        let t110 = omega_dot_y * cos_beta_1 + omega_dot_z * sin_beta_1 + tau_1 * t58;
+        let t111 = omega_dot_z * cos_beta_1 - omega_dot_y * sin_beta_1 - tau_1 * t57;
         let t66 = a_x + (R::constant(-0.2) * omega_dot_y - omega_dot_z);
-        let t102 = t66 + (omega_y * t75 - omega_z * t73);
-        let t103 = a_y + t63 + (omega_z * t70 - omega_x * t75);
+        let t112 = t66 + (omega_y * t75 - omega_z * t73);
+        let t113 = a_y + t63 + (omega_z * t70 - omega_x * t75);
         let t68 = a_z + (omega_dot_x - R::constant(0.1) * omega_dot_y);
-        let t104 = t68 + (omega_x * t73 - omega_y * t70);
-        let t109 = cos_beta_1 * t103 + sin_beta_1 * t104;
-        let t110 = cos_beta_1 * t104 - sin_beta_1 * t103;
-        let t113 = t44 + (tau_dot_1 * tau_dot_1).sqrt();
-        let t121 = (t44 + t89) * R::constant(1.02469507659596);
-        let t123 = R::constant(2.0) * t110;
-        let t124 = R::constant(2.0) * t102;
-        let t130 = R::constant(3.1) * t90;
+        let t114 = t68 + (omega_x * t73 - omega_y * t70);
+        let t119 = cos_beta_1 * t113 + sin_beta_1 * t114;
+        let t120 = cos_beta_1 * t114 - sin_beta_1 * t113;
+        let t121 = omega_dot_x + tau_dot_1;
+        let t122 = omega_x + tau_1;
+        let t123 = R::constant(2.0) * t120;
+        let t124 = R::constant(2.0) * t112;
+        let t130 = R::constant(3.1) * t122;
         let t131 = R::constant(0.20000000000000018) * t57;
         let t132 = R::constant(3.1) * t58;
-        let t143 = R::constant(0.20000000000000018) * t100 + (t58 * t130 - t90 * t132);
+        let t143 = R::constant(0.20000000000000018) * t110 + (t58 * t130 - t122 * t132);
         let t150 = R::constant(2.0) * t58;
-        let t151 = R::constant(2.0) * t90;
-        let t157 = t124 - R::constant(2.0) * t101 + t57 * t151;
-        let t118 = t113 + t89.sqrt() * (tau_1 * tau_1).sqrt();
-        let t122 = (a_x * a_x + a_y * a_y + a_z * a_z).sqrt() + t121;
-        let t168 = (t118 + (t90 * t90 + t57 * t57 + t58 * t58)) * R::constant(6.4);
-        let t177 = R::constant(2.55) * t90;
+        let t151 = R::constant(2.0) * t122;
+        let t157 = t124 - R::constant(2.0) * t111 + t57 * t151;
+        let t101 = (t91 * t91).sqrt() + (t44 + (tau_dot_1 * tau_dot_1).sqrt());
+        let t99 = (a_x * a_x + a_y * a_y + a_z * a_z).sqrt() + t98;
+        let t168 = (t101 + (t122 * t122 + t57 * t57 + t58 * t58)) * R::constant(6.4);
+        let t177 = R::constant(2.55) * t122;
         let t178 = R::constant(0.10000000000000009) * t57;
         let t179 = R::constant(2.55) * t58;
-        let t175 = R::constant(1.5) * t110 + R::constant(2.55) * t97;
-        let t190 = R::constant(0.10000000000000009) * t100 + (t58 * t177 - t90 * t179);
-        let t176 = R::constant(2.55) * t101 - R::constant(1.5) * t102;
+        let t175 = R::constant(1.5) * t120 + R::constant(2.55) * t121;
+        let t190 = R::constant(0.10000000000000009) * t110 + (t58 * t177 - t122 * t179);
+        let t176 = R::constant(2.55) * t111 - R::constant(1.5) * t112;
         let t196 = R::constant(1.5) * t58;
-        let t197 = R::constant(1.5) * t90;
-        let t203 = t102 - R::constant(1.5) * t101 + t57 * t197;
-        let t204 = t109 - (t58 * t196 + t90 * t197);
-        let t205 = t110 + R::constant(1.5) * t97 + t57 * t196;
+        let t197 = R::constant(1.5) * t122;
+        let t203 = t112 - R::constant(1.5) * t111 + t57 * t197;
+        let t204 = t119 - (t58 * t196 + t122 * t197);
+        let t205 = t120 + R::constant(1.5) * t121 + t57 * t196;
         let t209 = R::constant(-0.2) + R::constant(0.5) * sin_beta_1;
         let t212 = R::constant(0.1) * density_1;
         let t210 = R::one() + R::constant(0.5) * cos_beta_1 - R::constant(0.5);
@@ -244,17 +246,17 @@ pub mod routine_stresses_s1 {
         let t219 = cos_beta_1 * t213 + sin_beta_1 * t214;
         let t220 = t218 - t216;
         let t221 = t216 - t218;
-        let t142 = t123 + R::constant(3.1) * t97 + (t57 * t132 - t58 * t131);
+        let t142 = t123 + R::constant(3.1) * t121 + (t57 * t132 - t58 * t131);
         let t224 = t142 + R::constant(0.5) * t221;
-        let t144 = R::constant(3.1) * t101 - t124 + (t90 * t131 - t57 * t130);
+        let t144 = R::constant(3.1) * t111 - t124 + (t122 * t131 - t57 * t130);
         let t225 = t144 + R::constant(0.5) * t212;
         let t226 = t157 - t212;
-        let t227 = R::constant(2.0) * t109 - (t58 * t150 + t90 * t151) - t219;
-        let t228 = t123 + R::constant(2.0) * t97 + t57 * t150 + t221;
+        let t227 = R::constant(2.0) * t119 - (t58 * t150 + t122 * t151) - t219;
+        let t228 = t123 + R::constant(2.0) * t121 + t57 * t150 + t221;
         let t235 = R::constant(0.5) * (t212 * t212 + t219 * t219 + t220 * t220).sqrt();
-        let t236 = R::constant(2.0) * t122 + t168 + t235;
+        let t236 = R::constant(2.0) * t99 + t168 + t235;
         let t237 = t175 + (t57 * t179 - t58 * t178) - t205;
-        let t238 = t176 + (t90 * t178 - t57 * t177) + t203;
+        let t238 = t176 + (t122 * t178 - t57 * t177) + t203;
         let t239 = R::constant(-79.57747154594766) * t204;
         let t240 = R::constant(-795.7747154594766) * t238;
         let t241 = R::constant(795.7747154594766) * t237;
