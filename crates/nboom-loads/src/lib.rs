@@ -28,6 +28,7 @@
 //!     tau: &[0.0],
 //!     acceleration: steady,
 //!     force_densities: &[0.0],
+//!     outside: &[],
 //! };
 //! loads.continuous(&spin, &mut found);
 //! // The hinge pulls the boom, whose mass centre turns at a radius of 2, inward: m ω² r.

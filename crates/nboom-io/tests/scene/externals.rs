@@ -113,7 +113,7 @@ fn what_is_wrong_with_one_is_told_at_its_place() {
         ),
         (
             torque.to_owned() + &body("a", "", "") + "\n[[body.thruster]]\nforce = [0, 0, 1]\n",
-            "a.toml:25:1: point: found none in thruster, expected",
+            "a.toml:24:1: point: found none in thruster, expected",
         ),
         (thrusters("over_time = [[0, 1, 2]]"), "expected a list of 2 numbers"),
     ] {
