@@ -202,8 +202,9 @@ fn simulate_into_files(
         }
         _ => None,
     };
-    write_report(args, &kept)?;
+    let shown = write_report(args, &kept);
     kept.written?;
+    shown?;
     let (outcome, events) = (&outcome, watch.events);
     let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
     Ok(account.text(&directory))

@@ -7,7 +7,7 @@ use nboom_results::{ENVELOPE_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, STRESS
 use serde::Serialize;
 
 use crate::Gap;
-use crate::table::{Rows, Table, count, number};
+use crate::table::{Fields, Rows, Table, count, number};
 
 /// Loads over time, and their peaks at lock-ups.
 #[derive(Default)]
@@ -62,10 +62,10 @@ impl Pivot {
 }
 
 /// The size of a force or moment.
-fn size(fields: &[&str], places: &[usize]) -> Result<f64, String> {
+fn size(fields: &Fields<'_>, places: &[usize]) -> Result<f64, String> {
     let mut sum = 0.0;
     for &place in places {
-        sum += number(fields[place])?.powi(2);
+        sum += number(&fields[place])?.powi(2);
     }
     Ok(sum.sqrt())
 }
@@ -79,8 +79,8 @@ pub(crate) fn hinge_loads(directory: &Path) -> Result<Option<Loads>, Gap> {
     let mut pivots = [Pivot::new(), Pivot::new()];
     let ended = rows.each(|fields| {
         let pivot = &mut pivots[usize::from(!fields[event].is_empty())];
-        let time = number(fields[t])?;
-        let hinge = format!("{}_{}", count(fields[appendage])?, count(fields[segment])?);
+        let time = number(&fields[t])?;
+        let hinge = format!("{}_{}", count(&fields[appendage])?, count(&fields[segment])?);
         pivot.set(time, format!("force_{hinge}"), size(fields, &force)?);
         pivot.set(time, format!("moment_{hinge}"), size(fields, &moment)?);
         Ok(())
@@ -99,12 +99,16 @@ pub(crate) fn stresses(directory: &Path) -> Result<Option<Loads>, Gap> {
         rows.places(["t", "event", "appendage", "segment", "station", "point", "von_mises"])?;
     let mut pivots = [Pivot::new(), Pivot::new()];
     let ended = rows.each(|fields| {
-        if fields[point] != "max" {
+        if &fields[point] != "max" {
             return Ok(());
         }
         let pivot = &mut pivots[usize::from(!fields[event].is_empty())];
-        let [k, i, s] = [appendage, segment, station].map(|place| count(fields[place]));
-        pivot.set(number(fields[t])?, format!("{}_{}_{}", k?, i?, s?), number(fields[von_mises])?);
+        let [k, i, s] = [appendage, segment, station].map(|place| count(&fields[place]));
+        pivot.set(
+            number(&fields[t])?,
+            format!("{}_{}_{}", k?, i?, s?),
+            number(&fields[von_mises])?,
+        );
         Ok(())
     });
     Ok(Some(loads(pivots, ended)))
@@ -137,10 +141,10 @@ pub(crate) type Envelope = (Vec<Worst>, Option<Gap>);
 pub(crate) fn hinge_envelope(directory: &Path) -> Result<Option<Envelope>, Gap> {
     envelope(directory, HINGE_ENVELOPE_FILE, |rows| {
         let [quantity, magnitude] = rows.places(["quantity", "magnitude"])?;
-        Ok(move |fields: &[&str]| {
+        Ok(move |fields: &Fields<'_>| {
             Ok(What::Hinge {
                 quantity: fields[quantity].to_owned(),
-                magnitude: number(fields[magnitude])?,
+                magnitude: number(&fields[magnitude])?,
             })
         })
     })
@@ -151,12 +155,12 @@ pub(crate) fn stress_envelope(directory: &Path) -> Result<Option<Envelope>, Gap>
     envelope(directory, ENVELOPE_FILE, |rows| {
         let [station, von_mises, driver, margin] =
             rows.places(["station", "von_mises", "driver", "margin"])?;
-        Ok(move |fields: &[&str]| {
+        Ok(move |fields: &Fields<'_>| {
             Ok(What::Station {
-                station: count(fields[station])?,
-                von_mises: number(fields[von_mises])?,
+                station: count(&fields[station])?,
+                von_mises: number(&fields[von_mises])?,
                 driver: fields[driver].to_owned(),
-                margin: Some(fields[margin])
+                margin: Some(&fields[margin])
                     .filter(|text| !text.is_empty())
                     .map(number)
                     .transpose()?,
@@ -171,7 +175,7 @@ fn envelope<F>(
     what: impl FnOnce(&Rows) -> Result<F, Gap>,
 ) -> Result<Option<Envelope>, Gap>
 where
-    F: Fn(&[&str]) -> Result<What, String>,
+    F: Fn(&Fields<'_>) -> Result<What, String>,
 {
     let Some(mut rows) = Rows::open(directory, file)? else { return Ok(None) };
     let [t, event, appendage, segment, event_appendage, event_segment] =
@@ -181,12 +185,12 @@ where
     let of_event = |field: &str| Some(field).filter(|text| !text.is_empty()).map(count).transpose();
     let ended = rows.each(|fields| {
         found.push(Worst {
-            appendage: count(fields[appendage])?,
-            segment: count(fields[segment])?,
-            t: number(fields[t])?,
+            appendage: count(&fields[appendage])?,
+            segment: count(&fields[segment])?,
+            t: number(&fields[t])?,
             event: fields[event].to_owned(),
-            event_appendage: of_event(fields[event_appendage])?,
-            event_segment: of_event(fields[event_segment])?,
+            event_appendage: of_event(&fields[event_appendage])?,
+            event_segment: of_event(&fields[event_segment])?,
             what: what(fields)?,
         });
         Ok(())

@@ -51,7 +51,7 @@ impl Packing {
         if table.rows() <= self.rows {
             return None;
         }
-        let kept = thinned(&table.columns, needed, self.rows);
+        let kept = thinned(&table.columns, &table.ranges(), needed, self.rows);
         table.keep(&kept.rows);
         Some(kept.deviation)
     }

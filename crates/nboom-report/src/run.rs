@@ -221,18 +221,18 @@ fn read_events(directory: &Path, events: &mut Vec<EventKeys>) -> Result<bool, Ga
         "energy_after",
     ])?;
     rows.each(|fields| {
-        let given = |place: usize| Some(fields[place]).filter(|text| !text.is_empty());
+        let given = |place: usize| Some(&fields[place]).filter(|text| !text.is_empty());
         if events.len() > MOST_EVENTS {
             return Ok(());
         }
         events.push(EventKeys {
-            t: number(fields[t])?,
+            t: number(&fields[t])?,
             kind: fields[kind].to_owned(),
             appendage: given(appendage).map(count).transpose()?,
             segment: given(segment).map(count).transpose()?,
             impulse: given(impulse).map(number).transpose()?,
-            before: number(fields[before])?,
-            after: number(fields[after])?,
+            before: number(&fields[before])?,
+            after: number(&fields[after])?,
         });
         Ok(())
     })?;

@@ -1,7 +1,9 @@
 //! Tables of a run, read row by row up to the first that is none.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::ops::Index;
 use std::path::Path;
 
 use crate::Gap;
@@ -12,6 +14,9 @@ const LONGEST_LINE: u64 = 1 << 24;
 
 /// Numbers of a table that are held at once; a longer table is thinned while it is read.
 const MOST_NUMBERS: usize = 1 << 24;
+
+/// Share of the largest number of a quantity below which changes are rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Numbers by column, the first of which is time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,9 +43,31 @@ impl Table {
         self.read += 1;
         self.columns.iter_mut().zip(row).for_each(|(column, value)| column.push(*value));
         if self.rows() * self.columns.len() > MOST_NUMBERS {
-            let kept = thinned(&self.columns, &[], self.rows() / 2);
+            let kept = thinned(&self.columns, &self.ranges(), &[], self.rows() / 2);
             self.keep(&kept.rows);
         }
+    }
+
+    /// Of every column but the time the range that a figure of it has; zero of one that only rounding moves, and
+    /// of residuals, which are rounding.
+    pub fn ranges(&self) -> Vec<f64> {
+        let bounds = self.columns.iter().map(|column| {
+            let first = [f64::INFINITY, f64::NEG_INFINITY];
+            column.iter().fold(first, |[low, high], value| [low.min(*value), high.max(*value)])
+        });
+        let bounds: Vec<[f64; 2]> = bounds.collect();
+        let quantity =
+            |name: &'_ str| name.rsplit_once('_').map_or(name, |(quantity, _)| quantity).to_owned();
+        let mut largest: HashMap<String, f64> = HashMap::new();
+        for (name, [low, high]) in self.names.iter().zip(&bounds) {
+            let known = largest.entry(quantity(name)).or_default();
+            *known = known.max(low.abs()).max(high.abs());
+        }
+        let range = |(name, [low, high]): (&String, &[f64; 2])| {
+            let is_seen = high - low > ROUNDING * largest[&quantity(name)];
+            if is_seen && !name.starts_with("residual_") { high - low } else { 0.0 }
+        };
+        self.names.iter().zip(&bounds).skip(1).map(range).collect()
     }
 
     /// Keeps these rows, which ascend.
@@ -74,6 +101,23 @@ pub(crate) struct Rows {
     pub names: Vec<String>,
     line: String,
     number: usize,
+    /// Where each field of the line ends.
+    ends: Vec<usize>,
+}
+
+/// The fields of a row, by their number from 0.
+pub(crate) struct Fields<'a> {
+    line: &'a str,
+    ends: &'a [usize],
+}
+
+impl Index<usize> for Fields<'_> {
+    type Output = str;
+
+    fn index(&self, field: usize) -> &str {
+        let start = if field == 0 { 0 } else { self.ends[field - 1] + 1 };
+        &self.line[start..self.ends[field]]
+    }
 }
 
 impl Rows {
@@ -87,13 +131,9 @@ impl Rows {
         if !opened.metadata().map_err(unreadable)?.is_file() {
             return Err(unreadable(ErrorKind::InvalidInput.into()));
         }
-        let mut rows = Self {
-            file,
-            lines: BufReader::with_capacity(1 << 16, opened),
-            names: Vec::new(),
-            line: String::new(),
-            number: 0,
-        };
+        let lines = BufReader::with_capacity(1 << 16, opened);
+        let (names, line, ends) = (Vec::new(), String::new(), Vec::new());
+        let mut rows = Self { file, lines, names, line, number: 0, ends };
         rows.advance()?;
         rows.names = rows.line.split(',').map(str::to_owned).collect();
         Ok(Some(rows))
@@ -140,12 +180,18 @@ impl Rows {
     ///
     /// # Errors
     /// When a row has another number of fields than the header, is cut off, or `take` finds it wrong.
-    pub fn each(&mut self, mut take: impl FnMut(&[&str]) -> Result<(), String>) -> Result<(), Gap> {
+    pub fn each(
+        &mut self,
+        mut take: impl FnMut(&Fields<'_>) -> Result<(), String>,
+    ) -> Result<(), Gap> {
         while self.advance()? {
-            let fields: Vec<&str> = self.line.split(',').collect();
-            let (found, expected) = (fields.len(), self.names.len());
+            let Self { line, ends, .. } = self;
+            ends.clear();
+            let commas = line.bytes().enumerate().filter(|(_, byte)| *byte == b',');
+            ends.extend(commas.map(|(place, _)| place).chain([line.len()]));
+            let (found, expected) = (self.ends.len(), self.names.len());
             let taken = if found == expected {
-                take(&fields)
+                take(&Fields { line: &self.line, ends: &self.ends })
             } else {
                 Err(format!("{found} fields found, {expected} expected"))
             };
@@ -196,7 +242,7 @@ pub(crate) fn read_columns(
     let ended = rows.each(|fields| {
         row.clear();
         for &place in &places {
-            row.push(number(fields[place])?);
+            row.push(number(&fields[place])?);
         }
         table.push(&row);
         Ok(())

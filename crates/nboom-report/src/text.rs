@@ -17,16 +17,21 @@ fn steers(c: char) -> bool {
 
 /// JSON that may stand in an element of a page: nothing in it ends the element.
 pub(crate) fn json(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
-                safe.push_str(&format!("\\u{:04x}", u32::from(c)));
-            }
-            c => safe.push(c),
+    let mut safe = String::with_capacity(text.len() + text.len() / 64);
+    let mut written = 0;
+    for (place, byte) in text.bytes().enumerate() {
+        // No other byte begins one of the characters that matter.
+        if !matches!(byte, b'<' | b'>' | b'&' | 0xe2) {
+            continue;
+        }
+        let Some(c) = text[place..].chars().next() else { continue };
+        if matches!(c, '<' | '>' | '&' | '\u{2028}' | '\u{2029}') {
+            safe.push_str(&text[written..place]);
+            safe.push_str(&format!("\\u{:04x}", u32::from(c)));
+            written = place + c.len_utf8();
         }
     }
-    safe
+    safe + &text[written..]
 }
 
 #[cfg(test)]

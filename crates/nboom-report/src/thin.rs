@@ -45,17 +45,21 @@ impl Ord for Span {
 }
 
 /// About `most` rows of columns of which the first is time: both ends, the rows `needed`, both extremes of every
-/// column, and then always the row that is farthest from the line between its neighbours, as a share of the range
-/// of its column, until nothing is left that can be seen.
+/// column, and then always the row that is farthest from the line between its neighbours, as a share of its
+/// column's place in `ranges`, until nothing is left that can be seen. Where that is zero a column has no say.
 ///
 /// Extremes stay even if they are more than `most`; of needed rows those that find room beside them.
-pub(crate) fn thinned(columns: &[Vec<f64>], needed: &[usize], most: usize) -> Thinned {
+pub(crate) fn thinned(
+    columns: &[Vec<f64>],
+    ranges: &[f64],
+    needed: &[usize],
+    most: usize,
+) -> Thinned {
     let count = columns.first().map_or(0, Vec::len);
     if count <= most.max(2) {
         return Thinned { rows: (0..count).collect(), deviation: 0.0 };
     }
     let mut kept = BTreeSet::from([0, count - 1]);
-    let mut ranges = Vec::with_capacity(columns.len());
     for column in &columns[1..] {
         let extreme = |better: Ordering| {
             (0..count).reduce(|best, row| {
@@ -64,7 +68,6 @@ pub(crate) fn thinned(columns: &[Vec<f64>], needed: &[usize], most: usize) -> Th
         };
         let [lowest, highest] =
             [Ordering::Less, Ordering::Greater].map(|better| extreme(better).unwrap_or(0));
-        ranges.push(column[highest] - column[lowest]);
         // Of a constant no row is extreme.
         if column[highest] > column[lowest] {
             kept.extend([lowest, highest]);
@@ -72,7 +75,7 @@ pub(crate) fn thinned(columns: &[Vec<f64>], needed: &[usize], most: usize) -> Th
     }
     let room = most.saturating_sub(kept.len());
     kept.extend(needed.iter().take(room));
-    let span = |from, to| span(columns, &ranges, from, to);
+    let span = |from, to| span(columns, ranges, from, to);
     let all: Vec<usize> = kept.iter().copied().collect();
     let mut spans: BinaryHeap<Span> = all.windows(2).map(|pair| span(pair[0], pair[1])).collect();
     while kept.len() < most && spans.peek().is_some_and(|worst| worst.deviation > INVISIBLE) {
@@ -114,6 +117,16 @@ mod tests {
 
     fn times(count: usize) -> Vec<f64> {
         (0..count).map(|i| i as f64).collect()
+    }
+
+    fn thinned(columns: &[Vec<f64>], needed: &[usize], most: usize) -> Thinned {
+        let range = |column: &Vec<f64>| {
+            let fold =
+                |pick: fn(f64, f64) -> f64| column.iter().copied().reduce(pick).unwrap_or(0.0);
+            fold(f64::max) - fold(f64::min)
+        };
+        let ranges: Vec<f64> = columns[1..].iter().map(range).collect();
+        super::thinned(columns, &ranges, needed, most)
     }
 
     #[test]

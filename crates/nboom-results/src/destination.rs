@@ -6,20 +6,23 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use crate::earlier::Earlier;
 use crate::kind::Kind;
 use crate::lock::Lock;
 use crate::whole::Draft;
-use crate::{FILES, ResultsError, SUMMARY_FILE};
+use crate::{FILES, REPORT_FILE, REPORT_MARK, ResultsError, SUMMARY_FILE};
 
 /// Suffix of the directory in which results are not finished.
 const PARTIAL: &str = ".partial";
 
 /// Name of a summary that will replace another, within `DIR.partial`.
 const DRAFT_FILE: &str = "summary.json.new";
+
+/// How much of a page is read to recognise it \[bytes\].
+const PAGE_START: u64 = 512;
 
 /// A directory for the results of a run, and the locked one in which they are written.
 #[derive(Debug)]
@@ -216,13 +219,22 @@ fn check(directory: &Path) -> Result<Option<Earlier>, ResultsError> {
     let earlier = Earlier::in_directory(directory)?;
     for name in FILES {
         let path = directory.join(name);
+        let is_ours =
+            |earlier: &Earlier| earlier.owns(name) && (name != REPORT_FILE || is_page(&path));
         match Kind::of(&path).map_err(ResultsError::writing(&path))? {
             Kind::Nothing => {}
-            Kind::File if earlier.as_ref().is_some_and(|earlier| earlier.owns(name)) => {}
+            Kind::File if earlier.as_ref().is_some_and(is_ours) => {}
             found => return Err(ResultsError::Foreign { path, found }),
         }
     }
     Ok(earlier)
+}
+
+/// Whether a file is the page of a run.
+fn is_page(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(PAGE_START).read_to_end(&mut start));
+    read.is_ok() && String::from_utf8_lossy(&start).contains(REPORT_MARK)
 }
 
 /// Refuses a directory into which files beside it cannot be moved.

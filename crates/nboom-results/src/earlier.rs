@@ -54,7 +54,7 @@ impl Earlier {
         Some(Self { keys, complete, files })
     }
 
-    /// Whether a file of this name is the run's, or was made from its files later.
+    /// Whether a file of this name is the run's, or a page made from its files later.
     pub fn owns(&self, name: &str) -> bool {
         name == REPORT_FILE || self.files.iter().any(|file| file == name)
     }

@@ -31,6 +31,8 @@ pub const TRUST_FILE: &str = "certificate.json";
 
 /// Name of the page that shows a run; it is made from the other files, at any time.
 pub const REPORT_FILE: &str = "report.html";
+/// What tells it from other pages, among its first bytes.
+pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"nboom\">";
 
 /// All names that a run may write; files of other names in its directory are not its own.
 pub const FILES: [&str; 15] = [

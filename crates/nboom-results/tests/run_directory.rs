@@ -195,11 +195,11 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "attitude_drift": 3e-12,
         "skipped": nboom_model::skipped(&scene()),
         "warnings": [],
-        "files": ["states.csv", "events.csv", "summary.json"],
+        "files": ["states.csv", "instants.csv", "ledger.csv", "events.csv", "summary.json"],
     });
     assert_eq!(summary(&path), expected);
     assert!(!path.join("listing.txt").exists());
-    assert_eq!(fs::read_dir(&path).expect("readable").count(), 3);
+    assert_eq!(fs::read_dir(&path).expect("readable").count(), 5);
     drop(kept);
     assert!(!place.path().join("out/run.partial").exists());
 }

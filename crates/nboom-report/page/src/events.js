@@ -31,7 +31,7 @@ const MOST = 40;
 export function eventTable(run, go) {
   const { units } = run;
   const headings = [`Time [${units.time}]`, 'Hinge', 'What happens',
-    `Impulse [${units.angularMomentum}]`, `Kinetic energy before [${units.energy}]`, `after [${units.energy}]`, `change [${units.energy}]`];
+    `Impulse [${units.angularMomentum}]`, `Kinetic energy before [${units.energy}]`, 'after', 'change'];
   const slides = run.hinges.some((hinge) => hinge.slides);
   if (slides) headings[3] = `Impulse [${units.angularMomentum}; of sliding joints ${units.force} ${units.time}]`;
   const momentum = momentumAt(run);

@@ -12,7 +12,9 @@ const FLAT = 1.2;
 
 /** A line along the axis of each joint, in the axes of its body. */
 export function jointAxis(body, size, colour) {
-  const axis = new Vector3(...body.axis).multiplyScalar(0.045 * size);
+  const { tip, center } = body;
+  const own = Math.max(Math.hypot(...tip), 2 * Math.hypot(...center));
+  const axis = new Vector3(...body.axis).multiplyScalar(Math.max(Math.min(0.045 * size, 0.4 * own), 0.006 * size));
   const geometry = new BufferGeometry().setFromPoints([axis.clone().negate(), axis]);
   return new LineSegments(geometry, new LineBasicMaterial({ color: colour, depthTest: false }));
 }
