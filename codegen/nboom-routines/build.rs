@@ -99,7 +99,7 @@ fn right_sides() -> Vec<Request> {
             // With more hinges, more lines or a wrench beside them take too much straight code.
             let takes_both = topology.hinges() < FEW_HINGES;
             let pushed = is_pushed.then(|| {
-                let pushed = named("Pushed").on_eight_states();
+                let pushed = named("Pushed");
                 if takes_both {
                     pushed.with_lines(RightSideLayout::LINES_OF_LINK).with_external_wrench()
                 } else {

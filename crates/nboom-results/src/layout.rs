@@ -1,6 +1,6 @@
 //! Columns and numbers of the listing.
 
-use nboom_model::UnitSystem;
+use nboom_model::{Joint, UnitSystem};
 use std::io::{self, Write};
 
 use nboom_scalar::Vec3;
@@ -29,6 +29,14 @@ impl Units {
             time,
             force,
             torque,
+        }
+    }
+
+    /// What an impulse at a joint is of, and its unit.
+    pub(crate) fn impulse_at(self, joint: Joint) -> (&'static str, String) {
+        match joint {
+            Joint::Revolute => ("TORQUE", self.angular_momentum),
+            Joint::Prismatic => ("FORCE", self.momentum),
         }
     }
 

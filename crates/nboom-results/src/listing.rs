@@ -104,11 +104,7 @@ impl<W: Write> ListingWriter<W> {
         }
         if let Some(impulse) = event.impulse {
             let joint = event.hinge.map_or(Joint::Revolute, |i| self.hinges[i].joint);
-            let units = Units::of(&self.units);
-            let (what, unit) = match joint {
-                Joint::Revolute => ("TORQUE", units.angular_momentum),
-                Joint::Prismatic => ("FORCE", units.momentum),
-            };
+            let (what, unit) = Units::of(&self.units).impulse_at(joint);
             write!(self.out, "   IMPULSIVE {what} {} ({unit})", number(impulse))?;
         }
         writeln!(self.out)

@@ -70,7 +70,9 @@ impl Equations {
     /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as well.
     pub fn new(scene: &Scene, own: OwnLaws, options: &Options) -> Self {
         let layout = VariableLayout::of_no_hinges();
-        let uses_momenta = without_momenta(scene).is_none();
+        // Bodies whose inertia turns otherwise than they do have no momenta.
+        let is_rigid = scene.departures().turned.is_empty();
+        let uses_momenta = is_rigid && without_momenta(scene).is_none();
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
         let commands = Commands::none(scene.bodies.len());
@@ -240,14 +242,10 @@ impl Equations {
 
 /// What in `scene` keeps momenta from standing for rates.
 fn without_momenta(scene: &Scene) -> Option<&'static str> {
-    let found = [
-        // The reaction of what holds it changes them.
-        (scene.base.is_held(), HELD_BASE),
-        // The momenta of rotors are not counted.
-        (!scene.rotors.is_empty(), "rotors"),
-        (!scene.departures().turned.is_empty(), "inertias that turn otherwise than their bodies"),
-    ];
-    found.into_iter().find_map(|(is_there, what)| is_there.then_some(what))
+    // The reaction of what holds it changes them.
+    let held = scene.base.is_held().then_some(HELD_BASE);
+    // The momenta of rotors are not counted.
+    held.or((!scene.rotors.is_empty()).then_some("rotors"))
 }
 
 /// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the `others` if
