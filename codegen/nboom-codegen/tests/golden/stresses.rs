@@ -2,7 +2,7 @@
 /// Loads and stresses of 1 hinge, level exact.
 /// Evaluation: 92 add, 121 mul, 0 div, 6 sqrt, 1 sin_cos.
 /// Preparation: 0 add, 0 mul, 0 div, 0 sin_cos.
-/// Assumptions: all 136 numbers of the scene.
+/// Assumptions: all 137 numbers of the scene.
 #[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
 pub mod routine_stresses_s1 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
@@ -20,7 +20,7 @@ pub mod routine_stresses_s1 {
                 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85,
                 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104,
                 105, 106, 107, 108, 109, 110, 111, 112, 113, 114, 115, 116, 117, 118, 119, 120,
-                121, 122, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133, 134, 135,
+                121, 122, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133, 134, 135, 136,
             ],
             [
                 0.0,
@@ -28,6 +28,7 @@ pub mod routine_stresses_s1 {
                 2.0,
                 2.0,
                 2.0,
+                0.0,
                 0.0,
                 0.0,
                 0.1,
@@ -162,12 +163,12 @@ pub mod routine_stresses_s1 {
             ],
         );
         const EXTERNAL: bool = true;
-        const PARAMETERS: usize = 136;
+        const PARAMETERS: usize = 137;
         const CONSTANTS: usize = 0;
         const COORDINATES: usize = 13;
         const OUTPUTS: usize = 31;
         fn prepare<R: Real>(p: &[R], k: &mut [R]) {
-            let p: &[R; 136] = p.try_into().expect("one value for each parameter");
+            let p: &[R; 137] = p.try_into().expect("one value for each parameter");
             let k: &mut [R; 0] = k.try_into().expect("room for each constant");
         }
         #[inline(always)]
