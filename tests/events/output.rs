@@ -3,7 +3,7 @@
 
 use nboom::model::{External, HingeState, Release};
 use nboom::scalar::Vec3;
-use nboom::sim::{EventKind, Options};
+use nboom::sim::{EventKind, Options, Snapshot};
 
 use crate::collect::{Collected, run, tight};
 use crate::rotors::{description, free, locking_at, oscillating, scene, waiting};
@@ -104,6 +104,11 @@ fn lively(samples: usize) -> (Collected, nboom::sim::Summary) {
     run(&scene(&hinges, 3.0), &options)
 }
 
+/// A snapshot without its account, whose residuals are relative to the largest energy at any output time so far.
+fn motion(snapshot: &Snapshot) -> Snapshot {
+    Snapshot { account: None, ..snapshot.clone() }
+}
+
 #[test]
 fn output_does_not_touch_the_motion() {
     let (one, one_summary) = lively(1);
@@ -114,8 +119,8 @@ fn output_does_not_touch_the_motion() {
         assert_eq!(summary.steps_accepted, one_summary.steps_accepted);
         for ((a, after_a), (b, after_b)) in one.events.iter().zip(&many.events) {
             assert_eq!(a, b);
-            assert_eq!(after_a, after_b);
+            assert_eq!(motion(after_a), motion(after_b));
         }
-        assert_eq!(many.last(), one.last());
+        assert_eq!(motion(many.last()), motion(one.last()));
     }
 }
