@@ -27,7 +27,7 @@ fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
         let name = entry.file_name().to_string_lossy().into_owned();
         let path = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
         let kind = entry.file_type().expect("files have a type");
-        if kind.is_dir() && !["target", "out", ".git"].contains(&name.as_str()) {
+        if kind.is_dir() && !["target", "out", ".git", "node_modules"].contains(&name.as_str()) {
             found.extend(files(&path, extensions));
         } else if kind.is_file() && extensions.iter().any(|e| name.ends_with(e)) {
             found.push(PathBuf::from(path));
