@@ -182,7 +182,7 @@ pub enum ModelError {
     /// A force or torque from outside acts on no body of the scene, or its numbers or times are wrong.
     #[error("{} {defect} found, {expected} expected", .kind.name())]
     External {
-        /// Its place in [`SceneDescription::externals`].
+        /// Its place in [`SceneDescription::externals`](crate::SceneDescription::externals).
         index: usize,
         /// A force or a torque.
         kind: ExternalKind,

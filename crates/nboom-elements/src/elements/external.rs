@@ -3,7 +3,7 @@ use nboom_scalar::{Mat3, Real, Twist, Vec3, Wrench};
 
 /// A force or torque from outside in a mode in which it acts, on the link that its body belongs to.
 ///
-/// One that varies within the mode is as it was [set](Self::set) last.
+/// One that varies within the mode is as it was set last.
 #[derive(Clone, Copy, Debug)]
 pub struct Push<R> {
     /// The link; `None` is the main link.
