@@ -15,6 +15,9 @@ const COMMAND: &str = "nboom-cli";
 /// What lies beside the sources and goes with them.
 const BESIDE: [&str; 3] = ["Cargo.lock", "LICENSE-APACHE", "LICENSE-MIT"];
 
+/// What there is of a crate: its code, and the page that the code of one includes.
+const PARTS: [&str; 2] = ["src", "page/bundle"];
+
 /// Lines of a manifest under each heading.
 type Sections = BTreeMap<String, Vec<String>>;
 
@@ -32,7 +35,9 @@ fn main() {
         println!("cargo::rerun-if-changed={}", folder.display());
         let (manifest, uses) = stand_alone(&read(&folder.join("Cargo.toml")), &workspace);
         files.insert(format!("{name}/Cargo.toml"), manifest);
-        collect(&folder, &folder.join("src"), &name, &mut files);
+        for part in PARTS.map(|part| folder.join(part)).iter().filter(|part| part.is_dir()) {
+            collect(&folder, part, &name, &mut files);
+        }
         waiting.extend(uses);
     }
     for name in BESIDE {
