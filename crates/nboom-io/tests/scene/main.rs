@@ -8,6 +8,7 @@ mod examples;
 mod externals;
 mod messages;
 mod outputs;
+mod rigs;
 mod robustness;
 mod rules;
 mod shapes;
