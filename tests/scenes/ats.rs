@@ -9,7 +9,7 @@ use nboom::sim::{Options, Snapshot};
 use serde_json::Value;
 
 use crate::collect::{detail, run};
-use crate::nbod2::half_of_last_digit;
+use crate::nbod2::Tally;
 use crate::support::data;
 
 /// What is printed about one quantity at one time, and what it is here.
@@ -86,7 +86,7 @@ fn the_printout_of_1982_agrees_digit_by_digit() {
     let blocks = data("nbod2/ats.json");
     let blocks = blocks.as_array().expect("blocks");
     assert_eq!((blocks.len(), found.samples.len()), (11, 11));
-    let (mut to_the_last_digit, mut rounding, mut others) = (0, 0, Vec::new());
+    let mut tally = Tally::default();
     for (block, seen) in blocks.iter().zip(&found.samples) {
         let time: f64 = block["time"].as_str().and_then(|text| text.parse().ok()).expect("a time");
         assert!((seen.time - time).abs() < 1e-15, "{} {time}", seen.time);
@@ -95,20 +95,9 @@ fn the_printout_of_1982_agrees_digit_by_digit() {
             assert_eq!(printed.len(), found.len(), "{quantity}");
             for (i, (printed, found)) in printed.iter().map(Value::as_str).zip(found).enumerate() {
                 let printed = printed.expect("a text");
-                let value: f64 = printed.parse().expect("a number");
-                let off = (found - value).abs();
-                // A number halfway between two printed ones may be printed as either.
-                if off <= half_of_last_digit(printed) * (1.0 + 1e-6) && value != 0.0 {
-                    to_the_last_digit += 1;
-                } else if off <= least {
-                    rounding += 1;
-                } else {
-                    others.push(format!("{quantity} {i} at {time}: {found:e}, printed {printed}"));
-                }
+                tally.add(&format!("{quantity} {i} at {time}"), printed, found, least);
             }
         }
     }
-    println!("{to_the_last_digit} to the last digit, {rounding} rounding");
-    assert_eq!(to_the_last_digit + rounding + others.len(), 1155);
-    assert!(others.is_empty(), "{to_the_last_digit} {rounding}\n{}", others.join("\n"));
+    tally.assert_all_agree(1155);
 }

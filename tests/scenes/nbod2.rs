@@ -64,8 +64,40 @@ fn compared(scene: &Scene, seen: &Snapshot, printed: &Value) -> Vec<Compared> {
     all
 }
 
+/// How printed numbers compare with ours.
+#[derive(Default)]
+pub struct Tally {
+    to_the_last_digit: usize,
+    rounding: usize,
+    others: Vec<String>,
+}
+
+impl Tally {
+    /// Takes a printed number, of which `what` tells which it is, and ours; a difference of at most `rounding` is
+    /// that.
+    pub fn add(&mut self, what: &str, printed: &str, found: f64, rounding: f64) {
+        let value: f64 = printed.parse().expect("a number");
+        let off = (found - value).abs();
+        // A number halfway between two printed ones may be printed as either.
+        if off <= half_of_last_digit(printed) * (1.0 + 1e-6) && value != 0.0 {
+            self.to_the_last_digit += 1;
+        } else if off <= rounding {
+            self.rounding += 1;
+        } else {
+            self.others.push(format!("{what}: {found:e}, printed {printed}"));
+        }
+    }
+
+    pub fn assert_all_agree(&self, numbers: usize) {
+        let Self { to_the_last_digit, rounding, others } = self;
+        println!("{to_the_last_digit} to the last digit, {rounding} to rounding");
+        assert_eq!(to_the_last_digit + rounding + others.len(), numbers);
+        assert!(others.is_empty(), "{}", others.join("\n"));
+    }
+}
+
 /// Half a unit of the last printed digit.
-pub fn half_of_last_digit(printed: &str) -> f64 {
+fn half_of_last_digit(printed: &str) -> f64 {
     let (mantissa, exponent) = printed.split_once('e').expect("an exponent");
     let (_, decimals) = mantissa.split_once('.').expect("decimals");
     let exponent: i32 = exponent.parse().expect("a number");
@@ -84,26 +116,15 @@ fn the_printout_of_1982_agrees_digit_by_digit() {
     let blocks = data("nbod2/ins.json");
     let blocks = blocks.as_array().expect("blocks");
     assert_eq!((blocks.len(), found.samples.len()), (11, 11));
-    let (mut to_the_last_digit, mut rounding, mut others) = (0, 0, Vec::new());
+    let mut tally = Tally::default();
     for (block, seen) in blocks.iter().zip(&found.samples) {
         let time: f64 = block["time"].as_str().and_then(|text| text.parse().ok()).expect("a time");
         assert!((seen.time - time).abs() < 1e-15, "{} {time}", seen.time);
         for Compared { quantity, printed, found, whole } in compared(&scene, seen, block) {
             for (i, (printed, found)) in printed.iter().zip(found).enumerate() {
-                let value: f64 = printed.parse().expect("a number");
-                let off = (found - value).abs();
-                // A number halfway between two printed ones may be printed as either.
-                if off <= half_of_last_digit(printed) * (1.0 + 1e-6) && value != 0.0 {
-                    to_the_last_digit += 1;
-                } else if off <= ROUNDING * whole {
-                    rounding += 1;
-                } else {
-                    others.push(format!("{quantity} {i} at {time}: {found:e}, printed {printed}"));
-                }
+                tally.add(&format!("{quantity} {i} at {time}"), printed, found, ROUNDING * whole);
             }
         }
     }
-    assert_eq!(to_the_last_digit + rounding + others.len(), 572);
-    println!("{to_the_last_digit} to the last digit, {rounding} to rounding");
-    assert!(others.is_empty(), "{}", others.join("\n"));
+    tally.assert_all_agree(572);
 }
