@@ -6,9 +6,9 @@ use nboom::model::{
     MassProperties, Mode, Mount, Release, Scene, SceneDescription,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::{EventKind, Form, Options};
+use nboom::sim::{EventKind, Form, Options, Path};
 
-use super::collect::detail;
+use super::collect::{detail, try_run};
 use super::log::{options, run};
 use super::random_scene::{all_acting, conservative, hinged};
 
@@ -194,6 +194,18 @@ fn trees_on_a_rig_keep_their_energy_by_all_code_that_covers_them() {
         }
     }
     assert!(latches > 20, "{latches}");
+}
+
+#[test]
+fn no_routine_for_a_rig_can_be_generated_and_none_is_promised() {
+    let mast = MassProperties::new(8.0, Vec3::zero(), Sym3::diagonal(0.3, 0.4, 0.5));
+    let scene = on_rig(mast, Joint::Revolute, Vec3::unit_z(), Hinge::free());
+    let scene = Scene::new(scene).expect("a valid scene");
+    let options = Options { path: Path::Generated, ..options(1, 1e-9) };
+    let (_, refused) = try_run(&scene, &options);
+    let told = refused.expect_err("no routine is for rigs").to_string();
+    let expected = "no routine: the main body is held; the generic path computes it";
+    assert!(told.contains(expected), "{told}");
 }
 
 /// A table speeds up and slows down under a boom on its axis, which stays as it is in space, whatever gravity

@@ -64,7 +64,7 @@ pub enum SimError {
         element: &'static str,
     },
     /// A generated routine was demanded and none fits.
-    #[error("at time {time}: {source}; routines can be generated, or the generic path used")]
+    #[error("at time {time}: {source}; {}", source.remedy())]
     NoRoutine {
         /// Time from which on.
         time: f64,

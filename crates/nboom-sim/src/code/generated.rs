@@ -109,6 +109,16 @@ impl NoRoutine {
         }
     }
 
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::HeldBase { .. } | Self::Tree { .. } => "the generic path computes it",
+            Self::Topology { .. } | Self::Unmet { .. } => {
+                "routines can be generated, or the generic path used"
+            }
+        }
+    }
+
     /// Why none of the routines that `options` allow fits a mode of chains and paddles, in which
     /// something acts on the main body from outside or nothing does (`external`).
     pub fn because(recognised: &Recognised, external: bool, options: &Options) -> Self {
