@@ -53,8 +53,8 @@ fn looking_allocates_nothing(formulation: Option<Form>) {
     let analysis = StressAnalysis::new(&scene, &structure(&scene), Settings::default());
     let mut counted =
         Counted { analysis: analysis.expect("tubes are sections"), steps: 0, allocations: 0 };
-    let options =
-        Options { samples: 1, rtol: 1e-13, atol: 1e-15, formulation, ..Options::default() };
+    let (integrator, rtol, atol) = (Method::Dop853, 1e-13, 1e-15);
+    let options = Options { samples: 1, integrator, rtol, atol, formulation, ..Options::default() };
     simulate(&scene, &options, &mut counted).expect("an ordinary motion");
     assert!(counted.steps > 5, "{} steps", counted.steps);
     assert_eq!(counted.allocations, 0, "in {} steps", counted.steps);

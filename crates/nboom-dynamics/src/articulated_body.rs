@@ -20,7 +20,7 @@ impl<R: Real> HingeFactor<R> {
 }
 
 /// Eliminates the hinges from the tips inward; the poses' inertias must be turned.
-#[inline]
+#[inline(always)]
 pub(crate) fn factor<R: Real>(
     tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
@@ -58,7 +58,7 @@ pub(crate) fn factor<R: Real>(
 /// `wrenches[j]` is what acts against link j about its hinge, `main` what acts against the main
 /// link about O, and `tau_dot[j]` the hinge torque on entry and the hinge acceleration on exit.
 /// `wrenches` is used up. Returns (ω̇, a_O), which are those of `held` where the main link is held.
-#[inline]
+#[inline(always)]
 pub(crate) fn solve<R: Real>(
     tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
@@ -82,11 +82,17 @@ pub(crate) fn solve<R: Real>(
             None => main.add(transmitted),
         }
     }
-    let free = || base.solve(Wrench { moment: -main.moment, force: -main.force });
-    let of_main = held.unwrap_or_else(free);
+    let of_main = match held {
+        Some(held) => held,
+        None => base.solve(Wrench { moment: -main.moment, force: -main.force }),
+    };
     for (j, link) in tree.links.iter().enumerate() {
         let (pose, hinge) = (&poses[j], &hinges[j]);
-        let inboard = link.inboard.map_or(of_main, |i| twists[i]).at(pose.offset);
+        let inboard = match link.inboard {
+            Some(i) => twists[i],
+            None => of_main,
+        };
+        let inboard = inboard.at(pose.offset);
         let carried =
             hinge.column.moment.dot(inboard.angular) + hinge.column.force.dot(inboard.linear);
         tau_dot[j] = (tau_dot[j] - carried) * hinge.inverse_pivot;
@@ -110,7 +116,7 @@ pub(crate) struct Load<'a, R> {
 ///
 /// `twists` and `omegas` are work space; `wrenches[j]` is about the hinge of link j. Returns
 /// the main link's share, about O.
-#[inline]
+#[inline(always)]
 pub(crate) fn bias<R: Real>(
     tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],
@@ -153,7 +159,7 @@ pub(crate) fn bias<R: Real>(
     of_main
 }
 
-#[inline]
+#[inline(always)]
 fn inertia_wrench_at_rest<R: Real>(body: &RigidInertia<R>, omega: Vec3<R>) -> Wrench<R> {
     Wrench {
         moment: omega.cross(body.about_origin * omega),

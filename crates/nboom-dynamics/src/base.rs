@@ -11,18 +11,19 @@ pub(crate) struct BaseFactor<R> {
 }
 
 impl<R: Real> BaseFactor<R> {
+    #[inline(always)]
     pub fn unset() -> Self {
         Self { lower: [[R::zero(); 6]; 6], inverse_pivots: [R::zero(); 6] }
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn new(inertia: &ArticulatedInertia<R>) -> Self {
         let mut factor = Self { lower: to_matrix(inertia), ..Self::unset() };
         ldl::factor(&mut factor.lower, &mut factor.inverse_pivots);
         factor
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn solve(&self, right: Wrench<R>) -> Twist<R> {
         let (m, f) = (right.moment, right.force);
         let mut x = [m.x, m.y, m.z, f.x, f.y, f.z];
@@ -38,16 +39,16 @@ impl BaseFactor<f64> {
 }
 
 /// The lower triangle of the 6×6 matrix, moments first.
-#[inline]
+#[inline(always)]
 fn to_matrix<R: Real>(inertia: &ArticulatedInertia<R>) -> [[R; 6]; 6] {
-    let angular = inertia.angular.to_matrix().rows.map(Vec3::to_array);
-    let below = inertia.coupling.transpose().rows.map(Vec3::to_array);
-    let linear = inertia.linear.to_matrix().rows.map(Vec3::to_array);
+    let angular = inertia.angular.to_matrix().rows;
+    let below = inertia.coupling.transpose().rows;
+    let linear = inertia.linear.to_matrix().rows;
     let mut matrix = [[R::zero(); 6]; 6];
     for i in 0..3 {
-        matrix[i][..3].copy_from_slice(&angular[i]);
-        matrix[i + 3][..3].copy_from_slice(&below[i]);
-        matrix[i + 3][3..].copy_from_slice(&linear[i]);
+        matrix[i][..3].copy_from_slice(&angular[i].to_array());
+        matrix[i + 3][..3].copy_from_slice(&below[i].to_array());
+        matrix[i + 3][3..].copy_from_slice(&linear[i].to_array());
     }
     matrix
 }

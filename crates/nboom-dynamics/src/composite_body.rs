@@ -81,6 +81,7 @@ pub(crate) fn gather<R: Real>(
 
 /// Adds the wrenches of all links outboard to each link's own, about its hinge, and those of all
 /// links to `main`, about O, which it returns.
+#[inline(always)]
 pub(crate) fn carry_inward<R: Real>(
     tree: &WeldedTree<R>,
     poses: &[LinkPose<R>],

@@ -49,6 +49,7 @@ pub struct LineJoint<R> {
 impl<R: Real> Recursive<R> {
     /// Energy and momenta when the system mass centre moves with `center_velocity` (inertial,
     /// main-body axes).
+    #[inline(always)]
     pub fn invariants(
         &mut self,
         motion: &Motion<'_, R>,
@@ -58,10 +59,10 @@ impl<R: Real> Recursive<R> {
         self.velocities_with_origin_at_rest(motion);
         let inverse_mass = R::one() / self.total_mass();
         let (mut first_moment, mut linear_momentum) = (Vec3::zero(), Vec3::zero());
-        self.for_each_link(motion, |position, inertia, twist| {
+        for (position, inertia, twist) in self.moving_links(motion.omega_body) {
             first_moment += inertia.first_moment + position * inertia.mass;
             linear_momentum += momentum(inertia, twist).force;
-        });
+        }
         let mass_center = first_moment * inverse_mass;
         let origin_velocity = center_velocity - linear_momentum * inverse_mass;
         let mut found = Invariants {
@@ -75,10 +76,10 @@ impl<R: Real> Recursive<R> {
             motor_work: R::zero(),
         };
         let from_center = origin_velocity - center_velocity;
-        self.for_each_link(motion, |position, inertia, twist| {
+        for (position, inertia, twist) in self.moving_links(motion.omega_body) {
             let relative = Twist { linear: twist.linear + from_center, ..twist };
             found.add_body(position - mass_center, inertia, relative, center_velocity);
-        });
+        }
         if self.tree.has_rotors {
             found.add_rotors(motion.omega_body, self.tree.main_spin);
             for (pose, twist) in self.poses.iter().zip(&self.twists) {
@@ -91,14 +92,15 @@ impl<R: Real> Recursive<R> {
 
     /// ω, main-body axes, with which all bodies together have the angular momentum
     /// `momentum_body` about the system mass centre (main-body axes), eq. (8.12) solved for it.
+    #[inline(always)]
     pub fn angular_rate(&mut self, momentum_body: Vec3<R>, beta: &[R], tau: &[R]) -> Vec3<R> {
         let hinges_alone = Motion { omega_body: Vec3::zero(), beta, tau };
         let of_hinges = self.invariants(&hinges_alone, Vec3::zero());
         let mut about_center = Sym3::zero();
-        self.for_each_link(&hinges_alone, |position, inertia, _| {
+        for (position, inertia, _) in self.moving_links(Vec3::zero()) {
             let arm = position - of_hinges.mass_center;
             about_center += inertia.seen_from(arm).about_origin;
-        });
+        }
         about_center.solve(momentum_body - of_hinges.angular_momentum)
     }
 
@@ -162,32 +164,36 @@ impl<R: Real> Recursive<R> {
         std::iter::successors(from, |&j| self.tree.links[j].inboard)
     }
 
+    #[inline(always)]
     fn total_mass(&self) -> R {
         R::constant(self.scene.total_mass())
     }
 
+    #[inline(always)]
     fn velocities_with_origin_at_rest(&mut self, motion: &Motion<'_, R>) {
         for (j, link) in self.tree.links.iter().enumerate() {
             let of_main = Twist { angular: motion.omega_body, linear: Vec3::zero() };
-            let inboard = link.inboard.map_or(of_main, |i| self.twists[i]);
+            let inboard = match link.inboard {
+                Some(i) => self.twists[i],
+                None => of_main,
+            };
             let pose = &self.poses[j];
             self.twists[j] = inboard.at(pose.offset);
             self.twists[j].add(pose.motion(motion.tau[j]));
         }
     }
 
-    /// Visits every link, the main one first: hinge position from O, mass properties about the
-    /// hinge, rates with O at rest.
-    fn for_each_link(
+    /// Every link, the main one first, whose rate is `omega_body`: hinge position from O, mass properties about
+    /// the hinge, rates with O at rest.
+    #[inline(always)]
+    fn moving_links(
         &self,
-        motion: &Motion<'_, R>,
-        mut visit: impl FnMut(Vec3<R>, &RigidInertia<R>, Twist<R>),
-    ) {
-        let of_main = Twist { angular: motion.omega_body, linear: Vec3::zero() };
-        visit(Vec3::zero(), &self.tree.main, of_main);
-        for (pose, &twist) in self.poses.iter().zip(&self.twists) {
-            visit(pose.position, &pose.inertia, twist);
-        }
+        omega_body: Vec3<R>,
+    ) -> impl Iterator<Item = (Vec3<R>, &RigidInertia<R>, Twist<R>)> {
+        let of_main = Twist { angular: omega_body, linear: Vec3::zero() };
+        let links = self.poses.iter().zip(&self.twists);
+        let links = links.map(|(pose, &twist)| (pose.position, &pose.inertia, twist));
+        std::iter::once((Vec3::zero(), &self.tree.main, of_main)).chain(links)
     }
 }
 
@@ -198,6 +204,7 @@ impl<R: Real> Invariants<R> {
     }
 
     /// Adds the rotors of a body that turns at `omega`, whose momentum relative to it is `spin`.
+    #[inline(always)]
     fn add_rotors(&mut self, omega: Vec3<R>, spin: Vec3<R>) {
         let work = omega.dot(spin);
         self.angular_momentum += spin;
@@ -207,6 +214,7 @@ impl<R: Real> Invariants<R> {
     }
 
     /// Adds a body whose hinge is at `arm` from the mass centre and moves as `relative` to it.
+    #[inline(always)]
     fn add_body(
         &mut self,
         arm: Vec3<R>,
@@ -228,7 +236,7 @@ impl<R: Real> Invariants<R> {
 
 /// Angular momentum about its origin (`moment`) and linear momentum (`force`) of a body that moves
 /// as `twist`.
-#[inline]
+#[inline(always)]
 pub(crate) fn momentum<R: Real>(inertia: &RigidInertia<R>, twist: Twist<R>) -> Wrench<R> {
     let first_moment = inertia.first_moment;
     Wrench {

@@ -4,7 +4,7 @@ use nboom_scalar::{Number, Real};
 
 /// Turns the lower triangle of a matrix, given by its rows, into L below the diagonal; nothing else of
 /// the rows counts.
-#[inline]
+#[inline(always)]
 pub(crate) fn factor<R: Real, Row: AsRef<[R]> + AsMut<[R]>>(
     rows: &mut [Row],
     inverse_pivots: &mut [R],
@@ -27,7 +27,7 @@ pub(crate) fn factor<R: Real, Row: AsRef<[R]> + AsMut<[R]>>(
 }
 
 /// Turns `x` from the right side into the solution.
-#[inline]
+#[inline(always)]
 pub(crate) fn solve<R: Real, Row: AsRef<[R]>>(lower: &[Row], inverse_pivots: &[R], x: &mut [R]) {
     for (i, row) in lower.iter().enumerate() {
         for k in 0..i {

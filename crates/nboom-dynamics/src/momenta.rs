@@ -46,6 +46,7 @@ impl<R: Real> Recursive<R> {
     ///
     /// The velocities that momenta make are the accelerations that equal moments and torques make
     /// of a satellite at rest, so the elimination of the accelerations finds them, without a bias.
+    #[inline(always)]
     pub fn velocities(&mut self, momenta: &Momenta<'_, R>, tau: &mut [R]) -> Vec3<R> {
         self.factor(momenta.beta);
         tau.copy_from_slice(momenta.hinges);
@@ -60,6 +61,7 @@ impl<R: Real> Recursive<R> {
     /// motion of the hinge relative to the mass centre, H̄, p̄ and d̄ the momenta and the first moment of
     /// everything outboard about the hinge, and F̄ the force from outside. Where the link slides along ā,
     /// π̇ = force + (ω̄ × ā)·p̄ − m ā·F̄ / m_T with m the mass of everything outboard.
+    #[inline(always)]
     pub fn momentum_rates(
         &mut self,
         momenta: &Momenta<'_, R>,
@@ -98,6 +100,7 @@ impl<R: Real> Recursive<R> {
 
     /// Sets `wrenches` to the momenta of everything outboard about each hinge, of links that move
     /// as `twists`.
+    #[inline(always)]
     fn carry_momenta(&mut self) {
         let Self { tree, poses, twists, wrenches, .. } = self;
         for (wrench, (pose, &twist)) in wrenches.iter_mut().zip(poses.iter().zip(&*twists)) {

@@ -16,6 +16,7 @@ pub struct FromOutside<R> {
 impl<R: Real> Recursive<R> {
     /// Sets what acts from outside to what it is at the time `time` and the attitude `attitude` (of any norm), which
     /// it keeps until it is set again.
+    #[inline(always)]
     pub fn set_outside(&mut self, attitude: Quaternion<R>, time: R) {
         if self.elements.pushes_vary() {
             self.elements.set_pushes(&attitude.normalized().to_matrix(), time);
@@ -23,6 +24,7 @@ impl<R: Real> Recursive<R> {
     }
 
     /// What acts from outside in a motion whose energy and momenta are `found`, which were the last to be asked for.
+    #[inline(always)]
     pub fn outside(&self, motion: &Motion<'_, R>, found: &Invariants<R>) -> FromOutside<R> {
         let of_main = Twist { angular: motion.omega_body, linear: found.origin_velocity };
         let elements = &self.elements;
@@ -52,6 +54,7 @@ impl<R: Real> Recursive<R> {
     }
 
     /// All that acts from outside in the posture that was placed last, about O, main-body axes.
+    #[inline(always)]
     pub(crate) fn acting_from_outside(&self) -> Wrench<R> {
         let mut all = self.elements.external().unwrap_or(Wrench::zero());
         for (link, push) in self.elements.on_links() {

@@ -32,7 +32,7 @@ impl<R: Real> LinkConstants<R> {
     }
 
     /// Turns link components into components in the inboard link's axes, at the hinge angle `beta`.
-    #[inline]
+    #[inline(always)]
     pub fn turned(&self, beta: R) -> Mat3<R> {
         match self.joint {
             Joint::Revolute => {
@@ -44,7 +44,7 @@ impl<R: Real> LinkConstants<R> {
     }
 
     /// The link's origin from the inboard link's, when it is at `point` at β = 0; inboard link's axes.
-    #[inline]
+    #[inline(always)]
     pub fn offset(&self, point: Vec3<R>, beta: R) -> Vec3<R> {
         match self.joint {
             Joint::Revolute => point,
@@ -53,13 +53,13 @@ impl<R: Real> LinkConstants<R> {
     }
 
     /// What the joint leaves free.
-    #[inline]
+    #[inline(always)]
     pub fn joint(&self) -> Joint {
         self.joint
     }
 
     /// Unit vector along the hinge axis, inboard link's axes.
-    #[inline]
+    #[inline(always)]
     pub fn axis_inboard(&self) -> Vec3<R> {
         self.axis_inboard
     }
@@ -98,37 +98,37 @@ impl<R: Real> LinkPose<R> {
     }
 
     /// The share of a wrench on the link, about its hinge, that acts on β.
-    #[inline]
+    #[inline(always)]
     pub fn along(&self, wrench: &Wrench<R>) -> R {
         self.joint.along(self.axis, wrench)
     }
 
     /// Motion relative to the inboard link, of the link and its hinge, at the rate `tau`.
-    #[inline]
+    #[inline(always)]
     pub fn motion(&self, tau: R) -> Twist<R> {
         self.joint.motion(self.axis, tau)
     }
 }
 
 impl<R: Real> Placed<R> for LinkPose<R> {
-    #[inline]
+    #[inline(always)]
     fn rot(&self) -> &Mat3<R> {
         &self.rot
     }
 
-    #[inline]
+    #[inline(always)]
     fn position(&self) -> Vec3<R> {
         self.position
     }
 
-    #[inline]
+    #[inline(always)]
     fn axis(&self) -> Vec3<R> {
         self.axis
     }
 }
 
 /// Places every link at the hinge angles `beta` (one for each link).
-#[inline]
+#[inline(always)]
 pub(crate) fn place<R: Real>(
     tree: &WeldedTree<R>,
     constants: &[LinkConstants<R>],
@@ -155,7 +155,7 @@ pub(crate) fn place<R: Real>(
 }
 
 /// Turns the mass properties of every link along with it, at the hinge angles `beta`.
-#[inline]
+#[inline(always)]
 pub(crate) fn turn_inertias<R: Real>(tree: &WeldedTree<R>, beta: &[R], poses: &mut [LinkPose<R>]) {
     for (link, pose) in tree.links.iter().zip(&mut *poses) {
         pose.inertia = link.inertia.rotated(&pose.rot);

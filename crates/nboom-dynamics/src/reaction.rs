@@ -9,6 +9,7 @@ impl<R: Real> Recursive<R> {
     ///
     /// It is the rate of change of the momenta, eqs. (8.7) and (8.12), about O without gravity, less what else
     /// [acts from outside](Self::set_outside).
+    #[inline(always)]
     pub fn reaction(
         &mut self,
         motion: &Motion<'_, R>,

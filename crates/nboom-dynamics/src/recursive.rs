@@ -146,12 +146,14 @@ impl<R: Real> Recursive<R> {
     }
 
     /// Accelerations by articulated bodies: ω̇, a_O without gravity, τ̇.
+    #[inline(always)]
     pub fn accelerations(&mut self, motion: &Motion<'_, R>, out: &mut Accelerations<R>) {
         self.accelerations_with(|_, _| {}, motion, out);
     }
 
     /// [Accelerations](Self::accelerations) with further torques: `add` adds them to those about the free
     /// hinges, which it gets with their numbers in the scene.
+    #[inline(always)]
     pub fn accelerations_with(
         &mut self,
         add: impl FnOnce(&[usize], &mut [R]),
@@ -200,6 +202,7 @@ impl<R: Real> Recursive<R> {
     ///
     /// The reaction of a line on the main body leaves no resultant, so nothing else of it enters the
     /// equations.
+    #[inline(always)]
     pub fn hinge_forces(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
         let Self { elements, free, tree, constants, poses, .. } = self;
         elements.set_torques(free, [motion.beta, motion.tau], out);
@@ -225,11 +228,13 @@ impl<R: Real> Recursive<R> {
         elements.withhold(poses, out);
     }
 
+    #[inline(always)]
     pub(crate) fn place(&mut self, beta: &[R]) {
         pose::place(&self.tree, &self.constants, beta, &mut self.poses);
         pose::turn_inertias(&self.tree, beta, &mut self.poses);
     }
 
+    #[inline(always)]
     pub(crate) fn factor(&mut self, beta: &[R]) {
         self.place(beta);
         let (tree, poses) = (&self.tree, &self.poses);
@@ -238,6 +243,7 @@ impl<R: Real> Recursive<R> {
 
     /// (ω̇, a_O), which are `held` if something, and τ̇ from what acts against the main link, about O, the
     /// `wrenches` against all others, and the hinge torques in `tau_dot`.
+    #[inline(always)]
     pub(crate) fn solve(
         &mut self,
         main: Wrench<R>,
@@ -250,6 +256,7 @@ impl<R: Real> Recursive<R> {
     }
 
     /// Sets `wrenches` and `torques` to what acts in this motion; returns the main link's share.
+    #[inline(always)]
     fn load(&mut self, motion: &Motion<'_, R>, torques: &mut [R]) -> Wrench<R> {
         let mut main = articulated_body::bias(
             &self.tree,

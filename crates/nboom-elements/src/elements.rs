@@ -85,10 +85,13 @@ impl<R: Real> HingeTorque<R> {
     }
 
     /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
-    #[inline]
+    #[inline(always)]
     pub fn torque(&self, beta: R, tau: R) -> R {
         let torque = self.law.torque(beta, tau);
-        self.table.as_ref().map_or(torque, |table| torque + table.torque(beta))
+        match &self.table {
+            Some(table) => torque + table.torque(beta),
+            None => torque,
+        }
     }
 
     /// The law of spring and dashpot, where they are all that acts about the hinge.
@@ -97,7 +100,7 @@ impl<R: Real> HingeTorque<R> {
     }
 
     /// The part of the torque that depends on the rate, and does work no potential accounts for.
-    #[inline]
+    #[inline(always)]
     pub fn rate_torque(&self, tau: R) -> R {
         self.law.rate_torque(tau)
     }
@@ -162,7 +165,7 @@ impl<R: Real> Elements<R> {
     }
 
     /// The lines that act on links, each with its link.
-    #[inline]
+    #[inline(always)]
     pub fn pushing(&self) -> impl Iterator<Item = (usize, &Line<R>)> {
         self.lines.iter().filter(|line| line.acts).filter_map(|line| Some((line.link?, line)))
     }
@@ -182,6 +185,7 @@ impl<R: Real> Elements<R> {
     }
 
     /// Sets what acts from outside to what it is at `time` when `rot_inertial_from_main` is the attitude.
+    #[inline(always)]
     pub fn set_pushes(&mut self, rot_inertial_from_main: &Mat3<R>, time: R) {
         let varying = self.pushes.iter_mut().filter(|push| push.varies());
         varying.for_each(|push| push.set(rot_inertial_from_main, time));
@@ -189,40 +193,45 @@ impl<R: Real> Elements<R> {
     }
 
     /// Whether what acts from outside is other at another time or attitude.
+    #[inline(always)]
     pub fn pushes_vary(&self) -> bool {
         self.pushes.iter().any(Push::varies)
     }
 
     /// Whether something acts from outside: a force or torque of the scene, or what a control law commands.
-    #[inline]
+    #[inline(always)]
     pub fn acts_from_outside(&self) -> bool {
         !self.pushes.is_empty() || self.commanded.is_some()
     }
 
     /// What acts from outside on links other than the main one, each with its link.
-    #[inline]
+    #[inline(always)]
     pub fn on_links(&self) -> impl Iterator<Item = (usize, &Push<R>)> {
         self.pushes.iter().filter_map(|push| Some((push.link?, push)))
     }
 
     /// What acts on the main link from outside, about O along main-body axes, if anything does: forces and torques
     /// of the scene, and what a control law commands.
-    #[inline]
+    #[inline(always)]
     pub fn external(&self) -> Option<Wrench<R>> {
         self.external
     }
 
     /// Power of what acts on the main link from outside when O moves as `twist`, and its moment about `point`, from O;
     /// main-body axes.
+    #[inline(always)]
     pub fn external_power_and_moment(&self, twist: Twist<R>, point: Vec3<R>) -> (R, Vec3<R>) {
-        let of_pushes = self.pushes.iter().filter(|push| push.link.is_none());
-        let of_pushes = of_pushes.map(|push| push.power_and_moment(None, twist, point));
-        let of_command = self.commanded.map(|Wrench { moment, force }| {
-            let power = force.dot(twist.linear) + moment.dot(twist.angular);
-            (power, moment - point.cross(force))
-        });
-        let add = |(power, moment), (p, m)| (power + p, moment + m);
-        of_pushes.chain(of_command).reduce(add).unwrap_or((R::zero(), Vec3::zero()))
+        let (mut power, mut of_all) = (R::zero(), Vec3::zero());
+        for push in self.pushes.iter().filter(|push| push.link.is_none()) {
+            let (of_one, moment) = push.power_and_moment(None, twist, point);
+            power += of_one;
+            of_all += moment;
+        }
+        if let Some(Wrench { moment, force }) = self.commanded {
+            power += force.dot(twist.linear) + moment.dot(twist.angular);
+            of_all += moment - point.cross(force);
+        }
+        (power, of_all)
     }
 
     /// Sets `out` to the forces and torques from outside on hinged bodies, as the scene lists them; zero where one does
@@ -240,7 +249,7 @@ impl<R: Real> Elements<R> {
     }
 
     /// Sets `out` to the torques about the hinges `free` at their angles and rates.
-    #[inline]
+    #[inline(always)]
     pub fn set_torques(&self, free: &[usize], [beta, tau]: [&[R]; 2], out: &mut [R]) {
         for (j, &hinge) in free.iter().enumerate() {
             out[j] = self.torques[hinge].torque(beta[j], tau[j]);
@@ -273,7 +282,7 @@ impl<R: Real> Elements<R> {
     }
 
     /// Takes off the torques about the hinges of `links` what lines do not transmit.
-    #[inline]
+    #[inline(always)]
     pub fn withhold<P: Placed<R>>(&self, links: &[P], torques: &mut [R]) {
         for moment in &self.withheld {
             torques[moment.link] -= moment.torque(links);
@@ -287,11 +296,16 @@ impl<R: Real> Elements<R> {
 
     /// Power of what no potential accounts for: of the parts of the torques about the hinges `free` that
     /// depend on their rates, at their β and τ.
+    #[inline(always)]
     pub fn rate_power(&self, free: &[usize], [beta, tau]: [&[R]; 2]) -> R {
-        let hinges = free.iter().map(|&hinge| &self.torques[hinge]).zip(tau);
-        let power = hinges.map(|(law, &tau)| law.rate_torque(tau) * tau);
-        let of_couplings = self.couplings.iter().map(|coupling| coupling.power([beta, tau]));
-        power.chain(of_couplings).fold(R::zero(), |sum, of_one| sum + of_one)
+        let mut power = R::zero();
+        for (&hinge, &tau) in free.iter().zip(tau) {
+            power += self.torques[hinge].rate_torque(tau) * tau;
+        }
+        for coupling in &self.couplings {
+            power += coupling.power([beta, tau]);
+        }
+        power
     }
 }
 
@@ -304,10 +318,22 @@ impl Elements<f64> {
 }
 
 /// What acts on the main link together.
+#[inline(always)]
 fn on_main_link<R: Real>(pushes: &[Push<R>], commanded: Option<Wrench<R>>) -> Option<Wrench<R>> {
-    let pushes = pushes.iter().filter(|push| push.link.is_none());
-    let wrenches = pushes.map(|push| push.wrench(None)).chain(commanded);
-    wrenches.reduce(|a, b| Wrench { moment: a.moment + b.moment, force: a.force + b.force })
+    let mut all: Option<Wrench<R>> = None;
+    for push in pushes.iter().filter(|push| push.link.is_none()) {
+        let wrench = push.wrench(None);
+        match &mut all {
+            Some(sum) => sum.add(wrench),
+            None => all = Some(wrench),
+        }
+    }
+    match (&mut all, commanded) {
+        (Some(sum), Some(wrench)) => sum.add(wrench),
+        (None, _) => all = commanded,
+        (Some(_), None) => {}
+    }
+    all
 }
 
 /// Energy that the elements about hinges and along lines can store on their way, every term taken by

@@ -83,17 +83,17 @@ impl<R: Real> Line<R> {
     }
 
     /// The end on the body from O, and from the end on the main body; main-body axes.
-    #[inline]
+    #[inline(always)]
     pub fn end_and_span<P: Placed<R>>(&self, links: &[P]) -> (Vec3<R>, Vec3<R>) {
-        let end = self.link.map_or(self.point, |link| {
-            let link = &links[link];
-            link.position() + *link.rot() * self.point
-        });
+        let end = match self.link {
+            Some(link) => links[link].position() + *links[link].rot() * self.point,
+            None => self.point,
+        };
         (end, end - self.main_body_point)
     }
 
     /// The end on the body from O, and the force on it while it acts; main-body axes.
-    #[inline]
+    #[inline(always)]
     pub fn end_and_force<P: Placed<R>>(&self, links: &[P]) -> (Vec3<R>, Vec3<R>) {
         let (end, span) = self.end_and_span(links);
         (end, self.law.push(span))

@@ -16,7 +16,7 @@ pub enum Joint {
 impl Joint {
     /// Turns outboard components into those at β = 0, at the coordinate `beta`; `axis` is the joint's unit
     /// vector.
-    #[inline]
+    #[inline(always)]
     pub fn turn<R: Real>(self, axis: Vec3<R>, beta: R) -> Mat3<R> {
         match self {
             Self::Revolute => Mat3::about_axis(axis, beta),
@@ -25,7 +25,7 @@ impl Joint {
     }
 
     /// How far the outboard body's origin is from where it is at β = 0, along the axes of `axis`.
-    #[inline]
+    #[inline(always)]
     pub fn travel<R: Real>(self, axis: Vec3<R>, beta: R) -> Vec3<R> {
         match self {
             Self::Revolute => Vec3::zero(),
@@ -34,7 +34,7 @@ impl Joint {
     }
 
     /// Motion of the outboard body's origin relative to the inboard body at the rate `tau`.
-    #[inline]
+    #[inline(always)]
     pub fn motion<R: Real>(self, axis: Vec3<R>, tau: R) -> Twist<R> {
         match self {
             Self::Revolute => Twist { angular: axis * tau, linear: Vec3::zero() },
@@ -44,7 +44,7 @@ impl Joint {
 
     /// The share of a wrench on the outboard body, about its origin, that acts on β: its power at a rate of
     /// one.
-    #[inline]
+    #[inline(always)]
     pub fn along<R: Real>(self, axis: Vec3<R>, wrench: &Wrench<R>) -> R {
         match self {
             Self::Revolute => axis.dot(wrench.moment),
@@ -69,6 +69,7 @@ impl Joint {
     }
 
     /// Whether it slides.
+    #[inline(always)]
     pub fn slides(self) -> bool {
         self == Self::Prismatic
     }

@@ -6,6 +6,8 @@ use crate::{
     Tolerance, Window,
 };
 
+const AT_ONCE: &str = "the tolerance is very tight, and code takes eight stages at once";
+
 /// The row of [`Method`]'s table.
 pub(crate) const DESCRIPTION: Description = Description {
     name: "auto",
@@ -24,6 +26,8 @@ pub struct Automatic {
     explicit: Box<RungeKutta>,
     /// Only for tolerances that it suits.
     lanes: Option<Box<GaussLanes>>,
+    /// Whether they come first where the system takes eight states at once.
+    lanes_first: bool,
     implicit: Box<Radau>,
     active: Active,
     controlled: usize,
@@ -52,6 +56,8 @@ enum Active {
 const LOOSE: f64 = 1e-5;
 /// Up to this relative tolerance, stages side by side are cheaper than an explicit method.
 const TIGHT: f64 = 1e-7;
+/// Up to this one they are so from the first step of a motion, however short it is.
+const VERY_TIGHT: f64 = 1e-10;
 /// Explicit steps after which a motion is taken to go on for so long that stages side by side pay, if as
 /// many could follow.
 const SETTLED: usize = 12;
@@ -82,6 +88,7 @@ impl Automatic {
             handed_over: Vec::new(),
             explicit: Box::new(explicit),
             lanes: is_tight.then(|| Box::new(GaussLanes::new(tolerance))),
+            lanes_first: tolerance.relative <= VERY_TIGHT,
             implicit: Box::new(Radau::new(tolerance)),
             active: Active::Explicit,
             controlled: 0,
@@ -142,7 +149,7 @@ impl Automatic {
     }
 
     /// The method that should take the next step instead, and why.
-    fn better(&self, system: &dyn System, limit: f64) -> Option<(Active, &'static str)> {
+    fn better(&self, system: &mut dyn System, limit: f64) -> Option<(Active, &'static str)> {
         match self.active {
             Active::Explicit if self.against >= STIFF => {
                 Some((Active::Implicit, "stability, not accuracy, bounded explicit steps"))
@@ -160,6 +167,11 @@ impl Automatic {
             Active::Implicit => (self.against >= self.patience)
                 .then_some((Active::Explicit, "accuracy, not stability, bounds steps again")),
         }
+    }
+
+    /// Whether a motion begins with stages side by side.
+    fn begins_side_by_side(&self, system: &mut dyn System) -> bool {
+        self.lanes_first && system.takes_eight()
     }
 
     /// Goes on with another method from where this one is.
@@ -192,17 +204,25 @@ impl Automatic {
 impl Stepper for Automatic {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
+        if self.active == Active::Explicit && self.begins_side_by_side(system) {
+            self.hand_over(Active::Lanes, AT_ONCE);
+        }
         self.stepper_mut().start(system, t, y, controlled);
     }
 
     fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         (self.controlled, self.against, self.explicit_steps) = (controlled, 0, 0);
         self.lanes_were_slow = false;
-        if self.active == Active::Lanes {
-            self.hand_over(Active::Explicit, "an event began another motion");
-            self.stepper_mut().start(system, t, y, controlled);
-        } else {
-            self.stepper_mut().restart(system, t, y, controlled);
+        match (self.active, self.begins_side_by_side(system)) {
+            (Active::Lanes, false) => {
+                self.hand_over(Active::Explicit, "an event began another motion");
+                self.stepper_mut().start(system, t, y, controlled);
+            }
+            (Active::Explicit, true) => {
+                self.hand_over(Active::Lanes, AT_ONCE);
+                self.stepper_mut().start(system, t, y, controlled);
+            }
+            _ => self.stepper_mut().restart(system, t, y, controlled),
         }
     }
 

@@ -2,8 +2,8 @@ use std::ops::Range;
 
 use collocation::Collocation;
 use control::{
-    CLEARLY, HALF, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, TELLING,
-    error_of_end, factor,
+    CLEARLY, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, TELLING, error_of_end,
+    factor,
 };
 use dense::{Dense, Taken};
 use end_slopes::EndSlopes;
@@ -180,7 +180,7 @@ impl GaussLanes {
     /// shorter.
     fn attempt(&mut self, system: &mut dyn System, step: f64) -> Result<f64, f64> {
         if !self.iterate(system, step, MOST) {
-            return Err(HALF);
+            return Err(self.iteration.shorter());
         }
         let error = self.error();
         if error.is_nan() || error > REFUSED {
@@ -203,6 +203,29 @@ impl GaussLanes {
             let increment = lost[i] + step * (window.state[rate] + lost[rate] + inner);
             end_lost[i] = window.end_after(i, increment);
         }
+    }
+
+    /// Begins anew, without a step size.
+    fn begin(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+        self.controlled = controlled;
+        // Nothing is made ready within a step.
+        system.takes_eight();
+        self.window.start(system, t, y);
+        let size = y.len();
+        self.stages.start(system, size);
+        let evaluated = &self.stages.variables.evaluated;
+        self.count = evaluated.iter().filter(|&&i| i < controlled).count();
+        self.ends.reset(size);
+        self.dense.start(y);
+        for buffer in [&mut self.lost, &mut self.end_lost, &mut self.per_tolerance] {
+            buffer.clear();
+            buffer.resize(size, 0.0);
+        }
+        self.known.clear();
+        self.known.resize(size, Eight::default());
+        self.iteration = Iteration::new(self.tolerance.relative);
+        (self.curve, self.history) = (Curve::default(), History::default());
+        self.measure(system);
     }
 
     /// A first step from the times in which the first and the second derivative change the variables
@@ -249,27 +272,25 @@ const SHORTER: f64 = 0.9;
 /// Share of the time in which the slope changes the variables by what they are, after which the
 /// slope is evaluated again.
 const AHEAD: f64 = 0.01;
+/// How much of the step it had a motion goes on with after an event, but no more than so many times the
+/// cautious first step.
+const CARRIED: f64 = 0.8;
+const BEYOND_FIRST: f64 = 20.0;
 
 impl Stepper for GaussLanes {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
-        self.controlled = controlled;
-        self.window.start(system, t, y);
-        let size = y.len();
-        self.stages.start(system, size);
-        let evaluated = &self.stages.variables.evaluated;
-        self.count = evaluated.iter().filter(|&&i| i < controlled).count();
-        self.ends.reset(size);
-        self.dense.start(y);
-        for buffer in [&mut self.lost, &mut self.end_lost, &mut self.per_tolerance] {
-            buffer.clear();
-            buffer.resize(size, 0.0);
-        }
-        self.known.clear();
-        self.known.resize(size, Eight::default());
-        self.iteration = Iteration::new(self.tolerance.relative);
-        (self.curve, self.history) = (Curve::default(), History::default());
-        self.measure(system);
+        self.begin(system, t, y, controlled);
         self.window.next_step = self.first_step(system).min(self.window.longest);
+    }
+
+    fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
+        let had = self.window.next_step;
+        self.begin(system, t, y, controlled);
+        let mut first = self.first_step(system);
+        if had > 0.0 && had.is_finite() {
+            first = (CARRIED * had).min(BEYOND_FIRST * first);
+        }
+        self.window.next_step = first.min(self.window.longest);
     }
 
     fn reset(&mut self) {

@@ -32,9 +32,10 @@ pub trait System {
         false
     }
 
-    /// Whether [`derivatives`](Self::derivatives) takes eight states at once from now to the next start;
-    /// asked by [`Automatic`](crate::Automatic).
-    fn takes_eight(&self) -> bool {
+    /// Whether [`derivatives`](Self::derivatives) takes eight states at once from now to the next start, for
+    /// which it is made ready. Asked where [`GaussLanes`](crate::GaussLanes) starts, and by
+    /// [`Automatic`](crate::Automatic) where it would take that.
+    fn takes_eight(&mut self) -> bool {
         false
     }
 

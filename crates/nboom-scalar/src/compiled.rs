@@ -151,6 +151,16 @@ pub trait WorkOnEight {
 /// Does `work` in the registers of this processor, products and sums fused where it can. Results do
 /// not depend on how many numbers a register holds.
 pub fn in_registers<W: WorkOnEight>(work: W) -> W::Output {
+    in_vector_registers(work).unwrap_or_else(|work| work.carry_out::<PortableEight>())
+}
+
+/// Does `work` in the vector registers of this processor, or gives it back where there are none.
+///
+/// Long work does not pay there, and its code would be eight times as long.
+///
+/// # Errors
+/// The work, when it is not done.
+pub fn in_vector_registers<W: WorkOnEight>(work: W) -> Result<W::Output, W> {
     #[cfg(target_arch = "x86_64")]
     match InstructionSet::of_this_processor() {
         InstructionSet::Avx512 => {
@@ -159,7 +169,7 @@ pub fn in_registers<W: WorkOnEight>(work: W) -> W::Output {
                 work.carry_out::<crate::Avx8>()
             }
             // SAFETY: the processor has the features.
-            return unsafe { inlined(work) };
+            return Ok(unsafe { inlined(work) });
         }
         InstructionSet::Avx2 => {
             #[target_feature(enable = "avx2,fma")]
@@ -167,18 +177,18 @@ pub fn in_registers<W: WorkOnEight>(work: W) -> W::Output {
                 work.carry_out::<crate::Pair<crate::Avx4>>()
             }
             // SAFETY: the processor has the features.
-            return unsafe { inlined(work) };
+            return Ok(unsafe { inlined(work) });
         }
         InstructionSet::Portable => {}
     }
-    work.carry_out::<PortableEight>()
+    Err(work)
 }
 
 /// Eight `f64` one after the other and nothing else, any of which may be any number.
 ///
 /// # Safety
 /// A type of another content or layout would be read from memory that holds [`Eight`].
-pub unsafe trait EightNumbers: Real {
+pub unsafe trait EightNumbers: Real + Send + Sync {
     /// Reads them.
     #[inline(always)]
     fn load(from: &Eight) -> Self {
@@ -189,6 +199,18 @@ pub unsafe trait EightNumbers: Real {
     #[inline(always)]
     fn store(self, to: &mut Eight) {
         as_registers_mut(std::slice::from_mut(to))[0] = self;
+    }
+
+    /// Reads many in their place.
+    #[inline(always)]
+    fn all(of: &[Eight]) -> &[Self] {
+        as_registers(of)
+    }
+
+    /// Many, to be written in their place.
+    #[inline(always)]
+    fn all_mut(of: &mut [Eight]) -> &mut [Self] {
+        as_registers_mut(of)
     }
 }
 

@@ -34,7 +34,9 @@ mod vector;
 mod wide;
 
 pub use batch::{Batch, Eight};
-pub use compiled::{EightNumbers, Work, WorkOnEight, in_registers, vectorised};
+pub use compiled::{
+    EightNumbers, Work, WorkOnEight, in_registers, in_vector_registers, vectorised,
+};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use instructions::InstructionSet;

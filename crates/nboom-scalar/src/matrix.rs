@@ -14,7 +14,7 @@ pub struct Mat3<R> {
 
 impl<R> Mat3<R> {
     /// The matrix of what `f` makes of each entry, row by row.
-    #[inline]
+    #[inline(always)]
     pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> Mat3<S> {
         Mat3 { rows: self.rows.map(|row| row.map(&mut f)) }
     }
@@ -22,13 +22,13 @@ impl<R> Mat3<R> {
 
 impl<R: Real> Mat3<R> {
     /// The matrix with these rows.
-    #[inline]
+    #[inline(always)]
     pub fn from_rows(first: Vec3<R>, second: Vec3<R>, third: Vec3<R>) -> Self {
         Self { rows: [first, second, third] }
     }
 
     /// The matrix with these columns.
-    #[inline]
+    #[inline(always)]
     pub fn from_columns(a: Vec3<R>, b: Vec3<R>, c: Vec3<R>) -> Self {
         Self::from_rows(
             Vec3::new(a.x, b.x, c.x),
@@ -38,23 +38,25 @@ impl<R: Real> Mat3<R> {
     }
 
     /// The zero matrix.
+    #[inline(always)]
     pub fn zero() -> Self {
         Self { rows: [Vec3::zero(); 3] }
     }
 
     /// The unit matrix.
+    #[inline(always)]
     pub fn identity() -> Self {
         Self::from_rows(Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z())
     }
 
     /// Makes every entry a scalar of this kind.
-    #[inline]
+    #[inline(always)]
     pub fn constant(m: Mat3<f64>) -> Self {
         m.map(R::constant)
     }
 
     /// J(a), the matrix for which `skew(a) * b` is `a × b` (nomenclature of the report).
-    #[inline]
+    #[inline(always)]
     pub fn skew(a: Vec3<R>) -> Self {
         Self::from_rows(
             Vec3::new(R::zero(), -a.z, a.y),
@@ -90,20 +92,21 @@ impl<R: Real> Mat3<R> {
     }
 
     /// Column `j`, from 0.
-    #[inline]
+    #[inline(always)]
     pub fn column(&self, j: usize) -> Vec3<R> {
-        let [a, b, c] = self.rows.map(|row| row.to_array()[j]);
+        let [a, b, c] = self.rows;
+        let [a, b, c] = [a.to_array()[j], b.to_array()[j], c.to_array()[j]];
         Vec3::new(a, b, c)
     }
 
     /// The transpose.
-    #[inline]
+    #[inline(always)]
     pub fn transpose(&self) -> Self {
         Self::from_columns(self.rows[0], self.rows[1], self.rows[2])
     }
 
     /// `self` transposed, times `v`.
-    #[inline]
+    #[inline(always)]
     pub fn transpose_mul(&self, v: Vec3<R>) -> Vec3<R> {
         self.rows[0] * v.x + self.rows[1] * v.y + self.rows[2] * v.z
     }
@@ -126,7 +129,7 @@ impl Mat3<f64> {
 
 impl<R: Real> Mul<Vec3<R>> for Mat3<R> {
     type Output = Vec3<R>;
-    #[inline]
+    #[inline(always)]
     fn mul(self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(self.rows[0].dot(v), self.rows[1].dot(v), self.rows[2].dot(v))
     }
@@ -134,23 +137,25 @@ impl<R: Real> Mul<Vec3<R>> for Mat3<R> {
 
 impl<R: Real> Mul for Mat3<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self { rows: self.rows.map(|row| other.transpose_mul(row)) }
+        let [a, b, c] = self.rows;
+        Self { rows: [other.transpose_mul(a), other.transpose_mul(b), other.transpose_mul(c)] }
     }
 }
 
 impl<R: Real> Mul<R> for Mat3<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, factor: R) -> Self {
-        Self { rows: self.rows.map(|row| row * factor) }
+        let [a, b, c] = self.rows;
+        Self { rows: [a * factor, b * factor, c * factor] }
     }
 }
 
 impl<R: Real> Add for Mat3<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         let [a, b, c] = self.rows;
         Self::from_rows(a + other.rows[0], b + other.rows[1], c + other.rows[2])
@@ -159,7 +164,7 @@ impl<R: Real> Add for Mat3<R> {
 
 impl<R: Real> Sub for Mat3<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         let [a, b, c] = self.rows;
         Self::from_rows(a - other.rows[0], b - other.rows[1], c - other.rows[2])
@@ -168,13 +173,15 @@ impl<R: Real> Sub for Mat3<R> {
 
 impl<R: Real> Neg for Mat3<R> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
-        Self { rows: self.rows.map(|row| -row) }
+        let [a, b, c] = self.rows;
+        Self { rows: [-a, -b, -c] }
     }
 }
 
 impl<R: Real> AddAssign for Mat3<R> {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }

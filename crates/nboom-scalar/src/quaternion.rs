@@ -13,18 +13,19 @@ pub struct Quaternion<R> {
 
 impl<R: Real> Quaternion<R> {
     /// The rotation by nothing.
+    #[inline(always)]
     pub fn identity() -> Self {
         Self { scalar: R::one(), vector: Vec3::zero() }
     }
 
     /// Square of the norm χ² + K̄·K̄.
-    #[inline]
+    #[inline(always)]
     pub fn norm_squared(self) -> R {
         self.scalar * self.scalar + self.vector.norm_squared()
     }
 
     /// The quaternion of the same direction with norm 1.
-    #[inline]
+    #[inline(always)]
     pub fn normalized(self) -> Self {
         let inverse = R::one() / self.norm_squared().sqrt();
         Self { scalar: self.scalar * inverse, vector: self.vector * inverse }
@@ -40,7 +41,7 @@ impl<R: Real> Quaternion<R> {
     }
 
     /// The rotation matrix U + 2χ J(K̄) + 2 J(K̄)² of a unit quaternion, eq. (9.13).
-    #[inline]
+    #[inline(always)]
     pub fn to_matrix(self) -> Mat3<R> {
         let two = R::constant(2.0);
         let (x, k) = (self.scalar, self.vector);
@@ -55,7 +56,7 @@ impl<R: Real> Quaternion<R> {
     }
 
     /// Rate of change under the body rate `omega_body` \[rad/T\], eq. (9.15), corrected: note 9.
-    #[inline]
+    #[inline(always)]
     pub fn rate(self, omega_body: Vec3<R>) -> Self {
         let half = R::constant(0.5);
         Self {

@@ -11,37 +11,38 @@ pub struct Wrench<R> {
 
 impl<R: Real> Wrench<R> {
     /// No moment and no force.
+    #[inline(always)]
     pub fn zero() -> Self {
         Self { moment: Vec3::zero(), force: Vec3::zero() }
     }
 
     /// The wrench of a force acting at `point` from the reference point.
-    #[inline]
+    #[inline(always)]
     pub fn of_force(point: Vec3<R>, force: Vec3<R>) -> Self {
         Self { moment: point.cross(force), force }
     }
 
     /// Moves the reference point to where the old one is seen at `offset`.
-    #[inline]
+    #[inline(always)]
     pub fn seen_from(self, offset: Vec3<R>) -> Self {
         Self { moment: self.moment + offset.cross(self.force), force: self.force }
     }
 
     /// Turns the components to other axes.
-    #[inline]
+    #[inline(always)]
     pub fn rotated(self, rot: &Mat3<R>) -> Self {
         Self { moment: *rot * self.moment, force: *rot * self.force }
     }
 
     /// Adds a wrench about the same point.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, other: Self) {
         self.moment += other.moment;
         self.force += other.force;
     }
 
     /// Takes a wrench about the same point away.
-    #[inline]
+    #[inline(always)]
     pub fn subtract(&mut self, other: Self) {
         self.moment -= other.moment;
         self.force -= other.force;
@@ -59,19 +60,20 @@ pub struct Twist<R> {
 
 impl<R: Real> Twist<R> {
     /// At rest.
+    #[inline(always)]
     pub fn zero() -> Self {
         Self { angular: Vec3::zero(), linear: Vec3::zero() }
     }
 
     /// Adds the motion of a body relative to this one, at the same point.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, other: Self) {
         self.angular += other.angular;
         self.linear += other.linear;
     }
 
     /// The rate of a point at `offset` of the same body.
-    #[inline]
+    #[inline(always)]
     pub fn at(self, offset: Vec3<R>) -> Self {
         Self { angular: self.angular, linear: self.linear + self.angular.cross(offset) }
     }
@@ -91,7 +93,7 @@ pub struct RigidInertia<R> {
 
 impl<R> RigidInertia<R> {
     /// The body with what `f` makes of each of its ten numbers.
-    #[inline]
+    #[inline(always)]
     pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> RigidInertia<S> {
         RigidInertia {
             mass: f(self.mass),
@@ -103,17 +105,19 @@ impl<R> RigidInertia<R> {
 
 impl<R: Real> RigidInertia<R> {
     /// A body without mass.
+    #[inline(always)]
     pub fn zero() -> Self {
         Self { mass: R::zero(), first_moment: Vec3::zero(), about_origin: Sym3::zero() }
     }
 
     /// A body with this mass, mass centre from the origin, and inertia about the mass centre.
+    #[inline(always)]
     pub fn new(mass: R, center_of_mass: Vec3<R>, inertia: Sym3<R>) -> Self {
         Self { mass, first_moment: Vec3::zero(), about_origin: inertia }.seen_from(center_of_mass)
     }
 
     /// Moves the origin to where the old one is seen at `offset`.
-    #[inline]
+    #[inline(always)]
     pub fn seen_from(self, offset: Vec3<R>) -> Self {
         let c = self.first_moment;
         let (m, p) = (self.mass, offset);
@@ -129,7 +133,7 @@ impl<R: Real> RigidInertia<R> {
     }
 
     /// Turns the components to other axes.
-    #[inline]
+    #[inline(always)]
     pub fn rotated(self, rot: &Mat3<R>) -> Self {
         Self {
             mass: self.mass,
@@ -139,6 +143,7 @@ impl<R: Real> RigidInertia<R> {
     }
 
     /// Adds another body that is rigid with this one, about the same origin.
+    #[inline(always)]
     pub fn add(&mut self, other: Self) {
         self.mass += other.mass;
         self.first_moment += other.first_moment;
@@ -147,7 +152,7 @@ impl<R: Real> RigidInertia<R> {
 
     /// Rate of change of momentum, and of angular momentum about the origin, of a body that
     /// turns at `omega` while its origin accelerates with `acceleration`.
-    #[inline]
+    #[inline(always)]
     pub fn inertia_wrench(&self, omega: Vec3<R>, acceleration: Twist<R>) -> Wrench<R> {
         let (c, alpha) = (self.first_moment, acceleration.angular);
         Wrench {
@@ -173,7 +178,7 @@ pub struct ArticulatedInertia<R> {
 
 impl<R: Real> ArticulatedInertia<R> {
     /// That of a rigid body, at its origin.
-    #[inline]
+    #[inline(always)]
     pub fn of(body: &RigidInertia<R>) -> Self {
         Self {
             angular: body.about_origin,
@@ -183,7 +188,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Adds an inertia at the same point.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, other: &Self) {
         self.angular += other.angular;
         self.coupling += other.coupling;
@@ -191,7 +196,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Takes away what turning about the hinge cannot transmit: A − u uᵀ / d.
-    #[inline]
+    #[inline(always)]
     pub fn without(&self, u: &Wrench<R>, inverse_d: R) -> Self {
         Self {
             angular: self.angular - Sym3::outer(u.moment) * inverse_d,
@@ -201,7 +206,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Moves the reference point to where the old one is seen at `offset`.
-    #[inline]
+    #[inline(always)]
     pub fn seen_from(&self, offset: Vec3<R>) -> Self {
         let linear = self.linear.to_matrix();
         let coupling = self.coupling + skew_times(offset, &linear);
@@ -213,12 +218,13 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn times_skew<R: Real>(m: &Mat3<R>, r: Vec3<R>) -> Mat3<R> {
-    Mat3 { rows: m.rows.map(|row| row.cross(r)) }
+    let [a, b, c] = m.rows;
+    Mat3 { rows: [a.cross(r), b.cross(r), c.cross(r)] }
 }
 
-#[inline]
+#[inline(always)]
 fn skew_times<R: Real>(r: Vec3<R>, m: &Mat3<R>) -> Mat3<R> {
     let [a, b, c] = m.rows;
     Mat3::from_rows(c * r.y - b * r.z, a * r.z - c * r.x, b * r.x - a * r.y)

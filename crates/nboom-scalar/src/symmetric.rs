@@ -16,7 +16,7 @@ pub struct Sym3<R> {
 
 impl<R> Sym3<R> {
     /// The matrix of what `f` makes of each entry.
-    #[inline]
+    #[inline(always)]
     pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> Sym3<S> {
         Sym3 {
             xx: f(self.xx),
@@ -31,24 +31,25 @@ impl<R> Sym3<R> {
 
 impl<R: Real> Sym3<R> {
     /// The zero matrix.
+    #[inline(always)]
     pub fn zero() -> Self {
         Self::diagonal(R::zero(), R::zero(), R::zero())
     }
 
     /// The diagonal matrix with these entries.
-    #[inline]
+    #[inline(always)]
     pub fn diagonal(xx: R, yy: R, zz: R) -> Self {
         Self { xx, yy, zz, xy: R::zero(), xz: R::zero(), yz: R::zero() }
     }
 
     /// Makes every entry a scalar of this kind.
-    #[inline]
+    #[inline(always)]
     pub fn constant(m: Sym3<f64>) -> Self {
         m.map(R::constant)
     }
 
     /// The dyad `v vᵀ`.
-    #[inline]
+    #[inline(always)]
     pub fn outer(v: Vec3<R>) -> Self {
         Self {
             xx: v.x * v.x,
@@ -61,7 +62,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// Twice the symmetric part of the dyad, `a bᵀ + b aᵀ`.
-    #[inline]
+    #[inline(always)]
     pub fn outer_twice(a: Vec3<R>, b: Vec3<R>) -> Self {
         let two = |p: R| p + p;
         Self {
@@ -75,14 +76,14 @@ impl<R: Real> Sym3<R> {
     }
 
     /// The symmetric matrix whose upper triangle is that of `m`.
-    #[inline]
+    #[inline(always)]
     pub fn upper_of(m: &Mat3<R>) -> Self {
         let [a, b, c] = m.rows;
         Self { xx: a.x, yy: b.y, zz: c.z, xy: a.y, xz: a.z, yz: b.z }
     }
 
     /// All nine entries.
-    #[inline]
+    #[inline(always)]
     pub fn to_matrix(self) -> Mat3<R> {
         Mat3::from_rows(
             Vec3::new(self.xx, self.xy, self.xz),
@@ -92,7 +93,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// `self⁻¹ right` of a positive definite matrix, by L D Lᵀ.
-    #[inline]
+    #[inline(always)]
     pub fn solve(self, right: Vec3<R>) -> Vec3<R> {
         let inverse_x = R::one() / self.xx;
         let (yx, zx) = (self.xy * inverse_x, self.xz * inverse_x);
@@ -107,7 +108,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// `rot self rotᵀ`: the same tensor along other axes.
-    #[inline]
+    #[inline(always)]
     pub fn rotated(self, rot: &Mat3<R>) -> Self {
         let [a, b, c] = rot.rows;
         let (sa, sb, sc) = (self * a, self * b, self * c);
@@ -140,7 +141,7 @@ impl Sym3<f64> {
 
 impl<R: Real> Mul<Vec3<R>> for Sym3<R> {
     type Output = Vec3<R>;
-    #[inline]
+    #[inline(always)]
     fn mul(self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(
             self.xx * v.x + self.xy * v.y + self.xz * v.z,
@@ -152,7 +153,7 @@ impl<R: Real> Mul<Vec3<R>> for Sym3<R> {
 
 impl<R: Real> Mul<R> for Sym3<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, f: R) -> Self {
         Self {
             xx: self.xx * f,
@@ -167,7 +168,7 @@ impl<R: Real> Mul<R> for Sym3<R> {
 
 impl<R: Real> Add for Sym3<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, o: Self) -> Self {
         Self {
             xx: self.xx + o.xx,
@@ -182,7 +183,7 @@ impl<R: Real> Add for Sym3<R> {
 
 impl<R: Real> Sub for Sym3<R> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, o: Self) -> Self {
         Self {
             xx: self.xx - o.xx,
@@ -196,7 +197,7 @@ impl<R: Real> Sub for Sym3<R> {
 }
 
 impl<R: Real> AddAssign for Sym3<R> {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }

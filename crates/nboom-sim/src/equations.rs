@@ -10,6 +10,7 @@ use crate::code::closed_form::{HELD_BASE, NotCovered};
 use crate::code::fit::Repertoire;
 use crate::code::selection::Selection;
 use crate::code::{CodeError, under_own_laws};
+use crate::equations::eight_states::At;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::prepared_mode::PreparedMode;
 use crate::equations::rates::Rates;
@@ -20,6 +21,9 @@ use crate::equations::variables::Variables;
 use crate::options::Options;
 
 pub(crate) mod attitude_norm;
+pub(crate) mod eight_states;
+#[cfg(test)]
+mod fixture;
 pub(crate) mod jacobian;
 pub(crate) mod layout;
 pub(crate) mod prepared_mode;
@@ -281,15 +285,22 @@ impl System for Equations {
         entered.rates(rates, (t, carried), y, dy);
     }
 
-    fn derivatives(&mut self, _t: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
-        let Self { variables, entered, evaluations, .. } = self;
-        let in_lanes = entered.rates_of_eight(&variables.layout, y, dy);
+    fn derivatives(&mut self, times: &Eight, y: &[Eight], dy: &mut [Eight]) -> bool {
+        let Self { scene, commands, variables, entered, evaluations, .. } = self;
+        let carried = variables.carried_at(times);
+        let at = At { times, carried: &carried, y };
+        let in_lanes = entered.rates_of_eight((scene, commands), &variables.layout, at, dy);
         *evaluations += if in_lanes { 8 } else { 0 };
         in_lanes
     }
 
-    fn takes_eight(&self) -> bool {
-        self.entered.takes_eight(&self.variables.layout)
+    fn takes_eight(&mut self) -> bool {
+        let Self { scene, commands, variables, entered, .. } = self;
+        let takes = entered.takes_eight(&variables.layout);
+        if takes {
+            entered.prepare_eight((scene, commands), &variables.layout);
+        }
+        takes
     }
 
     fn rate_of(&self, i: usize) -> Option<usize> {

@@ -35,7 +35,7 @@ impl<R: Real> End<R> {
     }
 
     /// β and τ, of which `free` has those of the free hinges.
-    #[inline]
+    #[inline(always)]
     fn read(&self, [beta, tau]: [&[R]; 2]) -> [R; 2] {
         match self.place {
             Place::Free(j) => [beta[j], tau[j]],
@@ -60,7 +60,7 @@ impl<R: Real> CouplingLaw<R> {
     }
 
     /// Torque on the first hinge by its spring and by its damper, at the β and τ of the ends.
-    #[inline]
+    #[inline(always)]
     fn parts(&self, [[own_beta, own_tau], [other_beta, other_tau]]: [[R; 2]; 2]) -> [R; 2] {
         let (beta, tau) = (self.ratio * other_beta, self.ratio * other_tau);
         let (stretched, rate) =
@@ -70,7 +70,7 @@ impl<R: Real> CouplingLaw<R> {
     }
 
     /// Adds its torques to those about the free hinges, at their β and τ.
-    #[inline]
+    #[inline(always)]
     pub fn add_to_free(&self, free: [&[R]; 2], torques: &mut [R]) {
         let [spring, damper] = self.parts(self.ends.each_ref().map(|end| end.read(free)));
         let torque = spring + damper;
@@ -93,6 +93,7 @@ impl<R: Real> CouplingLaw<R> {
     }
 
     /// Power of what no potential accounts for: of the damper, and of all where it acts on one hinge alone.
+    #[inline(always)]
     pub fn power(&self, free: [&[R]; 2]) -> R {
         let ends = self.ends.each_ref().map(|end| end.read(free));
         let [spring, damper] = self.parts(ends);

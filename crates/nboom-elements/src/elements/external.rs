@@ -33,6 +33,7 @@ struct Share<R> {
 }
 
 impl<R: Real> Share<R> {
+    #[inline(always)]
     fn at(&self, time: R) -> R {
         self.at_first + self.rate * (time - self.first)
     }
@@ -86,13 +87,18 @@ impl<R: Real> Push<R> {
     }
 
     /// Whether it is other at another time or attitude.
+    #[inline(always)]
     pub fn varies(&self) -> bool {
         self.share.is_some() || self.axes == ExternalAxes::Inertial
     }
 
     /// Sets it to what it is at `time` when `rot_inertial_from_main` is the attitude.
+    #[inline(always)]
     pub(crate) fn set(&mut self, rot_inertial_from_main: &Mat3<R>, time: R) {
-        let amount = self.share.as_ref().map_or(self.amount, |share| self.amount * share.at(time));
+        let amount = match &self.share {
+            Some(share) => self.amount * share.at(time),
+            None => self.amount,
+        };
         (self.acting, self.in_link) = match (self.axes, self.hinged) {
             (ExternalAxes::Inertial, _) => {
                 let acting = rot_inertial_from_main.transpose_mul(amount);
@@ -105,7 +111,7 @@ impl<R: Real> Push<R> {
 
     /// Where it acts from its link's hinge (from O on the main link), and as it acts; main-body axes. `rot` turns link
     /// components into main-body components; `None` on the main link.
-    #[inline]
+    #[inline(always)]
     fn at(&self, rot: Option<&Mat3<R>>) -> (Vec3<R>, Vec3<R>) {
         match (rot, self.axes) {
             (Some(rot), ExternalAxes::Body) => (*rot * self.point, *rot * self.in_link),
@@ -116,7 +122,7 @@ impl<R: Real> Push<R> {
 
     /// What it is on its link about the link's hinge (about O on the main link), main-body axes; `rot` turns link
     /// components into main-body components, `None` on the main link.
-    #[inline]
+    #[inline(always)]
     pub fn wrench(&self, rot: Option<&Mat3<R>>) -> Wrench<R> {
         let (arm, acting) = self.at(rot);
         match self.kind {
@@ -127,6 +133,7 @@ impl<R: Real> Push<R> {
 
     /// Its power when its link's hinge (O on the main link) moves as `twist`, and its moment about `point`, which is
     /// seen from there; main-body axes, `rot` as for its [wrench](Self::wrench).
+    #[inline(always)]
     pub fn power_and_moment(
         &self,
         rot: Option<&Mat3<R>>,

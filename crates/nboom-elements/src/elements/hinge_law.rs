@@ -47,13 +47,13 @@ impl<R: Real> HingeLaw<R> {
     }
 
     /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
-    #[inline]
+    #[inline(always)]
     pub fn torque(&self, beta: R, tau: R) -> R {
         self.rate_torque(tau) + (self.a2 * beta + self.a1) * beta + self.a0
     }
 
     /// The part of the torque that depends on the rate, and does work no potential accounts for.
-    #[inline]
+    #[inline(always)]
     pub fn rate_torque(&self, tau: R) -> R {
         (self.q1 * tau + self.q2) * tau
     }

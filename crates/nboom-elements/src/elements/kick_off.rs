@@ -43,7 +43,7 @@ impl<R: Real> KickOffLaw<R> {
     }
 
     /// Force at `length`, while the spring acts.
-    #[inline]
+    #[inline(always)]
     pub fn force(&self, length: R) -> R {
         let [a0, a1, a2, a3] = self.coefficients;
         ((a3 * length + a2) * length + a1) * length + a0
@@ -51,7 +51,7 @@ impl<R: Real> KickOffLaw<R> {
 
     /// The force on the end to which `span` leads from the other one, while the spring acts; NaN where
     /// the ends meet.
-    #[inline]
+    #[inline(always)]
     pub fn push(&self, span: Vec3<R>) -> Vec3<R> {
         let length = span.norm();
         span * (self.force(length) / length)

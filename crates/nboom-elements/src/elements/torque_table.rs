@@ -57,7 +57,7 @@ impl<R: Real> TablePiece<R> {
     }
 
     /// Torque at angle `beta` \[rad\]; positive when it increases β.
-    #[inline]
+    #[inline(always)]
     pub fn torque(&self, beta: R) -> R {
         let ([c0, c1, c2, c3], s) = (self.coefficients, beta - self.from);
         ((c3 * s + c2) * s + c1) * s + c0

@@ -28,7 +28,7 @@ impl<R: Real> WithheldMoment<R> {
     }
 
     /// The moment about the axis.
-    #[inline]
+    #[inline(always)]
     pub fn torque<P: Placed<R>>(&self, links: &[P]) -> R {
         let (end, force) = self.line.end_and_force(links);
         let outboard = &links[self.outboard];

@@ -71,6 +71,13 @@ impl Iteration {
         if self.count >= most || slow { Progress::Hopeless } else { Progress::Converging }
     }
 
+    /// By how much a step should be shorter whose iteration does not converge. Where stiffness slows it down,
+    /// contraction goes with the square of the step.
+    pub fn shorter(&self) -> f64 {
+        let just = (EASY / self.contraction).sqrt();
+        if just.is_nan() { HALF } else { just.clamp(SHORTEST, HALF) }
+    }
+
     /// Whether a shorter step would converge so much faster that it would cost less.
     pub fn is_slow(&self) -> bool {
         self.count >= MANY || self.contraction > RATHER_SLOW
@@ -89,13 +96,16 @@ const SAFETY: f64 = 0.9;
 /// Limits of the change of step size, in general and in the first steps from a start.
 const SHRINK: f64 = 0.4;
 const GROW: f64 = 1.6;
-const GROW_FIRST: f64 = 3.0;
+const GROW_FIRST: f64 = 6.0;
 const FIRST: usize = 2;
 /// What makes a step cheaper that takes too many iterations.
 const EASE: f64 = 0.9;
 
-/// By how much a step should be shorter whose iteration does not converge.
-pub(super) const HALF: f64 = 0.5;
+/// Limits to by how much a step is tried shorter whose iteration does not converge.
+const HALF: f64 = 0.5;
+const SHORTEST: f64 = 0.1;
+/// Contraction with which it should converge then.
+const EASY: f64 = 0.2;
 
 /// By how much a step should be longer that has this error, in units of the tolerance.
 pub(super) fn factor(error: f64) -> f64 {

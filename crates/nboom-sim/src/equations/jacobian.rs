@@ -4,7 +4,7 @@ use nboom_model::{Mode, Scene};
 use nboom_scalar::{Dual, Real, Vec3};
 
 use crate::equations::layout::VariableLayout;
-use crate::equations::rates::Rates;
+use crate::equations::rates::{ByRecursion, Rates};
 
 /// Derivatives of the equations of one mode with respect to its variables: the recursion over
 /// dual numbers, one variable at a time.
@@ -63,52 +63,17 @@ impl Jacobian {
     fn differentiate(&mut self, time: f64, carried: Vec3<f64>) {
         let Self { dynamics, rates, variables, derivatives, .. } = self;
         let at = (Dual::constant(time), Vec3::constant(carried));
-        rates.write(dynamics, Recursive::accelerations, at, variables, derivatives);
+        rates.write(dynamics, ByRecursion, at, variables, derivatives);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::equations::Equations;
-    use crate::equations::state::State;
-    use crate::options::{Form, Options};
-    use nboom_elements::OwnLaws;
+    use crate::equations::fixture::{SCENES, in_motion};
+    use crate::options::Form;
     use nboom_formulation::Formulation;
-    use nboom_model::{Course, External, ExternalAxes, ExternalKind, HingeState, SceneDescription};
     use nboom_ode::System;
-
-    /// A reference scene, in motion, with every hinge free and every force acting.
-    fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Vec<f64>) {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/scenes");
-        let path = std::path::Path::new(folder).join(name).with_extension("nml");
-        let deck = nboom_io::read_scene(&path).expect("reference decks are valid").scene;
-        let mut description = SceneDescription::clone(&deck);
-        let thrust = External::thrust(Vec3::new(0.3, -0.2, 0.5), Vec3::unit_y(), [0.0, 1.0]);
-        let course = Course::Table(vec![[0.0, 1.0], [2.0, -0.5]]);
-        let (axes, body) = (ExternalAxes::Inertial, description.bodies.len().checked_sub(1));
-        description.externals.push(External { axes, body, course, ..thrust.clone() });
-        description.externals.push(External { kind: ExternalKind::Torque, body, ..thrust });
-        let scene = Scene::new(description).expect("a valid deck under more forces");
-        let mut state = State::initial(&scene);
-        for (i, (beta, tau)) in state.beta.iter_mut().zip(&mut state.tau).enumerate() {
-            *beta += 0.2 + 0.1 * i as f64;
-            *tau = 0.7 - 0.3 * i as f64;
-        }
-        state.omega_body += Vec3::new(0.3, -0.2, 0.5);
-        let mode = Mode {
-            hinges: vec![HingeState::Free; scene.bodies.len()],
-            pieces: vec![0; Mode::at_start(&scene).pieces.len()],
-            externals: vec![1; scene.externals.len()],
-            drive: 0,
-        };
-        let options = Options { formulation, ..Options::default() };
-        let (mut equations, mut y) =
-            (Equations::new(&scene, OwnLaws::default(), &options), Vec::new());
-        equations.enter(&mode, &mut state, &mut y);
-        y.iter_mut().skip(equations.variables.layout.hinge_motion().end).for_each(|y| *y = 0.4);
-        (equations, y)
-    }
 
     /// Central differences, row by row.
     fn differences(equations: &mut Equations, t: f64, y: &[f64]) -> Vec<f64> {
@@ -131,14 +96,7 @@ mod tests {
 
     #[test]
     fn derivatives_are_the_limits_of_differences() {
-        for name in [
-            "s01_rigid_body",
-            "s03_chain3_general",
-            "s04_paddle_general",
-            "s06_gravity_thrust",
-            "s07_quadratic_terms",
-            "s08_kickoff_disengage",
-        ] {
+        for name in SCENES {
             for formulation in [None, Some(Form::Closed(Formulation::Momentum))] {
                 are_the_limits_of_differences(name, formulation);
             }

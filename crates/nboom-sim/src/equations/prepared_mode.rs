@@ -7,6 +7,7 @@ use crate::code::fit::Repertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{AccelerationCode, CodeError};
+use crate::equations::eight_states::{At, EightStates};
 use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::rates::Rates;
@@ -27,6 +28,8 @@ pub(crate) struct PreparedMode {
     selection: Option<Selection>,
     /// Made when an integrator asks for it.
     jacobian: Option<Jacobian>,
+    /// Likewise; none where there are no registers for them.
+    eight_states: Option<Option<EightStates>>,
 }
 
 impl PreparedMode {
@@ -48,6 +51,7 @@ impl PreparedMode {
             right_sides: None,
             selection: None,
             jacobian: None,
+            eight_states: None,
         }
     }
 
@@ -67,6 +71,9 @@ impl PreparedMode {
         self.dynamics.command(commands);
         if let Some(jacobian) = &mut self.jacobian {
             jacobian.command(commands);
+        }
+        if let Some(Some(eight_states)) = &mut self.eight_states {
+            eight_states.command(commands);
         }
     }
 
@@ -147,28 +154,75 @@ impl PreparedMode {
 
     /// Whether there is code for eight states at once in `layout`.
     pub fn takes_eight(&self, layout: &VariableLayout) -> bool {
-        let in_lanes = layout.unknowns == Unknowns::Velocities && !layout.thrust;
-        in_lanes && self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some())
+        match self.code {
+            AccelerationCode::Recursion => true,
+            AccelerationCode::Generated(_) => {
+                let of_eight =
+                    self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some());
+                layout.unknowns == Unknowns::Velocities && of_eight
+            }
+            AccelerationCode::ClosedForm(_) | AccelerationCode::UnderOwnLaws(_) => false,
+        }
+    }
+
+    /// Makes ready what [`rates_of_eight`](Self::rates_of_eight) needs in `layout`.
+    pub fn prepare_eight(
+        &mut self,
+        (scene, commands): (&Scene, &Commands),
+        layout: &VariableLayout,
+    ) {
+        let has_right_side = self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some());
+        if !has_right_side || layout.thrust {
+            self.eight_states((scene, commands), layout);
+        }
     }
 
     /// Writes ẏ of eight states to `dy`, if there is code for them in `layout`; returns whether there is.
+    /// The mode is one of `scene`, under `commands`, which it holds.
     pub fn rates_of_eight(
         &mut self,
+        (scene, commands): (&Scene, &Commands),
         layout: &VariableLayout,
-        y: &[Eight],
+        at: At<'_>,
         dy: &mut [Eight],
     ) -> bool {
         if !self.takes_eight(layout) {
             return false;
         }
-        let Some(RightSides { of_eight: Some(right_side), .. }) = &mut self.right_sides else {
-            return false;
-        };
-        let power = right_side.write(y, dy);
-        if let [work] = &mut dy[layout.dashpot_work()] {
-            *work = power;
+        let right_side = self.right_sides.as_mut().and_then(|both| both.of_eight.as_mut());
+        let power = right_side.map(|right_side| right_side.write(at.y, dy));
+        match power {
+            Some(power) if !layout.thrust => {
+                if let [work] = &mut dy[layout.dashpot_work()] {
+                    *work = power;
+                }
+                return true;
+            }
+            _ => {}
+        }
+        let Some(eight_states) = self.eight_states((scene, commands), layout) else { return false };
+        match power {
+            Some(power) => eight_states.complete(*layout, &power, at, dy),
+            None => eight_states.rates(*layout, at, dy),
         }
         true
+    }
+
+    /// The recursion on eight states, where there are registers for them.
+    fn eight_states(
+        &mut self,
+        (scene, commands): (&Scene, &Commands),
+        layout: &VariableLayout,
+    ) -> Option<&mut EightStates> {
+        let Self { mode, beta, reach, eight_states, .. } = self;
+        let made = eight_states.get_or_insert_with(|| {
+            let mut made = EightStates::new(scene, mode, beta, *layout);
+            if let Some(made) = made.as_mut().filter(|_| *reach != Reach::Nothing) {
+                made.command(commands);
+            }
+            made
+        });
+        made.as_mut()
     }
 
     /// Derivatives of the equations of the mode, which is one of `scene`, under `commands`, which it holds.

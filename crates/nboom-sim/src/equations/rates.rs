@@ -5,6 +5,44 @@ use nboom_scalar::{Real, Vec3};
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::variables::{attitude, momenta, motion};
 
+/// What computes accelerations in a mode.
+pub(crate) trait Accelerate<R> {
+    /// Writes ω̇, a_O without gravity and τ̇ of `motion` to `out`.
+    fn accelerate(
+        self,
+        dynamics: &mut Recursive<R>,
+        motion: &Motion<'_, R>,
+        out: &mut Accelerations<R>,
+    );
+}
+
+impl<R, F: FnOnce(&mut Recursive<R>, &Motion<'_, R>, &mut Accelerations<R>)> Accelerate<R> for F {
+    #[inline(always)]
+    fn accelerate(
+        self,
+        dynamics: &mut Recursive<R>,
+        motion: &Motion<'_, R>,
+        out: &mut Accelerations<R>,
+    ) {
+        self(dynamics, motion, out);
+    }
+}
+
+/// The recursion, inlined where it is asked for: closures need not be.
+pub(crate) struct ByRecursion;
+
+impl<R: Real> Accelerate<R> for ByRecursion {
+    #[inline(always)]
+    fn accelerate(
+        self,
+        dynamics: &mut Recursive<R>,
+        motion: &Motion<'_, R>,
+        out: &mut Accelerations<R>,
+    ) {
+        dynamics.accelerations(motion, out);
+    }
+}
+
 /// The rates of change of all variables of a mode, over any scalar.
 pub(crate) struct Rates<R> {
     pub layout: VariableLayout,
@@ -32,13 +70,14 @@ impl<R: Real> Rates<R> {
         self.accelerations.tau_dot.resize(layout.free, R::zero());
     }
 
-    /// Writes ẏ at `y` to `dy`. `dynamics` is in the same mode, `accelerate` computes accelerations
+    /// Writes ẏ at `y` to `dy`. `dynamics` is in the same mode, `by` computes accelerations
     /// there, and at `time` the velocity of what is [carried](crate::equations::variables::Variables::carried) is
     /// `carried`, inertial axes.
+    #[inline(always)]
     pub fn write(
         &mut self,
         dynamics: &mut Recursive<R>,
-        accelerate: impl FnOnce(&mut Recursive<R>, &Motion<'_, R>, &mut Accelerations<R>),
+        by: impl Accelerate<R>,
         (time, carried): (R, Vec3<R>),
         y: &[R],
         dy: &mut [R],
@@ -53,7 +92,7 @@ impl<R: Real> Rates<R> {
         } else {
             let motion = motion(layout, dynamics, y, tau);
             if layout.needs_elimination() {
-                accelerate(dynamics, &motion, accelerations);
+                by.accelerate(dynamics, &motion, accelerations);
             }
             if let [x, y, z] = &mut dy[layout.omega()] {
                 [*x, *y, *z] = accelerations.omega_dot_body.to_array();
@@ -83,6 +122,7 @@ impl<R: Real> Rates<R> {
 
     /// Writes what is left of ẏ at `y` where the rates of attitude, ω, β and τ stand in `dy` already, and
     /// the parts of hinge torques that depend on rates have the power `power`; the main body is free.
+    #[inline(always)]
     pub fn complete(
         &self,
         dynamics: &mut Recursive<R>,
@@ -106,6 +146,7 @@ impl<R: Real> Rates<R> {
 
 /// Power of what acts from outside and of what moves a held main body, whose O has the velocity `velocity`,
 /// main-body axes.
+#[inline(always)]
 fn power_on_held<R: Real>(
     dynamics: &mut Recursive<R>,
     motion: &Motion<'_, R>,
@@ -119,6 +160,7 @@ fn power_on_held<R: Real>(
     dynamics.outside(motion, &found).power + of_reaction
 }
 
+#[inline(always)]
 fn write_external<R: Real>(
     layout: &VariableLayout,
     dynamics: &mut Recursive<R>,

@@ -1,7 +1,7 @@
 use nboom_dynamics::{Momenta, Motion, Recursive};
 use nboom_elements::gravity;
 use nboom_model::{Base, Mode, Scene};
-use nboom_scalar::{Number, Quaternion, Real, Vec3};
+use nboom_scalar::{Eight, Number, Quaternion, Real, Vec3};
 
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::state::{PointMotion, State};
@@ -117,6 +117,23 @@ impl<R: Number> Variables<R> {
     }
 }
 
+impl Variables<f64> {
+    /// The velocity of what is [carried](Self::carried) at eight times; without thrust nothing asks for it.
+    pub fn carried_at(&self, times: &Eight) -> Vec3<Eight> {
+        let mut found = [Eight::default(); 3];
+        if self.layout.thrust {
+            for (lane, &time) in times.0.iter().enumerate() {
+                let velocity = self.carried(time).velocity.to_array();
+                for (all, one) in found.iter_mut().zip(velocity) {
+                    all.0[lane] = one;
+                }
+            }
+        }
+        let [x, y, z] = found;
+        Vec3 { x, y, z }
+    }
+}
+
 /// Acceleration of free fall, or of O of a main body that is held, inertial axes.
 pub(crate) fn carrying_acceleration<R: Real>(scene: &Scene, mode: &Mode) -> Vec3<R> {
     match &scene.base {
@@ -130,6 +147,7 @@ pub(crate) fn carrying_acceleration<R: Real>(scene: &Scene, mode: &Mode) -> Vec3
 
 /// The motion that the variables stand for; `dynamics` is in their mode. `tau` is room for τ of the
 /// free hinges, where it is no variable.
+#[inline(always)]
 pub(crate) fn motion<'a, R: Real>(
     layout: &VariableLayout,
     dynamics: &mut Recursive<R>,
@@ -154,6 +172,7 @@ pub(crate) fn motion<'a, R: Real>(
 }
 
 /// The momenta among variables that have them; H̄_c was `at_start` when the mode began.
+#[inline(always)]
 pub(crate) fn momenta<'a, R: Real>(
     layout: &VariableLayout,
     at_start: Vec3<f64>,
@@ -167,6 +186,7 @@ pub(crate) fn momenta<'a, R: Real>(
 }
 
 /// H̄_c, inertial axes, which was `at_start` when the mode began.
+#[inline(always)]
 fn angular_momentum<R: Real>(layout: &VariableLayout, at_start: Vec3<f64>, y: &[R]) -> Vec3<R> {
     match y[layout.angular_impulse()] {
         [x, y, z] => Vec3::constant(at_start) + Vec3::new(x, y, z),
@@ -174,11 +194,13 @@ fn angular_momentum<R: Real>(layout: &VariableLayout, at_start: Vec3<f64>, y: &[
     }
 }
 
+#[inline(always)]
 fn along_body_axes<R: Real>(y: &[R], inertial: Vec3<R>) -> Vec3<R> {
     attitude(y).normalized().to_matrix().transpose_mul(inertial)
 }
 
 /// The attitude among the variables, whose norm is near 1.
+#[inline(always)]
 pub(crate) fn attitude<R: Real>(y: &[R]) -> Quaternion<R> {
     Quaternion { scalar: y[0], vector: Vec3::new(y[1], y[2], y[3]) }
 }
