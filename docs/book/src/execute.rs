@@ -6,8 +6,8 @@
 //!   either are what the command prints; `...` stands for any lines;
 //! - `toml file=NAME` is written to that file, `toml add=NAME` is added to it; so in any language;
 //! - `toml of=PATH` stands so in that file of the clone, whose tests or examples run it;
-//! - `text` is for the eye alone;
-//! - `sh not-run` is for the reader alone.
+//! - `text prints=COMMAND` is what the command prints, `text` alone is for the eye;
+//! - `sh` is for the reader alone; how many of these there are is told.
 //!
 //! Pictures that commands draw are those that the page shows; `NBOOM_BLESS=1` makes them so.
 
@@ -57,7 +57,11 @@ impl Reader {
             match (language, more.split_once('=').unwrap_or((more, ""))) {
                 ("console", ("", "")) => commands += self.console(&block).map_err(at)?,
                 ("text", ("", "")) => {}
-                ("sh", ("not-run", "")) => left += 1,
+                ("text", ("prints", command)) => {
+                    self.run(command, &block.text.lines().collect::<Vec<_>>()).map_err(at)?;
+                    commands += 1;
+                }
+                ("sh", ("", "")) => left += 1,
                 (_, ("file", name)) => fs::write(self.place.join(name), &block.text)?,
                 (_, ("add", name)) => {
                     let mut file = OpenOptions::new().append(true).open(self.place.join(name))?;

@@ -16,7 +16,7 @@ pub fn markup(formula: &str, display: bool) -> Result<String> {
     let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
     let mut text = String::new();
     push_mathml(&mut text, events, config)?;
-    Ok(unmarked(&text))
+    Ok(unmarked(&text.replace("&nbsp;", "\u{a0}")))
 }
 
 /// What Markdown would read as marks of its own, as references to characters.
