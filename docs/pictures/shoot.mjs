@@ -2,7 +2,7 @@
 //
 //     node shoot.mjs report.html 0.5,1,2 OUT.webp
 //
-// or, without times, the top of the page as it opens:
+// or the top of the page:
 //
 //     node shoot.mjs report.html page OUT.webp
 
@@ -18,21 +18,24 @@ const executablePath = process.env.CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/c
 const browser = await chromium.launch({
   executablePath, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 });
-const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+const page = await browser.newPage({ viewport: { width: 1120, height: 1010 } });
 await page.goto(`file://${resolve(report)}`);
 await page.waitForSelector('html[data-ready]', { timeout: 60_000 });
 
+const slider = page.locator('#time-0');
+const set = (share) => slider.evaluate((input, value) => {
+  input.value = value;
+  input.dispatchEvent(new Event('input'));
+}, share);
+await page.locator('[data-layer=trails]').check();
 const shots = [];
 if (times === 'page') {
+  await set(0.36);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.waitForTimeout(300);
   shots.push({ time: '', png: await page.screenshot() });
 } else {
   for (const layer of ['axes', 'joints']) await page.locator(`[data-layer=${layer}]`).uncheck();
-  await page.locator('[data-layer=trails]').check();
-  const slider = page.locator('#time-0');
-  const set = (share) => slider.evaluate((input, value) => {
-    input.value = value;
-    input.dispatchEvent(new Event('input'));
-  }, share);
   // Runs begin at zero; the clock at the end of the slider tells their length.
   await set(1);
   const end = parseFloat((await page.textContent('.clock')).match(/[\d.]+/)[0]);
@@ -50,19 +53,38 @@ const webp = await page.evaluate(async (found) => {
     await image.decode();
     return { time, image };
   }));
-  const { width, height } = pictures[0].image;
-  const across = pictures.length > 1 ? 2 : 1;
-  const scale = pictures.length > 1 ? 480 / width : 0.8;
+  // What no picture has anything in is cut off.
+  const frame = { left: 1e9, top: 1e9, right: 0, bottom: 0 };
+  for (const { image, time } of pictures) {
+    const { width, height } = image;
+    const flat = new OffscreenCanvas(width, height).getContext('2d');
+    flat.drawImage(image, 0, 0);
+    const { data } = flat.getImageData(0, 0, width, height);
+    const off = (i) => Math.abs(data[i] - data[4 * (3 * width + 3)]) > 12;
+    for (let y = 3; y < height - 3; y++) {
+      for (let x = 3; x < width - 3; x++) {
+        if (time && !off(4 * (y * width + x))) continue;
+        frame.left = Math.min(frame.left, x - 24);
+        frame.right = Math.max(frame.right, x + 24);
+        frame.top = Math.min(frame.top, y - 24);
+        frame.bottom = Math.max(frame.bottom, y + 24);
+      }
+    }
+  }
+  const [left, top] = [Math.max(frame.left, 0), Math.max(frame.top, 0)];
+  const width = Math.min(frame.right, pictures[0].image.width) - left;
+  const height = Math.min(frame.bottom, pictures[0].image.height) - top;
+  const shape = width / height;
+  const across = pictures.length === 1 || shape > 2.5 ? 1 : shape < 0.7 ? 4 : 2;
+  const scale = pictures.length > 1 ? 960 / across / width : 0.8;
   const canvas = document.createElement('canvas');
   canvas.width = across * width * scale;
   canvas.height = Math.ceil(pictures.length / across) * height * scale;
   const flat = canvas.getContext('2d');
-  flat.fillStyle = '#ffffff';
-  flat.fillRect(0, 0, canvas.width, canvas.height);
   flat.font = '15px system-ui, sans-serif';
   pictures.forEach(({ time, image }, i) => {
     const [x, y] = [(i % across) * width * scale, Math.floor(i / across) * height * scale];
-    flat.drawImage(image, x, y, width * scale, height * scale);
+    flat.drawImage(image, left, top, width, height, x, y, width * scale, height * scale);
     flat.fillStyle = '#24292f';
     if (time) flat.fillText(`${time} s`, x + 12, y + 24);
   });
