@@ -67,3 +67,19 @@ fn anchors(text: &str) -> Anchors {
     }
     found
 }
+
+#[test]
+fn links_that_lead_nowhere_are_told() {
+    let book = std::env::temp_dir().join(format!("nboom-book-links-{}", std::process::id()));
+    fs::create_dir_all(&book).expect("a folder");
+    let page = |text: &str| fs::write(book.join("page.html"), text).expect("a page");
+    page("<h1 id=\"a\">A</h1><a href=\"#a\">a</a><a href=\"page.html#a\">a</a>");
+    check(&book).expect("both lead to the heading");
+    page("<a href=\"#b\">b</a><img src=\"none.svg\"><a href=\"https://example.org\">c</a>");
+    let told = check(&book).expect_err("two lead nowhere").to_string();
+    assert!(
+        told.contains("#b") && told.contains("none.svg") && !told.contains("example"),
+        "{told}"
+    );
+    fs::remove_dir_all(&book).expect("it is there");
+}

@@ -65,7 +65,9 @@ pub fn for_the_book(path: &Path, text: &str, sources: &mut Sources) -> Result<St
                 let to = match outside(path, &dest_url) {
                     Some(place) => Some(sources.address(path, &place)?),
                     // The book calls the first page of a folder so.
-                    None if is_first(path, &dest_url) => Some(dest_url.replace("README.md", "index.md")),
+                    None if is_first(path, &dest_url) => {
+                        Some(dest_url.replace("README.md", "index.md"))
+                    }
                     None => None,
                 };
                 if let Some(to) = to {
@@ -130,4 +132,37 @@ pub fn plain(path: &Path) -> PathBuf {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_links_and_blocks_become_what_the_book_shows() {
+        let clone = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let mut sources = Sources::new(&clone);
+        let text = "About $x_1^*$, [code](../Cargo.toml) and [pages](how-to/README.md#a).\n\n\
+                    ```toml of=a.toml\nx = \"$y\"\n```\n";
+        let page =
+            for_the_book(Path::new("docs/page.md"), text, &mut sources).expect("it is right");
+        assert!(page.contains("<msubsup>") && !page.contains("$x"), "{page}");
+        assert!(page.contains("[code](source/Cargo.toml.html)"), "{page}");
+        assert!(page.contains("[pages](how-to/index.md#a)"), "{page}");
+        assert!(page.contains("a.toml</p>\n\n```toml\nx = \"$y\"\n```"), "{page}");
+    }
+
+    #[test]
+    fn a_formula_that_is_wrong_is_told() {
+        let mut sources = Sources::new(Path::new("."));
+        for_the_book(Path::new("docs/page.md"), "$\\frac{1}$", &mut sources)
+            .expect_err("no formula");
+    }
+
+    #[test]
+    fn blocks_are_found_in_their_order() {
+        let found = blocks("a\n\n```console\n$ ls\n```\n\n```toml file=b\nc = 1\n```\n");
+        let found: Vec<_> = found.iter().map(|b| (b.info.as_str(), b.text.as_str())).collect();
+        assert_eq!(found, [("console", "$ ls\n"), ("toml file=b", "c = 1\n")]);
+    }
 }
