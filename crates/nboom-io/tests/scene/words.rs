@@ -73,11 +73,16 @@ fn the_wing_is_that_of_its_file() {
 
 #[test]
 fn the_gimbal_is_that_of_its_file() {
+    let cylinder = |middle, radius, length, along| {
+        BodyShape::around(middle, Solid::Cylinder { radius, length, along })
+    };
+    let bus = BodyShape::around([0.0; 3], Solid::Box([1.0, 1.0, 1.1].into()));
     let bracket = body("bracket")
         .mass(3.0)
         .mass_centre([0.0, 0.0, 0.15])
         .inertia([0.03, 0.03, 0.01])
         .tip([0.0, 0.0, 0.3])
+        .shape(cylinder([0.0, 0.0, 0.15], 0.06, 0.3, Vec3::unit_z()))
         .hinge(
             hinge()
                 .at([0.3, 0.0, 0.6])
@@ -91,6 +96,7 @@ fn the_gimbal_is_that_of_its_file() {
         .mass(6.0)
         .mass_centre([0.2, 0.0, 0.0])
         .inertia([0.8, 0.45, 0.45])
+        .shape(cylinder([0.2, 0.0, 0.0], 0.4, 0.08, Vec3::unit_x()))
         .hinge(
             hinge()
                 .at([0.0, 0.0, 0.3])
@@ -102,7 +108,7 @@ fn the_gimbal_is_that_of_its_file() {
         );
     let gimbal = scene("gimbal")
         .end(40.0)
-        .main_body(main_body().mass(200.0).inertia([60.0, 55.0, 70.0]))
+        .main_body(main_body().mass(200.0).inertia([60.0, 55.0, 70.0]).shape(bus))
         .initial(initial().attitude(Axes::turn_deg("z", 30.0)).rate_deg([0.0, 0.5, 0.0]))
         .body(bracket)
         .body(dish);
