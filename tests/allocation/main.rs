@@ -118,6 +118,7 @@ fn loads_allocate_nothing() {
         acceleration: change,
         force_densities: &values,
         outside: &[],
+        rotors: &[],
     };
     let share = LockUpShare { pulse_constant: 0.1, jump: change };
     assert_eq!(allocations(|| loads.continuous(&motion, &mut found)), 0);

@@ -21,6 +21,7 @@ mod masts;
 mod oscillators;
 mod outside;
 mod rigs;
+mod spin_up;
 mod thrust;
 mod torque_free;
 mod torque_table;

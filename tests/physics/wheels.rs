@@ -1,5 +1,5 @@
-//! Momentum wheels: rotors at constant speed and wheels that turn freely, against closed forms, balances and
-//! the independent derivation.
+//! Momentum wheels: rotors at commanded speeds and wheels that turn freely, against closed forms,
+//! balances and the independent derivation.
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::loads::{Loads, SceneMotion, VelocityChange};
@@ -12,7 +12,7 @@ use nboom::sim::Form;
 
 use super::log::{options, run};
 use super::newton_euler::{accelerations, loads, place, vector};
-use super::random_scene::{Rng, all_acting, conservative, description};
+use super::random_scene::{Rng, all_acting, conservative, description, rotors, turning};
 
 /// A body of revolution about x that turns about all axes.
 fn top(about_x: f64, across: f64, omega: Vec3<f64>) -> SceneDescription {
@@ -45,7 +45,8 @@ const OMEGA: Vec3<f64> = Vec3::new(0.4, 0.3, -0.1);
 fn a_rotor_turns_the_rate_of_a_symmetric_top() {
     let (a, c, j, speed) = (3.0, 5.0, 0.2, 40.0);
     let mut scene = top(a, c, OMEGA);
-    scene.rotors = vec![Rotor { body: None, axis: Vec3::unit_x(), inertia: j, speed }];
+    scene.rotors =
+        vec![Rotor { body: None, axis: Vec3::unit_x(), inertia: j, speed: speed.into() }];
     let found = run(&scene, &options(16, 1e-13));
     let turning = ((a + j - c) * OMEGA.x + j * speed) / c;
     for seen in &found.samples {
@@ -72,7 +73,8 @@ fn a_free_wheel_on_a_symmetric_top_is_a_rotor() {
     let mut free = top(3.0, 5.0, OMEGA);
     free.bodies = vec![wheel(j, speed)];
     let mut driven = top(3.0, 5.0, OMEGA);
-    driven.rotors = vec![Rotor { body: None, axis: Vec3::unit_x(), inertia: j, speed }];
+    driven.rotors =
+        vec![Rotor { body: None, axis: Vec3::unit_x(), inertia: j, speed: speed.into() }];
     let [free, driven] = [free, driven].map(|scene| run(&scene, &options(8, 1e-13)));
     for (a, b) in free.samples.iter().zip(&driven.samples) {
         assert!((a.omega_body - b.omega_body).norm() < 1e-12, "at {}", a.time);
@@ -116,17 +118,10 @@ fn what_is_no_wheel_must_have_mass() {
 }
 
 fn random_rotors(bodies: usize, seed: u64) -> Vec<Rotor> {
-    let dice = &mut Rng::new(seed ^ 0x5917);
-    let one = |i: usize| Rotor {
-        body: (i > 0).then(|| dice.below(bodies)),
-        axis: dice.direction(),
-        inertia: dice.between(0.05, 0.5),
-        speed: dice.between(-30.0, 30.0),
-    };
-    (0..3).map(one).collect()
+    rotors(&mut Rng::new(seed ^ 0x5917), bodies)
 }
 
-/// Accelerations, and the loads that they leave at the hinges.
+/// Accelerations, torques of motors, and the loads that they leave at the hinges.
 #[test]
 fn trees_with_rotors_move_as_by_newton_and_euler() {
     for seed in 0..40 {
@@ -171,6 +166,17 @@ fn trees_with_rotors_move_as_by_newton_and_euler() {
         for (a, b) in found.tau_dot.iter().zip(&expected_free) {
             assert!((a - b).abs() < 1e-9 * largest, "seed {seed}: {a} {b}");
         }
+        let mut torques = Vec::new();
+        dynamics.motor_torques(&motion, &found, &mut torques);
+        for (rotor, torque) in scene.rotors.iter().zip(torques) {
+            let carrier = rotor.body.map_or(0, |body| body + 1);
+            let axis = placed[carrier].rot * vector(rotor.axis);
+            let [_, rate] = turning(rotor, 0.0);
+            let own = rotor.inertia * (rate + axis.dot(&expected.omega_dots[carrier]));
+            assert!((torque - own).abs() < 1e-9 * largest, "seed {seed}: {torque} {own}");
+        }
+        let in_hinged = scene.rotors.iter().filter(|rotor| rotor.body.is_some());
+        let turning: Vec<[f64; 2]> = in_hinged.map(|rotor| turning(rotor, 0.0)).collect();
         let mut of_loads = Loads::new(&checked, None);
         let mut set = of_loads.load_set();
         let tau_dot: Vec<f64> = expected.tau_dots.clone();
@@ -187,6 +193,7 @@ fn trees_with_rotors_move_as_by_newton_and_euler() {
             acceleration,
             force_densities: &densities,
             outside: &[],
+            rotors: &turning,
         };
         of_loads.continuous(&motion, &mut set);
         let outermost = bodies - 1;
@@ -194,7 +201,7 @@ fn trees_with_rotors_move_as_by_newton_and_euler() {
             let own = &placed[bodies];
             let rate = expected.centers[bodies] * own.mass;
             let spin = own.inertia * expected.omega_dots[bodies]
-                + own.omega.cross(&(own.inertia * own.omega + own.spin))
+                + own.gyroscopic()
                 + (own.center - own.origin).cross(&rate);
             let off = (own.rot * vector(set.hinge(outermost).moment) - spin).norm();
             assert!(off < 1e-9 * (1.0 + spin.norm()), "seed {seed}: {off:e}");

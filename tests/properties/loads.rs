@@ -77,11 +77,12 @@ impl Sliced {
     }
 
     fn motion(&self) -> SceneMotion<'_> {
-        let Moment { omega, beta, tau, .. } = &self.moment;
-        let (origin_body, omega_body) = (self.origin, self.omega_dot);
-        let acceleration = VelocityChange { origin_body, omega_body, tau: &self.tau_dot };
-        let Self { force_densities, outside, .. } = self;
-        SceneMotion { omega_body: *omega, beta, tau, acceleration, force_densities, outside }
+        let Moment { omega: omega_body, beta, tau, .. } = &self.moment;
+        let Self { origin: origin_body, omega_dot, force_densities, outside, .. } = self;
+        let (origin_body, tau_dot) = (*origin_body, &self.tau_dot);
+        let acceleration = VelocityChange { origin_body, omega_body: *omega_dot, tau: tau_dot };
+        let (omega_body, rotors) = (*omega_body, &[]);
+        SceneMotion { omega_body, beta, tau, acceleration, force_densities, outside, rotors }
     }
 
     fn continuous(&self) -> (Loads, LoadSet) {
@@ -312,12 +313,8 @@ fn recorded_loads_are_those_of_the_equations() {
         equations.evaluate(&case.motion(), &mut expected);
         let (name, scalar_path) = ("Stresses".to_owned(), "::nboom_scalar".to_owned());
         let numbers = equations.numbers().len();
+        let mut inputs = vec![f64::NAN; numbers + equations.motion_size().count()];
         let request = StressRequest { name, scalar_path, equations, level: Level::Exact };
-        let mut inputs =
-            vec![
-                f64::NAN;
-                numbers + SceneMotion::<f64>::count(case.tau_dot.len(), case.outside.len())
-            ];
         case.motion().write(&mut inputs[numbers..]);
         assert_eq!(request.trace().evaluate(&inputs), expected.numbers());
     }

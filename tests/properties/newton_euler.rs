@@ -9,6 +9,8 @@ use nboom::model::{
 };
 use nboom::scalar::{Mat3, Vec3};
 
+use super::random_scene::turning;
+
 type V3 = Vector3<f64>;
 type M3 = Matrix3<f64>;
 
@@ -28,11 +30,13 @@ fn skew(v: V3) -> M3 {
 /// A body and the rotors in it.
 struct Carrier<'a> {
     body: &'a MassProperties,
-    rotors: Vec<Rotor>,
+    /// Each with its speed and the rate of change of that.
+    rotors: Vec<(&'a Rotor, [f64; 2])>,
 }
 
 fn carrier(scene: &SceneDescription, body: Option<usize>) -> Carrier<'_> {
-    let rotors = scene.rotors.iter().filter(|rotor| rotor.body == body).copied().collect();
+    let of_body = scene.rotors.iter().filter(|rotor| rotor.body == body);
+    let rotors = of_body.map(|rotor| (rotor, turning(rotor, scene.initial.time))).collect();
     let body = body.map_or(&scene.main_body, |i| &scene.bodies[i].mass_properties);
     Carrier { body, rotors }
 }
@@ -49,6 +53,8 @@ pub struct Placed {
     pub inertia: M3,
     /// Angular momentum of its rotors relative to it.
     pub spin: V3,
+    /// How fast that changes along the body's axes.
+    pub spin_rate: V3,
     pub omega: V3,
     pub velocity: V3,
     /// Velocity of the mass centre.
@@ -60,15 +66,17 @@ impl Placed {
         let Carrier { body, rotors } = body;
         let i = body.inertia;
         let own = M3::new(i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz);
-        let (mut spin, mut own) = (V3::zeros(), own);
-        for rotor in rotors {
+        let (mut spin, mut spin_rate, mut own) = (V3::zeros(), V3::zeros(), own);
+        for (rotor, [speed, rate]) in rotors {
             let axis = vector(rotor.axis);
             own += axis * axis.transpose() * rotor.inertia;
-            spin += axis * (rotor.inertia * rotor.speed);
+            spin += axis * (rotor.inertia * speed);
+            spin_rate += axis * (rotor.inertia * rate);
         }
         let arm = rot * vector(body.center_of_mass);
         Self {
             spin: rot * spin,
+            spin_rate: rot * spin_rate,
             rot,
             origin,
             axis,
@@ -79,6 +87,11 @@ impl Placed {
             velocity,
             center_velocity: velocity + omega.cross(&arm),
         }
+    }
+
+    /// The moment that the motion takes when the rate of the body does not change.
+    pub fn gyroscopic(&self) -> V3 {
+        self.omega.cross(&(self.inertia * self.omega + self.spin)) + self.spin_rate
     }
 
     /// Velocity of the body's point that is at `point` from O.
@@ -315,11 +328,10 @@ pub fn accelerations(
     let mut right = DVector::<f64>::zeros(unknowns + constraints);
     for (b, body) in placed.iter().enumerate() {
         let (force, moment) = loads.forces[b];
-        let gyroscopic = body.omega.cross(&(body.inertia * body.omega + body.spin));
         matrix.view_mut((6 * b, 6 * b), (3, 3)).copy_from(&(M3::identity() * body.mass));
         matrix.view_mut((6 * b + 3, 6 * b + 3), (3, 3)).copy_from(&body.inertia);
         right.rows_mut(6 * b, 3).copy_from(&force);
-        right.rows_mut(6 * b + 3, 3).copy_from(&(moment - gyroscopic));
+        right.rows_mut(6 * b + 3, 3).copy_from(&(moment - body.gyroscopic()));
     }
     let mut row = unknowns;
     let mut constrain = |row: usize, block: usize, entries: &DMatrix<f64>| {

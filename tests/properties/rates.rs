@@ -52,8 +52,7 @@ pub fn rates(
     };
     for (body, &acceleration) in placed.iter().zip(&moved) {
         let force = at(body, acceleration, body.center - body.origin) * body.mass;
-        let gyroscopic = body.omega.cross(&(body.inertia * body.omega + body.spin));
-        let moment = body.inertia * acceleration.1 + gyroscopic;
+        let moment = body.inertia * acceleration.1 + body.gyroscopic();
         let about_o = body.center.cross(&force) + moment;
         let powers = [body.center_velocity.dot(&force), body.omega.dot(&moment)];
         rates.kinetic_energy += powers[0] + powers[1];

@@ -162,6 +162,7 @@ impl BruteForce {
             },
             force_densities: &densities,
             outside: motion.outside,
+            rotors: motion.rotors,
         };
         let mut found = self.loads.load_set();
         self.loads.continuous(&motion, &mut found);
@@ -184,8 +185,8 @@ impl BruteForce {
         self.largest.iter_mut().zip(found).for_each(|(most, now)| *most = most.max(now));
     }
 
-    /// Looks at many times, and closer around the one at which a quantity is largest if it is larger
-    /// than it has been.
+    /// Looks at many times, and closer around the one at which a quantity is largest if it is
+    /// larger than it has been.
     fn scan(&mut self, [start, end]: [f64; 2], loads: &mut dyn FnMut(&mut Self, f64) -> LoadSet) {
         let spacing = (end - start) / self.times as f64;
         let mut best = vec![(0.0, start); self.largest.len()];

@@ -4,7 +4,7 @@
 
 use nboom::model::{
     Body, Course, Dashpot, External, ExternalAxes, ExternalKind, Gravity, Hinge, HingeState, Joint,
-    KickOffSpring, MassProperties, Mode, Mount, Scene, SceneDescription, Spring,
+    KickOffSpring, MassProperties, Mode, Mount, Rotor, RotorSpeed, Scene, SceneDescription, Spring,
 };
 use nboom::scalar::{Mat3, Quaternion, Sym3, Vec3};
 
@@ -63,8 +63,8 @@ impl Rng {
     }
 }
 
-/// A tree of `bodies` bodies, most of them hinged and some that slide, with every kind of force; all joints
-/// start free.
+/// A tree of `bodies` bodies, most of them hinged and some that slide, with every kind of force;
+/// all joints start free.
 pub fn description(bodies: usize, seed: u64) -> SceneDescription {
     let mut scene = hinged(bodies, seed);
     let dice = &mut Rng::new(seed ^ 0x511d);
@@ -158,10 +158,13 @@ pub struct Moment {
     pub velocity_body: Vec3<f64>,
 }
 
-/// The mode with these hinges in which every spring pushes and all from outside is in its first piece.
+/// The mode with these hinges in which every spring pushes and all from outside and every table of
+/// a rotor is in its first piece.
 pub fn all_acting(scene: &Scene, hinges: Vec<HingeState>) -> Mode {
     let pieces = vec![0; Mode::at_start(scene).pieces.len()];
-    Mode { hinges, pieces, externals: vec![1; scene.externals.len()], drive: 0 }
+    let [externals, rotors] =
+        [scene.externals.len(), scene.rotors.len()].map(|count| vec![1; count]);
+    Mode { hinges, pieces, externals, drive: 0, rotors }
 }
 
 /// The thrust of a scene of one, while it is on.
@@ -174,8 +177,37 @@ pub fn spring(bodies: &[Body], i: usize) -> usize {
     bodies[..i].iter().filter(|body| body.hinge.kick_off.is_some()).count()
 }
 
-/// A force or torque from outside on any of so many hinged bodies or on the main body, along any axes, always on or by a
-/// table over time, in whose first piece time zero is.
+/// Three rotors in a tree of so many hinged bodies, the first in the main body: at constant speeds,
+/// or by tables over time, in whose first pieces time zero is.
+pub fn rotors(dice: &mut Rng, bodies: usize) -> Vec<Rotor> {
+    let one = |i: usize| Rotor {
+        body: (i > 0).then(|| dice.below(bodies)),
+        axis: dice.direction(),
+        inertia: dice.between(0.05, 0.5),
+        speed: match dice.chance(0.3) {
+            true => RotorSpeed::Constant(dice.between(-30.0, 30.0)),
+            false => {
+                let mut speed = || dice.between(-30.0, 30.0);
+                RotorSpeed::Table(vec![[-0.7, speed()], [0.1, speed()], [0.2, speed()]])
+            }
+        },
+    };
+    (0..3).map(one).collect()
+}
+
+/// Speed and its rate of change of such a rotor at a time in the first piece of its table.
+pub fn turning(rotor: &Rotor, time: f64) -> [f64; 2] {
+    match &rotor.speed {
+        RotorSpeed::Constant(speed) => [*speed, 0.0],
+        RotorSpeed::Table(points) => {
+            let ([t0, s0], [t1, s1]) = (points[0], points[1]);
+            [(s0 * (t1 - time) + s1 * (time - t0)) / (t1 - t0), (s1 - s0) / (t1 - t0)]
+        }
+    }
+}
+
+/// A force or torque from outside on any of so many hinged bodies or on the main body, along any
+/// axes, always on or by a table over time, in whose first piece time zero is.
 pub fn external(dice: &mut Rng, bodies: usize) -> External {
     let either = |dice: &mut Rng| dice.chance(0.5);
     let body = dice.below(bodies + 1).checked_sub(1);
@@ -191,8 +223,8 @@ pub fn external(dice: &mut Rng, bodies: usize) -> External {
     External { body, kind, amount, axes, point, course }
 }
 
-/// A random tree in a random mode, often under forces and torques from outside; each hinge is held with probability
-/// `held`.
+/// A random tree in a random mode, often under forces and torques from outside; each hinge is held
+/// with probability `held`.
 pub fn moment(bodies: usize, seed: u64, held: f64) -> Moment {
     let mut description = description(bodies, seed);
     let dice = &mut Rng::new(seed ^ 0x0075);

@@ -248,7 +248,8 @@ fn checked_in_stresses_are_those_of_the_equations() {
     let mut found = vec![0.0; kernel.outputs];
     for case in 0..50 {
         let state = state::<golden::StressesS1>(case);
-        equations.evaluate(&SceneMotion::of_numbers(&state, 1, 0), &mut expected);
+        let motion = SceneMotion::of_numbers(&state, equations.motion_size());
+        equations.evaluate(&motion, &mut expected);
         let expected = expected.numbers();
         golden::StressesS1::evaluate(&constants, &state, &mut found);
         assert_eq!(found, expected, "case {case}");
@@ -260,13 +261,14 @@ fn checked_in_stresses_are_those_of_the_equations() {
 #[test]
 fn checked_in_stresses_judge_a_contradiction_as_the_equations_do() {
     let equations = stresses().equations;
+    let size = equations.motion_size();
     let kernels = [Kernel::of::<golden::StressesS1>()];
     let mut by_equations = Loads::by(equations.clone());
     let mut by_code = Loads::by(equations).with_kernels(&kernels);
     assert!(by_code.generated_for().is_some() && by_equations.generated_for().is_none());
     for case in 0..50 {
         let state = state::<golden::StressesS1>(case);
-        let motion = SceneMotion::of_numbers(&state, 1, 0);
+        let motion = SceneMotion::of_numbers(&state, size);
         let mut residual = |loads: &mut Loads| {
             let mut found = loads.load_set();
             loads.continuous(&motion, &mut found);

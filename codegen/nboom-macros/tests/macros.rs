@@ -92,15 +92,14 @@ fn a_routine_for_equations_gives_the_formulations_matrix() {
     assert!(Forced::EXTERNAL && !Forced::ASSUMPTIONS.is_empty());
 }
 
-/// Parameters of a right side for the sample with all hinges free, and what it gives at some variables;
-/// kick-off springs push or have let go.
+/// Parameters of a right side for the sample with all hinges free, and what it gives at some
+/// variables; kick-off springs push or have let go.
 fn sample_in_motion(pushed: bool) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let scene = sample();
     let hinges = scene.bodies.len();
     let start = Mode::at_start(&scene);
     let pieces = vec![usize::from(!pushed); start.pieces.len()];
-    let mode =
-        Mode { hinges: vec![HingeState::Free; hinges], pieces, externals: Vec::new(), drive: 0 };
+    let mode = Mode { hinges: vec![HingeState::Free; hinges], pieces, ..start };
     let mut dynamics = Recursive::<f64>::new(&scene);
     dynamics.set_mode(&mode, &vec![0.0; hinges]);
     let recognised = recognise(dynamics.tree()).expect("a chain and a paddle");

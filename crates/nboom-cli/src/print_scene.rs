@@ -1,7 +1,7 @@
 use nboom_model::{
     Base, Body, Coupling, Course, Dashpot, DrivePoint, External, ExternalAxes, ExternalKind, Hinge,
     HingeLabel, HingePlace, HingeState, Joint, KickOffSpring, MassProperties, Posture, Release,
-    Scene, Spring,
+    RotorSpeed, Scene, Spring,
 };
 use nboom_scalar::Vec3;
 
@@ -58,7 +58,16 @@ fn held(base: &Base) -> Option<String> {
 fn rotors(scene: &Scene, body: Option<usize>) -> impl Iterator<Item = String> {
     scene.rotors.iter().filter(move |rotor| rotor.body == body).map(|rotor| {
         let (axis, inertia) = (vector(rotor.axis), short(rotor.inertia, 6));
-        format!("rotor: axis {axis}, inertia {inertia}, {} per time unit", degrees(rotor.speed))
+        let speed = match &rotor.speed {
+            RotorSpeed::Constant(speed) => format!("{} per time unit", degrees(*speed)),
+            RotorSpeed::Table(points) => {
+                let point = |[time, speed]: &[f64; 2]| {
+                    format!("{} per time unit at {}", degrees(*speed), short(*time, 6))
+                };
+                points.iter().map(point).collect::<Vec<_>>().join(", ")
+            }
+        };
+        format!("rotor: axis {axis}, inertia {inertia}, {speed}")
     })
 }
 

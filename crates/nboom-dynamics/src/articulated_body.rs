@@ -150,11 +150,15 @@ pub(crate) fn bias<R: Real>(
         wrenches[j] = pose.inertia.inertia_wrench(omegas[j], twists[j]);
     }
     let mut of_main = inertia_wrench_at_rest(&tree.main, omega_body);
-    if tree.has_rotors {
+    if tree.has_rotors() {
         for (wrench, (pose, omega)) in wrenches.iter_mut().zip(poses.iter().zip(&*omegas)) {
-            wrench.moment += omega.cross(pose.spin);
+            if let Some(spin) = pose.spin {
+                wrench.moment += spin.moment(*omega);
+            }
         }
-        of_main.moment += omega_body.cross(tree.main_spin);
+        if let Some(spin) = tree.main_spin {
+            of_main.moment += spin.moment(omega_body);
+        }
     }
     of_main
 }

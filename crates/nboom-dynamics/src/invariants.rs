@@ -21,9 +21,10 @@ pub struct Invariants<R> {
     pub linear_momentum_scale: R,
     /// Sum of the magnitudes of the bodies' angular momenta about the mass centre.
     pub angular_momentum_scale: R,
-    /// Σ h̄·ω̄ of rotors with the momenta h̄ relative to bodies that turn at ω̄: the part of the kinetic energy
-    /// that their motors put in.
-    pub motor_work: R,
+    /// Σ h̄·ω̄ + Σ ½ J Ω² of rotors with the momenta h̄ relative to bodies that turn at ω̄: the
+    /// part of the kinetic energy that would not be there if all of them stood still in their
+    /// bodies.
+    pub rotor_energy: R,
 }
 
 /// Length of a line, and how it changes.
@@ -42,7 +43,8 @@ pub struct LineJoint<R> {
     pub position: usize,
     /// Whether it turns or slides.
     pub joint: Joint,
-    /// From it to what moves the end outboard of it: the next hinge at β = 0, or the end itself \[L\].
+    /// From it to what moves the end outboard of it: the next hinge at β = 0, or the end itself
+    /// \[L\].
     pub arm: R,
 }
 
@@ -73,19 +75,23 @@ impl<R: Real> Recursive<R> {
             angular_momentum: Vec3::zero(),
             linear_momentum_scale: R::zero(),
             angular_momentum_scale: R::zero(),
-            motor_work: R::zero(),
+            rotor_energy: R::zero(),
         };
         let from_center = origin_velocity - center_velocity;
         for (position, inertia, twist) in self.moving_links(motion.omega_body) {
             let relative = Twist { linear: twist.linear + from_center, ..twist };
             found.add_body(position - mass_center, inertia, relative, center_velocity);
         }
-        if self.tree.has_rotors {
-            found.add_rotors(motion.omega_body, self.tree.main_spin);
-            for (pose, twist) in self.poses.iter().zip(&self.twists) {
-                found.add_rotors(twist.angular, pose.spin);
+        if self.tree.has_rotors() {
+            if let Some(spin) = self.tree.main_spin {
+                found.add_rotors(motion.omega_body, spin.momentum);
             }
-            found.kinetic_energy += R::constant(self.rotor_energy);
+            for (pose, twist) in self.poses.iter().zip(&self.twists) {
+                if let Some(spin) = pose.spin {
+                    found.add_rotors(twist.angular, spin.momentum);
+                }
+            }
+            found.add_rotor_energy(self.energy_in_bodies());
         }
         found
     }
@@ -104,8 +110,8 @@ impl<R: Real> Recursive<R> {
         about_center.solve(momentum_body - of_hinges.angular_momentum)
     }
 
-    /// Length and rate of a line, by its place among [`Elements::lines`](nboom_elements::Elements), when
-    /// `of_hinge` gives β and τ of each free hinge that moves its end.
+    /// Length and rate of a line, by its place among [`Elements::lines`](nboom_elements::Elements),
+    /// when `of_hinge` gives β and τ of each free hinge that moves its end.
     ///
     /// # Panics
     /// When there are not so many lines.
@@ -170,7 +176,7 @@ impl<R: Real> Recursive<R> {
     }
 
     #[inline(always)]
-    fn velocities_with_origin_at_rest(&mut self, motion: &Motion<'_, R>) {
+    pub(crate) fn velocities_with_origin_at_rest(&mut self, motion: &Motion<'_, R>) {
         for (j, link) in self.tree.links.iter().enumerate() {
             let of_main = Twist { angular: motion.omega_body, linear: Vec3::zero() };
             let inboard = match link.inboard {
@@ -206,11 +212,14 @@ impl<R: Real> Invariants<R> {
     /// Adds the rotors of a body that turns at `omega`, whose momentum relative to it is `spin`.
     #[inline(always)]
     fn add_rotors(&mut self, omega: Vec3<R>, spin: Vec3<R>) {
-        let work = omega.dot(spin);
         self.angular_momentum += spin;
         self.angular_momentum_scale += spin.norm();
-        self.kinetic_energy += work;
-        self.motor_work += work;
+        self.add_rotor_energy(omega.dot(spin));
+    }
+
+    fn add_rotor_energy(&mut self, energy: R) {
+        self.kinetic_energy += energy;
+        self.rotor_energy += energy;
     }
 
     /// Adds a body whose hinge is at `arm` from the mass centre and moves as `relative` to it.

@@ -40,6 +40,7 @@ mod outside;
 mod pose;
 mod reaction;
 mod recursive;
+mod rotors;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};
 pub use invariants::{Invariants, LineJoint, LineLength};

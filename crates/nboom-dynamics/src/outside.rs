@@ -14,16 +14,19 @@ pub struct FromOutside<R> {
 }
 
 impl<R: Real> Recursive<R> {
-    /// Sets what acts from outside to what it is at the time `time` and the attitude `attitude` (of any norm), which
-    /// it keeps until it is set again.
+    /// Sets what acts from outside and the [speeds of rotors](Self::turn_rotors) to what they are
+    /// at the time `time` and the attitude `attitude` (of any norm), which they keep until set
+    /// again.
     #[inline(always)]
     pub fn set_outside(&mut self, attitude: Quaternion<R>, time: R) {
+        self.turn_rotors(time);
         if self.elements.pushes_vary() {
             self.elements.set_pushes(&attitude.normalized().to_matrix(), time);
         }
     }
 
-    /// What acts from outside in a motion whose energy and momenta are `found`, which were the last to be asked for.
+    /// What acts from outside in a motion whose energy and momenta are `found`, which were the last
+    /// to be asked for.
     #[inline(always)]
     pub fn outside(&self, motion: &Motion<'_, R>, found: &Invariants<R>) -> FromOutside<R> {
         let of_main = Twist { angular: motion.omega_body, linear: found.origin_velocity };
@@ -41,8 +44,8 @@ impl<R: Real> Recursive<R> {
         FromOutside { force: self.acting_from_outside().force, moment, power }
     }
 
-    /// The force from outside on all bodies together, main-body axes, at the angles `beta` of the free hinges; `None`
-    /// when nothing acts.
+    /// The force from outside on all bodies together, main-body axes, at the angles `beta` of the
+    /// free hinges; `None` when nothing acts.
     pub fn outside_force(&mut self, beta: &[R]) -> Option<Vec3<R>> {
         if !self.elements.acts_from_outside() {
             return None;

@@ -1,5 +1,5 @@
 use nboom_elements::Placed;
-use nboom_model::{Joint, Link, WeldedTree};
+use nboom_model::{Joint, Link, Spin, WeldedTree};
 use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 /// Constants of one link that follow from the tree.
@@ -8,8 +8,8 @@ pub(crate) struct LinkConstants<R> {
     joint: Joint,
     /// The hinge axis, inboard link's axes.
     axis_inboard: Vec3<R>,
-    /// Link axes seen from the inboard link: `still + along_cos cos β + along_sin sin β`; of a link that
-    /// slides `still` alone.
+    /// Link axes seen from the inboard link: `still + along_cos cos β + along_sin sin β`; of a link
+    /// that slides `still` alone.
     still: Mat3<R>,
     along_cos: Mat3<R>,
     along_sin: Mat3<R>,
@@ -43,7 +43,8 @@ impl<R: Real> LinkConstants<R> {
         }
     }
 
-    /// The link's origin from the inboard link's, when it is at `point` at β = 0; inboard link's axes.
+    /// The link's origin from the inboard link's, when it is at `point` at β = 0; inboard link's
+    /// axes.
     #[inline(always)]
     pub fn offset(&self, point: Vec3<R>, beta: R) -> Vec3<R> {
         match self.joint {
@@ -80,8 +81,8 @@ pub(crate) struct LinkPose<R> {
     pub axis: Vec3<R>,
     /// Mass properties about the hinge.
     pub inertia: RigidInertia<R>,
-    /// Angular momentum of its rotors relative to it.
-    pub spin: Vec3<R>,
+    /// That of its rotors, if it has some.
+    pub spin: Option<Spin<R>>,
 }
 
 impl<R: Real> LinkPose<R> {
@@ -93,7 +94,7 @@ impl<R: Real> LinkPose<R> {
             joint: Joint::Revolute,
             axis: Vec3::zero(),
             inertia: RigidInertia::zero(),
-            spin: Vec3::zero(),
+            spin: None,
         }
     }
 
@@ -160,9 +161,12 @@ pub(crate) fn turn_inertias<R: Real>(tree: &WeldedTree<R>, beta: &[R], poses: &m
     for (link, pose) in tree.links.iter().zip(&mut *poses) {
         pose.inertia = link.inertia.rotated(&pose.rot);
     }
-    if tree.has_rotors {
+    if tree.has_rotors() {
         for (link, pose) in tree.links.iter().zip(&mut *poses) {
-            pose.spin = pose.rot * link.spin;
+            pose.spin = match &link.spin {
+                Some(spin) => Some(spin.rotated(&pose.rot)),
+                None => None,
+            };
         }
     }
     for (link, turned) in &tree.turned {

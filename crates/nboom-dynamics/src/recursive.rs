@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use nboom_elements::{Commands, Elements};
-use nboom_model::{Joint, Mode, Rotors, Scene, WeldedTree};
+use nboom_model::{Joint, Mode, RotorMotion, Scene, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
@@ -52,8 +52,8 @@ pub struct Recursive<R> {
     pub(crate) tree: WeldedTree<R>,
     pub(crate) constants: Vec<LinkConstants<R>>,
     pub(crate) elements: Elements<R>,
-    /// Kinetic energy of all rotors relative to their bodies.
-    pub(crate) rotor_energy: f64,
+    /// How the rotors turn at a time, from which their speeds go on straight.
+    pub(crate) rotors: (R, Vec<RotorMotion<R>>),
     free: Vec<usize>,
     pub(crate) poses: Vec<LinkPose<R>>,
     pub(crate) hinges: Vec<HingeFactor<R>>,
@@ -75,7 +75,7 @@ impl<R: Real> Recursive<R> {
         let mut recursive = Self {
             scene: Arc::new(scene.clone()),
             elements: Elements::new(scene, &mode, &tree),
-            rotor_energy: Rotors::energy_of(&scene.rotors),
+            rotors: (R::constant(scene.initial.time), Vec::new()),
             tree,
             constants: Vec::new(),
             free: Vec::new(),
@@ -92,10 +92,14 @@ impl<R: Real> Recursive<R> {
         recursive
     }
 
-    /// Changes the mode; `beta` has the angle of every hinge of the scene \[rad\], of which
-    /// those of the held ones are built in.
+    /// Changes the mode; `beta` has the angle of every hinge of the scene \[rad\], of which those
+    /// of the held ones are built in. Rotors [go on](Self::spin_from) from the speeds with which
+    /// the scene starts.
     pub fn set_mode(&mut self, mode: &Mode, beta: &[R]) {
         self.tree = WeldedTree::new(&self.scene, mode, beta);
+        self.rotors.0 = R::constant(self.scene.initial.time);
+        self.rotors.1.clear();
+        self.rotors.1.extend(self.tree.rotors.iter().map(|rotor| rotor.motion));
         self.constants = self.tree.links.iter().map(LinkConstants::new).collect();
         self.elements = Elements::new(&self.scene, mode, &self.tree);
         self.free = self.tree.links.iter().map(|link| link.hinge).collect();
@@ -131,16 +135,17 @@ impl<R: Real> Recursive<R> {
 
     /// Whether [`acting_on_main_body`](Self::acting_on_main_body) is anything.
     pub fn acts_on_main_body(&self) -> bool {
-        self.tree.has_rotors || self.elements.acts_from_outside()
+        self.tree.has_rotors() || self.elements.acts_from_outside()
     }
 
-    /// All that acts from outside and the gyroscopic moment −ω̄ × h̄ of the rotors of the main body at the rate
-    /// `omega_body`, about O, main-body axes: what belongs to the motion of the main body beside the [generalised
-    /// forces](Self::hinge_forces) of the hinges, in the posture in which they were asked for.
+    /// All that acts from outside and the [moment](nboom_model::Spin::moment) of the rotors of the
+    /// main body at the rate `omega_body`, about O, main-body axes: what belongs to the motion of
+    /// the main body beside the [generalised forces](Self::hinge_forces) of the hinges, in the
+    /// posture in which they were asked for.
     pub fn acting_on_main_body(&self, omega_body: Vec3<R>) -> Wrench<R> {
         let mut acting = self.acting_from_outside();
-        if self.tree.has_rotors {
-            acting.moment -= omega_body.cross(self.tree.main_spin);
+        if let Some(spin) = self.tree.main_spin {
+            acting.moment -= spin.moment(omega_body);
         }
         acting
     }
@@ -151,8 +156,8 @@ impl<R: Real> Recursive<R> {
         self.accelerations_with(|_, _| {}, motion, out);
     }
 
-    /// [Accelerations](Self::accelerations) with further torques: `add` adds them to those about the free
-    /// hinges, which it gets with their numbers in the scene.
+    /// [Accelerations](Self::accelerations) with further torques: `add` adds them to those about
+    /// the free hinges, which it gets with their numbers in the scene.
     #[inline(always)]
     pub fn accelerations_with(
         &mut self,
@@ -181,8 +186,8 @@ impl<R: Real> Recursive<R> {
         self.forcing_in_place(motion, out);
     }
 
-    /// B₀ and u₀ of one motion, as [`mass_matrix`](Self::mass_matrix) and [`forcing`](Self::forcing)
-    /// give them; the links are placed once.
+    /// B₀ and u₀ of one motion, as [`mass_matrix`](Self::mass_matrix) and
+    /// [`forcing`](Self::forcing) give them; the links are placed once.
     pub fn equations(&mut self, motion: &Motion<'_, R>, matrix: &mut [R], forcing: &mut [R]) {
         self.mass_matrix(motion.beta, matrix);
         self.forcing_in_place(motion, forcing);
@@ -197,11 +202,11 @@ impl<R: Real> Recursive<R> {
         of_base.copy_from_slice(&[f.x, f.y, f.z, m.x, m.y, m.z]);
     }
 
-    /// Generalised forces conjugate to the free hinges' angles: torques about hinges, forces along lines, and what
-    /// acts on links from outside, eqs. (6.1) and (6.17), corrected: note 5.
+    /// Generalised forces conjugate to the free hinges' angles: torques about hinges, forces along
+    /// lines, and what acts on links from outside, eqs. (6.1) and (6.17), corrected: note 5.
     ///
-    /// The reaction of a line on the main body leaves no resultant, so nothing else of it enters the
-    /// equations.
+    /// The reaction of a line on the main body leaves no resultant, so nothing else of it enters
+    /// the equations.
     #[inline(always)]
     pub fn hinge_forces(&mut self, motion: &Motion<'_, R>, out: &mut [R]) {
         let Self { elements, free, tree, constants, poses, .. } = self;
@@ -241,8 +246,8 @@ impl<R: Real> Recursive<R> {
         self.base = articulated_body::factor(tree, poses, &mut self.articulated, &mut self.hinges);
     }
 
-    /// (ω̇, a_O), which are `held` if something, and τ̇ from what acts against the main link, about O, the
-    /// `wrenches` against all others, and the hinge torques in `tau_dot`.
+    /// (ω̇, a_O), which are `held` if something, and τ̇ from what acts against the main link, about
+    /// O, the `wrenches` against all others, and the hinge torques in `tau_dot`.
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,
@@ -290,8 +295,8 @@ impl<R: Real> Recursive<R> {
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Recursive<f64> {
-    /// The first free hinge (numbered as in the scene; `Some(None)` is the main body) about
-    /// which, or along which where it slides, nothing has inertia at the angles `beta` of the free hinges.
+    /// The first free hinge (numbered as in the scene; `Some(None)` is the main body) about which,
+    /// or along which where it slides, nothing has inertia at the angles `beta` of the free hinges.
     pub fn singular_hinge(&mut self, beta: &[f64]) -> Option<Option<usize>> {
         self.factor(beta);
         let regular = |j: usize| {

@@ -16,8 +16,8 @@ pub struct Forces<R> {
     pub laws: Vec<HingeLaw<R>>,
     /// External wrench about O, main-body axes.
     pub external: Wrench<R>,
-    /// The lines that push the hinges' links, at the places of [`RightSideLayout::lines`]; empty where
-    /// nothing pushes any.
+    /// The lines that push the hinges' links, at the places of [`RightSideLayout::lines`]; empty
+    /// where nothing pushes any.
     pub lines: Vec<LinkLine<R>>,
 }
 
@@ -183,17 +183,17 @@ fn push<R: Real>(
 impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
-    /// `None` where a right side has no place for them: where a free hinge has a torque table or is coupled,
-    /// where there are rotors, where more lines push one link than [`RightSideLayout::LINES_OF_LINK`], where a
-    /// line does not transmit all of its moment, and where something from outside acts on a hinged link or is
-    /// not constant along main-body axes.
+    /// `None` where a right side has no place for them: where a free hinge has a torque table or is
+    /// coupled, where there are rotors, where more lines push one link than
+    /// [`RightSideLayout::LINES_OF_LINK`], where a line does not transmit all of its moment, and
+    /// where something from outside acts on a hinged link or is not constant along main-body axes.
     pub fn of(
         elements: &Elements<f64>,
         tree: &WeldedTree<f64>,
         recognised: &Recognised,
     ) -> Option<Self> {
         let is_pushed = elements.pushes_vary() || elements.on_links().next().is_some();
-        if elements.withholds() || elements.couples() || tree.has_rotors || is_pushed {
+        if elements.withholds() || elements.couples() || tree.has_rotors() || is_pushed {
             return None;
         }
         let mut forces = Self::none(recognised.links.len());

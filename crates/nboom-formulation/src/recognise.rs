@@ -17,8 +17,8 @@ pub struct Recognised {
     pub frames: Vec<LinkFrame>,
 }
 
-/// The frame of a link of a chain or paddle, ê₁ along the first hinge of the appendage, as it stands in
-/// the link's axes.
+/// The frame of a link of a chain or paddle, ê₁ along the first hinge of the appendage, as it
+/// stands in the link's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkFrame {
     /// Turns components along the frame into link components.
@@ -28,7 +28,8 @@ pub struct LinkFrame {
 }
 
 impl LinkFrame {
-    /// A point of the link, given from its hinge in link axes, from the frame's origin along the frame.
+    /// A point of the link, given from its hinge in link axes, from the frame's origin along the
+    /// frame.
     pub fn point(&self, from_hinge: Vec3<f64>) -> Vec3<f64> {
         self.rot.transpose_mul(from_hinge) + Vec3::unit_x() * self.along
     }
@@ -55,9 +56,9 @@ const SAME_AXIS: f64 = 1e-12;
 /// Writes the tree as chains and paddles.
 ///
 /// # Errors
-/// When the main body is held, or with the first link that does not fit: one that is not rigid, carries a
-/// rotor or slides, one of two links on the same inboard link, or one whose axis is neither that of a chain
-/// nor that of a paddle.
+/// When the main body is held, or with the first link that does not fit: one that is not rigid,
+/// carries a rotor or slides, one of two links on the same inboard link, or one whose axis is
+/// neither that of a chain nor that of a paddle.
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
     if tree.held.is_some() {
         return Err(Uncovered::HeldBase);
@@ -67,7 +68,7 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
 }
 
 fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
-    let is_other = |link: &Link<f64>| link.joint.slides() || link.spin != Vec3::zero();
+    let is_other = |link: &Link<f64>| link.joint.slides() || link.spin.is_some();
     tree.links.iter().position(is_other).map_or(Ok(()), Err)?;
     let mut appendages: Vec<Appendage> = Vec::new();
     for root in (0..tree.links.len()).filter(|&j| tree.links[j].inboard.is_none()) {

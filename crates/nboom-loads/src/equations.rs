@@ -4,8 +4,8 @@ use nboom_model::{ExternalAxes, ExternalKind, Joint, Scene, Structure};
 use nboom_scalar::{Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::load_set::LoadSet;
-use crate::motion::SceneMotion;
-use crate::segment::{Influence, Segment};
+use crate::motion::{MotionSize, SceneMotion};
+use crate::segment::{Carried, Influence, Segment};
 
 /// The equations of the loads of one scene, on any scalar.
 ///
@@ -115,9 +115,14 @@ impl<R: Real> LoadEquations<R> {
         self.segments.len()
     }
 
-    /// How many forces and torques act from outside on hinged bodies.
-    pub fn externals(&self) -> usize {
-        self.segments.iter().map(|segment| segment.outside.len()).sum()
+    /// Of how much a motion is that loads follow from.
+    pub fn motion_size(&self) -> MotionSize {
+        let of_segments = |count: fn(&Segment<R>) -> usize| self.segments.iter().map(count).sum();
+        MotionSize {
+            hinges: self.hinges(),
+            externals: of_segments(|segment| segment.outside.len()),
+            rotors: of_segments(|segment| segment.rotors.len()),
+        }
     }
 
     /// Zero loads of this scene, to be filled in.
@@ -234,8 +239,9 @@ fn gather<R: Real>(
 ) {
     for (i, (segment, place)) in segments.iter().zip(&mut *places).enumerate() {
         out.hinges[i] = place.inertia_wrench(&segment.inertia);
-        if let Some(spin) = segment.spin {
-            out.hinges[i].moment += place.omega.cross(spin);
+        for Carried { place: rotor, along } in &segment.rotors {
+            let [speed, acceleration] = motion.rotors[*rotor];
+            out.hinges[i].moment += place.omega.cross(*along * speed) + *along * acceleration;
         }
         place.size = place.inertia_size(&segment.inertia);
         for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {

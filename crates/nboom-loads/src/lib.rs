@@ -29,6 +29,7 @@
 //!     acceleration: steady,
 //!     force_densities: &[0.0],
 //!     outside: &[],
+//!     rotors: &[],
 //! };
 //! loads.continuous(&spin, &mut found);
 //! // The hinge pulls the boom, whose mass centre turns at a radius of 2, inward: m ω² r.
@@ -47,5 +48,5 @@ pub use equations::LoadEquations;
 pub use generated::RESULT;
 pub use load_set::LoadSet;
 pub use loads::Loads;
-pub use motion::{LockUpShare, SceneMotion, VelocityChange};
+pub use motion::{LockUpShare, MotionSize, SceneMotion, VelocityChange};
 pub use segment::Influence;

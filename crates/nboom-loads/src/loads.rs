@@ -4,7 +4,7 @@ use nboom_scalar::{Kernel, Vec3};
 use crate::equations::LoadEquations;
 use crate::generated::Generated;
 use crate::load_set::LoadSet;
-use crate::motion::{LockUpShare, SceneMotion, VelocityChange};
+use crate::motion::{LockUpShare, MotionSize, SceneMotion, VelocityChange};
 
 /// Finds hinge and station loads of one scene, and what describes stresses.
 ///
@@ -24,6 +24,7 @@ struct Still {
     /// One for each hinge.
     of_hinges: Vec<f64>,
     outside: Vec<[f64; 3]>,
+    rotors: Vec<[f64; 2]>,
 }
 
 /// The equations, and code in their place.
@@ -44,7 +45,7 @@ impl LoadCode {
 
 /// The motion whose loads are the impulses of `jump`: at rest, with jumps for accelerations.
 fn suddenly<'a>(still: &'a Still, beta: &'a [f64], jump: &VelocityChange<'a>) -> SceneMotion<'a> {
-    let Still { of_hinges, outside } = still;
+    let Still { of_hinges, outside, rotors } = still;
     SceneMotion {
         omega_body: Vec3::zero(),
         beta,
@@ -52,6 +53,7 @@ fn suddenly<'a>(still: &'a Still, beta: &'a [f64], jump: &VelocityChange<'a>) ->
         acceleration: *jump,
         force_densities: of_hinges,
         outside,
+        rotors,
     }
 }
 
@@ -65,17 +67,20 @@ impl Loads {
 
     /// The loads by these equations.
     pub fn by(equations: LoadEquations) -> Self {
+        let MotionSize { hinges, externals, rotors } = equations.motion_size();
         Self {
             impulses: equations.load_set(),
             still: Still {
-                of_hinges: vec![0.0; equations.hinges()],
-                outside: vec![[0.0; 3]; equations.externals()],
+                of_hinges: vec![0.0; hinges],
+                outside: vec![[0.0; 3]; externals],
+                rotors: vec![[0.0; 2]; rotors],
             },
             code: LoadCode { equations, generated: None },
         }
     }
 
-    /// Computes loads by the first of `kernels` that was generated from these equations, if one was.
+    /// Computes loads by the first of `kernels` that was generated from these equations, if one
+    /// was.
     pub fn with_kernels(mut self, kernels: &[Kernel]) -> Self {
         self.code.generated = Generated::of(kernels, &self.code.equations.numbers());
         self
@@ -96,7 +101,8 @@ impl Loads {
         self.code.equations.load_set()
     }
 
-    /// Loads by the motion, the forces along lines and what acts from outside: eqs. (10.4) to (10.6), corrected: note 24.
+    /// Loads by the motion, the forces along lines and what acts from outside: eqs. (10.4) to
+    /// (10.6), corrected: note 24.
     pub fn continuous(&mut self, motion: &SceneMotion<'_>, out: &mut LoadSet) {
         self.code.evaluate(motion, out);
     }
@@ -126,8 +132,9 @@ impl Loads {
         }
     }
 
-    /// The free hinge at which the load about the axis (along it where it slides) departs most from the
-    /// `torques` that act there, and by which share of what the load is made of; `None` when all are held.
+    /// The free hinge at which the load about the axis (along it where it slides) departs most from
+    /// the `torques` that act there, and by which share of what the load is made of; `None` when
+    /// all are held.
     ///
     /// Of a motion, torques are those of springs and dashpots; of impulses, those of latches.
     pub fn largest_torque_residual(

@@ -12,6 +12,25 @@ pub struct VelocityChange<'a, R = f64> {
     pub tau: &'a [R],
 }
 
+/// Of how many hinges, forces and torques from outside on hinged bodies, and rotors in hinged
+/// bodies a motion is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MotionSize {
+    /// Hinges.
+    pub hinges: usize,
+    /// Forces and torques from outside on hinged bodies.
+    pub externals: usize,
+    /// Rotors in hinged bodies.
+    pub rotors: usize,
+}
+
+impl MotionSize {
+    /// How many numbers such a motion is.
+    pub fn count(self) -> usize {
+        9 + 4 * self.hinges + 3 * self.externals + 2 * self.rotors
+    }
+}
+
 /// The motion of a scene at one time; slices have one entry for each hinge of the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct SceneMotion<'a, R = f64> {
@@ -26,25 +45,25 @@ pub struct SceneMotion<'a, R = f64> {
     /// Force along the line from the main body to the body of each hinge over its length, its force
     /// density; zero where none acts \[F/L\].
     pub force_densities: &'a [R],
-    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where one does not act. Body
-    /// axes, or main-body axes where it is given along inertial ones \[F, FL\].
+    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where
+    /// one does not act. Body axes, or main-body axes where it is given along inertial ones \[F,
+    /// FL\].
     pub outside: &'a [[R; 3]],
+    /// Speed relative to its body, and the rate of change of that, of each rotor in a hinged body,
+    /// as the scene lists them \[rad/T, rad/T²\].
+    pub rotors: &'a [[R; 2]],
 }
 
 impl<'a, R: Real> SceneMotion<'a, R> {
-    /// How many numbers a motion is of so many hinges and so many forces and torques from outside on hinged bodies.
-    pub fn count(hinges: usize, externals: usize) -> usize {
-        9 + 4 * hinges + 3 * externals
-    }
-
     /// The motion in a row of numbers: ω, the acceleration of O, ω̇, then β, τ, τ̇ and the force
-    /// densities of all hinges, then what acts from outside.
+    /// densities of all hinges, then what acts from outside, then the rotors.
     ///
     /// # Panics
-    /// When there are not [`count`](Self::count) of them.
-    pub fn of_numbers(numbers: &'a [R], hinges: usize, externals: usize) -> Self {
-        let count = Self::count(hinges, externals);
-        assert_eq!(numbers.len(), count, "one number for each quantity");
+    /// When there are not [`count`](MotionSize::count) of them.
+    pub fn of_numbers(numbers: &'a [R], size: MotionSize) -> Self {
+        assert_eq!(numbers.len(), size.count(), "one number for each quantity");
+        let MotionSize { hinges, externals, .. } = size;
+        let (outside, rotors) = numbers[9 + 4 * hinges..].split_at(3 * externals);
         let vector = |at: usize| Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2]);
         let of_hinges = |row: usize| &numbers[9 + row * hinges..9 + (row + 1) * hinges];
         Self {
@@ -57,7 +76,8 @@ impl<'a, R: Real> SceneMotion<'a, R> {
                 tau: of_hinges(2),
             },
             force_densities: of_hinges(3),
-            outside: numbers[9 + 4 * hinges..].as_chunks().0,
+            outside: outside.as_chunks().0,
+            rotors: rotors.as_chunks().0,
         }
     }
 
@@ -73,8 +93,10 @@ impl<'a, R: Real> SceneMotion<'a, R> {
             place.copy_from_slice(&vector.to_array());
         }
         let hinges = self.beta.len();
-        let (of_hinges, outside) = of_hinges.split_at_mut(4 * hinges);
+        let (of_hinges, rest) = of_hinges.split_at_mut(4 * hinges);
+        let (outside, rotors) = rest.split_at_mut(3 * self.outside.len());
         outside.copy_from_slice(self.outside.as_flattened());
+        rotors.copy_from_slice(self.rotors.as_flattened());
         for (row, values) in [self.beta, self.tau, tau, self.force_densities].iter().enumerate() {
             of_hinges[row * hinges..(row + 1) * hinges].copy_from_slice(values);
         }

@@ -1,7 +1,7 @@
 use nboom_elements::Ends;
 use nboom_model::{
-    External, ExternalAxes, ExternalKind, Joint, MassProperties, Scene, SegmentStructure, Station,
-    Structure,
+    External, ExternalAxes, ExternalKind, Joint, MassProperties, Rotor, Scene, SegmentStructure,
+    Station, Structure,
 };
 use nboom_scalar::{Mat3, Real, RigidInertia, Vec3};
 
@@ -20,8 +20,8 @@ pub(crate) struct Segment<R> {
     pub axis: Vec3<R>,
     /// Of the whole segment, about the hinge; of rotors at rest.
     pub inertia: RigidInertia<R>,
-    /// Angular momentum of its rotors relative to it, if it has some. They count as being at the hinge.
-    pub spin: Option<Vec3<R>>,
+    /// Its rotors. They count as being at the hinge.
+    pub rotors: Vec<Carried<R>>,
     /// The outermost station of the inboard body that carries this one.
     pub carried_from: usize,
     pub stations: Vec<Cut<R>>,
@@ -39,6 +39,15 @@ pub(crate) struct Outside<R> {
     pub point: Vec3<R>,
     /// The outermost station that carries it.
     pub carried_from: usize,
+}
+
+/// A rotor in a segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Carried<R> {
+    /// Its place among those in hinged bodies.
+    pub place: usize,
+    /// J ā: inertia about its axis along a unit vector there.
+    pub along: Vec3<R>,
 }
 
 /// A station and what of its segment is outboard of it.
@@ -75,7 +84,7 @@ impl<R: Copy> Segment<R> {
             rot_inboard_at_zero: self.rot_inboard_at_zero.map(&mut f),
             axis: self.axis.map(&mut f),
             inertia: self.inertia.map(&mut f),
-            spin: self.spin.map(|spin| spin.map(&mut f)),
+            rotors: self.rotors.iter().map(|rotor| rotor.map(&mut f)).collect(),
             carried_from: self.carried_from,
             stations: self.stations.iter().map(|cut| cut.map(&mut f)).collect(),
             push: self.push.map(|push| push.map(&mut f)),
@@ -89,10 +98,11 @@ impl<R: Copy> Segment<R> {
         let push = self.push.as_ref().map(|push| push.carried_from);
         let sections = self.stations.iter().filter(|cut| cut.influence.is_some()).count();
         let stations = self.stations.len();
-        let [slides, spins] = [self.joint.slides(), self.spin.is_some()].map(usize::from);
+        let (slides, rotors) = (usize::from(self.joint.slides()), self.rotors.len());
         let (inboard, push, outside) = (counted(self.inboard), counted(push), self.outside.len());
         let mut counts =
-            vec![inboard, self.carried_from, stations, sections, push, slides, spins, outside];
+            vec![inboard, self.carried_from, stations, sections, push, slides, rotors, outside];
+        counts.extend(self.rotors.iter().map(|rotor| rotor.place));
         for Outside { place, kind, axes, carried_from, .. } in &self.outside {
             let turns = usize::from(*axes == ExternalAxes::Inertial);
             let is_torque = usize::from(*kind == ExternalKind::Torque);
@@ -132,6 +142,12 @@ impl<R: Copy> Push<R> {
     }
 }
 
+impl<R: Copy> Carried<R> {
+    fn map<S>(&self, f: impl FnMut(R) -> S) -> Carried<S> {
+        Carried { place: self.place, along: self.along.map(f) }
+    }
+}
+
 impl<R: Copy> Outside<R> {
     fn map<S>(&self, f: impl FnMut(R) -> S) -> Outside<S> {
         let Self { place, kind, axes, carried_from, .. } = *self;
@@ -163,11 +179,16 @@ impl Segment<f64> {
             point,
             carried_from: carried_from(stations_of(i), point),
         });
-        let rotors = scene.rotors_of(Some(i));
+        let rotors = scene.rotors_in_hinged().enumerate();
+        let rotors = rotors.filter(|(_, rotor)| rotor.body == Some(i));
+        let carried = |(place, rotor): (usize, &Rotor)| {
+            let along = rotor.axis * rotor.inertia;
+            Carried { place, along }
+        };
         let mut inertia = about_hinge(&body.mass_properties);
-        inertia.about_origin += rotors.inertia;
+        inertia.about_origin += scene.rotor_inertia_of(Some(i));
         Self {
-            spin: Some(rotors.momentum).filter(|spin| *spin != Vec3::zero()),
+            rotors: rotors.map(carried).collect(),
             inboard: body.inboard,
             joint: body.joint,
             point: body.mount.point,

@@ -73,6 +73,7 @@ fn rigid(
         acceleration,
         force_densities,
         outside: &[],
+        rotors: &[],
     };
     loads.continuous(&motion, &mut found);
     found
@@ -140,8 +141,15 @@ fn a_swinging_boom_has_the_hinge_rates_and_its_own_axes() {
     let zero = Vec3::zero();
     let acceleration = VelocityChange { origin_body: zero, omega_body: zero, tau: &[2.5] };
     let (omega_body, beta, tau) = (zero, &[0.4], &[0.6]);
-    let motion =
-        SceneMotion { omega_body, beta, tau, acceleration, force_densities: &[0.0], outside: &[] };
+    let motion = SceneMotion {
+        omega_body,
+        beta,
+        tau,
+        acceleration,
+        force_densities: &[0.0],
+        outside: &[],
+        rotors: &[],
+    };
     loads.continuous(&motion, &mut found);
     for (load, s) in found.stations(0).iter().zip(STATIONS) {
         let (force, moment) = bending(0.0, 2.5, s);
@@ -214,6 +222,7 @@ fn a_station_does_not_depend_on_others() {
             acceleration,
             force_densities,
             outside: &[],
+            rotors: &[],
         };
         loads.continuous(&motion, &mut found);
         for (alone, beside) in [(0, j), (1, STATIONS.len() - 1)] {
@@ -265,8 +274,15 @@ fn a_second_boom_is_carried_by_the_stations_inboard_of_it() {
     let acceleration =
         VelocityChange { origin_body: Vec3::unit_x(), omega_body: zero, tau: &[0.0; 2] };
     let (beta, tau, force_densities) = (&[0.0; 2], &[0.0; 2], &[0.0; 2]);
-    let motion =
-        SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities, outside: &[] };
+    let motion = SceneMotion {
+        omega_body: zero,
+        beta,
+        tau,
+        acceleration,
+        force_densities,
+        outside: &[],
+        rotors: &[],
+    };
     loads.continuous(&motion, &mut found);
     assert_near(found.hinge(1).force, [MASS, 0.0, 0.0]);
     assert_near(found.hinge(1).moment, [0.0, 0.0, -MASS]);
@@ -290,8 +306,15 @@ fn the_hinge_that_is_out_of_balance_most_is_named_wherever_it_is() {
     let (zero, tau_dot) = (Vec3::zero(), [2.0, 3.0]);
     let acceleration = VelocityChange { origin_body: zero, omega_body: zero, tau: &tau_dot };
     let (beta, tau, force_densities) = (&[0.0; 2], &[0.0; 2], &[0.0; 2]);
-    let motion =
-        SceneMotion { omega_body: zero, beta, tau, acceleration, force_densities, outside: &[] };
+    let motion = SceneMotion {
+        omega_body: zero,
+        beta,
+        tau,
+        acceleration,
+        force_densities,
+        outside: &[],
+        rotors: &[],
+    };
     loads.continuous(&motion, &mut found);
     let torques = tau_dot.map(|tau_dot| MASS * LENGTH * LENGTH / 3.0 * tau_dot);
     let free = [HingeState::Free; 2];

@@ -1,6 +1,6 @@
 use nboom_scalar::Vec3;
 
-use crate::{Gravity, InitialMotion};
+use crate::{Gravity, InitialMotion, over_time};
 
 /// How the main body is held.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,8 +14,8 @@ pub enum Base {
     Driven(Drive),
 }
 
-/// A motion that is prescribed for the main body: it turns about an axis through O and slides along it. The axis
-/// keeps its direction in the main body and in space.
+/// A motion that is prescribed for the main body: it turns about an axis through O and slides along
+/// it. The axis keeps its direction in the main body and in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Unit vector along the axis, main-body axes.
@@ -24,8 +24,8 @@ pub struct Drive {
     pub points: Vec<DrivePoint>,
 }
 
-/// A time of a prescribed motion: rate and speed are straight between two of them, and constant before the first
-/// and after the last.
+/// A time of a prescribed motion: rate and speed are straight between two of them, and constant
+/// before the first and after the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrivePoint {
     /// \[T\]
@@ -34,6 +34,12 @@ pub struct DrivePoint {
     pub rate: f64,
     /// Speed along the axis \[L/T\].
     pub speed: f64,
+}
+
+impl over_time::Row for DrivePoint {
+    fn time(&self) -> f64 {
+        self.time
+    }
 }
 
 impl Base {
@@ -52,31 +58,29 @@ impl Base {
 
     /// The piece of the prescribed motion that holds at `time`: 0 before its first point.
     pub fn piece_at(&self, time: f64) -> usize {
-        let points = self.drive().map_or(&[][..], |drive| &drive.points);
-        points.iter().take_while(|point| point.time <= time).count()
+        self.drive().map_or(0, |drive| over_time::piece_at(&drive.points, time))
     }
 
     /// When a piece of the prescribed motion ends, unless it is the last one.
     pub fn end_of(&self, piece: usize) -> Option<f64> {
-        Some(self.drive()?.points.get(piece)?.time)
+        over_time::end_of(&self.drive()?.points, piece)
     }
 
-    /// Angular acceleration of a main body that is held, and that of O, main-body axes, in a piece of its
-    /// prescribed motion.
+    /// Angular acceleration of a main body that is held, and that of O, main-body axes, in a piece
+    /// of its prescribed motion.
     pub fn accelerations(&self, piece: usize) -> [Vec3<f64>; 2] {
         let Some(drive) = self.drive() else { return [Vec3::zero(); 2] };
-        let [before, after] = drive.around(piece);
-        let duration = after.time - before.time;
-        let slope = |change: f64| if duration > 0.0 { change / duration } else { 0.0 };
-        [after.rate - before.rate, after.speed - before.speed].map(|of| drive.axis * slope(of))
+        drive.lines(piece).map(|line| drive.axis * over_time::slope(line))
     }
 }
 
-/// Departure from a unit vector, or of gravity from the axis, that is taken for rounding in the input.
+/// Departure from a unit vector, or of gravity from the axis, that is taken for rounding in the
+/// input.
 const SAME_DIRECTION: f64 = 1e-9;
 
 impl Drive {
-    /// What is wrong with it in a scene that begins so and has this gravity, and what would be right.
+    /// What is wrong with it in a scene that begins so and has this gravity, and what would be
+    /// right.
     pub(crate) fn defect(
         &self,
         initial: &InitialMotion,
@@ -103,17 +107,17 @@ impl Drive {
 
     /// Rate about the axis and speed along it at `time`.
     pub fn rates_at(&self, time: f64) -> [f64; 2] {
-        let piece = self.points.iter().take_while(|point| point.time <= time).count();
-        let [before, after] = self.around(piece);
-        let duration = after.time - before.time;
-        let share = if duration > 0.0 { (time - before.time) / duration } else { 0.0 };
-        let between = |from: f64, to: f64| from + share * (to - from);
-        [between(before.rate, after.rate), between(before.speed, after.speed)]
+        let lines = self.lines(over_time::piece_at(&self.points, time));
+        lines.map(|line| over_time::value_at(line, time))
     }
 
-    /// The points between which a piece is straight, the same one twice where it is constant.
-    fn around(&self, piece: usize) -> [DrivePoint; 2] {
-        let last = self.points.len() - 1;
-        [piece.saturating_sub(1), piece].map(|i| self.points[i.min(last)])
+    /// Rate and speed of a piece, each with its time at the two points between which it is
+    /// straight.
+    fn lines(&self, piece: usize) -> [[[f64; 2]; 2]; 2] {
+        let around = over_time::around(&self.points, piece);
+        [
+            around.map(|point| [point.time, point.rate]),
+            around.map(|point| [point.time, point.speed]),
+        ]
     }
 }

@@ -29,7 +29,7 @@ pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<Model
 
 fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     for (i, rotor) in scene.rotors.iter().enumerate() {
-        let Rotor { body, axis, inertia, speed } = *rotor;
+        let Rotor { body, axis, inertia, ref speed } = *rotor;
         let mut error = |defect, expected| {
             errors.push(ModelError::Rotor { rotor: i + 1, body, defect, expected });
         };
@@ -42,8 +42,8 @@ fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
         if !(inertia > 0.0 && inertia.is_finite()) {
             error(format!("inertia {inertia}"), "a positive finite inertia");
         }
-        if !speed.is_finite() {
-            error(format!("speed {speed}"), "a finite speed");
+        if let Some((found, expected)) = speed.defect() {
+            error(found, expected);
         }
     }
 }
@@ -176,8 +176,8 @@ fn find_in_tree(
     }
 }
 
-/// A body that carries others may be without mass, as the ring between the axes of a gimbal; so may a wheel
-/// on which nothing hangs, whose inertia is about its axis alone.
+/// A body that carries others may be without mass, as the ring between the axes of a gimbal; so may
+/// a wheel on which nothing hangs, whose inertia is about its axis alone.
 fn find_in_mass(
     scene: &SceneDescription,
     label: &HingeLabel,

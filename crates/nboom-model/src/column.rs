@@ -5,7 +5,7 @@ use crate::{HingeLabel, Quantity};
 pub struct Column {
     /// What it has.
     pub quantity: Quantity,
-    /// Which of its numbers, from 0.
+    /// Which of its numbers, from 0; of a quantity of rotors, which rotor of the scene.
     pub component: usize,
     /// The hinge, of a quantity of hinges.
     pub hinge: Option<usize>,
@@ -24,6 +24,12 @@ impl WantedTable {
     /// Whether it asks for something that only a main body that is held has.
     pub fn is_of_held_body(&self) -> bool {
         self.columns.iter().any(|column| Quantity::OF_A_HELD_BODY.contains(&column.quantity))
+    }
+
+    /// Whether it asks for something that takes an evaluation of the equations of motion.
+    pub fn needs_detail(&self) -> bool {
+        let asks = |column: &Column| column.quantity == Quantity::MotorTorque;
+        self.is_of_held_body() || self.columns.iter().any(asks)
     }
 
     /// Whether this column is in degrees, of a scene with these hinges.
@@ -56,18 +62,26 @@ impl Column {
         before.chain(of(&Quantity::AFTER_HINGES, None)).collect()
     }
 
-    /// Those that `text` names: a quantity (`omega`; of hinges that of all, `beta`), the quantity of a
-    /// hinge by its body's name (`beta of inner boom`), or one column as the table of states calls it
-    /// (`omega_x`, `beta_1_2`).
+    /// Those that `text` names: a quantity (`omega`; of hinges that of all, `beta`), the quantity
+    /// of a hinge by its body's name (`beta of inner boom`), or one column as the table of states
+    /// calls it (`omega_x`, `beta_1_2`). There are so many `rotors`, which have columns too
+    /// (`rotor_speed_1`).
     ///
     /// # Errors
     /// When it names none.
-    pub fn named(text: &str, hinges: &[HingeLabel]) -> Result<Vec<Self>, UnknownColumn> {
+    pub fn named(
+        text: &str,
+        hinges: &[HingeLabel],
+        rotors: usize,
+    ) -> Result<Vec<Self>, UnknownColumn> {
         if let Some((quantity, body)) = text.split_once(" of ") {
             return Self::of_body(text, quantity, body, hinges);
         }
         let mut all = Self::all(hinges.len());
         all.extend(Quantity::OF_A_HELD_BODY.into_iter().flat_map(|held| Self::of(held, None)));
+        all.extend(Quantity::OF_A_ROTOR.into_iter().flat_map(|quantity| {
+            (0..rotors).map(move |component| Self { quantity, component, hinge: None })
+        }));
         let is_meant =
             |column: &&Self| column.quantity.name() == text || column.name(hinges) == text;
         let named: Vec<Self> = all.iter().filter(is_meant).copied().collect();
@@ -106,6 +120,9 @@ impl Column {
 
     /// What tables call it.
     pub fn name(&self, hinges: &[HingeLabel]) -> String {
+        if self.quantity.is_of_rotor() {
+            return format!("{}_{}", self.quantity.name(), self.component + 1);
+        }
         let name = self.quantity.columns()[self.component];
         match self.hinge.map(|hinge| hinges[hinge].numbers()) {
             Some([appendage, segment]) => format!("{name}_{appendage}_{segment}"),

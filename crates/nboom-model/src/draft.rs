@@ -1,4 +1,5 @@
-//! A scene in words: bodies refer to each other by name, and one may stand for several about an axis.
+//! A scene in words: bodies refer to each other by name, and one may stand for several about an
+//! axis.
 
 mod names;
 mod repeat;
@@ -39,7 +40,8 @@ pub struct BodyDraft {
     pub mass_properties: MassProperties,
     /// The outer end, from the hinge, body axes.
     pub tip: Vec3<f64>,
-    /// What acts about the hinge, and how it starts and locks; `release` takes the place of its own.
+    /// What acts about the hinge, and how it starts and locks; `release` takes the place of its
+    /// own.
     pub hinge: Hinge,
     /// When the hinge becomes free, if it starts unreleased.
     pub release: ReleaseDraft,
@@ -82,8 +84,8 @@ pub struct CouplingDraft {
 pub enum ReleaseDraft {
     /// At this time \[T\].
     At(f64),
-    /// When the hinge of the body `when` passes the relative angle `passes` \[rad\] either way; where it slides
-    /// the travel \[L\].
+    /// When the hinge of the body `when` passes the relative angle `passes` \[rad\] either way;
+    /// where it slides the travel \[L\].
     Passes {
         /// Name of the body.
         when: String,
@@ -104,8 +106,8 @@ pub enum ReleaseDraft {
 }
 
 impl BodyDraft {
-    /// A body on the main body with a free hinge at `point`, about `axis` (a unit vector), main-body
-    /// axes.
+    /// A body on the main body with a free hinge at `point`, about `axis` (a unit vector),
+    /// main-body axes.
     pub fn new(
         name: &str,
         mass_properties: MassProperties,
@@ -179,7 +181,7 @@ pub enum DraftDefect {
     },
     /// A release waits for an angle of a joint that slides, or for a travel of one that turns.
     #[error(
-        "release by {} of `{name}`, which {}, found, {} expected",
+        "release by {} of `{name}`, which {} found, {} expected",
         coordinate(*.waits),
         does(*.is),
         coordinate(*.is)
@@ -277,7 +279,7 @@ impl SceneDraft {
             if let (Some(copy), Some(repeat)) = (place.copy, names.repeat(&self.bodies, place)) {
                 repeat.place(copy, place.inboard.is_none(), &mut body);
             }
-            let in_body = |rotor: &Rotor| Rotor { body: Some(i), ..*rotor };
+            let in_body = |rotor: &Rotor| Rotor { body: Some(i), ..rotor.clone() };
             description.rotors.extend(draft.rotors.iter().map(in_body));
             let on_body = |external: &External| External { body: Some(i), ..external.clone() };
             description.externals.extend(draft.externals.iter().map(on_body));

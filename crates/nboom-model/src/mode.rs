@@ -10,11 +10,13 @@ pub struct Mode {
     /// The piece that holds of each force law that has several, counted from 0, in the order of
     /// [`SceneDescription::pieces_at_rest`](crate::SceneDescription::pieces_at_rest).
     pub pieces: Vec<usize>,
-    /// The piece that holds of the [`Course`](crate::Course) of each force and torque from outside, as the scene
-    /// lists them.
+    /// The piece that holds of the [`Course`](crate::Course) of each force and torque from outside,
+    /// as the scene lists them.
     pub externals: Vec<usize>,
     /// The piece that holds of the prescribed motion of the main body.
     pub drive: usize,
+    /// The piece that holds of the [speed](crate::RotorSpeed) of each rotor.
+    pub rotors: Vec<usize>,
 }
 
 impl Mode {
@@ -25,6 +27,7 @@ impl Mode {
             pieces: scene.pieces_at_rest(),
             externals: vec![0; scene.externals.len()],
             drive: 0,
+            rotors: vec![0; scene.rotors.len()],
         }
     }
 

@@ -33,6 +33,10 @@ pub enum Quantity {
     ReactionForce,
     /// On a main body that is held.
     ReactionMoment,
+    /// Ω of a rotor.
+    RotorSpeed,
+    /// Of the motor of a rotor.
+    MotorTorque,
 }
 
 impl Quantity {
@@ -56,10 +60,14 @@ impl Quantity {
     /// Those that stand only in a table that asks for them, of a scene whose main body is held.
     pub const OF_A_HELD_BODY: [Self; 2] = [Self::ReactionForce, Self::ReactionMoment];
 
+    /// Those of each rotor, which stand only in a table that asks for them.
+    pub const OF_A_ROTOR: [Self; 2] = [Self::RotorSpeed, Self::MotorTorque];
+
     /// All, in the order of their columns.
     pub fn all() -> impl Iterator<Item = Self> {
         let hinges = Self::BEFORE_HINGES.into_iter().chain(Self::OF_A_HINGE);
-        hinges.chain(Self::AFTER_HINGES).chain(Self::OF_A_HELD_BODY)
+        let on_request = Self::OF_A_HELD_BODY.into_iter().chain(Self::OF_A_ROTOR);
+        hinges.chain(Self::AFTER_HINGES).chain(on_request)
     }
 
     /// What all its columns together are called.
@@ -77,7 +85,8 @@ impl Quantity {
         }
     }
 
-    /// Names of its columns, in files; the columns of a hinge have its numbers after that.
+    /// Names of its columns, in files; the columns of a hinge have its numbers after that, those of
+    /// a rotor its number.
     pub fn columns(self) -> &'static [&'static str] {
         match self {
             Self::Position => &["rho_x", "rho_y", "rho_z"],
@@ -102,6 +111,8 @@ impl Quantity {
             Self::ReactionMoment => {
                 &["reaction_moment_x", "reaction_moment_y", "reaction_moment_z"]
             }
+            Self::RotorSpeed => &["rotor_speed"],
+            Self::MotorTorque => &["motor_torque"],
         }
     }
 
@@ -111,9 +122,9 @@ impl Quantity {
             Self::Position => "L",
             Self::Velocity => "L/T",
             Self::AttitudeScalar | Self::AttitudeVector | Self::State => "1",
-            Self::AngularRate | Self::Rate | Self::RateSum => "rad/T",
+            Self::AngularRate | Self::Rate | Self::RateSum | Self::RotorSpeed => "rad/T",
             Self::Angle | Self::AngleSum | Self::Nutation => "rad",
-            Self::KineticEnergy | Self::ReactionMoment => "F L",
+            Self::KineticEnergy | Self::ReactionMoment | Self::MotorTorque => "F L",
             Self::ReactionForce => "F",
             Self::LinearMomentum => "F T",
             Self::AngularMomentum => "F L T",
@@ -144,6 +155,8 @@ impl Quantity {
             Self::ReactionMoment => {
                 "moment about O of what holds the main body on it, main-body axes"
             }
+            Self::RotorSpeed => "speed of a rotor relative to its body",
+            Self::MotorTorque => "torque of the motor of a rotor on it, about its axis",
         }
     }
 
@@ -155,5 +168,10 @@ impl Quantity {
     /// Whether each hinge has one.
     pub fn is_of_hinge(self) -> bool {
         Self::OF_A_HINGE.contains(&self)
+    }
+
+    /// Whether each rotor has one.
+    pub fn is_of_rotor(self) -> bool {
+        Self::OF_A_ROTOR.contains(&self)
     }
 }

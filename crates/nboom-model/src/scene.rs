@@ -1,16 +1,16 @@
 use std::ops::Deref;
 
-use nboom_scalar::Vec3;
+use nboom_scalar::{Sym3, Vec3};
 
 use crate::{
     Appendage, Base, Coupling, Departures, External, Gravity, Hinge, HingeLabel, InitialMotion,
-    Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Rotors, Shapes, check, warning,
+    Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Shapes, check, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
 ///
-/// Its origin is a point on the hinge axis. Its axes stand parallel to the hinge axes of
-/// `mount` when the hinge angle is zero, and turn about `axis` by the hinge angle. A body that slides keeps
+/// Its origin is a point on the hinge axis. Its axes stand parallel to the hinge axes of `mount`
+/// when the hinge angle is zero, and turn about `axis` by the hinge angle. A body that slides keeps
 /// its axes, and its origin moves along `axis` by the travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
@@ -56,7 +56,7 @@ pub struct SceneDescription {
     pub torque_tables: Vec<TorqueTable>,
     /// Springs and dampers between two hinges.
     pub couplings: Vec<Coupling>,
-    /// Rotors at constant speed.
+    /// Rotors whose speeds are commanded.
     pub rotors: Vec<Rotor>,
     /// Uniform gravity.
     pub gravity: Option<Gravity>,
@@ -103,8 +103,13 @@ impl SceneDescription {
         self.externals.iter().filter(|external| external.body.is_some())
     }
 
-    /// Gives a main body that is driven the angular rate and the velocity of its prescribed motion at the initial
-    /// time and attitude, each unless it is `given`.
+    /// The rotors in hinged bodies.
+    pub fn rotors_in_hinged(&self) -> impl Iterator<Item = &Rotor> {
+        self.rotors.iter().filter(|rotor| rotor.body.is_some())
+    }
+
+    /// Gives a main body that is driven the angular rate and the velocity of its prescribed motion
+    /// at the initial time and attitude, each unless it is `given`.
     pub fn begin_driven(&mut self, given: [bool; 2]) {
         let Some(drive) = self.base.drive().filter(|drive| !drive.points.is_empty()) else {
             return;
@@ -139,7 +144,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Checks a description. What acts from outside, a kick-off spring or a coupling that never exerts a force is left out.
+    /// Checks a description. What acts from outside, a kick-off spring or a coupling that never
+    /// exerts a force is left out.
     ///
     /// # Errors
     /// Everything that is wrong with it, not only the first.
@@ -247,8 +253,8 @@ impl Scene {
         self.description.main_body.mass + hinged.sum::<f64>()
     }
 
-    /// The natural size of a change of β of hinge `i`: a radian, or where it slides the way from its start to
-    /// its latch, without a latch the size of its body.
+    /// The natural size of a change of β of hinge `i`: a radian, or where it slides the way from
+    /// its start to its latch, without a latch the size of its body.
     pub fn coordinate_scale(&self, i: usize) -> f64 {
         let Body { joint, hinge, tip, mass_properties, mount, .. } = &self.description.bodies[i];
         if !joint.slides() {
@@ -261,9 +267,9 @@ impl Scene {
         sizes.into_iter().find(|&size| size > 0.0).unwrap_or(1.0)
     }
 
-    /// The rotors of a hinged body together, or of the main body.
-    pub fn rotors_of(&self, body: Option<usize>) -> Rotors {
-        Rotors::of(&self.description.rotors, body)
+    /// What the rotors of a hinged body, or of the main body, add to its inertia, body axes.
+    pub fn rotor_inertia_of(&self, body: Option<usize>) -> Sym3<f64> {
+        Rotor::inertia_of(&self.description.rotors, body)
     }
 
     /// Whether hinge `i` turns about an axis parallel to its inboard hinge, so that the angles

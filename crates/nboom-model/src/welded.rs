@@ -1,6 +1,6 @@
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3};
 
-use crate::{Joint, MassProperties, Mode, Scene, TurnOrder, TurnedInertia};
+use crate::{Joint, MassProperties, Mode, RotorMotion, Scene, Spin, TurnOrder, TurnedInertia};
 
 /// The tree with every held hinge welded: one link for each free hinge, and the main link.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,16 +11,16 @@ pub struct WeldedTree<R> {
     pub held: Option<Twist<R>>,
     /// The links, inboard before outboard.
     pub links: Vec<Link<R>>,
-    /// Angular momentum of the rotors in what is rigid with the main body, relative to it, main-body axes.
-    pub main_spin: Vec3<R>,
-    /// Whether there are rotors.
-    pub has_rotors: bool,
+    /// That of the rotors in what is rigid with the main body, if it has some; main-body axes.
+    pub main_spin: Option<Spin<R>>,
+    /// The rotors, as the scene lists them.
+    pub rotors: Vec<LinkRotor<R>>,
     /// For each body of the scene, where it sits in its link.
     pub members: Vec<Member<R>>,
     /// β of every hinge of the scene at which the tree was welded; those that are held keep it.
     pub angles: Vec<R>,
-    /// Links with a body whose inertia about its mass centre is not in theirs, and that inertia; none
-    /// without [`Departures`](crate::Departures).
+    /// Links with a body whose inertia about its mass centre is not in theirs, and that inertia;
+    /// none without [`Departures`](crate::Departures).
     pub turned: Vec<(usize, TurnedInertia<R>)>,
 }
 
@@ -41,8 +41,21 @@ pub struct Link<R> {
     pub axis: Vec3<R>,
     /// Mass properties about the hinge, link axes; of rotors those at rest.
     pub inertia: RigidInertia<R>,
-    /// Angular momentum of its rotors relative to it, link axes.
-    pub spin: Vec3<R>,
+    /// That of its rotors, if it has some; link axes.
+    pub spin: Option<Spin<R>>,
+}
+
+/// A rotor in a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkRotor<R> {
+    /// The link; `None` is the main link.
+    pub link: Option<usize>,
+    /// Unit vector along its axis, link axes.
+    pub axis: Vec3<R>,
+    /// J: inertia about its axis, which is in that of the link.
+    pub inertia: R,
+    /// How it turns relative to the link.
+    pub motion: RotorMotion<R>,
 }
 
 /// Where a body of the scene sits in its link.
@@ -57,28 +70,63 @@ pub struct Member<R> {
 }
 
 impl<R: Real> WeldedTree<R> {
-    /// Welds the hinges that `mode` holds, at their angles in `beta` (one for each hinge).
+    /// Welds the hinges that `mode` holds, at their angles in `beta` (one for each hinge). Rotors
+    /// turn as fast as when the scene starts until they are [set](Self::set_rotors).
     pub fn new(scene: &Scene, mode: &Mode, beta: &[R]) -> Self {
         let mut tree = Self {
             main: rigid(&scene.main_body),
             held: held(scene, mode),
-            main_spin: Vec3::zero(),
-            has_rotors: !scene.rotors.is_empty(),
+            main_spin: None,
+            rotors: Vec::with_capacity(scene.rotors.len()),
             links: Vec::new(),
             members: Vec::with_capacity(scene.bodies.len()),
             angles: beta.to_vec(),
             turned: Vec::new(),
         };
-        let of_main = scene.rotors_of(None);
-        tree.main.about_origin += Sym3::constant(of_main.inertia);
-        tree.main_spin = Vec3::constant(of_main.momentum);
+        tree.main.about_origin += Sym3::constant(scene.rotor_inertia_of(None));
         for i in 0..scene.bodies.len() {
             tree.place(scene, mode.is_free(i), i, beta[i]);
             for order in scene.departures().turned.iter().filter(|order| order.body == i) {
                 tree.turn_otherwise(order, scene, mode, beta);
             }
         }
+        tree.mount_rotors(scene, mode);
         tree
+    }
+
+    /// Whether there are rotors.
+    #[inline]
+    pub fn has_rotors(&self) -> bool {
+        !self.rotors.is_empty()
+    }
+
+    /// Makes the rotors turn like this, as the scene lists them; without allocation.
+    pub fn set_rotors(&mut self, motions: impl Iterator<Item = RotorMotion<R>>) {
+        let Self { main_spin, links, rotors, .. } = self;
+        let spins = links.iter_mut().map(|link| &mut link.spin);
+        spins.chain([&mut *main_spin]).flatten().for_each(|spin| *spin = Spin::zero());
+        for (rotor, motion) in rotors.iter_mut().zip(motions) {
+            rotor.motion = motion;
+            let spin = rotor.link.map_or(&mut *main_spin, |link| &mut links[link].spin);
+            let spin = spin.get_or_insert_with(Spin::zero);
+            spin.add(rotor.axis * rotor.inertia, &motion);
+        }
+    }
+
+    fn mount_rotors(&mut self, scene: &Scene, mode: &Mode) {
+        for (rotor, &piece) in scene.rotors.iter().zip(&mode.rotors) {
+            let axis = Vec3::constant(rotor.axis);
+            let member = rotor.body.map(|body| self.members[body]);
+            let speed = R::constant(rotor.speed.at(scene.initial.time));
+            self.rotors.push(LinkRotor {
+                link: member.and_then(|member| member.link),
+                axis: member.map_or(axis, |member| member.rot_link_from_body * axis),
+                inertia: R::constant(rotor.inertia),
+                motion: RotorMotion { speed, acceleration: rotor.speed.acceleration(piece) },
+            });
+        }
+        let motions: Vec<RotorMotion<R>> = self.rotors.iter().map(|rotor| rotor.motion).collect();
+        self.set_rotors(motions.into_iter());
     }
 
     fn place(&mut self, scene: &Scene, free: bool, i: usize, beta: R) {
@@ -93,10 +141,8 @@ impl<R: Real> WeldedTree<R> {
         let point = inboard.point + rot * Vec3::constant(body.mount.point);
         let rot_at_zero = rot * Mat3::constant(body.mount.rot_inboard_from_hinge);
         let axis = Vec3::constant(body.axis);
-        let rotors = scene.rotors_of(Some(i));
-        let spin = Vec3::constant(rotors.momentum);
         let mut inertia = rigid(&body.mass_properties);
-        inertia.about_origin += Sym3::constant(rotors.inertia);
+        inertia.about_origin += Sym3::constant(scene.rotor_inertia_of(Some(i)));
         if free {
             self.members.push(Member {
                 link: Some(self.links.len()),
@@ -111,26 +157,22 @@ impl<R: Real> WeldedTree<R> {
                 joint: body.joint,
                 axis,
                 inertia,
-                spin,
+                spin: None,
             });
         } else {
             let rot = rot_at_zero * body.joint.turn(axis, beta);
             let point = point + rot_at_zero * body.joint.travel(axis, beta);
             self.members.push(Member { link: inboard.link, point, rot_link_from_body: rot });
             let welded = inertia.rotated(&rot).seen_from(point);
-            let (of_link, of_spin) = match inboard.link {
-                Some(link) => {
-                    let Link { inertia, spin, .. } = &mut self.links[link];
-                    (inertia, spin)
-                }
-                None => (&mut self.main, &mut self.main_spin),
-            };
-            of_link.add(welded);
-            *of_spin += rot * spin;
+            match inboard.link {
+                Some(link) => self.links[link].inertia.add(welded),
+                None => self.main.add(welded),
+            }
         }
     }
 
-    /// Turns the inertia about its mass centre of a body that has been placed otherwise than the body.
+    /// Turns the inertia about its mass centre of a body that has been placed otherwise than the
+    /// body.
     fn turn_otherwise(&mut self, order: &TurnOrder, scene: &Scene, mode: &Mode, beta: &[R]) {
         let link = |i: usize| self.members[i].link.filter(|_| mode.is_free(i));
         let turned = TurnedInertia::new(scene, order, beta, link);

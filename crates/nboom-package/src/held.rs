@@ -1,9 +1,7 @@
 //! A scene while hinges are held, as a scene of its own.
 
 use nboom_codegen::held;
-use nboom_model::{
-    Body, Hinge, Link, MassProperties, Member, Mount, Rotor, Rotors, Scene, WeldedTree,
-};
+use nboom_model::{Body, Hinge, Link, MassProperties, Member, Mount, Rotor, Scene, WeldedTree};
 use nboom_scalar::RigidInertia;
 
 use crate::PackageError;
@@ -38,21 +36,22 @@ pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Scene, 
 /// The rotors of a scene as those of the links of its `tree`.
 fn tree_rotors(scene: &Scene, tree: &WeldedTree<f64>) -> Vec<Rotor> {
     let of_link = |rotor: &Rotor| match rotor.body.map(|body| tree.members[body]) {
-        None => *rotor,
+        None => rotor.clone(),
         Some(Member { link, rot_link_from_body: rot, .. }) => {
-            Rotor { body: link, axis: rot * rotor.axis, ..*rotor }
+            Rotor { body: link, axis: rot * rotor.axis, ..rotor.clone() }
         }
     };
     scene.rotors.iter().map(of_link).collect()
 }
 
-/// Mass properties without the inertia about their axes of the rotors in `link`, which a scene has beside.
+/// Mass properties without the inertia about their axes of the rotors in `link`, which a scene has
+/// beside.
 fn without_rotors(
     mut inertia: RigidInertia<f64>,
     rotors: &[Rotor],
     link: Option<usize>,
 ) -> RigidInertia<f64> {
-    inertia.about_origin = inertia.about_origin - Rotors::of(rotors, link).inertia;
+    inertia.about_origin = inertia.about_origin - Rotor::inertia_of(rotors, link);
     inertia
 }
 

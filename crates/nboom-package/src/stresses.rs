@@ -42,11 +42,11 @@ fn table(request: &StressRequest) -> String {
     let mut found = equations.load_set();
     let mut text = String::new();
     for motion in 0..MOTIONS {
-        let count = SceneMotion::<f64>::count(equations.hinges(), equations.externals());
+        let size = equations.motion_size();
         let number = |i: usize| 3.0 * (1.7 * i as f64 + 0.9 * motion as f64 + 0.3).sin();
-        let row: Vec<f64> = (0..count).map(number).collect();
+        let row: Vec<f64> = (0..size.count()).map(number).collect();
         let exact: Vec<DoubleDouble> = row.iter().copied().map(DoubleDouble::constant).collect();
-        let motion = SceneMotion::of_numbers(&exact, equations.hinges(), equations.externals());
+        let motion = SceneMotion::of_numbers(&exact, size);
         equations.evaluate(&motion, &mut found);
         let expected = found.numbers().into_iter().map(DoubleDouble::to_f64);
         let cells = row.into_iter().chain(expected).map(|number| format!("{number:?}"));

@@ -153,8 +153,8 @@ impl RunDirectory {
         Self { with_trust: true, ..self }
     }
 
-    /// Also writes hinge loads, and stresses where there are stations: at output times as `tables` says
-    /// and at lock-ups, and the worst of the whole motion.
+    /// Also writes hinge loads, and stresses where there are stations: at output times as `tables`
+    /// says and at lock-ups, and the worst of the whole motion.
     ///
     /// # Errors
     /// When a file cannot be made.
@@ -300,10 +300,9 @@ impl Recorder for RunDirectory {
     }
 
     fn needs_detail(&self) -> bool {
-        let wants_reaction =
-            self.run.output.table.as_ref().is_some_and(WantedTable::is_of_held_body);
+        let table_is_due = self.run.output.table.as_ref().is_some_and(WantedTable::needs_detail);
         let stresses_are_due = self.stresses.as_ref().is_some_and(StressWriter::is_due);
-        wants_reaction || self.listing.is_some() || stresses_are_due
+        table_is_due || self.listing.is_some() || stresses_are_due
     }
 
     fn needs_instants(&self) -> bool {

@@ -16,6 +16,11 @@ fn reaction(s: &Snapshot) -> Wrench<f64> {
     s.detail.as_ref().and_then(|detail| detail.reaction).unwrap_or(Wrench::zero())
 }
 
+/// Of a snapshot with detail.
+fn motor_torque(s: &Snapshot, rotor: usize) -> f64 {
+    s.detail.as_ref().map_or(0.0, |detail| detail.motor_torques[rotor])
+}
+
 /// What a column has at the time of a snapshot, angles in radians.
 pub(crate) fn cell(column: &Column, s: &Snapshot) -> Cell {
     let vector = |vector: Vec3<f64>| vector.to_array()[column.component];
@@ -37,5 +42,7 @@ pub(crate) fn cell(column: &Column, s: &Snapshot) -> Cell {
         Quantity::Nutation => s.nutation,
         Quantity::ReactionForce => vector(reaction(s).force),
         Quantity::ReactionMoment => vector(reaction(s).moment),
+        Quantity::RotorSpeed => s.rotor_speeds[column.component],
+        Quantity::MotorTorque => motor_torque(s, column.component),
     })
 }

@@ -17,8 +17,8 @@ pub struct StatesWriter<W> {
 }
 
 impl<W: Write> StatesWriter<W> {
-    /// Writes the header of the table of states for hinges with these labels: all columns, angles in
-    /// radians.
+    /// Writes the header of the table of states for hinges with these labels: all columns, angles
+    /// in radians.
     ///
     /// # Errors
     /// When `out` refuses it.
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn a_wanted_table_has_its_columns_and_degrees() {
         let s = fixture::snapshot(0.5);
-        let named = |text| Column::named(text, &fixture::labels()).expect("a column");
+        let named = |text| Column::named(text, &fixture::labels(), 0).expect("a column");
         let columns = ["omega", "beta_2_1", "state_1_1", "v_y"].map(named).concat();
         let mut bytes = Vec::new();
         let table = WantedTable { columns, in_degrees: true };

@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use nboom_model::{
-    Appendage, Hinge, HingeState, MassProperties, Material, Mount, Scene, SceneDescription,
-    SectionShape, Segment, SegmentStructure, Station, Structure, UnitSystem,
+    Appendage, Column, Hinge, HingeState, MassProperties, Material, Mount, Rotor, RotorSpeed,
+    Scene, SceneDescription, SectionShape, Segment, SegmentStructure, Station, Structure,
+    UnitSystem, WantedTable,
 };
 use nboom_results::{
     Outcome, ResultsError, RunDescription, RunDirectory, StressSigns, StressTables, WantedOutput,
@@ -14,6 +15,7 @@ use nboom_scalar::{Quaternion, Sym3, Vec3};
 use nboom_sim::{
     Account, Choice, Conservation, Detail, Event, EventKind, HingeVerdict, Integration,
     LockUpImpulse, Method, Options, Recorder, Selection, Snapshot, Summary, Totals, Verdict,
+    simulate,
 };
 use nboom_strength::{Settings, StressAnalysis};
 
@@ -46,6 +48,7 @@ fn snapshot(time: f64) -> Snapshot {
         tau: vec![0.2],
         alpha: vec![0.1],
         sigma: vec![0.2],
+        rotor_speeds: Vec::new(),
         hinges: vec![HingeState::Free],
         kinetic_energy: 1.0,
         linear_momentum_inertial: Vec3::zero(),
@@ -56,6 +59,8 @@ fn snapshot(time: f64) -> Snapshot {
             origin_acceleration_body: Vec3::zero(),
             reaction: None,
             outside: Vec::new(),
+            rotors: Vec::new(),
+            motor_torques: Vec::new(),
             beta_ddot: vec![0.0],
             alpha_ddot: vec![0.0],
             hinge_torque: vec![0.0],
@@ -124,6 +129,38 @@ fn summary(directory: &Path) -> serde_json::Value {
 fn lines(directory: &Path, file: &str) -> Vec<String> {
     let text = fs::read_to_string(directory.join(file)).expect("a table");
     text.lines().map(str::to_owned).collect()
+}
+
+/// Of a hub that does not turn about x, whose wheel about x does.
+#[test]
+fn a_table_of_rotors_has_their_speeds_and_the_torques_of_their_motors() {
+    let (moment, inertia) = (40.0, 0.5);
+    let mut description = (*scene()).clone();
+    description.bodies.clear();
+    let speed = RotorSpeed::Table(vec![[0.0, 1.0], [20.0, 41.0]]);
+    description.rotors = vec![Rotor { body: None, axis: Vec3::unit_x(), inertia, speed }];
+    let scene = Scene::new(description).expect("a body with a rotor");
+    let named = |text| Column::named(text, &[], 1).expect("a column");
+    let columns = [named("rotor_speed_1"), named("motor_torque")].concat();
+    let table = Some(WantedTable { columns, in_degrees: false });
+    let options = Options { samples: 1, ..Options::default() };
+    let run = RunDescription::new(&scene, &options, UnitSystem::Si);
+    let output = WantedOutput { table, ..WantedOutput::default() };
+    let place = tempfile::tempdir().expect("a directory");
+    let path = place.path().join("run");
+    let description = RunDescription { output, ..run };
+    let mut directory = RunDirectory::create(&path, &scene, description).expect("writable");
+    let summary = simulate(&scene, &options, &mut directory).expect("it runs to its end");
+    let outcome = Outcome { summary, wall_seconds: 0.25, error: None };
+    directory.finish(&outcome).written.expect("writable");
+    let rows = lines(&path, "output.csv");
+    assert_eq!(rows[0], "t,rotor_speed_1,motor_torque_1");
+    for (row, expected) in rows[1..].iter().zip([1.0, 21.0]) {
+        let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().expect("a number")).collect();
+        assert!((cells[1] - expected).abs() < 1e-13, "{row}");
+        let torque = inertia * moment / (moment + inertia) * 2.0;
+        assert!((cells[2] - torque).abs() < 1e-13, "{row}");
+    }
 }
 
 #[test]

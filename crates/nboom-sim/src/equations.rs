@@ -12,7 +12,7 @@ use crate::code::selection::Selection;
 use crate::code::{CodeError, under_own_laws};
 use crate::equations::eight_states::At;
 use crate::equations::layout::{Unknowns, VariableLayout};
-use crate::equations::prepared_mode::PreparedMode;
+use crate::equations::prepared_mode::{Entry, PreparedMode};
 use crate::equations::rates::Rates;
 use crate::equations::sizes::{Sizes, reach};
 use crate::equations::state::State;
@@ -34,8 +34,8 @@ pub(crate) mod state;
 pub(crate) mod totals;
 pub(crate) mod variables;
 
-/// Modes that are kept beside the one entered. Few scenes have more, but springs that engage again and
-/// again make any number.
+/// Modes that are kept beside the one entered. Few scenes have more, but springs that engage again
+/// and again make any number.
 const MOST_MODES: usize = 63;
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
@@ -71,7 +71,8 @@ pub(crate) struct Equations {
 }
 
 impl Equations {
-    /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as well.
+    /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as
+    /// well.
     pub fn new(scene: &Scene, own: OwnLaws, options: &Options) -> Self {
         let layout = VariableLayout::of_no_hinges();
         // Bodies whose inertia turns otherwise than they do have no momenta.
@@ -79,7 +80,7 @@ impl Equations {
         let uses_momenta = is_rigid && without_momenta(scene).is_none();
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
-        let commands = Commands::none(scene.bodies.len());
+        let commands = Commands::none(scene);
         let dynamics = Recursive::new(scene);
         Self {
             scene: scene.clone(),
@@ -122,6 +123,8 @@ impl Equations {
     pub fn enter(&mut self, mode: &Mode, state: &mut State, y: &mut Vec<f64>) {
         let Self { entered, others, commands, own, .. } = self;
         change_mode(entered, others, mode, commands, |i| state.beta[i]);
+        state.spin_up(&self.scene, mode, Some(commands.rotor_accelerations()));
+        entered.spin_from(state);
         let elements = entered.dynamics.elements();
         let held = self.scene.base.is_held();
         let thrust = elements.acts_from_outside() || self.scene.base.drive().is_some();
@@ -129,7 +132,8 @@ impl Equations {
         let dashpots = elements.has_rate_power(free) || free.iter().any(|&i| own.act_about(i));
         let free = free.len();
         let unknowns = self.unknowns(state, thrust);
-        let layout = VariableLayout { unknowns, free, held, thrust, dashpots };
+        let spins_up = state.spins_up();
+        let layout = VariableLayout { unknowns, free, held, thrust, dashpots, spins_up };
         self.accelerations.tau_dot.resize(free, 0.0);
         self.rates.set_layout(layout);
         self.series = None;
@@ -191,7 +195,8 @@ impl Equations {
         entered.select(scene, own, repertoire, options, since)
     }
 
-    /// Accelerations without gravity in the mode that was entered, under what [acts from outside](Recursive::set_outside).
+    /// Accelerations without gravity in the mode that was entered, under what [acts from
+    /// outside](Recursive::set_outside).
     pub fn accelerations(&mut self, motion: &Motion<'_, f64>) -> &Accelerations<f64> {
         self.entered.accelerations(motion, &mut self.accelerations);
         &self.accelerations
@@ -207,8 +212,8 @@ impl Equations {
         }
     }
 
-    /// The acceleration of the mass centre, inertial axes, under what [acts from outside](Recursive::set_outside)
-    /// and the `reaction` of what holds the main body.
+    /// The acceleration of the mass centre, inertial axes, under what [acts from
+    /// outside](Recursive::set_outside) and the `reaction` of what holds the main body.
     pub fn center_acceleration(
         &mut self,
         state: &mut State,
@@ -220,12 +225,18 @@ impl Equations {
         self.gravity + state.attitude.to_matrix() * force * (1.0 / self.total_mass)
     }
 
-    /// What holds the main body exerts on it at O, main-body axes, in a motion with the accelerations
-    /// computed last; none where nothing holds it.
+    /// What holds the main body exerts on it at O, main-body axes, in a motion with the
+    /// accelerations computed last; none where nothing holds it.
     pub fn reaction(&mut self, motion: &Motion<'_, f64>) -> Option<Wrench<f64>> {
         let Self { scene, entered, accelerations, .. } = self;
         let held = scene.base.is_held();
         held.then(|| entered.dynamics.reaction(motion, accelerations))
+    }
+
+    /// Sets `out` to the torques of the motors of all rotors in a motion with the accelerations
+    /// computed last.
+    pub fn motor_torques(&mut self, motion: &Motion<'_, f64>, out: &mut Vec<f64>) {
+        self.entered.dynamics.motor_torques(motion, &self.accelerations, out);
     }
 
     /// The largest rate so far.
@@ -252,8 +263,8 @@ fn without_momenta(scene: &Scene) -> Option<&'static str> {
     held.or((!scene.rotors.is_empty()).then_some("rotors"))
 }
 
-/// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the `others` if
-/// it is among them, and holds `commands` there.
+/// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the
+/// `others` if it is among them, and holds `commands` there.
 fn change_mode(
     entered: &mut PreparedMode,
     others: &mut Vec<PreparedMode>,
@@ -289,7 +300,8 @@ impl System for Equations {
         let Self { scene, commands, variables, entered, evaluations, .. } = self;
         let carried = variables.carried_at(times);
         let at = At { times, carried: &carried, y };
-        let in_lanes = entered.rates_of_eight((scene, commands), &variables.layout, at, dy);
+        let entry = Entry { scene, commands, origin: &variables.origin };
+        let in_lanes = entered.rates_of_eight(entry, &variables.layout, at, dy);
         *evaluations += if in_lanes { 8 } else { 0 };
         in_lanes
     }
@@ -298,7 +310,8 @@ impl System for Equations {
         let Self { scene, commands, variables, entered, .. } = self;
         let takes = entered.takes_eight(&variables.layout);
         if takes {
-            entered.prepare_eight((scene, commands), &variables.layout);
+            let entry = Entry { scene, commands, origin: &variables.origin };
+            entered.prepare_eight(entry, &variables.layout);
         }
         takes
     }
@@ -326,7 +339,8 @@ impl System for Equations {
         }
         let carried = self.variables.carried(t).velocity;
         let Self { scene, entered, commands, variables, .. } = self;
-        entered.jacobian(scene, commands).write(variables.layout, (t, carried), y, out);
+        let entry = Entry { scene, commands, origin: &variables.origin };
+        entered.jacobian(entry).write(variables.layout, (t, carried), y, out);
         true
     }
 

@@ -81,6 +81,7 @@ impl LoadFinder {
             },
             force_densities: &self.force_densities,
             outside: motion.outside,
+            rotors: motion.rotors,
         };
         self.loads.continuous(&scene_motion, &mut self.found);
         self.check_balance(motion)?;

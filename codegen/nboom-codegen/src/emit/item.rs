@@ -1,4 +1,4 @@
-use nboom_loads::{RESULT, SceneMotion};
+use nboom_loads::RESULT;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -50,7 +50,7 @@ impl Signature {
             formulation: "",
             external: true,
             assumptions: request.assumptions(),
-            coordinates: SceneMotion::<f64>::count(equations.hinges(), equations.externals()),
+            coordinates: equations.motion_size().count(),
             outputs: equations.load_set().count(),
         }
     }

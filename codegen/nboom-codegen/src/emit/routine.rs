@@ -83,7 +83,7 @@ impl StressRequest {
         self.check_length()?;
         let signature = Signature::of_stresses(self, scalar(&self.name, &self.scalar_path)?);
         let split = Split::new(self.trace(), signature.assumptions.len()).at(self.level);
-        let names = Names::of_motion(self.equations.hinges(), self.equations.externals());
+        let names = Names::of_motion(self.equations.motion_size());
         let generated = Generated {
             tokens: straight::items(&split, self.level, &signature, &names),
             evaluation: split.evaluation(),

@@ -4,6 +4,7 @@ use nboom_formulation::Layout;
 use nboom_formulation::stages::{
     ATTITUDE, ATTITUDE_RATE, BRANCH, EXTERNAL, LAW, LINE, LINK, MAIN, MAIN_RATES, OMEGA, POWER,
 };
+use nboom_loads::MotionSize;
 use nboom_model::{Shape, Topology};
 
 use crate::request::Output;
@@ -70,9 +71,9 @@ impl Names {
         Self { parameters, coordinates, outputs }
     }
 
-    /// Those of a routine for loads and stresses of so many hinges and so many forces and torques from outside, in the order of
+    /// Those of a routine for loads and stresses of motions of this size, in the order of
     /// `nboom_loads::SceneMotion`; numbers of the scene and results have none.
-    pub fn of_motion(hinges: usize, externals: usize) -> Self {
+    pub fn of_motion(MotionSize { hinges, externals, rotors }: MotionSize) -> Self {
         let (omega_dot, origin) = MAIN_RATES.numbers.split_at(3);
         let mut coordinates = owned(&[OMEGA.numbers, origin, omega_dot]);
         for quantity in ["beta", "tau", "tau_dot", "density"] {
@@ -80,6 +81,9 @@ impl Names {
         }
         for external in 1..=externals {
             coordinates.extend(["x", "y", "z"].map(|axis| format!("outside_{external}_{axis}")));
+        }
+        for rotor in 1..=rotors {
+            coordinates.extend(["speed", "acceleration"].map(|of| format!("rotor_{of}_{rotor}")));
         }
         Self { parameters: Vec::new(), coordinates, outputs: Vec::new() }
     }

@@ -10,13 +10,13 @@ impl StressRequest {
         let Self { equations, .. } = self;
         let mut inputs = self.assumptions();
         let numbers = inputs.len();
-        let (hinges, externals) = (equations.hinges(), equations.externals());
-        inputs.resize(numbers + SceneMotion::<f64>::count(hinges, externals), None);
+        let size = equations.motion_size();
+        inputs.resize(numbers + size.count(), None);
         Graph::trace_with(&inputs, |inputs| {
             let (of_scene, of_motion) = inputs.split_at(numbers);
             let mut equations = equations.with_numbers(of_scene);
             let mut found = equations.load_set();
-            let motion = SceneMotion::of_numbers(of_motion, hinges, externals);
+            let motion = SceneMotion::of_numbers(of_motion, size);
             equations.evaluate(&motion, &mut found);
             found.numbers()
         })

@@ -1,23 +1,31 @@
+use nboom_model::Scene;
 use nboom_scalar::{Real, Vec3, Wrench};
 
-/// What a control law commands: torques about hinges and a wrench on the main body, all of them
-/// constant while they are held.
+/// What a control law commands: torques about hinges, a wrench on the main body and accelerations
+/// of rotors, all of them constant while they are held.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Commands {
     hinge_torques: Box<[f64]>,
+    rotor_accelerations: Box<[f64]>,
     /// Force on the main body, and moment about O; main-body axes.
     pub main_body: Wrench<f64>,
 }
 
 impl Commands {
-    /// Nothing, for a scene with this many hinges.
-    pub fn none(hinges: usize) -> Self {
-        Self { hinge_torques: vec![0.0; hinges].into(), main_body: Wrench::zero() }
+    /// Nothing, for `scene`.
+    pub fn none(scene: &Scene) -> Self {
+        let zeros = |count| vec![0.0; count].into();
+        Self {
+            hinge_torques: zeros(scene.bodies.len()),
+            rotor_accelerations: zeros(scene.rotors.len()),
+            main_body: Wrench::zero(),
+        }
     }
 
     /// Commands nothing.
     pub fn clear(&mut self) {
         self.hinge_torques.fill(0.0);
+        self.rotor_accelerations.fill(0.0);
         self.main_body = Wrench::zero();
     }
 
@@ -31,7 +39,18 @@ impl Commands {
         &mut self.hinge_torques
     }
 
-    /// What they act on.
+    /// Rate of change of the speed of each rotor of the scene relative to its body, beside that of
+    /// its table \[rad/T²\].
+    pub fn rotor_accelerations(&self) -> &[f64] {
+        &self.rotor_accelerations
+    }
+
+    /// The accelerations to be set. (target − speed) / period reaches a speed at the next sample.
+    pub fn rotor_accelerations_mut(&mut self) -> &mut [f64] {
+        &mut self.rotor_accelerations
+    }
+
+    /// What forces and torques they exert.
     pub fn reach(&self) -> Reach {
         if self.main_body != Wrench::zero() {
             Reach::MainBody
@@ -46,7 +65,7 @@ impl Commands {
 /// What commands act on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
-    /// Nothing is commanded.
+    /// No force and no torque is commanded.
     Nothing,
     /// Torques about hinges alone.
     Hinges,

@@ -1,7 +1,7 @@
-//! Any tree: links that turn or slide in any direction, and that branch. Everything is about O and along
-//! main-body axes, so that composite bodies are plain sums.
+//! Any tree: links that turn or slide in any direction, and that branch. Everything is about O and
+//! along main-body axes, so that composite bodies are plain sums.
 
-use nboom_model::{Link, WeldedTree};
+use nboom_model::{Link, Spin, WeldedTree};
 use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::arrow::Arrow;
@@ -70,12 +70,14 @@ impl<R: Real> Moving<R> {
         }
     }
 
-    /// The rate of change of the momentum of a body about O that moves with the link, and of rotors in it with
-    /// the momentum `spin`, link axes.
-    fn bias_wrench(&self, body: &RigidInertia<R>, spin: Vec3<R>) -> Wrench<R> {
-        let (v, mut h) = (self.velocity, momentum(body, self.velocity));
-        h.moment += self.rot * spin;
+    /// The rate of change of the momentum of a body about O that moves with the link, and of the
+    /// rotors in it, if it has some.
+    fn bias_wrench(&self, body: &RigidInertia<R>, spin: Option<Spin<R>>) -> Wrench<R> {
+        let (v, h) = (self.velocity, momentum(body, self.velocity));
         let mut wrench = momentum(body, self.bias);
+        if let Some(spin) = spin {
+            wrench.moment += spin.rotated(&self.rot).moment(v.angular);
+        }
         wrench.add(Wrench {
             moment: v.angular.cross(h.moment) + v.linear.cross(h.force),
             force: v.angular.cross(h.force),

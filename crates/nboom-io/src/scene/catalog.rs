@@ -148,7 +148,7 @@ static MAIN_BODY: TableKind = table(
             "How it is held: \"free\" (the default), or \"fixed\" to the ground, as on a test rig.",
         ),
         optional("drive", Table(&DRIVE), "The motion that is prescribed for it."),
-        optional("rotor", Tables(&ROTOR), "Rotors in it at constant speed."),
+        optional("rotor", Tables(&ROTOR), "Rotors in it, as momentum wheels."),
         optional("thruster", Tables(&THRUSTER), "Forces on it from outside."),
         optional("torque", Tables(&TORQUE), "Torques on it from outside."),
         optional("shape", Table(&SHAPE), "What it looks like in pictures."),
@@ -256,7 +256,7 @@ static BODY: TableKind = choice(
             Tables(&COUPLING),
             "Springs and dampers between its hinge and others.",
         ),
-        optional("rotor", Tables(&ROTOR), "Rotors in it at constant speed."),
+        optional("rotor", Tables(&ROTOR), "Rotors in it, as momentum wheels."),
         optional("thruster", Tables(&THRUSTER), "Forces on it from outside."),
         optional("torque", Tables(&TORQUE), "Torques on it from outside."),
         optional(

@@ -29,7 +29,9 @@ impl Responsible<'_> {
         error: &DraftError,
     ) {
         let body = &self.bodies[error.body];
-        let names = || draft.bodies.iter().map(|body| body.name.as_str());
+        // No body leads to itself.
+        let others = || draft.bodies.iter().enumerate().filter(|(i, _)| *i != error.body);
+        let names = || others().map(|(_, body)| body.name.as_str());
         let (at, symbol, help) = match &error.defect {
             DraftDefect::NameTaken(_) => (body.place("name"), "name", None),
             DraftDefect::Inboard { name, .. } => {
@@ -132,9 +134,7 @@ impl Responsible<'_> {
                 let key = if slides { "force" } else { "torque" };
                 (joint_of(&body).unwrap_or(body), key)
             }
-            ModelError::Rotor { body, .. } => {
-                (body.map_or_else(|| outer("main_body"), |body| self.body(body)), "rotor")
-            }
+            ModelError::Rotor { rotor, .. } => (self.rotor(scene, rotor - 1), "rotor"),
             ModelError::Coupling { label, .. } => (body(label), "coupling"),
             ModelError::HeldBase { quantity, .. } => match *quantity {
                 "velocity" => (outer("initial"), "velocity"),
@@ -145,6 +145,18 @@ impl Responsible<'_> {
             // The end of the run, and whatever words cannot say.
             _ => (outer("run"), "end"),
         }
+    }
+
+    /// The table of a rotor.
+    fn rotor(&self, scene: &SceneDescription, index: usize) -> Fields<'_> {
+        let body = scene.rotors[index].body;
+        let before = scene.rotors[..index].iter();
+        let number = before.filter(|other| other.body == body).count();
+        let owner = match body {
+            None => self.root.inner("main_body").unwrap_or_else(|| self.root.clone()),
+            Some(body) => self.body(body),
+        };
+        owner.nth("rotor", number).unwrap_or(owner)
     }
 
     /// The table of a force or torque from outside, and the key that is wrong.
@@ -180,8 +192,8 @@ impl Responsible<'_> {
         draft.and_then(|draft| self.bodies.get(draft)).unwrap_or(self.root).clone()
     }
 
-    /// The structure of the scene, if a body has stations. The motion follows the bodies; slices that
-    /// differ from them give a warning.
+    /// The structure of the scene, if a body has stations. The motion follows the bodies; slices
+    /// that differ from them give a warning.
     pub fn structure(
         &self,
         reader: &mut Reader<'_, '_>,

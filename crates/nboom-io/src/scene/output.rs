@@ -89,7 +89,7 @@ impl Reader<'_, '_> {
         }
         let mut columns: Vec<Column> = Vec::new();
         for (text, at) in self.texts(output, "columns") {
-            match Column::named(text, scene.labels()) {
+            match Column::named(text, scene.labels(), scene.rotors.len()) {
                 Ok(named) => {
                     let new: Vec<Column> =
                         named.into_iter().filter(|column| !columns.contains(column)).collect();

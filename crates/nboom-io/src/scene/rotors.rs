@@ -1,6 +1,6 @@
 //! Rotors in words.
 
-use nboom_model::Rotor;
+use nboom_model::{Rotor, RotorSpeed};
 
 use super::fields::{Fields, Reader};
 
@@ -13,7 +13,11 @@ impl Reader<'_, '_> {
 
     fn rotor(&mut self, table: &Fields<'_>) -> Option<Rotor> {
         let (axis, inertia) = (self.direction(table, "axis"), self.number(table, "inertia"));
-        let speed = self.angle(table, "speed");
+        let speed = if table.has("speed_over_time") {
+            Some(RotorSpeed::Table(self.angles_over_time(table, "speed_over_time")))
+        } else {
+            self.angle(table, "speed").map(RotorSpeed::Constant)
+        };
         Some(Rotor { body: None, axis: axis?, inertia: inertia?, speed: speed? })
     }
 }

@@ -4,8 +4,8 @@ mod lines;
 
 use nboom_model::{
     Base, Body, BodyShape, Coupling, Course, Drive, DrivePoint, ExternalAxes, ExternalKind, Hinge,
-    HingeState, Joint, MassProperties, Material, Release, Scene, SectionShape, SegmentStructure,
-    Solid, Station, Structure, UnitSystem, WantedTable,
+    HingeState, Joint, MassProperties, Material, Release, RotorSpeed, Scene, SectionShape,
+    SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 
@@ -13,7 +13,7 @@ use super::catalog::{BASES, FILES_ON_REQUEST};
 use crate::angles::in_degrees;
 use crate::words::{external_table, joint_table};
 use crate::{Sampling, SceneFile, SceneSettings};
-use lines::{Lines, angle, inertia, list, listed, number, text, vector};
+use lines::{Lines, angle, angles_over_time, inertia, list, listed, number, text, vector};
 
 /// The text of a scene. Comments, parameters, includes and repetitions of the file that it was read
 /// from are not in it, nor are a deck's settings of the integrator and printer of 1970.
@@ -146,28 +146,28 @@ fn body(lines: &mut Lines, scene: &Scene, i: usize, body: &Body) {
     }
 }
 
-/// The rotors of a body, as tables of it.
+/// The prescribed motion of the main body.
 fn prescribed(lines: &mut Lines, Drive { axis, points }: &Drive) {
     lines.table("main_body.drive");
     lines.value("axis", direction(*axis));
-    let over_time = |value: &dyn Fn(&DrivePoint) -> f64| {
-        listed(points.iter().map(|point| list([point.time, value(point)])))
+    let over_time = |value: fn(&DrivePoint) -> f64| -> Vec<[f64; 2]> {
+        points.iter().map(|point| [point.time, value(point)]).collect()
     };
-    if points.iter().all(|point| in_degrees(point.rate).is_some()) {
-        let degrees = |point: &DrivePoint| in_degrees(point.rate).unwrap_or_default();
-        lines.value("rate_deg", over_time(&degrees));
-    } else {
-        lines.value("rate_rad", over_time(&|point| point.rate));
-    }
-    lines.value("speed", over_time(&|point| point.speed));
+    lines.line(angles_over_time("rate", &over_time(|point| point.rate)));
+    let speeds = over_time(|point| point.speed);
+    lines.value("speed", listed(speeds.into_iter().map(list)));
 }
 
+/// The rotors of a body, as tables of it.
 fn rotors(lines: &mut Lines, scene: &Scene, body: Option<usize>) {
     for rotor in scene.rotors.iter().filter(|rotor| rotor.body == body) {
         lines.tables(if body.is_some() { "body.rotor" } else { "main_body.rotor" });
         lines.value("axis", direction(rotor.axis));
         lines.value("inertia", number(rotor.inertia));
-        lines.line(angle("speed", rotor.speed));
+        lines.line(match &rotor.speed {
+            RotorSpeed::Constant(speed) => angle("speed", *speed),
+            RotorSpeed::Table(points) => angles_over_time("speed_over_time", points),
+        });
     }
 }
 

@@ -1,20 +1,20 @@
-use nboom_model::Rotor;
+use nboom_model::{Rotor, RotorSpeed};
 
 use super::{Direction, WordsError};
 
-/// A rotor in words: balanced, at a constant speed relative to its body.
+/// A rotor in words: balanced, at a commanded speed relative to its body.
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct RotorWords {
     axis: Direction,
     inertia: f64,
-    speed: f64,
+    speed: RotorSpeed,
 }
 
-/// A rotor with this axis (body axes) and this inertia about it, which is not in that of the body; at rest until
-/// it has a speed.
+/// A rotor with this axis (body axes) and this inertia about it, which is not in that of the body;
+/// at rest until it has a speed.
 pub fn rotor(axis: impl Into<Direction>, inertia: f64) -> RotorWords {
-    RotorWords { axis: axis.into(), inertia, speed: 0.0 }
+    RotorWords { axis: axis.into(), inertia, speed: RotorSpeed::Constant(0.0) }
 }
 
 impl RotorWords {
@@ -25,7 +25,18 @@ impl RotorWords {
 
     /// Speed relative to the body \[radians/T\].
     pub fn speed_rad(self, speed: f64) -> Self {
-        Self { speed, ..self }
+        Self { speed: RotorSpeed::Constant(speed), ..self }
+    }
+
+    /// Speeds relative to the body \[degrees/T\] at ascending times, straight between them.
+    pub fn speed_over_time_deg(self, speeds: Vec<[f64; 2]>) -> Self {
+        let in_radians = speeds.into_iter().map(|[time, speed]| [time, speed.to_radians()]);
+        self.speed_over_time_rad(in_radians.collect())
+    }
+
+    /// Speeds relative to the body \[radians/T\] at ascending times, straight between them.
+    pub fn speed_over_time_rad(self, speeds: Vec<[f64; 2]>) -> Self {
+        Self { speed: RotorSpeed::Table(speeds), ..self }
     }
 
     /// The rotor of what is called `of`, in the main body until it is put elsewhere.
@@ -34,6 +45,6 @@ impl RotorWords {
         let axis = axis.unit().map_err(|(found, expected)| {
             errors.push(WordsError::Value { of: of.to_owned(), key: "rotor", found, expected });
         });
-        Some(Rotor { body: None, axis: axis.ok()?, inertia: *inertia, speed: *speed })
+        Some(Rotor { body: None, axis: axis.ok()?, inertia: *inertia, speed: speed.clone() })
     }
 }

@@ -12,6 +12,7 @@ mod rigs;
 mod robustness;
 mod rules;
 mod shapes;
+mod values;
 mod words;
 mod written;
 mod wrong;

@@ -133,7 +133,10 @@ impl<'a> Replay<'a> {
     fn pass_instant(&mut self) -> Result<(), SimError> {
         let Self { scene, situation, dynamics, .. } = self;
         situation.pass(scene, dynamics)?;
-        dynamics.set_mode(&situation.mode, &situation.state.beta);
+        let Situation { state, mode, .. } = &mut *situation;
+        dynamics.set_mode(mode, &state.beta);
+        state.spin_up(scene, mode, None);
+        dynamics.spin_from(state.time, state.rotors.iter().copied());
         self.events.extend(&situation.outcome.events);
         Ok(())
     }
@@ -146,11 +149,13 @@ impl<'a> Replay<'a> {
         let thrust = dynamics.elements().acts_from_outside() || scene.base.drive().is_some();
         let free = dynamics.free_hinges().len();
         let (unknowns, dashpots) = (Unknowns::Velocities, false);
-        let layout = VariableLayout { unknowns, free, held, thrust, dashpots };
+        let spins_up = state.spins_up();
+        let layout = VariableLayout { unknowns, free, held, thrust, dashpots, spins_up };
         let graph = exact_graph(scene, mode, layout);
         let mut fixed = state.beta.clone();
         fixed.extend(state.carried().velocity.to_array());
         fixed.push(state.time);
+        fixed.extend(state.rotors.iter().map(|rotor| rotor.speed));
         self.sizes.enter(dynamics.free_hinges());
         self.sizes.saw_omega(&state.omega_body.to_array().map(|rate| rate.to_f64()));
         let free = dynamics.free_hinges().iter();

@@ -2,11 +2,12 @@ use std::any::Any;
 
 use nboom_dynamics::Recursive;
 use nboom_elements::Commands;
-use nboom_model::{Mode, Scene};
+use nboom_model::{Mode, RotorMotion, Scene};
 use nboom_scalar::{Eight, EightNumbers, Vec3, WorkOnEight, in_vector_registers};
 
 use crate::equations::layout::VariableLayout;
 use crate::equations::rates::{ByRecursion, Rates};
+use crate::equations::state::State;
 
 /// The equations of one mode on eight states side by side: the recursion over numbers that fill the
 /// registers of this processor.
@@ -40,6 +41,11 @@ impl EightStates {
     /// Holds `commands` in place of those that they held.
     pub fn command(&mut self, commands: &Commands) {
         let _ = in_vector_registers(Command { eight: self, commands });
+    }
+
+    /// Makes the rotors go on from `state`.
+    pub fn spin_from(&mut self, state: &State) {
+        let _ = in_vector_registers(SpinFrom { eight: self, state });
     }
 
     /// Writes ẏ to `dy`, both as they stand in `layout`.
@@ -102,6 +108,21 @@ impl WorkOnEight for Command<'_> {
 
     fn carry_out<R: EightNumbers>(self) {
         self.eight.of_mode::<R>().dynamics.command(self.commands);
+    }
+}
+
+struct SpinFrom<'a> {
+    eight: &'a mut EightStates,
+    state: &'a State,
+}
+
+impl WorkOnEight for SpinFrom<'_> {
+    type Output = ();
+
+    fn carry_out<R: EightNumbers>(self) {
+        let motions = self.state.rotors.iter().map(RotorMotion::of_constant);
+        let dynamics = &mut self.eight.of_mode::<R>().dynamics;
+        dynamics.spin_from(R::constant(self.state.time), motions);
     }
 }
 

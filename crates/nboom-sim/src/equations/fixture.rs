@@ -43,6 +43,7 @@ pub(super) fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Ve
         pieces: vec![0; Mode::at_start(&scene).pieces.len()],
         externals: vec![1; scene.externals.len()],
         drive: 0,
+        rotors: vec![0; scene.rotors.len()],
     };
     let options = Options { formulation, ..Options::default() };
     let (mut equations, mut y) = (Equations::new(&scene, OwnLaws::default(), &options), Vec::new());

@@ -1,10 +1,11 @@
 use nboom_dynamics::Recursive;
 use nboom_elements::Commands;
-use nboom_model::{Mode, Scene};
+use nboom_model::{Mode, RotorMotion, Scene};
 use nboom_scalar::{Dual, Real, Vec3};
 
 use crate::equations::layout::VariableLayout;
 use crate::equations::rates::{ByRecursion, Rates};
+use crate::equations::state::State;
 
 /// Derivatives of the equations of one mode with respect to its variables: the recursion over
 /// dual numbers, one variable at a time.
@@ -30,6 +31,12 @@ impl Jacobian {
     /// Holds `commands` in place of those that it held.
     pub fn command(&mut self, commands: &Commands) {
         self.dynamics.command(commands);
+    }
+
+    /// Makes the rotors go on from `state`.
+    pub fn spin_from(&mut self, state: &State) {
+        let motions = state.rotors.iter().map(RotorMotion::of_constant);
+        self.dynamics.spin_from(Dual::constant(state.time), motions);
     }
 
     /// Writes ∂ẏ/∂y at `y`, which stands as in `layout`, to `out`, row by row; at `time`

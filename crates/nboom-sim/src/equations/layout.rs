@@ -9,16 +9,17 @@ pub(crate) enum Unknowns {
     Velocities,
     /// τ. ω follows from H̄_c, inertial axes, which is constant in the mode.
     HingeRates(Vec3<f64>),
-    /// π, from which ω and τ follow with H̄_c: this one, inertial axes, and what the thrust has added.
+    /// π, from which ω and τ follow with H̄_c: this one, inertial axes, and what the thrust has
+    /// added.
     Momenta(Vec3<f64>),
 }
 
-/// Which variables are integrated in a mode, and where they stand: attitude (4), rate (3)
-/// unless it follows from the angular momentum, angles of the free hinges and their rates or
-/// momenta, and only where needed the thrust's displacement and velocity of the mass centre (6),
-/// the work of dashpots (1), and the work (1) and angular impulse (3) of the thrust. The impulse
-/// comes before all work where the rate follows from it. What a control law commands on the main body
-/// counts as thrust.
+/// Which variables are integrated in a mode, and where they stand: attitude (4), rate (3) unless it
+/// follows from the angular momentum, angles of the free hinges and their rates or momenta, and
+/// only where needed the thrust's displacement and velocity of the mass centre (6), the work of
+/// dashpots (1), the work (1) and angular impulse (3) of the thrust, and the work of the motors
+/// that speed rotors up on what carries these (1). The impulse comes before all work where the rate
+/// follows from it. What a control law commands on the main body counts as thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct VariableLayout {
     pub unknowns: Unknowns,
@@ -27,6 +28,8 @@ pub(crate) struct VariableLayout {
     pub held: bool,
     pub thrust: bool,
     pub dashpots: bool,
+    /// Whether rotors change their speeds.
+    pub spins_up: bool,
 }
 
 impl VariableLayout {
@@ -40,6 +43,7 @@ impl VariableLayout {
             held: false,
             thrust: false,
             dashpots: false,
+            spins_up: false,
         }
     }
 
@@ -108,7 +112,13 @@ impl VariableLayout {
             .then(|| self.hinge_motion().start + i - beta.start)
     }
 
+    /// Work on their carriers of the motors that speed rotors up.
+    pub fn spin_up_work(&self) -> Range<usize> {
+        let start = self.thrust_work().end.max(self.angular_impulse().end);
+        start..start + usize::from(self.spins_up)
+    }
+
     pub fn len(&self) -> usize {
-        self.thrust_work().end.max(self.angular_impulse().end)
+        self.spin_up_work().end
     }
 }

@@ -11,6 +11,7 @@ use crate::equations::eight_states::{At, EightStates};
 use crate::equations::jacobian::Jacobian;
 use crate::equations::layout::{Unknowns, VariableLayout};
 use crate::equations::rates::Rates;
+use crate::equations::state::State;
 use crate::options::Options;
 
 /// What a mode needs that does not depend on how it is entered.
@@ -32,8 +33,20 @@ pub(crate) struct PreparedMode {
     eight_states: Option<Option<EightStates>>,
 }
 
+/// How a mode was entered.
+#[derive(Clone, Copy)]
+pub(crate) struct Entry<'a> {
+    /// The scene that it is a mode of.
+    pub scene: &'a Scene,
+    /// What it holds.
+    pub commands: &'a Commands,
+    /// The state in which it began.
+    pub origin: &'a State,
+}
+
 impl PreparedMode {
-    /// The mode of the scene of `dynamics` in which held hinges are at `beta`, for what `commands` act on.
+    /// The mode of the scene of `dynamics` in which held hinges are at `beta`, for what `commands`
+    /// act on.
     pub fn new(
         mut dynamics: Recursive<f64>,
         mode: &Mode,
@@ -77,7 +90,21 @@ impl PreparedMode {
         }
     }
 
-    /// Chooses the code that computes accelerations from the time `since` on, unless it was chosen before.
+    /// Makes the rotors go on from `state`.
+    pub fn spin_from(&mut self, state: &State) {
+        if !state.rotors.is_empty() {
+            self.dynamics.spin_from(state.time, state.rotors.iter().copied());
+            if let Some(jacobian) = &mut self.jacobian {
+                jacobian.spin_from(state);
+            }
+            if let Some(Some(eight_states)) = &mut self.eight_states {
+                eight_states.spin_from(state);
+            }
+        }
+    }
+
+    /// Chooses the code that computes accelerations from the time `since` on, unless it was chosen
+    /// before.
     ///
     /// # Errors
     /// When the code that is demanded does not fit.
@@ -166,22 +193,18 @@ impl PreparedMode {
     }
 
     /// Makes ready what [`rates_of_eight`](Self::rates_of_eight) needs in `layout`.
-    pub fn prepare_eight(
-        &mut self,
-        (scene, commands): (&Scene, &Commands),
-        layout: &VariableLayout,
-    ) {
+    pub fn prepare_eight(&mut self, entry: Entry<'_>, layout: &VariableLayout) {
         let has_right_side = self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some());
         if !has_right_side || layout.thrust {
-            self.eight_states((scene, commands), layout);
+            self.eight_states(entry, layout);
         }
     }
 
-    /// Writes ẏ of eight states to `dy`, if there is code for them in `layout`; returns whether there is.
-    /// The mode is one of `scene`, under `commands`, which it holds.
+    /// Writes ẏ of eight states to `dy`, if there is code for them in `layout`; returns whether
+    /// there is. The mode was entered by `entry`.
     pub fn rates_of_eight(
         &mut self,
-        (scene, commands): (&Scene, &Commands),
+        entry: Entry<'_>,
         layout: &VariableLayout,
         at: At<'_>,
         dy: &mut [Eight],
@@ -200,7 +223,7 @@ impl PreparedMode {
             }
             _ => {}
         }
-        let Some(eight_states) = self.eight_states((scene, commands), layout) else { return false };
+        let Some(eight_states) = self.eight_states(entry, layout) else { return false };
         match power {
             Some(power) => eight_states.complete(*layout, &power, at, dy),
             None => eight_states.rates(*layout, at, dy),
@@ -211,28 +234,33 @@ impl PreparedMode {
     /// The recursion on eight states, where there are registers for them.
     fn eight_states(
         &mut self,
-        (scene, commands): (&Scene, &Commands),
+        entry: Entry<'_>,
         layout: &VariableLayout,
     ) -> Option<&mut EightStates> {
         let Self { mode, beta, reach, eight_states, .. } = self;
         let made = eight_states.get_or_insert_with(|| {
-            let mut made = EightStates::new(scene, mode, beta, *layout);
-            if let Some(made) = made.as_mut().filter(|_| *reach != Reach::Nothing) {
-                made.command(commands);
+            let mut made = EightStates::new(entry.scene, mode, beta, *layout);
+            if let Some(made) = &mut made {
+                if *reach != Reach::Nothing {
+                    made.command(entry.commands);
+                }
+                made.spin_from(entry.origin);
             }
             made
         });
         made.as_mut()
     }
 
-    /// Derivatives of the equations of the mode, which is one of `scene`, under `commands`, which it holds.
-    pub fn jacobian(&mut self, scene: &Scene, commands: &Commands) -> &mut Jacobian {
+    /// Derivatives of the equations of the mode, which was entered by `entry`.
+    pub fn jacobian(&mut self, entry: Entry<'_>) -> &mut Jacobian {
+        let Entry { scene, commands, origin } = entry;
         let Self { mode, beta, reach, jacobian, .. } = self;
         jacobian.get_or_insert_with(|| {
             let mut jacobian = Jacobian::new(scene, mode, beta);
             if *reach != Reach::Nothing {
                 jacobian.command(commands);
             }
+            jacobian.spin_from(origin);
             jacobian
         })
     }

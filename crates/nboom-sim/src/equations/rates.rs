@@ -71,8 +71,8 @@ impl<R: Real> Rates<R> {
     }
 
     /// Writes ẏ at `y` to `dy`. `dynamics` is in the same mode, `by` computes accelerations
-    /// there, and at `time` the velocity of what is [carried](crate::equations::variables::Variables::carried) is
-    /// `carried`, inertial axes.
+    /// there, and at `time` the velocity of what is
+    /// [carried](crate::equations::variables::Variables::carried) is `carried`, inertial axes.
     #[inline(always)]
     pub fn write(
         &mut self,
@@ -108,6 +108,9 @@ impl<R: Real> Rates<R> {
             let free = dynamics.free_hinges();
             *work = dynamics.elements().rate_power(free, [motion.beta, motion.tau]);
         }
+        if let [work] = &mut dy[layout.spin_up_work()] {
+            *work = dynamics.spin_up_power(&motion);
+        }
         if !layout.thrust {
             return;
         }
@@ -120,8 +123,9 @@ impl<R: Real> Rates<R> {
         }
     }
 
-    /// Writes what is left of ẏ at `y` where the rates of attitude, ω, β and τ stand in `dy` already, and
-    /// the parts of hinge torques that depend on rates have the power `power`; the main body is free.
+    /// Writes what is left of ẏ at `y` where the rates of attitude, ω, β and τ stand in `dy`
+    /// already, and the parts of hinge torques that depend on rates have the power `power`; the
+    /// main body is free.
     #[inline(always)]
     pub fn complete(
         &self,
@@ -144,8 +148,8 @@ impl<R: Real> Rates<R> {
     }
 }
 
-/// Power of what acts from outside and of what moves a held main body, whose O has the velocity `velocity`,
-/// main-body axes.
+/// Power of what acts from outside and of what moves a held main body, whose O has the velocity
+/// `velocity`, main-body axes.
 #[inline(always)]
 fn power_on_held<R: Real>(
     dynamics: &mut Recursive<R>,

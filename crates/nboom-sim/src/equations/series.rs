@@ -2,7 +2,7 @@ use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, Reach};
 use nboom_expr::{Expr, Graph};
 use nboom_formulation::Formulation;
-use nboom_model::{Mode, Scene, WeldedTree};
+use nboom_model::{Mode, RotorMotion, Scene, WeldedTree};
 use nboom_scalar::{Real, Vec3};
 
 use crate::code::closed_form::ClosedForm;
@@ -30,11 +30,12 @@ pub(crate) fn graph(
         if commands.reach() != Reach::Nothing {
             dynamics.command(commands);
         }
+        let at_start = Expr::constant(origin.time);
+        dynamics.spin_from(at_start, origin.rotors.iter().map(RotorMotion::of_constant));
         let tree = WeldedTree::new(scene, mode, &origin.beta);
         let form = ClosedForm::fit(scene, &tree, Formulation::Articulated);
-        let at_start = Vec3::constant(origin.carried().velocity);
-        let since = t - Expr::constant(origin.time);
-        let carried = at_start + carrying_acceleration(scene, mode) * since;
+        let velocity = Vec3::constant(origin.carried().velocity);
+        let carried = velocity + carrying_acceleration(scene, mode) * (t - at_start);
         rates(scene, *layout, &mut dynamics, y, (t, carried), |dynamics, motion, out| match form {
             Ok(mut form) => form.accelerations(dynamics, motion, out),
             Err(_) => dynamics.accelerations(motion, out),
@@ -44,14 +45,23 @@ pub(crate) fn graph(
 
 /// The graph of the rates by the recursion, without rounding, for any state that the mode begins
 /// in. The time counts from that state; the angle of every hinge, the velocity of what is
-/// [carried](crate::equations::state::State::carried) and the time in it are further inputs, after the time.
+/// [carried](crate::equations::state::State::carried), the time and the speeds of the rotors in it
+/// are further inputs, after the time.
 pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) -> Graph {
-    let hinges = scene.bodies.len();
-    Graph::trace_exactly(layout.len() + 1 + hinges + 4, |inputs| {
+    let (hinges, rotors) = (scene.bodies.len(), scene.rotors.len());
+    Graph::trace_exactly(layout.len() + 1 + hinges + 4 + rotors, |inputs| {
         let (y, rest) = inputs.split_at(layout.len());
         let (since, beta, v) = (rest[0], &rest[1..=hinges], &rest[hinges + 1..]);
         let mut dynamics = Recursive::new(scene);
         dynamics.set_mode(mode, beta);
+        let turning = scene.rotors.iter().zip(&mode.rotors).zip(&v[4..]);
+        dynamics.spin_from(
+            v[3],
+            turning.map(|((rotor, &piece), &speed)| {
+                let acceleration = rotor.speed.acceleration(piece);
+                RotorMotion { speed, acceleration }
+            }),
+        );
         let at_start = Vec3::new(v[0], v[1], v[2]);
         let carried = at_start + carrying_acceleration(scene, mode) * since;
         rates(scene, layout, &mut dynamics, y, (v[3] + since, carried), |dynamics, motion, out| {
@@ -60,8 +70,8 @@ pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) ->
     })
 }
 
-/// The rates of the variables `y` at a time, at which what is carried has a velocity, where `accelerate` computes the
-/// accelerations.
+/// The rates of the variables `y` at a time, at which what is carried has a velocity, where
+/// `accelerate` computes the accelerations.
 fn rates(
     scene: &Scene,
     layout: VariableLayout,

@@ -1,6 +1,6 @@
 use nboom_dynamics::{Invariants, Motion, Recursive};
 use nboom_elements::Coordinate;
-use nboom_model::Scene;
+use nboom_model::{Mode, RotorMotion, Scene};
 use nboom_scalar::{Number, Quaternion, Vec3};
 
 /// The motion at one time, with everything that is not integrated filled in.
@@ -17,6 +17,8 @@ pub(crate) struct State<R = f64> {
     pub center: PointMotion<R>,
     /// O of a main body that is held, inertial axes.
     pub held: Option<PointMotion<R>>,
+    /// Of every rotor.
+    pub rotors: Vec<RotorMotion<R>>,
     pub work: Work<R>,
     pub momenta: Momenta<R>,
     /// Room for β and τ of the free hinges.
@@ -58,6 +60,9 @@ pub(crate) struct Work<R = f64> {
     pub dashpots: R,
     /// Work of the thrust.
     pub thrust: R,
+    /// Work on what carries rotors of the moments by which their motors push off from it to speed
+    /// them up.
+    pub spin_up: R,
     /// Impulse of the thrust, inertial axes.
     pub thrust_impulse: Vec3<R>,
     /// Angular impulse of the thrust about the mass centre, inertial axes.
@@ -71,6 +76,7 @@ impl<R: Number> Work<R> {
         Self {
             dashpots: R::zero(),
             thrust: R::zero(),
+            spin_up: R::zero(),
             thrust_impulse: Vec3::zero(),
             thrust_angular_impulse: Vec3::zero(),
             lock_ups: R::zero(),
@@ -90,6 +96,7 @@ impl<R: Number> State<R> {
             tau: vec![R::zero(); hinges],
             center: PointMotion { position: Vec3::zero(), velocity: Vec3::zero() },
             held: None,
+            rotors: Vec::with_capacity(scene.rotors.len()),
             work: Work::none(),
             momenta: Momenta::of_none(hinges),
             free: [Vec::with_capacity(hinges), Vec::with_capacity(hinges)],
@@ -117,12 +124,32 @@ impl<R: Number> State<R> {
             velocity: Vec3::constant(initial.velocity_inertial),
         };
         self.held = scene.base.is_held().then_some(self.center);
+        self.rotors.clear();
+        self.rotors.extend(scene.rotors.iter().map(|rotor| {
+            let speed = R::constant(rotor.speed.at(initial.time));
+            RotorMotion { speed, acceleration: 0.0 }
+        }));
         self.work = Work::none();
         self.momenta.forget();
     }
 
-    /// Puts the mass centre where it belongs when O moves as `origin`; `dynamics` is in the mode of the
-    /// state.
+    /// Changes the speeds of the rotors from now on as their tables say in `mode`, and at the
+    /// `commanded` rates beside where there are some.
+    pub fn spin_up(&mut self, scene: &Scene, mode: &Mode, commanded: Option<&[f64]>) {
+        let tables = scene.rotors.iter().zip(&mode.rotors);
+        for (i, (motion, (rotor, &piece))) in self.rotors.iter_mut().zip(tables).enumerate() {
+            let commanded = commanded.map_or(0.0, |rates| rates[i]);
+            motion.acceleration = rotor.speed.acceleration(piece) + commanded;
+        }
+    }
+
+    /// Whether a rotor changes its speed.
+    pub fn spins_up(&self) -> bool {
+        self.rotors.iter().any(|motion| motion.acceleration != 0.0)
+    }
+
+    /// Puts the mass centre where it belongs when O moves as `origin`; `dynamics` is in the mode of
+    /// the state.
     pub fn put_center(&mut self, dynamics: &mut Recursive<R>, origin: PointMotion<R>) {
         self.center.velocity = Vec3::zero();
         let found = self.invariants(dynamics);
@@ -133,8 +160,8 @@ impl<R: Number> State<R> {
         };
     }
 
-    /// Puts the mass centre where the hinges carry it if the main body is held; `dynamics` is in the mode of
-    /// the state.
+    /// Puts the mass centre where the hinges carry it if the main body is held; `dynamics` is in
+    /// the mode of the state.
     pub fn follow_hinges(&mut self, dynamics: &mut Recursive<R>) {
         if let Some(origin) = self.held {
             self.put_center(dynamics, origin);
@@ -143,22 +170,26 @@ impl<R: Number> State<R> {
 
     /// Makes it `other`, of the same scene, without allocation.
     pub fn copy_from(&mut self, other: &Self) {
-        let Self { time, attitude, omega_body, beta, tau, center, held, work, momenta, .. } = other;
+        let Self { time, attitude, omega_body, beta, tau, center, held, .. } = other;
+        let Self { rotors, work, momenta, .. } = other;
         (self.time, self.attitude, self.omega_body) = (*time, *attitude, *omega_body);
         (self.center, self.held, self.work) = (*center, *held, *work);
         self.beta.clone_from(beta);
         self.tau.clone_from(tau);
+        self.rotors.clone_from(rotors);
         self.momenta.angular_inertial = momenta.angular_inertial;
         self.momenta.hinges.clone_from(&momenta.hinges);
     }
 
-    /// What free fall, or the motion of a main body that is held, carries on: the mass centre, or O.
+    /// What free fall, or the motion of a main body that is held, carries on: the mass centre, or
+    /// O.
     pub fn carried(&self) -> PointMotion<R> {
         self.held.unwrap_or(self.center)
     }
 
     /// Energy and momenta in main-body axes; `dynamics` is in the mode of the state.
     pub fn invariants(&mut self, dynamics: &mut Recursive<R>) -> Invariants<R> {
+        dynamics.turn_rotors(self.time);
         let to_inertial = self.attitude.to_matrix();
         let center_velocity = to_inertial.transpose() * self.center.velocity;
         dynamics.invariants(&self.motion(dynamics), center_velocity)

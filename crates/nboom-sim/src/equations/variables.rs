@@ -84,7 +84,13 @@ impl<R: Number> Variables<R> {
             }
         }
         state.center = self.center(t, y);
+        let since = t - self.origin.time;
+        state.rotors.clear();
+        state.rotors.extend(self.origin.rotors.iter().map(|motion| motion.after(since)));
         state.work = self.origin.work;
+        if let [work] = y[layout.spin_up_work()] {
+            state.work.spin_up += work;
+        }
         if let [work] = y[layout.dashpot_work()] {
             state.work.dashpots += work;
         }
@@ -101,7 +107,8 @@ impl<R: Number> Variables<R> {
         state.follow_hinges(dynamics);
     }
 
-    /// The system mass centre of a free main body: free fall since the mode began, and what the thrust added.
+    /// The system mass centre of a free main body: free fall since the mode began, and what the
+    /// thrust added.
     fn center(&self, t: R, y: &[R]) -> PointMotion<R> {
         let mut center = self.carried(t);
         if let [x, y, z, vx, vy, vz] = y[self.layout.thrust_motion()] {

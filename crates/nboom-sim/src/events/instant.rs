@@ -1,5 +1,5 @@
 use nboom_dynamics::{LockUp, Recursive, VelocityJump};
-use nboom_model::{External, HingeState, Mode, Release, SAME_ANGLE, Scene};
+use nboom_model::{External, HingeState, Mode, Release, Rotor, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
 use crate::equations::state::State;
@@ -9,8 +9,9 @@ use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::{Bound, GuardKind, Guards, read};
 use crate::events::schedule::Schedule;
 
-/// Angle \[rad\] through which the fastest arriving hinge turns in one instant; where it slides, its travel
-/// as a share of its stroke; for a line, its change of length as a share of the length at which it arrives.
+/// Angle \[rad\] through which the fastest arriving hinge turns in one instant; where it slides,
+/// its travel as a share of its stroke; for a line, its change of length as a share of the length
+/// at which it arrives.
 const ONE_INSTANT: f64 = 1e-11;
 
 /// Spacings of `f64` that an instant lasts at least.
@@ -218,8 +219,8 @@ impl<R: Number> Outcome<R> {
         })
     }
 
-    /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force laws
-    /// and what acts from outside. `dynamics` is in the mode before and is left there.
+    /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force
+    /// laws and what acts from outside. `dynamics` is in the mode before and is left there.
     pub fn pass(
         &mut self,
         scene: &Scene,
@@ -237,10 +238,7 @@ impl<R: Number> Outcome<R> {
         };
         self.released.extend((0..scene.bodies.len()).filter(due));
         let end = time + arrivals.duration;
-        let goes_on = |(one, &piece): (&External, &usize)| one.course.piece_at(end) == piece;
-        let drive = scene.base.piece_at(end);
-        let go_on = scene.externals.iter().zip(&mode.externals).all(goes_on) && drive == mode.drive;
-        if arrivals.is_empty() && self.released.is_empty() && go_on {
+        if arrivals.is_empty() && self.released.is_empty() && goes_on(scene, mode, end) {
             return Ok(());
         }
         let before = totals(state, dynamics);
@@ -265,7 +263,10 @@ impl<R: Number> Outcome<R> {
             let kind = GuardKind::Bound(bound);
             events.push(event(kind.event(), Some(kind.hinge()), None, after));
         }
-        mode.drive = drive;
+        mode.drive = scene.base.piece_at(end);
+        for (rotor, piece) in scene.rotors.iter().zip(&mut mode.rotors) {
+            *piece = rotor.speed.piece_at(end);
+        }
         for (one, piece) in scene.externals.iter().zip(&mut mode.externals) {
             let next = one.course.piece_at(end);
             let before = one.course.acts(std::mem::replace(piece, next));
@@ -320,6 +321,15 @@ impl<R: Number> Outcome<R> {
         }
         Ok(())
     }
+}
+
+/// Whether all that goes by a table over time is in the same piece at `time`.
+fn goes_on(scene: &Scene, mode: &Mode, time: f64) -> bool {
+    let acts_on = |(one, &piece): (&External, &usize)| one.course.piece_at(time) == piece;
+    let turns_on = |(rotor, &piece): (&Rotor, &usize)| rotor.speed.piece_at(time) == piece;
+    scene.externals.iter().zip(&mode.externals).all(acts_on)
+        && scene.rotors.iter().zip(&mode.rotors).all(turns_on)
+        && scene.base.piece_at(time) == mode.drive
 }
 
 fn totals<R: Number>(state: &mut State<R>, dynamics: &mut Recursive<R>) -> Totals {

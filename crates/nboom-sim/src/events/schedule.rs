@@ -1,8 +1,8 @@
 use nboom_model::{HingeState, Mode, Release, Scene};
 use nboom_scalar::Number;
 
-/// The times at which the scene itself changes the mode, of releases and of what acts from outside; and that at which
-/// a control law is asked next.
+/// The times at which the scene itself changes the mode, of releases, of what acts from outside and
+/// of prescribed motions; and that at which a control law is asked next.
 #[derive(Clone, Debug)]
 pub(crate) struct Schedule<R> {
     /// When each hinge is released if it is unreleased then; infinite as long as that is not known.
@@ -50,14 +50,16 @@ impl<R: Number> Schedule<R> {
         self.releases[i].to_f64() <= time
     }
 
-    /// The next time after `time` at which the scene itself changes `mode` or a control law is asked, or
-    /// its end.
+    /// The next time after `time` at which the scene itself changes `mode` or a control law is
+    /// asked, or its end.
     pub fn next(&self, scene: &Scene, mode: &Mode, time: f64) -> R {
         let unreleased = |(_, state): &(&R, &HingeState)| **state == HingeState::Unreleased;
         let releases = self.releases.iter().zip(&mode.hinges).filter(unreleased).map(|(&at, _)| at);
         let courses = scene.externals.iter().zip(&mode.externals);
         let changes = courses.filter_map(|(one, &piece)| one.course.end_of(piece));
-        let changes = changes.chain(scene.base.end_of(mode.drive));
+        let rotors = scene.rotors.iter().zip(&mode.rotors);
+        let bends = rotors.filter_map(|(rotor, &piece)| rotor.speed.end_of(piece));
+        let changes = changes.chain(scene.base.end_of(mode.drive)).chain(bends);
         let sample = [R::constant(self.sample)];
         let later =
             releases.chain(changes.map(R::constant)).chain(sample).filter(|at| at.to_f64() > time);

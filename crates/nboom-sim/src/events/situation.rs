@@ -11,8 +11,8 @@ use crate::events::side::LockSide;
 
 /// Where a motion has come to: its state and mode, and what may end the mode.
 ///
-/// `scene` and `dynamics`, which its methods borrow, are always those of the motion; `dynamics` are in
-/// the same mode.
+/// `scene` and `dynamics`, which its methods borrow, are always those of the motion; `dynamics` are
+/// in the same mode.
 pub(crate) struct Situation<R> {
     pub state: State<R>,
     pub mode: Mode,
@@ -41,8 +41,8 @@ impl<R: Number> Situation<R> {
         }
     }
 
-    /// Goes to the beginning of `scene`, before the first instant; nothing is watched yet. `dynamics` is
-    /// in the mode `start`, in which the scene starts.
+    /// Goes to the beginning of `scene`, before the first instant; nothing is watched yet.
+    /// `dynamics` is in the mode `start`, in which the scene starts.
     pub fn begin(&mut self, scene: &Scene, start: &Mode, dynamics: &mut Recursive<R>) {
         let Self { state, mode, lock_sides, schedule, outcome, .. } = self;
         outcome.reset();
@@ -59,6 +59,9 @@ impl<R: Number> Situation<R> {
             *piece = external.course.piece_at(scene.initial.time);
         }
         mode.drive = scene.base.piece_at(scene.initial.time);
+        for (piece, rotor) in mode.rotors.iter_mut().zip(&scene.rotors) {
+            *piece = rotor.speed.piece_at(scene.initial.time);
+        }
         for (i, side) in lock_sides.iter_mut().enumerate() {
             *side = LockSide::of(scene, i, state.beta[i]);
         }
@@ -107,7 +110,8 @@ impl<R: Number> Situation<R> {
         self.schedule.sample = time;
     }
 
-    /// The next time at which the scene itself changes the mode or a control law is asked, or its end.
+    /// The next time at which the scene itself changes the mode or a control law is asked, or its
+    /// end.
     pub fn limit(&self, scene: &Scene) -> R {
         self.schedule.next(scene, &self.mode, self.state.time.to_f64())
     }

@@ -2,8 +2,8 @@ use crate::run::conservation::Conservation;
 
 /// What became of energy and momentum since the initial time.
 ///
-/// Kinetic and potential energy and the loss in lock-ups add up to the work done on top of the initial energy,
-/// but for the potential energy that commands change.
+/// Kinetic and potential energy and the loss in lock-ups add up to the work done on top of the
+/// initial energy, but for the potential energy that commands change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account {
     /// Potential energy of springs and gravity.
@@ -12,7 +12,7 @@ pub struct Account {
     pub dashpot_work: f64,
     /// Work of what acts from outside, and of what moves a main body that is held.
     pub thrust_work: f64,
-    /// Work of the motors of rotors.
+    /// Work of the motors of rotors, relative to what carries these.
     pub motor_work: f64,
     /// Kinetic energy taken away by lock-ups.
     pub lock_up_loss: f64,

@@ -1,5 +1,5 @@
-use nboom_model::{MassProperties, Rotors, Scene};
-use nboom_scalar::{Mat3, Vec3};
+use nboom_model::{MassProperties, Scene};
+use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use crate::run::record::Snapshot;
 
@@ -27,7 +27,9 @@ impl BodyMotion {
         self.own_angular_momentum_inertial + arm.cross(self.linear_momentum_inertial)
     }
 
-    fn new(body: &MassProperties, rotors: &Rotors, at_origin: &Placed) -> Self {
+    /// `rotors` have the inertia and the momentum relative to the body, body axes.
+    fn new(body: &MassProperties, rotors: (Sym3<f64>, Vec3<f64>), at_origin: &Placed) -> Self {
+        let (inertia, momentum) = rotors;
         let Placed { rot, origin, velocity, omega } = *at_origin;
         let arm = rot * body.center_of_mass;
         let velocity_inertial = velocity + omega.cross(arm);
@@ -38,7 +40,7 @@ impl BodyMotion {
             omega_inertial: omega,
             linear_momentum_inertial: velocity_inertial * body.mass,
             own_angular_momentum_inertial: rot
-                * ((body.inertia + rotors.inertia) * rot.transpose_mul(omega) + rotors.momentum),
+                * ((body.inertia + inertia) * rot.transpose_mul(omega) + momentum),
         }
     }
 }
@@ -54,8 +56,8 @@ struct Placed {
 }
 
 impl Snapshot {
-    /// The motion of each body of `scene`, of which this is a snapshot: the main body first, then those
-    /// outboard of the hinges.
+    /// The motion of each body of `scene`, of which this is a snapshot: the main body first, then
+    /// those outboard of the hinges.
     ///
     /// Their momenta sum up to those of the snapshot, unless the scene has
     /// [`Departures`](nboom_model::Departures).
@@ -82,9 +84,17 @@ impl Snapshot {
             });
         }
         let hinged = scene.bodies.iter().zip(&placed).enumerate().map(|(i, (body, at))| {
-            BodyMotion::new(&body.mass_properties, &scene.rotors_of(Some(i)), at)
+            BodyMotion::new(&body.mass_properties, self.rotors_of(scene, Some(i)), at)
         });
-        let main = BodyMotion::new(&scene.main_body, &scene.rotors_of(None), &main);
+        let main = BodyMotion::new(&scene.main_body, self.rotors_of(scene, None), &main);
         std::iter::once(main).chain(hinged).collect()
+    }
+
+    /// Inertia and momentum relative to it of the rotors of a body, body axes.
+    fn rotors_of(&self, scene: &Scene, body: Option<usize>) -> (Sym3<f64>, Vec3<f64>) {
+        let all = scene.rotors.iter().zip(&self.rotor_speeds);
+        let momenta = all.filter(|(rotor, _)| rotor.body == body);
+        let momenta = momenta.map(|(rotor, speed)| rotor.axis * (rotor.inertia * speed));
+        (scene.rotor_inertia_of(body), momenta.fold(Vec3::zero(), |sum, one| sum + one))
     }
 }

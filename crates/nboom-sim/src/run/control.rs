@@ -46,8 +46,8 @@ impl Run<'_> {
         if reaches && value > 0.0 { Ok(()) } else { Err(OptionError { option, value, expected }) }
     }
 
-    /// Asks the control law, if it is due in this instant, and goes on with what it commands; the mode
-    /// has been entered.
+    /// Asks the control law, if it is due in this instant, and goes on with what it commands; the
+    /// mode has been entered.
     pub(super) fn ask_control(&mut self) -> Result<(), SimError> {
         let is_over = self.situation.is_at_end(&self.equations.scene);
         if is_over || self.sampling.is_none() || !self.situation.is_sampled() {
@@ -63,6 +63,9 @@ impl Run<'_> {
         let torques = equations.commands.hinge_torques();
         let first = torques.iter().position(|torque| !torque.is_finite());
         check.of(first, "commanded torque", first.is_none())?;
+        let rotors = equations.commands.rotor_accelerations();
+        let are_finite = rotors.iter().all(|acceleration| acceleration.is_finite());
+        check.of(None, "commanded acceleration of a rotor", are_finite)?;
         let is_finite = main_body.force.is_finite() && main_body.moment.is_finite();
         check.of(None, "commanded wrench", is_finite)?;
         let Situation { state, mode, .. } = &mut **situation;

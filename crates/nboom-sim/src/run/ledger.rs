@@ -26,6 +26,7 @@ pub(crate) struct Ledger {
     start_time: f64,
     start: Totals,
     start_energy: f64,
+    start_rotor_energy: f64,
     /// Largest ones so far.
     residuals: Balances,
     /// Largest ones so far.
@@ -44,7 +45,8 @@ impl Ledger {
         Self {
             start_time: state.time,
             start,
-            start_energy: start.kinetic_energy + potential - invariants.motor_work,
+            start_energy: start.kinetic_energy + potential,
+            start_rotor_energy: invariants.rotor_energy,
             residuals: Balances::default(),
             scales: Balances::default(),
             held: state.held.is_some(),
@@ -53,8 +55,8 @@ impl Ledger {
         }
     }
 
-    /// Takes the potential energy of `state` out of the balance, until it is [taken up](Self::take_up)
-    /// again: commands that change it do no work in an instant.
+    /// Takes the potential energy of `state` out of the balance, until it is [taken
+    /// up](Self::take_up) again: commands that change it do no work in an instant.
     pub fn set_aside(&mut self, equations: &Equations, state: &State) {
         self.start_energy -= potential(equations, state).sum;
     }
@@ -87,8 +89,8 @@ impl Ledger {
         }
     }
 
-    /// Compares `state`, whose invariants are given, with what impulses and work account for, and returns
-    /// what became of them.
+    /// Compares `state`, whose invariants are given, with what impulses and work account for, and
+    /// returns what became of them.
     ///
     /// # Errors
     /// When an energy or a momentum is not finite, so that nothing can be said about it.
@@ -109,10 +111,9 @@ impl Ledger {
         let potential = potential(equations, state);
         let check = Check { scene: &equations.scene, time: state.time };
         check.of(potential.beyond, "potential energy", potential.beyond.is_none())?;
-        let energy = now.kinetic_energy + potential.sum
-            - invariants.motor_work
-            - work.dashpots
-            - work.thrust
+        // The motors turn what they take from carriers into energy of the rotors, too.
+        let motors = invariants.rotor_energy - self.start_rotor_energy + work.spin_up;
+        let energy = now.kinetic_energy + potential.sum - motors - work.dashpots - work.thrust
             + work.lock_ups
             - self.start_energy;
         let energy_scale = now.kinetic_energy + potential.scale;
@@ -138,7 +139,7 @@ impl Ledger {
             potential_energy: potential.sum,
             dashpot_work: work.dashpots,
             thrust_work: work.thrust,
-            motor_work: invariants.motor_work,
+            motor_work: motors,
             lock_up_loss: work.lock_ups,
             residuals,
         })

@@ -51,8 +51,8 @@ pub trait Recorder {
         false
     }
 
-    /// Whether [`instant`](Self::instant) is wanted, which costs two evaluations of the equations of
-    /// motion each.
+    /// Whether [`instant`](Self::instant) is wanted, which costs two evaluations of the equations
+    /// of motion each.
     fn needs_instants(&self) -> bool {
         false
     }
@@ -120,6 +120,8 @@ pub struct Snapshot {
     pub alpha: Vec<f64>,
     /// σ: sum of τ along the appendage \[rad/T\].
     pub sigma: Vec<f64>,
+    /// Ω: speed of each rotor relative to its body, as the scene lists them \[rad/T\].
+    pub rotor_speeds: Vec<f64>,
     /// State of each hinge.
     pub hinges: Vec<HingeState>,
     /// Kinetic energy T, eq. (8.11).
@@ -154,6 +156,7 @@ impl Snapshot {
             tau: none(),
             alpha: none(),
             sigma: none(),
+            rotor_speeds: none(),
             hinges: Vec::new(),
             kinetic_energy: 0.0,
             linear_momentum_inertial: zero,
@@ -174,7 +177,8 @@ pub struct Detail {
     pub omega_dot_body: Vec3<f64>,
     /// Inertial acceleration of O without that of gravity, main-body axes.
     pub origin_acceleration_body: Vec3<f64>,
-    /// Moment about O and force that what holds the main body exerts on it, main-body axes; none of a free one.
+    /// Moment about O and force that what holds the main body exerts on it, main-body axes; none of
+    /// a free one.
     pub reaction: Option<Wrench<f64>>,
     /// Acceleration of each hinge angle β; zero while held.
     pub beta_ddot: Vec<f64>,
@@ -184,9 +188,14 @@ pub struct Detail {
     pub hinge_torque: Vec<f64>,
     /// The forces along lines, by hinge.
     pub lines: Vec<LineReading>,
-    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where one does not act. Body
-    /// axes, or main-body axes where it is given along inertial ones.
+    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where
+    /// one does not act. Body axes, or main-body axes where it is given along inertial ones.
     pub outside: Vec<[f64; 3]>,
+    /// Speed relative to its body \[rad/T\], and the rate of change of that, of each rotor in a
+    /// hinged body, as the scene lists them.
+    pub rotors: Vec<[f64; 2]>,
+    /// Torque of the motor of each rotor about its axis on it, as the scene lists them.
+    pub motor_torques: Vec<f64>,
     /// S̄: system mass centre from O, main-body axes.
     pub mass_center_body: Vec3<f64>,
     /// System mass centre, inertial axes.
@@ -210,6 +219,8 @@ impl Detail {
             hinge_torque: none(),
             lines: Vec::new(),
             outside: Vec::new(),
+            rotors: Vec::new(),
+            motor_torques: none(),
             mass_center_body: zero,
             mass_center_inertial: zero,
             mass_center_velocity_inertial: zero,

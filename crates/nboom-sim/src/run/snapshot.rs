@@ -26,6 +26,8 @@ pub(crate) fn write<R: Number>(
     copy(&state.tau, &mut out.tau);
     out.alpha.clone_from(&out.beta);
     out.sigma.clone_from(&out.tau);
+    out.rotor_speeds.clear();
+    out.rotor_speeds.extend(state.rotors.iter().map(|rotor| rotor.speed.to_f64()));
     scene.accumulate_along_appendages(&mut out.alpha);
     scene.accumulate_along_appendages(&mut out.sigma);
     out.hinges.clone_from(&mode.hinges);
@@ -63,6 +65,7 @@ pub(crate) fn write_detail(
     out.omega_dot_body = accelerations.omega_dot_body;
     out.origin_acceleration_body = accelerations.origin_body;
     out.reaction = equations.reaction(&motion);
+    equations.motor_torques(&motion, &mut out.motor_torques);
     equations.spread(&motion, [beta, tau, beta_ddot]);
     out.beta_ddot.clone_from(beta_ddot);
     out.alpha_ddot.clone_from(beta_ddot);
@@ -72,6 +75,7 @@ pub(crate) fn write_detail(
     out.hinge_torque.clone_from(&forces.torque);
     out.lines.clone_from(&forces.lines);
     out.outside.clone_from(&forces.outside);
+    out.rotors.clone_from(&forces.rotors);
     out.mass_center_body = mass_center_body;
     out.mass_center_inertial = state.center.position;
     out.mass_center_velocity_inertial = state.center.velocity;

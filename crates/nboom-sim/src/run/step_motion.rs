@@ -45,9 +45,12 @@ pub struct MotionAt<'a> {
     pub hinge_torque: &'a [f64],
     /// The forces along lines, by hinge; one entry for each of them.
     pub lines: &'a [LineReading],
-    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where one does not act. Body
-    /// axes, or main-body axes where it is given along inertial ones.
+    /// The forces and torques from outside on hinged bodies, as the scene lists them; zero where
+    /// one does not act. Body axes, or main-body axes where it is given along inertial ones.
     pub outside: &'a [[f64; 3]],
+    /// Speed relative to its body \[rad/T\], and the rate of change of that, of each rotor in a
+    /// hinged body, as the scene lists them.
+    pub rotors: &'a [[f64; 2]],
 }
 
 impl<'a> MotionAt<'a> {
@@ -65,16 +68,19 @@ impl<'a> MotionAt<'a> {
             hinge_torque: &detail.hinge_torque,
             lines: &detail.lines,
             outside: &detail.outside,
+            rotors: &detail.rotors,
         }
     }
 }
 
-/// Torques about all hinges, forces along lines, and what acts on hinged bodies from outside.
+/// Torques about all hinges, forces along lines, what acts on hinged bodies from outside, and how
+/// rotors turn in these.
 #[derive(Clone, Debug)]
 pub(crate) struct Forces {
     pub torque: Vec<f64>,
     pub lines: Vec<LineReading>,
     pub outside: Vec<[f64; 3]>,
+    pub rotors: Vec<[f64; 2]>,
     lengths_squared: Vec<f64>,
 }
 
@@ -86,6 +92,7 @@ impl Forces {
             torque: vec![0.0; elements.torques().len()],
             lines: lines.iter().map(|line| line.reading(0.0)).collect(),
             outside: vec![[0.0; 3]; scene.externals_on_hinged().count()],
+            rotors: Vec::with_capacity(scene.rotors.len()),
             lengths_squared: vec![0.0; lines.len()],
         }
     }
@@ -103,6 +110,9 @@ impl Forces {
             self.torque[law.hinge] += law.torque(beta[law.hinge], tau[law.hinge]);
         }
         dynamics.elements().set_on_hinged(&mut self.outside);
+        self.rotors.clear();
+        self.rotors
+            .extend(dynamics.rotors_in_hinged().map(|motion| [motion.speed, motion.acceleration]));
         if self.lines.is_empty() {
             return;
         }
@@ -130,7 +140,14 @@ impl Room {
     pub fn new(scene: &Scene, elements: &Elements<f64>) -> Self {
         let free = scene.bodies.len();
         let unknowns = Unknowns::Velocities;
-        let largest = VariableLayout { unknowns, free, held: false, thrust: true, dashpots: true };
+        let largest = VariableLayout {
+            unknowns,
+            free,
+            held: false,
+            thrust: true,
+            dashpots: true,
+            spins_up: true,
+        };
         let none = vec![0.0; free];
         Self {
             variables: Vec::with_capacity(largest.len()),
@@ -204,6 +221,7 @@ impl StepMotion for DenseStep<'_> {
             hinge_torque: &forces.torque,
             lines: &forces.lines,
             outside: &forces.outside,
+            rotors: &forces.rotors,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod control;
 mod own;
+mod wheels;
 
 use std::io;
 use std::path::Path;

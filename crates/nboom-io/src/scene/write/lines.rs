@@ -66,6 +66,16 @@ pub(super) fn inertia(inertia: &Sym3<f64>) -> String {
     format!("{{ {} }}", moments.join(", "))
 }
 
+/// A key of rates over time with its pairs of time and rate, in degrees where no bit is lost.
+pub(super) fn angles_over_time(key: &str, pairs: &[[f64; 2]]) -> String {
+    let degrees = |&[time, rate]: &[f64; 2]| Some([time, in_degrees(rate)?]);
+    let (ending, pairs) = match pairs.iter().map(degrees).collect() {
+        Some(in_degrees) => ("deg", in_degrees),
+        None => ("rad", pairs.to_vec()),
+    };
+    format!("{key}_{ending} = {}", listed(pairs.into_iter().map(list)))
+}
+
 /// A key of an angle or rate with its value, in degrees where no bit is lost.
 pub(super) fn angle(key: &str, radians: f64) -> String {
     match in_degrees(radians) {
