@@ -6,17 +6,14 @@ use nboom_model::UnitSystem;
 use nboom_sim::{Form, Method, Reference};
 
 #[cfg(feature = "generator")]
-use crate::{CompileArgs, GenerateArgs, NewArgs};
-use crate::{ConvertArgs, ReportArgs, SceneArgs, SlipArgs, StressArgs, choice};
-
-const EXIT_CODES: &str = "\
-Exit codes: 0 done; 1 a comparison failed (verify, \
-generate --check); 2 the input or the command line is wrong; 3 the computation or the writing \
-failed or was interrupted, and what was computed before is on disk, marked incomplete.";
+use crate::{CompileArgs, CompletionsArgs, GenerateArgs, ManArgs, NewArgs};
+use crate::{
+    ConvertArgs, Given, ReportArgs, SceneArgs, SlipArgs, StressArgs, TableArgs, choice, examples,
+};
 
 /// Simulates spacecraft that unfold.
 #[derive(Debug, Parser)]
-#[command(name = "nboom", version, after_help = EXIT_CODES)]
+#[command(name = "nboom", version, after_help = examples::NBOOM)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -31,18 +28,22 @@ pub enum Command {
     /// Writes states.csv, events.csv, summary.json and other tables, report.html that shows them in a
     /// browser, and prints a short summary. The files are written in DIR.partial and moved to DIR when the run is complete; docs/results.md says what
     /// happens to them otherwise. The first Ctrl-C or SIGTERM ends the run in order, the second at
-    /// once.
-    Run(RunArgs),
+    /// once. SCENE may be the run.json of a run: it is then repeated, with the options given now in place of its
+    /// own, into -o or the directory's name with -repeated.
+    #[command(after_help = examples::RUN)]
+    Run(Box<RunArgs>),
     /// Make the page of a run from its files, or one page that compares several runs.
     ///
     /// The page of a run is report.html in its directory; it needs a browser and no network. Of a run that is
     /// not complete it has what is there, and names what is missing. Several runs share axes: designs,
     /// formulations, a run with --as-1970 beside one without.
+    #[command(after_help = examples::REPORT)]
     Report(ReportArgs),
     /// Read and validate a scene, and say what it contains.
     ///
     /// No motion is computed. Also says what the scene does not pay for because it lacks it, what
     /// code generated for it assumes, and which code a run begins with.
+    #[command(after_help = examples::CHECK)]
     Check(CheckArgs),
     /// Compare all code that computes accelerations, on random states.
     ///
@@ -57,6 +58,7 @@ pub enum Command {
     /// Deviations of an entry of the matrix are relative to the root of the product of its diagonal
     /// entries in the matrix of kinetic energy, those of the forcing to its largest entry. The exit
     /// code is 1 if a deviation is above the tolerance; the file is written even then.
+    #[command(after_help = examples::VERIFY)]
     Verify(VerifyArgs),
     /// Time all code that computes accelerations.
     ///
@@ -64,11 +66,13 @@ pub enum Command {
     /// shortest and the median sample. For code that takes eight states at once it is an eighth of
     /// the time. The time of the recursion includes the springs and dashpots of the hinges; other
     /// code gets their torques as input.
+    #[command(after_help = examples::BENCH)]
     Bench(BenchArgs),
     #[cfg(feature = "generator")]
     /// Write a commented scene to start from.
     ///
     /// KIND is boom, wing, gimbal or n-boom. A file that exists is left alone.
+    #[command(after_help = examples::NEW)]
     New(NewArgs),
     /// Write a scene in another format.
     ///
@@ -76,10 +80,13 @@ pub enum Command {
     /// scene with the same motion, to the last bit. A scene with parameters and includes becomes one
     /// that stands alone. A scene becomes a deck if a deck can say it; otherwise every body that it
     /// cannot is named, with the reason.
+    #[command(after_help = examples::CONVERT)]
     Convert(ConvertArgs),
     /// Print the JSON schema of scenes, for editors.
+    #[command(after_help = examples::SCHEMA)]
     Schema,
     /// List formulations, integrators, laws, joints, outputs and stock routines.
+    #[command(after_help = examples::LIST)]
     List,
     /// Compute properties and stresses of cross sections.
     ///
@@ -89,6 +96,7 @@ pub enum Command {
     /// point on the eta axis, are optional; with one of them the answer has stresses. The answer is
     /// the list with an object `expect` added to each section. Compression is positive in it, as in
     /// the report.
+    #[command(after_help = examples::SECTION)]
     Section(SectionArgs),
     /// Write a crate with routines specialised for the scene.
     ///
@@ -98,6 +106,7 @@ pub enum Command {
     /// largest deviation. An up-to-date crate is left alone; a file that was changed, or not
     /// written by this command, is not overwritten.
     #[cfg(feature = "generator")]
+    #[command(after_help = examples::GENERATE)]
     Generate(GenerateArgs),
     /// Build a stand-alone simulator around the scene's routines.
     ///
@@ -109,12 +118,31 @@ pub enum Command {
     /// the recursion. Cargo, which comes with Rust, builds it in a folder that is kept, so that the
     /// next build is quicker.
     #[cfg(feature = "generator")]
+    #[command(after_help = examples::COMPILE)]
     Compile(CompileArgs),
+    /// Print what lets a shell complete commands and options.
+    ///
+    /// For all later sessions save it, for bash, as nboom in ~/.local/share/bash-completion/completions; for zsh as
+    /// _nboom in a folder of $fpath; for fish as nboom.fish in ~/.config/fish/completions; elvish and powershell
+    /// evaluate it in rc.elv and $PROFILE.
+    #[cfg(feature = "generator")]
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions(CompletionsArgs),
+    /// Write manual pages: nboom.1, and one for each command.
+    ///
+    /// In ~/.local/share/man/man1, man finds them: man nboom, man nboom-run. The names of the files are printed.
+    #[cfg(feature = "generator")]
+    #[command(after_help = examples::MAN)]
+    Man(ManArgs),
 }
 
 /// Options of `nboom run`.
 #[derive(Args, Debug)]
 pub struct RunArgs {
+    /// All options in words.
+    #[command(flatten)]
+    pub given: Given,
+
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -183,6 +211,10 @@ pub struct RunArgs {
     #[arg(long, value_name = "REFERENCE", num_args = 0..=1, require_equals = true,
           default_missing_value = Reference::default().name(), value_parser = choice::reference)]
     pub certify: Option<Reference>,
+
+    /// Tables, their times and columns.
+    #[command(flatten)]
+    pub tables: TableArgs,
 
     /// Slips of the original program.
     #[command(flatten)]
@@ -315,7 +347,7 @@ mod tests {
     fn run_args(extra: &[&str]) -> Result<RunArgs, clap::Error> {
         let words = ["nboom", "run", "scene.nml"].iter().chain(extra);
         match Cli::try_parse_from(words)?.command {
-            Command::Run(args) => Ok(args),
+            Command::Run(args) => Ok(*args),
             _ => unreachable!("the words say run"),
         }
     }

@@ -2,7 +2,7 @@ use std::io;
 use std::path::PathBuf;
 
 use nboom_io::{DeckObstacle, InputError, TooManyTimes};
-use nboom_model::ModelError;
+use nboom_model::{ModelError, UnknownColumn};
 #[cfg(feature = "generator")]
 use nboom_package::PackageError;
 use nboom_report::ReportError;
@@ -185,6 +185,56 @@ pub enum CliError {
     /// Stresses cannot be computed.
     #[error(transparent)]
     Stresses(#[from] StrengthError),
+    /// Output times of the command line are wrong.
+    #[error("{place}: found {found}, expected {expected}")]
+    Times {
+        /// The option, or the file and its line.
+        place: String,
+        /// What is there.
+        found: String,
+        /// What would have been right.
+        expected: String,
+    },
+    /// A name of the command line names no column.
+    #[error("--columns: {unknown}{}", .meant.as_ref().map_or(String::new(), |meant| format!("; did you mean `{meant}`?")))]
+    Column {
+        /// What is there.
+        unknown: UnknownColumn,
+        /// The known name that is nearest, if one is near.
+        meant: Option<String>,
+    },
+    /// A column is asked for that a free main body does not have.
+    #[error("--columns: a reaction found, columns of a main body that moves freely expected")]
+    NoReaction,
+    /// A file is no record of a run.
+    #[error("{}: found no record of a run, one that nboom run has written, run.json, expected", path.display())]
+    NoRecord {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: serde_json::Error,
+    },
+    /// The options of a record are not those of this command.
+    #[error("{}: options that this version has expected: {found}", path.display())]
+    NoArguments {
+        /// The record.
+        path: PathBuf,
+        /// Why they are refused.
+        found: String,
+    },
+    /// Neither the input of a run nor the scene beside its record is as it was.
+    #[error(
+        "{}: found neither {input} nor {} as they were read, one of them expected", path.display(),
+        scene.display()
+    )]
+    NothingToRepeat {
+        /// The record.
+        path: PathBuf,
+        /// What the run was made from.
+        input: String,
+        /// The scene as it was read.
+        scene: PathBuf,
+    },
     /// Standard output cannot be written.
     #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),
@@ -213,6 +263,8 @@ impl CliError {
             Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
             Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
+            Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,
+            Self::NoRecord { .. } | Self::NoArguments { .. } | Self::NothingToRepeat { .. } => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
                 ..

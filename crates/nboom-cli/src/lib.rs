@@ -21,14 +21,20 @@ mod check;
 mod choice;
 #[cfg(feature = "generator")]
 mod compile;
+#[cfg(feature = "generator")]
+mod completions;
 mod convert;
 mod error;
+mod examples;
 mod format;
 #[cfg(feature = "generator")]
 mod generate;
+mod given;
 mod ignored;
 mod interrupt;
 mod list;
+#[cfg(feature = "generator")]
+mod man;
 #[cfg(feature = "generator")]
 mod new;
 mod output;
@@ -36,7 +42,9 @@ mod picture;
 mod print_run;
 mod print_scene;
 mod progress;
+mod record;
 mod reference;
+mod repeat;
 mod report;
 mod run;
 mod scene_args;
@@ -46,6 +54,7 @@ mod section_file;
 mod simulator;
 mod slips;
 mod stresses;
+mod table_args;
 mod terminal;
 mod verdict;
 mod verify;
@@ -60,10 +69,15 @@ pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, SectionA
 pub use choice::ChoiceError;
 #[cfg(feature = "generator")]
 pub use compile::CompileArgs;
+#[cfg(feature = "generator")]
+pub use completions::CompletionsArgs;
 pub use convert::ConvertArgs;
 pub use error::CliError;
 #[cfg(feature = "generator")]
 pub use generate::GenerateArgs;
+pub use given::Given;
+#[cfg(feature = "generator")]
+pub use man::ManArgs;
 #[cfg(feature = "generator")]
 pub use new::{Kind, NewArgs};
 pub use reference::reference;
@@ -73,6 +87,7 @@ pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 pub use slips::SlipArgs;
 pub use stresses::StressArgs;
+pub use table_args::{TableArgs, Times};
 pub use terminal::refuse;
 
 use terminal::{print, say};
@@ -121,6 +136,10 @@ pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
         Command::Generate(args) => generate::generate(args),
         #[cfg(feature = "generator")]
         Command::Compile(args) => compile::compile(args),
+        #[cfg(feature = "generator")]
+        Command::Completions(args) => Ok(completions::completions(args)),
+        #[cfg(feature = "generator")]
+        Command::Man(args) => man::man(args),
     };
     match printed.and_then(|text| print(&text)) {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,3 +1,4 @@
+use std::env;
 use std::io::{self, IsTerminal};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -15,7 +16,8 @@ pub(crate) struct Progress {
 
 impl Progress {
     pub(crate) fn of(scene: &Scene, quiet: bool) -> Self {
-        let bar = if quiet || !io::stderr().is_terminal() {
+        let is_dumb = env::var_os("TERM").is_some_and(|kind| kind == "dumb");
+        let bar = if quiet || is_dumb || !io::stderr().is_terminal() {
             ProgressBar::hidden()
         } else {
             ProgressBar::new(PARTS).with_style(style())
@@ -34,6 +36,6 @@ impl Progress {
 }
 
 fn style() -> ProgressStyle {
-    let template = "{wide_bar} {percent:>3} %  {elapsed} of about {duration}";
+    let template = "{wide_bar} {percent:>3} %  {elapsed}, about {eta} left";
     ProgressStyle::with_template(template).expect("the template is well formed")
 }

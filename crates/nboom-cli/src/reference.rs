@@ -1,6 +1,6 @@
 use clap::{Arg, Command, CommandFactory};
 
-use crate::Cli;
+use crate::{Cli, examples};
 
 /// The text of `docs/cli.md`, made from the definition of the command line.
 pub fn reference() -> String {
@@ -27,6 +27,9 @@ fn section(command: &mut Command) -> String {
         text.push_str(&row(arg));
     }
     text.push('\n');
+    if let Some(examples) = command.get_after_help() {
+        text.push_str(&format!("```sh\n{}```\n\n", examples::commands(&examples.to_string())));
+    }
     text
 }
 

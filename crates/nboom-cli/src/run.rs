@@ -1,15 +1,13 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, TooManyTimes, write_scene};
+use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, write_scene};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::{
-    Kept, Outcome, RunDescription, RunDirectory, StressTables, WantedOutput, WorstLoads,
-    with_causes,
+    Kept, Outcome, RunDescription, RunDirectory, StressTables, WorstLoads, with_causes,
 };
 use nboom_sim::{
-    Bound, Form, Method, Options, OutputTimes, Path, RkamSettings, Tolerance, Witness, check_start,
-    simulate,
+    Bound, Form, Method, Options, Path, RkamSettings, Tolerance, Witness, check_start, simulate,
 };
 use nboom_strength::StressAnalysis;
 
@@ -17,16 +15,25 @@ use crate::certify::Certifier;
 use crate::ignored::{ignored, refuse_idle};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
+use crate::record::Record;
+use crate::repeat::{is_record, repeated};
 use crate::watch::Watch;
-use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say, verdict};
+use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say, table_args, verdict};
 
 /// Simulates a scene, writes its files and returns the text for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
+    if !is_record(&args.scene.scene) {
+        return run_scene(args, args.scene.read()?, routines);
+    }
+    let (args, file) = repeated(args)?;
+    run_scene(&args, file, routines)
+}
+
+fn run_scene(args: &RunArgs, file: SceneFile, routines: &Routines) -> Result<String, CliError> {
     let slips = args.slips.as_1970.unwrap_or_default();
-    let file = args.scene.read()?;
     refuse_idle(args, &file)?;
     let ignored = ignored(&file, Some(args));
-    let scene_text = Some(write_scene(&file));
+    let scene_text = write_scene(&file);
     let file = SceneFile { scene: slips.scene(file.scene), ..file };
     let kernels = if args.path == PathChoice::Generic { &[] } else { routines.for_runs };
     let stresses = args.stresses.analysis(&file, slips, kernels)?;
@@ -41,12 +48,10 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     };
     let samples = args.samples.or(samples).unwrap_or(options.samples);
     let options = Options { samples, ..options };
-    let output = WantedOutput {
-        times: output_times(args, &scene, file.settings.sampling.as_ref())?,
-        table: file.settings.table,
-        listing: args.listing || file.settings.listing,
-    };
-    let units = args.units.clone().or(file.settings.units).unwrap_or_default();
+    let units = args.units.clone().or(file.settings.units.clone()).unwrap_or_default();
+    let times = args.tables.times(&scene)?;
+    let output = table_args::output(args, &file.settings, &scene, &units, times.as_deref())?;
+    let record = Record::of(args, file.sha256.clone(), &scene_text, times.as_deref()).text();
     let interrupt = Interrupt::watch()?;
     check_start(&scene, &options).map_err(CliError::Start)?;
     if !args.quiet {
@@ -57,7 +62,8 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
         warnings,
         print_interval: file.legacy.print_interval.unwrap_or(1),
         input_sha256: Some(file.sha256),
-        scene_text,
+        scene_text: Some(scene_text),
+        record: Some(record),
         parameters: file.settings.parameters,
         output,
         ..RunDescription::new(&scene, &options, units)
@@ -66,18 +72,6 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
     let stresses = stresses.map(|analysis| (analysis, tables));
     let account = simulate_into_files(&scene, &options, run, stresses, args, &interrupt)?;
     Ok(if args.quiet { String::new() } else { account })
-}
-
-/// The output times that the scene says, unless the command line wants uniform ones.
-fn output_times(
-    args: &RunArgs,
-    scene: &Scene,
-    sampling: Option<&Sampling>,
-) -> Result<Option<OutputTimes>, TooManyTimes> {
-    let sampling = sampling.filter(|_| args.samples.is_none());
-    let span = [scene.initial.time, scene.end_time];
-    let times = sampling.map_or(Ok(None), |sampling| sampling.times(span))?;
-    Ok(times.map(OutputTimes::at))
 }
 
 fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError> {

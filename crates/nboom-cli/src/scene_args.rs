@@ -31,7 +31,7 @@ pub struct SceneArgs {
 }
 
 /// The argument for standard input.
-const STANDARD_INPUT: &str = "-";
+pub(crate) const STANDARD_INPUT: &str = "-";
 
 impl SceneArgs {
     /// The scene, checked.

@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use clap::builder::styling::AnsiColor;
+
 use crate::CliError;
 
 /// Writes to standard output. It is no error if the reader has left, as `head` does.
@@ -15,9 +17,16 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
     }
 }
 
-/// Prints to standard error. An error in that cannot be reported, and is ignored.
+/// Prints to standard error, with the colour of its kind on a terminal that wants some. An error in that
+/// cannot be reported, and is ignored.
 pub(crate) fn say(kind: &str, line: &str) {
-    let _ = writeln!(io::stderr(), "{kind}: {}", shown(line));
+    let colour = match kind {
+        "error" => AnsiColor::Red,
+        "warning" => AnsiColor::Yellow,
+        _ => AnsiColor::Cyan,
+    };
+    let style = colour.on_default().bold();
+    let _ = writeln!(anstream::stderr(), "{style}{kind}:{style:#} {}", shown(line));
 }
 
 /// Prints the error of the command line, or the help that it asks for, and ends.

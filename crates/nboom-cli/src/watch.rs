@@ -58,6 +58,7 @@ impl Recorder for Watch {
     }
 
     fn event(&mut self, event: &Event, after: &Snapshot) -> io::Result<()> {
+        self.progress.reach(event.time);
         if let Some(witness) = &mut self.witness {
             witness.event(event, after)?;
         }

@@ -93,10 +93,11 @@ pub use diagnostic::{Diagnostic, Excerpt};
 pub use error::InputError;
 pub use legacy::LegacySettings;
 pub use sampling::{Sampling, TooManyTimes};
+pub use scene::suggest::nearest;
 pub use scene::{
     Holds, Key, ReadOptions, SCENE, TableKind, all_tables, parse_scene, schema, write_scene,
 };
-pub use source::{Format, read_text};
+pub use source::{Format, read_text, sha256};
 pub use urdf::parse_robot;
 
 /// What a file contains.

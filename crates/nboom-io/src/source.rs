@@ -66,7 +66,7 @@ fn hashed(path: &Path, bytes: Vec<u8>) -> Result<(String, String), InputError> {
 }
 
 /// SHA-256 in hexadecimal digits.
-pub(crate) fn sha256(bytes: &[u8]) -> String {
+pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

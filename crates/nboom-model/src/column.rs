@@ -32,10 +32,27 @@ impl WantedTable {
         self.is_of_held_body() || self.columns.iter().any(asks)
     }
 
+    /// Adds columns that it does not have yet.
+    pub fn add(&mut self, columns: impl IntoIterator<Item = Column>) {
+        for column in columns {
+            if !self.columns.contains(&column) {
+                self.columns.push(column);
+            }
+        }
+    }
+
+    /// The unit of a column, made of those of length L, time T and force F, of a scene with these hinges.
+    pub fn unit(&self, column: &Column, hinges: &[HingeLabel]) -> &'static str {
+        match column.unit(hinges) {
+            "rad" if self.in_degrees => "deg",
+            "rad/T" if self.in_degrees => "deg/T",
+            unit => unit,
+        }
+    }
+
     /// Whether this column is in degrees, of a scene with these hinges.
     pub fn is_in_degrees(&self, column: &Column, hinges: &[HingeLabel]) -> bool {
-        let slides = column.hinge.is_some_and(|hinge| hinges[hinge].joint.slides());
-        self.in_degrees && column.quantity.is_angle() && !slides
+        self.unit(column, hinges) != column.unit(hinges)
     }
 }
 
@@ -128,5 +145,31 @@ impl Column {
             Some([appendage, segment]) => format!("{name}_{appendage}_{segment}"),
             None => name.to_owned(),
         }
+    }
+
+    /// Its unit, made of those of length L, time T and force F: of a slide that of its travel.
+    pub fn unit(&self, hinges: &[HingeLabel]) -> &'static str {
+        match self.quantity {
+            Quantity::Angle | Quantity::AngleSum if self.slides(hinges) => "L",
+            Quantity::Rate | Quantity::RateSum if self.slides(hinges) => "L/T",
+            quantity => quantity.unit(),
+        }
+    }
+
+    /// What it is, in one line.
+    pub fn about(&self, hinges: &[HingeLabel]) -> &'static str {
+        match self.quantity {
+            Quantity::Angle | Quantity::AngleSum if self.slides(hinges) => {
+                "travel relative to the inboard body"
+            }
+            Quantity::Rate | Quantity::RateSum if self.slides(hinges) => {
+                "speed relative to the inboard body"
+            }
+            quantity => quantity.about(),
+        }
+    }
+
+    fn slides(&self, hinges: &[HingeLabel]) -> bool {
+        self.hinge.is_some_and(|hinge| hinges[hinge].joint.slides())
     }
 }

@@ -160,11 +160,6 @@ impl Quantity {
         }
     }
 
-    /// Whether it is an angle or a rate, which may be in degrees.
-    pub fn is_angle(self) -> bool {
-        self.unit().starts_with("rad")
-    }
-
     /// Whether each hinge has one.
     pub fn is_of_hinge(self) -> bool {
         Self::OF_A_HINGE.contains(&self)

@@ -71,6 +71,20 @@ impl UnitSystem {
         }
     }
 
+    /// Label of a unit that is made of those of length L, time T and force F, as `F L/T`.
+    pub fn label(&self, unit: &str) -> String {
+        let mut label = String::with_capacity(2 * unit.len());
+        for letter in unit.chars() {
+            match letter {
+                'L' => label.push_str(self.length()),
+                'T' => label.push_str(self.time()),
+                'F' => label.push_str(self.force()),
+                other => label.push(other),
+            }
+        }
+        label
+    }
+
     /// Label of an energy.
     pub fn energy(&self) -> String {
         if *self == Self::Si { "J".to_owned() } else { self.torque() }
@@ -113,5 +127,9 @@ mod tests {
         let [length, time, force] = ["mm", "ms", "kN"].map(str::to_owned);
         let units = UnitSystem::Custom { length, time, force };
         assert_eq!(units.angular_momentum(), "mm kN ms");
+        assert_eq!(units.label("rad/T"), "rad/ms");
+        assert_eq!(units.label("F/L^2"), "kN/mm^2");
+        assert_eq!(UnitSystem::FtLbfS.label("F L T"), "lbf ft s");
+        assert_eq!(UnitSystem::None.label("F L T"), "F L T");
     }
 }

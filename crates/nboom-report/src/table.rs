@@ -6,6 +6,8 @@ use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::ops::Index;
 use std::path::Path;
 
+use nboom_results::column_name;
+
 use crate::Gap;
 use crate::thin::thinned;
 
@@ -135,7 +137,7 @@ impl Rows {
         let (names, line, ends) = (Vec::new(), String::new(), Vec::new());
         let mut rows = Self { file, lines, names, line, number: 0, ends };
         rows.advance()?;
-        rows.names = rows.line.split(',').map(str::to_owned).collect();
+        rows.names = rows.line.split(',').map(|cell| column_name(cell).to_owned()).collect();
         Ok(Some(rows))
     }
 

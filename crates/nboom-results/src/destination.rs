@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use crate::earlier::Earlier;
 use crate::kind::Kind;
 use crate::lock::Lock;
+use crate::names::COMPANIONS;
 use crate::whole::Draft;
 use crate::{FILES, REPORT_FILE, REPORT_MARK, ResultsError, SUMMARY_FILE};
 
@@ -86,7 +87,9 @@ impl Destination {
             return Ok(&self.partial);
         }
         if new.complete {
-            self.files().try_for_each(|name| sync(&self.partial.join(name)))?;
+            // Each file that is waited for takes as long as a short run.
+            let mut results = self.files().filter(|name| !COMPANIONS.contains(name));
+            results.try_for_each(|name| sync(&self.partial.join(name)))?;
         }
         fs::create_dir_all(&self.finished).map_err(|error| self.misplaced("", error))?;
         let steps = steps(&new, old.as_ref());

@@ -9,14 +9,16 @@ use nboom_strength::StressAnalysis;
 
 use crate::destination::Destination;
 use crate::ledger::LedgerWriter;
+use crate::package::{self, TableHeads};
 use crate::rows::{self, Output};
+use crate::states::whole_motion;
 use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
     EVENTS_FILE, EventsWriter, INSTANTS_FILE, LEDGER_FILE, LISTING_FILE, ListingWriter,
-    OUTPUT_FILE, PeakDigits, REPORT_FILE, ResultsError, RunDescription, SCENE_FILE, STATES_FILE,
-    SUMMARY_FILE, StatesWriter, StressDescription, StressTables, SummaryFile, TRUST_FILE,
-    WorstLoads, trust, with_causes,
+    OUTPUT_FILE, PACKAGE_FILE, PeakDigits, REPORT_FILE, RUN_FILE, ResultsError, RunDescription,
+    SCENE_FILE, STATES_FILE, SUMMARY_FILE, StatesWriter, StressDescription, StressTables,
+    SummaryFile, TRUST_FILE, WorstLoads, trust, with_causes,
 };
 
 /// Space on disk reserved for the summary, which must be able to report a full disk \[bytes\].
@@ -42,6 +44,8 @@ pub struct RunDirectory {
     events: EventsWriter<Output>,
     listing: Option<ListingWriter<Output>>,
     stresses: Option<StressWriter>,
+    /// Columns of all tables but those of stresses.
+    tables: Vec<TableHeads>,
     with_trust: bool,
     /// Events whose instant may still last, and the motion after them.
     instant: Option<(Vec<Event>, Snapshot)>,
@@ -110,21 +114,21 @@ impl RunDirectory {
         let draft = announce(&place, &run)?;
         let path = place.partial();
         let labels = scene.labels().to_vec();
-        if let Some(text) = &run.scene_text {
-            let written =
-                rows::create(path, SCENE_FILE).and_then(|mut out| write_all(&mut out, text));
-            written.map_err(ResultsError::writing(&path.join(SCENE_FILE)))?;
+        for (file, text) in [(SCENE_FILE, &run.scene_text), (RUN_FILE, &run.record)] {
+            text.as_ref().map_or(Ok(()), |text| write_whole(path, file, text.as_bytes()))?;
         }
-        let states = open(path, STATES_FILE, |out| StatesWriter::new(out, &labels))?;
-        let instants = open(path, INSTANTS_FILE, |out| StatesWriter::new(out, &labels))?;
-        let ledger = open(path, LEDGER_FILE, |out| LedgerWriter::new(out, scene))?;
-        let events = open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone()))?;
-        let output = run
-            .output
-            .table
-            .clone()
-            .map(|table| open(path, OUTPUT_FILE, |out| StatesWriter::of(out, &labels, table)));
-        let output = output.transpose()?;
+        let headings = &run.output.headings;
+        let motion = |file, table: WantedTable| {
+            open(path, file, |out| StatesWriter::of(out, &labels, table, headings))
+        };
+        let states = motion(STATES_FILE, whole_motion(&labels))?;
+        let instants = motion(INSTANTS_FILE, whole_motion(&labels))?;
+        let ledger = open(path, LEDGER_FILE, |out| LedgerWriter::new(out, scene, headings))?;
+        let output =
+            run.output.table.clone().map(|table| motion(OUTPUT_FILE, table)).transpose()?;
+        let events =
+            open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone(), headings))?;
+        let tables = package::tables(scene, &run);
         let listing = run.output.listing.then(|| open_listing(path, &run, labels)).transpose()?;
         Ok(Self {
             place,
@@ -137,6 +141,7 @@ impl RunDirectory {
             events,
             listing,
             stresses: None,
+            tables,
             with_trust: false,
             instant: None,
         })
@@ -167,9 +172,11 @@ impl RunDirectory {
         let hinges = scene.labels().to_vec();
         let (signs, pulses) = (tables.signs, analysis.settings().pulses);
         let generated_for = analysis.generated_for();
+        let headings = self.run.output.headings.clone();
         let description = StressDescription { signs, pulses, generated_for };
         self.run.stresses = analysis.has_stations().then_some(description);
-        let stresses = StressWriter::create(self.place.partial(), hinges, analysis, tables)?;
+        let stresses =
+            StressWriter::create(self.place.partial(), hinges, analysis, tables, headings)?;
         self.stresses = Some(stresses);
         Ok(self)
     }
@@ -200,6 +207,7 @@ impl RunDirectory {
         let stresses = self.stresses.as_mut().map_or(Ok(()), StressWriter::finish);
         let tables =
             instant.and(states).and(instants).and(ledger).and(output).and(listing).and(stresses);
+        let tables = tables.and_then(|()| self.write_package());
         let of_tables = tables.as_ref().err().map(|error| with_causes(error));
         let error = outcome.error.as_deref().or(of_tables.as_deref());
         let summary = self.write_summary(outcome, error);
@@ -229,6 +237,15 @@ impl RunDirectory {
         let draft = self.draft.take().expect("there is one until the end");
         let written = draft.publish_or(&path, &ended.text(), without_room);
         written.map_err(ResultsError::writing(&path))
+    }
+
+    /// Says what the columns of all tables are.
+    fn write_package(&self) -> Result<(), ResultsError> {
+        let of_stresses = self.stresses.as_ref().map_or(&[][..], StressWriter::tables);
+        let tables: Vec<TableHeads> = self.tables.iter().chain(of_stresses).cloned().collect();
+        let RunDescription { scene, output, units, .. } = &self.run;
+        let text = package::text(scene, &tables, &output.headings, units);
+        write_whole(self.place.partial(), PACKAGE_FILE, &text)
     }
 
     fn flush_listing(&mut self) -> Result<(), ResultsError> {
@@ -344,9 +361,12 @@ fn open<T>(
     started.map_err(ResultsError::writing(&directory.join(file)))
 }
 
-fn write_all(out: &mut Output, text: &str) -> io::Result<()> {
-    out.write_all(text.as_bytes())?;
-    out.flush()
+/// Writes a file that is known from the start.
+fn write_whole(directory: &Path, file: &str, text: &[u8]) -> Result<(), ResultsError> {
+    open(directory, file, |mut out| {
+        out.write_all(text)?;
+        out.flush()
+    })
 }
 
 fn open_listing(

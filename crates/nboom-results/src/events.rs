@@ -4,9 +4,27 @@ use std::io::{self, Write};
 use nboom_model::HingeLabel;
 use nboom_sim::{Event, EventKind};
 
+use crate::Headings;
+use crate::heads::Head;
 use crate::number::{field, number};
 
-const HEADER: &str = "t,kind,appendage,segment,impulse,energy_before,energy_after";
+/// Columns of the table of events.
+pub(crate) fn heads() -> Vec<Head> {
+    vec![
+        Head::time("time"),
+        Head::text("kind", "what happens"),
+        Head::count("appendage", "appendage of the hinge, from 1"),
+        Head::count("segment", "segment of the hinge, from 1"),
+        Head::number(
+            "impulse",
+            "F L T",
+            "impulsive torque of a lock-up, of a slide the impulsive force in the unit of force times \
+             that of time",
+        ),
+        Head::number("energy_before", "F L", "kinetic energy just before the instant"),
+        Head::number("energy_after", "F L", "kinetic energy just after the instant"),
+    ]
+}
 
 /// Order of events in files: by time; within an instant lock-ups, releases, others; then by
 /// hinge, those of no hinge last.
@@ -39,8 +57,8 @@ impl<W: Write> EventsWriter<W> {
     ///
     /// # Errors
     /// When `out` refuses it.
-    pub fn new(mut out: W, hinges: Vec<HingeLabel>) -> io::Result<Self> {
-        writeln!(out, "{HEADER}")?;
+    pub fn new(mut out: W, hinges: Vec<HingeLabel>, headings: &Headings) -> io::Result<Self> {
+        writeln!(out, "{}", headings.line(&heads()))?;
         out.flush()?;
         Ok(Self { out, hinges })
     }
@@ -82,7 +100,8 @@ mod tests {
 
     fn table(instants: &[&[Event]]) -> String {
         let mut bytes = Vec::new();
-        let mut writer = EventsWriter::new(&mut bytes, fixture::labels()).expect("memory");
+        let mut writer =
+            EventsWriter::new(&mut bytes, fixture::labels(), &Headings::default()).expect("memory");
         for instant in instants {
             writer.write_instant(instant).expect("memory");
         }

@@ -3,14 +3,30 @@ use std::io::{self, Write};
 use nboom_model::Scene;
 use nboom_sim::Snapshot;
 
+use crate::Headings;
+use crate::heads::Head;
 use crate::number::{field, number};
 
-const HEADER: &str =
-    "t,kinetic_energy,potential_energy,dashpot_work,thrust_work,motor_work,lock_up_loss";
-
-/// What follows, without momenta where the main body is held.
-const RESIDUALS: [&str; 3] =
-    ["residual_linear_momentum", "residual_angular_momentum", "residual_energy"];
+/// Columns of the ledger of a run of `scene`; without residuals of momenta where the main body is held.
+pub(crate) fn heads(scene: &Scene) -> Vec<Head> {
+    let energy = |name, about: &'static str| Head::number(name, "F L", about);
+    let mut heads = vec![
+        Head::time("time"),
+        energy("kinetic_energy", "kinetic energy of all bodies"),
+        energy("potential_energy", "potential energy of springs and gravity"),
+        energy("dashpot_work", "work of what depends on rates at hinges"),
+        energy("thrust_work", "work of what acts from outside or moves a main body that is held"),
+        energy("motor_work", "work of the motors of rotors"),
+        energy("lock_up_loss", "kinetic energy that lock-ups have taken away"),
+    ];
+    let residual = |name, about: &'static str| Head::number(name, "1", about);
+    if !scene.base.is_held() {
+        heads.push(residual("residual_linear_momentum", "what is left of its balance, relative"));
+        heads.push(residual("residual_angular_momentum", "what is left of its balance, relative"));
+    }
+    heads.push(residual("residual_energy", "what is left of its balance, relative"));
+    heads
+}
 
 /// Writes the table of what became of energy and momentum, one row for each output time.
 #[derive(Debug)]
@@ -20,9 +36,8 @@ pub(crate) struct LedgerWriter<W> {
 
 impl<W: Write> LedgerWriter<W> {
     /// Writes the header for a run of `scene`.
-    pub fn new(mut out: W, scene: &Scene) -> io::Result<Self> {
-        let residuals = if scene.base.is_held() { &RESIDUALS[2..] } else { &RESIDUALS };
-        writeln!(out, "{HEADER},{}", residuals.join(","))?;
+    pub fn new(mut out: W, scene: &Scene, headings: &Headings) -> io::Result<Self> {
+        writeln!(out, "{}", headings.line(&heads(scene)))?;
         Ok(Self { out })
     }
 

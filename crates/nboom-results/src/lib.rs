@@ -1,4 +1,4 @@
-//! Files of a run: `states.csv`, `events.csv`, `summary.json`, `listing.txt`, with hinge loads
+//! Files of a run: `states.csv`, `events.csv`, `summary.json`, `datapackage.json`, `listing.txt`, with hinge loads
 //! `hinge_loads.csv`, `latch_impulses.csv` and `hinge_load_envelope.csv`, and with stresses
 //! `stress.csv` and `stress_envelope.csv` too.
 //!
@@ -25,14 +25,17 @@ mod earlier;
 mod error;
 mod euler;
 mod events;
+mod heads;
 mod kind;
 mod label_keys;
 mod layout;
 mod ledger;
 mod listing;
+mod load_heads;
 mod lock;
 mod names;
 mod number;
+mod package;
 mod peaks;
 mod quantities;
 mod row_text;
@@ -52,13 +55,14 @@ pub use directory::{Kept, Outcome, RunDirectory};
 pub use error::{ResultsError, with_causes};
 pub use euler::euler_angles;
 pub use events::{EventsWriter, event_order};
+pub use heads::{Headings, column_name};
 pub use kind::Kind;
 pub use listing::ListingWriter;
 pub use lock::Holder;
 pub use names::{
     ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, INSTANTS_FILE,
-    LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, REPORT_FILE, REPORT_MARK,
-    SCENE_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
+    LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, PACKAGE_FILE, REPORT_FILE,
+    REPORT_MARK, RUN_FILE, SCENE_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 pub use peaks::{PeakDigits, peak_digits};
 pub use signs::StressSigns;

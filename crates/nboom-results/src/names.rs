@@ -26,6 +26,10 @@ pub const HINGE_ENVELOPE_FILE: &str = "hinge_load_envelope.csv";
 pub const ENVELOPE_FILE: &str = "stress_envelope.csv";
 /// Name of the printout within a run's directory.
 pub const LISTING_FILE: &str = "listing.txt";
+/// Name of the file that says what the columns of all tables are, with their units.
+pub const PACKAGE_FILE: &str = "datapackage.json";
+/// Name of the record by which a run is repeated.
+pub const RUN_FILE: &str = "run.json";
 /// Name of the certificate, which says how many digits of the run can be trusted.
 pub const TRUST_FILE: &str = "certificate.json";
 
@@ -34,9 +38,13 @@ pub const REPORT_FILE: &str = "report.html";
 /// What tells it from other pages, among its first bytes.
 pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"nboom\">";
 
+/// Files that say something about the others; after a power failure they may be empty.
+pub(crate) const COMPANIONS: [&str; 2] = [RUN_FILE, PACKAGE_FILE];
+
 /// All names that a run may write; files of other names in its directory are not its own.
-pub const FILES: [&str; 15] = [
+pub const FILES: [&str; 17] = [
     SCENE_FILE,
+    RUN_FILE,
     STATES_FILE,
     INSTANTS_FILE,
     LEDGER_FILE,
@@ -48,6 +56,7 @@ pub const FILES: [&str; 15] = [
     HINGE_ENVELOPE_FILE,
     ENVELOPE_FILE,
     LISTING_FILE,
+    PACKAGE_FILE,
     TRUST_FILE,
     REPORT_FILE,
     SUMMARY_FILE,

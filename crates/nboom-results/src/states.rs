@@ -3,8 +3,15 @@ use std::io::{self, Write};
 use nboom_model::{Column, HingeLabel, WantedTable};
 use nboom_sim::Snapshot;
 
+use crate::Headings;
+use crate::heads;
 use crate::number::{field, number};
 use crate::quantities::{Cell, cell};
+
+/// The table of states: all columns, angles in radians.
+pub(crate) fn whole_motion(hinges: &[HingeLabel]) -> WantedTable {
+    WantedTable { columns: Column::all(hinges.len()), in_degrees: false }
+}
 
 /// Writes a table of the motion, one row for each output time: the table of states, or one that
 /// somebody asks for.
@@ -23,23 +30,22 @@ impl<W: Write> StatesWriter<W> {
     /// # Errors
     /// When `out` refuses it.
     pub fn new(out: W, hinges: &[HingeLabel]) -> io::Result<Self> {
-        let columns = Column::all(hinges.len());
-        Self::of(out, hinges, WantedTable { columns, in_degrees: false })
+        Self::of(out, hinges, whole_motion(hinges), &Headings::default())
     }
 
     /// Writes the header of this table. Names of columns in degrees end in `_deg`.
     ///
     /// # Errors
     /// When `out` refuses it.
-    pub fn of(mut out: W, hinges: &[HingeLabel], table: WantedTable) -> io::Result<Self> {
-        write!(out, "t")?;
-        let in_degrees: Vec<bool> =
+    pub fn of(
+        mut out: W,
+        hinges: &[HingeLabel],
+        table: WantedTable,
+        headings: &Headings,
+    ) -> io::Result<Self> {
+        writeln!(out, "{}", headings.line(&heads::of_motion(&table, hinges)))?;
+        let in_degrees =
             table.columns.iter().map(|column| table.is_in_degrees(column, hinges)).collect();
-        for (column, &in_degrees) in table.columns.iter().zip(&in_degrees) {
-            let unit = if in_degrees { "_deg" } else { "" };
-            write!(out, ",{}{unit}", column.name(hinges))?;
-        }
-        writeln!(out)?;
         Ok(Self { out, columns: table.columns, in_degrees })
     }
 
@@ -133,7 +139,9 @@ mod tests {
         let columns = ["omega", "beta_2_1", "state_1_1", "v_y"].map(named).concat();
         let mut bytes = Vec::new();
         let table = WantedTable { columns, in_degrees: true };
-        let mut writer = StatesWriter::of(&mut bytes, &fixture::labels(), table).expect("memory");
+        let mut writer =
+            StatesWriter::of(&mut bytes, &fixture::labels(), table, &Headings::default())
+                .expect("memory");
         writer.write(&s).expect("memory");
         let text = String::from_utf8(bytes).expect("text");
         let (header, row) = text.split_once('\n').expect("two lines");

@@ -6,7 +6,10 @@ use nboom_sim::{InstantMotion, Snapshot, StepMotion};
 use nboom_strength::{Cause, StressAnalysis, Worst, WorstHingeLoad};
 
 use crate::composer::{Composed, Composer, ComposerThread, Entry};
+use crate::heads::{Head, Headings};
+use crate::load_heads;
 use crate::number::{field, number};
+use crate::package::TableHeads;
 use crate::row_text::{RowText, load_fields, place_fields, stress_fields};
 use crate::rows::{self, LongTable, Output};
 use crate::signs::StressSigns;
@@ -14,19 +17,6 @@ use crate::{
     ENVELOPE_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, LATCH_IMPULSES_FILE, ResultsError,
     STRESS_FILE,
 };
-
-const STRESS_HEADER: &str = "t,event,appendage,segment,station,point,xi,zeta,sigma_22,sigma_21,\
-     sigma_23,principal_1,principal_2,von_mises,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
-const HINGE_LOADS_HEADER: &str = "t,event,appendage,segment,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
-const LATCH_IMPULSES_HEADER: &str =
-    "t,event_appendage,event_segment,appendage,segment,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
-const ENVELOPE_HEADER: &str = "appendage,segment,station,t,event,event_appendage,event_segment,xi,\
-     zeta,sigma_22,sigma_21,sigma_23,von_mises,driver,margin,share,p_xi,p_eta,p_zeta,q_xi,q_eta,\
-     q_zeta";
-/// The column after these where a part has an ultimate stress.
-const ULTIMATE_MARGIN: &str = ",ultimate_margin";
-const HINGE_ENVELOPE_HEADER: &str = "appendage,segment,quantity,t,event,event_appendage,\
-     event_segment,magnitude,share,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta";
 
 /// The driver of a station that carries no load.
 const UNLOADED: &str = "unloaded";
@@ -61,6 +51,9 @@ pub(crate) struct StressWriter {
     stresses: Option<LongTable>,
     hinge_loads: LongTable,
     latch_impulses: LongTable,
+    headings: Headings,
+    /// Columns of the tables that have been made.
+    tables: Vec<TableHeads>,
 }
 
 impl StressWriter {
@@ -69,22 +62,31 @@ impl StressWriter {
         hinges: Vec<HingeLabel>,
         analysis: StressAnalysis,
         StressTables { every, signs }: StressTables,
+        headings: Headings,
     ) -> Result<Self, ResultsError> {
-        let table = |file: &str, header: &str| LongTable::create(directory, file, header);
-        let stresses = analysis.has_stations().then(|| table(STRESS_FILE, STRESS_HEADER));
+        let mut tables = Vec::new();
+        let mut table = |file, heads: Vec<Head>| {
+            let made = LongTable::create(directory, file, &headings.line(&heads));
+            tables.push(TableHeads { file, heads });
+            made
+        };
+        let stresses =
+            analysis.has_stations().then(|| table(STRESS_FILE, load_heads::stress(signs)));
         let text = RowText::new(signs, &hinges);
         let composer = Composer::new(hinges.clone(), analysis.stations().clone(), text);
         Ok(Self {
             directory: directory.to_owned(),
             stresses: stresses.transpose()?,
-            hinge_loads: table(HINGE_LOADS_FILE, HINGE_LOADS_HEADER)?,
-            latch_impulses: table(LATCH_IMPULSES_FILE, LATCH_IMPULSES_HEADER)?,
+            hinge_loads: table(HINGE_LOADS_FILE, load_heads::hinge_loads())?,
+            latch_impulses: table(LATCH_IMPULSES_FILE, load_heads::latch_impulses())?,
             analysis,
             every: every.max(1),
             samples: 0,
             composer: ComposerThread::start(composer).map_err(ResultsError::writing(directory))?,
             signs,
             hinges,
+            headings,
+            tables,
         })
     }
 
@@ -181,8 +183,8 @@ impl StressWriter {
             let worst = self.analysis.envelope();
             // Without such a margin there is no such column.
             let breaks = worst.iter().any(|worst| worst.margins.on_ultimate.is_some());
-            let last = if breaks { ULTIMATE_MARGIN } else { "" };
-            self.write_table(ENVELOPE_FILE, &format!("{ENVELOPE_HEADER}{last}"), |out| {
+            let heads = load_heads::envelope(self.signs, breaks);
+            self.write_table(ENVELOPE_FILE, &heads, |out| {
                 worst.iter().try_for_each(|worst| {
                     self.write_worst(out, worst)?;
                     if breaks {
@@ -191,22 +193,31 @@ impl StressWriter {
                     writeln!(out)
                 })
             })?;
+            self.tables.push(TableHeads { file: ENVELOPE_FILE, heads });
         }
-        self.write_table(HINGE_ENVELOPE_FILE, HINGE_ENVELOPE_HEADER, |out| {
-            let worst = self.analysis.hinge_envelope();
+        let worst = self.analysis.hinge_envelope();
+        let heads = load_heads::hinge_envelope();
+        self.write_table(HINGE_ENVELOPE_FILE, &heads, |out| {
             worst.iter().try_for_each(|worst| self.write_worst_of_hinge(out, worst))
-        })
+        })?;
+        self.tables.push(TableHeads { file: HINGE_ENVELOPE_FILE, heads });
+        Ok(())
+    }
+
+    /// The tables that have been made.
+    pub fn tables(&self) -> &[TableHeads] {
+        &self.tables
     }
 
     fn write_table(
         &self,
         file: &str,
-        header: &str,
+        heads: &[Head],
         rows: impl FnOnce(&mut Output) -> io::Result<()>,
     ) -> Result<(), ResultsError> {
         let path = self.directory.join(file);
         let written = rows::create(&self.directory, file).and_then(|mut out| {
-            writeln!(out, "{header}")?;
+            writeln!(out, "{}", self.headings.line(heads))?;
             rows(&mut out)?;
             out.flush()
         });

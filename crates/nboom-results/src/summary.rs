@@ -5,8 +5,8 @@ use nboom_sim::{CodeOfRun, Conservation, Integration, OutputTimes, Selection, Su
 use nboom_strength::PulseShape;
 use serde::Serialize;
 
-use crate::StressSigns;
 use crate::verdict::{VerdictKeys, WorstLoads};
+use crate::{Headings, StressSigns};
 
 /// What is known about a run before it starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +40,8 @@ pub struct RunDescription {
     pub input_sha256: Option<String>,
     /// The scene as a text that stands alone, if there is one.
     pub scene_text: Option<String>,
+    /// The record by which the run is repeated, if there is one.
+    pub record: Option<String>,
     /// Parameters of the scene with the values of this run, by name.
     pub parameters: Vec<(String, f64)>,
     /// Labels of the scene's hinges.
@@ -64,6 +66,7 @@ impl RunDescription {
             warnings: Vec::new(),
             input_sha256: None,
             scene_text: None,
+            record: None,
             parameters: Vec::new(),
             hinges: scene.labels().to_vec(),
         }
@@ -79,6 +82,8 @@ pub struct WantedOutput {
     pub table: Option<WantedTable>,
     /// The printout.
     pub listing: bool,
+    /// How tables call their columns.
+    pub headings: Headings,
 }
 
 /// The keys of `summary.json`.

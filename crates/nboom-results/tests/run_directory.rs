@@ -232,11 +232,11 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "attitude_drift": 3e-12,
         "skipped": nboom_model::skipped(&scene()),
         "warnings": [],
-        "files": ["states.csv", "instants.csv", "ledger.csv", "events.csv", "summary.json"],
+        "files": ["states.csv", "instants.csv", "ledger.csv", "events.csv", "datapackage.json", "summary.json"],
     });
     assert_eq!(summary(&path), expected);
     assert!(!path.join("listing.txt").exists());
-    assert_eq!(fs::read_dir(&path).expect("readable").count(), 5);
+    assert_eq!(fs::read_dir(&path).expect("readable").count(), 6);
     drop(kept);
     assert!(!place.path().join("out/run.partial").exists());
 }
@@ -313,7 +313,7 @@ fn a_directory_that_is_removed_during_a_run_is_an_error_that_names_it() {
     fs::remove_dir_all(place.path().join("run.partial")).expect("it is there");
     let kept = directory.finish(&outcome(None));
     let error = kept.written.expect_err("the files are gone");
-    assert!(error.to_string().contains("run.partial/summary.json"), "{error}");
+    assert!(error.to_string().contains("run.partial/datapackage.json"), "{error}");
     assert!(!error.is_refusal(), "the run has begun");
     assert!(!place.path().join("run").exists());
 }

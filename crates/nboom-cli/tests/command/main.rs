@@ -1,12 +1,15 @@
 //! The binary as its users meet it: exit codes, messages and files.
 
 mod certificate;
+mod help;
 mod outputs;
 mod pictures;
+mod repeat;
 mod report;
 mod scenes;
 mod standard_input;
 mod strengths;
+mod tables;
 mod told;
 mod verdict;
 mod what_1970_saw;

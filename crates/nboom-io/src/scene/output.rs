@@ -87,14 +87,10 @@ impl Reader<'_, '_> {
             let columns = Column::all(scene.bodies.len());
             return in_degrees.then_some(WantedTable { columns, in_degrees });
         }
-        let mut columns: Vec<Column> = Vec::new();
+        let mut table = WantedTable { columns: Vec::new(), in_degrees };
         for (text, at) in self.texts(output, "columns") {
             match Column::named(text, scene.labels(), scene.rotors.len()) {
-                Ok(named) => {
-                    let new: Vec<Column> =
-                        named.into_iter().filter(|column| !columns.contains(column)).collect();
-                    columns.extend(new);
-                }
+                Ok(named) => table.add(named),
                 Err(error) => {
                     let known = error.known.iter().map(String::as_str);
                     let help = suggest::nearest(text, known).map(suggest::question);
@@ -110,7 +106,6 @@ impl Reader<'_, '_> {
                 }
             }
         }
-        let table = WantedTable { columns, in_degrees };
         if table.is_of_held_body() && !scene.base.is_held() {
             let (found, expected) = ("a reaction", "columns of a main body that moves freely");
             self.error(&output.place("columns"), "columns", found, expected);

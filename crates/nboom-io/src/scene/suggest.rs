@@ -7,7 +7,7 @@ const LIKE: f64 = 0.8;
 const LONGEST: usize = 64;
 
 /// The known name that is nearest to an unknown one, if one is near; of equally near ones the first.
-pub(crate) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+pub fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let name = name.to_lowercase();
     if name.len() > LONGEST {
         return None;

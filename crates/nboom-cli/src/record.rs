@@ -1,0 +1,110 @@
+//! `run.json`: all that repeats a run.
+
+use std::env;
+use std::path::Path;
+
+use nboom_io::read_text;
+use nboom_results::SCENE_FILE;
+use nboom_scalar::InstructionSet;
+use serde::{Deserialize, Serialize};
+
+use crate::given::Given;
+use crate::{CliError, RunArgs};
+
+/// The longest record that is read \[bytes\].
+pub(crate) const LONGEST: u64 = 64 << 20;
+
+/// What a run was made by and from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Record {
+    /// Words of the command line.
+    pub command: Vec<String>,
+    pub made_by: Maker,
+    pub input: Source,
+    /// The scene as it was read, in the directory of the record.
+    pub scene: Source,
+    pub options: Given,
+}
+
+/// A program and the machine that it runs on, as far as results depend on them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Maker {
+    pub version: String,
+    pub features: Vec<String>,
+    /// Vector instructions of generated code.
+    pub instructions: String,
+    pub platform: String,
+}
+
+/// A file and its hash.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Source {
+    pub path: String,
+    /// In hexadecimal digits.
+    pub sha256: String,
+}
+
+impl Maker {
+    /// This program on this machine.
+    pub fn current() -> Self {
+        let generator = cfg!(feature = "generator").then_some("generator");
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            features: generator.into_iter().map(str::to_owned).collect(),
+            instructions: InstructionSet::of_this_processor().name().to_owned(),
+            platform: format!("{}-{}", env::consts::ARCH, env::consts::OS),
+        }
+    }
+
+    /// What is different about another, in words.
+    pub fn differences(&self, other: &Self) -> Vec<String> {
+        let features = |maker: &Self| {
+            let features = maker.features.join(", ");
+            if features.is_empty() { "none".to_owned() } else { features }
+        };
+        let pairs = [
+            ("version", self.version.clone(), other.version.clone()),
+            ("features", features(self), features(other)),
+            ("instructions", self.instructions.clone(), other.instructions.clone()),
+            ("platform", self.platform.clone(), other.platform.clone()),
+        ];
+        let different = pairs.into_iter().filter(|(_, own, others)| own != others);
+        different.map(|(what, own, others)| format!("{what} {own} then, {others} now")).collect()
+    }
+}
+
+impl Record {
+    /// The record of a run of an input with this hash, which as a scene is `scene_text`; `times` are the
+    /// output times of the command line.
+    pub fn of(args: &RunArgs, sha256: String, scene_text: &str, times: Option<&[f64]>) -> Self {
+        let input = args.scene.scene.to_string_lossy().into_owned();
+        let hash_of_scene = nboom_io::sha256(scene_text.as_bytes());
+        let scene = Source { path: SCENE_FILE.to_owned(), sha256: hash_of_scene };
+        // A file of times may change.
+        let list = |times: &[f64]| times.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let options = args.given.clone();
+        Self {
+            command: env::args_os().map(|word| word.to_string_lossy().into_owned()).collect(),
+            made_by: Maker::current(),
+            input: Source { path: input, sha256 },
+            scene,
+            options: match times {
+                Some(times) => options.with("times", list(times)),
+                None => options,
+            },
+        }
+    }
+
+    /// # Errors
+    /// When the file cannot be read or is no record.
+    pub fn read(path: &Path) -> Result<Self, CliError> {
+        let text = read_text(path, LONGEST)?;
+        serde_json::from_str(&text)
+            .map_err(|source| CliError::NoRecord { path: path.to_owned(), source })
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> String {
+        serde_json::to_string_pretty(self).expect("the keys are texts") + "\n"
+    }
+}
