@@ -15,8 +15,8 @@ const COMMAND: &str = "nboom-cli";
 /// What lies beside the sources and goes with them.
 const BESIDE: [&str; 3] = ["Cargo.lock", "LICENSE-APACHE", "LICENSE-MIT"];
 
-/// What there is of a crate: its code, and the page that the code of one includes.
-const PARTS: [&str; 2] = ["src", "page/bundle"];
+/// What there is of a crate: its code, and the page or the font that the code of one includes.
+const PARTS: [&str; 3] = ["src", "page/bundle", "font"];
 
 /// Lines of a manifest under each heading.
 type Sections = BTreeMap<String, Vec<String>>;

@@ -8,7 +8,8 @@ use nboom_sim::{Form, Method, Reference};
 #[cfg(feature = "generator")]
 use crate::{CompileArgs, CompletionsArgs, GenerateArgs, ManArgs, NewArgs};
 use crate::{
-    ConvertArgs, Given, ReportArgs, SceneArgs, SlipArgs, StressArgs, TableArgs, choice, examples,
+    ConvertArgs, Given, PlotArgs, ReportArgs, SceneArgs, SlipArgs, StressArgs, TableArgs, choice,
+    examples,
 };
 
 /// Simulates spacecraft that unfold.
@@ -228,6 +229,10 @@ pub struct RunArgs {
     #[arg(long)]
     pub no_report: bool,
 
+    /// Figures for documents.
+    #[command(flatten)]
+    pub plots: PlotArgs,
+
     /// Print no summary, no progress and no warnings about the scene; errors, and warnings that the
     /// results are poor or a part fails, are still printed.
     #[arg(long)]
@@ -241,7 +246,8 @@ pub struct CheckArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Also draw the scene, as it starts and with all hinges latched, with the axes of all bodies.
+    /// Also draw the scene, as it starts and with all hinges latched, with names, the axes of all bodies
+    /// and the mass centre.
     #[arg(long, value_name = "FILE.svg")]
     pub picture: Option<PathBuf>,
 }

@@ -57,6 +57,12 @@ pub(crate) fn level(name: &str) -> Result<Level, ChoiceError> {
     found.ok_or_else(|| ChoiceError::Unknown { available: levels.map(Level::name).into() })
 }
 
+pub(crate) fn plots(name: &str) -> Result<nboom_plots::Format, ChoiceError> {
+    let formats = nboom_plots::Format::ALL;
+    let found = formats.into_iter().find(|format| format.name() == name);
+    found.ok_or_else(|| ChoiceError::Unknown { available: formats.map(|f| f.name()).into() })
+}
+
 pub(crate) fn integrator(name: &str) -> Result<Method, ChoiceError> {
     let names = || Method::ALL.map(Method::name).into();
     Method::named(name).ok_or_else(|| ChoiceError::Unknown { available: names() })

@@ -58,6 +58,7 @@ fn refuse_idle_factors(args: &StressArgs, structure: Option<&Structure>) -> Resu
 pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String> {
     let by_rkam = args.is_some_and(|args| args.integrator == Method::Rkam);
     let listing = args.is_some_and(|args| args.listing);
+    let plots = args.is_some_and(|args| args.plots.are_wanted());
     let stresses = file.structure.is_some() && !args.is_some_and(|args| args.stresses.no_stresses);
     let for_rkam = if by_rkam { Vec::new() } else { words_for_rkam(&file.legacy) };
     let bounded = by_rkam && file.legacy.upper_error.is_some();
@@ -67,7 +68,7 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     let reasons = [
         (for_rkam, "they steer --integrator rkam"),
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),
-        (words("NOPLT=0", file.legacy.plots == Some(true)), "nothing is plotted"),
+        (words("NOPLT=0", !plots && file.legacy.plots == Some(true)), "--plots asks for figures"),
         (words("XNU, E", stresses && file.format == Format::Nml), "no stress depends on them"),
         (tolerances, "EU1 of the deck bounds the errors of rkam"),
         (slips, "nothing in this run shows these slips of 1970"),

@@ -39,6 +39,7 @@ mod man;
 mod new;
 mod output;
 mod picture;
+mod plots;
 mod print_run;
 mod print_scene;
 mod progress;
@@ -80,6 +81,7 @@ pub use given::Given;
 pub use man::ManArgs;
 #[cfg(feature = "generator")]
 pub use new::{Kind, NewArgs};
+pub use plots::PlotArgs;
 pub use reference::reference;
 pub use report::ReportArgs;
 pub use scene_args::SceneArgs;

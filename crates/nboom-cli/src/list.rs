@@ -2,7 +2,7 @@ use std::fmt::Write;
 
 use nboom_io::{Holds, SCENE, TableKind, all_tables};
 use nboom_model::Quantity;
-use nboom_results::FILES;
+use nboom_results::{FILES, PLOTS_FOLDER};
 use nboom_sim::{Form, Method};
 
 use crate::Routines;
@@ -40,7 +40,9 @@ pub(crate) fn text(routines: &Routines) -> String {
     let hinge = "turns about one axis of any direction; bodies may branch";
     let slide = "slides along one axis of any direction, as the stage of a telescopic mast";
     chapter("joints", vec![row("hinge", hinge), row("slide", slide)]);
-    chapter("files of a run", FILES.iter().map(|file| row(file, "")).collect());
+    let files = FILES.iter().map(|file| row(file, ""));
+    let plots = row(&format!("{PLOTS_FOLDER}/"), "figures, with --plots");
+    chapter("files of a run", files.chain([plots]).collect());
     let quantities = Quantity::all().map(|quantity| row(quantity.name(), quantity.about()));
     chapter("quantities (columns of [output] in a scene)", quantities.collect());
     let kernels = routines.for_runs.iter();

@@ -7,6 +7,7 @@ mod view;
 use std::fmt::Write;
 
 use nboom_model::{Body, HingePlace, Posture, Scene, UnitSystem};
+use nboom_report::escaped;
 use nboom_scalar::{Mat3, Vec3};
 
 use labels::Labels;
@@ -88,6 +89,10 @@ fn foot(text: &mut String, view: &View, units: &UnitSystem) {
         y - 2.0,
         end + 8.0
     );
+    let mark = 0.36 * WIDTH;
+    mass_center_mark(text, (mark, y - 4.0));
+    let _ =
+        writeln!(text, "<text x=\"{}\" y=\"{y}\" fill=\"#333333\">mass centre</text>", mark + 10.0);
     let mut words = WIDTH * 0.6;
     let mut say = |colour: &str, word: &str, room: f64| {
         let _ = writeln!(text, "<text x=\"{words}\" y=\"{y}\" fill=\"{colour}\">{word}</text>");
@@ -131,7 +136,10 @@ impl Drawing<'_> {
         all.iter().for_each(|patch| patch.write(self.text, view));
         posture.hinges.iter().for_each(|place| self.hinge(place));
         let mut labels = Labels::default();
+        let center = view.place(mass_center(scene, posture));
+        labels.keep_off(center);
         self.main_axes(scene, &mut labels);
+        mass_center_mark(self.text, center);
         let labelled = || posture.hinges.iter().take(MOST_LABELS);
         labelled().for_each(|place| labels.keep_off(view.place(place.point)));
         for (i, place) in labelled().enumerate() {
@@ -186,8 +194,29 @@ impl Drawing<'_> {
     }
 }
 
-fn escaped(text: &str) -> String {
-    let shown = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let text: String = text.chars().map(shown).collect();
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+/// The mass centre of all bodies, from O along main-body axes.
+fn mass_center(scene: &Scene, posture: &Posture) -> Vec3<f64> {
+    let main = &scene.main_body;
+    let bodies = scene.bodies.iter().zip(&posture.hinges);
+    let of_body = |(body, place): (&Body, &HingePlace)| {
+        let of = &body.mass_properties;
+        (of.mass, place.point + place.body_axes * of.center_of_mass)
+    };
+    let start = (main.mass, main.center_of_mass * main.mass);
+    let add = |(mass, sum): (f64, Vec3<f64>), (of_body, at): (f64, Vec3<f64>)| {
+        (mass + of_body, sum + at * of_body)
+    };
+    let (mass, sum) = bodies.map(of_body).fold(start, add);
+    // Nothing weighs anything in a scene whose main body is held.
+    if mass > 0.0 { sum * (1.0 / mass) } else { Vec3::zero() }
+}
+
+/// The usual sign: a disc with two black quarters.
+fn mass_center_mark(text: &mut String, (x, y): (f64, f64)) {
+    let _ = writeln!(
+        text,
+        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\" fill=\"white\" stroke=\"#111111\"/>\n\
+         <path class=\"mass-centre\" transform=\"translate({x:.1} {y:.1})\" \
+         d=\"M0 0V-5A5 5 0 0 1 5 0ZM0 0V5A5 5 0 0 1 -5 0Z\" fill=\"#000000\"/>"
+    );
 }

@@ -4,7 +4,7 @@ use clap::Args;
 use nboom_report::{Run, page};
 use nboom_results::{REPORT_FILE, write_file};
 
-use crate::{CliError, say};
+use crate::{CliError, PlotArgs, say};
 
 /// Options of `nboom report`.
 #[derive(Args, Debug)]
@@ -16,6 +16,10 @@ pub struct ReportArgs {
     /// The page; by default report.html in the directory, of several runs comparison.html.
     #[arg(short, long, value_name = "FILE.html")]
     pub output: Option<PathBuf>,
+
+    /// Figures for documents, of each run.
+    #[command(flatten)]
+    pub plots: PlotArgs,
 }
 
 /// The page of several runs where no name is given.
@@ -38,6 +42,12 @@ pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
     if output.extension().is_none_or(|ending| ending != "html") {
         return Err(CliError::NoPage { path: output });
     }
-    write_file(&output, &page(runs?))?;
-    Ok(format!("{}\n", output.display()))
+    let runs = runs?;
+    let mut written = Vec::new();
+    for (run, directory) in runs.iter().zip(&args.directories) {
+        written.extend(args.plots.draw(run, directory)?);
+    }
+    write_file(&output, &page(runs))?;
+    written.insert(0, output);
+    Ok(written.iter().map(|path| format!("{}\n", path.display())).collect())
 }

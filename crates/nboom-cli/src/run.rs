@@ -150,7 +150,7 @@ fn simulate_into_files(
     args: &RunArgs,
     interrupt: &Interrupt,
 ) -> Result<String, CliError> {
-    let directory = args.output.clone().unwrap_or_else(|| default_directory(&scene.name));
+    let directory = directory(args, scene)?;
     let started = Instant::now();
     let mut files = RunDirectory::create(&directory, scene, run.clone())?;
     if files.has_put_right() && !args.quiet {
@@ -187,7 +187,7 @@ fn simulate_into_files(
     warn_of_poor_results(&outcome, options, &worst);
     // The error that stopped the run says more than one in writing the files afterwards.
     if let Some(error) = failed {
-        let _ = write_report(args, &kept);
+        let _ = show(args, &kept);
         return Err(CliError::Simulation { error, directory: Some(kept.directory) });
     }
     let certified = match watch.witness.as_ref().zip(args.certify) {
@@ -196,12 +196,19 @@ fn simulate_into_files(
         }
         _ => None,
     };
-    let shown = write_report(args, &kept);
+    let shown = show(args, &kept);
     kept.written?;
     shown?;
     let (outcome, events) = (&outcome, watch.events);
     let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
     Ok(account.text(&directory))
+}
+
+/// The directory of the results, in which nothing stands in the way of figures.
+fn directory(args: &RunArgs, scene: &Scene) -> Result<PathBuf, CliError> {
+    let directory = args.output.clone().unwrap_or_else(|| default_directory(&scene.name));
+    args.plots.check(&directory)?;
+    Ok(directory)
 }
 
 fn warn_of_poor_results(outcome: &Outcome, options: &Options, worst: &WorstLoads) {
@@ -211,12 +218,16 @@ fn warn_of_poor_results(outcome: &Outcome, options: &Options, worst: &WorstLoads
     negative.iter().for_each(|warning| say("warning", warning));
 }
 
-/// The page of the run, made from its files, unless nobody wants it.
-fn write_report(args: &RunArgs, kept: &Kept) -> Result<(), CliError> {
-    if args.no_report {
+/// The page and the figures of the run, made from its files, as far as somebody wants them.
+fn show(args: &RunArgs, kept: &Kept) -> Result<(), CliError> {
+    if args.no_report && !args.plots.are_wanted() {
         return Ok(());
     }
     let run = nboom_report::Run::read(&kept.directory)?;
+    args.plots.draw(&run, &kept.directory)?;
+    if args.no_report {
+        return Ok(());
+    }
     Ok(kept.add_report(&nboom_report::page(vec![run]))?)
 }
 

@@ -19,7 +19,7 @@ type Rotation = [f64; 9];
 #[derive(Serialize)]
 pub(crate) struct SceneKeys {
     main_body: MainBodyKeys,
-    pub bodies: Vec<BodyKeys>,
+    bodies: Vec<BodyKeys>,
 }
 
 #[derive(Serialize)]
@@ -30,7 +30,7 @@ struct MainBodyKeys {
 }
 
 #[derive(Serialize)]
-pub(crate) struct BodyKeys {
+struct BodyKeys {
     appendage: usize,
     segment: usize,
     name: Option<String>,

@@ -18,5 +18,9 @@ mod text;
 mod thin;
 
 pub use error::{Gap, ReportError};
+pub use loads::{Largest, Worst};
 pub use page::{MOST_BYTES, page};
-pub use run::Run;
+pub use run::{EventKeys, Run};
+pub use table::Table;
+pub use text::{escaped, visible};
+pub use thin::{Thinned, thinned};

@@ -116,22 +116,43 @@ pub(crate) fn stresses(directory: &Path) -> Result<Option<Loads>, Gap> {
 
 /// A row of either envelope.
 #[derive(Serialize)]
-pub(crate) struct Worst {
-    appendage: usize,
-    segment: usize,
-    t: f64,
+pub struct Worst {
+    /// Of the hinge or segment, from 1.
+    pub appendage: usize,
+    /// Its place in the appendage, from 1.
+    pub segment: usize,
+    /// When.
+    pub t: f64,
     event: String,
     event_appendage: Option<usize>,
     event_segment: Option<usize>,
+    /// Of what it is the largest value.
     #[serde(flatten)]
-    what: What,
+    pub what: Largest,
 }
 
+/// The largest value of a load.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum What {
-    Hinge { quantity: String, magnitude: f64 },
-    Station { station: usize, von_mises: f64, driver: String, margin: Option<f64> },
+pub enum Largest {
+    /// Of a hinge.
+    Hinge {
+        /// `force` or `moment`.
+        quantity: String,
+        /// Its magnitude.
+        magnitude: f64,
+    },
+    /// Of a station.
+    Station {
+        /// Which one of its segment, from 1.
+        station: usize,
+        /// The von Mises stress.
+        von_mises: f64,
+        /// The load that causes most of it.
+        driver: String,
+        /// Margin to yielding.
+        margin: Option<f64>,
+    },
 }
 
 /// The rows of an envelope, and what ended it early.
@@ -142,7 +163,7 @@ pub(crate) fn hinge_envelope(directory: &Path) -> Result<Option<Envelope>, Gap> 
     envelope(directory, HINGE_ENVELOPE_FILE, |rows| {
         let [quantity, magnitude] = rows.places(["quantity", "magnitude"])?;
         Ok(move |fields: &Fields<'_>| {
-            Ok(What::Hinge {
+            Ok(Largest::Hinge {
                 quantity: fields[quantity].to_owned(),
                 magnitude: number(&fields[magnitude])?,
             })
@@ -156,7 +177,7 @@ pub(crate) fn stress_envelope(directory: &Path) -> Result<Option<Envelope>, Gap>
         let [station, von_mises, driver, margin] =
             rows.places(["station", "von_mises", "driver", "margin"])?;
         Ok(move |fields: &Fields<'_>| {
-            Ok(What::Station {
+            Ok(Largest::Station {
                 station: count(&fields[station])?,
                 von_mises: number(&fields[von_mises])?,
                 driver: fields[driver].to_owned(),
@@ -175,7 +196,7 @@ fn envelope<F>(
     what: impl FnOnce(&Rows) -> Result<F, Gap>,
 ) -> Result<Option<Envelope>, Gap>
 where
-    F: Fn(&Fields<'_>) -> Result<What, String>,
+    F: Fn(&Fields<'_>) -> Result<Largest, String>,
 {
     let Some(mut rows) = Rows::open(directory, file)? else { return Ok(None) };
     let [t, event, appendage, segment, event_appendage, event_segment] =

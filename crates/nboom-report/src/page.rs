@@ -27,13 +27,13 @@ struct PageKeys<'a> {
 #[derive(Serialize)]
 struct RunKeys<'a> {
     label: &'a str,
-    units: &'a UnitKeys,
+    units: UnitKeys,
     summary: Option<&'a Value>,
     certificate: Option<&'a Value>,
     gaps: Vec<String>,
     /// What was left out so that the page stays small.
     thinned: Option<String>,
-    scene: Option<&'a SceneKeys>,
+    scene: Option<SceneKeys>,
     text: Option<&'a str>,
     events: &'a [EventKeys],
     motion: Option<Packed<'a>>,
@@ -57,7 +57,7 @@ pub fn page(mut runs: Vec<Run>) -> String {
         [run] => run.label.clone(),
         runs => format!("{} runs", runs.len()),
     };
-    let parts = [("@TITLE@", text::html(&title)), ("@DATA@", text::json(&data))];
+    let parts = [("@TITLE@", text::escaped(&title)), ("@DATA@", text::json(&data))];
     let mut page = String::with_capacity(TEMPLATE.len() + data.len() + data.len() / 8);
     let mut rest = TEMPLATE;
     for (mark, part) in parts {
@@ -104,12 +104,12 @@ fn keys(run: &Run, thinned: Option<String>, packing: Packing) -> RunKeys<'_> {
     let (hinges, stresses) = (run.hinge_loads.as_ref(), run.stresses.as_ref());
     RunKeys {
         label: &run.label,
-        units: &run.units,
+        units: UnitKeys::from(&run.units),
         summary: run.summary.as_ref(),
         certificate: run.certificate.as_ref(),
         gaps: run.gaps().iter().map(ToString::to_string).collect(),
         thinned,
-        scene: run.scene.as_ref(),
+        scene: run.file.as_ref().map(SceneKeys::from),
         text: run.text.as_deref(),
         events: &run.events,
         motion: pack(run.motion.as_ref()),

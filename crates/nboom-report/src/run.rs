@@ -4,14 +4,15 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use nboom_model::UnitSystem;
+use nboom_io::SceneFile;
+use nboom_model::{Scene, UnitSystem};
 use nboom_results::{
     EVENTS_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE, STATES_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::geometry::{self, SceneKeys, UnitKeys};
+use crate::geometry;
 use crate::loads::{self, Envelope, Loads, Worst};
 use crate::table::{Rows, Table, count, number, read_columns};
 use crate::{Gap, ReportError};
@@ -31,11 +32,15 @@ const MOST_ENTRIES: usize = 500;
 
 /// An event, as the table of events has it.
 #[derive(Serialize)]
-pub(crate) struct EventKeys {
+pub struct EventKeys {
+    /// When.
     pub t: f64,
-    kind: String,
-    appendage: Option<usize>,
-    segment: Option<usize>,
+    /// `release`, `lock_up`, and so on.
+    pub kind: String,
+    /// The hinge's appendage, from 1; none of an event of the satellite.
+    pub appendage: Option<usize>,
+    /// The hinge's place in it, from 1.
+    pub segment: Option<usize>,
     impulse: Option<f64>,
     before: f64,
     after: f64,
@@ -44,10 +49,10 @@ pub(crate) struct EventKeys {
 /// A run, as far as its directory has it.
 pub struct Run {
     pub(crate) label: String,
-    pub(crate) units: UnitKeys,
+    pub(crate) units: UnitSystem,
     pub(crate) summary: Option<Value>,
     pub(crate) certificate: Option<Value>,
-    pub(crate) scene: Option<SceneKeys>,
+    pub(crate) file: Option<SceneFile>,
     pub(crate) text: Option<String>,
     pub(crate) events: Vec<EventKeys>,
     pub(crate) motion: Option<Table>,
@@ -86,9 +91,9 @@ impl Run {
         let of_scene = file.as_ref().and_then(|file| file.settings.units.clone());
         let mut run = Self {
             label: label(directory, summary.as_ref()),
-            units: UnitKeys::from(&units.or(of_scene).unwrap_or_default()),
+            units: units.or(of_scene).unwrap_or_default(),
             text: text(directory),
-            scene: file.as_ref().map(SceneKeys::from),
+            file,
             summary,
             certificate,
             events: Vec::new(),
@@ -108,6 +113,63 @@ impl Run {
     /// What is missing or cannot be read.
     pub fn gaps(&self) -> &[Gap] {
         &self.gaps
+    }
+
+    /// What the run is called.
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// Labels of its units.
+    pub fn units(&self) -> &UnitSystem {
+        &self.units
+    }
+
+    /// Whether its summary says that it came to its end.
+    pub fn is_complete(&self) -> bool {
+        self.summary.as_ref().is_some_and(|keys| keys["complete"] == true)
+    }
+
+    /// The scene, if it can be read and is that of the motion.
+    pub fn scene(&self) -> Option<&Scene> {
+        self.file.as_ref().map(|file| &file.scene)
+    }
+
+    /// Events, in the order of time.
+    pub fn events(&self) -> &[EventKeys] {
+        &self.events
+    }
+
+    /// The motion in the columns of `states.csv`, at output times and on both sides of each event; sums of
+    /// angles and rates and states of hinges are left out.
+    pub fn motion(&self) -> Option<&Table> {
+        self.motion.as_ref()
+    }
+
+    /// The ledger of energy, in the columns of `ledger.csv`.
+    pub fn ledger(&self) -> Option<&Table> {
+        self.ledger.as_ref()
+    }
+
+    /// Magnitudes of the loads of hinges over time, in columns like `force_1_2` and `moment_1_2`.
+    pub fn hinge_loads(&self) -> Option<&Table> {
+        self.hinge_loads.as_ref().map(|loads| &loads.motion)
+    }
+
+    /// The largest von Mises stress of each station over time, in columns like `1_2_3`: appendage, segment and
+    /// station.
+    pub fn stresses(&self) -> Option<&Table> {
+        self.stresses.as_ref().map(|loads| &loads.motion)
+    }
+
+    /// The largest loads of hinges in the whole motion, pulses of latches included.
+    pub fn hinge_envelope(&self) -> &[Worst] {
+        &self.hinge_envelope
+    }
+
+    /// The largest stresses of stations in the whole motion, pulses of latches included.
+    pub fn stress_envelope(&self) -> &[Worst] {
+        &self.stress_envelope
     }
 
     /// Calls the run by the name of its directory, beside others.
@@ -158,12 +220,12 @@ impl Run {
 
     /// Leaves the scene out if it is not that of the motion.
     fn check_scene(&mut self) {
-        let (Some(scene), Some(motion)) = (&self.scene, &self.motion) else { return };
+        let (Some(file), Some(motion)) = (&self.file, &self.motion) else { return };
         let joints = |name: &&String| name.starts_with("beta_");
-        let (scene, table) = (scene.bodies.len(), motion.names.iter().filter(joints).count());
+        let (scene, table) = (file.scene.bodies.len(), motion.names.iter().filter(joints).count());
         if scene != table {
             self.gaps.push(Gap::OtherScene { scene, table });
-            self.scene = None;
+            self.file = None;
         }
     }
 }

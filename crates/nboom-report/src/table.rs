@@ -22,26 +22,42 @@ const ROUNDING: f64 = 1e-9;
 
 /// Numbers by column, the first of which is time.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Table {
-    pub names: Vec<String>,
-    pub columns: Vec<Vec<f64>>,
+pub struct Table {
+    pub(crate) names: Vec<String>,
+    pub(crate) columns: Vec<Vec<f64>>,
     /// Rows that were read, those left out since included.
-    pub read: usize,
+    pub(crate) read: usize,
 }
 
 impl Table {
+    /// Names of the columns.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The times of the rows, which ascend; of one instant with an event there are two.
+    pub fn times(&self) -> &[f64] {
+        self.columns.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// The column of this name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let place = self.names.iter().position(|known| known == name)?;
+        Some(&self.columns[place])
+    }
+
     /// Without rows.
-    pub fn new(names: Vec<String>) -> Self {
+    pub(crate) fn new(names: Vec<String>) -> Self {
         let columns = vec![Vec::new(); names.len()];
         Self { names, columns, read: 0 }
     }
 
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
     /// Adds a row; of a table that grows too long every part keeps what can be seen.
-    pub fn push(&mut self, row: &[f64]) {
+    pub(crate) fn push(&mut self, row: &[f64]) {
         self.read += 1;
         self.columns.iter_mut().zip(row).for_each(|(column, value)| column.push(*value));
         if self.rows() * self.columns.len() > MOST_NUMBERS {
@@ -52,7 +68,7 @@ impl Table {
 
     /// Of every column but the time the range that a figure of it has; zero of one that only rounding moves, and
     /// of residuals, which are rounding.
-    pub fn ranges(&self) -> Vec<f64> {
+    pub(crate) fn ranges(&self) -> Vec<f64> {
         let bounds = self.columns.iter().map(|column| {
             let first = [f64::INFINITY, f64::NEG_INFINITY];
             column.iter().fold(first, |[low, high], value| [low.min(*value), high.max(*value)])
@@ -73,14 +89,14 @@ impl Table {
     }
 
     /// Keeps these rows, which ascend.
-    pub fn keep(&mut self, rows: &[usize]) {
+    pub(crate) fn keep(&mut self, rows: &[usize]) {
         for column in &mut self.columns {
             *column = rows.iter().map(|&row| column[row]).collect();
         }
     }
 
     /// Puts the rows of another table with the same columns in, by time; of one time, those of this table last.
-    pub fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         let (times, others) = (&self.columns[0], &other.columns[0]);
         let mut order: Vec<(f64, bool, usize)> = Vec::with_capacity(times.len() + others.len());
         order.extend(others.iter().enumerate().map(|(row, time)| (*time, false, row)));

@@ -1,18 +1,23 @@
 //! Texts of others within a page.
 
-/// Text for an element or a quoted attribute; characters that steer text and would not be seen are replaced.
-pub(crate) fn html(text: &str) -> String {
+/// A text in which characters that steer it and would not be seen are replaced.
+pub fn visible(text: &str) -> String {
     let shown = |c: char| if steers(c) { char::REPLACEMENT_CHARACTER } else { c };
-    let text: String = text.chars().map(shown).collect();
+    text.chars().map(shown).collect()
+}
+
+/// Text for an element or a quoted attribute of HTML or XML, [`visible`].
+pub fn escaped(text: &str) -> String {
+    let text = visible(text);
     [('&', "&amp;"), ('<', "&lt;"), ('>', "&gt;"), ('"', "&quot;"), ('\'', "&#39;")]
         .into_iter()
         .fold(text, |text, (from, to)| text.replace(from, to))
 }
 
-/// Controls, and marks that turn the direction of text.
+/// Controls, marks that turn the direction of text, and what XML has no room for.
 fn steers(c: char) -> bool {
     c.is_control()
-        || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+        || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}')
 }
 
 /// JSON that may stand in an element of a page: nothing in it ends the element.
@@ -44,7 +49,7 @@ mod tests {
         let safe = json(&serde_json::to_string(hostile).expect("text"));
         assert!(!safe.contains(['<', '>', '&', '\u{2028}']), "{safe}");
         assert_eq!(serde_json::from_str::<String>(&safe).expect("still JSON"), hostile);
-        let safe = html(hostile);
+        let safe = escaped(hostile);
         assert!(!safe.contains(['<', '>', '"', '\'', '\u{202e}', '\u{2028}']), "{safe}");
         assert!(safe.starts_with("&lt;/script&gt;&lt;script&gt;alert(&quot;1&quot;)"), "{safe}");
     }

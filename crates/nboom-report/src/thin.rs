@@ -8,7 +8,7 @@ const INVISIBLE: f64 = 1.0 / 4000.0;
 
 /// Rows that stay.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Thinned {
+pub struct Thinned {
     /// Ascending.
     pub rows: Vec<usize>,
     /// How far any row that does not is from the line between its neighbours that do, as a share of the range of
@@ -49,12 +49,7 @@ impl Ord for Span {
 /// column's place in `ranges`, until nothing is left that can be seen. Where that is zero a column has no say.
 ///
 /// Extremes stay even if they are more than `most`; of needed rows those that find room beside them.
-pub(crate) fn thinned(
-    columns: &[Vec<f64>],
-    ranges: &[f64],
-    needed: &[usize],
-    most: usize,
-) -> Thinned {
+pub fn thinned(columns: &[Vec<f64>], ranges: &[f64], needed: &[usize], most: usize) -> Thinned {
     let count = columns.first().map_or(0, Vec::len);
     if count <= most.max(2) {
         return Thinned { rows: (0..count).collect(), deviation: 0.0 };

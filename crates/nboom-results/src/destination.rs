@@ -13,6 +13,7 @@ use crate::earlier::Earlier;
 use crate::kind::Kind;
 use crate::lock::Lock;
 use crate::names::COMPANIONS;
+use crate::plots::remove_plots;
 use crate::whole::Draft;
 use crate::{FILES, REPORT_FILE, REPORT_MARK, ResultsError, SUMMARY_FILE};
 
@@ -92,6 +93,8 @@ impl Destination {
             results.try_for_each(|name| sync(&self.partial.join(name)))?;
         }
         fs::create_dir_all(&self.finished).map_err(|error| self.misplaced("", error))?;
+        // Figures are of the old results, and can be made again.
+        remove_plots(&self.finished)?;
         let steps = steps(&new, old.as_ref());
         steps.into_iter().try_for_each(|step| self.take_step(&new, step))?;
         Ok(&self.finished)
@@ -154,6 +157,7 @@ impl Destination {
 
     /// Removes what is left of an unfinished run.
     fn clear(&self) -> Result<(), ResultsError> {
+        remove_plots(&self.partial)?;
         let mut names = FILES.into_iter().chain([DRAFT_FILE]);
         names.try_for_each(|name| remove(&self.partial.join(name)))
     }

@@ -37,6 +37,7 @@ mod names;
 mod number;
 mod package;
 mod peaks;
+mod plots;
 mod quantities;
 mod row_text;
 mod rows;
@@ -65,6 +66,7 @@ pub use names::{
     REPORT_MARK, RUN_FILE, SCENE_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 pub use peaks::{PeakDigits, peak_digits};
+pub use plots::{PLOT_MARK, PLOTS_FOLDER, check_plots, write_plots};
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;

@@ -13,6 +13,11 @@ use crate::kind::Kind;
 /// [`ResultsError::Foreign`] where something other than a file is there, such as a link;
 /// another error when it cannot be written. An older file then stays.
 pub fn write_file(path: &Path, text: &str) -> Result<(), ResultsError> {
+    write_whole(path, text.as_bytes())
+}
+
+/// As [`write_file`], of anything.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ResultsError> {
     match Kind::of(path).map_err(ResultsError::writing(path))? {
         Kind::File | Kind::Nothing => {}
         found => return Err(ResultsError::Foreign { path: path.to_owned(), found }),
@@ -28,7 +33,7 @@ pub fn write_file(path: &Path, text: &str) -> Result<(), ResultsError> {
             made => break made.map_err(ResultsError::writing(path))?,
         }
     };
-    draft.publish(path, text.as_bytes()).map_err(ResultsError::writing(path))
+    draft.publish(path, bytes).map_err(ResultsError::writing(path))
 }
 
 /// A file that will replace another, and is removed if it does not.

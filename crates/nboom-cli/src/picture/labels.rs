@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::escaped;
+use nboom_report::escaped;
+
 use super::view::{HEIGHT, WIDTH};
 
 /// Width of a character and height of a line of a label.

@@ -4,6 +4,7 @@ mod certificate;
 mod help;
 mod outputs;
 mod pictures;
+mod plots;
 mod repeat;
 mod report;
 mod scenes;

@@ -53,14 +53,46 @@ fn a_wing_is_drawn_stowed_and_deployed_with_panels_and_labels_off_each_other() {
 }
 
 #[test]
+fn the_mass_centre_is_marked() {
+    let place = Place::new();
+    // A body as heavy as the main body, with its mass where its hinge is: half way from O to there.
+    place.write(
+        "two.toml",
+        "[run]\nend = 1\n\n[main_body]\nmass = 2\ninertia = [1, 1, 1]\n\n[[body]]\nname = \"a\"\nmass = 2\n\
+         mass_centre = [0, 0, 0]\ninertia = [1, 1, 1]\ntip = [0, 1, 0]\n\n[body.hinge]\nat = [0.4, 2, 0.6]\naxis = \"x\"\n",
+    );
+    let picture = picture(&place, "two.toml");
+    let halves: Vec<&str> = picture.split("<g transform").skip(1).collect();
+    assert_eq!(halves.len(), 2);
+    for half in halves {
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        let mark = half.split("mass-centre\" transform=\"translate(").nth(1).expect("a mark");
+        let mark: Vec<f64> = mark.split(')').next().expect("two").split(' ').map(number).collect();
+        let one = |element, attribute| number(values(half, element, attribute)[0]);
+        // The axes of the main body begin at O; the hinge is a white disc.
+        let axis = "stroke=\"#c0392b\" stroke-width=\"1.5\"";
+        let origin = [one(axis, " x1="), one(axis, " y1=")];
+        let disc = "r=\"3\" fill=\"white\"";
+        let hinge = [one(disc, " cx="), one(disc, " cy=")];
+        for i in 0..2 {
+            assert!(
+                (mark[i] - 0.5 * (origin[i] + hinge[i])).abs() < 0.11,
+                "{mark:?} {origin:?} {hinge:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn names_in_a_picture_are_text() {
     let place = Place::new();
     assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
     let boom = fs::read_to_string(place.path("boom.toml")).expect("a scene");
-    let hostile = boom.replace("name = \"boom\"", "name = \"<script>&\"");
+    let hostile = boom.replace("name = \"boom\"", "name = \"<script>&\\u202e\"");
     place.write("hostile.toml", &hostile);
     let picture = picture(&place, "hostile.toml");
     assert!(!picture.contains("<script>") && picture.contains("&lt;script&gt;&amp;"), "{picture}");
+    assert!(!picture.contains('\u{202e}'), "a mark that turns text");
 }
 
 #[test]

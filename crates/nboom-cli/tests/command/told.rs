@@ -65,7 +65,7 @@ fn words_that_do_nothing_are_said_to_be_ignored() {
         stderr(&output).lines().filter(|line| line.contains("ignored")).collect::<String>()
     };
     let (rkam, iax) = ("HZO, LSTEP (they steer --integrator rkam)", "IAX (it thins out --listing)");
-    let plots = "NOPLT=0 (nothing is plotted)";
+    let plots = "NOPLT=0 (--plots asks for figures)";
     assert_eq!(note(&[]), format!("note: ignored: {rkam}; {iax}; {plots}"));
     assert_eq!(note(&["--listing"]), format!("note: ignored: {rkam}; {plots}"));
     assert_eq!(note(&["--integrator", "rkam"]), format!("note: ignored: {iax}; {plots}"));

@@ -157,7 +157,7 @@ pub const SYMBOLS: &[Symbol] = &[
     row(Dim, "IXK", ONE, Integer, "-", Error, "segments in all"),
     row(Dim, "IXYZ", ONE, Integer, "-", Is(0.0), "0: orientation by FTSM; 1: by EMO"),
     row(Dim, "IAB", ONE, Integer, "-", Is(0.0), "0: BETAIK and TAUIK are read; otherwise ALIK and SIGIK"),
-    row(Dim, "NOPLT", ONE, Integer, "-", Is(0.0), "1: no plots; ignored, nothing is plotted"),
+    row(Dim, "NOPLT", ONE, Integer, "-", Is(0.0), "1: no plots; ignored, --plots asks for figures"),
 
     row(Nxput, "INSTR", ONE, Integer, "-", Is(0.0), "0: no stresses; n: stresses at every n-th print"),
     row(Nxput, "BETAIK", N, Real, "D", ErrorWhen("IAB is 0"), "initial angle relative to the inboard segment"),

@@ -1,0 +1,129 @@
+//! The motion: hinges, rates of the main body, nutation and direction cosines.
+
+use std::borrow::Cow;
+
+use nboom_model::Scene;
+use nboom_report::Table;
+
+use crate::axis::Scale;
+use crate::figure::{Curve, Figure, Panel};
+use crate::source::{ROUNDING, Source, Wanted, degrees};
+
+const XYZ: [&str; 3] = ["x", "y", "z"];
+
+pub(super) fn angles<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
+    let angles = Wanted {
+        quantity: "beta",
+        label: "Angle",
+        unit: "°",
+        scale: Scale::Degrees,
+        in_degrees: true,
+        slides: Some(false),
+    };
+    let unit = &source.units.length;
+    let travels = Wanted {
+        label: "Travel",
+        unit,
+        scale: Scale::Linear,
+        in_degrees: false,
+        slides: Some(true),
+        ..angles
+    };
+    of_hinges(source, "Deployment angles", [angles, travels])
+}
+
+pub(super) fn rates<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
+    let rates = Wanted {
+        quantity: "tau",
+        label: "Rate",
+        unit: &source.units.rate,
+        scale: Scale::Linear,
+        in_degrees: true,
+        slides: Some(false),
+    };
+    let unit = &source.units.speed;
+    let speeds = Wanted { label: "Speed", unit, in_degrees: false, slides: Some(true), ..rates };
+    of_hinges(source, "Rates of deployment", [rates, speeds])
+}
+
+fn of_hinges<'a>(
+    source: &Source<'a>,
+    title: &'static str,
+    wanted: [Wanted<'_>; 2],
+) -> Option<Figure<'a>> {
+    let motion = source.run.motion()?;
+    let panels = wanted.iter().flat_map(|wanted| source.of_hinges(motion, wanted)).collect();
+    Some(Figure { title, note: String::new(), panels })
+}
+
+pub(super) fn body_rates<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
+    let motion = source.run.motion()?;
+    let curve = |axis: &str| {
+        let omega = motion.column(&format!("omega_{axis}"))?;
+        Some(Curve::new(axis, motion.times(), degrees(omega)))
+    };
+    let curves: Option<Vec<_>> = XYZ.into_iter().map(curve).collect();
+    let turning = source.hinges.iter().filter(|hinge| !hinge.slides);
+    let rates = turning.filter_map(|hinge| motion.column(&format!("tau_{}", hinge.key)));
+    let fastest = rates.flatten().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+    let panel = Panel::new("Rate", &source.units.rate, Scale::Linear, curves?);
+    let panels = vec![Panel { least: ROUNDING * fastest.to_degrees(), ..panel }];
+    let note = "Along the axes of the main body.".to_owned();
+    Some(Figure { title: "Angular rate of the main body", note, panels })
+}
+
+pub(super) fn nutation<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
+    let motion = source.run.motion()?;
+    if !has_momentum(motion, source.run.scene()) {
+        return None;
+    }
+    let nutation = degrees(motion.column("nutation")?);
+    let curves = vec![Curve::new("nutation", motion.times(), nutation)];
+    let note = "Angle between the angular momentum and the x axis of the main body.".to_owned();
+    let panels = vec![Panel::new("Angle", "°", Scale::Degrees, curves)];
+    Some(Figure { title: "Nutation", note, panels })
+}
+
+/// Whether there is more angular momentum than rounding; without it nutation has no meaning.
+fn has_momentum(motion: &Table, scene: Option<&Scene>) -> bool {
+    let parts = XYZ.map(|axis| motion.column(&format!("angular_momentum_{axis}")));
+    let [Some(x), Some(y), Some(z)] = parts else { return false };
+    let sizes = (0..x.len()).map(|row| x[row].hypot(y[row]).hypot(z[row]));
+    let largest = sizes.fold(0.0, f64::max);
+    let (Some(scene), Some(energy)) = (scene, motion.column("kinetic_energy")) else {
+        return largest > 0.0;
+    };
+    let masses = scene.bodies.iter().map(|body| body.mass_properties.mass);
+    let mass = scene.main_body.mass + masses.sum::<f64>();
+    let reaches = scene.bodies.iter().map(|body| body.tip.norm() + body.mount.point.norm());
+    let energy = energy.iter().copied().fold(0.0, f64::max);
+    largest > ROUNDING * reaches.fold(0.0, f64::max) * (2.0 * mass * energy).sqrt()
+}
+
+/// Of the main body's axes with the inertial ones, as the printout of 1970 has them.
+pub(super) fn direction_cosines<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
+    let motion = source.run.motion()?;
+    let quaternion = ["chi", "kappa_x", "kappa_y", "kappa_z"].map(|name| motion.column(name));
+    let [Some(w), Some(i), Some(j), Some(k)] = quaternion else { return None };
+    // Columns of the rotation from main-body to inertial components.
+    let axes = |row: usize| {
+        let [w, i, j, k] = [w[row], i[row], j[row], k[row]];
+        [
+            [1.0 - 2.0 * (j * j + k * k), 2.0 * (i * j + w * k), 2.0 * (i * k - w * j)],
+            [2.0 * (i * j - w * k), 1.0 - 2.0 * (i * i + k * k), 2.0 * (j * k + w * i)],
+            [2.0 * (i * k + w * j), 2.0 * (j * k - w * i), 1.0 - 2.0 * (i * i + j * j)],
+        ]
+    };
+    let cosines: Vec<[[f64; 3]; 3]> = (0..w.len()).map(axes).collect();
+    let panel = |body: usize| {
+        let curve = |(inertial, axis): (usize, &str)| {
+            let values: Cow<'a, [f64]> = cosines.iter().map(|axes| axes[body][inertial]).collect();
+            Curve::new(format!("inertial {axis}"), motion.times(), values)
+        };
+        let curves = XYZ.into_iter().enumerate().map(curve).collect();
+        let panel = Panel::new(&format!("Of the {} axis", XYZ[body]), "", Scale::Linear, curves);
+        Panel { least: ROUNDING, ..panel }
+    };
+    let note = "Of the main body’s axes, with each of the inertial axes.".to_owned();
+    Some(Figure { title: "Direction cosines", note, panels: (0..3).map(panel).collect() })
+}
