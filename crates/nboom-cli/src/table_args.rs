@@ -29,7 +29,7 @@ pub struct TableArgs {
     #[arg(long)]
     pub degrees: bool,
 
-    /// Write units behind the names in the headers of all tables, as t [s]; datapackage.json always has
+    /// Write units behind the names in the headers of all tables, as `t [s]`; datapackage.json always has
     /// them.
     #[arg(long)]
     pub units_in_headers: bool,
