@@ -201,6 +201,7 @@ mod tests {
         ) else {
             return;
         };
+        states.spin_from(&equations.variables.origin);
         let mut found = vec![Eight::splat(f64::NAN); y.len()];
         states.rates(layout, At { times: &times, carried: &carried, y: &eight }, &mut found);
         for of in 0..8 {

@@ -2,7 +2,8 @@
 
 use nboom_elements::OwnLaws;
 use nboom_model::{
-    Course, External, ExternalAxes, ExternalKind, HingeState, Mode, Scene, SceneDescription,
+    Course, External, ExternalAxes, ExternalKind, HingeState, Mode, Rotor, RotorSpeed, Scene,
+    SceneDescription,
 };
 use nboom_scalar::Vec3;
 
@@ -20,7 +21,7 @@ pub(super) const SCENES: [&str; 6] = [
     "s08_kickoff_disengage",
 ];
 
-/// A reference scene, in motion, with every hinge free and every force acting.
+/// A reference scene, in motion, with every hinge free, every force acting, and rotors that speed up.
 pub(super) fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Vec<f64>) {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/scenes");
     let path = std::path::Path::new(folder).join(name).with_extension("nml");
@@ -31,6 +32,13 @@ pub(super) fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Ve
     let (axes, body) = (ExternalAxes::Inertial, description.bodies.len().checked_sub(1));
     description.externals.push(External { axes, body, course, ..thrust.clone() });
     description.externals.push(External { kind: ExternalKind::Torque, body, ..thrust });
+    // Momenta do not count rotors.
+    if formulation.is_none() {
+        let (axis, inertia) = (Vec3::unit_z(), 0.4);
+        let speed = RotorSpeed::Table(vec![[-9.0, 1.0], [9.0, 7.0]]);
+        description.rotors.push(Rotor { body: None, axis, inertia, speed: speed.clone() });
+        description.rotors.push(Rotor { body, axis, inertia, speed });
+    }
     let scene = Scene::new(description).expect("a valid deck under more forces");
     let mut state = State::initial(&scene);
     for (i, (beta, tau)) in state.beta.iter_mut().zip(&mut state.tau).enumerate() {
@@ -43,7 +51,7 @@ pub(super) fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Ve
         pieces: vec![0; Mode::at_start(&scene).pieces.len()],
         externals: vec![1; scene.externals.len()],
         drive: 0,
-        rotors: vec![0; scene.rotors.len()],
+        rotors: vec![1; scene.rotors.len()],
     };
     let options = Options { formulation, ..Options::default() };
     let (mut equations, mut y) = (Equations::new(&scene, OwnLaws::default(), &options), Vec::new());
