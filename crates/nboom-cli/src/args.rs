@@ -296,7 +296,8 @@ pub struct BenchArgs {
     pub harness: bool,
 
     /// Instead, time whole runs against their error: every code that covers the scene with every
-    /// integrator at relative tolerances from 1e-3 to 1e-14. Writes work-precision.csv and .svg.
+    /// integrator at relative tolerances from 1e-3 to 1e-14. Runs are of a prepared simulator; the table
+    /// tells the time of preparing it by itself. Writes work-precision.csv and .svg.
     #[arg(long, conflicts_with_all = ["json", "harness"])]
     pub work_precision: bool,
 

@@ -72,45 +72,36 @@ impl<R: Real> Recursive<R> {
         let beta: Vec<R> =
             scene.bodies.iter().map(|body| R::constant(body.hinge.start.angle)).collect();
         let tree = WeldedTree::new(scene, &mode, &beta);
-        let mut recursive = Self {
-            scene: Arc::new(scene.clone()),
-            elements: Elements::new(scene, &mode, &tree),
-            rotors: (R::constant(scene.initial.time), Vec::new()),
-            tree,
-            constants: Vec::new(),
-            free: Vec::new(),
-            poses: Vec::new(),
-            hinges: Vec::new(),
-            base: BaseFactor::unset(),
-            articulated: Vec::new(),
-            composite: Vec::new(),
-            omegas: Vec::new(),
-            twists: Vec::new(),
-            wrenches: Vec::new(),
-        };
-        recursive.set_mode(&mode, &beta);
-        recursive
+        Self::of_tree(Arc::new(scene.clone()), &mode, tree)
     }
 
     /// Changes the mode; `beta` has the angle of every hinge of the scene \[rad\], of which those
     /// of the held ones are built in. Rotors [go on](Self::spin_from) from the speeds with which
     /// the scene starts.
     pub fn set_mode(&mut self, mode: &Mode, beta: &[R]) {
-        self.tree = WeldedTree::new(&self.scene, mode, beta);
-        self.rotors.0 = R::constant(self.scene.initial.time);
-        self.rotors.1.clear();
-        self.rotors.1.extend(self.tree.rotors.iter().map(|rotor| rotor.motion));
-        self.constants = self.tree.links.iter().map(LinkConstants::new).collect();
-        self.elements = Elements::new(&self.scene, mode, &self.tree);
-        self.free = self.tree.links.iter().map(|link| link.hinge).collect();
-        let links = self.tree.links.len();
-        self.poses = vec![LinkPose::unset(); links];
-        self.hinges = vec![HingeFactor::unset(); links];
-        self.composite = vec![RigidInertia::zero(); links];
-        self.articulated = vec![ArticulatedInertia::of(&RigidInertia::zero()); links];
-        self.omegas = vec![Vec3::zero(); links];
-        self.twists = vec![Twist::zero(); links];
-        self.wrenches = vec![Wrench::zero(); links];
+        let tree = WeldedTree::new(&self.scene, mode, beta);
+        *self = Self::of_tree(Arc::clone(&self.scene), mode, tree);
+    }
+
+    fn of_tree(scene: Arc<Scene>, mode: &Mode, tree: WeldedTree<R>) -> Self {
+        let links = tree.links.len();
+        let motions = tree.rotors.iter().map(|rotor| rotor.motion).collect();
+        Self {
+            elements: Elements::new(&scene, mode, &tree),
+            rotors: (R::constant(scene.initial.time), motions),
+            constants: tree.links.iter().map(LinkConstants::new).collect(),
+            free: tree.links.iter().map(|link| link.hinge).collect(),
+            poses: vec![LinkPose::unset(); links],
+            hinges: vec![HingeFactor::unset(); links],
+            base: BaseFactor::unset(),
+            articulated: vec![ArticulatedInertia::of(&RigidInertia::zero()); links],
+            composite: vec![RigidInertia::zero(); links],
+            omegas: vec![Vec3::zero(); links],
+            twists: vec![Twist::zero(); links],
+            wrenches: vec![Wrench::zero(); links],
+            scene,
+            tree,
+        }
     }
 
     /// Holds `commands` in place of those that were held, until the mode is set anew.
@@ -295,6 +286,12 @@ impl<R: Real> Recursive<R> {
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Recursive<f64> {
+    /// The same formulation of the same `mode`, which was set last, over numbers each of which holds several
+    /// of `f64`.
+    pub fn over<R: Real>(&self, mode: &Mode) -> Recursive<R> {
+        Recursive::of_tree(Arc::clone(&self.scene), mode, WeldedTree::constant(&self.tree))
+    }
+
     /// The first free hinge (numbered as in the scene; `Some(None)` is the main body) about which,
     /// or along which where it slides, nothing has inertia at the angles `beta` of the free hinges.
     pub fn singular_hinge(&mut self, beta: &[f64]) -> Option<Option<usize>> {

@@ -91,6 +91,20 @@ impl<R: Real> TurnedInertia<R> {
         }
     }
 
+    /// Makes every number a scalar of this kind.
+    pub(crate) fn constant(turned: &TurnedInertia<f64>) -> Self {
+        let turn = |turn: &Turn<f64>| Turn {
+            axis: Vec3::constant(turn.axis),
+            angle: R::constant(turn.angle),
+            link: turn.link,
+        };
+        Self {
+            rot_main_from_mount: Mat3::constant(turned.rot_main_from_mount),
+            turns: turned.turns.iter().map(turn).collect(),
+            inertia: Sym3::constant(turned.inertia),
+        }
+    }
+
     /// The tensor at the angles `beta` of the links \[rad\], main-body axes.
     #[inline]
     pub fn inertia(&self, beta: &[R]) -> Sym3<R> {

@@ -132,6 +132,11 @@ impl<R: Real> RotorMotion<R> {
 }
 
 impl<R: Real> Spin<R> {
+    /// Makes every number a scalar of this kind.
+    pub(crate) fn constant(spin: Spin<f64>) -> Self {
+        Self { momentum: Vec3::constant(spin.momentum), rate: Vec3::constant(spin.rate) }
+    }
+
     /// Of rotors at rest.
     pub fn zero() -> Self {
         Self { momentum: Vec3::zero(), rate: Vec3::zero() }

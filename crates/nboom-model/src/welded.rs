@@ -2,6 +2,8 @@ use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3};
 
 use crate::{Joint, MassProperties, Mode, RotorMotion, Scene, Spin, TurnOrder, TurnedInertia};
 
+mod constant;
+
 /// The tree with every held hinge welded: one link for each free hinge, and the main link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WeldedTree<R> {

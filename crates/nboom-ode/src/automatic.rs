@@ -70,8 +70,11 @@ const SLOW: usize = 4;
 /// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
 /// below a third of it.
 const NEAR: f64 = 0.7;
-/// The first step of a method may be this many times the last one of the other.
+/// The first step of another method may be this many times the last one.
 const GROWTH: f64 = 10.0;
+/// Likewise of stages side by side. Their own estimate of a first step knows one state only, and without a
+/// polynomial to begin from their iteration does not converge over ten explicit steps.
+const GROWTH_OF_LANES: f64 = 2.0;
 /// An implicit step costs as much as this many explicit ones.
 const COST: f64 = 3.0;
 
@@ -188,8 +191,9 @@ impl Automatic {
         let controlled = self.controlled;
         self.stepper_mut().start(system, time, &state, controlled);
         self.handed_over = state;
+        let growth = if to == Active::Lanes { GROWTH_OF_LANES } else { GROWTH };
         let window = self.window_mut();
-        window.next_step = window.next_step.min(GROWTH * usual);
+        window.next_step = window.next_step.min(growth * usual);
     }
 
     /// Makes another method the active one, which goes on counting.

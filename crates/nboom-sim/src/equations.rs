@@ -43,10 +43,10 @@ pub(crate) struct Equations {
     pub scene: Scene,
     /// The mode in which the scene starts.
     pub start: Mode,
-    /// The mode that was entered last.
-    pub entered: PreparedMode,
+    /// The mode that was entered last; modes are large, and change places at each event.
+    pub entered: Box<PreparedMode>,
     /// Others that were entered.
-    others: Vec<PreparedMode>,
+    others: Vec<Box<PreparedMode>>,
     repertoire: Repertoire,
     /// Hinge laws of the program's own.
     pub own: OwnLaws,
@@ -84,7 +84,7 @@ impl Equations {
         let dynamics = Recursive::new(scene);
         Self {
             scene: scene.clone(),
-            entered: PreparedMode::new(dynamics, &at_start, &commands, |i| state.beta[i]),
+            entered: PreparedMode::new(dynamics, &at_start, &commands, |i| state.beta[i]).into(),
             others: Vec::new(),
             repertoire: Repertoire::new(options),
             own,
@@ -266,17 +266,17 @@ fn without_momenta(scene: &Scene) -> Option<&'static str> {
 /// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the
 /// `others` if it is among them, and holds `commands` there.
 fn change_mode(
-    entered: &mut PreparedMode,
-    others: &mut Vec<PreparedMode>,
+    entered: &mut Box<PreparedMode>,
+    others: &mut Vec<Box<PreparedMode>>,
     mode: &Mode,
     commands: &Commands,
     beta: impl Fn(usize) -> f64 + Copy,
 ) {
     let is_it = |prepared: &PreparedMode| prepared.is(mode, commands, beta);
     if !is_it(entered) {
-        let next = match others.iter().position(is_it) {
+        let next = match others.iter().position(|prepared| is_it(prepared)) {
             Some(at) => others.swap_remove(at),
-            None => PreparedMode::new(entered.dynamics.clone(), mode, commands, beta),
+            None => PreparedMode::new(entered.dynamics.clone(), mode, commands, beta).into(),
         };
         if others.len() == MOST_MODES {
             others.remove(0);

@@ -31,10 +31,15 @@ pub(crate) struct At<'a> {
 }
 
 impl EightStates {
-    /// Of `mode`, in which held hinges have their angles in `beta` (all hinges), with room for the variables of
-    /// `layout`; none where there are no vector registers.
-    pub fn new(scene: &Scene, mode: &Mode, beta: &[f64], layout: VariableLayout) -> Option<Self> {
-        let made = in_vector_registers(Make { scene, mode, beta, layout });
+    /// Of `mode`, which is that of `dynamics`, with room for the variables of `layout`; none where there are no
+    /// vector registers.
+    pub fn new(
+        scene: &Scene,
+        mode: &Mode,
+        dynamics: &Recursive<f64>,
+        layout: VariableLayout,
+    ) -> Option<Self> {
+        let made = in_vector_registers(Make { scene, mode, dynamics, layout });
         made.ok().map(|of_mode| Self { of_mode })
     }
 
@@ -82,7 +87,7 @@ impl At<'_> {
 struct Make<'a> {
     scene: &'a Scene,
     mode: &'a Mode,
-    beta: &'a [f64],
+    dynamics: &'a Recursive<f64>,
     layout: VariableLayout,
 }
 
@@ -90,9 +95,7 @@ impl WorkOnEight for Make<'_> {
     type Output = Box<dyn Any + Send + Sync>;
 
     fn carry_out<R: EightNumbers>(self) -> Self::Output {
-        let mut dynamics = Recursive::<R>::new(self.scene);
-        let beta: Vec<R> = self.beta.iter().map(|&angle| R::constant(angle)).collect();
-        dynamics.set_mode(self.mode, &beta);
+        let dynamics = self.dynamics.over::<R>(self.mode);
         let rates = Rates::new(self.scene, self.layout);
         Box::new(OfMode { dynamics, rates })
     }
@@ -196,7 +199,7 @@ mod tests {
         let Some(mut states) = EightStates::new(
             &equations.scene,
             &equations.entered.mode,
-            &vec![0.0; equations.scene.bodies.len()],
+            &equations.entered.dynamics,
             layout,
         ) else {
             return;

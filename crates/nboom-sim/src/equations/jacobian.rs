@@ -19,11 +19,9 @@ pub(crate) struct Jacobian {
 }
 
 impl Jacobian {
-    /// Of `mode`, in which held hinges have their angles in `beta` (all hinges).
-    pub fn new(scene: &Scene, mode: &Mode, beta: &[f64]) -> Self {
-        let mut dynamics = Recursive::new(scene);
-        let beta: Vec<Dual<f64>> = beta.iter().map(|&angle| Dual::constant(angle)).collect();
-        dynamics.set_mode(mode, &beta);
+    /// Of `mode`, which is that of `dynamics`.
+    pub fn new(scene: &Scene, mode: &Mode, dynamics: &Recursive<f64>) -> Self {
+        let dynamics = dynamics.over(mode);
         let rates = Rates::new(scene, VariableLayout::of_no_hinges());
         Self { rates, dynamics, variables: Vec::new(), derivatives: Vec::new() }
     }

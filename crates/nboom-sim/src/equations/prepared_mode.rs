@@ -237,9 +237,9 @@ impl PreparedMode {
         entry: Entry<'_>,
         layout: &VariableLayout,
     ) -> Option<&mut EightStates> {
-        let Self { mode, beta, reach, eight_states, .. } = self;
+        let Self { mode, dynamics, reach, eight_states, .. } = self;
         let made = eight_states.get_or_insert_with(|| {
-            let mut made = EightStates::new(entry.scene, mode, beta, *layout);
+            let mut made = EightStates::new(entry.scene, mode, dynamics, *layout);
             if let Some(made) = &mut made {
                 if *reach != Reach::Nothing {
                     made.command(entry.commands);
@@ -254,9 +254,9 @@ impl PreparedMode {
     /// Derivatives of the equations of the mode, which was entered by `entry`.
     pub fn jacobian(&mut self, entry: Entry<'_>) -> &mut Jacobian {
         let Entry { scene, commands, origin } = entry;
-        let Self { mode, beta, reach, jacobian, .. } = self;
+        let Self { mode, dynamics, reach, jacobian, .. } = self;
         jacobian.get_or_insert_with(|| {
-            let mut jacobian = Jacobian::new(scene, mode, beta);
+            let mut jacobian = Jacobian::new(scene, mode, dynamics);
             if *reach != Reach::Nothing {
                 jacobian.command(commands);
             }
