@@ -8,8 +8,8 @@ use nboom_sim::{Form, Method, Reference};
 #[cfg(feature = "generator")]
 use crate::{CompileArgs, CompletionsArgs, GenerateArgs, ManArgs, NewArgs};
 use crate::{
-    ConvertArgs, Given, PlotArgs, ReportArgs, SceneArgs, SlipArgs, StressArgs, TableArgs, choice,
-    examples,
+    ConvertArgs, Given, PlotArgs, ReportArgs, SceneArgs, SlipArgs, StressArgs, TableArgs,
+    TablesArgs, choice, examples,
 };
 
 /// Simulates spacecraft that unfold.
@@ -40,6 +40,13 @@ pub enum Command {
     /// formulations, a run with --as-1970 beside one without.
     #[command(after_help = examples::REPORT)]
     Report(ReportArgs),
+    /// Write the tables of a complete run for other programs.
+    ///
+    /// Parquet has a file for each table, with nulls where a field is empty; HDF5 is one file, run.h5, with a
+    /// group for each table, a dataset for each column, and NaN there. Both have units and meanings of all
+    /// columns, and the summary. Numbers keep all their bits. A build has a format only if its feature was on.
+    #[command(after_help = examples::TABLES)]
+    Tables(TablesArgs),
     /// Read and validate a scene, and say what it contains.
     ///
     /// No motion is computed. Also says what the scene does not pay for because it lacks it, what

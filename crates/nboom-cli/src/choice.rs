@@ -95,6 +95,12 @@ pub(crate) fn pulse_shape(name: &str) -> Result<PulseShape, ChoiceError> {
     PulseShape::named(name).ok_or(ChoiceError::Unknown { available })
 }
 
+pub(crate) fn table_format(name: &str) -> Result<nboom_tables::Format, ChoiceError> {
+    let all = nboom_tables::Format::ALL;
+    let found = all.into_iter().find(|format| format.name() == name);
+    found.ok_or_else(|| ChoiceError::Unknown { available: all.map(|format| format.name()).into() })
+}
+
 pub(crate) fn finite(text: &str) -> Result<f64, ChoiceError> {
     let value: f64 = text.parse().map_err(|_| ChoiceError::NotANumber)?;
     if value.is_finite() { Ok(value) } else { Err(ChoiceError::NotFinite) }

@@ -9,6 +9,7 @@ use nboom_report::ReportError;
 use nboom_results::{ResultsError, with_causes};
 use nboom_sim::SimError;
 use nboom_strength::StrengthError;
+use nboom_tables::TablesError;
 use nboom_verify::VerifyError;
 
 use crate::SectionFileError;
@@ -160,6 +161,9 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// Tables cannot be written for other programs.
+    #[error(transparent)]
+    Tables(#[from] TablesError),
     /// Two codes for accelerations differ too much.
     #[error("{code} deviates by {deviation:.1e} in state {state}, above the tolerance {tol:e}")]
     Deviation {
@@ -262,6 +266,7 @@ impl CliError {
             Self::Results(error) if error.is_refusal() => 2,
             Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
             Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
+            Self::Tables(error) if error.is_of_input() => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,
             Self::NoRecord { .. } | Self::NoArguments { .. } | Self::NothingToRepeat { .. } => 2,
@@ -272,7 +277,7 @@ impl CliError {
             Self::Verify(VerifyError::NotFinite { .. }) => 2,
             Self::Simulation { .. } | Self::Verify(_) => 3,
             Self::Certificate { .. } | Self::Signals(_) | Self::WithinStep => 3,
-            Self::Results(_) | Self::Stdout(_) => 3,
+            Self::Results(_) | Self::Tables(_) | Self::Stdout(_) => 3,
             #[cfg(feature = "generator")]
             Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
             #[cfg(feature = "generator")]

@@ -24,6 +24,10 @@ Examples:
   nboom report out/wing
   nboom report out/wing few -o both.html";
 
+pub(crate) const TABLES: &str = "\
+Examples:
+  nboom tables out/wing --format parquet,hdf5  # into out/wing-tables";
+
 pub(crate) const CHECK: &str = "\
 Examples:
   nboom check wing.toml --picture wing.svg

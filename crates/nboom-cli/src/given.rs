@@ -127,6 +127,7 @@ mod tests {
             "--listing",
             "--set=a=1",
             "--set=b=-2",
+            "--tables=parquet,hdf5",
             "-o",
             "there",
             "--times",
@@ -146,6 +147,8 @@ mod tests {
             "--output=there",
             "--set=a=1",
             "--set=b=-2",
+            "--tables=parquet",
+            "--tables=hdf5",
             "--times=0.5,1",
         ] {
             assert!(said.iter().any(|said| said == word), "{word}: {said:?}");

@@ -56,6 +56,7 @@ mod simulator;
 mod slips;
 mod stresses;
 mod table_args;
+mod tables;
 mod terminal;
 mod verdict;
 mod verify;
@@ -90,6 +91,7 @@ pub use simulator::simulator;
 pub use slips::SlipArgs;
 pub use stresses::StressArgs;
 pub use table_args::{TableArgs, Times};
+pub use tables::TablesArgs;
 pub use terminal::refuse;
 
 use terminal::{print, say};
@@ -125,6 +127,7 @@ pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
     let printed = match &cli.command {
         Command::Run(args) => run::run(args, routines),
         Command::Report(args) => report::report(args),
+        Command::Tables(args) => tables::tables(args),
         Command::Check(args) => check::check(args, routines),
         Command::Verify(args) => verify::verify(args, routines),
         Command::Bench(args) => bench::bench(args, routines),

@@ -18,7 +18,9 @@ use crate::progress::Progress;
 use crate::record::Record;
 use crate::repeat::{is_record, repeated};
 use crate::watch::Watch;
-use crate::{CliError, PathChoice, Routines, RunArgs, check, print_run, say, table_args, verdict};
+use crate::{
+    CliError, PathChoice, Routines, RunArgs, check, print_run, say, table_args, tables, verdict,
+};
 
 /// Simulates a scene, writes its files and returns the text for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
@@ -32,6 +34,7 @@ pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliErro
 fn run_scene(args: &RunArgs, file: SceneFile, routines: &Routines) -> Result<String, CliError> {
     let slips = args.slips.as_1970.unwrap_or_default();
     refuse_idle(args, &file)?;
+    args.tables.formats.iter().try_for_each(|format| format.require())?;
     let ignored = ignored(&file, Some(args));
     let scene_text = write_scene(&file);
     let file = SceneFile { scene: slips.scene(file.scene), ..file };
@@ -152,21 +155,10 @@ fn simulate_into_files(
 ) -> Result<String, CliError> {
     let directory = directory(args, scene)?;
     let started = Instant::now();
-    let mut files = RunDirectory::create(&directory, scene, run.clone())?;
-    if files.has_put_right() && !args.quiet {
-        let directory = directory.display();
-        say("warning", &format!("{directory}: a finished run had not taken its place and now has"));
-    }
-    if args.certify.is_some() {
-        files = files.with_trust();
-    }
     let analysis = stresses.as_ref().map(|(analysis, _)| analysis.clone());
     let certifier = Certifier { interrupt: interrupt.clone(), analysis };
-    if let Some((analysis, tables)) = stresses {
-        files = files.with_stresses(scene, analysis, tables)?;
-    }
     let mut watch = Watch {
-        files,
+        files: files(&directory, scene, run.clone(), stresses, args)?,
         interrupt: interrupt.clone(),
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
@@ -183,6 +175,7 @@ fn simulate_into_files(
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_loads();
     let kept = interrupt.shielded(|| watch.files.finish(&outcome));
+    let tabled = tables::add(&args.tables.formats, &kept);
     // Printed even with --quiet, since the results are not what they seem.
     warn_of_poor_results(&outcome, options, &worst);
     // The error that stopped the run says more than one in writing the files afterwards.
@@ -199,9 +192,32 @@ fn simulate_into_files(
     let shown = show(args, &kept);
     kept.written?;
     shown?;
+    tabled?;
     let (outcome, events) = (&outcome, watch.events);
     let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
     Ok(account.text(&directory))
+}
+
+/// The files of the run, made in the directory.
+fn files(
+    directory: &std::path::Path,
+    scene: &Scene,
+    run: RunDescription,
+    stresses: Option<(StressAnalysis, StressTables)>,
+    args: &RunArgs,
+) -> Result<RunDirectory, CliError> {
+    let mut files = RunDirectory::create(directory, scene, run)?;
+    if files.has_put_right() && !args.quiet {
+        let directory = directory.display();
+        say("warning", &format!("{directory}: a finished run had not taken its place and now has"));
+    }
+    if args.certify.is_some() {
+        files = files.with_trust();
+    }
+    if let Some((analysis, tables)) = stresses {
+        files = files.with_stresses(scene, analysis, tables)?;
+    }
+    Ok(files.expecting(tables::names(&args.tables.formats)))
 }
 
 /// The directory of the results, in which nothing stands in the way of figures.

@@ -7,6 +7,7 @@ use nboom_io::{Sampling, SceneSettings, TooManyTimes, nearest, read_text};
 use nboom_model::{Column, Scene, UnitSystem, WantedTable};
 use nboom_results::{Headings, WantedOutput};
 use nboom_sim::OutputTimes;
+use nboom_tables::Format;
 
 use crate::choice::{self, ChoiceError};
 use crate::{CliError, RunArgs};
@@ -33,6 +34,11 @@ pub struct TableArgs {
     /// them.
     #[arg(long)]
     pub units_in_headers: bool,
+
+    /// Also write all tables for other programs: parquet, hdf5 or both with a comma between them, if this
+    /// build has the feature of that name.
+    #[arg(id = "tables", long, value_name = "FORMATS", value_delimiter = ',', value_parser = choice::table_format)]
+    pub formats: Vec<Format>,
 }
 
 /// Output times on a command line.

@@ -1,6 +1,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use nboom_tables::RowsError;
+
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -102,4 +104,14 @@ pub enum Gap {
         /// That of this program.
         expected: &'static str,
     },
+}
+
+impl From<RowsError> for Gap {
+    fn from(error: RowsError) -> Self {
+        match error {
+            RowsError::Unreadable { file, source } => Self::Unreadable { file, source },
+            RowsError::NoColumn { file, expected } => Self::NoColumn { file, expected },
+            RowsError::Row { file, line, found } => Self::Row { file, line, found },
+        }
+    }
 }

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use nboom_results::{ENVELOPE_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, STRESS_FILE};
+use nboom_tables::{Fields, Rows, count, number};
 use serde::Serialize;
 
 use crate::Gap;
-use crate::table::{Fields, Rows, Table, count, number};
+use crate::table::Table;
 
 /// Loads over time, and their peaks at lock-ups.
 #[derive(Default)]
@@ -85,7 +86,7 @@ pub(crate) fn hinge_loads(directory: &Path) -> Result<Option<Loads>, Gap> {
         pivot.set(time, format!("moment_{hinge}"), size(fields, &moment)?);
         Ok(())
     });
-    Ok(Some(loads(pivots, ended)))
+    Ok(Some(loads(pivots, ended.map_err(Gap::from))))
 }
 
 fn loads([motion, peaks]: [Pivot; 2], ended: Result<(), Gap>) -> Loads {
@@ -111,7 +112,7 @@ pub(crate) fn stresses(directory: &Path) -> Result<Option<Loads>, Gap> {
         );
         Ok(())
     });
-    Ok(Some(loads(pivots, ended)))
+    Ok(Some(loads(pivots, ended.map_err(Gap::from))))
 }
 
 /// A row of either envelope.
@@ -216,5 +217,5 @@ where
         });
         Ok(())
     });
-    Ok(Some((found, ended.err())))
+    Ok(Some((found, ended.err().map(Gap::from))))
 }

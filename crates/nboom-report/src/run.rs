@@ -9,12 +9,13 @@ use nboom_model::{Scene, UnitSystem};
 use nboom_results::{
     EVENTS_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE, STATES_FILE, SUMMARY_FILE, TRUST_FILE,
 };
+use nboom_tables::{Rows, count, number};
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::geometry;
 use crate::loads::{self, Envelope, Loads, Worst};
-use crate::table::{Rows, Table, count, number, read_columns};
+use crate::table::{Table, read_columns};
 use crate::{Gap, ReportError};
 
 /// The longest summary or certificate that is read \[bytes\].

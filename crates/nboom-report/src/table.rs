@@ -1,18 +1,12 @@
-//! Tables of a run, read row by row up to the first that is none.
+//! Tables of a run as columns of numbers.
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind, Read};
-use std::ops::Index;
 use std::path::Path;
 
-use nboom_results::column_name;
+use nboom_tables::{Rows, number};
 
 use crate::Gap;
 use crate::thin::thinned;
-
-/// The longest line that is read \[bytes\]: that of tens of thousands of joints.
-const LONGEST_LINE: u64 = 1 << 24;
 
 /// Numbers of a table that are held at once; a longer table is thinned while it is read.
 const MOST_NUMBERS: usize = 1 << 24;
@@ -111,139 +105,6 @@ impl Table {
     }
 }
 
-/// The header and the rows of a file, as text.
-pub(crate) struct Rows {
-    file: &'static str,
-    lines: BufReader<File>,
-    /// Names of the columns.
-    pub names: Vec<String>,
-    line: String,
-    number: usize,
-    /// Where each field of the line ends.
-    ends: Vec<usize>,
-}
-
-/// The fields of a row, by their number from 0.
-pub(crate) struct Fields<'a> {
-    line: &'a str,
-    ends: &'a [usize],
-}
-
-impl Index<usize> for Fields<'_> {
-    type Output = str;
-
-    fn index(&self, field: usize) -> &str {
-        let start = if field == 0 { 0 } else { self.ends[field - 1] + 1 };
-        &self.line[start..self.ends[field]]
-    }
-}
-
-impl Rows {
-    /// Opens a file of a run; nothing if it is not there.
-    pub fn open(directory: &Path, file: &'static str) -> Result<Option<Self>, Gap> {
-        let unreadable = |source| Gap::Unreadable { file, source };
-        let opened = match File::open(directory.join(file)) {
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-            opened => opened.map_err(unreadable)?,
-        };
-        if !opened.metadata().map_err(unreadable)?.is_file() {
-            return Err(unreadable(ErrorKind::InvalidInput.into()));
-        }
-        let lines = BufReader::with_capacity(1 << 16, opened);
-        let (names, line, ends) = (Vec::new(), String::new(), Vec::new());
-        let mut rows = Self { file, lines, names, line, number: 0, ends };
-        rows.advance()?;
-        rows.names = rows.line.split(',').map(|cell| column_name(cell).to_owned()).collect();
-        Ok(Some(rows))
-    }
-
-    /// Where a column is.
-    ///
-    /// # Errors
-    /// When there is none.
-    pub fn place(&self, name: &str) -> Result<usize, Gap> {
-        let place = self.names.iter().position(|known| known == name);
-        place.ok_or_else(|| Gap::NoColumn { file: self.file, expected: name.to_owned() })
-    }
-
-    /// Where these columns are.
-    pub fn places<const N: usize>(&self, names: [&str; N]) -> Result<[usize; N], Gap> {
-        let mut places = [0; N];
-        for (place, name) in places.iter_mut().zip(names) {
-            *place = self.place(name)?;
-        }
-        Ok(places)
-    }
-
-    /// Reads the next line; false at the end of the file.
-    fn advance(&mut self) -> Result<bool, Gap> {
-        self.line.clear();
-        self.number += 1;
-        let read = self.lines.by_ref().take(LONGEST_LINE).read_line(&mut self.line);
-        match read {
-            Ok(0) => Ok(false),
-            Ok(_) if self.line.ends_with('\n') => {
-                self.line.truncate(self.line.trim_end().len());
-                Ok(true)
-            }
-            Ok(_) => Err(self.wrong("the line is cut off".to_owned())),
-            Err(error) if error.kind() == ErrorKind::InvalidData => {
-                Err(self.wrong("it is not text".to_owned()))
-            }
-            Err(source) => Err(Gap::Unreadable { file: self.file, source }),
-        }
-    }
-
-    /// Hands on the fields of each row, up to the end or to the first that is no row.
-    ///
-    /// # Errors
-    /// When a row has another number of fields than the header, is cut off, or `take` finds it wrong.
-    pub fn each(
-        &mut self,
-        mut take: impl FnMut(&Fields<'_>) -> Result<(), String>,
-    ) -> Result<(), Gap> {
-        while self.advance()? {
-            let Self { line, ends, .. } = self;
-            ends.clear();
-            let commas = line.bytes().enumerate().filter(|(_, byte)| *byte == b',');
-            ends.extend(commas.map(|(place, _)| place).chain([line.len()]));
-            let (found, expected) = (self.ends.len(), self.names.len());
-            let taken = if found == expected {
-                take(&Fields { line: &self.line, ends: &self.ends })
-            } else {
-                Err(format!("{found} fields found, {expected} expected"))
-            };
-            taken.map_err(|found| self.wrong(found))?;
-        }
-        Ok(())
-    }
-
-    fn wrong(&self, found: String) -> Gap {
-        Gap::Row { file: self.file, line: self.number, found }
-    }
-}
-
-/// A number of a table.
-///
-/// # Errors
-/// When it is none.
-pub(crate) fn number(field: &str) -> Result<f64, String> {
-    let value: Option<f64> = field.parse().ok().filter(|value: &f64| value.is_finite());
-    value.ok_or_else(|| {
-        format!("`{}` found, a number expected", field.chars().take(30).collect::<String>())
-    })
-}
-
-/// A count of a table.
-///
-/// # Errors
-/// When it is none.
-pub(crate) fn count(field: &str) -> Result<usize, String> {
-    field.parse().map_err(|_| {
-        format!("`{}` found, a count expected", field.chars().take(30).collect::<String>())
-    })
-}
-
 /// The columns of a file that `is_wanted`, time first; the second value is what ended it early.
 pub(crate) fn read_columns(
     directory: &Path,
@@ -265,7 +126,7 @@ pub(crate) fn read_columns(
         table.push(&row);
         Ok(())
     });
-    Ok(Some((table, ended.err())))
+    Ok(Some((table, ended.err().map(Gap::from))))
 }
 
 #[cfg(test)]

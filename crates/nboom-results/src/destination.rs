@@ -107,10 +107,20 @@ impl Destination {
         name: &'static str,
         publish: impl FnOnce(Draft, &Path) -> io::Result<()>,
     ) -> Result<(), ResultsError> {
+        let (draft, target) = self.addition(directory, name)?;
+        publish(draft, &target).map_err(ResultsError::writing(&target))
+    }
+
+    /// A file that will be added to the results, which are in `directory`, and where it will be.
+    pub fn addition(
+        &self,
+        directory: &Path,
+        name: &'static str,
+    ) -> Result<(Draft, PathBuf), ResultsError> {
         assert!(FILES.contains(&name), "{name} is in the table of names");
         let (path, target) = (self.partial.join(name), directory.join(name));
-        let added = Draft::create(path).and_then(|draft| publish(draft, &target));
-        added.map_err(ResultsError::writing(&target))
+        let draft = Draft::create(path).map_err(ResultsError::writing(&target))?;
+        Ok((draft, target))
     }
 
     fn take_step(&self, new: &Earlier, step: Step) -> Result<(), ResultsError> {

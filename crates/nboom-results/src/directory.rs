@@ -1,10 +1,8 @@
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use nboom_model::{HingeLabel, Scene, WantedTable};
-use nboom_sim::{
-    Event, InstantMotion, OutputTimes, Recorder, Snapshot, StepMotion, Summary, Trust,
-};
+use nboom_sim::{Event, InstantMotion, OutputTimes, Recorder, Snapshot, StepMotion, Summary};
 use nboom_strength::StressAnalysis;
 
 use crate::destination::Destination;
@@ -15,10 +13,10 @@ use crate::states::whole_motion;
 use crate::stress::StressWriter;
 use crate::whole::Draft;
 use crate::{
-    EVENTS_FILE, EventsWriter, INSTANTS_FILE, LEDGER_FILE, LISTING_FILE, ListingWriter,
-    OUTPUT_FILE, PACKAGE_FILE, PeakDigits, REPORT_FILE, RUN_FILE, ResultsError, RunDescription,
-    SCENE_FILE, STATES_FILE, SUMMARY_FILE, StatesWriter, StressDescription, StressTables,
-    SummaryFile, TRUST_FILE, WorstLoads, trust, with_causes,
+    EVENTS_FILE, EventsWriter, INSTANTS_FILE, Kept, LEDGER_FILE, LISTING_FILE, ListingWriter,
+    OUTPUT_FILE, PACKAGE_FILE, PARQUET_FILES, RUN_FILE, ResultsError, RunDescription, SCENE_FILE,
+    STATES_FILE, SUMMARY_FILE, StatesWriter, StressDescription, StressTables, SummaryFile,
+    TRUST_FILE, WorstLoads, with_causes,
 };
 
 /// Space on disk reserved for the summary, which must be able to report a full disk \[bytes\].
@@ -46,45 +44,10 @@ pub struct RunDirectory {
     stresses: Option<StressWriter>,
     /// Columns of all tables but those of stresses.
     tables: Vec<TableHeads>,
-    with_trust: bool,
+    /// Names that are written when the summary is.
+    expected: Vec<&'static str>,
     /// Events whose instant may still last, and the motion after them.
     instant: Option<(Vec<Event>, Snapshot)>,
-}
-
-/// The results of a run that has ended; no other run can write there while this value lives.
-#[derive(Debug)]
-pub struct Kept {
-    place: Destination,
-    /// Where it is.
-    pub directory: PathBuf,
-    /// Whether all of it could be written.
-    pub written: Result<(), ResultsError>,
-}
-
-impl Kept {
-    /// Adds how many digits of the run, and of its largest loads, can be trusted.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    pub fn add_trust(
-        &self,
-        scene: &Scene,
-        found: &Trust,
-        peaks: &[PeakDigits],
-    ) -> Result<(), ResultsError> {
-        let text = trust::text(scene, found, peaks);
-        let publish = |draft: Draft, target: &Path| draft.publish(target, text.as_bytes());
-        self.place.add(&self.directory, TRUST_FILE, publish)
-    }
-
-    /// Adds the page that shows the run.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    pub fn add_report(&self, page: &str) -> Result<(), ResultsError> {
-        let publish = |draft: Draft, target: &Path| draft.publish_unsynced(target, page.as_bytes());
-        self.place.add(&self.directory, REPORT_FILE, publish)
-    }
 }
 
 /// How a run ended.
@@ -142,7 +105,7 @@ impl RunDirectory {
             listing,
             stresses: None,
             tables,
-            with_trust: false,
+            expected: Vec::new(),
             instant: None,
         })
     }
@@ -155,7 +118,13 @@ impl RunDirectory {
 
     /// Expects [`Kept::add_trust`].
     pub fn with_trust(self) -> Self {
-        Self { with_trust: true, ..self }
+        self.expecting([TRUST_FILE])
+    }
+
+    /// Expects [`Kept::add_made`] of these names; of those that are made from tables, where the run has the table.
+    pub fn expecting(mut self, names: impl IntoIterator<Item = &'static str>) -> Self {
+        self.expected.extend(names);
+        self
     }
 
     /// Also writes hinge loads, and stresses where there are stations: at output times as `tables`
@@ -224,7 +193,11 @@ impl RunDirectory {
         error: Option<&str>,
     ) -> Result<(), ResultsError> {
         let mut files: Vec<_> = self.place.files().collect();
-        files.extend(self.with_trust.then_some(TRUST_FILE));
+        let tables = files.clone();
+        let lacks_its_table = |name: &&str| {
+            PARQUET_FILES.iter().any(|(table, made)| made == name && !tables.contains(table))
+        };
+        files.extend(self.expected.iter().filter(|name| !lacks_its_table(name)));
         let worst = self.worst_loads();
         let Outcome { summary, wall_seconds, .. } = outcome;
         let ended =

@@ -26,6 +26,7 @@ mod error;
 mod euler;
 mod events;
 mod heads;
+mod kept;
 mod kind;
 mod label_keys;
 mod layout;
@@ -52,18 +53,20 @@ mod whole;
 #[cfg(test)]
 mod fixture;
 
-pub use directory::{Kept, Outcome, RunDirectory};
+pub use directory::{Outcome, RunDirectory};
 pub use error::{ResultsError, with_causes};
 pub use euler::euler_angles;
 pub use events::{EventsWriter, event_order};
 pub use heads::{Headings, column_name};
+pub use kept::Kept;
 pub use kind::Kind;
 pub use listing::ListingWriter;
 pub use lock::Holder;
 pub use names::{
-    ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE, INSTANTS_FILE,
-    LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, PACKAGE_FILE, REPORT_FILE,
-    REPORT_MARK, RUN_FILE, SCENE_FILE, STATES_FILE, STRESS_FILE, SUMMARY_FILE, TRUST_FILE,
+    ENVELOPE_FILE, EVENTS_FILE, FILES, HDF5_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,
+    INSTANTS_FILE, LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, PACKAGE_FILE,
+    PARQUET_FILES, REPORT_FILE, REPORT_MARK, RUN_FILE, SCENE_FILE, STATES_FILE, STRESS_FILE,
+    SUMMARY_FILE, TRUST_FILE,
 };
 pub use peaks::{PeakDigits, peak_digits};
 pub use plots::{PLOT_MARK, PLOTS_FOLDER, check_plots, write_plots};
@@ -72,4 +75,4 @@ pub use states::StatesWriter;
 pub use stress::StressTables;
 pub use summary::{RunDescription, StressDescription, SummaryFile, WantedOutput};
 pub use verdict::WorstLoads;
-pub use whole::write_file;
+pub use whole::{make_file, write_file};

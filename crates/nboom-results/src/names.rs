@@ -38,11 +38,28 @@ pub const REPORT_FILE: &str = "report.html";
 /// What tells it from other pages, among its first bytes.
 pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"nboom\">";
 
+/// Name of all tables in one file of HDF5, which is made from them.
+pub const HDF5_FILE: &str = "run.h5";
+
+/// Each table with the name of what is made from it for Parquet.
+pub const PARQUET_FILES: [(&str, &str); 10] = [
+    (STATES_FILE, "states.parquet"),
+    (INSTANTS_FILE, "instants.parquet"),
+    (LEDGER_FILE, "ledger.parquet"),
+    (OUTPUT_FILE, "output.parquet"),
+    (EVENTS_FILE, "events.parquet"),
+    (STRESS_FILE, "stress.parquet"),
+    (HINGE_LOADS_FILE, "hinge_loads.parquet"),
+    (LATCH_IMPULSES_FILE, "latch_impulses.parquet"),
+    (HINGE_ENVELOPE_FILE, "hinge_load_envelope.parquet"),
+    (ENVELOPE_FILE, "stress_envelope.parquet"),
+];
+
 /// Files that say something about the others; after a power failure they may be empty.
 pub(crate) const COMPANIONS: [&str; 2] = [RUN_FILE, PACKAGE_FILE];
 
 /// All names that a run may write; files of other names in its directory are not its own.
-pub const FILES: [&str; 17] = [
+pub const FILES: [&str; 28] = [
     SCENE_FILE,
     RUN_FILE,
     STATES_FILE,
@@ -59,5 +76,16 @@ pub const FILES: [&str; 17] = [
     PACKAGE_FILE,
     TRUST_FILE,
     REPORT_FILE,
+    PARQUET_FILES[0].1,
+    PARQUET_FILES[1].1,
+    PARQUET_FILES[2].1,
+    PARQUET_FILES[3].1,
+    PARQUET_FILES[4].1,
+    PARQUET_FILES[5].1,
+    PARQUET_FILES[6].1,
+    PARQUET_FILES[7].1,
+    PARQUET_FILES[8].1,
+    PARQUET_FILES[9].1,
+    HDF5_FILE,
     SUMMARY_FILE,
 ];

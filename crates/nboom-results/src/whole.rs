@@ -18,6 +18,22 @@ pub fn write_file(path: &Path, text: &str) -> Result<(), ResultsError> {
 
 /// As [`write_file`], of anything.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ResultsError> {
+    beside(path)?.publish(path, bytes).map_err(ResultsError::writing(path))
+}
+
+/// As [`write_file`], of a file that `make` writes at another path.
+///
+/// # Errors
+/// As [`write_file`], and that of `make`.
+pub fn make_file<E: From<ResultsError>>(
+    path: &Path,
+    make: impl FnOnce(&Path) -> Result<(), E>,
+) -> Result<(), E> {
+    beside(path)?.publish_made(path, make)
+}
+
+/// A file that will be the one at `path`, where only a file may be; the folder is made if need be.
+fn beside(path: &Path) -> Result<Draft, ResultsError> {
     match Kind::of(path).map_err(ResultsError::writing(path))? {
         Kind::File | Kind::Nothing => {}
         found => return Err(ResultsError::Foreign { path: path.to_owned(), found }),
@@ -25,15 +41,14 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ResultsError>
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     folder.map_err(ResultsError::writing(path))?;
     let mut numbers = 0..;
-    let draft = loop {
+    loop {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let number = numbers.next().unwrap_or(0);
         match Draft::create(path.with_file_name(format!(".{name}.{number}.new"))) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-            made => break made.map_err(ResultsError::writing(path))?,
+            made => return made.map_err(ResultsError::writing(path)),
         }
-    };
-    draft.publish(path, bytes).map_err(ResultsError::writing(path))
+    }
 }
 
 /// A file that will replace another, and is removed if it does not.
@@ -75,6 +90,21 @@ impl Draft {
     pub fn publish_unsynced(mut self, target: &Path, text: &[u8]) -> io::Result<()> {
         self.file.write_all(text)?;
         self.put(target)
+    }
+
+    /// Lets `make` write the file at its path, and moves it to `target`.
+    ///
+    /// # Errors
+    /// That of `make`, and when the file cannot be moved.
+    pub fn publish_made<E: From<ResultsError>>(
+        mut self,
+        target: &Path,
+        make: impl FnOnce(&Path) -> Result<(), E>,
+    ) -> Result<(), E> {
+        make(&self.path)?;
+        // A rename may reach the disk before the data it names.
+        let put = self.file.sync_all().and_then(|()| self.put(target));
+        Ok(put.map_err(ResultsError::writing(target))?)
     }
 
     /// Writes a text into the file and moves it to `target`; if there is no space for the text,
@@ -127,6 +157,23 @@ mod tests {
         write_file(&path, "new").expect("writable");
         assert_eq!(fs::read_to_string(&path).ok().as_deref(), Some("new"));
         assert_eq!(fs::read_dir(place.path()).expect("readable").count(), 2);
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_made_leaves_the_old_one_alone() {
+        let place = tempfile::tempdir().expect("a directory");
+        let path = place.path().join("table");
+        let make = |text: &'static str| {
+            make_file(&path, move |draft: &Path| {
+                fs::write(draft, text).expect("writable");
+                if text.is_empty() { Err(ErrorKind::StorageFull.into()) } else { Ok(()) }
+                    .map_err(ResultsError::writing(draft))
+            })
+        };
+        make("whole").expect("writable");
+        make("").expect_err("it fails");
+        assert_eq!(fs::read_to_string(&path).ok().as_deref(), Some("whole"));
+        assert_eq!(fs::read_dir(place.path()).expect("readable").count(), 1);
     }
 
     #[cfg(unix)]

@@ -243,6 +243,26 @@ fn a_finished_run_has_all_rows_and_every_key() {
 
 /// What was finished stays until something finished takes its place, whole.
 #[test]
+fn the_summary_expects_files_that_are_made_of_tables_there_are() {
+    let place = tempfile::tempdir().expect("a directory");
+    let path = place.path().join("run");
+    let made = ["states.parquet", "stress.parquet", "output.parquet", "run.h5"];
+    let directory = create(&path, false).expect("writable").expecting(made);
+    let kept = directory.finish(&outcome(None));
+    let files = summary(&path)["files"].clone();
+    let is_expected = |name: &str| files.as_array().expect("a list").iter().any(|f| f == name);
+    // It has no stresses and nobody asked for an output.
+    assert_eq!(made.map(is_expected), [true, false, false, true], "{files}");
+    let write = |draft: &Path| fs::write(draft, "made").map_err(|_| unreachable!("writable"));
+    kept.add_made::<ResultsError>("run.h5", write).expect("writable");
+    assert_eq!(fs::read_to_string(path.join("run.h5")).ok().as_deref(), Some("made"));
+    drop(kept);
+    // The next run knows it and takes it away.
+    create(&path, false).expect("its own").finish(&outcome(None)).written.expect("writable");
+    assert!(!path.join("run.h5").exists());
+}
+
+#[test]
 fn an_earlier_result_stays_until_the_next_one_is_finished() {
     let place = tempfile::tempdir().expect("a directory");
     let (path, partial) = (place.path().join("run"), place.path().join("run.partial"));

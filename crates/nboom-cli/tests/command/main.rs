@@ -1,6 +1,7 @@
 //! The binary as its users meet it: exit codes, messages and files.
 
 mod certificate;
+mod formats;
 mod help;
 mod outputs;
 mod pictures;
