@@ -95,7 +95,8 @@ pub use legacy::LegacySettings;
 pub use sampling::{Sampling, TooManyTimes};
 pub use scene::suggest::nearest;
 pub use scene::{
-    Holds, Key, ReadOptions, SCENE, TableKind, all_tables, parse_scene, schema, write_scene,
+    Holds, Key, ReadOptions, SCENE, SceneDocument, Slot, TableKind, UnknownPath, all_tables,
+    parse_scene, schema, write_scene,
 };
 pub use source::{Format, read_text, sha256};
 pub use urdf::parse_robot;
@@ -157,8 +158,7 @@ pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
 /// Those of [`read_scene`], and parameters that the scene does not have.
 pub fn read_scene_with(path: &Path, options: &ReadOptions) -> Result<SceneFile, InputError> {
     let (format, text, sha256) = source::read_file(path)?;
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let name = name.replace(char::is_control, "\u{fffd}");
+    let name = source::scene_name(path);
     let (file, folder) = (path.display().to_string(), source::folder(path));
     let scene = parse(format, (&file, &text), &name, Some(folder), options)?;
     // Of a deck with bytes that are not UTF-8 too.

@@ -55,6 +55,12 @@ pub(crate) fn folder(path: &Path) -> &Path {
     folder.unwrap_or(Path::new("."))
 }
 
+/// What a scene in a file is called that does not say its name.
+pub(crate) fn scene_name(path: &Path) -> String {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    name.replace(char::is_control, "\u{fffd}")
+}
+
 /// The text of a scene from any reader, and the hash of its bytes; `path` stands for it in messages.
 pub(crate) fn read_stream(path: &Path, reader: impl Read) -> Result<(String, String), InputError> {
     hashed(path, read_limited(path, reader, LARGEST)?)

@@ -23,7 +23,7 @@ impl Kind {
     ///
     /// # Errors
     /// When the system does not say.
-    pub(crate) fn of(path: &Path) -> io::Result<Self> {
+    pub fn of(path: &Path) -> io::Result<Self> {
         let metadata = match fs::symlink_metadata(path) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Self::Nothing),
             found => found?,

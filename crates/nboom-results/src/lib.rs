@@ -61,7 +61,7 @@ pub use heads::{Headings, column_name};
 pub use kept::Kept;
 pub use kind::Kind;
 pub use listing::ListingWriter;
-pub use lock::Holder;
+pub use lock::{Holder, LOCK_FILE, Lock};
 pub use names::{
     ENVELOPE_FILE, EVENTS_FILE, FILES, HDF5_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,
     INSTANTS_FILE, LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, PACKAGE_FILE,
@@ -70,6 +70,7 @@ pub use names::{
 };
 pub use peaks::{PeakDigits, peak_digits};
 pub use plots::{PLOT_MARK, PLOTS_FOLDER, check_plots, write_plots};
+pub use quantities::quantity;
 pub use signs::StressSigns;
 pub use states::StatesWriter;
 pub use stress::StressTables;

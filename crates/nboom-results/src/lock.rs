@@ -8,12 +8,12 @@ use crate::ResultsError;
 use crate::kind::Kind;
 
 /// Name of the locked file in the directory of a current run; it says who holds the lock.
-pub(crate) const LOCK_FILE: &str = "run.pid";
+pub const LOCK_FILE: &str = "run.pid";
 
 /// The right to write into a directory, which the system takes back when the process ends, in
 /// whatever way.
 #[derive(Debug)]
-pub(crate) struct Lock {
+pub struct Lock {
     path: PathBuf,
     /// Whoever has this file locked holds the directory.
     _file: File,

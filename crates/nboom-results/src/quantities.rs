@@ -46,3 +46,13 @@ pub(crate) fn cell(column: &Column, s: &Snapshot) -> Cell {
         Quantity::MotorTorque => motor_torque(s, column.component),
     })
 }
+
+/// What a column of a table of the motion has at the time of a snapshot, angles in radians; the state of a
+/// hinge is its number in tables. Columns that take an evaluation of the equations of motion
+/// ([`WantedTable::needs_detail`](nboom_model::WantedTable::needs_detail)) are zero without detail.
+pub fn quantity(column: &Column, snapshot: &Snapshot) -> f64 {
+    match cell(column, snapshot) {
+        Cell::Number(value) => value,
+        Cell::Code(code) => code.into(),
+    }
+}

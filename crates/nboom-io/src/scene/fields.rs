@@ -101,10 +101,10 @@ impl Reader<'_, '_> {
         table: &'t Table,
         at: &Place,
     ) -> Fields<'t> {
-        let names: Vec<String> = kind.keys.iter().flat_map(Key::names).collect();
         let mut meant = Vec::new();
         for Entry { key, key_at, .. } in &table.0 {
             if kind.key(key).is_none() {
+                let names: Vec<String> = kind.keys.iter().flat_map(Key::names).collect();
                 let near = suggest::nearest(key, names.iter().map(String::as_str));
                 meant.extend(near.and_then(|near| kind.key(near)).map(|key| key.name));
                 let found = format!("{} in {}", quoted(key), kind.name);
@@ -114,7 +114,7 @@ impl Reader<'_, '_> {
         }
         for key in kind.keys {
             let given: Vec<&Entry> =
-                key.names().iter().filter_map(|name| table.get(name)).collect();
+                table.0.iter().filter(|entry| key.is_called(&entry.key)).collect();
             if let [_, second] = given[..] {
                 let found = format!("{} beside {}", quoted(&second.key), quoted(&given[0].key));
                 self.error(&second.key_at, &second.key, &found, "one of them");

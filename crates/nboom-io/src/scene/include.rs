@@ -15,7 +15,7 @@ use crate::source::{LARGEST, read_text};
 const MOST_FILES: usize = 100;
 
 /// The trees of all files, the scene's own first, each included one after those before it in the text.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Parts {
     tables: Vec<(Table, Place)>,
     /// Whole paths of the files that are included.
@@ -115,6 +115,25 @@ impl Parts {
             Value::Table(table) => &table.0[..],
             _ => &[],
         })
+    }
+
+    /// The tree of the scene's own file.
+    pub fn root(&self) -> &Table {
+        &self.tables[0].0
+    }
+
+    pub fn root_mut(&mut self) -> &mut Table {
+        &mut self.tables[0].0
+    }
+
+    /// All files in one, which includes none.
+    pub fn merged(self) -> Self {
+        let mut tables = self.tables.into_iter();
+        let mut all: Vec<_> = tables.by_ref().take(1).collect();
+        let root = &mut all[0].0;
+        tables.flat_map(|(table, _)| table.0).for_each(|entry| root.absorb(entry));
+        root.0.retain(|entry| entry.key != "include");
+        Self { tables: all, included: self.included }
     }
 
     /// The texts of all files.

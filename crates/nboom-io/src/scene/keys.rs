@@ -100,6 +100,15 @@ impl Key {
             vec![self.name.to_owned()]
         }
     }
+
+    /// Whether it may stand under this name.
+    pub(crate) fn is_called(&self, name: &str) -> bool {
+        if self.holds.is_angle() {
+            ENDINGS.iter().any(|ending| name.strip_suffix(ending) == Some(self.name))
+        } else {
+            name == self.name
+        }
+    }
 }
 
 impl TableKind {
@@ -110,7 +119,7 @@ impl TableKind {
 
     /// The key that may stand under this name.
     pub fn key(&self, name: &str) -> Option<&'static Key> {
-        self.keys.iter().find(|key| key.names().iter().any(|own| own == name))
+        self.keys.iter().find(|key| key.is_called(name))
     }
 }
 

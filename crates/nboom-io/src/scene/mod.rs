@@ -4,6 +4,7 @@ mod axes;
 mod bodies;
 mod catalog;
 mod couplings;
+mod document;
 mod drive;
 mod expression;
 mod externals;
@@ -34,9 +35,9 @@ use nboom_scalar::{Sym3, Vec3};
 
 use crate::diagnostic::{Report, quoted};
 use crate::sampling::MOST_SAMPLES;
-use crate::source::sha256;
-use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
+use crate::{InputError, SceneFile, SceneSettings};
 pub use catalog::SCENE;
+pub use document::{SceneDocument, Slot, UnknownPath};
 use fields::{Fields, Reader};
 use include::Parts;
 pub use keys::{Holds, Key, TableKind, all_tables};
@@ -73,33 +74,7 @@ pub fn parse_scene(
     folder: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<SceneFile, InputError> {
-    let mut sources = Sources::default();
-    let mut report = Report::new(file);
-    let parts = Parts::read((file, text), folder, options, &mut sources, &mut report);
-    // What follows from half of a text would only confuse.
-    let found = if report.errors.is_empty() {
-        assemble(&parts, name, options, &sources, &mut report)
-    } else {
-        None
-    };
-    report.sort();
-    match found {
-        Some(Found { scene, structure, settings, stress_interval }) if report.errors.is_empty() => {
-            let sha256 = sha256(parts.all_text(&sources).as_bytes());
-            let legacy = LegacySettings { stress_interval, ..LegacySettings::default() };
-            Ok(SceneFile {
-                scene,
-                warnings: report.warnings,
-                legacy,
-                structure,
-                format: Format::Toml,
-                settings,
-                included: parts.included,
-                sha256,
-            })
-        }
-        _ => Err(InputError::Content(report.errors)),
-    }
+    SceneDocument::parse((file, text), name, folder, options)?.scene(&[])
 }
 
 struct Found {

@@ -55,6 +55,18 @@ impl Table {
     pub fn get(&self, key: &str) -> Option<&Entry> {
         self.0.iter().find(|entry| entry.key == key)
     }
+
+    /// Adds an entry; what is in it joins a table or list that has its key already.
+    pub fn absorb(&mut self, entry: Entry) {
+        let Some(own) = self.0.iter_mut().find(|own| own.key == entry.key) else {
+            return self.0.push(entry);
+        };
+        match (&mut own.node.value, entry.node.value) {
+            (Value::Table(own), Value::Table(other)) => own.0.extend(other.0),
+            (Value::List(own), Value::List(other)) => own.extend(other),
+            _ => {}
+        }
+    }
 }
 
 /// The tree of file number `file`. Of what is not TOML the first is reported: the rest mostly follows from it.

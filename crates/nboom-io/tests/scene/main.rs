@@ -4,6 +4,7 @@
 mod support;
 
 mod decks;
+mod document;
 mod examples;
 mod externals;
 mod messages;

@@ -1,0 +1,259 @@
+//! A scene whose text is read once and whose numbers can be set.
+
+mod path;
+mod text;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::expression;
+use super::include::Parts;
+use super::parameters::Parameters;
+use super::tree::Value;
+use super::{Found, ReadOptions, Sources, assemble, write_scene};
+use crate::diagnostic::Report;
+use crate::source::{self, sha256};
+use crate::{Format, InputError, LegacySettings, SceneFile};
+pub use path::{Slot, UnknownPath};
+use path::{Step, child, child_mut, step};
+
+/// What messages add to the name of a file that is not read as it stands.
+const IN_TOML: &str = " in TOML";
+
+/// A scene that is read once and then made as often as wanted, each time with other numbers.
+///
+/// Numbers are set in the tree of its text, so that expressions follow parameters, and what is wrong is
+/// told at its place. A deck or a robot becomes a scene in TOML first.
+///
+/// ```
+/// # let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/cubesat.toml"));
+/// let document = nboom_io::SceneDocument::read(path, &nboom_io::ReadOptions::default())?;
+/// let stiffness = document.slot("parameters.stiffness")?;
+/// let of_a_panel = document.slot("body.x panel.hinge.spring.stiffness")?;
+/// assert_eq!([&stiffness, &of_a_panel].map(|slot| document.number(slot)), [0.02; 2]);
+/// let file = document.scene(&[(&stiffness, 0.03)])?;
+/// assert_eq!(file.scene.bodies[0].hinge.spring.linear, -0.03);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SceneDocument {
+    /// The file's name for messages.
+    file: String,
+    /// What the scene is called if it does not say.
+    name: String,
+    parts: Parts,
+    sources: Arc<Sources>,
+    options: ReadOptions,
+    sha256: String,
+    /// Whether its text says something else.
+    is_changed: bool,
+}
+
+impl SceneDocument {
+    /// Reads a scene `NAME.toml` with all that it includes, a deck `NAME.nml` or a robot `NAME.urdf`.
+    ///
+    /// # Errors
+    /// Those of [`read_scene_with`](crate::read_scene_with).
+    pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, InputError> {
+        let (format, text, sha256) = source::read_file(path)?;
+        let (file, name) = (path.display().to_string(), source::scene_name(path));
+        if format != Format::Toml {
+            let scene = crate::parse(format, (&file, &text), &name, None, options)?;
+            return Ok(Self { sha256, ..Self::converted(&file, &scene)? });
+        }
+        let read = Self::parse((&file, &text), &name, Some(source::folder(path)), options)?;
+        read.scene(&[])?;
+        Ok(read.merged())
+    }
+
+    /// The document of the text that a scene is written as.
+    fn converted(file: &str, scene: &SceneFile) -> Result<Self, InputError> {
+        let (name, text) = (&scene.scene.name, write_scene(scene));
+        let file = format!("{}{IN_TOML}", file.trim_end_matches(IN_TOML));
+        Self::parse((&file, &text), name, None, &ReadOptions::default())
+    }
+
+    /// A text of a scene, of which only its TOML has been checked.
+    pub(super) fn parse(
+        (file, text): (&str, &str),
+        name: &str,
+        folder: Option<&Path>,
+        options: &ReadOptions,
+    ) -> Result<Self, InputError> {
+        let mut sources = Sources::default();
+        let mut report = Report::new(file);
+        let parts = Parts::read((file, text), folder, options, &mut sources, &mut report);
+        // What follows from half of a text would only confuse.
+        if !report.errors.is_empty() {
+            report.sort();
+            return Err(InputError::Content(report.errors));
+        }
+        Ok(Self {
+            file: file.to_owned(),
+            name: name.to_owned(),
+            sha256: sha256(parts.all_text(&sources).as_bytes()),
+            parts,
+            sources: Arc::new(sources),
+            options: options.clone(),
+            is_changed: false,
+        })
+    }
+
+    /// All files in one tree, in which the parameters of the options are set.
+    fn merged(self) -> Self {
+        let is_changed = !self.parts.included.is_empty() || !self.options.set.is_empty();
+        let mut parts = self.parts.merged();
+        for (name, value) in &self.options.set {
+            let steps = ["parameters", name].map(|key| Step::Key(key.to_owned()));
+            if let Some(slot) = path::find(parts.root(), &steps) {
+                *child_mut(parts.root_mut(), &slot) = Value::Number(*value);
+            }
+        }
+        let options = ReadOptions { set: Vec::new(), ..self.options };
+        Self { parts, options, is_changed, ..self }
+    }
+
+    /// The document of the scene as it stands: each body that `repeat` makes has a table of its own, and all
+    /// expressions are numbers.
+    ///
+    /// # Errors
+    /// None are to be expected.
+    pub fn expanded(self) -> Result<Self, InputError> {
+        let expanded = Self::converted(&self.file, &self.scene(&[])?)?;
+        Ok(Self { sha256: self.sha256, ..expanded })
+    }
+
+    /// The place of a number, or of an expression that gives one: keys with dots between them, as in TOML.
+    /// A table in a list goes by its name or by its number, from 1; elements of lists go by numbers:
+    /// `body.left panel.mass_centre[2]`, `main_body.force[1].from`. A part in quotes may have dots.
+    ///
+    /// # Errors
+    /// When the scene has no number there.
+    pub fn slot(&self, path: &str) -> Result<Slot, UnknownPath> {
+        let unknown = |expected, nearest| {
+            let found = path.to_owned();
+            UnknownPath { found, expected, nearest }
+        };
+        let steps = path::steps(path).ok_or_else(|| unknown(path::NO_PATH, None))?;
+        let root = self.parts.root();
+        let is_number = |slot: &Slot| self.is_number(slot);
+        if let Some(slot) = path::find(root, &steps).filter(is_number) {
+            return Ok(slot);
+        }
+        if self.is_made_by_repeat(&steps) {
+            return Err(unknown(path::REPEATED, None));
+        }
+        let nearest = path::nearest(root, &steps, &is_number);
+        Err(unknown(path::NO_NUMBER, nearest.map(|slot| path::text(root, &slot))))
+    }
+
+    /// Whether a number may stand there.
+    fn is_number(&self, slot: &Slot) -> bool {
+        match child(self.parts.root(), slot) {
+            Value::Number(_) => true,
+            // A name may look like an expression.
+            Value::Text(_) => {
+                let number = self.number(slot);
+                number.is_finite() && self.scene(&[(slot, number)]).is_ok()
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether a path begins with a body that only the finished scene has.
+    fn is_made_by_repeat(&self, steps: &[Step]) -> bool {
+        let [Step::Key(bodies), Step::Key(name), ..] = steps else { return false };
+        let is_written = || step(self.parts.root(), &steps[..2]).is_some();
+        let has = |file: SceneFile| {
+            file.scene.labels().iter().any(|label| label.name.as_deref() == Some(name))
+        };
+        bodies == "body" && !is_written() && self.scene(&[]).is_ok_and(has)
+    }
+
+    /// What the scene says at a place of this document, in the units of its key.
+    ///
+    /// # Panics
+    /// When the place is of another document and this one has none such.
+    pub fn number(&self, slot: &Slot) -> f64 {
+        match child(self.parts.root(), slot) {
+            Value::Number(number) => *number,
+            Value::Text(text) => {
+                let parameters = self.parameters();
+                let found = expression::evaluate(text, &mut |name| {
+                    parameters.get(name).ok_or_else(|| parameters.unknown(name))
+                });
+                found.unwrap_or(f64::NAN)
+            }
+            _ => f64::NAN,
+        }
+    }
+
+    fn parameters(&self) -> Parameters {
+        let entries: Vec<_> = self.parts.entries("parameters").collect();
+        Parameters::read(&entries, &self.options.set, &self.sources, &mut Report::new(&self.file))
+    }
+
+    /// The same with these numbers in their places, of which the last one counts where several are for one.
+    ///
+    /// # Panics
+    /// As [`Self::number`].
+    #[must_use]
+    pub fn with(&self, values: &[(&Slot, f64)]) -> Self {
+        let mut changed = Self { is_changed: true, ..self.clone() };
+        for (slot, value) in values {
+            *child_mut(changed.parts.root_mut(), slot) = Value::Number(*value);
+        }
+        changed
+    }
+
+    /// The scene with these numbers in their places.
+    ///
+    /// # Errors
+    /// [`InputError::Content`] with all that is wrong.
+    ///
+    /// # Panics
+    /// As [`Self::number`].
+    pub fn scene(&self, values: &[(&Slot, f64)]) -> Result<SceneFile, InputError> {
+        if !values.is_empty() {
+            return self.with(values).scene(&[]);
+        }
+        let mut report = Report::new(&self.file);
+        let found = assemble(&self.parts, &self.name, &self.options, &self.sources, &mut report);
+        report.sort();
+        match found {
+            Some(Found { scene, structure, settings, stress_interval })
+                if report.errors.is_empty() =>
+            {
+                Ok(SceneFile {
+                    scene,
+                    warnings: report.warnings,
+                    legacy: LegacySettings { stress_interval, ..LegacySettings::default() },
+                    structure,
+                    format: Format::Toml,
+                    settings,
+                    included: self.parts.included.clone(),
+                    sha256: self.sha256.clone(),
+                })
+            }
+            _ => Err(InputError::Content(report.errors)),
+        }
+    }
+
+    /// A text of the scene that stands alone; its own, unless it includes others or numbers are set.
+    pub fn text(&self) -> String {
+        if self.is_changed { text::of(self.parts.root()) } else { self.sources.text(0).to_owned() }
+    }
+
+    /// The text that [`write_scene`] makes of the scene with these numbers.
+    ///
+    /// # Errors
+    /// As [`Self::scene`].
+    pub fn text_with(&self, values: &[(&Slot, f64)]) -> Result<String, InputError> {
+        Ok(write_scene(&self.scene(values)?))
+    }
+
+    /// SHA-256 of all texts that were read, in hexadecimal digits.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+}
