@@ -1,9 +1,11 @@
-use serde::Deserialize;
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
 
 use crate::number;
 
 /// What a column of a table is.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Column {
     /// Its name.
     pub name: String,
@@ -11,15 +13,17 @@ pub struct Column {
     #[serde(rename = "type")]
     pub kind: Kind,
     /// The unit of its numbers, where they have one for all rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     /// What it is, in one line.
     pub description: String,
     /// The body that it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
 }
 
 /// What a column holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Numbers.
@@ -47,11 +51,34 @@ pub enum Cell<'a> {
 /// The largest whole number up to which `f64` has all.
 const LARGEST: i64 = 1 << f64::MANTISSA_DIGITS;
 
+/// As in CSV: numbers are the shortest that read back to the same, words by RFC 4180 in quotes if need be.
+impl fmt::Display for Cell<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => Ok(()),
+            Self::Number(value) => f.write_str(zmij::Buffer::new().format(*value)),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Text(text) if text.contains([',', '"', '\n', '\r']) => {
+                write!(f, "\"{}\"", text.replace('"', "\"\""))
+            }
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
 impl Column {
     /// A column without a unit.
     pub fn new(name: impl Into<String>, kind: Kind, description: impl Into<String>) -> Self {
         let (name, description) = (name.into(), description.into());
         Self { name, kind, unit: None, description, body: None }
+    }
+
+    /// What a field of a table in CSV, without its quotes, says in this column.
+    ///
+    /// # Errors
+    /// When it is something else.
+    pub(crate) fn cell<'a>(&self, field: &'a str) -> Result<Cell<'a>, String> {
+        self.kind.cell(field).map_err(|found| format!("column {}: {found}", self.name))
     }
 
     /// The same, with a unit.
@@ -61,11 +88,11 @@ impl Column {
 }
 
 impl Kind {
-    /// What a field of a table of a run says in a column of this kind.
+    /// What a field says in a column of this kind.
     ///
     /// # Errors
     /// When it is something else.
-    pub(crate) fn cell(self, field: &str) -> Result<Cell<'_>, String> {
+    fn cell(self, field: &str) -> Result<Cell<'_>, String> {
         Ok(match self {
             _ if field.is_empty() => Cell::Empty,
             Self::Number => Cell::Number(number(field)?),

@@ -60,6 +60,14 @@ pub enum TablesError {
         /// What is wrong, and where.
         source: RowsError,
     },
+    /// A table of any columns is not what was written.
+    #[error("{}: {found} found, the table of its description expected", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        found: String,
+    },
     /// A row that is not of its table.
     #[error(
         "{}, row {row}{}: {found}",
@@ -90,6 +98,10 @@ impl TablesError {
     /// Whether the input or the command line is wrong, rather than the writing.
     pub fn is_of_input(&self) -> bool {
         !matches!(self, Self::Write { .. } | Self::Read { .. })
+    }
+
+    pub(crate) fn reading(path: &Path) -> impl Fn(io::Error) -> Self + use<'_> {
+        move |source| Self::Read { path: path.to_owned(), source }
     }
 
     pub(crate) fn writing<E: Into<Box<dyn Error + Send + Sync>>>(

@@ -58,6 +58,11 @@ impl Group {
         self.rows += 1;
     }
 
+    /// The cells of a row.
+    pub fn row(&self, row: usize) -> Vec<Cell<'_>> {
+        self.columns.iter().map(|cells| cells.cell(row)).collect()
+    }
+
     pub fn clear(&mut self) {
         for column in &mut self.columns {
             match column {
@@ -67,5 +72,15 @@ impl Group {
             }
         }
         self.rows = 0;
+    }
+}
+
+impl Cells {
+    fn cell(&self, row: usize) -> Cell<'_> {
+        match self {
+            Self::Numbers(cells) => cells[row].map_or(Cell::Empty, Cell::Number),
+            Self::Integers(cells) => cells[row].map_or(Cell::Empty, Cell::Integer),
+            Self::Texts(cells) => cells[row].as_deref().map_or(Cell::Empty, Cell::Text),
+        }
     }
 }

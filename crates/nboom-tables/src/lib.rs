@@ -2,9 +2,9 @@
 //!
 //! [`Rows`] reads a table as text. [`Run`] is the tables of a run's directory with the names, units and meanings
 //! of their columns, which are those of its `datapackage.json`; [`Run::outputs`] writes them for Parquet or
-//! HDF5. [`TableWriter`] writes a table of any columns, made row by row, in CSV or Parquet. A format is written only
-//! if this crate is built with the feature of its name. Rows are read and written in groups, so that memory does
-//! not grow with the length of a table. Numbers keep all their bits.
+//! HDF5. [`TableWriter`] writes a table of any columns, made row by row, in CSV or Parquet, and [`read_table`] reads
+//! it. A format is there only if this crate is built with the feature of its name. Rows are read and written in
+//! groups, so that memory does not grow with the length of a table. Numbers keep all their bits.
 //!
 //! ```
 //! use nboom_tables::{Cell, Column, Kind, TableWriter};
@@ -35,6 +35,7 @@ mod parquet;
 #[cfg(not(feature = "parquet"))]
 #[path = "without/parquet.rs"]
 mod parquet;
+mod reader;
 mod rows;
 mod run;
 mod writer;
@@ -42,6 +43,7 @@ mod writer;
 pub use column::{Cell, Column, Kind};
 pub use error::TablesError;
 pub use format::Format;
+pub use reader::{CsvRows, read_table};
 pub use rows::{Fields, Rows, RowsError, count, number};
 pub use run::{Output, Run};
 pub use writer::TableWriter;

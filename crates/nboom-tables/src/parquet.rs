@@ -16,6 +16,10 @@ use serde_json::{Map, Value, json};
 use crate::group::{Cells, Group};
 use crate::{Column, Kind, TablesError};
 
+mod read;
+
+pub(crate) use read::each_group;
+
 /// Where pandas keeps what belongs to a table, and looks for it.
 const OF_PANDAS: &str = "PANDAS_ATTRS";
 

@@ -201,10 +201,7 @@ impl Table {
     }
 
     fn cells<'a>(&self, fields: &'a Fields<'_>) -> Result<Vec<Cell<'a>>, String> {
-        let cell = |(place, column): (usize, &Column)| {
-            let cell = column.kind.cell(&fields[place]);
-            cell.map_err(|found| format!("column {}: {found}", column.name))
-        };
+        let cell = |(place, column): (usize, &Column)| column.cell(&fields[place]);
         self.columns.iter().enumerate().map(cell).collect()
     }
 }

@@ -32,7 +32,8 @@ impl TableWriter {
     pub fn csv(path: &Path, columns: Vec<Column>) -> Result<Self, TablesError> {
         let file = File::create(path).map_err(TablesError::writing(path))?;
         let mut table = Self { path: path.to_owned(), columns, rows: 0, out: Out::Csv(file) };
-        let names: Vec<String> = table.columns.iter().map(|column| quoted(&column.name)).collect();
+        let names: Vec<String> =
+            table.columns.iter().map(|column| Cell::Text(&column.name).to_string()).collect();
         table.line(names)?;
         Ok(table)
     }
@@ -60,7 +61,7 @@ impl TableWriter {
         self.admit(cells)?;
         self.rows += 1;
         match &mut self.out {
-            Out::Csv(_) => self.line(cells.iter().map(text).collect()),
+            Out::Csv(_) => self.line(cells.iter().map(Cell::to_string).collect()),
             Out::Parquet(file, group) => {
                 group.push(cells);
                 if group.is_full() {
@@ -108,24 +109,5 @@ impl TableWriter {
         // In one piece, so that a kill hardly ever leaves half a line.
         let written = file.write_all((fields.join(",") + "\n").as_bytes());
         written.map_err(TablesError::writing(&self.path))
-    }
-}
-
-/// A cell in CSV; numbers are the shortest that read back to the same.
-fn text(cell: &Cell<'_>) -> String {
-    match cell {
-        Cell::Empty => String::new(),
-        Cell::Number(value) => zmij::Buffer::new().format(*value).to_owned(),
-        Cell::Integer(value) => value.to_string(),
-        Cell::Text(text) => quoted(text),
-    }
-}
-
-/// Words in CSV, by RFC 4180 in quotes if need be.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }

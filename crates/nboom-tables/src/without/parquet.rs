@@ -5,6 +5,15 @@ use std::path::Path;
 use crate::group::Group;
 use crate::{Column, Format, TablesError};
 
+/// It cannot be read.
+pub(crate) fn each_group<E: From<TablesError>>(
+    _: &Path,
+    _: &[Column],
+    _: impl FnMut(&Group) -> Result<(), E>,
+) -> Result<(), E> {
+    Err(TablesError::NotBuilt(Format::Parquet).into())
+}
+
 /// There is none.
 #[derive(Debug)]
 pub(crate) enum ParquetFile {}

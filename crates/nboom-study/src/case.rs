@@ -1,0 +1,301 @@
+//! One case: its scene, its run, its row.
+
+use nboom_io::{Diagnostic, InputError, Sampling, SceneFile};
+use nboom_model::{ModelError, Scene};
+use nboom_results::{RunDescription, SummaryFile, WantedOutput, WorstLoads, with_causes};
+use nboom_scalar::{Batch, Kernel};
+use nboom_sim::{Options, OutputTimes, Path, SimError, Simulator, Summary};
+use nboom_strength::{Settings, StrengthError, StressAnalysis};
+
+use crate::observer::Observer;
+use crate::plan::Case;
+use crate::row::{Outcome, Row, Value};
+use crate::study::{Change, Fault, Relation, RunSettings, Study};
+use crate::table::units;
+use crate::wanted::{Extreme, Found, Happened, Wanted};
+
+/// Why a case has no scene, in one line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Rejection(String);
+
+impl From<InputError> for Rejection {
+    fn from(error: InputError) -> Self {
+        match &error {
+            InputError::Content(errors) if !errors.is_empty() => {
+                let Diagnostic { symbol, found, expected, .. } = &errors[0];
+                Self(in_one_line(&format!("{symbol}: found {found}, expected {expected}")))
+            }
+            other => Self(in_one_line(&other.to_string())),
+        }
+    }
+}
+
+impl From<Vec<ModelError>> for Rejection {
+    fn from(errors: Vec<ModelError>) -> Self {
+        Self(in_one_line(&errors.first().map_or_else(String::new, ToString::to_string)))
+    }
+}
+
+impl From<StrengthError> for Rejection {
+    fn from(error: StrengthError) -> Self {
+        Self(in_one_line(&error.to_string()))
+    }
+}
+
+fn in_one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
+}
+
+impl Relation {
+    /// What becomes of the number that is there.
+    fn applied(self, number: f64, there: impl FnOnce() -> f64) -> f64 {
+        match self {
+            Self::Value => number,
+            Self::Factor => there() * number,
+            Self::Offset => there() + number,
+        }
+    }
+}
+
+impl Study {
+    /// The scene of a case, with its fault; it ends when the scene says.
+    ///
+    /// # Errors
+    /// When what is drawn makes no scene.
+    pub fn scene_of(&self, case: &Case) -> Result<SceneFile, Rejection> {
+        let mut values = Vec::new();
+        for (variable, &drawn) in self.variables.iter().zip(&case.values) {
+            let value = |slot| variable.relation.applied(drawn, || self.document.number(slot));
+            values.extend(variable.slots.iter().map(|slot| (slot, value(slot))));
+        }
+        let Some(fault) = case.fault.map(|fault| &self.faults[fault]) else {
+            return self.as_large(self.document.scene(&values)?);
+        };
+        // What a fault changes is what was drawn.
+        let drawn = self.document.with(&values);
+        let changes = fault.changes.iter().map(|Change { slot, relation, number }| {
+            (slot, relation.applied(*number, || drawn.number(slot)))
+        });
+        broken(self.as_large(drawn.scene(&changes.collect::<Vec<_>>())?)?, fault)
+    }
+
+    /// A scene with as many hinges as all, which results and faults count.
+    fn as_large(&self, file: SceneFile) -> Result<SceneFile, Rejection> {
+        let [found, expected] = [&file, &self.nominal].map(|file| file.scene.bodies.len());
+        if found == expected {
+            return Ok(file);
+        }
+        Err(Rejection(format!("found {found} hinged bodies, expected {expected} in all cases")))
+    }
+}
+
+/// The scene with a fault of its hinges.
+fn broken(file: SceneFile, fault: &Fault) -> Result<SceneFile, Rejection> {
+    let mut description = (*file.scene).clone();
+    fault.apply(&mut description).map_err(|why| Rejection(in_one_line(&why)))?;
+    let labels = file.scene.labels().iter();
+    let names = labels.filter_map(|label| label.name.as_deref()).map(str::to_owned).collect();
+    let scene = Scene::new(description)?.with_names(names);
+    let scene = scene.with_shapes(file.scene.shapes().clone());
+    Ok(SceneFile { scene, ..file })
+}
+
+impl RunSettings {
+    /// What finds the loads of a run, if any are wanted.
+    fn analysis(
+        &self,
+        file: &SceneFile,
+        kernels: &[Kernel],
+    ) -> Result<Option<StressAnalysis>, StrengthError> {
+        let (SceneFile { scene, structure, .. }, settings) = (file, Settings::default());
+        match structure {
+            Some(structure) if self.stresses => {
+                let analysis = StressAnalysis::new(scene, structure, settings)?;
+                Ok(Some(analysis.with_kernels(kernels)))
+            }
+            structure if self.hinge_loads || file.settings.hinge_loads => {
+                StressAnalysis::of_hinges(scene, structure.as_ref(), settings).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// The output times of a run of this scene; `None` for uniform ones, of which there are as many as the
+    /// second says.
+    fn output(
+        &self,
+        file: &SceneFile,
+        scene: &Scene,
+    ) -> Result<(Option<OutputTimes>, usize), Rejection> {
+        let of_scene = file.settings.sampling.as_ref().filter(|_| self.samples.is_none());
+        let samples = self.options().samples;
+        match of_scene {
+            None => Ok((None, samples)),
+            Some(Sampling::Uniform(samples)) => Ok((None, *samples)),
+            Some(sampling) => {
+                let times = sampling.times([scene.initial.time, scene.end_time]);
+                let times = times.map_err(|error| Rejection(error.to_string()))?;
+                Ok((times.map(OutputTimes::at), samples))
+            }
+        }
+    }
+}
+
+/// Why a case has no results.
+enum Stop {
+    Interrupted,
+    Rejected(Rejection),
+    Failed(String),
+}
+
+impl From<Rejection> for Stop {
+    fn from(rejection: Rejection) -> Self {
+        Self::Rejected(rejection)
+    }
+}
+
+/// The results of a case, and its trajectory.
+type Results = (Vec<Value>, Vec<Vec<f64>>);
+
+/// Runs cases of a study one after the other. What it finds for a case does not depend on those before.
+pub struct Runner<'s> {
+    study: &'s Study,
+    options: Options,
+    /// With the options that it was made for.
+    simulator: Option<(usize, Simulator)>,
+    wanted: Vec<Extreme>,
+    columns: Vec<nboom_model::Column>,
+}
+
+impl<'s> Runner<'s> {
+    /// A runner of cases of `study`, which may use this generated code.
+    pub fn new(
+        study: &'s Study,
+        kernels: &'static [Kernel],
+        right_sides: &'static [Batch],
+    ) -> Self {
+        let options = Options { kernels, batches: right_sides, ..study.run.options() };
+        let wanted = study.wanted.iter().filter_map(Wanted::extreme).collect();
+        let hinges = study.nominal.scene.bodies.len();
+        let columns =
+            if study.trajectories { nboom_model::Column::all(hinges) } else { Vec::new() };
+        Self { study, options, simulator: None, wanted, columns }
+    }
+
+    /// The row of a case; `None` if it was interrupted.
+    pub fn run(&mut self, case: &Case, interrupted: &dyn Fn() -> bool) -> Option<Row> {
+        let empty = || vec![Value::Empty; self.study.wanted.len()];
+        let (results, states, outcome, status) = match self.results(case, interrupted) {
+            Ok((results, states)) => (results, states, Outcome::Ok, "ok".to_owned()),
+            Err(Stop::Interrupted) => return None,
+            Err(Stop::Rejected(why)) => {
+                (empty(), Vec::new(), Outcome::Rejected, format!("rejected: {why}"))
+            }
+            Err(Stop::Failed(why)) => {
+                (empty(), Vec::new(), Outcome::Failed, format!("failed: {why}"))
+            }
+        };
+        let whole = |number: u64| Value::Integer(number as i64);
+        let mut cells = vec![whole(case.number), whole(case.seed)];
+        if !self.study.faults.is_empty() {
+            let name = |fault: usize| Value::Text(self.study.faults[fault].name.clone());
+            cells.push(case.fault.map_or(Value::Empty, name));
+        }
+        cells.extend(case.values.iter().map(|&value| Value::number(value)));
+        cells.extend(results);
+        cells.push(Value::Text(status));
+        Some(Row { cells, states, outcome })
+    }
+
+    fn results(&mut self, case: &Case, interrupted: &dyn Fn() -> bool) -> Result<Results, Stop> {
+        let prepared = self.prepare(case)?;
+        let scene = &prepared.scene;
+        let mut observer = Observer {
+            times: prepared.times,
+            interrupted,
+            analysis: prepared.analysis,
+            is_moment: scene.initial.time == scene.end_time,
+            hinges: vec![Happened::default(); scene.bodies.len()],
+            wanted: &self.wanted,
+            extremes: vec![f64::NAN; self.wanted.len()],
+            columns: &self.columns,
+            states: Vec::new(),
+        };
+        let simulator = ready(&mut self.simulator, scene, prepared.options);
+        let summary = simulator.run(&mut observer).map_err(|failure| match failure.error {
+            SimError::Interrupted { .. } => Stop::Interrupted,
+            error => Stop::Failed(in_one_line(&with_causes(&error))),
+        })?;
+        let of_run = (&prepared.file, scene, &prepared.options);
+        let values = values(&self.study.wanted, of_run, summary, &mut observer)?;
+        Ok((values, observer.states))
+    }
+
+    fn prepare(&self, case: &Case) -> Result<Prepared, Rejection> {
+        let run = &self.study.run;
+        let file = self.study.scene_of(case)?;
+        let kernels = if self.options.path == Path::Generic { &[] } else { self.options.kernels };
+        let analysis = run.analysis(&file, kernels)?;
+        let scene = match run.end_time {
+            Some(end_time) => file.scene.ending_at(end_time)?,
+            None => file.scene.clone(),
+        };
+        let (times, samples) = run.output(&file, &scene)?;
+        Ok(Prepared { file, scene, analysis, times, options: Options { samples, ..self.options } })
+    }
+}
+
+/// A case before its run.
+struct Prepared {
+    file: SceneFile,
+    /// With the end of the run.
+    scene: Scene,
+    analysis: Option<StressAnalysis>,
+    times: Option<OutputTimes>,
+    options: Options,
+}
+
+/// The simulator of a scene; the one at hand if it has the same options.
+fn ready<'s>(
+    simulator: &'s mut Option<(usize, Simulator)>,
+    scene: &Scene,
+    options: Options,
+) -> &'s mut Simulator {
+    let known = simulator.take().filter(|(samples, _)| *samples == options.samples);
+    let ready = match known {
+        Some((_, mut known)) => {
+            known.set_scene(scene);
+            known
+        }
+        None => Simulator::new(scene, options),
+    };
+    &mut simulator.insert((options.samples, ready)).1
+}
+
+/// What a run has found of the wanted results.
+fn values(
+    wanted: &[Wanted],
+    (file, scene, options): (&SceneFile, &Scene, &Options),
+    summary: &Summary,
+    observer: &mut Observer<'_>,
+) -> Result<Vec<Value>, Stop> {
+    let mut worst = WorstLoads::default();
+    if let Some(analysis) = &mut observer.analysis {
+        analysis.finish().map_err(|error| Stop::Failed(in_one_line(&error.to_string())))?;
+        worst = WorstLoads::of(analysis);
+    }
+    let mut keys = serde_json::Value::Null;
+    if wanted.iter().any(Wanted::of_summary) {
+        let output = WantedOutput { times: observer.times.take(), ..WantedOutput::default() };
+        let parameters = file.settings.parameters.clone();
+        let run = RunDescription::new(scene, options, units(file));
+        let run = RunDescription { parameters, output, ..run };
+        let ended = SummaryFile::ended(&run, summary, &worst, 0.0, None, Vec::new());
+        keys = serde_json::to_value(ended).expect("the keys are texts");
+    }
+    let (hinges, extremes) = (&observer.hinges, &observer.extremes);
+    let labels = scene.labels();
+    let found = Found { labels, hinges, extremes, summary, worst: &worst, keys: &keys };
+    Ok(Wanted::values(wanted, &found))
+}

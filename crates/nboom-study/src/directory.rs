@@ -1,0 +1,236 @@
+//! The directory of a sweep, which one process at a time may write.
+
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use nboom_results::{Kind, Lock, ResultsError, write_file};
+
+use crate::StudyError;
+use crate::description::Description;
+use crate::journal::Journal;
+use crate::statistics::Summary;
+
+/// Name of the description of a sweep within its directory.
+pub const STUDY_JSON_FILE: &str = "study.json";
+/// Name of the study as it was read, within a sweep's directory.
+pub const STUDY_FILE: &str = "study.toml";
+/// Name of the scene, which stands alone, within a sweep's directory.
+pub const SWEPT_SCENE_FILE: &str = "scene.toml";
+/// Name of what is done so far, within a sweep's directory.
+pub const JOURNAL_FILE: &str = "journal.txt";
+/// Name of the table of cases within a sweep's directory.
+pub const CASES_FILE: &str = "cases.parquet";
+/// Name of the table of cases in CSV within a sweep's directory.
+pub const CASES_CSV_FILE: &str = "cases.csv";
+/// Name of the table of trajectories within a sweep's directory.
+pub const TRAJECTORIES_FILE: &str = "trajectories.parquet";
+/// Name of the table of trajectories in CSV within a sweep's directory.
+pub const TRAJECTORIES_CSV_FILE: &str = "trajectories.csv";
+
+/// Name of the statistics of all cases within a sweep's directory.
+pub const STATISTICS_FILE: &str = "statistics.json";
+/// Name of the page of a sweep within its directory.
+pub const PAGE_FILE: &str = "report.html";
+
+/// All names that a sweep may write.
+const FILES: [&str; 10] = [
+    STUDY_JSON_FILE,
+    STUDY_FILE,
+    SWEPT_SCENE_FILE,
+    JOURNAL_FILE,
+    CASES_FILE,
+    CASES_CSV_FILE,
+    TRAJECTORIES_FILE,
+    TRAJECTORIES_CSV_FILE,
+    STATISTICS_FILE,
+    PAGE_FILE,
+];
+
+/// The longest description and the longest text that is read \[bytes\].
+const LONGEST: u64 = 1 << 28;
+
+/// The locked directory of a sweep.
+#[derive(Debug)]
+pub(crate) struct Place {
+    path: PathBuf,
+    _lock: Lock,
+    /// What is there.
+    pub found: Option<Description>,
+}
+
+/// What can be done with a directory.
+#[derive(Clone, Debug)]
+pub(crate) enum State {
+    /// The sweep is finished.
+    Complete(Description),
+    /// It is to be begun or continued.
+    Open(Description),
+}
+
+impl Place {
+    /// Locks a directory, which is made if need be.
+    ///
+    /// # Errors
+    /// When another process holds it, and when something there has the name of a file of a sweep and is none.
+    pub fn take(path: &Path) -> Result<Self, StudyError> {
+        let lock = Lock::acquire(path, path)?;
+        let found = description(path)?;
+        for name in FILES {
+            let path = path.join(name);
+            match Kind::of(&path).map_err(StudyError::reading(&path))? {
+                Kind::Nothing => {}
+                Kind::File if found.is_some() => {}
+                found => return Err(ResultsError::Foreign { path, found }.into()),
+            }
+        }
+        Ok(Self { path: path.to_owned(), _lock: lock, found })
+    }
+
+    /// Where a file of this name is.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// What can be done here for this sweep.
+    ///
+    /// # Errors
+    /// When another sweep is here; when it is of another program or machine, unless that is accepted.
+    pub fn state(&self, now: &Description, accept_difference: bool) -> Result<State, StudyError> {
+        let Some(then) = &self.found else { return Ok(State::Open(now.clone())) };
+        require_same(&self.path, then, now, accept_difference)?;
+        Ok(if then.complete {
+            State::Complete(then.clone())
+        } else {
+            State::Open(then.clone().also_by(now))
+        })
+    }
+
+    /// Begins a sweep or continues it: says that it is not complete, and what it is of.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn begin(&self, what: &Description, study: &str, scene: &str) -> Result<(), StudyError> {
+        // First, so that all that comes after it is known to be a sweep's.
+        self.write(STUDY_JSON_FILE, &what.text())?;
+        self.remove_drafts()?;
+        self.write(STUDY_FILE, study)?;
+        self.write(SWEPT_SCENE_FILE, scene)
+    }
+
+    /// Writes the statistics of all cases.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn sum_up(&self, statistics: &Summary) -> Result<(), StudyError> {
+        let text = serde_json::to_string(statistics).expect("the keys are texts and numbers");
+        self.write(STATISTICS_FILE, &(text + "\n"))
+    }
+
+    /// Says that the sweep is complete.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn complete(&self, what: &Description) -> Result<(), StudyError> {
+        self.write(STUDY_JSON_FILE, &what.text())
+    }
+
+    /// Removes the journal of a complete sweep, if it is there.
+    ///
+    /// # Errors
+    /// When it cannot be removed.
+    pub fn remove_journal(&self) -> Result<(), StudyError> {
+        let path = self.file(JOURNAL_FILE);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(StudyError::writing(&path)(error))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Paths of the files of a sweep that are here.
+    pub fn files(&self) -> Vec<PathBuf> {
+        FILES.into_iter().map(|name| self.file(name)).filter(|path| path.exists()).collect()
+    }
+
+    fn write(&self, name: &str, text: &str) -> Result<(), StudyError> {
+        Ok(write_file(&self.file(name), text)?)
+    }
+
+    /// Removes what a killed process left of files that are written whole.
+    fn remove_drafts(&self) -> Result<(), StudyError> {
+        let failed = StudyError::reading;
+        for entry in fs::read_dir(&self.path).map_err(failed(&self.path))? {
+            let entry = entry.map_err(failed(&self.path))?;
+            if is_draft(&entry.file_name().to_string_lossy()) {
+                fs::remove_file(entry.path()).map_err(StudyError::writing(&entry.path()))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file is one that would have replaced one of a sweep.
+fn is_draft(name: &str) -> bool {
+    let parts = name.strip_prefix('.').and_then(|name| name.strip_suffix(".new"));
+    let parts = parts.and_then(|name| name.rsplit_once('.'));
+    parts.is_some_and(|(name, number)| {
+        FILES.contains(&name) && number.chars().all(|digit| digit.is_ascii_digit())
+    })
+}
+
+/// # Errors
+/// When two descriptions are not of the same sweep; when they are of other programs, unless that is accepted.
+pub(crate) fn require_same(
+    directory: &Path,
+    then: &Description,
+    now: &Description,
+    accept_difference: bool,
+) -> Result<(), StudyError> {
+    let directory = directory.to_owned();
+    let differences = then.differences(now);
+    if !differences.is_empty() {
+        return Err(StudyError::Different { directory, differences });
+    }
+    let differences = then.made_elsewhere(now);
+    if differences.is_empty() || accept_difference {
+        Ok(())
+    } else {
+        Err(StudyError::MadeElsewhere { directory, differences })
+    }
+}
+
+/// Reads the description of the sweep in a directory; none if there is none.
+///
+/// # Errors
+/// When it is no description.
+pub(crate) fn description(directory: &Path) -> Result<Option<Description>, StudyError> {
+    let path = directory.join(STUDY_JSON_FILE);
+    match Kind::of(&path).map_err(StudyError::reading(&path))? {
+        Kind::Nothing => return Ok(None),
+        Kind::File => {}
+        found => return Err(ResultsError::Foreign { path, found }.into()),
+    }
+    let text = text(&path)?;
+    Description::parse(&text).map(Some).map_err(|found| StudyError::NoSweep { path, found })
+}
+
+/// Reads a text.
+///
+/// # Errors
+/// When it cannot be read.
+pub(crate) fn text(path: &Path) -> Result<String, StudyError> {
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST).read_to_string(&mut text));
+    read.map_err(StudyError::reading(path))?;
+    Ok(text)
+}
+
+/// Reads which cases the journal in a directory has.
+///
+/// # Errors
+/// Those of [`Journal::read`].
+pub(crate) fn journal(directory: &Path, what: &Description) -> Result<Journal, StudyError> {
+    Journal::read(&directory.join(JOURNAL_FILE), what.range())
+}

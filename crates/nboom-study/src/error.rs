@@ -1,0 +1,163 @@
+use std::io;
+use std::path::{Path, PathBuf};
+
+use nboom_results::ResultsError;
+use nboom_tables::TablesError;
+
+use crate::Shard;
+
+/// Why a sweep could not be made, continued or put together.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The directory is in use or has something else in it, or a file cannot be written.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    /// A table cannot be written or read.
+    #[error(transparent)]
+    Tables(#[from] TablesError),
+    /// A file cannot be read.
+    #[error("cannot read {}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A file is not what a sweep writes.
+    #[error("{}: {found} found, a file that nboom sweep has written expected", path.display())]
+    NoSweep {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        found: String,
+    },
+    /// A journal is not what a sweep writes.
+    #[error(
+        "{}, byte {byte}: {found} found; restore the file, or delete the directory and sweep again",
+        path.display()
+    )]
+    Journal {
+        /// The file.
+        path: PathBuf,
+        /// Where the batch begins.
+        byte: u64,
+        /// What is wrong.
+        found: String,
+    },
+    /// A sweep was begun and may be continued.
+    #[error(
+        "{}: a sweep with {done} of {cases} cases found, nothing or a finished one expected; \
+         continue it with --resume",
+        directory.display()
+    )]
+    Unfinished {
+        /// The directory.
+        directory: PathBuf,
+        /// Cases that are done.
+        done: u64,
+        /// Cases in all.
+        cases: u64,
+    },
+    /// The directory has another sweep.
+    #[error("{}: another sweep found: {}", directory.display(), differences.join("; "))]
+    Different {
+        /// The directory.
+        directory: PathBuf,
+        /// What is different, in words.
+        differences: Vec<String>,
+    },
+    /// The same sweep, but of another program or machine.
+    #[error(
+        "{}: a sweep by another program or machine found: {}; its last digits may differ; \
+         --accept-difference goes on",
+        directory.display(), differences.join("; ")
+    )]
+    MadeElsewhere {
+        /// The directory.
+        directory: PathBuf,
+        /// What is different, in words.
+        differences: Vec<String>,
+    },
+    /// The disk is too small for what would be written.
+    #[error(
+        "{}: {free} MB free found, about {needed} MB expected for what a sweep of {cases} cases writes",
+        directory.display()
+    )]
+    Space {
+        /// The directory.
+        directory: PathBuf,
+        /// Megabytes that are free.
+        free: u64,
+        /// Megabytes that are needed.
+        needed: u64,
+        /// Cases in all.
+        cases: u64,
+    },
+    /// A case stopped by a mistake of the program.
+    #[error("case {case} stopped by a mistake of nboom: {found}; cases before it are kept")]
+    Panic {
+        /// The case.
+        case: u64,
+        /// What the program says.
+        found: String,
+    },
+    /// A directory that should be a finished shard is none.
+    #[error("{}: {found} found, a finished shard expected", directory.display())]
+    NoShard {
+        /// The directory.
+        directory: PathBuf,
+        /// What it is.
+        found: String,
+    },
+    /// A directory has a part of a sweep.
+    #[error(
+        "{}: the shard {shard} found, a whole sweep expected; nboom merge puts shards together",
+        directory.display()
+    )]
+    Shard {
+        /// The directory.
+        directory: PathBuf,
+        /// The shard.
+        shard: Shard,
+    },
+    /// Two directories are the same shard.
+    #[error("{} and {} are both the shard {shard}", directories[0].display(), directories[1].display())]
+    ShardTwice {
+        /// The shard.
+        shard: Shard,
+        /// The directories.
+        directories: [PathBuf; 2],
+    },
+    /// Not all shards are given.
+    #[error("{given} of {of} shards given, all expected; missing: {}", missing.join(", "))]
+    ShardsMissing {
+        /// How many there are.
+        given: u64,
+        /// How many there should be.
+        of: u64,
+        /// The first of those that are missing.
+        missing: Vec<String>,
+    },
+}
+
+impl StudyError {
+    /// Whether the directory, the disk or what is asked for was refused before anything was computed.
+    pub fn is_refusal(&self) -> bool {
+        match self {
+            Self::Results(error) => error.is_refusal(),
+            Self::Tables(_) | Self::Read { .. } | Self::Panic { .. } => false,
+            _ => true,
+        }
+    }
+
+    pub(crate) fn reading(path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {
+        let path = path.to_owned();
+        move |source| Self::Read { path, source }
+    }
+
+    pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {
+        let path = path.to_owned();
+        move |source| ResultsError::Write { path, source }.into()
+    }
+}

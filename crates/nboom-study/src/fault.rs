@@ -1,0 +1,144 @@
+//! What a fault changes in a scene.
+
+use nboom_model::{HingeState, Release, SceneDescription, Spring};
+
+use crate::study::{Fault, LateRelease};
+
+impl Fault {
+    /// Breaks what the fault breaks; its changes of single numbers are made before.
+    ///
+    /// # Errors
+    /// When a hinge cannot be released late, in words.
+    pub fn apply(&self, description: &mut SceneDescription) -> Result<(), String> {
+        let hinges = &mut description.bodies;
+        for &i in &self.missed_release {
+            hinges[i].hinge.release = Release::Never;
+        }
+        for &LateRelease { hinge, by } in &self.late_release {
+            let release = &mut hinges[hinge].hinge.release;
+            *release = match *release {
+                Release::Time(time) => Release::Time(time + by),
+                Release::AfterLock { hinge, delay } => {
+                    Release::AfterLock { hinge, delay: delay + by }
+                }
+                Release::Angle { .. } => {
+                    return Err(
+                        "a release by another hinge's angle found, one by time expected".into()
+                    );
+                }
+                Release::Never => return Err("no release found, one by time expected".into()),
+            };
+        }
+        for &i in &self.failed_latch {
+            hinges[i].hinge.lock_angle = None;
+        }
+        for &i in &self.broken_spring {
+            hinges[i].hinge.spring = Spring::default();
+            hinges[i].hinge.kick_off = None;
+        }
+        for &i in &self.stuck {
+            let hinge = &mut hinges[i].hinge;
+            hinge.start.rate = 0.0;
+            // A latch that has closed stays closed.
+            if hinge.start.state == HingeState::Free {
+                hinge.start.state = HingeState::Unreleased;
+            }
+            hinge.release = Release::Never;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use nboom_model::Scene;
+    use nboom_sim::{Event, EventKind, Options, Recorder, Snapshot, simulate};
+
+    use super::*;
+
+    fn none() -> Fault {
+        Fault {
+            name: "broken".to_owned(),
+            stuck: Vec::new(),
+            missed_release: Vec::new(),
+            late_release: Vec::new(),
+            failed_latch: Vec::new(),
+            broken_spring: Vec::new(),
+            changes: Vec::new(),
+        }
+    }
+
+    #[derive(Default)]
+    struct Events(Vec<(EventKind, Option<usize>, f64)>, Vec<f64>);
+
+    impl Recorder for Events {
+        fn event(&mut self, event: &Event, after: &Snapshot) -> std::io::Result<()> {
+            self.0.push((event.kind, event.hinge, event.time));
+            self.1.clone_from(&after.beta);
+            Ok(())
+        }
+    }
+
+    /// Events, and the angles at the end, of the cubesat with a fault.
+    fn run(fault: &Fault) -> Events {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/cubesat.toml");
+        let scene = nboom_io::read_scene(&path).expect("a scene").scene;
+        let mut description = (*scene).clone();
+        fault.apply(&mut description).expect("possible");
+        let scene = Scene::new(description).expect("a scene");
+        let mut events = Events::default();
+        simulate(&scene, &Options::default(), &mut events).expect("a run");
+        events
+    }
+
+    fn time(events: &Events, kind: EventKind, hinge: usize) -> Option<f64> {
+        events.0.iter().find(|of| (of.0, of.1) == (kind, Some(hinge))).map(|of| of.2)
+    }
+
+    #[test]
+    fn a_stuck_hinge_stays_and_the_others_go_on() {
+        for fault in
+            [Fault { stuck: vec![1], ..none() }, Fault { missed_release: vec![1], ..none() }]
+        {
+            let events = run(&fault);
+            assert_eq!(time(&events, EventKind::Release, 1), None);
+            assert_eq!(events.1[1], 90_f64.to_radians());
+            assert!(time(&events, EventKind::LockUp, 0).is_some());
+        }
+    }
+
+    #[test]
+    fn a_late_release_is_later_by_so_much() {
+        let late = LateRelease { hinge: 0, by: 0.25 };
+        let events = run(&Fault { late_release: vec![late], ..none() });
+        assert_eq!(time(&events, EventKind::Release, 0), Some(1.25));
+        assert_eq!(time(&events, EventKind::Release, 1), Some(1.0));
+    }
+
+    #[test]
+    fn a_failed_latch_lets_the_hinge_swing_on() {
+        let events = run(&Fault { failed_latch: vec![2], ..none() });
+        assert_eq!(time(&events, EventKind::LockUp, 2), None);
+        assert!(time(&events, EventKind::LockUp, 3).is_some());
+    }
+
+    /// Without its spring a panel is moved by the satellite's rates alone, of some degrees per second.
+    #[test]
+    fn a_broken_spring_does_not_push() {
+        let events = run(&Fault { broken_spring: vec![3], ..none() });
+        assert_eq!(time(&events, EventKind::LockUp, 3), None);
+        assert!((events.1[3] - 90_f64.to_radians()).abs() < 1.0);
+    }
+
+    #[test]
+    fn what_cannot_be_late_is_refused() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/n-boom-1970.nml");
+        let scene = nboom_io::read_scene(&path).expect("a deck").scene;
+        let late = |hinge| Fault { late_release: vec![LateRelease { hinge, by: 1.0 }], ..none() };
+        assert_eq!(late(0).apply(&mut (*scene).clone()), Ok(()));
+        let refused = late(1).apply(&mut (*scene).clone()).expect_err("by an angle");
+        assert!(refused.contains("by time expected"), "{refused}");
+    }
+}

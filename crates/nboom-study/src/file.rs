@@ -1,0 +1,268 @@
+//! `STUDY.toml`: text to a checked study.
+
+mod faults;
+mod keys;
+mod reader;
+mod vary;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use nboom_io::{InputError, ReadOptions, SceneDocument, SceneFile, read_text};
+use nboom_sim::{Form, Method as Integrator, Path as Code};
+use toml::de::DeTable;
+
+use crate::plan::{Case, Plan};
+use crate::study::{Fault, Method, RunSettings, Study, Variable};
+use crate::wanted::{Loads, UnknownResult, Wanted};
+use keys::STUDY;
+pub use keys::schema;
+use reader::{Fields, Reader, quoted};
+
+/// The longest study that is read \[bytes\].
+const LONGEST: u64 = 16 << 20;
+
+/// The longest name \[bytes\].
+const LONGEST_NAME: usize = 200;
+
+impl Study {
+    /// Reads a study, and the scene that it varies.
+    ///
+    /// # Errors
+    /// When a file cannot be read or the scene is wrong; and all that is wrong in the study, with its lines.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let text = read_text(path, LONGEST)?;
+        let file = path.display().to_string();
+        let mut reader = Reader::new(&file, &text);
+        let (table, errors) = DeTable::parse_recoverable(&text);
+        if let Some(error) = errors.iter().min_by_key(|error| error.span().map(|at| at.start)) {
+            let place = error.span().unwrap_or(text.len()..text.len());
+            let message = error.message().lines().next().unwrap_or_default();
+            let (found, expected) = message.split_once(", expected ").unwrap_or((message, "TOML"));
+            reader.error(&place, "study", found, expected);
+            return Err(InputError::Content(reader.errors));
+        }
+        let root = reader.fields(table.get_ref(), &STUDY, 0..0);
+        let study = reader.study(&root, path, &text)?;
+        match study {
+            Some(study) if reader.errors.is_empty() => Ok(study),
+            _ => {
+                reader.errors.sort_by_key(|error| (error.line, error.column));
+                Err(InputError::Content(reader.errors))
+            }
+        }
+    }
+
+    /// How many cases there are.
+    pub fn cases(&self) -> u64 {
+        self.plan.cases()
+    }
+
+    /// What is drawn for the case with this number, from 1.
+    pub fn case(&self, number: u64) -> Case {
+        self.plan.case(number)
+    }
+}
+
+impl<'t> Reader<'t> {
+    /// The study, or nothing if too much is wrong.
+    fn study(
+        &mut self,
+        root: &Fields<'t>,
+        path: &Path,
+        text: &str,
+    ) -> Result<Option<Study>, InputError> {
+        let name = self.name(root, path);
+        let seed = self.whole(root, "seed").map_or(1, |seed| seed.value);
+        let method = self.choice(root, "method").map_or(Method::MonteCarlo, |found| {
+            let named = Method::ALL.into_iter().find(|method| method.name() == found.value);
+            named.unwrap_or(Method::MonteCarlo)
+        });
+        let draws = self.draws(root, method);
+        let trajectories = self.flag(root, "trajectories").unwrap_or(false);
+        let run = self.run_settings(root);
+        let expanded = self.flag(root, "expanded").unwrap_or(false);
+        let Some(scene) = self.text(root, "scene") else { return Ok(None) };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let document = SceneDocument::read(&folder.join(scene.value), &ReadOptions::default())?;
+        let document = if expanded { document.expanded()? } else { document };
+        let nominal = document.scene(&[])?;
+        self.check_end(root, &run, &nominal);
+        let variables: Vec<_> = self
+            .tables(root, "vary")
+            .iter()
+            .map(|of| (self.variable(of, &document, method), of.place_of("name")))
+            .collect();
+        let names: Vec<String> =
+            variables.iter().flat_map(|(of, _)| of).map(|of| of.name.clone()).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let pairs = self.tables(root, "correlation");
+        let correlations: Vec<_> =
+            pairs.iter().filter_map(|of| self.correlation(of, method, &names)).collect();
+        let tables = self.tables(root, "fault");
+        let faults: Vec<Fault> =
+            tables.iter().filter_map(|of| self.fault(of, &document, &nominal)).collect();
+        let wanted = self.wanted(root, &nominal, &run);
+        self.check_columns(root, &variables, &faults, &wanted);
+        if variables.is_empty() && tables.is_empty() {
+            self.error(&root.place(), "vary", "nothing that varies", "a table vary or fault");
+        }
+        if !self.errors.is_empty() {
+            return Ok(None);
+        }
+        let variables: Vec<Variable> = variables.into_iter().filter_map(|(of, _)| of).collect();
+        let plan = Plan::new(method, seed, draws, &variables, &correlations, faults.len());
+        let plan = match plan {
+            Ok(plan) => plan,
+            Err(error) => {
+                let place = pairs.first().map_or_else(|| root.place_of("method"), Fields::place);
+                let text = error.to_string();
+                let (found, expected) = text.split_once(" found, ").unwrap_or((&text, "a plan"));
+                self.error(&place, "study", found, expected.trim_end_matches(" expected"));
+                return Ok(None);
+            }
+        };
+        let draws = plan.draws();
+        Ok(Some(Study {
+            name,
+            text: text.to_owned(),
+            document,
+            nominal,
+            seed,
+            method,
+            draws,
+            variables,
+            correlations,
+            faults,
+            wanted,
+            run,
+            trajectories,
+            plan,
+        }))
+    }
+
+    /// The study's name, which becomes that of a folder.
+    fn name(&mut self, root: &Fields<'t>, path: &Path) -> String {
+        let of_file = path.file_stem().unwrap_or_default().to_string_lossy();
+        let of_file = of_file.replace(char::is_control, "\u{fffd}");
+        let Some(name) = self.text(root, "name") else { return of_file };
+        let is_file_name = !name.value.trim().is_empty()
+            && name.value.len() <= LONGEST_NAME
+            && !name.value.contains(['/', '\\', ':'])
+            && !name.value.contains(char::is_control)
+            && !name.value.starts_with('.');
+        if !is_file_name {
+            let expected = "the name of a folder: no / \\ : and no dot first";
+            self.error(&name.place, "name", quoted(name.value), expected);
+        }
+        name.value.to_owned()
+    }
+
+    fn draws(&mut self, root: &Fields<'t>, method: Method) -> u64 {
+        let draws = self.whole(root, "draws").map(|draws| draws.value);
+        let is_grid = method == Method::Grid;
+        if is_grid && root.has("draws") {
+            let expected = "none of a grid, which has as many as its points make";
+            self.error(&root.place_of("draws"), "draws", "a number of draws", expected);
+        } else if !is_grid && !root.has("draws") {
+            let expected = "how many draws there are, which all methods but a grid need";
+            self.error(&root.place(), "draws", "nothing", expected);
+        }
+        draws.unwrap_or(1)
+    }
+
+    fn run_settings(&mut self, root: &Fields<'t>) -> RunSettings {
+        let stresses = RunSettings { stresses: true, ..RunSettings::default() };
+        let Some(of) = self.table(root, "run") else { return stresses };
+        let number = |reader: &mut Self, key| reader.number(&of, key).map(|found| found.value);
+        let code = self.choice(&of, "path").map(|found| match found.value {
+            "generated" => Code::Generated,
+            "generic" => Code::Generic,
+            _ => Code::Auto,
+        });
+        let settings = RunSettings {
+            rtol: number(self, "rtol"),
+            atol: number(self, "atol"),
+            integrator: self.choice(&of, "integrator").and_then(|of| Integrator::named(of.value)),
+            formulation: self.choice(&of, "formulation").and_then(|of| Form::named(of.value)),
+            path: code,
+            max_step: number(self, "max_step"),
+            max_events: self.whole(&of, "max_events").map(|found| found.value as usize),
+            samples: self.whole(&of, "samples").map(|found| found.value as usize),
+            end_time: number(self, "end_time"),
+            stresses: self.flag(&of, "stresses").unwrap_or(true),
+            hinge_loads: self.flag(&of, "hinge_loads").unwrap_or(false),
+        };
+        if let Err(error) = settings.options().check() {
+            self.error(
+                &of.place(),
+                "run",
+                format!("{} {:e}", error.option, error.value),
+                error.expected,
+            );
+        }
+        settings
+    }
+
+    fn check_end(&mut self, root: &Fields<'t>, run: &RunSettings, nominal: &SceneFile) {
+        let Some(end_time) = run.end_time else { return };
+        if let Err(errors) = nominal.scene.ending_at(end_time) {
+            let found = errors.first().map_or_else(String::new, ToString::to_string);
+            self.error(&root.place_of("run"), "end_time", found, "a time after the start");
+        }
+    }
+
+    fn wanted(&mut self, root: &Fields<'t>, nominal: &SceneFile, run: &RunSettings) -> Vec<Wanted> {
+        let loads = Loads::of(nominal, run);
+        let Some(texts) = self.texts(root, "results") else {
+            return Wanted::defaults(nominal, loads);
+        };
+        let mut all = Vec::new();
+        for text in &texts {
+            match Wanted::named(text.value, nominal, loads) {
+                Ok(wanted) => all.push(wanted),
+                Err(UnknownResult { found, expected, nearest }) => {
+                    let found = quoted(&found);
+                    self.error_like(&text.place, "results", found, expected, nearest.as_deref());
+                }
+            }
+        }
+        all
+    }
+
+    /// Reports columns and faults with the same name.
+    fn check_columns(
+        &mut self,
+        root: &Fields<'t>,
+        variables: &[(Option<Variable>, std::ops::Range<usize>)],
+        faults: &[Fault],
+        wanted: &[Wanted],
+    ) {
+        let mut names: BTreeSet<&str> = vary::RESERVED.into();
+        for (variable, place) in variables {
+            let Some(variable) = variable else { continue };
+            if !names.insert(&variable.name) && !vary::RESERVED.contains(&&variable.name[..]) {
+                self.error(
+                    place,
+                    "name",
+                    quoted(&variable.name),
+                    "a name that no other column has",
+                );
+            }
+        }
+        for result in wanted {
+            if !names.insert(&result.column().name) {
+                let found =
+                    format!("{}, twice or the name of a variable", quoted(&result.column().name));
+                self.error(&root.place_of("results"), "results", found, "each column once");
+            }
+        }
+        let mut names = BTreeSet::new();
+        for fault in faults {
+            if !names.insert(&fault.name) {
+                let found = format!("{} twice", quoted(&fault.name));
+                self.error(&root.place_of("fault"), "fault", found, "each name once");
+            }
+        }
+    }
+}

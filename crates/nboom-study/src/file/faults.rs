@@ -1,0 +1,127 @@
+//! What may be broken.
+
+use nboom_io::{SceneDocument, SceneFile, nearest};
+use nboom_model::{HingeState, Scene};
+
+use super::reader::{At, Fields, Reader, quoted};
+use super::vary::relation;
+use crate::study::{Change, Fault, LateRelease};
+
+/// Ways in which a number of a fault can change one of the scene.
+const WAYS: [&str; 3] = ["value", "factor", "offset"];
+
+impl<'t> Reader<'t> {
+    /// A fault of a scene.
+    pub fn fault(
+        &mut self,
+        of: &Fields<'t>,
+        document: &SceneDocument,
+        nominal: &SceneFile,
+    ) -> Option<Fault> {
+        let hinges = |reader: &mut Self, key| reader.hinges(of, key, &nominal.scene);
+        let stuck = hinges(self, "stuck");
+        let missed_release = hinges(self, "missed_release");
+        let failed_latch = hinges(self, "failed_latch");
+        let broken_spring = hinges(self, "broken_spring");
+        let late_release = self.late_releases(of, &nominal.scene);
+        let changes = self.changes(of, document);
+        let name = self.text(of, "name")?;
+        if name.value.trim().is_empty() || name.value.contains(char::is_control) {
+            self.error(&name.place, "name", quoted(name.value), "a name in one line");
+        }
+        for &i in &missed_release {
+            let start = nominal.scene.bodies[i].hinge.start.state;
+            self.require_unreleased(of, "missed_release", start);
+        }
+        let name = name.value.to_owned();
+        let fault = Fault {
+            name,
+            stuck,
+            missed_release,
+            late_release,
+            failed_latch,
+            broken_spring,
+            changes,
+        };
+        self.try_fault(of, &fault, nominal);
+        Some(fault)
+    }
+
+    /// Reports a fault that makes no scene of one that is right.
+    fn try_fault(&mut self, of: &Fields<'t>, fault: &Fault, nominal: &SceneFile) {
+        let mut description = (*nominal.scene).clone();
+        let broken = fault.apply(&mut description).and_then(|()| {
+            let made = Scene::new(description);
+            made.map_err(|errors| errors.first().map_or_else(String::new, ToString::to_string))
+        });
+        if let Err(why) = broken {
+            self.error(&of.place(), "fault", why, "a fault that leaves a scene");
+        }
+    }
+
+    fn require_unreleased(&mut self, of: &Fields<'t>, key: &'static str, start: HingeState) {
+        if start != HingeState::Unreleased {
+            let expected = "hinges that start unreleased";
+            self.error(&of.place_of(key), key, "a hinge that is not released at all", expected);
+        }
+    }
+
+    fn hinges(&mut self, of: &Fields<'t>, key: &'static str, scene: &Scene) -> Vec<usize> {
+        let names = self.texts(of, key).unwrap_or_default();
+        names.iter().filter_map(|name| self.hinge(name, scene)).collect()
+    }
+
+    /// A hinge by the name of its body or by its numbers.
+    fn hinge(&mut self, name: &At<&str>, scene: &Scene) -> Option<usize> {
+        let numbers = |i: usize| {
+            let [appendage, segment] = scene.labels()[i].numbers();
+            format!("{appendage},{segment}")
+        };
+        let all = || 0..scene.bodies.len();
+        let is_it = |i: &usize| scene.name_of(*i) == Some(name.value) || numbers(*i) == name.value;
+        let found = all().find(is_it);
+        if found.is_none() {
+            let known: Vec<String> =
+                all().map(|i| scene.name_of(i).map_or_else(|| numbers(i), str::to_owned)).collect();
+            let meant = nearest(name.value, known.iter().map(String::as_str));
+            let expected = "a hinge, by the name of its body or by its numbers as 1,2";
+            self.error_like(&name.place, name.key, quoted(name.value), expected, meant);
+        }
+        found
+    }
+
+    fn late_releases(&mut self, of: &Fields<'t>, scene: &Scene) -> Vec<LateRelease> {
+        let mut found = Vec::new();
+        for inner in self.tables(of, "late_release") {
+            let name = self.text(&inner, "hinge");
+            let hinge = name.and_then(|name| self.hinge(&name, scene));
+            let by = self.number(&inner, "by");
+            if let Some(by) = by.as_ref().filter(|by| by.value <= 0.0) {
+                self.error(&by.place, "by", by.value.to_string(), "a number above zero");
+            }
+            let (Some(hinge), Some(by)) = (hinge, by) else { continue };
+            self.require_unreleased(&inner, "hinge", scene.bodies[hinge].hinge.start.state);
+            found.push(LateRelease { hinge, by: by.value });
+        }
+        found
+    }
+
+    fn changes(&mut self, of: &Fields<'t>, document: &SceneDocument) -> Vec<Change> {
+        let mut found = Vec::new();
+        for inner in self.tables(of, "change") {
+            let path = self.text(&inner, "path");
+            let slot = path.and_then(|path| self.slot(document, &path));
+            let ways: Vec<&'static str> = WAYS.into_iter().filter(|way| inner.has(way)).collect();
+            let [way] = ways[..] else {
+                let found = if ways.is_empty() { "nothing".to_owned() } else { ways.join(" and ") };
+                self.error(&inner.place(), "change", found, "one of value, factor, offset");
+                continue;
+            };
+            let number = self.number(&inner, way);
+            if let (Some(slot), Some(number)) = (slot, number) {
+                found.push(Change { slot, relation: relation(way), number: number.value });
+            }
+        }
+        found
+    }
+}

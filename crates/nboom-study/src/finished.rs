@@ -1,0 +1,77 @@
+use std::path::{Path, PathBuf};
+
+use nboom_tables::{Cell, read_table};
+
+use crate::StudyError;
+use crate::description::Description;
+use crate::directory::{
+    self, CASES_CSV_FILE, CASES_FILE, STATISTICS_FILE, STUDY_FILE, SWEPT_SCENE_FILE,
+};
+use crate::statistics::Summary;
+
+/// The directory of a finished sweep.
+#[derive(Clone, Debug)]
+pub struct SweepDirectory {
+    path: PathBuf,
+    /// What the sweep is.
+    pub description: Description,
+}
+
+impl SweepDirectory {
+    /// Reads what the sweep in a directory is; none if no sweep has written there.
+    ///
+    /// # Errors
+    /// When it is not complete, or a shard; when its description cannot be read.
+    pub fn read(path: &Path) -> Result<Option<Self>, StudyError> {
+        let Some(description) = directory::description(path)? else { return Ok(None) };
+        let directory = path.to_owned();
+        if let Some(shard) = description.shard {
+            return Err(StudyError::Shard { directory, shard });
+        }
+        if !description.complete {
+            let (done, cases) = (directory::journal(path, &description)?.done(), description.cases);
+            return Err(StudyError::Unfinished { directory, done, cases });
+        }
+        Ok(Some(Self { path: directory, description }))
+    }
+
+    /// Statistics of all cases.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    pub fn statistics(&self) -> Result<Summary, StudyError> {
+        let path = self.path.join(STATISTICS_FILE);
+        let text = directory::text(&path)?;
+        serde_json::from_str(&text)
+            .map_err(|error| StudyError::NoSweep { path, found: error.to_string() })
+    }
+
+    /// Hands on the rows of the table of cases, in order.
+    ///
+    /// # Errors
+    /// When the table cannot be read, and those of `take`.
+    pub fn each_case(
+        &self,
+        take: impl FnMut(&[Cell<'_>]) -> Result<(), StudyError>,
+    ) -> Result<(), StudyError> {
+        let csv = self.path.join(CASES_CSV_FILE);
+        let path = if csv.exists() { csv } else { self.path.join(CASES_FILE) };
+        read_table(&path, &self.description.columns, take)
+    }
+
+    /// The text of the study.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn study(&self) -> Result<String, StudyError> {
+        directory::text(&self.path.join(STUDY_FILE))
+    }
+
+    /// The text of the scene, which stands alone.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn scene(&self) -> Result<String, StudyError> {
+        directory::text(&self.path.join(SWEPT_SCENE_FILE))
+    }
+}

@@ -1,0 +1,95 @@
+use std::io;
+
+use nboom_results::quantity;
+use nboom_sim::{Event, EventKind, InstantMotion, OutputTimes, Recorder, Snapshot, StepMotion};
+use nboom_strength::StressAnalysis;
+
+use crate::wanted::{Extreme, Happened};
+
+/// Sees of a run what its results are made of.
+pub(crate) struct Observer<'o> {
+    /// Output times in place of uniform ones.
+    pub times: Option<OutputTimes>,
+    pub interrupted: &'o dyn Fn() -> bool,
+    pub analysis: Option<StressAnalysis>,
+    /// Whether the run has no length, so that its output time is all that its loads are found at.
+    pub is_moment: bool,
+    pub hinges: Vec<Happened>,
+    pub wanted: &'o [Extreme],
+    /// Those of the wanted extremes; NaN before the first output time.
+    pub extremes: Vec<f64>,
+    /// Columns of trajectories, if they are wanted.
+    pub columns: &'o [nboom_model::Column],
+    pub states: Vec<Vec<f64>>,
+}
+
+impl Observer<'_> {
+    fn follow(&mut self, snapshot: &Snapshot) {
+        for (extreme, value) in self.wanted.iter().zip(&mut self.extremes) {
+            extreme.follow(value, snapshot);
+        }
+    }
+}
+
+impl Recorder for Observer<'_> {
+    fn needs_detail(&self) -> bool {
+        self.is_moment && self.analysis.is_some() || self.wanted.iter().any(Extreme::needs_detail)
+    }
+
+    fn output_times(&self) -> Option<&OutputTimes> {
+        self.times.as_ref()
+    }
+
+    fn interrupted(&self) -> bool {
+        (self.interrupted)()
+    }
+
+    fn sample(&mut self, snapshot: &Snapshot) -> io::Result<()> {
+        self.follow(snapshot);
+        if !self.columns.is_empty() {
+            let row = self.columns.iter().map(|column| quantity(column, snapshot));
+            self.states.push([snapshot.time].into_iter().chain(row).collect());
+        }
+        match (&mut self.analysis, &snapshot.detail) {
+            (Some(analysis), Some(detail)) if self.is_moment => {
+                analysis.motion(snapshot, detail).map_err(io::Error::other)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn event(&mut self, event: &Event, _after: &Snapshot) -> io::Result<()> {
+        let Some(hinge) = event.hinge else { return Ok(()) };
+        let happened = &mut self.hinges[hinge];
+        match event.kind {
+            EventKind::LockUp => {
+                (happened.lock_up, happened.impulse) = (Some(event.time), event.impulse);
+            }
+            EventKind::Release => happened.release = Some(event.time),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Always, so that a run fails at numbers beyond all others where one that writes them does.
+    fn needs_instants(&self) -> bool {
+        true
+    }
+
+    fn instant(&mut self, instant: &InstantMotion) -> io::Result<()> {
+        instant.before.iter().chain([&instant.after]).for_each(|side| self.follow(side));
+        self.analysis
+            .as_mut()
+            .map_or(Ok(()), |analysis| analysis.instant(instant).map_err(io::Error::other))
+    }
+
+    fn needs_steps(&self) -> bool {
+        self.analysis.is_some()
+    }
+
+    fn step(&mut self, step: &mut dyn StepMotion) -> io::Result<()> {
+        self.analysis
+            .as_mut()
+            .map_or(Ok(()), |analysis| analysis.step(step).map_err(io::Error::other))
+    }
+}

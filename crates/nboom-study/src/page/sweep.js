@@ -1,0 +1,361 @@
+// The page of a sweep: sections in the order in which people ask. All text goes through `textContent`.
+
+'use strict';
+(() => {
+const { facts, summary } = JSON.parse(document.getElementById('data').textContent);
+const { counts, columns, points } = summary;
+const results = columns.filter((column) => column.is_result);
+const groups = ['no fault', ...summary.faults];
+const METHODS = { monte_carlo: 'Monte Carlo', latin_hypercube: 'Latin hypercube', sobol: 'Sobol sequence', grid: 'grid' };
+
+// Texts.
+
+/** Marks that turn the direction of text, and control characters, which could make text read as what it is not. */
+const DECEPTIVE = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
+
+const visible = (text) => String(text).replace(DECEPTIVE, '\ufffd');
+
+function fill(made, attributes, children) {
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === false || value === null || value === undefined) continue;
+    if (typeof value === 'function') made.addEventListener(key, value);
+    else made.setAttribute(key, value === true ? '' : visible(value));
+  }
+  for (const child of children.flat()) {
+    if (child === null || child === undefined || child === false) continue;
+    made.append(child instanceof Node ? child : visible(child));
+  }
+  return made;
+}
+
+const element = (name, attributes = {}, ...children) => fill(document.createElement(name), attributes, children);
+const drawn = (name, attributes = {}, ...children) => fill(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);
+
+/** A name that a file gave, which cannot turn the direction of what is around it. */
+const given = (text) => element('bdi', {}, text);
+
+/** A number with so many significant digits, without an exponent where that is short. */
+function digits(value, count = 4) {
+  if (value === null || value === undefined) return '\u2013';
+  const size = Math.abs(value);
+  if (size === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(count))).replace('-', '\u2212');
+  const [mantissa, power] = value.toExponential(count - 1).split('e');
+  const raised = [...String(Number(power))].map((c) => '\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079'['-0123456789'.indexOf(c)]);
+  return `${String(Number(mantissa)).replace('-', '\u2212')}\u202f\u00b7\u202f10${raised.join('')}`;
+}
+
+const whole = (number) => number.toLocaleString('en');
+const casesOf = (count) => `${whole(count)} ${count === 1 ? 'case' : 'cases'}`;
+const percent = (share) => `${digits(100 * share, 3)}\u202f%`;
+const interval = (low, high, said = digits) => (low === null && high === null ? 'no bounds' : `${low === null ? 'no bound' : said(low)} to ${high === null ? 'no bound' : said(high)}`);
+const titled = ({ label, unit }) => [given(label), unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null];
+
+/** A cell with a number. */
+const numeric = (text) => ({ number: text });
+
+function table(headings, rows) {
+  const cell = (content) => (content?.number === undefined
+    ? element('td', { class: typeof content === 'string' ? 'text' : null }, content)
+    : element('td', { class: 'number' }, content.number));
+  const head = headings.map((heading, i) => element('th', { class: rows[0]?.[i]?.number === undefined ? null : 'number' }, heading));
+  return element('div', { class: 'wide' }, element('table', {},
+    element('thead', {}, element('tr', {}, head)),
+    element('tbody', {}, rows.map((row) => element('tr', {}, row.map(cell))))));
+}
+
+function section(id, title, ...content) {
+  return element('section', { id }, element('h2', {}, title), ...content);
+}
+
+const note = (text) => element('p', { class: 'note' }, text);
+
+// Pictures.
+
+/** Round numbers between two others. */
+function ticks(low, high, count) {
+  const raw = (high - low) / count;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999);
+  const first = Math.ceil(low / step - 1e-9);
+  const last = Math.floor(high / step + 1e-9);
+  return Array.from({ length: Math.max(0, Math.min(50, last - first + 1)) }, (_, i) => Number(((first + i) * step).toPrecision(12)));
+}
+
+/** The ends of a range with some room, so that a single number has a range too. */
+function roomy([low, high], share = 0.03) {
+  const size = high - low;
+  const room = size > 1e-12 * Math.max(Math.abs(low), Math.abs(high)) ? share * size : 0.1 * Math.abs(high) || 1;
+  return [low - room, high + room];
+}
+
+/** A picture with axes: places of numbers on it, and what is to be added to. */
+function frame({ width = 460, height = 190, x, y, left = 50, right = 10, top = 10, xLabel, yLabel, xText = digits, yText = digits, about }) {
+  const bottom = height - (xLabel ? 42 : 24);
+  const X = (value) => left + ((value - x[0]) / (x[1] - x[0])) * (width - left - right);
+  const Y = (value) => bottom - ((value - y[0]) / (y[1] - y[0])) * (bottom - top);
+  const across = ticks(...x, Math.max(2, Math.floor((width - left) / 65))).map((at) => [
+    drawn('line', { class: 'grid', x1: X(at), x2: X(at), y1: top, y2: bottom }),
+    drawn('text', { x: X(at), y: bottom + 16, 'text-anchor': 'middle' }, xText(at))]);
+  const up = yText === null ? [] : ticks(...y, Math.max(2, Math.floor(height / 60))).map((at) => [
+    drawn('line', { class: 'grid', x1: left, x2: width - right, y1: Y(at), y2: Y(at) }),
+    drawn('text', { x: left - 6, y: Y(at) + 4, 'text-anchor': 'end' }, yText(at))]);
+  const svg = drawn('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': about }, across.flat(), up.flat(),
+    drawn('line', { class: 'axis', x1: left, x2: width - right, y1: bottom, y2: bottom }),
+    xLabel ? drawn('text', { x: width - right, y: height - 6, 'text-anchor': 'end' }, xLabel) : null,
+    yLabel ? drawn('text', { x: 0, y: 12 }, yLabel) : null);
+  return { svg, X, Y, top, bottom };
+}
+
+function histogram(column) {
+  const { histogram: found, spreads: [spread] } = column;
+  if (!found) return note('No case without fault has this number.');
+  const { from, to, counts: high } = found;
+  const step = (to - from) / high.length;
+  const x = roomy([from, to]);
+  const { svg, X, Y, top, bottom } = frame({ x, y: [0, Math.max(...high) * 1.08], yText: (count) => (Number.isInteger(count) ? whole(count) : ''), about: `Histogram of ${column.label}` });
+  svg.append(...high.map((count, i) => {
+    const [left, right] = step > 0 ? [X(from + i * step), X(from + (i + 1) * step)] : [X(from) - 6, X(from) + 6];
+    return drawn('rect', { class: 'bar', x: left, y: Y(count), width: Math.max(0.5, right - left - 0.6), height: bottom - Y(count) },
+      drawn('title', {}, `${digits(from + i * step)} to ${digits(from + (i + 1) * step)}: ${casesOf(count)}`));
+  }));
+  for (const { percent: which, value, low, high: upper } of spread.percentiles.filter((one) => [5, 50, 95].includes(one.percent))) {
+    const [left, right] = [X(low ?? from), X(upper ?? to)];
+    svg.append(drawn('rect', { class: 'band', x: left, y: top, width: Math.max(0, right - left), height: bottom - top }),
+      drawn('line', { class: 'mark', x1: X(value), x2: X(value), y1: top, y2: bottom, 'stroke-dasharray': which === 50 ? null : '4 3' },
+        drawn('title', {}, `${which} %: ${digits(value)}`)));
+  }
+  return svg;
+}
+
+function spreadFigure(column) {
+  const [spread] = column.spreads;
+  const gaps = spread.cases - spread.count;
+  return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), histogram(column),
+    spread.count > 0 && note([`Mean ${digits(spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number.` : '.'].join('')),
+    spread.percentiles.length > 0
+      ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(digits(value)), numeric(interval(low, high))]))
+      : null);
+}
+
+// What the sweep was, and what became of it.
+
+function switchTheme() {
+  const { theme } = document.documentElement.dataset;
+  const isDark = theme ? theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+  document.documentElement.dataset.theme = isDark ? 'light' : 'dark';
+}
+
+function header() {
+  const about = [`nboom ${facts.version}`, METHODS[facts.method] ?? facts.method, `seed ${facts.seed}`];
+  return element('header', {},
+    element('div', {}, element('h1', {}, given(facts.name)), element('p', { class: 'about' }, `${about.join(' \u00b7 ')} \u00b7 scene `, given(facts.scene))),
+    element('div', { class: 'tools' }, element('button', { type: 'button', title: 'Light or dark (t)', click: switchTheme }, 'Light / dark')));
+}
+
+function account() {
+  const { cases, ok, rejected, failed } = counts;
+  const said = ok === cases ? `${cases === 1 ? 'The only case' : `All ${whole(cases)} cases`} ran.` : `${whole(ok)} of ${whole(cases)} cases ran; ${whole(rejected)} were rejected, ${whole(failed)} failed.`;
+  const keys = [['Draws', facts.draws], ['Faults', summary.faults.length], ['Ran', ok], ['Rejected', rejected], ['Failed', failed]];
+  return element('section', { id: 'account' }, element('p', { class: 'sentence' }, said),
+    element('dl', { class: 'keys' }, keys.map(([name, number]) => element('div', { class: 'key' }, element('dt', {}, name), element('dd', {}, whole(number))))),
+    summary.share > 1 ? note(`Counts, means, deviations and extreme cases are of all cases. Percentiles, histograms, drivers and curves are of ${whole(summary.held)} cases: those of a random one of ${whole(summary.share)} draws.`) : null,
+    facts.method === 'grid' ? element('p', { class: 'warning' }, 'Points of a grid are chosen, not drawn. Percentiles and intervals describe the grid, not how likely anything is.') : null,
+    ['latin_hypercube', 'sobol'].includes(facts.method) ? note('These draws are more even than independent ones, for which the intervals are; as a rule they are wider than need be.') : null);
+}
+
+function spreadSection(id, title, shown) {
+  const without = summary.faults.length > 0 ? ' They are of cases without fault.' : '';
+  return shown.length > 0 && section(id, title,
+    note(`Lines are the percentiles 5, 50 and 95, bands their intervals.${without}`),
+    element('div', { class: 'figures' }, shown.map(spreadFigure)));
+}
+
+function driverFigure(column) {
+  const found = column.drivers.filter(({ coefficient, bound }, i) => i < 3 || (i < 12 && Math.abs(coefficient) > bound));
+  const bar = ({ coefficient, bound }) => drawn('svg', { viewBox: '0 0 160 16', style: 'width: 160px', 'aria-hidden': 'true' },
+    drawn('rect', { class: 'bound', x: 80 - 78 * bound, y: 0, width: 156 * bound, height: 16 }),
+    drawn('rect', { class: `bar${coefficient < 0 ? ' negative' : ''}`, x: 80 + 78 * Math.min(0, coefficient), y: 3, width: 78 * Math.abs(coefficient), height: 10 }),
+    drawn('line', { class: 'axis', x1: 80, x2: 80, y1: 0, y2: 16 }));
+  const rows = found.map((driver) => {
+    const isWeak = Math.abs(driver.coefficient) <= driver.bound;
+    return [element('span', { class: isWeak ? 'name weak' : 'name' }, given(columns[driver.variable].label)), bar(driver), numeric(driver.coefficient.toFixed(2).replace('-', '\u2212'))];
+  });
+  const others = column.drivers.length - found.length;
+  return element('figure', { class: 'drivers' }, element('h3', {}, titled(column)),
+    rows.length > 0 ? table(['Variable', 'Rank correlation', ''], rows) : note('It is the same in all cases, or there are too few.'),
+    others > 0 ? note(`${others} more ${others === 1 ? 'is' : 'are'} weaker.`) : null);
+}
+
+function drivers() {
+  return results.some((column) => column.drivers.length > 0) && section('drivers', 'What drives what',
+    note('Spearman\u2019s rank correlation: 1 where a result always grows with the variable, \u22121 where it always falls. Within the grey band it may be chance (95 % for all variables together).'),
+    element('div', { class: 'figures' }, results.map(driverFigure)));
+}
+
+// Points that are chosen.
+
+let chosen = null;
+
+function scatter() {
+  if (points.cases.length === 0 || columns.length < 2) return null;
+  const first = columns.findIndex((column) => column.is_result && column.drivers.length > 0);
+  const shown = { y: Math.max(0, first), x: first < 0 ? 1 : columns[first].drivers[0].variable, group: -1 };
+  const place = element('div', { class: 'scatter' });
+  const nearest = element('output', { class: 'nearest' });
+  const choice = (key, label, options) => element('label', {}, label, element('select', { id: `scatter-${key}`, change: ({ target }) => { shown[key] = Number(target.value); draw(); } },
+    options.map(([value, text]) => element('option', { value, selected: value === shown[key] }, text))));
+  const all = columns.map(({ label }, i) => [i, label]);
+  let places = [];
+  function draw() {
+    const [x, y] = [points.values[shown.x], points.values[shown.y]];
+    const rows = points.cases.map((_, i) => i).filter((i) => x[i] !== null && y[i] !== null && (shown.group < 0 || points.faults[i] === shown.group));
+    const ends = (values) => rows.reduce(([low, high], i) => [Math.min(low, values[i]), Math.max(high, values[i])], [Infinity, -Infinity]);
+    nearest.textContent = '';
+    if (rows.length === 0) { places = []; place.replaceChildren(note('No case has both numbers.')); return; }
+    const named = ({ label, unit }) => (unit ? `${label} [${unit}]` : label);
+    const width = Math.max(300, Math.min(860, document.documentElement.clientWidth - 30));
+    const { svg, X, Y } = frame({ width, height: Math.round(Math.min(460, width * 0.75)), x: roomy(ends(x)), y: roomy(ends(y)), left: 64, top: 24, xLabel: named(columns[shown.x]), yLabel: named(columns[shown.y]), about: `${columns[shown.y].label} over ${columns[shown.x].label}` });
+    places = rows.map((i) => ({ i, x: X(x[i]), y: Y(y[i]) }));
+    for (const spot of places) {
+      spot.circle = drawn('circle', { class: `point${points.faults[spot.i] > 0 ? ' broken' : ''}`, cx: spot.x.toFixed(1), cy: spot.y.toFixed(1), r: 2.6 });
+      svg.append(spot.circle);
+    }
+    const at = ({ clientX, clientY }) => {
+      const box = svg.getBoundingClientRect();
+      const [px, py] = [((clientX - box.left) * width) / box.width, ((clientY - box.top) * width) / box.width];
+      const distance = (spot) => Math.hypot(spot.x - px, spot.y - py);
+      return places.reduce((best, spot) => (distance(spot) < distance(best) ? spot : best));
+    };
+    svg.addEventListener('pointermove', (event) => tell(at(event).i));
+    svg.addEventListener('click', (event) => pick(points.cases[at(event).i]));
+    place.replaceChildren(svg);
+    mark();
+  }
+  function tell(i) {
+    const fault = points.faults[i] > 0 ? `, ${groups[points.faults[i]]}` : '';
+    nearest.textContent = visible(`case ${points.cases[i]}${fault}: ${[shown.x, shown.y].map((column) => `${columns[column].label} = ${digits(points.values[column][i], 5)}`).join(', ')}`);
+  }
+  function mark() {
+    for (const { i, circle } of places) circle.classList.toggle('chosen', points.cases[i] === chosen);
+  }
+  document.addEventListener('chosen', mark);
+  addEventListener('resize', draw);
+  draw();
+  return section('scatter', 'One against another',
+    element('div', { class: 'choices' }, choice('x', 'Across', all), choice('y', 'Up', all),
+      summary.faults.length > 0 ? choice('group', 'Cases', [[-1, 'all'], ...groups.map((name, i) => [i, name])]) : null),
+    place, nearest,
+    note([`${whole(points.cases.length)} of ${whole(counts.ok)} cases that ran`, summary.faults.length > 0 ? ', those with a fault in orange' : '', '. A click chooses a case.'].join('')));
+}
+
+// Latches and faults.
+
+function latchFigure({ hinge, unit, times, by_end: [end] }) {
+  if (times.length === 0) return element('figure', {}, element('h3', {}, given(hinge)), note('It never latches.'));
+  const last = times.at(-1).time;
+  const x = [Math.min(0, times[0].time), last > 0 ? 1.06 * last : last + 1];
+  const { svg, X, Y } = frame({ x, y: [0, 1], height: 170, yText: (share) => `${Math.round(100 * share)} %`, about: `Share of cases in which ${hinge} has latched, over time`, xLabel: unit ? `t [${unit}]` : 't' });
+  const steps = (value) => {
+    const corners = [[x[0], 0]];
+    for (const at of times) corners.push([at.time, corners.at(-1)[1]], [at.time, value(at)]);
+    return [...corners, [x[1], corners.at(-1)[1]]].map(([time, share]) => `${X(time).toFixed(1)},${Y(share).toFixed(1)}`);
+  };
+  svg.append(drawn('polygon', { class: 'band', points: [...steps(({ low }) => low), ...steps(({ high }) => high).reverse()].join(' ') }),
+    drawn('polyline', { class: 'curve', points: steps(({ count, of }) => count / of).join(' ') }));
+  return element('figure', {}, element('h3', {}, given(hinge)), svg, note(`${latched(end)} by the end.`));
+}
+
+const latched = ({ count, of, low, high }) => (of === 0 ? 'no case ran' : `${percent(count / of)} (${interval(low, high, percent)}), ${whole(count)} of ${whole(of)} cases,`);
+
+function latches() {
+  const rows = summary.latches.flatMap(({ hinge, by_end: ends }) => ends.map(({ count, of, low, high }, i) => [given(hinge), given(groups[i]),
+    numeric(`${whole(count)} of ${whole(of)}`), numeric(of > 0 ? percent(count / of) : '\u2013'), numeric(of > 0 ? interval(low, high, percent) : '\u2013')]));
+  return summary.latches.length > 0 && section('latches', 'Latched by a time',
+    note('The share of cases that ran in which a hinge has latched, with Wilson\u2019s interval of 95 % confidence.'),
+    element('div', { class: 'figures' }, summary.latches.map(latchFigure)),
+    summary.faults.length > 0 ? table(['Hinge', 'Fault', 'Latched', 'Share', '95 % confidence'], rows) : null);
+}
+
+function boxFigure(column) {
+  const boxes = column.spreads.map(({ percentiles, count, cases }) => ({ count, cases, of: (which) => percentiles.find(({ percent: one }) => one === which) }));
+  const there = boxes.filter(({ count, of }) => count > 0 && of(50));
+  if (there.length === 0) return null;
+  const x = roomy([Math.min(...there.map(({ of }) => of(5).value)), Math.max(...there.map(({ of }) => of(95).value))]);
+  const height = 30 * boxes.length;
+  const { svg, X, top } = frame({ x, y: [0, 1], height: height + 34, left: 8, yText: null, about: `${column.label} by fault` });
+  boxes.forEach(({ count, of }, i) => {
+    if (!there.includes(boxes[i])) return;
+    const [low, from, middle, to, high] = [5, 25, 50, 75, 95].map((which) => X(of(which).value));
+    const y = top + 30 * i + 14;
+    svg.append(drawn('line', { class: 'whisker', x1: low, x2: high, y1: y, y2: y }),
+      drawn('rect', { class: `box${i > 0 ? ' broken' : ''}`, x: from, y: y - 8, width: Math.max(1, to - from), height: 16 }),
+      drawn('line', { class: 'median', x1: middle, x2: middle, y1: y - 10, y2: y + 10 }, drawn('title', {}, `${groups[i]}: median ${digits(of(50).value)} of ${whole(count)} cases`)));
+  });
+  const [bare] = boxes;
+  const rows = boxes.map(({ count, cases, of }, i) => {
+    const difference = i > 0 && of(50) && bare.of(50) ? of(50).value - bare.of(50).value : null;
+    return [given(groups[i]), numeric(digits(of(50)?.value)), numeric(i > 0 ? digits(difference, 3) : ''), numeric(`${whole(count)} of ${whole(cases)}`)];
+  });
+  return element('figure', {}, element('h3', {}, titled(column)), svg, table(['From top to bottom', 'Median', 'Difference', 'Cases'], rows));
+}
+
+function faults() {
+  return summary.faults.length > 0 && section('faults', 'Faults side by side',
+    note('Boxes are the percentiles 25, 50 and 75, lines reach from 5 to 95. The difference is that of the medians.'),
+    element('div', { class: 'figures' }, results.map(boxFigure)));
+}
+
+// One case.
+
+const caseButton = (number) => element('button', { type: 'button', class: 'case', title: 'Choose this case', click: () => pick(number) }, `case ${number}`);
+const reportOf = (number) => facts.reports.includes(number) && `worst/case-${number}/report.html`;
+
+function worst() {
+  const end = (found) => found.map(({ case: number, fault, value }) => element('div', {}, `${digits(value, 5)} `, caseButton(number), reportOf(number) ? [' ', element('a', { href: reportOf(number) }, 'page')] : null, fault > 0 ? [' ', given(groups[fault])] : null));
+  return results.length > 0 && section('worst', 'Extreme cases', note('Of all cases that ran, with and without fault.'),
+    table(['Result', 'Smallest', 'Largest'], results.map((column) => [element('span', {}, titled(column)), element('div', {}, end(column.smallest)), element('div', {}, end(column.largest))])));
+}
+
+function troubles() {
+  const found = summary.troubles;
+  const all = counts.rejected + counts.failed;
+  return found.length > 0 && section('troubles', 'Cases that did not run',
+    note(`${whole(counts.rejected)} were rejected, ${whole(counts.failed)} failed.${found.length < all ? ` These are the first ${found.length}.` : ''}`),
+    element('div', { class: 'long', tabindex: 0, role: 'region', 'aria-label': 'Cases that did not run' }, table(['Case', 'Fault', 'Why'], found.map(({ case: number, fault, status }) => [caseButton(number), given(fault > 0 ? groups[fault] : '\u2013'), status]))));
+}
+
+/** A word of a shell. */
+const quoted = (word) => (/^[\w./+-][\w./+-]*$/.test(word) && !word.startsWith('-') ? word : `'${visible(word).replaceAll("'", "'\\''")}'`);
+
+const command = {
+  number: element('input', { type: 'number', min: 1, max: counts.cases, step: 1, 'aria-label': 'Case', change: ({ target }) => target.checkValidity() && target.value && pick(Number(target.value)) }),
+  line: element('code', {}),
+  report: element('a', {}, 'Its page'),
+};
+
+function commandBar() {
+  const copy = element('button', { type: 'button', click: () => navigator.clipboard?.writeText(command.line.textContent).then(() => said('Copied'), () => said('Select it')) }, 'Copy');
+  const said = (text) => { copy.textContent = text; setTimeout(() => { copy.textContent = 'Copy'; }, 1500); };
+  return element('div', { class: 'command', id: 'command' }, element('label', {}, 'Case ', command.number), command.line, command.report, copy);
+}
+
+/** Chooses a case. */
+function pick(number) {
+  chosen = number;
+  command.number.value = number;
+  command.line.textContent = `nboom run ${quoted(facts.study)} --case ${number}`;
+  command.report.hidden = !reportOf(number);
+  if (reportOf(number)) command.report.href = reportOf(number);
+  document.dispatchEvent(new Event('chosen'));
+}
+
+document.title = visible(facts.name);
+const bare = summary.faults.length > 0 ? ' without fault' : '';
+document.body.append(...[header(), account(), spreadSection('results', `Results${bare}`, results), drivers(), scatter(), latches(), faults(), worst(), troubles(),
+  spreadSection('variables', 'What was drawn', columns.filter((column) => !column.is_result)), commandBar()].filter(Boolean));
+pick(results.find(({ largest }) => largest.length > 0)?.largest[0].case ?? 1);
+addEventListener('keydown', ({ key, target, ctrlKey, metaKey, altKey }) => {
+  if (key === 't' && !ctrlKey && !metaKey && !altKey && !/INPUT|SELECT/.test(target.tagName)) switchTheme();
+});
+document.documentElement.dataset.ready = '';
+})();

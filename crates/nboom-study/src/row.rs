@@ -1,0 +1,54 @@
+use nboom_tables::Cell;
+
+/// The row of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What stands in the columns of [`columns`](crate::columns).
+    pub cells: Vec<Value>,
+    /// What stands in those of [`trajectory_columns`](crate::trajectory_columns) behind the number of the case,
+    /// a row for each output time; only of a study that wants trajectories, of a run that was finished.
+    pub states: Vec<Vec<f64>>,
+    /// What became of the case.
+    pub outcome: Outcome,
+}
+
+/// What became of a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It was run.
+    Ok,
+    /// Its scene is none.
+    Rejected,
+    /// Its run could not be finished.
+    Failed,
+}
+
+/// What stands in a row and a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Nothing.
+    Empty,
+    /// A finite number.
+    Number(f64),
+    /// A whole number.
+    Integer(i64),
+    /// Words in one line.
+    Text(String),
+}
+
+impl Value {
+    /// A number, or nothing if it is not finite.
+    pub(crate) fn number(value: f64) -> Self {
+        if value.is_finite() { Self::Number(value) } else { Self::Empty }
+    }
+
+    /// The cell of a table.
+    pub fn cell(&self) -> Cell<'_> {
+        match self {
+            Self::Number(value) if value.is_finite() => Cell::Number(*value),
+            Self::Empty | Self::Number(_) => Cell::Empty,
+            Self::Integer(value) => Cell::Integer(*value),
+            Self::Text(text) => Cell::Text(text),
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! Statistics of a table of cases, from its rows, each seen once.
+//!
+//! Counts, means, deviations and extremes are of all rows. Percentiles, histograms, rank correlations and
+//! curves need values at hand. They are of all rows as long as these fit; of a larger table they are of the rows
+//! of a random share of draws, chosen by their seeds: every second draw of a grid or of a Sobol sequence would
+//! be no fair share. All statistics are of cases that ran, those of faults apart from those without.
+
+mod confidence;
+mod extremes;
+mod histogram;
+mod latch;
+mod moments;
+mod percentile;
+mod rank;
+mod sample;
+mod summary;
+
+use nboom_tables::Cell;
+
+use extremes::Extremes;
+use moments::Moments;
+use rank::Ranked;
+use sample::Sample;
+pub use summary::{
+    Counts, Driver, Extreme, Histogram, Latch, LatchTime, Percentile, Points, Proportion, Spread,
+    Summary, SummaryColumn, Trouble,
+};
+
+/// Larger numbers count as gaps, so that squares and sums are finite.
+const LARGEST: f64 = 1e150;
+
+/// Cases that did not run and are listed one by one.
+const MOST_TROUBLES: usize = 100;
+
+/// What starts the text of a result that is the time of a lock-up.
+const LOCK_TIME: &str = "lock_time of ";
+
+/// A column of a table of cases.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// The name of the column.
+    pub name: String,
+    /// What people call it: of a result its text, else the name.
+    pub label: String,
+    /// The unit of its numbers.
+    pub unit: Option<String>,
+    /// What it is for.
+    pub role: Role,
+}
+
+/// What a column of a table of cases is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The number of the case.
+    Case,
+    /// The seed, which cases of the same draw share.
+    Seed,
+    /// The name of the fault; empty where there is none.
+    Fault,
+    /// A number that is drawn.
+    Variable,
+    /// A number of the run; empty where there is none.
+    Result,
+    /// `ok`, or why there is no run.
+    Status,
+}
+
+/// Statistics of the rows seen so far.
+#[derive(Clone, Debug)]
+pub struct Statistics {
+    fields: Vec<Field>,
+    /// Where variables and results stand in a row.
+    places: Vec<usize>,
+    counts: Counts,
+    troubles: Vec<Trouble>,
+    /// Cases without fault, then those of each fault.
+    groups: Vec<Group>,
+    /// Of each variable and result.
+    extremes: Vec<Extremes>,
+    sample: Sample,
+}
+
+/// Cases with the same fault.
+#[derive(Clone, Debug)]
+struct Group {
+    fault: String,
+    /// Those that ran.
+    cases: u64,
+    /// Of each variable and result.
+    moments: Vec<Moments>,
+}
+
+/// What a row says beside its numbers.
+struct Head<'a> {
+    case: u64,
+    seed: u64,
+    fault: &'a str,
+    status: &'a str,
+}
+
+impl Statistics {
+    /// Statistics of no rows yet, of a table with these columns.
+    pub fn new(fields: Vec<Field>) -> Self {
+        let is_number = |field: &Field| matches!(field.role, Role::Variable | Role::Result);
+        let places: Vec<usize> = (0..fields.len()).filter(|i| is_number(&fields[*i])).collect();
+        let columns = places.len();
+        Self {
+            fields,
+            places,
+            counts: Counts::default(),
+            troubles: Vec::new(),
+            groups: vec![Group::new("", columns)],
+            extremes: vec![Extremes::default(); columns],
+            sample: Sample::new(columns),
+        }
+    }
+
+    /// Takes a row, a cell for each column.
+    pub fn row(&mut self, cells: &[Cell<'_>]) {
+        let head = self.head(cells);
+        let group = self.group(head.fault);
+        self.counts.cases += 1;
+        if head.status != "ok" {
+            let is_rejected = head.status.starts_with("rejected");
+            *(if is_rejected { &mut self.counts.rejected } else { &mut self.counts.failed }) += 1;
+            if self.troubles.len() < MOST_TROUBLES {
+                let status = head.status.to_owned();
+                self.troubles.push(Trouble { case: head.case, fault: group, status });
+            }
+            return;
+        }
+        self.counts.ok += 1;
+        self.groups[group].cases += 1;
+        let numbers: Vec<f64> = self.places.iter().map(|i| number(cells.get(*i))).collect();
+        for (column, value) in numbers.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
+            self.groups[group].moments[column].add(*value);
+            self.extremes[column].add(Extreme { case: head.case, fault: group, value: *value });
+        }
+        self.sample.offer(head.case, head.seed, group, &numbers);
+    }
+
+    /// What the rows say.
+    pub fn finish(self) -> Summary {
+        let variables: Vec<usize> =
+            (0..self.places.len()).filter(|i| self.field(*i).role == Role::Variable).collect();
+        let bare = self.sample.rows_of(0);
+        let ranked = |column: usize| Ranked::new(self.sample.column(column), &bare);
+        let causes: Vec<_> = variables.iter().map(|column| (*column, ranked(*column))).collect();
+        let columns = (0..self.places.len()).map(|column| {
+            let is_result = self.field(column).role == Role::Result;
+            let drivers = if is_result { rank::drivers(&causes, &ranked(column)) } else { vec![] };
+            self.column(column, drivers)
+        });
+        Summary {
+            columns: columns.collect(),
+            latches: self.latches(),
+            counts: self.counts,
+            held: self.sample.len() as u64,
+            share: self.sample.share(),
+            faults: self.groups[1..].iter().map(|group| group.fault.clone()).collect(),
+            points: self.sample.points(),
+            troubles: self.troubles,
+        }
+    }
+
+    fn head<'a>(&self, cells: &[Cell<'a>]) -> Head<'a> {
+        let mut head = Head { case: self.counts.cases + 1, seed: 0, fault: "", status: "ok" };
+        let mut seed = None;
+        for (field, cell) in self.fields.iter().zip(cells) {
+            match (field.role, *cell) {
+                (Role::Case, Cell::Integer(case)) => head.case = case.unsigned_abs(),
+                (Role::Seed, Cell::Integer(found)) => seed = Some(found.unsigned_abs()),
+                (Role::Fault, Cell::Text(fault)) => head.fault = fault,
+                (Role::Status, Cell::Text(status)) => head.status = status,
+                _ => {}
+            }
+        }
+        head.seed = seed.unwrap_or(head.case);
+        head
+    }
+
+    /// The number of the fault's group, which is made if it is new.
+    fn group(&mut self, fault: &str) -> usize {
+        self.groups.iter().position(|group| group.fault == fault).unwrap_or_else(|| {
+            self.groups.push(Group::new(fault, self.places.len()));
+            self.groups.len() - 1
+        })
+    }
+
+    fn field(&self, column: usize) -> &Field {
+        &self.fields[self.places[column]]
+    }
+
+    fn column(&self, column: usize, drivers: Vec<Driver>) -> SummaryColumn {
+        let field = self.field(column);
+        let mut histogram = None;
+        let spreads = self.groups.iter().enumerate().map(|(number, group)| {
+            let sorted = self.sample.sorted(column, number);
+            if number == 0 {
+                histogram = histogram::histogram(&sorted);
+            }
+            let moments = &group.moments[column];
+            Spread {
+                cases: group.cases,
+                count: moments.count(),
+                mean: moments.mean(),
+                deviation: moments.deviation(),
+                percentiles: percentile::percentiles(&sorted),
+            }
+        });
+        SummaryColumn {
+            spreads: spreads.collect(),
+            name: field.name.clone(),
+            label: field.label.clone(),
+            unit: field.unit.clone(),
+            is_result: field.role == Role::Result,
+            histogram,
+            drivers,
+            smallest: self.extremes[column].smallest().to_vec(),
+            largest: self.extremes[column].largest().to_vec(),
+        }
+    }
+
+    fn latches(&self) -> Vec<Latch> {
+        let bare = self.sample.rows_of(0).len();
+        let latch = |column: usize| {
+            let hinge = self.field(column).label.strip_prefix(LOCK_TIME)?.to_owned();
+            let by_end =
+                |group: &Group| confidence::proportion(group.moments[column].count(), group.cases);
+            Some(Latch {
+                hinge,
+                unit: self.field(column).unit.clone(),
+                times: latch::times(&self.sample.sorted(column, 0), bare),
+                by_end: self.groups.iter().map(by_end).collect(),
+            })
+        };
+        (0..self.places.len()).filter_map(latch).collect()
+    }
+}
+
+impl Group {
+    fn new(fault: &str, columns: usize) -> Self {
+        Self { fault: fault.to_owned(), cases: 0, moments: vec![Moments::default(); columns] }
+    }
+}
+
+/// The number in a cell; NaN where there is none.
+fn number(cell: Option<&Cell<'_>>) -> f64 {
+    let value = match cell {
+        Some(Cell::Number(value)) => *value,
+        Some(Cell::Integer(value)) => *value as f64,
+        _ => f64::NAN,
+    };
+    if value.abs() <= LARGEST { value } else { f64::NAN }
+}

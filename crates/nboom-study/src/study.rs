@@ -1,0 +1,184 @@
+use nboom_io::{SceneDocument, SceneFile, Slot};
+use nboom_sim::{Form, Options, Path};
+
+use crate::distribution::Distribution;
+use crate::plan::Plan;
+use crate::wanted::Wanted;
+
+/// What is varied in a scene, how, and what is wanted of each run; checked.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Its name, which that of its directory is too.
+    pub name: String,
+    /// The text of its file.
+    pub text: String,
+    /// The scene, in which numbers can be set.
+    pub document: SceneDocument,
+    /// The scene as it stands.
+    pub nominal: SceneFile,
+    /// The seed of everything random.
+    pub seed: u64,
+    /// How draws are made.
+    pub method: Method,
+    /// How many draws there are, of a grid the product of its points.
+    pub draws: u64,
+    /// What varies.
+    pub variables: Vec<Variable>,
+    /// Which variables vary together.
+    pub correlations: Vec<Correlation>,
+    /// What may be broken; each draw is also run once with each of them.
+    pub faults: Vec<Fault>,
+    /// What stands in the table of each run.
+    pub wanted: Vec<Wanted>,
+    /// How each case is run.
+    pub run: RunSettings,
+    /// Whether tables of states of all cases are wanted.
+    pub trajectories: bool,
+    /// What is drawn for each case.
+    pub plan: Plan,
+}
+
+/// How draws are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// All combinations of points.
+    Grid,
+    /// Of each variable one draw in each of as many equal shares as there are draws.
+    LatinHypercube,
+    /// A scrambled Sobol sequence.
+    Sobol,
+    /// Independent draws.
+    MonteCarlo,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Grid, Self::LatinHypercube, Self::Sobol, Self::MonteCarlo];
+
+    /// Its name in studies.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Grid => "grid",
+            Self::LatinHypercube => "latin_hypercube",
+            Self::Sobol => "sobol",
+            Self::MonteCarlo => "monte_carlo",
+        }
+    }
+}
+
+/// How a drawn number changes one of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// It takes its place.
+    Value,
+    /// It multiplies it.
+    Factor,
+    /// It is added to it.
+    Offset,
+}
+
+/// A number that varies.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// The name of its column.
+    pub name: String,
+    /// The places in the scene that change with it.
+    pub slots: Vec<Slot>,
+    /// How it changes them.
+    pub relation: Relation,
+    /// How it is distributed.
+    pub distribution: Distribution,
+}
+
+/// Two variables that vary together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correlation {
+    /// Numbers of the variables, from 0.
+    pub between: [usize; 2],
+    /// Of their normal scores, above -1 and below 1.
+    pub coefficient: f64,
+}
+
+/// Something that is broken. Hinges are indices, from 0.
+#[derive(Clone, Debug)]
+pub struct Fault {
+    /// What it is called.
+    pub name: String,
+    /// Hinges that stay as they start.
+    pub stuck: Vec<usize>,
+    /// Hinges that are never released.
+    pub missed_release: Vec<usize>,
+    /// Hinges that are released late.
+    pub late_release: Vec<LateRelease>,
+    /// Hinges that do not latch.
+    pub failed_latch: Vec<usize>,
+    /// Hinges without spring and kick-off spring.
+    pub broken_spring: Vec<usize>,
+    /// Other numbers of the scene.
+    pub changes: Vec<Change>,
+}
+
+/// A release that comes late.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LateRelease {
+    /// The hinge.
+    pub hinge: usize,
+    /// By how much \[T\].
+    pub by: f64,
+}
+
+/// Another number at a place in the scene.
+#[derive(Clone, Debug)]
+pub struct Change {
+    /// The place.
+    pub slot: Slot,
+    /// How the number changes what is there.
+    pub relation: Relation,
+    /// The number.
+    pub number: f64,
+}
+
+/// How each case is run: options of `nboom run`; `None` is its default.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunSettings {
+    /// Relative error allowed in a step.
+    pub rtol: Option<f64>,
+    /// Absolute error allowed in a step, as a share of natural sizes.
+    pub atol: Option<f64>,
+    /// Method of integration.
+    pub integrator: Option<nboom_sim::Method>,
+    /// Equations of motion.
+    pub formulation: Option<Form>,
+    /// Which code computes accelerations.
+    pub path: Option<Path>,
+    /// The longest step.
+    pub max_step: Option<f64>,
+    /// Events after which a run is given up.
+    pub max_events: Option<usize>,
+    /// Output times after the initial one.
+    pub samples: Option<usize>,
+    /// End of the run instead of the scene's.
+    pub end_time: Option<f64>,
+    /// Whether stresses are computed if the scene asks for them.
+    pub stresses: bool,
+    /// Whether loads of hinges are computed for any scene.
+    pub hinge_loads: bool,
+}
+
+impl RunSettings {
+    /// The options of a run, without generated code.
+    pub fn options(&self) -> Options {
+        let defaults = Options::default();
+        Options {
+            rtol: self.rtol.unwrap_or(defaults.rtol),
+            atol: self.atol.unwrap_or(defaults.atol),
+            integrator: self.integrator.unwrap_or(defaults.integrator),
+            formulation: self.formulation,
+            path: self.path.unwrap_or_default(),
+            max_step: self.max_step.unwrap_or(defaults.max_step),
+            max_events: self.max_events.unwrap_or(defaults.max_events),
+            samples: self.samples.unwrap_or(defaults.samples),
+            ..defaults
+        }
+    }
+}

@@ -1,0 +1,111 @@
+use std::path::PathBuf;
+
+use nboom_io::{Sampling, sha256};
+use nboom_scalar::{Batch, Kernel};
+use toml::Spanned;
+use toml::de::DeTable;
+
+use crate::description::{Description, Maker, Source};
+use crate::directory::SWEPT_SCENE_FILE;
+use crate::task::{Report, Task};
+use crate::workers::Worker;
+use crate::{Runner, Shard, Study, StudyError, Watcher, columns, trajectory_columns};
+
+/// All cases of a study, or a part of them, run into a directory.
+#[derive(Clone, Debug)]
+pub struct Sweep<'s> {
+    /// What is swept.
+    pub study: &'s Study,
+    /// Where its files are.
+    pub directory: PathBuf,
+    /// Threads.
+    pub jobs: usize,
+    /// Whether a sweep that was begun is continued.
+    pub resume: bool,
+    /// Which part is run; none if it is all.
+    pub shard: Option<Shard>,
+    /// Whether tables are in CSV too.
+    pub csv: bool,
+    /// Whether a sweep that another program or machine has begun is continued.
+    pub accept_difference: bool,
+    /// Generated routines that may compute accelerations.
+    pub kernels: &'static [Kernel],
+    /// Generated right sides.
+    pub right_sides: &'static [Batch],
+}
+
+impl Sweep<'_> {
+    /// Makes the sweep or continues it.
+    ///
+    /// Its tables do not depend on threads, on how often it was interrupted, or on shards.
+    ///
+    /// # Errors
+    /// When the directory is refused, and when the sweep could not be finished. What is done stays, and can be
+    /// continued.
+    pub fn run(&self, watcher: &dyn Watcher) -> Result<Report, StudyError> {
+        let study = self.study;
+        let worker = || -> Worker<'_> {
+            let mut runner = Runner::new(study, self.kernels, self.right_sides);
+            Box::new(move |number, interrupted| runner.run(&study.case(number), interrupted))
+        };
+        let task = Task {
+            directory: &self.directory,
+            description: self.description(),
+            study: &beside_its_scene(&study.text),
+            scene: &study.document.text(),
+            samples: samples(study),
+            worker: &worker,
+            jobs: self.jobs,
+            resume: self.resume,
+            csv: self.csv,
+            accept_difference: self.accept_difference,
+        };
+        task.run(watcher)
+    }
+
+    fn description(&self) -> Description {
+        let study = self.study;
+        let states = study.trajectories.then(|| trajectory_columns(study));
+        Description {
+            version: Description::VERSION,
+            name: study.name.clone(),
+            made_by: Maker::current(),
+            also_made_by: Vec::new(),
+            study: Source { sha256: sha256(study.text.as_bytes()) },
+            scene: Source { sha256: study.document.sha256().to_owned() },
+            seed: study.seed,
+            method: study.method.name().to_owned(),
+            draws: study.draws,
+            cases: study.cases(),
+            shard: self.shard,
+            columns: columns(study),
+            trajectory_columns: states.unwrap_or_default(),
+            results: study.wanted.iter().map(|wanted| wanted.text().to_owned()).collect(),
+            complete: false,
+            counts: None,
+        }
+    }
+}
+
+/// The text of a study whose scene is the one beside it in a sweep's directory.
+fn beside_its_scene(study: &str) -> String {
+    let (keys, _) = DeTable::parse_recoverable(study);
+    match keys.get_ref().get("scene").map(Spanned::span) {
+        Some(place) => {
+            let name = toml::Value::from(SWEPT_SCENE_FILE).to_string();
+            [&study[..place.start], &name, &study[place.end..]].concat()
+        }
+        None => study.to_owned(),
+    }
+}
+
+/// About how many output times a case has.
+fn samples(study: &Study) -> u64 {
+    let of_scene = match &study.nominal.settings.sampling {
+        Some(Sampling::Uniform(samples)) => Some(*samples),
+        Some(Sampling::At(times)) => Some(times.len()),
+        Some(Sampling::Every(_)) | None => None,
+    };
+    let samples = study.run.samples.or(of_scene).unwrap_or(study.run.options().samples);
+    samples as u64 + 1
+}

@@ -1,0 +1,99 @@
+//! The tables of a sweep, from its journals.
+
+use std::path::Path;
+
+use nboom_results::make_file;
+use nboom_tables::{Column, Format, TableWriter};
+
+use crate::directory::{
+    CASES_CSV_FILE, CASES_FILE, Place, TRAJECTORIES_CSV_FILE, TRAJECTORIES_FILE,
+};
+use crate::frame::Columns;
+use crate::journal::{Journal, Part};
+use crate::statistics::{Statistics, Summary};
+use crate::{Description, StudyError};
+
+/// A table in one format.
+#[derive(Clone, Copy, Debug)]
+struct Table<'a> {
+    file: &'static str,
+    part: Part,
+    columns: &'a [Column],
+    is_parquet: bool,
+}
+
+/// How many formats a table is written in.
+pub(crate) fn formats(csv: bool) -> u64 {
+    u64::from(has_parquet()) + u64::from(csv || !has_parquet())
+}
+
+fn has_parquet() -> bool {
+    Format::Parquet.require().is_ok()
+}
+
+/// Statistics of all cases of these journals.
+///
+/// # Errors
+/// When a journal cannot be read or has other rows.
+pub(crate) fn statistics(what: &Description, journals: &[Journal]) -> Result<Summary, StudyError> {
+    let mut statistics = Statistics::new(what.fields());
+    for journal in journals {
+        journal.each(Part::Case, &what.columns, |cells| {
+            statistics.row(cells);
+            Ok(())
+        })?;
+    }
+    Ok(statistics.finish())
+}
+
+/// Writes the tables of journals that together have all cases, in order; `texts` belong to them, by name.
+///
+/// They are in Parquet, and in CSV if that is asked for or if there is no Parquet in this build.
+///
+/// # Errors
+/// When a table cannot be written or a journal cannot be read; an earlier table then stays.
+pub(crate) fn write_tables(
+    place: &Place,
+    columns: Columns<'_>,
+    journals: &[Journal],
+    texts: &[(&str, &str)],
+    csv: bool,
+) -> Result<(), StudyError> {
+    let table = |file, part, is_parquet| {
+        let columns = if part == Part::Case { columns.cases } else { columns.states };
+        Table { file, part, columns, is_parquet }
+    };
+    let all = [
+        table(CASES_FILE, Part::Case, true),
+        table(TRAJECTORIES_FILE, Part::States, true),
+        table(CASES_CSV_FILE, Part::Case, false),
+        table(TRAJECTORIES_CSV_FILE, Part::States, false),
+    ];
+    let is_wanted = |table: &Table<'_>| {
+        let is_format = if table.is_parquet { has_parquet() } else { csv || !has_parquet() };
+        is_format && !table.columns.is_empty()
+    };
+    all.into_iter().filter(is_wanted).try_for_each(|table| {
+        make_file(&place.file(table.file), |path: &Path| table.write(path, journals, texts))
+    })
+}
+
+impl Table<'_> {
+    fn write(
+        &self,
+        path: &Path,
+        journals: &[Journal],
+        texts: &[(&str, &str)],
+    ) -> Result<(), StudyError> {
+        let columns = self.columns.to_vec();
+        let mut table = if self.is_parquet {
+            TableWriter::parquet(path, columns, texts)?
+        } else {
+            TableWriter::csv(path, columns)?
+        };
+        for journal in journals {
+            journal.each(self.part, self.columns, |cells| Ok(table.row(cells)?))?;
+        }
+        Ok(table.finish()?)
+    }
+}

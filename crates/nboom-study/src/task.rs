@@ -1,0 +1,137 @@
+//! A sweep from its directory to its tables, whatever runs its cases.
+
+use std::path::{Path, PathBuf};
+
+use crate::description::Description;
+use crate::directory::{self, Place, State};
+use crate::journal::Journal;
+use crate::tables;
+use crate::workers::{Crew, Worker};
+use crate::{StudyError, Watcher, space};
+
+/// A sweep to be made.
+pub(crate) struct Task<'a> {
+    /// Where its files are.
+    pub directory: &'a Path,
+    /// What it is, not complete.
+    pub description: Description,
+    /// Its study.
+    pub study: &'a str,
+    /// Its scene, which stands alone.
+    pub scene: &'a str,
+    /// About how many rows a trajectory has.
+    pub samples: u64,
+    /// Makes what runs cases in one thread.
+    pub worker: &'a (dyn Fn() -> Worker<'a> + Sync),
+    /// Threads.
+    pub jobs: usize,
+    /// Whether what was begun is continued.
+    pub resume: bool,
+    /// Whether tables are in CSV too.
+    pub csv: bool,
+    /// Whether another program or machine may continue it.
+    pub accept_difference: bool,
+}
+
+/// What a sweep came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// How it ended.
+    pub end: End,
+    /// What it is; with counts if it is complete.
+    pub description: Description,
+    /// Cases that are done.
+    pub done: u64,
+    /// Cases that were run now.
+    pub computed: u64,
+    /// The files that are there.
+    pub files: Vec<PathBuf>,
+}
+
+/// How a sweep ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// All cases are done.
+    Complete,
+    /// All cases had been done before.
+    WasComplete,
+    /// It was interrupted and can be continued.
+    Interrupted,
+}
+
+impl Task<'_> {
+    /// Makes the sweep or continues it.
+    ///
+    /// # Errors
+    /// When the directory is refused, and when it could not be finished. What is done stays, and can be
+    /// continued.
+    pub fn run(&self, watcher: &dyn Watcher) -> Result<Report, StudyError> {
+        let place = Place::take(self.directory)?;
+        let what = match place.state(&self.description, self.accept_difference)? {
+            State::Complete(what) => return settle(&place, what),
+            State::Open(what) => what,
+        };
+        let mut journal = directory::journal(self.directory, &what)?;
+        let (before, cases) = (journal.done(), what.share());
+        if place.found.is_some() && !self.resume {
+            let directory = self.directory.to_owned();
+            return Err(StudyError::Unfinished { directory, done: before, cases });
+        }
+        space::require(self.directory, self.bytes(&what, cases - before), cases)?;
+        place.begin(&what, self.study, self.scene)?;
+        let (columns, worker) = (what.tables(), self.worker);
+        Crew { columns, worker, jobs: self.jobs, watcher }.fill(&mut journal, cases)?;
+        let done = journal.done();
+        let report = if done < cases {
+            let files = place.files();
+            Report { end: End::Interrupted, description: what, done, computed: 0, files }
+        } else {
+            finish(&place, what, &[journal], [self.study, self.scene], self.csv)?
+        };
+        Ok(Report { computed: done - before, ..report })
+    }
+
+    /// About how much is still to be written, if so many cases are missing.
+    fn bytes(&self, what: &Description, missing: u64) -> u64 {
+        let formats = if what.shard.is_some() { 0 } else { tables::formats(self.csv) };
+        let rows = missing.saturating_add(formats.saturating_mul(what.cases));
+        rows.saturating_mul(space::of_case(&what.tables(), self.samples))
+    }
+}
+
+/// Makes the tables of journals that together have all cases, says that the sweep is complete, and removes its
+/// journal. A shard keeps its journal and has no tables.
+///
+/// After each of these steps a resume does the others.
+///
+/// # Errors
+/// When a file cannot be written, and when a journal cannot be read.
+pub(crate) fn finish(
+    place: &Place,
+    what: Description,
+    journals: &[Journal],
+    [study, scene]: [&str; 2],
+    csv: bool,
+) -> Result<Report, StudyError> {
+    let statistics = tables::statistics(&what, journals)?;
+    if what.shard.is_none() {
+        let texts = [("study", study), ("scene", scene)];
+        tables::write_tables(place, what.tables(), journals, &texts, csv)?;
+        place.sum_up(&statistics)?;
+    }
+    let what = Description { complete: true, counts: Some(statistics.counts), ..what };
+    place.complete(&what)?;
+    Ok(Report { end: End::Complete, ..settle(place, what)? })
+}
+
+/// What a complete sweep came to, without the journal that it does not need.
+pub(crate) fn settle(place: &Place, what: Description) -> Result<Report, StudyError> {
+    if what.shard.is_none() {
+        place.remove_journal()?;
+    }
+    let (done, files) = (what.share(), place.files());
+    Ok(Report { end: End::WasComplete, description: what, done, computed: 0, files })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,141 @@
+use nboom_results::{Lock, ResultsError};
+
+use super::*;
+
+fn refused(fake: &Fake, directory: &Path) -> StudyError {
+    let before = names(directory);
+    let error = fake.run(directory, &Patient).expect_err("it is refused");
+    assert!(error.is_refusal(), "{error}");
+    assert_eq!(names(directory), before);
+    error
+}
+
+#[test]
+fn a_finished_sweep_is_not_repeated_and_another_is_refused() {
+    let place = tempfile::tempdir().expect("a directory");
+    let fake = Fake { resume: false, ..Fake::of(12) };
+    fake.finish(place.path(), &[]);
+    let tables_then = tables(place.path());
+    let again = Fake { broken: 3, ..fake.clone() }.run(place.path(), &Patient);
+    let again = again.expect("nothing is computed");
+    assert_eq!((again.end, again.computed, again.done), (End::WasComplete, 0, 12));
+    let error = refused(&Fake { seed: 2, ..fake.clone() }, place.path()).to_string();
+    assert!(error.contains("seed 1 then, 2 now"), "{error}");
+    let error = refused(&Fake::of(13), place.path()).to_string();
+    assert!(error.contains("cases 12 then, 13 now"), "{error}");
+    assert_eq!(tables(place.path()), tables_then);
+}
+
+#[test]
+fn an_unfinished_sweep_is_continued_only_if_that_is_asked_for() {
+    let place = tempfile::tempdir().expect("a directory");
+    let fake = Fake { jobs: 1, ..Fake::of(12) };
+    let interrupted = fake.run(place.path(), &Impatient(AtomicI64::new(5)));
+    let interrupted = interrupted.expect("it can be interrupted");
+    assert_eq!((interrupted.end, interrupted.done), (End::Interrupted, 5));
+    let error = refused(&Fake { resume: false, ..fake.clone() }, place.path());
+    assert!(matches!(error, StudyError::Unfinished { done: 5, cases: 12, .. }), "{error}");
+    let shard = Some("1/2".parse().expect("a shard"));
+    let error = refused(&Fake { shard, ..fake.clone() }, place.path()).to_string();
+    assert!(error.contains("shard all then, 1/2 now"), "{error}");
+    let other = Fake { maker: "2", ..fake.clone() };
+    let error = refused(&other, place.path()).to_string();
+    assert!(error.contains("nboom 1") && error.contains("nboom 2"), "{error}");
+    let accepted = Fake { accept_difference: true, ..other.clone() };
+    let report = accepted.run(place.path(), &Patient).expect("it is accepted");
+    assert_eq!(report.description.also_made_by, [other.description().made_by]);
+    assert_eq!(tables(place.path()), expected(&fake));
+}
+
+#[test]
+fn files_of_others_stay() {
+    let place = tempfile::tempdir().expect("a directory");
+    let fake = Fake::of(3);
+    for name in [CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, crate::SWEPT_SCENE_FILE] {
+        let path = place.path().join(name);
+        fs::write(&path, "mine").expect("writable");
+        let error = refused(&fake, place.path());
+        assert!(
+            matches!(&error, StudyError::Results(ResultsError::Foreign { path: found, .. }) if *found == path),
+            "{error}"
+        );
+        assert_eq!(fs::read_to_string(&path).expect("readable"), "mine");
+        fs::remove_file(path).expect("it is there");
+    }
+    for text in ["", "{}", "{\"complete\": true}"] {
+        fs::write(place.path().join(STUDY_JSON_FILE), text).expect("writable");
+        let error = refused(&fake, place.path());
+        assert!(matches!(error, StudyError::NoSweep { .. }), "{error}");
+    }
+}
+
+#[test]
+fn one_process_at_a_time() {
+    let place = tempfile::tempdir().expect("a directory");
+    let directory = place.path().join("sweep");
+    let lock = Lock::acquire(&directory, &directory).expect("nobody has it");
+    let error = refused(&Fake::of(3), &directory);
+    assert!(matches!(error, StudyError::Results(ResultsError::InUse { .. })), "{error}");
+    drop(lock);
+    Fake::of(3).finish(&directory, &[]);
+}
+
+#[test]
+fn more_than_the_disk_holds_is_refused_and_leaves_nothing() {
+    let place = tempfile::tempdir().expect("a directory");
+    let directory = place.path().join("sweep");
+    let error = Fake::of(1 << 50).run(&directory, &Patient).expect_err("there is no such disk");
+    assert!(matches!(error, StudyError::Space { .. }), "{error}");
+    assert!(!directory.exists());
+}
+
+#[test]
+fn shards_that_are_not_the_whole_are_refused() {
+    let place = tempfile::tempdir().expect("a directory");
+    let fake = Fake::of(20);
+    let all = shards(&fake, 3, place.path());
+    let out = place.path().join("out");
+    let refused = |shards: &[&PathBuf]| {
+        let shards: Vec<_> = shards.iter().map(|path| (*path).clone()).collect();
+        let error = merge(&shards, &out, true, false).expect_err("it is refused");
+        assert!(error.is_refusal() && !out.exists(), "{error}");
+        error.to_string()
+    };
+    let error = refused(&[&all[0], &all[2]]);
+    assert!(error.contains("2 of 3 shards given") && error.contains("missing: 2/3"), "{error}");
+    let error = refused(&[&all[0], &all[1], &all[1], &all[2]]);
+    assert!(error.contains("both the shard 2/3"), "{error}");
+    refused(&[]);
+    let whole = place.path().join("whole");
+    fake.finish(&whole, &[]);
+    let error = refused(&[&all[0], &whole]);
+    assert!(error.contains("a sweep of all cases found"), "{error}");
+    let shard = |number: &str| Fake { shard: number.parse().ok(), jobs: 1, ..fake.clone() };
+    let other = |name: &str, fake: &Fake| {
+        let directory = place.path().join(name);
+        fake.finish(&directory, &[]);
+        directory
+    };
+    let seed = other("seed", &Fake { seed: 5, ..shard("3/3") });
+    let error = refused(&[&all[0], &all[1], &seed]);
+    assert!(error.contains("seed 1 then, 5 now") && error.contains("/seed"), "{error}");
+    let maker = other("maker", &Fake { maker: "2", ..shard("3/3") });
+    assert!(refused(&[&all[0], &all[1], &maker]).contains("--accept-difference"));
+    let of_two = other("of two", &shard("2/2"));
+    assert!(refused(&[&all[0], &all[1], &of_two]).contains("the shard 2/2"));
+    let begun = place.path().join("begun");
+    let watcher = Impatient(AtomicI64::new(4));
+    shard("3/3").run(&begun, &watcher).expect("it can be interrupted");
+    let error = refused(&[&all[0], &all[1], &begun]);
+    assert!(error.contains("4 of 7 cases of the shard 3/3"), "{error}");
+    let journal = all[1].join(JOURNAL_FILE);
+    let bytes = fs::read(&journal).expect("readable");
+    fs::write(&journal, &bytes[..bytes.len() - 1]).expect("writable");
+    assert!(refused(&[&all[0], &all[1], &all[2]]).contains("no whole batch"));
+    fs::write(&journal, &bytes).expect("writable");
+    let with_other = [all[0].clone(), all[1].clone(), maker];
+    merge(&with_other, &out, true, true).expect("it is accepted");
+    assert_eq!(tables(&out), expected(&fake));
+    let again = merge(&with_other, &out, true, true).expect("nothing is done");
+    assert_eq!(again.end, End::WasComplete);
+}

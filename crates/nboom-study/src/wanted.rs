@@ -1,0 +1,232 @@
+//! Results of a run, by their texts.
+
+mod hinge;
+mod motion;
+mod summary;
+
+use nboom_io::SceneFile;
+use nboom_model::{HingeLabel, Material};
+use nboom_results::WorstLoads;
+use nboom_sim::Summary;
+use nboom_tables::Column;
+
+use crate::RunSettings;
+use crate::row::Value;
+pub(crate) use hinge::Happened;
+pub(crate) use motion::Extreme;
+
+/// A number of a run that is wanted in a table, by its text.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    text: String,
+    column: Column,
+    what: What,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum What {
+    /// Of a hinge, by its index.
+    Hinge(hinge::Kind, usize),
+    /// Of a column of the table of states.
+    Motion(Extreme),
+    /// A number of `summary.json`, by its JSON pointer.
+    Summary(String),
+}
+
+/// Which loads a run computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Loads {
+    /// None.
+    None,
+    /// Those of hinges.
+    Hinges,
+    /// Those of hinges and stations, and so stresses.
+    Stations,
+}
+
+/// A text that names no result of a run.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("result `{found}` found, {expected} expected")]
+pub struct UnknownResult {
+    /// The text.
+    pub found: String,
+    /// What would have been right.
+    pub expected: String,
+    /// A result whose text is like it.
+    pub nearest: Option<String>,
+}
+
+/// What a result takes that not every run has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Needs {
+    Nothing,
+    FreeBody,
+    HingeLoads,
+    Stresses,
+    Strengths,
+}
+
+/// What a run has found.
+pub(crate) struct Found<'r> {
+    pub labels: &'r [HingeLabel],
+    pub hinges: &'r [Happened],
+    /// Those of the wanted extremes, in their order.
+    pub extremes: &'r [f64],
+    pub summary: &'r Summary,
+    pub worst: &'r WorstLoads,
+    /// The content of `summary.json`, if [`Wanted::of_summary`] is true of any.
+    pub keys: &'r serde_json::Value,
+}
+
+impl Loads {
+    /// Those that a run of a scene computes with these settings.
+    pub fn of(file: &SceneFile, run: &RunSettings) -> Self {
+        match &file.structure {
+            Some(structure) if run.stresses && structure.has_stations() => Self::Stations,
+            Some(_) if run.stresses => Self::Hinges,
+            _ if run.hinge_loads || file.settings.hinge_loads => Self::Hinges,
+            _ => Self::None,
+        }
+    }
+}
+
+impl Needs {
+    /// What is missing for it, in words.
+    fn missing(self, file: &SceneFile, loads: Loads) -> Option<&'static str> {
+        let (is_there, missing) = match self {
+            Self::Nothing => return None,
+            Self::FreeBody => (!file.scene.base.is_held(), "a main body that moves freely"),
+            Self::HingeLoads => (loads > Loads::None, "a run with loads of hinges"),
+            Self::Stresses => (loads == Loads::Stations, "a run with stresses"),
+            Self::Strengths => {
+                let known = loads == Loads::Stations && has_strengths(file);
+                (known, "a run with stresses, of a material with a yield or ultimate stress")
+            }
+        };
+        (!is_there).then_some(missing)
+    }
+}
+
+fn has_strengths(file: &SceneFile) -> bool {
+    let mut materials = file.structure.iter().flat_map(|structure| structure.materials());
+    materials.any(|Material { yield_stress, ultimate_stress, .. }| {
+        yield_stress.or(*ultimate_stress).is_some()
+    })
+}
+
+impl Wanted {
+    /// The result that a text names, of runs of a scene which compute these loads.
+    ///
+    /// # Errors
+    /// When there is no such result.
+    pub fn named(text: &str, file: &SceneFile, loads: Loads) -> Result<Self, UnknownResult> {
+        let text = text.trim();
+        let found = match (text.split_once(' '), text.split_once(" of ")) {
+            (Some((word, column)), _) if motion::WORDS.contains(&word) => {
+                motion::named(word, column.trim(), file)
+            }
+            (_, Some((word, body))) => hinge::named(word.trim(), body.trim(), file, loads),
+            _ => summary::named(text, file, loads),
+        };
+        match found {
+            Ok((what, column)) => {
+                let column = Column { name: column_name(text), ..column };
+                Ok(Self { text: text.to_owned(), column, what })
+            }
+            Err((expected, nearest)) => {
+                Err(UnknownResult { found: text.to_owned(), expected, nearest })
+            }
+        }
+    }
+
+    /// Those of a study that does not say any: what became of latches, the nutation, conservation, and the
+    /// worst stress and margin; as far as the scene has them.
+    pub fn defaults(file: &SceneFile, loads: Loads) -> Vec<Self> {
+        let latches = file.scene.bodies.iter().zip(file.scene.labels());
+        let latches = latches.filter(|(body, _)| body.hinge.lock_angle.is_some());
+        let names = latches.map(|(_, label)| {
+            let [appendage, segment] = label.numbers();
+            label.name.as_deref().map_or(format!("{appendage},{segment}"), str::to_owned)
+        });
+        let mut texts: Vec<String> = names
+            .flat_map(|name| [format!("lock_time of {name}"), format!("impulse of {name}")])
+            .collect();
+        texts.extend(DEFAULTS.map(str::to_owned));
+        texts.iter().filter_map(|text| Self::named(text, file, loads).ok()).collect()
+    }
+
+    /// The text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Its column in the table of cases.
+    pub fn column(&self) -> &Column {
+        &self.column
+    }
+
+    /// What is to be followed during the run, if it is an extreme of the motion.
+    pub(crate) fn extreme(&self) -> Option<Extreme> {
+        match self.what {
+            What::Motion(extreme) => Some(extreme),
+            _ => None,
+        }
+    }
+
+    /// Whether it is a number of `summary.json`.
+    pub(crate) fn of_summary(&self) -> bool {
+        matches!(self.what, What::Summary(_))
+    }
+
+    /// What a run has found for each of these.
+    pub(crate) fn values(all: &[Self], found: &Found<'_>) -> Vec<Value> {
+        let mut extremes = found.extremes.iter();
+        let value = |wanted: &Self| {
+            let number = match &wanted.what {
+                What::Hinge(kind, hinge) => kind.value(*hinge, found),
+                What::Motion(_) => extremes.next().copied(),
+                What::Summary(pointer) => {
+                    found.keys.pointer(pointer).and_then(serde_json::Value::as_f64)
+                }
+            };
+            match (number, wanted.column.kind) {
+                (None, _) => Value::Empty,
+                (Some(number), nboom_tables::Kind::Integer) => Value::Integer(number as i64),
+                (Some(number), _) => Value::number(number),
+            }
+        };
+        all.iter().map(value).collect()
+    }
+}
+
+const DEFAULTS: [&str; 5] = [
+    "final nutation",
+    "conservation.angular_momentum",
+    "conservation.energy",
+    "verdict.worst_load",
+    "verdict.smallest_margin",
+];
+
+/// What a text stands for, or what is expected instead and what is like it.
+type Named = Result<(What, Column), (String, Option<String>)>;
+
+/// What is refused since something is missing for it.
+fn refused(missing: &str) -> (String, Option<String>) {
+    (missing.to_owned(), None)
+}
+
+/// The name of a column: each run of characters other than letters, digits and `_` becomes one `_`.
+fn column_name(text: &str) -> String {
+    let mut name = String::new();
+    let mut is_inside = true;
+    for c in text.chars() {
+        let fits = c.is_alphanumeric() || c == '_';
+        match (fits, is_inside) {
+            (true, _) => name.push(c),
+            (false, true) => name.push('_'),
+            (false, false) => {}
+        }
+        is_inside = fits;
+    }
+    name
+}

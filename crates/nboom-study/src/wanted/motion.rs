@@ -1,0 +1,72 @@
+//! Columns of the table of states, at the end or at their extremes.
+
+use nboom_io::{SceneFile, nearest};
+use nboom_model::{Column, WantedTable};
+use nboom_results::quantity;
+use nboom_sim::Snapshot;
+
+use super::{Named, What, refused};
+use crate::table::{of_motion, units};
+
+/// What is taken of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Taken {
+    Final,
+    Largest,
+    Smallest,
+}
+
+/// A column of the motion, at the end or at its extreme.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Extreme {
+    taken: Taken,
+    column: Column,
+}
+
+/// What is called so before the name of a column.
+pub(super) const WORDS: [&str; 3] = ["final", "largest", "smallest"];
+
+/// The column with this name, taken as the word says.
+pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {
+    let SceneFile { scene, .. } = file;
+    let columns = Column::named(text, scene.labels(), scene.rotors.len()).map_err(|unknown| {
+        let meant = nearest(text, unknown.known.iter().map(String::as_str));
+        (unknown.expected.to_owned(), meant.map(|name| format!("{word} {name}")))
+    })?;
+    let [column] = columns[..] else {
+        let first = format!("{word} {}", columns[0].name(scene.labels()));
+        return Err(("a single column of states.csv".to_owned(), Some(first)));
+    };
+    if (WantedTable { columns, in_degrees: false }).is_of_held_body() && !scene.base.is_held() {
+        return Err(refused("columns of a main body that moves freely"));
+    }
+    let taken = match word {
+        "largest" => Taken::Largest,
+        "smallest" => Taken::Smallest,
+        _ => Taken::Final,
+    };
+    let head = of_motion(&column, String::new(), scene.labels(), &units(file));
+    let description = match taken {
+        Taken::Final => format!("{}, at the end", head.description),
+        _ => format!("{}, {word} of output times and events", head.description),
+    };
+    let head = nboom_tables::Column { description, ..head };
+    Ok((What::Motion(Extreme { taken, column }), head))
+}
+
+impl Extreme {
+    /// Whether it takes an evaluation of the equations of motion.
+    pub fn needs_detail(&self) -> bool {
+        WantedTable { columns: vec![self.column], in_degrees: false }.needs_detail()
+    }
+
+    /// The value so far, NaN at the start, and that of a snapshot make the next one.
+    pub fn follow(&self, value: &mut f64, snapshot: &Snapshot) {
+        let here = quantity(&self.column, snapshot);
+        *value = match self.taken {
+            Taken::Final => here,
+            Taken::Largest => value.max(here),
+            Taken::Smallest => value.min(here),
+        };
+    }
+}

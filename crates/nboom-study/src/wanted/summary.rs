@@ -1,0 +1,148 @@
+//! Numbers of `summary.json`, by their paths.
+
+use nboom_io::{SceneFile, nearest};
+use nboom_tables::{Column, Kind};
+
+use super::{Loads, Named, Needs, What, refused};
+use crate::table::units;
+
+/// A number of the file.
+struct Key {
+    /// Its path; lists have empty brackets.
+    path: &'static str,
+    /// None of a whole number.
+    unit: Option<&'static str>,
+    needs: Needs,
+    about: &'static str,
+}
+
+const fn count(path: &'static str, about: &'static str) -> Key {
+    Key { path, unit: None, needs: Needs::Nothing, about }
+}
+
+const fn number(path: &'static str, unit: &'static str, about: &'static str) -> Key {
+    Key { path, unit: Some(unit), needs: Needs::Nothing, about }
+}
+
+impl Key {
+    const fn of(self, needs: Needs) -> Self {
+        Self { needs, ..self }
+    }
+}
+
+/// All, in their order in the file; `wall_seconds` is none, since it is another one each time.
+static KEYS: [Key; 47] = [
+    count("degrees_of_freedom", "six, or none of a held main body, and one for each hinge"),
+    number("generated_share", "1", "share of the evaluations by generated code"),
+    number("selections[].since", "T", "when this code took over"),
+    count("selections[].evaluations", "evaluations by this code"),
+    number("integrations[].since", "T", "when this integrator took over"),
+    number("rtol", "1", "relative error allowed in a step"),
+    number("atol", "1", "absolute error allowed in a step"),
+    count("samples", "output times after the initial one"),
+    number("end_time", "T", "time reached"),
+    count("steps_accepted", "steps accepted"),
+    count("steps_rejected", "steps rejected"),
+    count("evaluations", "evaluations of the accelerations"),
+    count("jacobians", "evaluations of the Jacobian"),
+    count("factorizations", "factorisations of iteration matrices"),
+    count("events", "events, the end included"),
+    count("verdict.hinges[].appendage", APPENDAGE),
+    count("verdict.hinges[].segment", SEGMENT),
+    count("verdict.hinges[].state", "at the end: -1 unreleased, 0 free, 1 locked"),
+    number("verdict.hinges[].time", "T", "when it was released or locked for the last time"),
+    number(ANGLE, "rad", "angle or travel at the end"),
+    number("verdict.largest_impulse", "F L T", "magnitude of the largest impulse of a lock-up"),
+    count("verdict.largest_impulse_at.appendage", APPENDAGE),
+    count("verdict.largest_impulse_at.segment", SEGMENT),
+    number("verdict.largest_impulse_at.time", "T", "when the impulse of a lock-up was largest"),
+    number("verdict.largest_impulse_at.impulse", "F L T", "largest impulse of a lock-up"),
+    number("verdict.worst_load", "F/L^2", "largest von Mises stress").of(Needs::Stresses),
+    count("verdict.worst_load_at.appendage", APPENDAGE).of(Needs::Stresses),
+    count("verdict.worst_load_at.segment", SEGMENT).of(Needs::Stresses),
+    count("verdict.worst_load_at.station", STATION).of(Needs::Stresses),
+    number("verdict.worst_load_at.time", "T", "when the stress was largest").of(Needs::Stresses),
+    number("verdict.smallest_margin", "1", "smallest margin").of(Needs::Strengths),
+    count("verdict.smallest_margin_at.appendage", APPENDAGE).of(Needs::Strengths),
+    count("verdict.smallest_margin_at.segment", SEGMENT).of(Needs::Strengths),
+    count("verdict.smallest_margin_at.station", STATION).of(Needs::Strengths),
+    number("verdict.smallest_margin_at.time", "T", "when it was smallest").of(Needs::Strengths),
+    number("verdict.largest_hinge_force", "F", "largest force of a hinge").of(Needs::HingeLoads),
+    count("verdict.largest_hinge_force_at.appendage", APPENDAGE).of(Needs::HingeLoads),
+    count("verdict.largest_hinge_force_at.segment", SEGMENT).of(Needs::HingeLoads),
+    number("verdict.largest_hinge_force_at.time", "T", LOAD_TIME).of(Needs::HingeLoads),
+    number("verdict.largest_hinge_moment", "F L", "largest moment of a hinge")
+        .of(Needs::HingeLoads),
+    count("verdict.largest_hinge_moment_at.appendage", APPENDAGE).of(Needs::HingeLoads),
+    count("verdict.largest_hinge_moment_at.segment", SEGMENT).of(Needs::HingeLoads),
+    number("verdict.largest_hinge_moment_at.time", "T", LOAD_TIME).of(Needs::HingeLoads),
+    number("conservation.linear_momentum", "1", "residual of linear momentum").of(Needs::FreeBody),
+    number("conservation.angular_momentum", "1", "residual of angular momentum")
+        .of(Needs::FreeBody),
+    number("conservation.energy", "1", "residual of energy"),
+    number("attitude_drift", "1", "how far from 1 the norm of the attitude has been"),
+];
+
+const APPENDAGE: &str = "appendage of the hinge, from 1";
+const SEGMENT: &str = "segment of the hinge, from 1";
+const STATION: &str = "station of the segment, from 1";
+const LOAD_TIME: &str = "when the load was largest";
+const ANGLE: &str = "verdict.hinges[].angle";
+/// Followed by a name.
+const PARAMETER: &str = "parameters.";
+
+/// The number with this path.
+pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
+    if text == "wall_seconds" {
+        return Err(refused("a number that is the same each time"));
+    }
+    if let Some(name) = text.strip_prefix(PARAMETER) {
+        return parameter(name, file);
+    }
+    let unknown = || {
+        let expected = "`lock_time of HINGE` and the like, `final COLUMN`, `largest COLUMN`, \
+             `smallest COLUMN` or the path of a number of summary.json";
+        let meant = nearest(text, KEYS.iter().map(|key| key.path));
+        (expected.to_owned(), meant.map(|path| path.replace("[]", "[1]")))
+    };
+    let (pattern, number) = in_list(text).ok_or_else(unknown)?;
+    let key = KEYS.iter().find(|key| key.path == pattern).ok_or_else(unknown)?;
+    let hinges = file.scene.labels();
+    let label = number.filter(|_| pattern.starts_with("verdict.hinges")).map(|n| hinges.get(n));
+    if label == Some(None) {
+        return Err((format!("a hinge from 1 to {}", hinges.len()), None));
+    }
+    if let Some(missing) = key.needs.missing(file, loads) {
+        return Err(refused(missing));
+    }
+    let slides = label.flatten().is_some_and(|label| label.joint.slides());
+    let unit = key.unit.map(|unit| if slides && pattern == ANGLE { "L" } else { unit });
+    let kind = if unit.is_some() { Kind::Number } else { Kind::Integer };
+    let pointer = match number {
+        Some(number) => pattern.replace("[]", &format!(".{number}")),
+        None => pattern,
+    };
+    let column = Column::new("", kind, key.about);
+    let unit = unit.map(|unit| units(file).label(unit));
+    let body = label.flatten().and_then(|label| label.name.as_deref()).map(str::to_owned);
+    Ok((What::Summary(format!("/{}", pointer.replace('.', "/"))), Column { unit, body, ..column }))
+}
+
+/// The parameter with this name.
+fn parameter(name: &str, file: &SceneFile) -> Named {
+    let names = || file.settings.parameters.iter().map(|(name, _)| name.as_str());
+    if names().any(|known| known == name) {
+        let column = Column::new("", Kind::Number, "parameter of the scene");
+        return Ok((What::Summary(format!("/parameters/{name}")), column));
+    }
+    let meant = nearest(name, names()).map(|name| format!("{PARAMETER}{name}"));
+    Err(("a parameter of the scene".to_owned(), meant))
+}
+
+/// A path with empty brackets in place of `[number]`, and the number from 0; `None` if it is no path.
+fn in_list(text: &str) -> Option<(String, Option<usize>)> {
+    let Some((before, rest)) = text.split_once('[') else { return Some((text.to_owned(), None)) };
+    let (number, after) = rest.split_once(']')?;
+    let number = number.parse::<usize>().ok()?.checked_sub(1)?;
+    Some((format!("{before}[]{after}"), Some(number)))
+}

@@ -1,0 +1,330 @@
+//! Studies as files: what is read, and what is told about those that are wrong.
+
+use std::fs;
+use std::path::Path;
+
+use nboom_io::InputError;
+use nboom_study::{Distribution, LateRelease, Method, Relation, Study, schema};
+use proptest::prelude::*;
+use tempfile::TempDir;
+
+const SCENE: &str = r#"
+[run]
+end = 10.0
+
+[parameters]
+k = 2.0
+
+[main_body]
+mass = 100.0
+inertia = [40.0, 30.0, 20.0]
+
+[[body]]
+name = "boom"
+mass = 3.0
+mass_centre = [1.0, 0.0, 0.0]
+inertia = [0.1, 1.0, 1.0]
+
+[body.hinge]
+at = [0.5, 0.0, 0.1]
+axis = "z"
+start_deg = 90.0
+release = { at = 1.0 }
+latch_deg = 0.0
+spring = { stiffness = "$k", rest_deg = -10.0 }
+
+[[body]]
+name = "tip"
+on = "boom"
+mass = 1.0
+mass_centre = [1.0, 0.0, 0.0]
+inertia = [0.1, 1.0, 1.0]
+
+[body.hinge]
+at = [2.0, 0.0, 0.0]
+axis = "z"
+release = { when = "boom", passes_deg = 45.0 }
+"#;
+
+const STUDY: &str = r#"scene = "scene.toml"
+name = "all of it"
+seed = 7
+method = "monte_carlo"
+draws = 20
+results = ["lock_time of boom", "final omega_z"]
+trajectories = true
+
+[run]
+rtol = 1e-8
+integrator = "dop853"
+samples = 10
+end_time = 5.0
+
+[[vary]]
+name = "k"
+path = "parameters.k"
+as = "factor"
+normal = { mean = 1.0, deviation = 0.1, from = 0.5 }
+
+[[vary]]
+paths = ["body.tip.mass", "body.boom.mass"]
+log_normal = { median = 1.0, sigma = 0.2 }
+
+[[vary]]
+name = "spin"
+path = "main_body.mass"
+values = [100.0, 110.0]
+weights = [3, 1]
+
+[[correlation]]
+between = ["k", "body_tip_mass"]
+coefficient = -0.4
+
+[[fault]]
+name = "late"
+late_release = { hinge = "boom", by = 0.5 }
+change = [{ path = "body.tip.mass", offset = 0.1 }]
+
+[[fault]]
+name = "stuck"
+stuck = ["1,2"]
+missed_release = ["boom"]
+failed_latch = ["boom"]
+broken_spring = ["boom"]
+"#;
+
+fn place(study: &str) -> TempDir {
+    let place = tempfile::tempdir().expect("a directory");
+    fs::write(place.path().join("scene.toml"), SCENE).expect("writable");
+    fs::write(place.path().join("study.toml"), study).expect("writable");
+    place
+}
+
+fn read(study: &str) -> Result<Study, InputError> {
+    Study::read(&place(study).path().join("study.toml"))
+}
+
+#[test]
+fn a_study_is_read_as_it_says() {
+    let study = read(STUDY).expect("right");
+    assert_eq!((study.name.as_str(), study.seed, study.draws), ("all of it", 7, 20));
+    assert_eq!((study.method, study.trajectories, study.cases()), (Method::MonteCarlo, true, 60));
+    let names: Vec<_> = study.variables.iter().map(|variable| variable.name.as_str()).collect();
+    assert_eq!(names, ["k", "body_tip_mass", "spin"]);
+    let [k, masses, spin] = &study.variables[..] else { panic!("three") };
+    let (from, to) = (0.5, f64::INFINITY);
+    assert_eq!(k.distribution, Distribution::Normal { mean: 1.0, deviation: 0.1, from, to });
+    assert_eq!((k.relation, masses.relation), (Relation::Factor, Relation::Value));
+    assert_eq!((masses.slots.len(), study.document.number(&masses.slots[0])), (2, 1.0));
+    let (values, weights) = (vec![100.0, 110.0], vec![3.0, 1.0]);
+    assert_eq!(spin.distribution, Distribution::Values { values, weights });
+    assert_eq!(study.correlations[0].between, [0, 1]);
+    assert_eq!(study.faults[0].late_release, [LateRelease { hinge: 0, by: 0.5 }]);
+    assert_eq!(study.faults[0].changes[0].relation, Relation::Offset);
+    assert_eq!(
+        (&study.faults[1].stuck[..], &study.faults[1].broken_spring[..]),
+        (&[1][..], &[0][..])
+    );
+    assert_eq!((study.run.rtol, study.run.samples), (Some(1e-8), Some(10)));
+    assert!(study.run.stresses && !study.run.hinge_loads);
+    let texts: Vec<_> = study.wanted.iter().map(|wanted| wanted.text()).collect();
+    assert_eq!(texts, ["lock_time of boom", "final omega_z"]);
+}
+
+#[test]
+fn grids_have_points_and_names_of_files() {
+    let study = "scene = 'scene.toml'\nmethod = 'grid'\n[[vary]]\npath = 'parameters.k'\n\
+                 uniform = { from = 1, to = 2 }\npoints = 3\n";
+    let study = read(study).expect("right");
+    assert_eq!((study.name.as_str(), study.cases()), ("study", 3));
+    let values: Vec<_> = (1..=3).map(|case| study.case(case).values[0]).collect();
+    assert_eq!(values, [1.0, 1.5, 2.0]);
+}
+
+/// Each wrong study: what is replaced in the right one, and line and words of the message.
+#[test]
+fn what_is_wrong_is_told_with_its_line() {
+    for (from, to, line, words) in [
+        ("draws = 20", "drawz = 20", 5, "did you mean `draws`"),
+        ("draws = 20", "draws = 0", 5, "a whole number from 1 to 1000000000"),
+        ("draws = 20", "draws = 2.5", 5, "a whole number"),
+        ("draws = 20\n", "", 1, "how many draws"),
+        ("seed = 7", "seed = -7", 3, "a whole number from 0"),
+        ("monte_carlo", "montecarlo", 4, "did you mean `monte_carlo`"),
+        ("\"all of it\"", "\"../it\"", 2, "the name of a folder"),
+        ("final omega_z", "final omega_q", 6, "omega"),
+        ("final omega_z", "lock_time of boon", 6, "boom"),
+        ("final omega_z", "verdict.worst_load", 6, "a run with stresses"),
+        ("trajectories = true", "trajectories = 1", 7, "true or false"),
+        ("rtol = 1e-8", "rtol = 2.0", 9, "1e-14 to below 1"),
+        ("dop853", "dop85", 11, "did you mean `dop853`"),
+        ("end_time = 5.0", "end_time = -5.0", 9, "a time after the start"),
+        ("parameters.k", "parameters.kk", 17, "`parameters.kk`"),
+        ("body.tip.mass\", \"", "body.tip.masss\", \"", 22, "did you mean `body.tip.mass`"),
+        ("as = \"factor\"", "as = \"times\"", 18, "one of value, factor, offset"),
+        ("deviation = 0.1", "deviation = 0.0", 19, "a number above zero"),
+        ("from = 0.5", "from = inf", 19, "a number"),
+        ("sigma = 0.2", "sigma = 0.2, to = -1.0", 23, "above that of `from`"),
+        ("log_normal", "lognormal", 23, "did you mean `log_normal`"),
+        ("weights = [3, 1]", "weights = [3]", 28, "as many numbers as `values`"),
+        ("weights = [3, 1]", "weights = [0, 0]", 28, "a finite sum above zero"),
+        ("weights = [3, 1]", "points = 3", 29, "it with `uniform`, in a grid"),
+        ("name = \"spin\"", "name = \"k\"", 26, "a name that no other column has"),
+        ("name = \"spin\"", "name = \"case\"", 26, "nor case, seed, fault or status"),
+        ("name = \"spin\"", "name = \"2 spins\"", 26, "letters, digits and _"),
+        ("[\"k\", ", "[\"q\", ", 32, "the name of a variable"),
+        ("[\"k\", ", "[\"body_tip_mass\", ", 32, "two variables"),
+        ("-0.4", "-1.0", 33, "above -1 and below 1"),
+        ("hinge = \"boom\"", "hinge = \"bom\"", 37, "did you mean `boom`"),
+        ("hinge = \"boom\"", "hinge = \"tip\"", 35, "one by time expected"),
+        ("by = 0.5", "by = -0.5", 37, "a number above zero"),
+        ("offset = 0.1", "offset = 0.1, factor = 2.0", 38, "one of value, factor, offset"),
+        ("stuck = [\"1,2\"]", "stuck = [\"1,3\"]", 42, "by the name of its body or by its numbers"),
+        ("name = \"late\"", "name = \"stuck\"", 35, "each name once"),
+        ("scene = \"scene.toml\"\n", "", 1, "a text"),
+    ] {
+        assert!(STUDY.contains(from), "{from}");
+        let text = STUDY.replacen(from, to, 1);
+        match read(&text) {
+            Err(InputError::Content(errors)) => {
+                let told: Vec<String> = errors.iter().map(ToString::to_string).collect();
+                let is_told = |(error, told): (&nboom_io::Diagnostic, &String)| {
+                    error.line == line && told.contains(words)
+                };
+                assert!(errors.iter().zip(&told).any(is_told), "{to}: {told:#?}");
+                assert!(errors.len() <= 3, "{to}: {told:#?}");
+            }
+            other => panic!("{to}: {:?}", other.map(|study| study.name)),
+        }
+    }
+}
+
+#[test]
+fn several_mistakes_are_told_at_once() {
+    let text = STUDY.replace("seed = 7", "sead = 7").replace("sigma = 0.2", "sigma = -0.2");
+    let Err(InputError::Content(errors)) = read(&text) else { panic!("wrong") };
+    let lines: Vec<usize> = errors.iter().map(|error| error.line).collect();
+    assert_eq!(lines, [3, 23]);
+}
+
+#[test]
+fn what_cannot_be_planned_is_told() {
+    for (method, more, words) in [
+        ("grid", "uniform = { from = 0, to = 1 }", "points"),
+        (
+            "grid",
+            "uniform = { from = 0, to = 1 }\npoints = 1000000000\n[[vary]]\npath = 'main_body.mass'\nuniform = { from = 1, to = 2 }\npoints = 10",
+            "at most 1000000000",
+        ),
+        (
+            "grid",
+            "values = [1]\n[[correlation]]\nbetween = ['parameters_k', 'parameters_k']\ncoefficient = 0.1",
+            "a grid",
+        ),
+    ] {
+        let text = format!(
+            "scene = 'scene.toml'\nmethod = '{method}'\n[[vary]]\npath = 'parameters.k'\n{more}\n"
+        );
+        let refused = read(&text).expect_err(words).to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
+    let pairs = [("a", "b", 0.9), ("b", "c", 0.9), ("a", "c", -0.9)];
+    let mut text = "scene = 'scene.toml'\ndraws = 5\n".to_owned();
+    for (name, path) in [("a", "parameters.k"), ("b", "main_body.mass"), ("c", "body.tip.mass")] {
+        text += &format!(
+            "[[vary]]\nname = '{name}'\npath = '{path}'\nuniform = {{ from = 1, to = 2 }}\n"
+        );
+    }
+    for (a, b, coefficient) in pairs {
+        text +=
+            &format!("[[correlation]]\nbetween = ['{a}', '{b}']\ncoefficient = {coefficient}\n");
+    }
+    let refused = read(&text).expect_err("impossible").to_string();
+    assert!(refused.contains("positive definite") && refused.contains("a, b, c"), "{refused}");
+    let refused =
+        read("scene = 'scene.toml'\ndraws = 5\n").expect_err("nothing varies").to_string();
+    assert!(refused.contains("vary"), "{refused}");
+}
+
+#[test]
+fn files_that_are_none_are_refused() {
+    let place = place(STUDY);
+    let refused = |name: &str| Study::read(&place.path().join(name)).expect_err(name).to_string();
+    assert!(refused("nowhere.toml").contains("nowhere.toml"));
+    assert!(refused(".").contains("directory"));
+    fs::write(place.path().join("binary.toml"), b"scene = \0").expect("writable");
+    assert!(refused("binary.toml").contains("zero byte"));
+    let other = STUDY.replace("scene.toml", "missing.toml");
+    fs::write(place.path().join("other.toml"), other).expect("writable");
+    assert!(refused("other.toml").contains("missing.toml"));
+    fs::write(place.path().join("half.toml"), "scene = \"scene.toml").expect("writable");
+    assert!(refused("half.toml").contains("half.toml:1:"));
+}
+
+/// As an editor sees a study.
+fn as_json(study: &str) -> serde_json::Value {
+    let table: toml::Table = study.parse().expect("TOML");
+    serde_json::to_value(table).expect("JSON")
+}
+
+#[test]
+fn the_schema_takes_what_is_read_and_no_other_keys() {
+    let schema = schema();
+    assert!(jsonschema::is_valid(&schema, &as_json(STUDY)));
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/studies");
+    for entry in fs::read_dir(examples).expect("there are studies") {
+        let path = entry.expect("a file").path();
+        let text = fs::read_to_string(&path).expect("a text");
+        assert!(jsonschema::is_valid(&schema, &as_json(&text)), "{}", path.display());
+        Study::read(&path).unwrap_or_else(|error| panic!("{error}"));
+    }
+    for (from, to) in [
+        ("draws", "drawz"),
+        ("deviation", "sigma"),
+        ("seed = 7", "seed = -7"),
+        ("monte_carlo", "dice"),
+        ("by = 0.5", "by = '0.5'"),
+    ] {
+        let wrong = as_json(&STUDY.replacen(from, to, 1));
+        assert!(!jsonschema::is_valid(&schema, &wrong), "{to}");
+    }
+}
+
+/// All keys below a part of the schema.
+fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
+    for (name, inner) in schema["properties"].as_object().into_iter().flatten() {
+        found.push(name.clone());
+        keys(inner, found);
+        keys(&inner["items"], found);
+        inner["anyOf"].as_array().into_iter().flatten().for_each(|one| keys(one, found));
+    }
+}
+
+#[test]
+fn the_page_of_studies_has_all_keys() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/studies.md");
+    let page = fs::read_to_string(page).expect("a page");
+    let mut found = Vec::new();
+    keys(&schema(), &mut found);
+    assert!(found.len() > 40, "{found:?}");
+    let words: Vec<&str> = page.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    for key in found {
+        assert!(words.contains(&key.as_str()), "{key}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    /// Whatever stands there, it is read or refused.
+    #[test]
+    fn mutated_studies_do_not_panic(at in 0.0..1.0_f64, cut in 0_usize..12, piece in "[ -~é\n\t]{0,6}") {
+        // It is ASCII.
+        let start = (at * STUDY.len() as f64) as usize;
+        let end = (start + cut).min(STUDY.len());
+        let text = [&STUDY[..start], &piece, &STUDY[end..]].concat();
+        if let Err(InputError::Content(errors)) = read(&text) {
+            prop_assert!(errors.iter().all(|error| !error.drawn().is_empty()));
+        }
+    }
+}

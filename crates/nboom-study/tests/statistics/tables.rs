@@ -1,0 +1,117 @@
+//! Whole tables: faults, latches, cases that did not run, tables that are too long.
+
+use nboom_study::statistics::{Extreme, Role, Statistics, Summary};
+use nboom_tables::Cell;
+
+use crate::{field, uniform};
+
+fn table() -> Statistics {
+    let lock_time = "lock_time of panel +x";
+    Statistics::new(vec![
+        field("case", Role::Case),
+        field("seed", Role::Seed),
+        field("fault", Role::Fault),
+        field("spring", Role::Variable),
+        field(lock_time, Role::Result),
+        field("status", Role::Status),
+    ])
+}
+
+/// A table of draws, each without fault and with a fault in which the hinge never latches; without it the hinge
+/// latches at twice the variable, but in every tenth draw not at all.
+fn two_by_two(draws: u64) -> Summary {
+    let mut statistics = table();
+    for (draw, spring) in (0..draws).zip(uniform(11)) {
+        let head = |case: u64| [Cell::Integer(case as i64), Cell::Integer(draw as i64 + 77)];
+        let time = if draw % 10 == 9 { Cell::Empty } else { Cell::Number(2.0 * spring) };
+        let [case, seed] = head(2 * draw + 1);
+        let spring = Cell::Number(spring);
+        statistics.row(&[case, seed, Cell::Empty, spring, time, Cell::Text("ok")]);
+        let [case, seed] = head(2 * draw + 2);
+        let fault = Cell::Text("stuck");
+        statistics.row(&[case, seed, fault, spring, Cell::Empty, Cell::Text("ok")]);
+    }
+    statistics.finish()
+}
+
+#[test]
+fn faults_stand_apart_and_empty_cells_are_hinges_that_never_latch() {
+    let found = two_by_two(1000);
+    assert_eq!(found.faults, ["stuck"]);
+    let [latch] = &found.latches[..] else { panic!("one hinge") };
+    assert_eq!(latch.hinge, "panel +x");
+    let ends: Vec<_> = latch.by_end.iter().map(|end| (end.count, end.of)).collect();
+    assert_eq!(ends, [(900, 1000), (0, 1000)]);
+    for at in &latch.times {
+        // Nine in ten of the cases in which twice a uniform number is below the time.
+        let share = 0.9 * 0.5 * at.time;
+        let off = 4.5 * (share * (1.0 - share) / 1000.0).sqrt() + 1e-3;
+        assert!((at.latched.count as f64 / 1000.0 - share).abs() < off, "{at:?}");
+        assert!(at.latched.low <= at.latched.count as f64 / 1000.0);
+    }
+    let time = &found.columns[1];
+    assert_eq!((time.spreads[0].count, time.spreads[1].count), (900, 0));
+    let [driver] = time.drivers[..] else { panic!("one variable") };
+    assert_eq!((driver.variable, driver.coefficient), (0, 1.0));
+    assert_eq!(time.histogram.as_ref().expect("times").counts.iter().sum::<u64>(), 900);
+}
+
+#[test]
+fn a_long_table_has_counts_and_extremes_of_all_rows_and_percentiles_of_a_share() {
+    let draws = 150_000;
+    let found = two_by_two(draws);
+    assert_eq!(found.counts.cases, 2 * draws);
+    assert_eq!(found.share, 2);
+    assert!(found.held <= 200_000 && found.held > 140_000, "{}", found.held);
+    assert_eq!(found.latches[0].by_end[0].count, draws / 10 * 9);
+    let spring = &found.columns[0];
+    let numbers: Vec<f64> = uniform(11).take(draws as usize).collect();
+    let largest = numbers.iter().copied().fold(0.0, f64::max);
+    let draw = numbers.iter().position(|x| *x == largest).expect("itself") as u64;
+    assert_eq!(spring.largest[0], Extreme { case: 2 * draw + 1, fault: 0, value: largest });
+    assert_eq!(spring.largest[1], Extreme { case: 2 * draw + 2, fault: 1, value: largest });
+    for one in &spring.spreads[0].percentiles {
+        let p = one.percent / 100.0;
+        assert!((one.value - p).abs() < 4.5 * (p * (1.0 - p) / 70_000.0).sqrt(), "{one:?}");
+    }
+    assert_eq!(found.points.cases.len(), 2000);
+    assert!(found.points.cases.is_sorted());
+    for i in 0..2000 {
+        let draw = (found.points.cases[i] - 1) / 2;
+        let value = found.points.values[0][i].expect("a number");
+        assert!((value - numbers[draw as usize]).abs() < 1e-5 * numbers[draw as usize]);
+    }
+}
+
+#[test]
+fn cases_that_did_not_run_are_counted_and_listed_and_no_part_of_anything_else() {
+    let mut statistics = table();
+    for case in 1..=300 {
+        let status = match case % 3 {
+            0 => "ok",
+            1 => "rejected: mass of panel +x: -1 found, a positive number expected",
+            _ => "failed: step too small at t = 2",
+        };
+        let number = Cell::Number(f64::from(case));
+        let case = Cell::Integer(case.into());
+        statistics.row(&[case, case, Cell::Empty, number, number, Cell::Text(status)]);
+    }
+    let found = statistics.finish();
+    let counts = found.counts;
+    assert_eq!((counts.cases, counts.ok, counts.rejected, counts.failed), (300, 100, 100, 100));
+    assert_eq!(found.troubles.len(), 100);
+    assert_eq!(found.troubles[99].case, 149);
+    assert_eq!(found.columns[1].spreads[0].count, 100);
+    assert_eq!(
+        found.columns[1].smallest.iter().map(|one| one.case).collect::<Vec<_>>(),
+        [3, 6, 9, 12, 15]
+    );
+    assert_eq!(found.latches[0].by_end[0].of, 100);
+}
+
+#[test]
+fn statistics_are_read_back_as_they_were_written() {
+    let found = two_by_two(50);
+    let text = serde_json::to_string(&found).expect("numbers and texts");
+    assert_eq!(serde_json::from_str::<Summary>(&text).expect("the same"), found);
+}
