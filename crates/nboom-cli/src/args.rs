@@ -5,12 +5,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use nboom_model::UnitSystem;
 use nboom_sim::{Form, Method, Reference};
 
+use crate::{
+    BenchArgs, ConvertArgs, Given, MergeArgs, PlotArgs, ReportArgs, SceneArgs, SchemaArgs,
+    SectionArgs, SlipArgs, StressArgs, SweepArgs, TableArgs, TablesArgs, choice, examples,
+};
 #[cfg(feature = "generator")]
 use crate::{CompileArgs, CompletionsArgs, GenerateArgs, ManArgs, NewArgs};
-use crate::{
-    ConvertArgs, Given, PlotArgs, ReportArgs, SceneArgs, SlipArgs, StressArgs, TableArgs,
-    TablesArgs, choice, examples,
-};
 
 /// Simulates spacecraft that unfold.
 #[derive(Debug, Parser)]
@@ -33,6 +33,21 @@ pub enum Command {
     /// own, into -o or the directory's name with -repeated.
     #[command(after_help = examples::RUN)]
     Run(Box<RunArgs>),
+    /// Run a scene many times with varied numbers.
+    ///
+    /// STUDY is a file that says which numbers of a scene vary and how, what may be broken, and what is wanted
+    /// of each run; docs/studies.md says how. Writes cases.parquet, a row for each case, study.json,
+    /// statistics.json, report.html with histograms, drivers and chances, and the runs of the worst cases.
+    /// A case that cannot be run is a row with the reason. Each batch of finished cases is safe on the
+    /// disk: a sweep that was killed goes on with --resume, and ends with the same table. Results depend neither on
+    /// --jobs nor on --shard.
+    #[command(after_help = examples::SWEEP)]
+    Sweep(SweepArgs),
+    /// Put the shards of a sweep together.
+    ///
+    /// DIR are the directories of all shards, each finished. The table and the page are those of a sweep in one go.
+    #[command(after_help = examples::MERGE)]
+    Merge(MergeArgs),
     /// Make the page of a run from its files, or one page that compares several runs.
     ///
     /// The page of a run is report.html in its directory; it needs a browser and no network. Of a run that is
@@ -90,9 +105,9 @@ pub enum Command {
     /// cannot is named, with the reason.
     #[command(after_help = examples::CONVERT)]
     Convert(ConvertArgs),
-    /// Print the JSON schema of scenes, for editors.
+    /// Print the JSON schema of scenes or studies, for editors.
     #[command(after_help = examples::SCHEMA)]
-    Schema,
+    Schema(SchemaArgs),
     /// List formulations, integrators, laws, joints, outputs and stock routines.
     #[command(after_help = examples::LIST)]
     List,
@@ -158,6 +173,12 @@ pub struct RunArgs {
     /// Directory for the results, created if needed; by default out/ and the scene's name.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+
+    /// SCENE is a study, and this the number of its case, from 1: the run that nboom sweep makes of it, bit for
+    /// bit, by the options of the study. By default into out/, the study's name, -case- and the number.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..),
+          allow_negative_numbers = true)]
+    pub case: Option<u64>,
 
     /// Output times after the initial one, uniform to the end time; they never change the steps. By
     /// default as many as the scene says, or 200.
@@ -285,49 +306,6 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "T", default_value = "1e-11", value_parser = choice::positive,
           allow_negative_numbers = true)]
     pub tol: f64,
-}
-
-/// Options of `nboom bench`.
-#[derive(Args, Debug)]
-pub struct BenchArgs {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
-
-    /// Print an array of objects in JSON instead of a table.
-    #[arg(long, conflicts_with = "harness")]
-    pub json: bool,
-
-    /// Print a line of words and numbers for each code instead of a table.
-    #[arg(long)]
-    pub harness: bool,
-
-    /// Instead, time whole runs against their error: every code that covers the scene with every
-    /// integrator at relative tolerances from 1e-3 to 1e-14. Runs are of a prepared simulator; the table
-    /// tells the time of preparing it by itself. Writes work-precision.csv and .svg.
-    #[arg(long, conflicts_with_all = ["json", "harness"])]
-    pub work_precision: bool,
-
-    /// Directory for these files; by default out/ and the scene's name.
-    #[arg(short, long, value_name = "DIR", requires = "work_precision")]
-    pub output: Option<PathBuf>,
-
-    /// Seconds for each code, with --work-precision for each code and integrator.
-    #[arg(long, value_name = "S", default_value = "0.3", value_parser = choice::positive,
-          allow_negative_numbers = true)]
-    pub seconds: f64,
-}
-
-/// Options of `nboom section`.
-#[derive(Args, Debug)]
-pub struct SectionArgs {
-    /// JSON file of sections.
-    #[arg(value_name = "FILE")]
-    pub sections: PathBuf,
-
-    /// File for the answer, in JSON, its folder created if needed; by default standard output.
-    #[arg(short, long, value_name = "OUT")]
-    pub output: Option<PathBuf>,
 }
 
 /// Which code computes the accelerations.

@@ -1,7 +1,9 @@
 use std::fmt::Write;
 use std::hint::black_box;
+use std::path::PathBuf;
 use std::time::Instant;
 
+use clap::Args;
 use nboom_formulation::{Recognised, symmetric};
 use nboom_scalar::{Batch, Eight};
 use nboom_verify::{ComparedCode, Label, TestCase};
@@ -9,7 +11,38 @@ use nboom_verify::{ComparedCode, Label, TestCase};
 use crate::format::{code_columns, code_head, not_covered, routine_topology};
 use crate::run::default_directory;
 use crate::work_precision::work_precision;
-use crate::{BenchArgs, CliError, Routines, check};
+use crate::{CliError, Routines, SceneArgs, check, choice};
+
+/// Options of `nboom bench`.
+#[derive(Args, Debug)]
+pub struct BenchArgs {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Print an array of objects in JSON instead of a table.
+    #[arg(long, conflicts_with = "harness")]
+    pub json: bool,
+
+    /// Print a line of words and numbers for each code instead of a table.
+    #[arg(long)]
+    pub harness: bool,
+
+    /// Instead, time whole runs against their error: every code that covers the scene with every
+    /// integrator at relative tolerances from 1e-3 to 1e-14. Runs are of a prepared simulator; the table
+    /// tells the time of preparing it by itself. Writes work-precision.csv and .svg.
+    #[arg(long, conflicts_with_all = ["json", "harness"])]
+    pub work_precision: bool,
+
+    /// Directory for these files; by default out/ and the scene's name.
+    #[arg(short, long, value_name = "DIR", requires = "work_precision")]
+    pub output: Option<PathBuf>,
+
+    /// Seconds for each code, with --work-precision for each code and integrator.
+    #[arg(long, value_name = "S", default_value = "0.3", value_parser = choice::positive,
+          allow_negative_numbers = true)]
+    pub seconds: f64,
+}
 
 /// Different states, so that the processor cannot learn one.
 const STATES: usize = 64;

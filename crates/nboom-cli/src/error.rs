@@ -12,7 +12,7 @@ use nboom_strength::StrengthError;
 use nboom_tables::TablesError;
 use nboom_verify::VerifyError;
 
-use crate::SectionFileError;
+use crate::{CaseError, SectionFileError, SweepError};
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -152,6 +152,12 @@ pub enum CliError {
     /// The results cannot be written.
     #[error(transparent)]
     Results(#[from] ResultsError),
+    /// A case of a study cannot be run.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// A sweep is refused, or could not be finished.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     /// There is nothing to make a page of.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -265,6 +271,8 @@ impl CliError {
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,
             Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
+            Self::Case(_) => 2,
+            Self::Sweep(error) => error.exit_code(),
             Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
             Self::Tables(error) if error.is_of_input() => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,

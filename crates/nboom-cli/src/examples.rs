@@ -17,7 +17,17 @@ pub(crate) const RUN: &str = "\
 Examples:
   nboom run wing.toml
   nboom run wing.toml --degrees --columns beta,omega --times 0.5,1,2.5 -o few
-  nboom run few/run.json --rtol 1e-12  # the same again, more exactly, into few-repeated";
+  nboom run few/run.json --rtol 1e-12  # the same again, more exactly, into few-repeated
+  nboom run springs.toml --case 7  # a case of a study, see nboom sweep";
+
+pub(crate) const SWEEP: &str = "\
+Examples:
+  nboom sweep springs.toml
+  nboom sweep springs.toml -o first --shard 1/2 && nboom sweep springs.toml -o second --shard 2/2";
+
+pub(crate) const MERGE: &str = "\
+Examples:
+  nboom merge first second -o both";
 
 pub(crate) const REPORT: &str = "\
 Examples:
@@ -53,7 +63,8 @@ Examples:
 
 pub(crate) const SCHEMA: &str = "\
 Examples:
-  nboom schema > scene.schema.json";
+  nboom schema > scene.schema.json
+  nboom schema study > study.schema.json";
 
 pub(crate) const LIST: &str = "\
 Examples:

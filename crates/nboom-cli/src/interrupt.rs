@@ -27,6 +27,14 @@ impl Interrupt {
     /// From now on the first such signal is only noted. The program ends if it does not react
     /// within a second; the second signal ends it at once.
     pub(crate) fn watch() -> Result<Self, CliError> {
+        let interrupt = Self::patient()?;
+        let (came, shield) = (interrupt.came.clone(), Arc::downgrade(&interrupt.shield));
+        thread::spawn(move || insist(&came, &shield));
+        Ok(interrupt)
+    }
+
+    /// As [`watch`](Self::watch), but the program may take its time to react.
+    pub(crate) fn patient() -> Result<Self, CliError> {
         let interrupt = Self { came: Arc::default(), shield: Arc::default() };
         for signal in [SIGINT, SIGTERM] {
             // The order matters: the first signal must find that none has come.
@@ -34,8 +42,6 @@ impl Interrupt {
                 .and_then(|_| flag::register(signal, interrupt.came.clone()))
                 .map_err(CliError::Signals)?;
         }
-        let (came, shield) = (interrupt.came.clone(), Arc::downgrade(&interrupt.shield));
-        thread::spawn(move || insist(&came, &shield));
         Ok(interrupt)
     }
 

@@ -16,6 +16,7 @@
 
 mod args;
 mod bench;
+mod case;
 mod certify;
 mod check;
 mod choice;
@@ -35,6 +36,7 @@ mod interrupt;
 mod list;
 #[cfg(feature = "generator")]
 mod man;
+mod merge;
 #[cfg(feature = "generator")]
 mod new;
 mod output;
@@ -49,12 +51,15 @@ mod repeat;
 mod report;
 mod run;
 mod scene_args;
+mod schema;
 mod section;
 mod section_answer;
 mod section_file;
 mod simulator;
 mod slips;
 mod stresses;
+mod sweep;
+mod sweep_account;
 mod table_args;
 mod tables;
 mod terminal;
@@ -67,7 +72,9 @@ use std::process::ExitCode;
 
 use nboom_scalar::{Batch, Kernel};
 
-pub use args::{BenchArgs, CheckArgs, Cli, Command, PathChoice, RunArgs, SectionArgs, VerifyArgs};
+pub use args::{CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
+pub use bench::BenchArgs;
+pub use case::CaseError;
 pub use choice::ChoiceError;
 #[cfg(feature = "generator")]
 pub use compile::CompileArgs;
@@ -80,16 +87,20 @@ pub use generate::GenerateArgs;
 pub use given::Given;
 #[cfg(feature = "generator")]
 pub use man::ManArgs;
+pub use merge::MergeArgs;
 #[cfg(feature = "generator")]
 pub use new::{Kind, NewArgs};
 pub use plots::PlotArgs;
 pub use reference::reference;
 pub use report::ReportArgs;
 pub use scene_args::SceneArgs;
+pub use schema::{SchemaArgs, SchemaKind};
+pub use section::SectionArgs;
 pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 pub use slips::SlipArgs;
 pub use stresses::StressArgs;
+pub use sweep::{SweepArgs, SweepError, SweepOutputs};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
 pub use terminal::refuse;
@@ -134,7 +145,9 @@ pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
         #[cfg(feature = "generator")]
         Command::New(args) => new::new(args),
         Command::Convert(args) => convert::convert(args),
-        Command::Schema => Ok(format!("{:#}\n", nboom_io::schema())),
+        Command::Sweep(args) => sweep::sweep(args, routines),
+        Command::Merge(args) => merge::merge(args, routines),
+        Command::Schema(args) => Ok(schema::schema(args)),
         Command::List => Ok(list::text(routines)),
         Command::Section(args) => section::section(args),
         #[cfg(feature = "generator")]

@@ -16,13 +16,11 @@ pub(crate) struct Progress {
 
 impl Progress {
     pub(crate) fn of(scene: &Scene, quiet: bool) -> Self {
-        let is_dumb = env::var_os("TERM").is_some_and(|kind| kind == "dumb");
-        let bar = if quiet || is_dumb || !io::stderr().is_terminal() {
-            ProgressBar::hidden()
-        } else {
-            ProgressBar::new(PARTS).with_style(style())
-        };
-        Self { bar, start: scene.initial.time, span: scene.end_time - scene.initial.time }
+        Self {
+            bar: bar(PARTS, quiet),
+            start: scene.initial.time,
+            span: scene.end_time - scene.initial.time,
+        }
     }
 
     pub(crate) fn reach(&self, time: f64) {
@@ -32,6 +30,36 @@ impl Progress {
 
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// How many cases of a sweep are done, likewise.
+#[derive(Debug)]
+pub(crate) struct Cases {
+    bar: ProgressBar,
+}
+
+impl Cases {
+    pub(crate) fn new(quiet: bool) -> Self {
+        Self { bar: bar(0, quiet) }
+    }
+
+    pub(crate) fn reach(&self, done: u64, total: u64) {
+        self.bar.set_length(total);
+        self.bar.set_position(done);
+    }
+
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn bar(length: u64, quiet: bool) -> ProgressBar {
+    let is_dumb = env::var_os("TERM").is_some_and(|kind| kind == "dumb");
+    if quiet || is_dumb || !io::stderr().is_terminal() {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(length).with_style(style())
     }
 }
 

@@ -11,7 +11,7 @@ use nboom_results::SCENE_FILE;
 use crate::given::Given;
 use crate::record::{LONGEST, Maker, Record};
 use crate::scene_args::STANDARD_INPUT;
-use crate::{Cli, CliError, Command, RunArgs, say};
+use crate::{Cli, CliError, Command, RunArgs, case, say};
 
 /// The ending of a record.
 const RECORD: &str = "json";
@@ -20,7 +20,7 @@ const RECORD: &str = "json";
 const REPEATED: &str = "-repeated";
 
 /// Options that concern only where a scene is read.
-const OF_THE_INPUT: [&str; 3] = ["set", "format", "include-anywhere"];
+const OF_THE_INPUT: [&str; 4] = ["set", "format", "include-anywhere", "case"];
 
 /// Whether a run is asked to repeat another.
 pub(crate) fn is_record(path: &Path) -> bool {
@@ -45,9 +45,9 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
     let input = Path::new(&record.input.path);
     let original = arguments(args, record.options.clone(), input)?;
     let is_there = input != Path::new(STANDARD_INPUT);
-    let found = is_there.then(|| original.scene.read().ok()).flatten();
-    let (again, file) = match found.filter(|file| file.sha256 == record.input.sha256) {
-        Some(file) => (original, file),
+    let found = is_there.then(|| input_of(original).ok()).flatten();
+    let (again, file) = match found.filter(|(_, file)| file.sha256 == record.input.sha256) {
+        Some(found) => found,
         None => {
             let scene = folder.join(SCENE_FILE);
             let kept = read_text(&scene, LONGEST).ok().map(|text| sha256(text.as_bytes()));
@@ -68,6 +68,14 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
     };
     let output = args.output.clone().map_or_else(|| beside(folder), Ok)?;
     Ok((RunArgs { output: Some(output), ..again }, file))
+}
+
+/// The arguments of a run, and its scene, or that of a case of its study.
+fn input_of(args: RunArgs) -> Result<(RunArgs, SceneFile), CliError> {
+    match args.case {
+        Some(number) => case::case(&args, number),
+        None => args.scene.read().map(|file| (args, file)),
+    }
 }
 
 /// The arguments of a run of `scene` with `options`, changed by those that are given now.

@@ -4,7 +4,7 @@ use clap::Args;
 use nboom_report::{Run, page};
 use nboom_results::{REPORT_FILE, write_file};
 
-use crate::{CliError, PlotArgs, say};
+use crate::{CliError, PlotArgs, say, sweep};
 
 /// Options of `nboom report`.
 #[derive(Args, Debug)]
@@ -27,6 +27,12 @@ const COMPARISON: &str = "comparison.html";
 
 /// Makes the page of runs, and returns the text for standard output.
 pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
+    if let [directory] = &args.directories[..]
+        && let Some(sweep) = sweep::finished(directory)?
+    {
+        let page = sweep::write_page(&sweep, directory)?;
+        return Ok(format!("{}\n", page.display()));
+    }
     let several = args.directories.len() > 1;
     let read = |directory: &PathBuf| {
         let run = Run::read(directory)?;

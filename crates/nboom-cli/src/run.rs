@@ -19,11 +19,16 @@ use crate::record::Record;
 use crate::repeat::{is_record, repeated};
 use crate::watch::Watch;
 use crate::{
-    CliError, PathChoice, Routines, RunArgs, check, print_run, say, table_args, tables, verdict,
+    CliError, PathChoice, Routines, RunArgs, case, check, print_run, say, table_args, tables,
+    verdict,
 };
 
 /// Simulates a scene, writes its files and returns the text for standard output.
 pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
+    if let Some(number) = args.case {
+        let (args, file) = case::case(args, number)?;
+        return run_scene(&args, file, routines);
+    }
     if !is_record(&args.scene.scene) {
         return run_scene(args, args.scene.read()?, routines);
     }

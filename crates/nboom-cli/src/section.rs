@@ -1,9 +1,22 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde_json::{Value, json};
 
 use crate::section_file::{Case, read};
-use crate::{CliError, SectionArgs, output, say, section_answer};
+use crate::{CliError, output, say, section_answer};
+
+/// Options of `nboom section`.
+#[derive(Args, Debug)]
+pub struct SectionArgs {
+    /// JSON file of sections.
+    #[arg(value_name = "FILE")]
+    pub sections: PathBuf,
+
+    /// File for the answer, in JSON, its folder created if needed; by default standard output.
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+}
 
 /// Computes the sections of a file and returns the answer, or its path, for standard output.
 pub(crate) fn section(args: &SectionArgs) -> Result<String, CliError> {

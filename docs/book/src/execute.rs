@@ -76,12 +76,14 @@ impl Reader {
     }
 
     fn copy_examples(&self) -> Result<()> {
-        let to = self.place.join("examples");
-        fs::create_dir_all(&to)?;
-        for entry in fs::read_dir(self.clone.join("examples"))? {
-            let from = entry?.path();
-            if from.is_file() {
-                fs::copy(&from, to.join(from.file_name().expect("files have names")))?;
+        for folder in ["examples", "examples/studies"] {
+            let to = self.place.join(folder);
+            fs::create_dir_all(&to)?;
+            for entry in fs::read_dir(self.clone.join(folder))? {
+                let from = entry?.path();
+                if from.is_file() {
+                    fs::copy(&from, to.join(from.file_name().expect("files have names")))?;
+                }
             }
         }
         Ok(())

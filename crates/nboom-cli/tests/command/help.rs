@@ -30,7 +30,7 @@ fn examples() -> Vec<(String, String)> {
 
 /// The words of a line up to what only a shell understands.
 fn words(line: &str) -> Vec<&str> {
-    line.split_whitespace().take_while(|word| !["#", ">", "<", "|"].contains(word)).collect()
+    line.split_whitespace().take_while(|word| !["#", ">", "<", "|", "&&"].contains(word)).collect()
 }
 
 #[test]
@@ -51,6 +51,7 @@ fn examples_run() {
         let kept = format!("{kind}.toml");
         assert_eq!(code(&place.nboom(&["new", kind, "-o", &kept])), 0);
     }
+    place.write("springs.toml", crate::sweeps::STUDY);
     let case = serde_json::json!({ "id": "boom", "kind": "circular", "R": 0.1, "t": 0.001 });
     place.write("sections.json", &serde_json::json!({ "cases": [case] }).to_string());
     let binary = Path::new(env!("CARGO_BIN_EXE_nboom")).parent().expect("a folder");

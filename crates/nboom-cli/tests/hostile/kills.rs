@@ -95,7 +95,7 @@ impl Campaign<'_> {
 }
 
 /// Random numbers from 0 to 1, always the same ones: Marsaglia's.
-fn random(bits: &mut u64) -> f64 {
+pub fn random(bits: &mut u64) -> f64 {
     *bits ^= *bits << 13;
     *bits ^= *bits >> 7;
     *bits ^= *bits << 17;
@@ -148,7 +148,7 @@ fn killed_at_random_instants(name: &str, deck: &str, options: &[&str], kills: us
     assert!(old_and_partial > 0, "no kill came while a run was going on");
 }
 
-fn kills() -> usize {
+pub fn kills() -> usize {
     std::env::var("NBOOM_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(KILLS)
 }
 

@@ -10,4 +10,5 @@ mod interrupts;
 mod kills;
 mod place;
 mod refusals;
+mod sweeps;
 mod terminal;

@@ -1,0 +1,119 @@
+//! One case of a study as a run with all its files.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use clap::Parser;
+use nboom_io::SceneFile;
+use nboom_sim::Path as Code;
+use nboom_study::{RunSettings, Study};
+
+use crate::{Cli, CliError, Command, RunArgs};
+
+/// Why a case of a study cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// An option says what a study says.
+    #[error(
+        "{option} with --case: found an option of scenes, expected none; the study says all of the scene"
+    )]
+    NotOfAStudy {
+        /// The option.
+        option: &'static str,
+    },
+    /// The study has fewer cases.
+    #[error("{}: --case {found} found, a number from 1 to {cases} expected", path.display())]
+    NoSuchCase {
+        /// The study.
+        path: PathBuf,
+        /// What is asked for.
+        found: u64,
+        /// How many there are.
+        cases: u64,
+    },
+    /// What is drawn makes no scene.
+    #[error("{}: case {case} is rejected: {why}", path.display())]
+    Rejected {
+        /// The study.
+        path: PathBuf,
+        /// The case.
+        case: u64,
+        /// Why.
+        why: String,
+    },
+}
+
+/// The arguments and the scene of case number `case` of the study that `args` name: its options are those of
+/// the study, changed by those of `args`.
+///
+/// # Errors
+/// When the study is wrong or has no such case, and when its numbers make no scene.
+pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), CliError> {
+    let path = &args.scene.scene;
+    let given = [
+        ("--set", !args.scene.set.is_empty()),
+        ("--format", args.scene.format.is_some()),
+        ("--include-anywhere", args.scene.include_anywhere),
+    ];
+    if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
+        return Err(CaseError::NotOfAStudy { option }.into());
+    }
+    let study = Study::read(path)?;
+    let cases = study.cases();
+    if !(1..=cases).contains(&case) {
+        return Err(CaseError::NoSuchCase { path: path.clone(), found: case, cases }.into());
+    }
+    let file = study.scene_of(&study.case(case)).map_err(|rejection| CaseError::Rejected {
+        path: path.clone(),
+        case,
+        why: rejection.to_string(),
+    })?;
+    let of_inputs = format!("{}{}", nboom_io::sha256(study.text.as_bytes()), file.sha256);
+    let file = SceneFile { sha256: nboom_io::sha256(of_inputs.as_bytes()), ..file };
+    let again = with_settings(args, &study.run);
+    let by_default = || Path::new("out").join(format!("{}-case-{case}", study.name));
+    let output = again.output.clone().unwrap_or_else(by_default);
+    Ok((RunArgs { output: Some(output), ..again }, file))
+}
+
+/// The arguments with the settings of a study in place of defaults.
+fn with_settings(args: &RunArgs, settings: &RunSettings) -> RunArgs {
+    let of_study = arguments(args, words(settings)).given;
+    arguments(args, of_study.changed_by(&args.given).words())
+}
+
+/// The arguments of a run of the study of `args` with these options.
+fn arguments(args: &RunArgs, options: Vec<String>) -> RunArgs {
+    let mut words: Vec<OsString> = vec!["nboom".into(), "run".into()];
+    words.extend(options.into_iter().map(OsString::from));
+    words.extend(["--".into(), args.scene.scene.clone().into()]);
+    match Cli::try_parse_from(&words).map(|cli| cli.command) {
+        Ok(Command::Run(args)) => *args,
+        other => unreachable!("a study has options of a run: {words:?}, {other:?}"),
+    }
+}
+
+/// The settings as options of `nboom run`.
+fn words(settings: &RunSettings) -> Vec<String> {
+    let RunSettings { stresses, hinge_loads, .. } = *settings;
+    let path = settings.path.map(|path| match path {
+        Code::Auto => "auto",
+        Code::Generated => "generated",
+        Code::Generic => "generic",
+    });
+    let options = [
+        ("rtol", settings.rtol.map(|rtol| rtol.to_string())),
+        ("atol", settings.atol.map(|atol| atol.to_string())),
+        ("integrator", settings.integrator.map(|method| method.name().to_owned())),
+        ("formulation", settings.formulation.map(|form| form.name().to_owned())),
+        ("path", path.map(str::to_owned)),
+        ("max-step", settings.max_step.map(|step| step.to_string())),
+        ("max-events", settings.max_events.map(|events| events.to_string())),
+        ("samples", settings.samples.map(|samples| samples.to_string())),
+        ("end-time", settings.end_time.map(|time| time.to_string())),
+    ];
+    let given = options.into_iter().filter_map(|(name, word)| Some(format!("--{name}={}", word?)));
+    let flags = [("--no-stresses", !stresses), ("--hinge-loads", hinge_loads)];
+    let flags = flags.into_iter().filter(|(_, is_on)| *is_on).map(|(flag, _)| flag.to_owned());
+    given.chain(flags).collect()
+}

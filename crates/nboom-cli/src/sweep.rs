@@ -1,0 +1,245 @@
+//! Many runs of one scene.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::thread;
+
+use clap::{Args, Parser, value_parser};
+use nboom_results::write_file;
+use nboom_study::statistics::Summary;
+use nboom_study::{
+    End, Facts, PAGE_FILE, Report, STUDY_FILE, SWEPT_SCENE_FILE, Shard, Study, StudyError, Sweep,
+    SweepDirectory, Watcher,
+};
+
+use crate::interrupt::Interrupt;
+use crate::progress::Cases;
+use crate::run::run;
+use crate::{Cli, CliError, Command, Routines, say, sweep_account};
+
+/// Options of `nboom sweep`.
+#[derive(Args, Debug)]
+pub struct SweepArgs {
+    /// A study, a file NAME.toml.
+    #[arg(value_name = "STUDY")]
+    pub study: PathBuf,
+
+    /// Directory for the results, created if needed; by default out/ and the study's name.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+
+    /// Go on with a sweep that was not finished; in a directory without one, start.
+    #[arg(long)]
+    pub resume: bool,
+
+    /// Threads; by default as many as there are processors.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..),
+          allow_negative_numbers = true)]
+    pub jobs: Option<u16>,
+
+    /// Run one of n equal parts of the cases, the i-th, from 1; nboom merge puts parts together.
+    #[arg(long, value_name = "i/n")]
+    pub shard: Option<Shard>,
+
+    /// What is the same for a sweep and its parts put together.
+    #[command(flatten)]
+    pub outputs: SweepOutputs,
+}
+
+/// Options of `nboom sweep` and `nboom merge`.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct SweepOutputs {
+    /// Write tables in CSV too.
+    #[arg(long)]
+    pub csv: bool,
+
+    /// Go on although some cases were run by another version or with other vector instructions, which may
+    /// change last digits.
+    #[arg(long)]
+    pub accept_difference: bool,
+
+    /// Write no report.html and do not run the worst cases again for their pages.
+    #[arg(long)]
+    pub no_report: bool,
+
+    /// Print no account and no progress; errors and warnings are still printed.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Why a sweep has no results yet.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// It is refused, or could not be finished.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// It was interrupted.
+    #[error(
+        "interrupted; {done} of {cases} cases are done and in {}; the same command with --resume does the others",
+        directory.display()
+    )]
+    Interrupted {
+        /// The directory.
+        directory: PathBuf,
+        /// Cases that are done.
+        done: u64,
+        /// Cases in all.
+        cases: u64,
+    },
+}
+
+impl SweepError {
+    /// A sweep that was finished is not there any more.
+    fn gone(directory: &Path) -> Self {
+        let (path, found) = (directory.to_owned(), "nothing".to_owned());
+        Self::Study(StudyError::NoSweep { path, found })
+    }
+
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Study(error) if error.is_refusal() => 2,
+            Self::Study(_) | Self::Interrupted { .. } => 3,
+        }
+    }
+}
+
+/// The folder of a sweep's directory with runs of its worst cases.
+const WORST: &str = "worst";
+
+/// Most cases that get pages of their own.
+const MOST_PAGES: usize = 12;
+
+/// Runs all cases of a study, and returns the text for standard output.
+pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, CliError> {
+    let study = Study::read(&args.study)?;
+    let directory = args.output.clone().unwrap_or_else(|| Path::new("out").join(&study.name));
+    let processors = || thread::available_parallelism().map_or(1, usize::from);
+    let sweep = Sweep {
+        study: &study,
+        directory: directory.clone(),
+        jobs: args.jobs.map_or_else(processors, usize::from),
+        resume: args.resume,
+        shard: args.shard,
+        csv: args.outputs.csv,
+        accept_difference: args.outputs.accept_difference,
+        kernels: routines.for_runs,
+        right_sides: routines.right_sides_of_eight,
+    };
+    let watch = Watch { interrupt: Interrupt::patient()?, cases: Cases::new(args.outputs.quiet) };
+    let report = sweep.run(&watch);
+    watch.cases.finish();
+    let report = report.map_err(SweepError::Study)?;
+    if report.end == End::Interrupted {
+        let (done, cases) = (report.done, report.description.share());
+        return Err(SweepError::Interrupted { directory, done, cases }.into());
+    }
+    account(&directory, &report, &args.outputs, routines)
+}
+
+/// Makes the page of a sweep that is complete, warns of its troubles, and returns its account.
+pub(crate) fn account(
+    directory: &Path,
+    report: &Report,
+    outputs: &SweepOutputs,
+    routines: &Routines,
+) -> Result<String, CliError> {
+    let counts = report.description.counts.unwrap_or_default();
+    for (count, what) in [(counts.rejected, "rejected"), (counts.failed, "failed")] {
+        if count > 0 {
+            let cases = counts.cases;
+            say("warning", &format!("{count} of {cases} cases {what}; the column status says why"));
+        }
+    }
+    if report.description.shard.is_some() {
+        let told = sweep_account::of_a_shard(report, directory);
+        return Ok(if outputs.quiet { String::new() } else { told });
+    }
+    let sweep = finished(directory)?.ok_or_else(|| SweepError::gone(directory))?;
+    let has_page = report.end == End::WasComplete && directory.join(PAGE_FILE).exists();
+    if !outputs.no_report && !has_page {
+        run_worst(&sweep, directory, routines)?;
+        write_page(&sweep, directory)?;
+    }
+    let statistics = sweep.statistics().map_err(SweepError::Study)?;
+    let told = sweep_account::text(report, &statistics, directory);
+    Ok(if outputs.quiet { String::new() } else { told })
+}
+
+/// The finished sweep in a directory, if one is there.
+pub(crate) fn finished(directory: &Path) -> Result<Option<SweepDirectory>, CliError> {
+    Ok(SweepDirectory::read(directory).map_err(SweepError::Study)?)
+}
+
+/// Runs the cases with the largest results again, for their pages.
+fn run_worst(
+    sweep: &SweepDirectory,
+    directory: &Path,
+    routines: &Routines,
+) -> Result<(), CliError> {
+    for case in worst(&sweep.statistics().map_err(SweepError::Study)?) {
+        let (study, folder) = (directory.join(STUDY_FILE), page_folder(directory, case));
+        let mut words: Vec<OsString> = vec!["nboom".into(), "run".into(), "--quiet".into()];
+        words.extend([format!("--case={case}").into(), "-o".into(), folder.into()]);
+        words.extend(["--".into(), study.into()]);
+        match Cli::try_parse_from(&words).map(|cli| cli.command) {
+            Ok(Command::Run(args)) => run(&args, routines)?,
+            other => unreachable!("these words are a run: {words:?}, {other:?}"),
+        };
+    }
+    Ok(())
+}
+
+/// The cases with the largest results of each kind, without repetition.
+fn worst(statistics: &Summary) -> Vec<u64> {
+    let mut cases = Vec::new();
+    let results = || statistics.columns.iter().filter(|column| column.is_result);
+    // The first of all results, before the second of any.
+    for rank in 0..MOST_PAGES {
+        for extreme in results().filter_map(|column| column.largest.get(rank)) {
+            if cases.len() < MOST_PAGES && !cases.contains(&extreme.case) {
+                cases.push(extreme.case);
+            }
+        }
+    }
+    cases
+}
+
+fn page_folder(directory: &Path, case: u64) -> PathBuf {
+    directory.join(WORST).join(format!("case-{case}"))
+}
+
+/// Writes the page of a sweep from its statistics; returns where it is.
+pub(crate) fn write_page(sweep: &SweepDirectory, directory: &Path) -> Result<PathBuf, CliError> {
+    let of = &sweep.description;
+    let statistics = sweep.statistics().map_err(SweepError::Study)?;
+    let has_page = |case: &u64| page_folder(directory, *case).join(PAGE_FILE).is_file();
+    let facts = Facts {
+        name: of.name.clone(),
+        study: directory.join(STUDY_FILE).display().to_string(),
+        scene: SWEPT_SCENE_FILE.to_owned(),
+        method: of.method.clone(),
+        seed: of.seed,
+        draws: of.draws,
+        version: of.made_by.version.clone(),
+        reports: worst(&statistics).into_iter().filter(has_page).collect(),
+    };
+    let path = directory.join(PAGE_FILE);
+    write_file(&path, &nboom_study::page(&facts, &statistics))?;
+    Ok(path)
+}
+
+/// Waits for a sweep on behalf of a terminal.
+struct Watch {
+    interrupt: Interrupt,
+    cases: Cases,
+}
+
+impl Watcher for Watch {
+    fn progress(&self, done: u64, total: u64) {
+        self.cases.reach(done, total);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupt.came()
+    }
+}

@@ -1,0 +1,100 @@
+//! What a sweep prints.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use nboom_study::Report;
+use nboom_study::statistics::{Percentile, Summary};
+
+/// The percentiles that are printed.
+const PERCENTS: [f64; 3] = [5.0, 50.0, 95.0];
+
+/// The account of a part of a sweep.
+pub(crate) fn of_a_shard(report: &Report, directory: &Path) -> String {
+    let of = &report.description;
+    let shard = of.shard.map_or_else(String::new, |shard| format!(" of shard {shard}"));
+    let (name, cases, directory) = (&of.name, of.share(), directory.display());
+    format!("{name}: {cases} cases{shard}, for nboom merge in {directory}\n")
+}
+
+/// The account of a whole sweep.
+pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> String {
+    let (of, counts) = (&report.description, &statistics.counts);
+    let faults = match statistics.faults.len() {
+        0 => String::new(),
+        1 => ", each also with a fault".to_owned(),
+        n => format!(", each also with {n} faults"),
+    };
+    let mut text = format!(
+        "{}: {} cases of {} draws by {}, seed {}{faults}; {} ok, {} rejected, {} failed\n\n",
+        of.name,
+        counts.cases,
+        of.draws,
+        of.method,
+        of.seed,
+        counts.ok,
+        counts.rejected,
+        counts.failed
+    );
+    let rows: Vec<[String; 5]> = rows(statistics);
+    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
+    for row in &rows {
+        let cells = row.iter().enumerate().map(|(i, cell)| format!("{cell:<0$}", width(i)));
+        let _ = writeln!(text, "{}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+    let group = |fault: usize| match fault {
+        0 => String::new(),
+        fault => format!(" with {}", statistics.faults[fault - 1]),
+    };
+    text.push('\n');
+    for latch in &statistics.latches {
+        for (fault, latched) in latch.by_end.iter().enumerate().filter(|(_, of)| of.of > 0) {
+            let share = |share: f64| format!("{:.4}", share);
+            let _ = writeln!(
+                text,
+                "{} latches in {} of {} cases{}: {} to {}",
+                latch.hinge,
+                latched.count,
+                latched.of,
+                group(fault),
+                share(latched.low),
+                share(latched.high)
+            );
+        }
+    }
+    let _ = writeln!(text, "files  {}", directory.display());
+    text
+}
+
+/// Of each result of cases without fault its percentiles, and what drives it most.
+fn rows(statistics: &Summary) -> Vec<[String; 5]> {
+    let head = ["", "5 %", "median", "95 %, by 95 % confidence", "driven by"];
+    let mut rows = vec![head.map(str::to_owned)];
+    for column in statistics.columns.iter().filter(|column| column.is_result) {
+        let of = |percent: f64| {
+            let spread = column.spreads.first()?;
+            spread.percentiles.iter().find(|of| of.percent == percent).copied()
+        };
+        let [low, median, high] = PERCENTS.map(of);
+        let value = |of: Option<Percentile>| of.map_or("-".to_owned(), |of| number(of.value));
+        let bounds = match high {
+            Some(Percentile { value, low: Some(low), high: Some(high), .. }) => {
+                format!("{} ({} to {})", number(value), number(low), number(high))
+            }
+            other => value(other),
+        };
+        let driver =
+            column.drivers.first().filter(|driver| driver.coefficient.abs() > driver.bound);
+        let driver = driver.map_or_else(String::new, |driver| {
+            format!("{} {:+.2}", statistics.columns[driver.variable].label, driver.coefficient)
+        });
+        let unit = column.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
+        rows.push([format!("{}{unit}", column.label), value(low), value(median), bounds, driver]);
+    }
+    rows
+}
+
+/// Five digits.
+fn number(value: f64) -> String {
+    crate::format::short(value, 5)
+}

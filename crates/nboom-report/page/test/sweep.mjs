@@ -1,0 +1,124 @@
+// Opens pages of sweeps in a browser as a person would:
+//
+//     node test/sweep.mjs PAGE...
+//
+// Chromium is taken from the path, or from CHROMIUM.
+
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import { resolve } from 'node:path';
+import { chromium } from 'playwright-core';
+
+const executablePath = process.env.CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
+
+/** A page that was opened from its file, and fails on any error or request. */
+async function open(path, { width = 1280, height = 900, colorScheme = 'light' } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme });
+  const page = await context.newPage();
+  const wrong = [];
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) wrong.push(message.text()); });
+  page.on('pageerror', (error) => wrong.push(error.stack));
+  page.on('dialog', (dialog) => { wrong.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
+  page.on('request', (request) => { if (!request.url().startsWith('file:')) wrong.push(`request: ${request.url()}`); });
+  await page.goto(`file://${path}`);
+  await page.waitForSelector('html[data-ready]', { timeout: 30_000 });
+  page.data = JSON.parse(await page.textContent('#data'));
+  page.done = async () => {
+    assert.deepEqual(wrong, [], `${path} is quiet`);
+    await context.close();
+  };
+  return page;
+}
+
+const checks = {
+  async 'each result has its histogram and its percentiles'(path) {
+    const page = await open(path);
+    const { columns } = page.data.summary;
+    for (const [i, { name, histogram }] of columns.entries()) {
+      if (!histogram) continue;
+      const figure = page.locator(`[data-column="${i}"]`);
+      assert.equal(await figure.locator('rect.bar').count(), histogram.counts.length, name);
+      assert.equal(await figure.locator('tbody tr').count(), 7, name);
+    }
+    assert.ok(columns.some((column) => column.histogram), 'a sweep in which something ran');
+    await page.done();
+  },
+
+  async 'other axes are another scatter plot, with all of its points'(path) {
+    const page = await open(path);
+    const { columns, points } = page.data.summary;
+    const circles = () => page.$$eval('.scatter circle', (found) => found.map((one) => [Number(one.getAttribute('cx')), Number(one.getAttribute('cy'))]));
+    const varies = columns.map((_, i) => i).filter((i) => new Set(points.values[i].filter((value) => value !== null)).size > 1);
+    const [a, b] = [varies[0], varies.at(-1)];
+    await page.selectOption('#scatter-x', String(a));
+    await page.selectOption('#scatter-y', String(b));
+    const before = await circles();
+    const rows = points.cases.map((_, i) => i).filter((i) => points.values[a][i] !== null && points.values[b][i] !== null);
+    assert.equal(before.length, rows.length);
+    // Places grow with numbers, upwards.
+    const numbers = (column) => rows.map((i) => points.values[column][i]);
+    const follows = (places, values) => places.every((place, i) => i === 0 || Math.abs(place - places[i - 1]) < 0.11 || (place > places[i - 1]) === (values[i] > values[i - 1]));
+    assert.ok(follows(before.map(([x]) => x), numbers(a)) && follows(before.map(([, y]) => -y), numbers(b)));
+    await page.selectOption('#scatter-x', String(b));
+    await page.selectOption('#scatter-y', String(a));
+    const after = await circles();
+    assert.ok(follows(after.map(([x]) => x), numbers(b)) && follows(after.map(([, y]) => -y), numbers(a)));
+    assert.notDeepEqual(after, before);
+    await page.done();
+  },
+
+  async 'a case is chosen by keys, with the command that repeats it'(path) {
+    const page = await open(path);
+    const button = page.locator('#worst .case').last();
+    const number = (await button.textContent()).replace(/\D/g, '');
+    await page.fill('#command input', '1');
+    await page.keyboard.press('Tab');
+    assert.match(await page.textContent('#command code'), / --case 1$/);
+    await button.focus();
+    await page.keyboard.press('Enter');
+    assert.match(await page.textContent('#command code'), new RegExp(`^nboom run .* --case ${number}$`));
+    await page.done();
+  },
+
+  async 'it fits a phone, in light and dark, and prints'(path) {
+    for (const colorScheme of ['light', 'dark']) {
+      const page = await open(path, { width: 390, height: 844, colorScheme });
+      const [content, screen] = await page.evaluate(() => [document.scrollingElement.scrollWidth, innerWidth]);
+      assert.ok(content <= screen, `${content} pixels on a screen of ${screen}`);
+      const background = () => page.$eval('body', (body) => getComputedStyle(body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((a, b) => a + Number(b), 0));
+      assert.equal(await background() < 380, colorScheme === 'dark');
+      await page.keyboard.press('t');
+      assert.equal(await background() < 380, colorScheme !== 'dark');
+      await page.emulateMedia({ media: 'print' });
+      assert.ok(await background() > 700, 'paper is white');
+      assert.ok((await page.pdf({ format: 'A4' })).length > 20_000);
+      await page.done();
+    }
+  },
+
+  async 'texts of a study stay texts'(path) {
+    const page = await open(path);
+    assert.equal(await page.locator('img, b, script').count(), 2, 'data and program');
+    const shown = await page.evaluate(() => [document.title, document.querySelector('h1').textContent, document.body.innerText]);
+    const name = page.data.facts.name.replace(/[\u202a-\u202e\u2066-\u2069]/g, '\ufffd');
+    assert.deepEqual(shown.slice(0, 2), [name, name]);
+    assert.ok(!/[\u202a-\u202e\u2066-\u2069]/.test(shown[2]), 'nothing turns its direction');
+    await page.done();
+  },
+};
+
+let failed = 0;
+for (const path of process.argv.slice(2).map((path) => resolve(path))) {
+  for (const [name, check] of Object.entries(checks)) {
+    try {
+      await check(path);
+      console.log(`ok  ${name}`);
+    } catch (error) {
+      failed += 1;
+      console.log(`FAILED  ${name}, ${path}\n${error.stack}`);
+    }
+  }
+}
+await browser.close();
+process.exit(failed === 0 ? 0 : 1);
