@@ -111,7 +111,7 @@ fn table(name: &str, scene: &Scene, order: Order) -> Worst {
         batches: nboom_routines::right_sides_of_eight(),
         ..Options::default()
     };
-    let repertoire = Repertoire::new(&options);
+    let mut repertoire = Repertoire::new(&options);
     let (mut worst, mut shortest) = (Worst::default(), [f64::INFINITY; 2]);
     for held in 0..=hinges {
         if held > 0 {

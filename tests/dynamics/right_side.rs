@@ -200,7 +200,9 @@ fn the_right_side_of_an_embedded_satellite_is_its_own() {
         }
         let numbers = embedding.parameters(parameters, &[]);
         let satellite = Parameters::read(&outer, numbers);
-        let forces = forces.embedded(&embedding);
+        let mut numbers = Vec::new();
+        forces.write_embedded(&embedding, &mut numbers);
+        let forces = Forces::read(outer.hinges(), numbers);
         let found = right_side(form, &outer, &satellite, &forces, &wide);
         assert!(found.iter().all(|number| number.is_finite()));
         let mut of_inner = found[..RightSideLayout::STATE].to_vec();

@@ -10,7 +10,7 @@ use nboom_model::{Shape, Topology};
 use nboom_scalar::{Mat3, RigidInertia, Sym3, Vec3};
 
 use crate::chain::ChainLink;
-use crate::parameters::{Branch, Layout, Parameters};
+use crate::parameters::{Layout, Parameters, write_link, write_place, write_rigid};
 
 /// A virtual link's moment of inertia about its hinge, 2⁻⁴⁰⁰.
 ///
@@ -29,6 +29,8 @@ pub struct Embedding {
     hinges: Vec<usize>,
     /// For each inner hinge, its place among the outer hinges.
     places: Vec<usize>,
+    /// For each number of the outer satellite, whether nothing depends on it.
+    arbitrary: Vec<bool>,
 }
 
 impl Embedding {
@@ -53,7 +55,8 @@ impl Embedding {
         };
         let hinges: Vec<usize> = branches.iter().zip(inner.shapes()).flat_map(of_branch).collect();
         let places = hinges.iter().map(|&hinge| outer_places[hinge]).collect();
-        Some(Self { outer: outer.clone(), branches, hinges, places })
+        let arbitrary = arbitrary(inner, outer, &branches);
+        Some(Self { outer: outer.clone(), branches, hinges, places, arbitrary })
     }
 
     /// The outer topology.
@@ -85,39 +88,56 @@ impl Embedding {
     /// and the way to a virtual hinge. They have their values in `assumptions` (parameter numbers
     /// and values) if they are there; otherwise nothing is turned and all points coincide.
     pub fn parameters(&self, inner: &Parameters<f64>, assumptions: &[(usize, f64)]) -> Vec<f64> {
-        let mut branches: Vec<Branch<f64>> =
-            self.outer.shapes().iter().map(|&shape| virtual_branch(shape)).collect();
-        for (&branch, real) in self.branches.iter().zip(&inner.branches) {
-            let Branch { rot_body_from_appendage, point, links } = &mut branches[branch];
-            (*rot_body_from_appendage, *point) = (real.rot_body_from_appendage, real.point);
-            links[..real.links.len()].copy_from_slice(&real.links);
-        }
-        let mut numbers = Parameters { main: inner.main, branches }.write();
-        let arbitrary = self.arbitrary(inner);
-        for &(at, value) in assumptions.iter().filter(|&&(at, _)| arbitrary.get(at) == Some(&true))
-        {
-            numbers[at] = value;
-        }
+        let mut numbers = Vec::with_capacity(self.arbitrary.len());
+        self.write_parameters(inner, assumptions, &mut numbers);
         numbers
     }
 
-    /// For each number of the outer satellite, whether nothing depends on it.
-    fn arbitrary(&self, inner: &Parameters<f64>) -> Vec<bool> {
-        let mut real = vec![0; self.outer.shapes().len()];
-        for (&branch, of_inner) in self.branches.iter().zip(&inner.branches) {
-            real[branch] = of_inner.links.len();
-        }
-        let mut arbitrary = vec![false; Layout::MAIN];
-        for (shape, real) in self.outer.shapes().iter().zip(real) {
-            arbitrary.extend([real == 0; Layout::BRANCH]);
-            for link in 0..shape.hinges() {
-                arbitrary.extend([false; Layout::LINK - WAY]);
-                let next_is_virtual = link + 1 >= real && shape.hinges() > real;
-                arbitrary.extend([next_is_virtual; WAY]);
+    /// Writes the numbers of [`parameters`](Self::parameters) to `numbers`, in place of what is there.
+    pub fn write_parameters(
+        &self,
+        inner: &Parameters<f64>,
+        assumptions: &[(usize, f64)],
+        numbers: &mut Vec<f64>,
+    ) {
+        numbers.clear();
+        write_rigid(&inner.main, numbers);
+        for (number, &shape) in self.outer.shapes().iter().enumerate() {
+            let real = self.branches.iter().position(|&branch| branch == number);
+            let real = real.map(|of_inner| &inner.branches[of_inner]);
+            let (rot, point) = real.map_or((Mat3::identity(), Vec3::zero()), |real| {
+                (real.rot_body_from_appendage, real.point)
+            });
+            write_place(&rot, point, numbers);
+            for place in 0..shape.hinges() {
+                let real = real.and_then(|real| real.links.get(place).copied());
+                write_link(&real.unwrap_or_else(|| virtual_link(shape, place)), numbers);
             }
         }
-        arbitrary
+        let arbitrary = |&&(at, _): &&(usize, f64)| self.arbitrary.get(at) == Some(&true);
+        for &(at, value) in assumptions.iter().filter(arbitrary) {
+            numbers[at] = value;
+        }
     }
+}
+
+/// For each number of the outer satellite, whether nothing depends on it, if inner appendages are these
+/// `branches` of it.
+fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<bool> {
+    let mut real = vec![0; outer.shapes().len()];
+    for (&branch, of_inner) in branches.iter().zip(inner.shapes()) {
+        real[branch] = of_inner.hinges();
+    }
+    let mut arbitrary = vec![false; Layout::MAIN];
+    for (shape, real) in outer.shapes().iter().zip(real) {
+        arbitrary.extend([real == 0; Layout::BRANCH]);
+        for link in 0..shape.hinges() {
+            arbitrary.extend([false; Layout::LINK - WAY]);
+            let next_is_virtual = link + 1 >= real && shape.hinges() > real;
+            arbitrary.extend([next_is_virtual; WAY]);
+        }
+    }
+    arbitrary
 }
 
 /// Numbers of a link's way to the next hinge, its last ones.
@@ -141,16 +161,14 @@ fn first_hinges(topology: &Topology) -> Vec<usize> {
     topology.shapes().iter().scan(0, before).collect()
 }
 
-fn virtual_branch(shape: Shape) -> Branch<f64> {
-    let about = |axis: Vec3<f64>| ChainLink {
-        inertia: RigidInertia { about_origin: Sym3::outer(axis) * VIRTUAL, ..RigidInertia::zero() },
-        next: [0.0; 2],
+/// A virtual link at a place of an appendage.
+fn virtual_link(shape: Shape, place: usize) -> ChainLink<f64> {
+    let axis = match (shape, place) {
+        (Shape::Paddle, 1) => Vec3::unit_y(),
+        _ => Vec3::unit_x(),
     };
-    let links = match shape {
-        Shape::Chain(links) => vec![about(Vec3::unit_x()); links],
-        Shape::Paddle => vec![about(Vec3::unit_x()), about(Vec3::unit_y())],
-    };
-    Branch { rot_body_from_appendage: Mat3::identity(), point: Vec3::zero(), links }
+    let about_origin = Sym3::outer(axis) * VIRTUAL;
+    ChainLink { inertia: RigidInertia { about_origin, ..RigidInertia::zero() }, next: [0.0; 2] }
 }
 
 #[cfg(test)]

@@ -89,29 +89,40 @@ impl<R: Real> Forces<R> {
     /// The numbers in the order of [`RightSideLayout`]: q₁, q₂, A₂, A₁, A₀ of each hinge; external
     /// moment and force; of each line its end on the link, that on the main body, and a₀ to a₃.
     pub fn write(&self) -> Vec<R> {
-        let mut numbers: Vec<R> = self.laws.iter().flat_map(HingeLaw::numbers).collect();
-        numbers.extend(self.external.moment.to_array());
-        numbers.extend(self.external.force.to_array());
-        for place in 0..RightSideLayout::LINES_OF_LINK * self.laws.len() {
-            let LinkLine { point, main_body_point, law } = self.line(place);
-            numbers.extend(point.to_array());
-            numbers.extend(main_body_point.to_array());
-            numbers.extend(law.numbers());
-        }
+        let mut numbers = Vec::new();
+        self.write_at(self.laws.len(), |hinge| Some(hinge), &mut numbers);
         numbers
     }
 
-    /// The numbers for the outer satellite of an embedding, on whose virtual links nothing acts.
-    pub fn embedded(&self, embedding: &Embedding) -> Self {
-        let mut outer = Self::none(embedding.outer().hinges());
-        outer.external = self.external;
-        for (inner, &hinge) in embedding.hinges().iter().enumerate() {
-            outer.laws[hinge] = self.laws[inner];
-            for (to, from) in outer.places(hinge).zip(self.places(inner)) {
-                outer.lines[to] = self.line(from);
+    /// Adds to `numbers` those for the outer satellite of an embedding, on whose virtual links nothing
+    /// acts.
+    pub fn write_embedded(&self, embedding: &Embedding, numbers: &mut Vec<R>) {
+        let inner = |outer: usize| embedding.hinges().iter().position(|&hinge| hinge == outer);
+        self.write_at(embedding.outer().hinges(), inner, numbers);
+    }
+
+    /// Adds the numbers for a satellite of so many hinges, each of which is one of these or none.
+    fn write_at(
+        &self,
+        hinges: usize,
+        inner: impl Fn(usize) -> Option<usize>,
+        numbers: &mut Vec<R>,
+    ) {
+        for hinge in 0..hinges {
+            let none = [R::zero(); RightSideLayout::LAW];
+            numbers.extend(inner(hinge).map_or(none, |inner| self.laws[inner].numbers()));
+        }
+        numbers.extend(self.external.moment.to_array());
+        numbers.extend(self.external.force.to_array());
+        for number in 0..RightSideLayout::LINES_OF_LINK {
+            for hinge in 0..hinges {
+                let place = inner(hinge).map(|inner| self.laws.len() * number + inner);
+                let line = place.map_or_else(LinkLine::absent, |place| self.line(place));
+                numbers.extend(line.point.to_array());
+                numbers.extend(line.main_body_point.to_array());
+                numbers.extend(line.law.numbers());
             }
         }
-        outer
     }
 }
 

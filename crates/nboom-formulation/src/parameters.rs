@@ -185,19 +185,25 @@ impl<R: Real> Parameters<R> {
         let mut numbers = Vec::new();
         write_rigid(&self.main, &mut numbers);
         for branch in &self.branches {
-            numbers
-                .extend(branch.rot_body_from_appendage.rows.into_iter().flat_map(Vec3::to_array));
-            numbers.extend(branch.point.to_array());
-            for link in &branch.links {
-                write_rigid(&link.inertia, &mut numbers);
-                numbers.extend(link.next);
-            }
+            write_place(&branch.rot_body_from_appendage, branch.point, &mut numbers);
+            branch.links.iter().for_each(|link| write_link(link, &mut numbers));
         }
         numbers
     }
 }
 
-fn write_rigid<R: Real>(body: &RigidInertia<R>, numbers: &mut Vec<R>) {
+/// Writes how an appendage is turned and where its first hinge is.
+pub(crate) fn write_place<R: Real>(rot: &Mat3<R>, point: Vec3<R>, numbers: &mut Vec<R>) {
+    numbers.extend(rot.rows.into_iter().flat_map(Vec3::to_array));
+    numbers.extend(point.to_array());
+}
+
+pub(crate) fn write_link<R: Real>(link: &ChainLink<R>, numbers: &mut Vec<R>) {
+    write_rigid(&link.inertia, numbers);
+    numbers.extend(link.next);
+}
+
+pub(crate) fn write_rigid<R: Real>(body: &RigidInertia<R>, numbers: &mut Vec<R>) {
     let i = &body.about_origin;
     numbers.push(body.mass);
     numbers.extend(body.first_moment.to_array());

@@ -2,7 +2,7 @@
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::OwnLaws;
-use nboom_formulation::Formulation;
+use nboom_formulation::{Formulation, Recognised, Uncovered};
 use nboom_model::Scene;
 use nboom_ode::Method;
 
@@ -39,14 +39,16 @@ pub(crate) enum CodeError {
 type Chosen = (AccelerationCode, String);
 
 impl AccelerationCode {
-    /// What `options`, whose generated routines are in `repertoire`, demand for the mode of `dynamics`, which begins at `since`.
+    /// What `options`, whose generated routines are in `repertoire`, demand for the mode of `dynamics`, whose
+    /// tree was `recognised` or not and which begins at `since`.
     ///
     /// # Errors
     /// When it cannot be had.
     pub fn choose(
         scene: &Scene,
         dynamics: &Recursive<f64>,
-        repertoire: &Repertoire,
+        recognised: &Result<Recognised, Uncovered>,
+        repertoire: &mut Repertoire,
         options: &Options,
         since: f64,
     ) -> Result<(Self, Selection), CodeError> {
@@ -58,14 +60,13 @@ impl AccelerationCode {
         }
         let as_demanded = AS_DEMANDED.to_owned();
         let (code, reason) = match (options.path, options.formulation) {
-            (Path::Generated, _) => {
-                generated(scene, dynamics, repertoire, options).map_err(CodeError::NoRoutine)?
-            }
+            (Path::Generated, _) => generated(scene, dynamics, recognised, repertoire, options)
+                .map_err(CodeError::NoRoutine)?,
             (Path::Generic, form) => {
                 library(scene, dynamics, form, as_demanded).map_err(CodeError::NotCovered)?
             }
             (Path::Auto, Some(Form::Recursive)) => (Self::Recursion, as_demanded),
-            (Path::Auto, _) => whatever_fits(scene, dynamics, repertoire, options),
+            (Path::Auto, _) => whatever_fits(scene, dynamics, recognised, repertoire, options),
         };
         let (path, formulation) = code.path_and_formulation();
         let reason = reason.into();
@@ -129,10 +130,11 @@ pub(crate) fn under_own_laws(
 fn generated(
     scene: &Scene,
     dynamics: &Recursive<f64>,
-    repertoire: &Repertoire,
+    recognised: &Result<Recognised, Uncovered>,
+    repertoire: &mut Repertoire,
     options: &Options,
 ) -> Result<Chosen, NoRoutine> {
-    let routine = Generated::fit(scene, dynamics, repertoire, options)?;
+    let routine = Generated::fit(scene, dynamics, recognised, repertoire, options)?;
     let reason = routine.routine().reason();
     Ok((AccelerationCode::Generated(routine), reason))
 }
@@ -156,10 +158,11 @@ fn library(
 fn whatever_fits(
     scene: &Scene,
     dynamics: &Recursive<f64>,
-    repertoire: &Repertoire,
+    recognised: &Result<Recognised, Uncovered>,
+    repertoire: &mut Repertoire,
     options: &Options,
 ) -> Chosen {
-    generated(scene, dynamics, repertoire, options)
+    generated(scene, dynamics, recognised, repertoire, options)
         .or_else(|none| library(scene, dynamics, options.formulation, none.to_string()))
         .unwrap_or_else(|not_covered| (AccelerationCode::Recursion, not_covered.to_string()))
 }

@@ -47,7 +47,7 @@ pub(crate) struct Equations {
     pub entered: Box<PreparedMode>,
     /// Others that were entered.
     others: Vec<Box<PreparedMode>>,
-    repertoire: Repertoire,
+    pub repertoire: Repertoire,
     /// Hinge laws of the program's own.
     pub own: OwnLaws,
     /// What a control law commands; they act from the next time a mode is entered.
@@ -72,8 +72,8 @@ pub(crate) struct Equations {
 
 impl Equations {
     /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as
-    /// well.
-    pub fn new(scene: &Scene, own: OwnLaws, options: &Options) -> Self {
+    /// well, by the routines of `repertoire`, which are those that `options` allow.
+    pub fn new(scene: &Scene, own: OwnLaws, repertoire: Repertoire, options: &Options) -> Self {
         let layout = VariableLayout::of_no_hinges();
         // Bodies whose inertia turns otherwise than they do have no momenta.
         let is_rigid = scene.departures().turned.is_empty();
@@ -86,7 +86,7 @@ impl Equations {
             scene: scene.clone(),
             entered: PreparedMode::new(dynamics, &at_start, &commands, |i| state.beta[i]).into(),
             others: Vec::new(),
-            repertoire: Repertoire::new(options),
+            repertoire,
             own,
             commands,
             variables: Variables::new(scene, &at_start, layout, &state),

@@ -88,12 +88,12 @@ impl<'a> Run<'a> {
     fn new(
         options: Options,
         equations: &'a mut Equations,
+        stepper: &'a mut dyn Stepper,
         workspace: &'a mut Workspace,
         control: Option<Control<'a>>,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
-        let Workspace { situation, scratch, shown, seen, stepper, variables, room, summary } =
-            workspace;
+        let Workspace { situation, scratch, shown, seen, variables, room, summary } = workspace;
         stepper.reset();
         equations.begin();
         situation.begin(&equations.scene, &equations.start, &mut equations.entered.dynamics);
@@ -117,7 +117,7 @@ impl<'a> Run<'a> {
             seen,
             situation,
             equations,
-            stepper: &mut **stepper,
+            stepper,
             variables,
             next_sample: 0,
             burst: (start, 0),

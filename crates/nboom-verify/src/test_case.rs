@@ -271,7 +271,7 @@ impl TestCase {
         };
         let as_it_is = |kernel: &Kernel| Fit {
             kernel: *kernel,
-            embedding: Embedding::new(topology, topology).expect("a topology is in itself"),
+            embedding: Embedding::new(topology, topology).expect("a topology is in itself").into(),
             parameters: parameters.clone(),
         };
         let fitting = kernels.iter().filter(fits).map(as_it_is);

@@ -66,7 +66,7 @@ fn labels_say_what_is_assumed() {
     ] {
         let topology: Topology = "M".parse().expect("a topology");
         let embedding = Embedding::new(&topology, &topology).expect("it is in itself");
-        let fit = Fit { kernel, embedding, parameters: vec![1.0; 3] };
+        let fit = Fit { kernel, embedding: embedding.into(), parameters: vec![1.0; 3] };
         let label = Label::generated(&fit);
         assert_eq!(
             (label.assumptions, label.topology, label.virtual_links),

@@ -1,5 +1,7 @@
 use std::cmp::Reverse;
 
+use std::sync::Arc;
+
 use nboom_formulation::{Embedding, Forces, Formulation, Layout, Recognised};
 use nboom_model::Topology;
 use nboom_scalar::Kernel;
@@ -13,7 +15,7 @@ pub struct Fit {
     /// The routine.
     pub kernel: Kernel,
     /// The mode's topology in the routine's.
-    pub embedding: Embedding,
+    pub embedding: Arc<Embedding>,
     /// The numbers of the satellite that the routine prepares, [`Kernel::parameters`] of them.
     pub parameters: Vec<f64>,
 }
@@ -44,10 +46,20 @@ fn duration_of_recursion(topology: &Topology) -> usize {
 
 /// The routines that a run may take: the one that is probably fastest first, of equally fast ones
 /// that with fewest links, then one of `articulated`, then the most specialised.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Repertoire {
-    accelerations: Vec<Entry>,
-    right_sides: Vec<Entry>,
+    accelerations: Routines,
+    right_sides: Routines,
+}
+
+/// The routines with one kind of result, in order.
+#[derive(Clone, Debug, Default)]
+struct Routines {
+    entries: Vec<Entry>,
+    /// Those that take a topology, for each that has been asked for.
+    taking: Vec<(Topology, Vec<Candidate>)>,
+    /// Room for parameters.
+    parameters: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
@@ -57,32 +69,47 @@ struct Entry {
     duration: usize,
 }
 
+/// A routine that takes a topology, if it accepts the numbers.
+#[derive(Clone, Debug)]
+struct Candidate {
+    kernel: Kernel,
+    embedding: Arc<Embedding>,
+}
+
+/// Topologies whose candidates are kept. Scenes have few.
+const MOST_TOPOLOGIES: usize = 64;
+
 impl Repertoire {
     /// The routines that `options` allow.
     pub fn new(options: &Options) -> Self {
-        let of = |result| Entry::all(options, result);
+        let of = |result| Routines::all(options, result);
         Self { accelerations: of("accelerations"), right_sides: of("right_side") }
     }
 
     /// The first routine that computes accelerations in a mode in which something acts on the
     /// main body from outside or nothing does (`external`). `None` if there is none.
-    pub fn best(&self, recognised: &Recognised, external: bool) -> Option<Fit> {
-        let may_hold = |entry: &&Entry| entry.kernel.external || !external;
-        let mut entries = self.accelerations.iter().filter(may_hold);
-        entries.find_map(|entry| entry.fit(recognised, |_| Vec::new()))
+    pub fn best(&mut self, recognised: &Recognised, external: bool) -> Option<Fit> {
+        let may_hold = |kernel: &Kernel| kernel.external || !external;
+        self.accelerations.first(recognised, may_hold, |_, _| {})
     }
 
     /// The first routine that computes all rates of change in a mode in which `forces` act. `None` if
     /// there is none.
-    pub(crate) fn right_side(&self, recognised: &Recognised, forces: &Forces<f64>) -> Option<Fit> {
-        let of_forces = |embedding: &Embedding| forces.embedded(embedding).write();
-        self.right_sides.iter().find_map(|entry| entry.fit(recognised, of_forces))
+    pub(crate) fn right_side(
+        &mut self,
+        recognised: &Recognised,
+        forces: &Forces<f64>,
+    ) -> Option<Fit> {
+        let write = |embedding: &Embedding, numbers: &mut Vec<f64>| {
+            forces.write_embedded(embedding, numbers);
+        };
+        self.right_sides.first(recognised, |_| true, write)
     }
 }
 
-impl Entry {
-    /// The routines for `result` that `options` allow, in order.
-    fn all(options: &Options, result: &str) -> Vec<Self> {
+impl Routines {
+    /// Those for `result` that `options` allow.
+    fn all(options: &Options, result: &str) -> Self {
         let allowed = |kernel: &&Kernel| {
             kernel.result == result
                 && options.formulation.is_none_or(|form| kernel.formulation == form.name())
@@ -90,31 +117,63 @@ impl Entry {
         let entry = |kernel: &Kernel| {
             let topology = kernel.topology.parse::<Topology>().ok()?;
             let duration = duration(&topology, kernel.instructions);
-            Some(Self { kernel: *kernel, topology, duration })
+            Some(Entry { kernel: *kernel, topology, duration })
         };
-        let mut entries: Vec<Self> =
+        let mut entries: Vec<Entry> =
             options.kernels.iter().filter(allowed).filter_map(entry).collect();
         entries.sort_by_key(|entry| {
             let articulated = entry.kernel.formulation == Formulation::Articulated.name();
             let assumptions = Reverse(entry.kernel.assumptions.len());
             (entry.duration, entry.topology.hinges(), !articulated, assumptions)
         });
-        entries
+        Self { entries, ..Self::default() }
     }
 
-    /// How it takes a mode, if it does and that pays; `more` has the parameters that follow those of the
-    /// satellite.
-    fn fit(&self, recognised: &Recognised, more: impl Fn(&Embedding) -> Vec<f64>) -> Option<Fit> {
+    /// The first that takes a mode; `write` adds the parameters that follow those of the satellite.
+    fn first(
+        &mut self,
+        recognised: &Recognised,
+        may_take: impl Fn(&Kernel) -> bool,
+        write: impl Fn(&Embedding, &mut Vec<f64>),
+    ) -> Option<Fit> {
+        let of_topology = self.of(&recognised.topology);
+        let Self { taking, parameters, .. } = self;
+        let accepts = |Candidate { kernel, embedding }: &&Candidate| {
+            embedding.write_parameters(&recognised.parameters, kernel.assumptions, parameters);
+            write(embedding, parameters);
+            kernel.accepts(parameters)
+        };
+        let may_take = |candidate: &&Candidate| may_take(&candidate.kernel);
+        let candidates = &taking[of_topology].1;
+        let Candidate { kernel, embedding } = candidates.iter().filter(may_take).find(accepts)?;
+        let embedding = Arc::clone(embedding);
+        Some(Fit { kernel: *kernel, embedding, parameters: self.parameters.clone() })
+    }
+
+    /// Where the candidates of a topology are kept.
+    fn of(&mut self, topology: &Topology) -> usize {
+        if let Some(known) = self.taking.iter().position(|(known, _)| known == topology) {
+            return known;
+        }
+        if self.taking.len() == MOST_TOPOLOGIES {
+            self.taking.clear();
+        }
+        let candidates = self.entries.iter().filter_map(|entry| entry.candidate(topology));
+        self.taking.push((topology.clone(), candidates.collect()));
+        self.taking.len() - 1
+    }
+}
+
+impl Entry {
+    /// How it takes a topology, if it does and that pays.
+    fn candidate(&self, topology: &Topology) -> Option<Candidate> {
         let may_embed = self.kernel.formulation == Formulation::Articulated.name()
-            && self.duration < duration_of_recursion(&recognised.topology);
-        if !(may_embed || recognised.topology == self.topology) {
+            && self.duration < duration_of_recursion(topology);
+        if !(may_embed || *topology == self.topology) {
             return None;
         }
-        let embedding = Embedding::new(&recognised.topology, &self.topology)?;
-        let mut parameters = embedding.parameters(&recognised.parameters, self.kernel.assumptions);
-        parameters.extend(more(&embedding));
-        let fit = Fit { kernel: self.kernel, embedding, parameters };
-        self.kernel.accepts(&fit.parameters).then_some(fit)
+        let embedding = Arc::new(Embedding::new(topology, &self.topology)?);
+        Some(Candidate { kernel: self.kernel, embedding })
     }
 }
 

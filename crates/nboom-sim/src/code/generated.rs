@@ -1,5 +1,5 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_formulation::{Layout, Recognised, Uncovered, recognise};
+use nboom_formulation::{Layout, Recognised, Uncovered};
 use nboom_model::{HingeLabel, Scene, WeldedTree};
 use nboom_scalar::{Kernel, Vec3};
 
@@ -157,23 +157,25 @@ fn routine(form: &Option<Form>) -> String {
 }
 
 impl Generated {
-    /// The best routine of `repertoire` for what `dynamics` computes in its mode.
+    /// The best routine of `repertoire` for what `dynamics` computes in its mode, whose tree was
+    /// `recognised` or not.
     ///
     /// # Errors
     /// Why none does.
     pub fn fit(
         scene: &Scene,
         dynamics: &Recursive<f64>,
-        repertoire: &Repertoire,
+        recognised: &Result<Recognised, Uncovered>,
+        repertoire: &mut Repertoire,
         options: &Options,
     ) -> Result<Self, NoRoutine> {
         let (form, tree) = (options.formulation, dynamics.tree());
         let recognised =
-            recognise(tree).map_err(|why| NoRoutine::of_tree(why, scene, tree, form))?;
+            recognised.as_ref().map_err(|&why| NoRoutine::of_tree(why, scene, tree, form))?;
         let external = dynamics.acts_on_main_body();
         let fit = repertoire
-            .best(&recognised, external)
-            .ok_or_else(|| NoRoutine::because(&recognised, external, options))?;
+            .best(recognised, external)
+            .ok_or_else(|| NoRoutine::because(recognised, external, options))?;
         let mut hinges =
             vec![HingeNumbers { in_state: [0; 3], in_output: 0 }; recognised.links.len()];
         for (&link, (in_state, in_output)) in recognised.links.iter().zip(fit.hinges()) {

@@ -1,5 +1,5 @@
 use nboom_dynamics::Recursive;
-use nboom_formulation::{Forces, RightSideLayout, recognise};
+use nboom_formulation::{Forces, Recognised, RightSideLayout};
 use nboom_scalar::{Batch, Eight, Numbers, RoutineOn};
 
 use crate::code::fit::{Fit, Repertoire};
@@ -25,17 +25,16 @@ pub(crate) struct RightSides {
 }
 
 impl RightSides {
-    /// The best routines of `repertoire` for what acts in the mode of `dynamics`. `None` if there is
-    /// none.
+    /// The best routines of `repertoire` for what acts in the mode of `dynamics`, whose tree was
+    /// `recognised`. `None` if there is none.
     pub fn fit(
         dynamics: &Recursive<f64>,
-        repertoire: &Repertoire,
+        recognised: &Recognised,
+        repertoire: &mut Repertoire,
         batches: &[Batch],
     ) -> Option<Self> {
-        let tree = dynamics.tree();
-        let recognised = recognise(tree).ok()?;
-        let forces = Forces::of(dynamics.elements(), tree, &recognised)?;
-        let fit = repertoire.right_side(&recognised, &forces)?;
+        let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised)?;
+        let fit = repertoire.right_side(recognised, &forces)?;
         let mut hinges = vec![0; recognised.links.len()];
         for (&link, &hinge) in recognised.links.iter().zip(fit.embedding.hinges()) {
             hinges[link] = hinge;

@@ -9,6 +9,7 @@ use nboom_scalar::Vec3;
 
 use super::Equations;
 use super::state::State;
+use crate::code::fit::Repertoire;
 use crate::options::{Form, Options};
 
 /// Bodies without hinges, chains, paddles, gravity, laws with squares, and springs that push.
@@ -54,7 +55,10 @@ pub(super) fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Ve
         rotors: vec![1; scene.rotors.len()],
     };
     let options = Options { formulation, ..Options::default() };
-    let (mut equations, mut y) = (Equations::new(&scene, OwnLaws::default(), &options), Vec::new());
+    let (mut equations, mut y) = (
+        Equations::new(&scene, OwnLaws::default(), Repertoire::new(&options), &options),
+        Vec::new(),
+    );
     equations.enter(&mode, &mut state, &mut y);
     y.iter_mut().skip(equations.variables.layout.hinge_motion().end).for_each(|y| *y = 0.4);
     (equations, y)

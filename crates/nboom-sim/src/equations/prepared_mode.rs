@@ -1,5 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, Reach};
+use nboom_formulation::recognise;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Eight, Vec3};
 
@@ -112,22 +113,25 @@ impl PreparedMode {
         &mut self,
         scene: &Scene,
         own: &OwnLaws,
-        repertoire: &Repertoire,
+        repertoire: &mut Repertoire,
         options: &Options,
         since: f64,
     ) -> Result<Selection, CodeError> {
         if let Some(selection) = &self.selection {
             return Ok(Selection { since, ..selection.clone() });
         }
+        let recognised = recognise(self.dynamics.tree());
         let (code, mut selection) = if own.is_empty() {
-            AccelerationCode::choose(scene, &self.dynamics, repertoire, options, since)?
+            let dynamics = &self.dynamics;
+            AccelerationCode::choose(scene, dynamics, &recognised, repertoire, options, since)?
         } else {
             AccelerationCode::under_own_laws(own, since)
         };
-        if let AccelerationCode::Generated(_) = code {
+        if let (AccelerationCode::Generated(_), Ok(recognised)) = (&code, &recognised) {
             // Hinge laws are built into right sides.
             if self.reach == Reach::Nothing {
-                self.right_sides = RightSides::fit(&self.dynamics, repertoire, options.batches);
+                let (dynamics, batches) = (&self.dynamics, options.batches);
+                self.right_sides = RightSides::fit(dynamics, recognised, repertoire, batches);
             }
             let told = match &self.right_sides {
                 Some(RightSides { of_eight: Some(_), .. }) => {

@@ -4,6 +4,7 @@ use nboom_ode::Stepper;
 
 use super::Run;
 use super::control::Control;
+use crate::code::fit::Repertoire;
 use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::error::SimError;
@@ -21,6 +22,7 @@ use crate::run::step_motion::Room;
 pub struct Simulator {
     options: Options,
     equations: Equations,
+    stepper: Box<dyn Stepper>,
     workspace: Workspace,
 }
 
@@ -30,20 +32,18 @@ pub(super) struct Workspace {
     pub scratch: State,
     pub shown: State,
     pub seen: Snapshot,
-    pub stepper: Box<dyn Stepper>,
     pub variables: Vec<f64>,
     pub room: Room,
     pub summary: Summary,
 }
 
 impl Workspace {
-    fn new(scene: &Scene, elements: &Elements<f64>, options: &Options) -> Self {
+    fn new(scene: &Scene, elements: &Elements<f64>) -> Self {
         Self {
             situation: Situation::new(scene),
             scratch: State::initial(scene),
             shown: State::initial(scene),
             seen: Snapshot::empty(),
-            stepper: options.stepper(),
             variables: Vec::new(),
             room: Room::new(scene, elements),
             summary: Summary::empty(),
@@ -66,10 +66,10 @@ impl Simulator {
     }
 
     fn under(scene: &Scene, options: Options, own: OwnLaws) -> Self {
-        let equations = Equations::new(scene, own, &options);
+        let equations = Equations::new(scene, own, Repertoire::new(&options), &options);
         let elements = equations.entered.dynamics.elements();
-        let workspace = Workspace::new(scene, elements, &options);
-        Self { options, equations, workspace }
+        let workspace = Workspace::new(scene, elements);
+        Self { options, equations, stepper: options.stepper(), workspace }
     }
 
     /// Takes another scene, under the program's own laws that the simulator has. What was prepared stays if
@@ -77,9 +77,12 @@ impl Simulator {
     pub fn set_scene(&mut self, scene: &Scene) {
         if is_same_satellite(&self.equations.scene, scene) {
             self.equations.set_scene(scene);
-        } else {
-            *self = Self::under(scene, self.options, self.equations.own.clone());
+            return;
         }
+        let Self { options, equations, workspace, .. } = self;
+        let repertoire = std::mem::take(&mut equations.repertoire);
+        *equations = Equations::new(scene, equations.own.clone(), repertoire, options);
+        *workspace = Workspace::new(scene, equations.entered.dynamics.elements());
     }
 
     /// Runs the scene from its initial to its end time and tells `recorder` on the way.
@@ -112,9 +115,9 @@ impl Simulator {
         control: Option<Control<'_>>,
         recorder: &mut dyn Recorder,
     ) -> Result<&Summary, Failure> {
-        let Self { options, equations, workspace } = self;
+        let Self { options, equations, stepper, workspace } = self;
         let control = control.map(|Control { period, law }| Control { period, law });
-        let mut run = Run::new(*options, equations, workspace, control, recorder);
+        let mut run = Run::new(*options, equations, &mut **stepper, workspace, control, recorder);
         let completed = run.complete();
         run.sum_up();
         let summary = &mut self.workspace.summary;
