@@ -34,7 +34,7 @@ pub(crate) fn scene(args: &SceneArgs) -> Result<SceneFile, CliError> {
 }
 
 /// All warnings, of the file and of the scene.
-pub(crate) fn warnings(file: &SceneFile) -> Vec<String> {
+pub fn warnings(file: &SceneFile) -> Vec<String> {
     let of_file = file.warnings.iter().map(ToString::to_string);
     let of_scene = file.scene.warnings();
     of_file.chain(of_scene.iter().map(ToString::to_string)).collect()

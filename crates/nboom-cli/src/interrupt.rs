@@ -15,38 +15,45 @@ const LOOK: Duration = Duration::from_millis(100);
 /// Time in which a run may end in order; a step of a thousand hinges may take longer.
 const PATIENCE: Duration = Duration::from_millis(700);
 
-/// Whether the user or the system has asked the program to end, by Ctrl-C or SIGTERM.
-#[derive(Clone, Debug)]
-pub(crate) struct Interrupt {
-    came: Arc<AtomicBool>,
+/// Whether the user or the system has asked for an end, of the command by Ctrl-C or SIGTERM.
+#[derive(Clone)]
+pub struct Interrupt {
+    came: Arc<dyn Fn() -> bool + Send + Sync>,
     /// Held by work that must not be broken off.
     shield: Arc<Mutex<()>>,
 }
 
+/// Makes an [`Interrupt`] when the work begins.
+pub type Interrupts<'a> = &'a dyn Fn() -> Result<Interrupt, CliError>;
+
 impl Interrupt {
+    /// An interrupt that comes when the program around the command says so. It is asked at each step of a
+    /// run.
+    pub fn when(came: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        Self { came: Arc::new(came), shield: Arc::default() }
+    }
+
     /// From now on the first such signal is only noted. The program ends if it does not react
     /// within a second; the second signal ends it at once.
     pub(crate) fn watch() -> Result<Self, CliError> {
-        let interrupt = Self::patient()?;
-        let (came, shield) = (interrupt.came.clone(), Arc::downgrade(&interrupt.shield));
+        let came = noted()?;
+        let interrupt = Self::at(came.clone());
+        let shield = Arc::downgrade(&interrupt.shield);
         thread::spawn(move || insist(&came, &shield));
         Ok(interrupt)
     }
 
     /// As [`watch`](Self::watch), but the program may take its time to react.
     pub(crate) fn patient() -> Result<Self, CliError> {
-        let interrupt = Self { came: Arc::default(), shield: Arc::default() };
-        for signal in [SIGINT, SIGTERM] {
-            // The order matters: the first signal must find that none has come.
-            flag::register_conditional_default(signal, interrupt.came.clone())
-                .and_then(|_| flag::register(signal, interrupt.came.clone()))
-                .map_err(CliError::Signals)?;
-        }
-        Ok(interrupt)
+        noted().map(Self::at)
+    }
+
+    fn at(came: Arc<AtomicBool>) -> Self {
+        Self::when(move || came.load(Ordering::Relaxed))
     }
 
     pub(crate) fn came(&self) -> bool {
-        self.came.load(Ordering::Relaxed)
+        (self.came)()
     }
 
     /// Runs work that must not be broken off.
@@ -54,6 +61,18 @@ impl Interrupt {
         let _held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
         work()
     }
+}
+
+/// Notes the first signal; the second ends the program.
+fn noted() -> Result<Arc<AtomicBool>, CliError> {
+    let came = Arc::<AtomicBool>::default();
+    for signal in [SIGINT, SIGTERM] {
+        // The order matters: the first signal must find that none has come.
+        flag::register_conditional_default(signal, came.clone())
+            .and_then(|_| flag::register(signal, came.clone()))
+            .map_err(CliError::Signals)?;
+    }
+    Ok(came)
 }
 
 /// Ends the program a while after a signal has come, unless the run is over by then.

@@ -1,5 +1,8 @@
 //! The command line of nboom: reads arguments, runs the command and prints the outcome.
 //!
+//! Other programs may use its parts: [`RunArgs::prepare`] makes a run of options and a scene, [`finish_sweep`] the
+//! pages of a sweep. Whoever calls them says by an [`Interrupt`] when they shall stop.
+//!
 //! Results go to standard output, everything else to standard error. Options are defined once, in
 //! [`Cli`]; the help texts and `docs/cli.md` are made from them. The crates below read, simulate
 //! and write files.
@@ -75,6 +78,7 @@ use nboom_scalar::{Batch, Kernel};
 pub use args::{CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
 pub use bench::BenchArgs;
 pub use case::CaseError;
+pub use check::warnings;
 pub use choice::ChoiceError;
 #[cfg(feature = "generator")]
 pub use compile::CompileArgs;
@@ -85,14 +89,17 @@ pub use error::CliError;
 #[cfg(feature = "generator")]
 pub use generate::GenerateArgs;
 pub use given::Given;
+pub use interrupt::{Interrupt, Interrupts};
 #[cfg(feature = "generator")]
 pub use man::ManArgs;
 pub use merge::MergeArgs;
 #[cfg(feature = "generator")]
 pub use new::{Kind, NewArgs};
+pub use picture::svg;
 pub use plots::PlotArgs;
 pub use reference::reference;
 pub use report::ReportArgs;
+pub use run::PreparedRun;
 pub use scene_args::SceneArgs;
 pub use schema::{SchemaArgs, SchemaKind};
 pub use section::SectionArgs;
@@ -100,7 +107,7 @@ pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 pub use slips::SlipArgs;
 pub use stresses::StressArgs;
-pub use sweep::{SweepArgs, SweepError, SweepOutputs};
+pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
 pub use terminal::refuse;
@@ -136,7 +143,7 @@ pub fn execute(cli: &Cli) -> ExitCode {
 /// Runs the command like `execute`, with other routines than the stock ones.
 pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
     let printed = match &cli.command {
-        Command::Run(args) => run::run(args, routines),
+        Command::Run(args) => run::run(args, routines, &Interrupt::watch),
         Command::Report(args) => report::report(args),
         Command::Tables(args) => tables::tables(args),
         Command::Check(args) => check::check(args, routines),

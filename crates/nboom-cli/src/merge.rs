@@ -2,8 +2,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::sweep::{SweepError, SweepOutputs, account};
-use crate::{CliError, Routines};
+use crate::sweep::{SweepError, SweepOutputs, finish_sweep};
+use crate::{CliError, Interrupt, Routines};
 
 /// Options of `nboom merge`.
 #[derive(Args, Debug)]
@@ -25,5 +25,6 @@ pub struct MergeArgs {
 pub(crate) fn merge(args: &MergeArgs, routines: &Routines) -> Result<String, CliError> {
     let SweepOutputs { csv, accept_difference, .. } = args.outputs;
     let merged = nboom_study::merge(&args.directories, &args.output, csv, accept_difference);
-    account(&args.output, &merged.map_err(SweepError::Study)?, &args.outputs, routines)
+    let report = merged.map_err(SweepError::Study)?;
+    finish_sweep(&args.output, &report, &args.outputs, routines, &Interrupt::watch)
 }

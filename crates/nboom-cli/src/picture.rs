@@ -30,7 +30,7 @@ const AXIS: f64 = 0.055;
 const MOST_LABELS: usize = 100;
 
 /// The drawing, as a file in SVG; none of a scene too large or too small to be drawn.
-pub(crate) fn svg(scene: &Scene, units: &UnitSystem) -> Option<String> {
+pub fn svg(scene: &Scene, units: &UnitSystem) -> Option<String> {
     let latches = |body: &Body| body.hinge.can_turn() && body.hinge.lock_angle.is_some();
     let deployed = match scene.bodies.iter().filter(|body| latches(body)).count() {
         0 => "nothing latches",

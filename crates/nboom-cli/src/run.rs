@@ -13,7 +13,7 @@ use nboom_strength::StressAnalysis;
 
 use crate::certify::Certifier;
 use crate::ignored::{ignored, refuse_idle};
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Progress;
 use crate::record::Record;
 use crate::repeat::{is_record, repeated};
@@ -24,62 +24,116 @@ use crate::{
 };
 
 /// Simulates a scene, writes its files and returns the text for standard output.
-pub(crate) fn run(args: &RunArgs, routines: &Routines) -> Result<String, CliError> {
+pub(crate) fn run(
+    args: &RunArgs,
+    routines: &Routines,
+    interrupts: Interrupts<'_>,
+) -> Result<String, CliError> {
     if let Some(number) = args.case {
         let (args, file) = case::case(args, number)?;
-        return run_scene(&args, file, routines);
+        return run_scene(&args, file, routines, interrupts);
     }
     if !is_record(&args.scene.scene) {
-        return run_scene(args, args.scene.read()?, routines);
+        return run_scene(args, args.scene.read()?, routines, interrupts);
     }
     let (args, file) = repeated(args)?;
-    run_scene(&args, file, routines)
+    run_scene(&args, file, routines, interrupts)
 }
 
-fn run_scene(args: &RunArgs, file: SceneFile, routines: &Routines) -> Result<String, CliError> {
-    let slips = args.slips.as_1970.unwrap_or_default();
-    refuse_idle(args, &file)?;
-    args.tables.formats.iter().try_for_each(|format| format.require())?;
-    let ignored = ignored(&file, Some(args));
-    let scene_text = write_scene(&file);
-    let file = SceneFile { scene: slips.scene(file.scene), ..file };
-    let kernels = if args.path == PathChoice::Generic { &[] } else { routines.for_runs };
-    let stresses = args.stresses.analysis(&file, slips, kernels)?;
-    let warnings = check::warnings(&file).into_iter();
-    let warnings = warnings.chain(never_released(&file.scene, args.end_time));
-    let warnings: Vec<String> = warnings.chain(args.slips.warning()).collect();
-    let scene = with_end_time(file.scene, args.end_time)?;
-    let options = options(args, routines, &file.legacy)?;
-    let samples = match file.settings.sampling {
-        Some(Sampling::Uniform(samples)) => Some(samples),
-        _ => None,
-    };
-    let samples = args.samples.or(samples).unwrap_or(options.samples);
-    let options = Options { samples, ..options };
-    let units = args.units.clone().or(file.settings.units.clone()).unwrap_or_default();
-    let times = args.tables.times(&scene)?;
-    let output = table_args::output(args, &file.settings, &scene, &units, times.as_deref())?;
-    let record = Record::of(args, file.sha256.clone(), &scene_text, times.as_deref()).text();
-    let interrupt = Interrupt::watch()?;
-    check_start(&scene, &options).map_err(CliError::Start)?;
+fn run_scene(
+    args: &RunArgs,
+    file: SceneFile,
+    routines: &Routines,
+    interrupts: Interrupts<'_>,
+) -> Result<String, CliError> {
+    let prepared = args.prepare(file, routines)?;
     if !args.quiet {
-        warnings.iter().for_each(|warning| say("warning", warning));
-        ignored.iter().for_each(|ignored| say("note", ignored));
+        prepared.run.warnings.iter().for_each(|warning| say("warning", warning));
+        prepared.ignored.iter().for_each(|ignored| say("note", ignored));
     }
-    let run = RunDescription {
-        warnings,
-        print_interval: file.legacy.print_interval.unwrap_or(1),
-        input_sha256: Some(file.sha256),
-        scene_text: Some(scene_text),
-        record: Some(record),
-        parameters: file.settings.parameters,
-        output,
-        ..RunDescription::new(&scene, &options, units)
-    };
-    let tables = StressTables { every: file.legacy.stress_interval, signs: args.stresses.signs() };
-    let stresses = stresses.map(|analysis| (analysis, tables));
-    let account = simulate_into_files(&scene, &options, run, stresses, args, &interrupt)?;
-    Ok(if args.quiet { String::new() } else { account })
+    prepared.write(args, &interrupts()?)
+}
+
+/// A run that can begin.
+#[derive(Clone, Debug)]
+pub struct PreparedRun {
+    /// The scene, with slips and with the end of the run.
+    pub scene: Scene,
+    /// How it is run.
+    pub options: Options,
+    /// What is written of it.
+    pub run: RunDescription,
+    /// What finds its stresses and the loads of its hinges, if any are wanted.
+    pub stresses: Option<StressAnalysis>,
+    /// What it ignores of the scene and of the options, in one line.
+    pub ignored: Option<String>,
+    tables: StressTables,
+}
+
+impl RunArgs {
+    /// Prepares the run of a scene, whose options are all but those that say where the scene is.
+    ///
+    /// # Errors
+    /// When options and scene do not fit.
+    pub fn prepare(&self, file: SceneFile, routines: &Routines) -> Result<PreparedRun, CliError> {
+        let slips = self.slips.as_1970.unwrap_or_default();
+        refuse_idle(self, &file)?;
+        self.tables.formats.iter().try_for_each(|format| format.require())?;
+        let ignored = ignored(&file, Some(self));
+        let scene_text = write_scene(&file);
+        let file = SceneFile { scene: slips.scene(file.scene), ..file };
+        let kernels = if self.path == PathChoice::Generic { &[] } else { routines.for_runs };
+        let stresses = self.stresses.analysis(&file, slips, kernels)?;
+        let warnings = check::warnings(&file).into_iter();
+        let warnings = warnings.chain(never_released(&file.scene, self.end_time));
+        let warnings: Vec<String> = warnings.chain(self.slips.warning()).collect();
+        let scene = with_end_time(file.scene, self.end_time)?;
+        let options = options(self, routines, &file.legacy)?;
+        let samples = match file.settings.sampling {
+            Some(Sampling::Uniform(samples)) => Some(samples),
+            _ => None,
+        };
+        let samples = self.samples.or(samples).unwrap_or(options.samples);
+        let options = Options { samples, ..options };
+        let units = self.units.clone().or(file.settings.units.clone()).unwrap_or_default();
+        let times = self.tables.times(&scene)?;
+        let output = table_args::output(self, &file.settings, &scene, &units, times.as_deref())?;
+        let record = Record::of(self, file.sha256.clone(), &scene_text, times.as_deref()).text();
+        check_start(&scene, &options).map_err(CliError::Start)?;
+        let run = RunDescription {
+            warnings,
+            print_interval: file.legacy.print_interval.unwrap_or(1),
+            input_sha256: Some(file.sha256),
+            scene_text: Some(scene_text),
+            record: Some(record),
+            parameters: file.settings.parameters,
+            output,
+            ..RunDescription::new(&scene, &options, units)
+        };
+        let (every, signs) = (file.legacy.stress_interval, self.stresses.signs());
+        Ok(PreparedRun {
+            scene,
+            options,
+            run,
+            stresses,
+            ignored,
+            tables: StressTables { every, signs },
+        })
+    }
+}
+
+impl PreparedRun {
+    /// Simulates, writes all files into the directory that the arguments name, and returns an account.
+    ///
+    /// # Errors
+    /// When the motion cannot be followed to its end, when files cannot be written, and when it is interrupted;
+    /// what was computed is kept.
+    pub fn write(self, args: &RunArgs, interrupt: &Interrupt) -> Result<String, CliError> {
+        let Self { scene, options, run, stresses, tables, .. } = self;
+        let stresses = stresses.map(|analysis| (analysis, tables));
+        let account = simulate_into_files(&scene, &options, run, stresses, args, interrupt)?;
+        Ok(if args.quiet { String::new() } else { account })
+    }
 }
 
 fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError> {

@@ -12,7 +12,7 @@ use nboom_study::{
     SweepDirectory, Watcher,
 };
 
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
 use crate::run::run;
 use crate::{Cli, CliError, Command, Routines, say, sweep_account};
@@ -133,15 +133,20 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
         let (done, cases) = (report.done, report.description.share());
         return Err(SweepError::Interrupted { directory, done, cases }.into());
     }
-    account(&directory, &report, &args.outputs, routines)
+    finish_sweep(&directory, &report, &args.outputs, routines, &Interrupt::watch)
 }
 
-/// Makes the page of a sweep that is complete, warns of its troubles, and returns its account.
-pub(crate) fn account(
+/// Makes the page of a sweep that is complete, with runs of its worst cases, warns of its troubles, and
+/// returns its account.
+///
+/// # Errors
+/// When its files cannot be read or the page cannot be written, and when it is interrupted.
+pub fn finish_sweep(
     directory: &Path,
     report: &Report,
     outputs: &SweepOutputs,
     routines: &Routines,
+    interrupts: Interrupts<'_>,
 ) -> Result<String, CliError> {
     let counts = report.description.counts.unwrap_or_default();
     for (count, what) in [(counts.rejected, "rejected"), (counts.failed, "failed")] {
@@ -157,7 +162,7 @@ pub(crate) fn account(
     let sweep = finished(directory)?.ok_or_else(|| SweepError::gone(directory))?;
     let has_page = report.end == End::WasComplete && directory.join(PAGE_FILE).exists();
     if !outputs.no_report && !has_page {
-        run_worst(&sweep, directory, routines)?;
+        run_worst(&sweep, directory, routines, interrupts)?;
         write_page(&sweep, directory)?;
     }
     let statistics = sweep.statistics().map_err(SweepError::Study)?;
@@ -175,6 +180,7 @@ fn run_worst(
     sweep: &SweepDirectory,
     directory: &Path,
     routines: &Routines,
+    interrupts: Interrupts<'_>,
 ) -> Result<(), CliError> {
     for case in worst(&sweep.statistics().map_err(SweepError::Study)?) {
         let (study, folder) = (directory.join(STUDY_FILE), page_folder(directory, case));
@@ -182,7 +188,7 @@ fn run_worst(
         words.extend([format!("--case={case}").into(), "-o".into(), folder.into()]);
         words.extend(["--".into(), study.into()]);
         match Cli::try_parse_from(&words).map(|cli| cli.command) {
-            Ok(Command::Run(args)) => run(&args, routines)?,
+            Ok(Command::Run(args)) => run(&args, routines, interrupts)?,
             other => unreachable!("these words are a run: {words:?}, {other:?}"),
         };
     }

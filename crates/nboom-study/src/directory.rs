@@ -127,11 +127,11 @@ impl Place {
         self.write(STATISTICS_FILE, &(text + "\n"))
     }
 
-    /// Says that the sweep is complete.
+    /// Says what the sweep is now: made by others too, or complete.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn complete(&self, what: &Description) -> Result<(), StudyError> {
+    pub fn describe(&self, what: &Description) -> Result<(), StudyError> {
         self.write(STUDY_JSON_FILE, &what.text())
     }
 
@@ -188,11 +188,22 @@ pub(crate) fn require_same(
     now: &Description,
     accept_difference: bool,
 ) -> Result<(), StudyError> {
-    let directory = directory.to_owned();
     let differences = then.differences(now);
     if !differences.is_empty() {
-        return Err(StudyError::Different { directory, differences });
+        return Err(StudyError::Different { directory: directory.to_owned(), differences });
     }
+    require_made_here(directory, then, now, accept_difference)
+}
+
+/// # Errors
+/// When a description names programs that another does not, unless that is accepted.
+pub(crate) fn require_made_here(
+    directory: &Path,
+    then: &Description,
+    now: &Description,
+    accept_difference: bool,
+) -> Result<(), StudyError> {
+    let directory = directory.to_owned();
     let differences = then.made_elsewhere(now);
     if differences.is_empty() || accept_difference {
         Ok(())

@@ -102,6 +102,12 @@ pub enum StudyError {
         /// What the program says.
         found: String,
     },
+    /// Something that should be a batch of cases from elsewhere is none.
+    #[error("{found} found, a batch of cases of this sweep expected")]
+    NoBatch {
+        /// What it is.
+        found: String,
+    },
     /// A directory that should be a finished shard is none.
     #[error("{}: {found} found, a finished shard expected", directory.display())]
     NoShard {

@@ -39,6 +39,18 @@ impl Head {
         (head.text() == text && 1 <= head.first && head.first <= head.last).then_some(head)
     }
 
+    /// Reads the line of a whole frame and nothing else; none if it is anything else.
+    pub fn of_whole(frame: &[u8]) -> Option<Self> {
+        let line = frame.iter().take(LONGEST_HEAD as usize).position(|byte| *byte == b'\n')?;
+        let (line, rows) = frame.split_at(line + 1);
+        let head = Self::parse(line)?;
+        let length = usize::try_from(head.rows.checked_add(head.states)?).ok()?;
+        let mut checksum = crc32fast::Hasher::new();
+        checksum.update(head.said().as_bytes());
+        checksum.update(rows);
+        (rows.len() == length && checksum.finalize() == head.checksum).then_some(head)
+    }
+
     /// The line.
     pub fn text(&self) -> String {
         format!("{} {:08x}\n", self.said(), self.checksum)
@@ -102,8 +114,8 @@ impl Batch {
         self.cases += 1;
     }
 
-    /// Its frame.
-    pub fn frame(&self) -> Vec<u8> {
+    /// The first line of its frame.
+    pub fn head(&self) -> Head {
         let last = self.first + self.cases - 1;
         let (rows, states) = (self.rows.len() as u64, self.states.len() as u64);
         let mut head = Head { first: self.first, last, rows, states, checksum: 0 };
@@ -112,7 +124,12 @@ impl Batch {
             checksum.update(part);
         }
         head.checksum = checksum.finalize();
-        [head.text().as_bytes(), &self.rows, &self.states].concat()
+        head
+    }
+
+    /// Its frame.
+    pub fn frame(&self) -> Vec<u8> {
+        [self.head().text().as_bytes(), &self.rows, &self.states].concat()
     }
 }
 

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use nboom_tables::{Cell, Column, CsvRows};
 
 use crate::StudyError;
-use crate::frame::{Batch, Head, LONGEST_HEAD};
+use crate::frame::{Head, LONGEST_HEAD};
 
 /// How much of a file is read at once \[bytes\].
 const BUFFER: usize = 1 << 16;
@@ -240,16 +240,15 @@ pub(crate) struct JournalWriter<'a> {
 }
 
 impl JournalWriter<'_> {
-    /// Adds the rows of cases that are not there yet, and waits for the disk.
+    /// Adds a frame of cases that are not there yet, with the first line `head`, and waits for the disk.
     ///
     /// # Errors
-    /// When they cannot be written; nothing may be added then.
-    pub fn append(&mut self, batch: &Batch) -> Result<(), StudyError> {
-        let frame = batch.frame();
-        let written = self.file.write_all(&frame).and_then(|()| self.file.sync_data());
+    /// When it cannot be written; nothing may be added then.
+    pub fn append(&mut self, frame: &[u8], head: Head) -> Result<(), StudyError> {
+        let written = self.file.write_all(frame).and_then(|()| self.file.sync_data());
         let journal = &mut *self.journal;
         written.map_err(StudyError::writing(&journal.path))?;
-        let (first, last) = (batch.first, batch.first + batch.cases - 1);
+        let Head { first, last, .. } = head;
         journal.frames.push(Frame { first, last, at: journal.end });
         journal.end += frame.len() as u64;
         journal.length = journal.end;

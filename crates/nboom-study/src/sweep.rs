@@ -7,6 +7,7 @@ use toml::de::DeTable;
 
 use crate::description::{Description, Maker, Source};
 use crate::directory::SWEPT_SCENE_FILE;
+use crate::gathering::Gathering;
 use crate::task::{Report, Task};
 use crate::workers::Worker;
 use crate::{Runner, Shard, Study, StudyError, Watcher, columns, trajectory_columns};
@@ -48,19 +49,30 @@ impl Sweep<'_> {
             let mut runner = Runner::new(study, self.kernels, self.right_sides);
             Box::new(move |number, interrupted| runner.run(&study.case(number), interrupted))
         };
-        let task = Task {
+        self.task(|task| task.run(&worker, self.jobs, watcher))
+    }
+
+    /// Begins the sweep or continues it for cases that run elsewhere.
+    ///
+    /// # Errors
+    /// When the directory is refused.
+    pub fn gather(&self) -> Result<Gathering, StudyError> {
+        let begin = self.task(|task| task.begin())?;
+        Ok(Gathering::new(begin, &self.directory, self.accept_difference))
+    }
+
+    fn task<T>(&self, make: impl FnOnce(&Task<'_>) -> T) -> T {
+        let study = self.study;
+        make(&Task {
             directory: &self.directory,
             description: self.description(),
-            study: &beside_its_scene(&study.text),
+            study: &study.beside_its_scene(),
             scene: &study.document.text(),
             samples: samples(study),
-            worker: &worker,
-            jobs: self.jobs,
             resume: self.resume,
             csv: self.csv,
             accept_difference: self.accept_difference,
-        };
-        task.run(watcher)
+        })
     }
 
     fn description(&self) -> Description {
@@ -87,15 +99,18 @@ impl Sweep<'_> {
     }
 }
 
-/// The text of a study whose scene is the one beside it in a sweep's directory.
-fn beside_its_scene(study: &str) -> String {
-    let (keys, _) = DeTable::parse_recoverable(study);
-    match keys.get_ref().get("scene").map(Spanned::span) {
-        Some(place) => {
-            let name = toml::Value::from(SWEPT_SCENE_FILE).to_string();
-            [&study[..place.start], &name, &study[place.end..]].concat()
+impl Study {
+    /// Its text as it stands beside its scene, `scene.toml`, in a sweep's directory.
+    pub fn beside_its_scene(&self) -> String {
+        let text = &self.text;
+        let (keys, _) = DeTable::parse_recoverable(text);
+        match keys.get_ref().get("scene").map(Spanned::span) {
+            Some(place) => {
+                let name = toml::Value::from(SWEPT_SCENE_FILE).to_string();
+                [&text[..place.start], &name, &text[place.end..]].concat()
+            }
+            None => text.clone(),
         }
-        None => study.to_owned(),
     }
 }
 

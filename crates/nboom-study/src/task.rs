@@ -21,10 +21,6 @@ pub(crate) struct Task<'a> {
     pub scene: &'a str,
     /// About how many rows a trajectory has.
     pub samples: u64,
-    /// Makes what runs cases in one thread.
-    pub worker: &'a (dyn Fn() -> Worker<'a> + Sync),
-    /// Threads.
-    pub jobs: usize,
     /// Whether what was begun is continued.
     pub resume: bool,
     /// Whether tables are in CSV too.
@@ -59,36 +55,88 @@ pub enum End {
     Interrupted,
 }
 
+/// What became of a task that was begun.
+pub(crate) enum Begin {
+    /// All cases had been done before.
+    Complete(Report),
+    /// Cases are missing.
+    Open(Begun),
+}
+
+/// A sweep whose directory is taken.
+#[derive(Debug)]
+pub(crate) struct Begun {
+    pub place: Place,
+    /// What it is, not complete.
+    pub what: Description,
+    /// The cases that are done.
+    pub journal: Journal,
+    /// How many were done before.
+    before: u64,
+    /// The study and the scene.
+    texts: [String; 2],
+    csv: bool,
+}
+
+impl Begun {
+    /// Makes the tables if all cases are done, and says what the sweep came to.
+    ///
+    /// # Errors
+    /// When a file cannot be written, and when the journal cannot be read.
+    pub fn finish(self) -> Result<Report, StudyError> {
+        let Self { place, what, journal, before, texts: [study, scene], csv } = self;
+        let done = journal.done();
+        let report = if done < what.share() {
+            let files = place.files();
+            Report { end: End::Interrupted, description: what, done, computed: 0, files }
+        } else {
+            finish(&place, what, &[journal], [&study, &scene], csv)?
+        };
+        Ok(Report { computed: done - before, ..report })
+    }
+}
+
 impl Task<'_> {
-    /// Makes the sweep or continues it.
+    /// Makes the sweep or continues it, in so many threads, each with a worker of its own.
     ///
     /// # Errors
     /// When the directory is refused, and when it could not be finished. What is done stays, and can be
     /// continued.
-    pub fn run(&self, watcher: &dyn Watcher) -> Result<Report, StudyError> {
+    pub fn run<'w>(
+        &self,
+        worker: &(dyn Fn() -> Worker<'w> + Sync),
+        jobs: usize,
+        watcher: &dyn Watcher,
+    ) -> Result<Report, StudyError> {
+        let mut begun = match self.begin()? {
+            Begin::Complete(report) => return Ok(report),
+            Begin::Open(begun) => begun,
+        };
+        let Begun { what, journal, .. } = &mut begun;
+        Crew { columns: what.tables(), worker, jobs, watcher }.fill(journal, what.share())?;
+        begun.finish()
+    }
+
+    /// Takes the directory for a sweep whose cases are still to be run, some of them or all.
+    ///
+    /// # Errors
+    /// When the directory is refused.
+    pub fn begin(&self) -> Result<Begin, StudyError> {
         let place = Place::take(self.directory)?;
         let what = match place.state(&self.description, self.accept_difference)? {
-            State::Complete(what) => return settle(&place, what),
+            State::Complete(what) => return settle(&place, what).map(Begin::Complete),
             State::Open(what) => what,
         };
-        let mut journal = directory::journal(self.directory, &what)?;
+        let journal = directory::journal(self.directory, &what)?;
         let (before, cases) = (journal.done(), what.share());
         if place.found.is_some() && !self.resume {
             let directory = self.directory.to_owned();
             return Err(StudyError::Unfinished { directory, done: before, cases });
         }
         space::require(self.directory, self.bytes(&what, cases - before), cases)?;
+        let texts = [self.study, self.scene].map(str::to_owned);
         place.begin(&what, self.study, self.scene)?;
-        let (columns, worker) = (what.tables(), self.worker);
-        Crew { columns, worker, jobs: self.jobs, watcher }.fill(&mut journal, cases)?;
-        let done = journal.done();
-        let report = if done < cases {
-            let files = place.files();
-            Report { end: End::Interrupted, description: what, done, computed: 0, files }
-        } else {
-            finish(&place, what, &[journal], [self.study, self.scene], self.csv)?
-        };
-        Ok(Report { computed: done - before, ..report })
+        Ok(Begin::Open(Begun { place, what, journal, before, texts, csv: self.csv }))
     }
 
     /// About how much is still to be written, if so many cases are missing.
@@ -120,7 +168,7 @@ pub(crate) fn finish(
         place.sum_up(&statistics)?;
     }
     let what = Description { complete: true, counts: Some(statistics.counts), ..what };
-    place.complete(&what)?;
+    place.describe(&what)?;
     Ok(Report { end: End::Complete, ..settle(place, what)? })
 }
 

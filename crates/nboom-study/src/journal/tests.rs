@@ -4,7 +4,7 @@ use nboom_tables::Kind;
 use proptest::prelude::*;
 
 use super::*;
-use crate::frame::Columns;
+use crate::frame::{Batch, Columns};
 use crate::{Outcome, Row, Value};
 
 fn columns() -> Vec<Column> {

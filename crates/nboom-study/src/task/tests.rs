@@ -56,13 +56,11 @@ impl Fake {
             study: "draws = 1",
             scene: "name = \"it\"",
             samples: 1,
-            worker: &worker,
-            jobs: self.jobs,
             resume: self.resume,
             csv: true,
             accept_difference: self.accept_difference,
         };
-        task.run(watcher)
+        task.run(&worker, self.jobs, watcher)
     }
 
     /// Runs it to its end, interrupted after each of these numbers of questions whether it is.

@@ -1,0 +1,124 @@
+//! A sweep whose cases run elsewhere, in batches that come back in any order.
+
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+use nboom_scalar::{Batch as Lanes, Kernel};
+
+use crate::description::{Description, Maker};
+use crate::directory::require_made_here;
+use crate::frame::{Batch, Columns, Head};
+use crate::task::{Begin, Begun, Report};
+use crate::{Runner, Study, StudyError, columns, trajectory_columns};
+
+/// The directory of a sweep that waits for batches of cases from elsewhere, see [`Study::run_batch`].
+///
+/// It ends with the bytes of a sweep in one process. What was added is not lost, whatever ends the program.
+#[derive(Debug)]
+pub struct Gathering {
+    directory: PathBuf,
+    state: State,
+    accept_difference: bool,
+}
+
+#[derive(Debug)]
+enum State {
+    Complete(Report),
+    Open(Box<Begun>),
+}
+
+impl Gathering {
+    pub(crate) fn new(begin: Begin, directory: &Path, accept_difference: bool) -> Self {
+        let state = match begin {
+            Begin::Complete(report) => State::Complete(report),
+            Begin::Open(begun) => State::Open(Box::new(begun)),
+        };
+        Self { directory: directory.to_owned(), state, accept_difference }
+    }
+
+    /// The cases that are not there, in order.
+    pub fn missing(&self) -> Vec<RangeInclusive<u64>> {
+        match &self.state {
+            State::Complete(_) => Vec::new(),
+            State::Open(begun) => begun.journal.missing(),
+        }
+    }
+
+    /// How many cases are there, and how many there are in all.
+    pub fn done(&self) -> [u64; 2] {
+        match &self.state {
+            State::Complete(report) => [report.done; 2],
+            State::Open(begun) => [begun.journal.done(), begun.what.share()],
+        }
+    }
+
+    /// Adds a batch that a program on a machine has run, and waits for the disk. A batch that is there
+    /// already is left out.
+    ///
+    /// # Errors
+    /// When it is no whole batch of missing cases, when it is of another program or instruction set and that is not
+    /// accepted, and when it cannot be written.
+    pub fn add(&mut self, batch: &[u8], by: &Maker) -> Result<(), StudyError> {
+        let State::Open(begun) = &mut self.state else { return Ok(()) };
+        let wrong = |found: String| StudyError::NoBatch { found };
+        let head = Head::of_whole(batch);
+        let head = head.ok_or_else(|| wrong(format!("{} damaged bytes", batch.len())))?;
+        let range = begun.what.range();
+        if !range.contains(&head.first) || !range.contains(&head.last) {
+            let [first, last] = [range.start(), range.end()];
+            let found =
+                format!("cases {} to {} of a sweep of {first} to {last}", head.first, head.last);
+            return Err(wrong(found));
+        }
+        let is_missing = |missing: RangeInclusive<u64>| {
+            missing.contains(&head.first) && missing.contains(&head.last)
+        };
+        if !begun.journal.missing().into_iter().any(is_missing) {
+            return Ok(());
+        }
+        let also =
+            Description { made_by: by.clone(), also_made_by: Vec::new(), ..begun.what.clone() };
+        require_made_here(&self.directory, &begun.what, &also, self.accept_difference)?;
+        let what = begun.what.clone().also_by(&also);
+        if what != begun.what {
+            begun.place.describe(&what)?;
+            begun.what = what;
+        }
+        begun.journal.writer()?.append(batch, head)
+    }
+
+    /// Makes the tables if all cases are there, and says what the sweep came to.
+    ///
+    /// # Errors
+    /// When a file cannot be written, and when a batch has other rows than the sweep.
+    pub fn finish(self) -> Result<Report, StudyError> {
+        match self.state {
+            State::Complete(report) => Ok(report),
+            State::Open(begun) => begun.finish(),
+        }
+    }
+}
+
+impl Study {
+    /// Runs consecutive cases, and returns the batch that a [`Gathering`] takes; `None` if it was interrupted.
+    pub fn run_batch(
+        &self,
+        cases: RangeInclusive<u64>,
+        kernels: &'static [Kernel],
+        right_sides: &'static [Lanes],
+        interrupted: &dyn Fn() -> bool,
+    ) -> Option<Vec<u8>> {
+        let of_cases = columns(self);
+        let of_states = if self.trajectories { trajectory_columns(self) } else { Vec::new() };
+        let tables = Columns { cases: &of_cases, states: &of_states };
+        let mut runner = Runner::new(self, kernels, right_sides);
+        let mut batch = Batch::from_case(*cases.start());
+        for number in cases {
+            if interrupted() {
+                return None;
+            }
+            batch.push(&runner.run(&self.case(number), interrupted)?, &tables);
+        }
+        Some(batch.frame())
+    }
+}
