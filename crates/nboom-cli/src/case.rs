@@ -78,7 +78,7 @@ pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), Cl
 
 /// The arguments with the settings of a study in place of defaults.
 fn with_settings(args: &RunArgs, settings: &RunSettings) -> RunArgs {
-    let of_study = arguments(args, words(settings)).given;
+    let of_study = arguments(args, words_of_settings(settings)).given;
     arguments(args, of_study.changed_by(&args.given).words())
 }
 
@@ -93,8 +93,8 @@ fn arguments(args: &RunArgs, options: Vec<String>) -> RunArgs {
     }
 }
 
-/// The settings as options of `nboom run`.
-fn words(settings: &RunSettings) -> Vec<String> {
+/// The settings of a study as options of `nboom run`.
+pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
     let RunSettings { stresses, hinge_loads, .. } = *settings;
     let path = settings.path.map(|path| match path {
         Code::Auto => "auto",

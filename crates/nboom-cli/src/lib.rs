@@ -77,7 +77,7 @@ use nboom_scalar::{Batch, Kernel};
 
 pub use args::{CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
 pub use bench::BenchArgs;
-pub use case::CaseError;
+pub use case::{CaseError, words_of_settings};
 pub use check::warnings;
 pub use choice::ChoiceError;
 #[cfg(feature = "generator")]
@@ -110,6 +110,7 @@ pub use stresses::StressArgs;
 pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
+pub use verdict::negative_margin;
 pub use terminal::refuse;
 
 use terminal::{print, say};

@@ -57,7 +57,7 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
 }
 
 /// The message about a part that fails.
-pub(crate) fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {
+pub fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {
     let (segment, station) = (&worst.segment, worst.station + 1);
     let limit = if limit == Limit::Yield { "" } else { " to the ultimate stress" };
     let margin = Some(margin).filter(|margin| *margin < 0.0).map(|margin| short(margin, 3))?;

@@ -57,11 +57,28 @@ impl SceneDocument {
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, InputError> {
         let (format, text, sha256) = source::read_file(path)?;
         let (file, name) = (path.display().to_string(), source::scene_name(path));
+        let folder = Some(source::folder(path));
+        let read = Self::of_text(format, (&file, &text), &name, folder, options)?;
+        Ok(if format == Format::Toml { read } else { Self { sha256, ..read } })
+    }
+
+    /// Reads the text of a scene, a deck or a robot. Files that a scene includes lie in `folder`.
+    ///
+    /// # Errors
+    /// Those of [`parse`](crate::parse()).
+    pub fn of_text(
+        format: Format,
+        (file, text): (&str, &str),
+        name: &str,
+        folder: Option<&Path>,
+        options: &ReadOptions,
+    ) -> Result<Self, InputError> {
         if format != Format::Toml {
-            let scene = crate::parse(format, (&file, &text), &name, None, options)?;
-            return Ok(Self { sha256, ..Self::converted(&file, &scene)? });
+            let scene = crate::parse(format, (file, text), name, None, options)?;
+            let sha256 = scene.sha256.clone();
+            return Ok(Self { sha256, ..Self::converted(file, &scene)? });
         }
-        let read = Self::parse((&file, &text), &name, Some(source::folder(path)), options)?;
+        let read = Self::parse((file, text), name, folder, options)?;
         read.scene(&[])?;
         Ok(read.merged())
     }

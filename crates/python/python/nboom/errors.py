@@ -1,0 +1,34 @@
+"""What goes wrong: exceptions with the messages of the command ``nboom``."""
+
+from __future__ import annotations
+
+__all__ = ["ComparisonFailed", "Error", "InputError", "SceneWarning", "SimulationError", "TrustWarning"]
+
+
+class Error(Exception):
+    """Anything that nboom refuses or cannot do."""
+
+
+class InputError(Error, ValueError):
+    """A scene, a study, an option or a directory is wrong; the message names file, line and key."""
+
+
+class SimulationError(Error, RuntimeError):
+    """A run or a sweep cannot be finished.
+
+    ``run`` is the run up to where it failed, where there is one.
+    """
+
+    run = None
+
+
+class ComparisonFailed(Error, AssertionError):
+    """Codes that should agree do not."""
+
+
+class SceneWarning(UserWarning):
+    """Something in a scene is allowed, but probably a mistake."""
+
+
+class TrustWarning(UserWarning):
+    """The results of a run are poor, or a part fails."""

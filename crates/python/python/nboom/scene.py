@@ -1,0 +1,385 @@
+"""Scenes and their runs."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import tempfile
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from . import _nboom
+from .errors import InputError, SceneWarning, TrustWarning
+from .options import in_memory, words
+from .tables import Table
+
+__all__ = ["Hinge", "Run", "Scene", "Simulator", "load", "parse", "scene"]
+
+#: Simulators that a scene keeps, by options.
+_MOST_SIMULATORS = 8
+
+
+class Hinge:
+    """A hinge of a scene.
+
+    Attributes
+    ----------
+    label : str
+        Appendage and segment, ``"1,2"``.
+    body : str or None
+        The name of the body on it.
+    """
+
+    def __init__(self, label: str, body: str | None) -> None:
+        self.label = label
+        self.body = body
+
+    def __repr__(self) -> str:
+        return f"Hinge({self.label!r}, {self.body!r})"
+
+
+class Scene:
+    """A satellite, what acts on it, and how it starts; checked.
+
+    Made by :func:`load`, :func:`parse` and :func:`scene`. A scene does not change; :meth:`with_values` makes
+    another one.
+    """
+
+    def __init__(self, inner: _nboom.Scene) -> None:
+        self._inner = inner
+        self._simulators: dict[str, Simulator] = {}
+        for warning in inner.warnings:
+            warnings.warn(warning, SceneWarning, stacklevel=3)
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self._inner.name
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Initial and end time [T]."""
+        return self._inner.span
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Six, and one for each hinge."""
+        return self._inner.degrees_of_freedom
+
+    @property
+    def hinges(self) -> list[Hinge]:
+        """Its hinges, in the order of columns and of arrays over hinges."""
+        return [Hinge(label, body) for label, body in self._inner.hinges]
+
+    @property
+    def units(self) -> str:
+        """The units of its numbers, of which none is ever converted."""
+        return self._inner.units
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Its parameters."""
+        return dict(self._inner.parameters)
+
+    @property
+    def text(self) -> str:
+        """The scene in TOML, with all that it includes."""
+        return self._inner.text()
+
+    def __getitem__(self, path: str) -> float:
+        """The number at a path, as ``scene["body.boom.hinge.spring.stiffness"]``, in the units of its key."""
+        return self._inner.number(path)
+
+    def with_values(self, values: Mapping[str, float]) -> Scene:
+        """The scene with other numbers at paths.
+
+        Parameters
+        ----------
+        values : dict
+            Numbers by path, in the units of the key at the path: those of ``start_deg`` are degrees.
+
+        Raises
+        ------
+        InputError
+            If the scene has no number there, or becomes unphysical.
+        """
+        return Scene(self._inner.with_numbers([(path, float(value)) for path, value in values.items()]))
+
+    def simulator(self, **options: Any) -> Simulator:
+        """The scene prepared to be run as often as wanted.
+
+        Options are those of :meth:`run`.
+        """
+        in_memory(options)
+        return Simulator(self, options)
+
+    def run(self, **options: Any) -> Run:
+        """Simulates the scene.
+
+        Parameters
+        ----------
+        **options
+            Those of ``nboom run``, with ``_`` for ``-``: ``rtol=1e-10``, ``samples=400``,
+            ``integrator="gauss_lanes"``, ``end_time=2.0``, ``times=[0.1, 0.2]``, ``no_stresses=True``, ...
+
+        Raises
+        ------
+        InputError
+            Of an option that does not fit.
+        SimulationError
+            If the motion cannot be followed; its ``run`` has what was found before.
+        """
+        key = repr(sorted(options.items())) if options else ""
+        simulator = self._simulators.get(key)
+        if simulator is None:
+            if len(self._simulators) >= _MOST_SIMULATORS:
+                self._simulators.clear()
+            simulator = self._simulators[key] = self.simulator(**options)
+        return simulator.run()
+
+    def dynamics(self, held: Mapping[str, float] | None = None, **options: Any) -> _nboom.Dynamics:
+        """The equations of motion, to be evaluated at any states.
+
+        Parameters
+        ----------
+        held : dict, optional
+            Hinges that are held, by body or label, with their angles [rad]; all others are free, however
+            the scene begins.
+        **options
+            ``formulation`` and ``path`` of :meth:`run`, which choose the code.
+        """
+        numbers = {hinge.label: i for i, hinge in enumerate(self.hinges)}
+        numbers |= {hinge.body: i for i, hinge in enumerate(self.hinges) if hinge.body is not None}
+        at = []
+        for name, angle in (held or {}).items():
+            if name not in numbers:
+                known = ", ".join(map(str, numbers))
+                raise InputError(f"held: `{name}` found, a hinge of the scene expected: {known}")
+            at.append((numbers[name], float(angle)))
+        return self._inner.dynamics(words(options), at)
+
+    def verify(self, states: int = 100, seed: int = 1970, tol: float = 1e-11) -> dict[str, Any]:
+        """Compares all code that computes accelerations, matrices and right sides on random states.
+
+        Returns what ``nboom verify`` writes: ``passed``, and ``rows`` with the largest deviation of each code.
+        """
+        if not 1 <= states <= 1_000_000:
+            raise ValueError(f"states: {states} found, a number from 1 to 1000000 expected")
+        return json.loads(self._inner.verify(states, seed, tol))
+
+    def compile(
+        self,
+        formulation: str | None = None,
+        work: str | os.PathLike[str] | None = None,
+        offline: bool = False,
+    ) -> Scene:
+        """The same scene with routines that cargo compiles for it now, with its numbers built in.
+
+        Parameters
+        ----------
+        formulation : str, optional
+            By default ``articulated``.
+        work : path, optional
+            The folder to build in; by default nboom in the user's cache. The next build there is quicker, and what is
+            there already is not built again.
+        offline : bool, optional
+            Build with what cargo has at hand.
+
+        Raises
+        ------
+        InputError
+            If there is no code for the scene.
+        SimulationError
+            If cargo, which comes with Rust, is not there or fails.
+        """
+        return Scene(self._inner.compiled(formulation, None if work is None else os.fspath(work), offline))
+
+    def __repr__(self) -> str:
+        return f"<nboom.Scene {self.name}: {len(self.hinges)} hinges, {self.degrees_of_freedom} degrees of freedom>"
+
+    def _repr_html_(self) -> str:
+        start, end = self.span
+        facts = (
+            f"<p><b>{html.escape(self.name)}</b>: {len(self.hinges)} hinges, "
+            f"{self.degrees_of_freedom} degrees of freedom, from {start:g} to {end:g}</p>"
+        )
+        return facts + (self._inner.svg() or "")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return parse, (self.text, self.name)
+
+
+class Simulator:
+    """A scene with options, prepared: later runs cost nothing but their motion."""
+
+    def __init__(self, scene: Scene, options: Mapping[str, Any]) -> None:
+        self.scene = scene
+        self.options = dict(options)
+        self._inner = scene._inner.simulator(words(options))
+        known = frozenset(scene._inner.warnings)
+        for warning in self._inner.warnings:
+            if warning not in known:
+                warnings.warn(warning, SceneWarning, stacklevel=3)
+        if self._inner.ignored is not None:
+            warnings.warn(self._inner.ignored, SceneWarning, stacklevel=3)
+
+    def run(self) -> Run:
+        """Runs it, as :meth:`Scene.run` does."""
+        try:
+            inner = self._inner.run()
+        except Exception as error:
+            failed = getattr(error, "run", None)
+            if isinstance(failed, _nboom.Run):
+                error.run = Run(self.scene, self.options, failed)  # type: ignore[attr-defined]
+            raise
+        for trouble in inner.troubles:
+            warnings.warn(trouble, TrustWarning, stacklevel=2)
+        return Run(self.scene, self.options, inner)
+
+
+class Run:
+    """The results of a run.
+
+    Arrays are the memory that the run has filled, without copies.
+    """
+
+    def __init__(self, scene: Scene, options: Mapping[str, Any], inner: _nboom.Run) -> None:
+        self.scene = scene
+        self.options = dict(options)
+        self._inner = inner
+        self._states: Table | None = None
+        self._summary: dict[str, Any] | None = None
+
+    @property
+    def states(self) -> Table:
+        """The motion: a row for each output time, columns as in states.csv, angles in radians."""
+        if self._states is None:
+            self._states = Table._of_motion(*self._inner.states)
+        return self._states
+
+    @property
+    def output(self) -> Table | None:
+        """The table that the scene or the options ``columns`` and ``degrees`` ask for."""
+        wanted = self._inner.wanted
+        return None if wanted is None else Table._of_motion(*wanted)
+
+    @property
+    def events(self) -> Table:
+        """What happened, in time order: columns as in events.csv, and ``body``."""
+        return Table(self._inner.events, dict(self._inner.event_units))
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What summary.json says: verdict, worst loads, conservation, code, effort."""
+        if self._summary is None:
+            self._summary = json.loads(self._inner.summary)
+        return self._summary
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run has come to its end."""
+        return self._inner.complete
+
+    def __getitem__(self, name: str) -> Any:
+        """A column of :attr:`states`."""
+        return self.states[name]
+
+    def save(self, directory: str | os.PathLike[str], **options: Any) -> Path:
+        """Writes all files of the run, report.html included, and returns the directory.
+
+        The scene is simulated again, to the same last bit, since tables of loads and the page are made on the
+        way.
+
+        Parameters
+        ----------
+        directory : path
+            Created if needed; another run that is there is replaced.
+        **options
+            More options of ``nboom run``: ``tables=["parquet"]``, ``plots="svg"``, ``certify=True``, ...
+        """
+        directory = Path(directory)
+        all_words = words({**self.options, **options, "output": directory})
+        self.scene._inner.write(all_words)
+        return directory
+
+    def report(self) -> str:
+        """The page that shows the run: HTML that needs no other file and no network."""
+        with tempfile.TemporaryDirectory() as folder:
+            return (self.save(Path(folder) / "run") / "report.html").read_text(encoding="utf-8")
+
+    def __repr__(self) -> str:
+        end = "" if self.complete else ", not complete"
+        rows, events = self._inner.states[1].shape[0], len(self._inner.events["t"])
+        return f"<nboom.Run of {self.scene.name}: {rows} output times, {events} events{end}>"
+
+    def _repr_html_(self) -> str:
+        return framed(self.report())
+
+
+def framed(page: str) -> str:
+    """A page in a frame of its own, for notebooks."""
+    source = html.escape(page, quote=True)
+    return f'<iframe srcdoc="{source}" style="width: 100%; height: 640px; border: 0"></iframe>'
+
+
+def load(
+    path: str | os.PathLike[str],
+    parameters: Mapping[str, float] | None = None,
+    include_anywhere: bool = False,
+) -> Scene:
+    """Reads a scene ``NAME.toml``, a legacy deck ``NAME.nml`` or a robot ``NAME.urdf``.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    parameters : dict, optional
+        Values for parameters of the scene.
+    include_anywhere : bool, optional
+        Let the scene include files outside of its folder.
+
+    Raises
+    ------
+    InputError
+        With file, line, key, what was found and expected, of all that is wrong.
+    """
+    values = [(name, float(value)) for name, value in (parameters or {}).items()]
+    return Scene(_nboom.Scene.load(os.fspath(path), values, include_anywhere))
+
+
+def parse(
+    text: str,
+    name: str = "scene",
+    format: str = "toml",
+    folder: str | os.PathLike[str] | None = None,
+) -> Scene:
+    """Reads the text of a scene, of a deck (``format="nml"``) or of a robot (``"urdf"``).
+
+    ``folder`` is where files lie that the scene includes.
+    """
+    return Scene(_nboom.Scene.parse(text, name, format, None if folder is None else os.fspath(folder)))
+
+
+def scene(name: str = "scene", **tables: Any) -> Scene:
+    """A scene that is said in Python: the tables and keys of a scene in TOML.
+
+    Examples
+    --------
+    >>> import nboom
+    >>> one_boom = nboom.scene(
+    ...     "one boom",
+    ...     run={"end": 10.0},
+    ...     main_body={"mass": 100.0, "inertia": [40.0, 30.0, 20.0]},
+    ...     body=[{
+    ...         "name": "boom", "mass": 3.0, "mass_centre": [1.0, 0.0, 0.0], "inertia": [0.1, 1.0, 1.0],
+    ...         "hinge": {"at": [0.5, 0.0, 0.1], "axis": "z", "start_deg": 90.0, "latch_deg": 0.0,
+    ...                   "spring": {"stiffness": 2.0}},
+    ...     }],
+    ... )
+    >>> one_boom.degrees_of_freedom
+    7
+    """
+    return parse(_nboom.toml_text(tables), name)

@@ -1,0 +1,144 @@
+//! Arrays of states that come from Python, and arrays that go there.
+
+use std::borrow::Cow;
+
+use numpy::{
+    Element, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayDescrMethods, PyArrayDyn,
+    PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// Rows of numbers: one, of an array of one dimension, or several.
+pub(crate) struct Rows<'py> {
+    name: &'static str,
+    array: PyReadonlyArrayDyn<'py, f64>,
+    /// How many rows an array of two dimensions has.
+    pub count: Option<usize>,
+}
+
+impl<'py> Rows<'py> {
+    /// An argument that has rows of `width` numbers, one for each `of` these.
+    ///
+    /// # Errors
+    /// `TypeError` where it has no numbers, `ValueError` where it has another shape.
+    pub fn read(
+        name: &'static str,
+        argument: &Bound<'py, PyAny>,
+        width: usize,
+        of: &str,
+    ) -> PyResult<Self> {
+        let array = match argument.cast::<PyArrayDyn<f64>>() {
+            Ok(array) => array.clone(),
+            Err(_) => numbers(name, argument)?,
+        };
+        let shape = array.shape();
+        let count = match *shape {
+            [found] if found == width => None,
+            [count, found] if found == width => Some(count),
+            _ => {
+                return Err(PyValueError::new_err(format!(
+                    "{name}: an array of shape {} found, ({width},) or (N, {width}) expected, one number for each {of}",
+                    told(shape)
+                )));
+            }
+        };
+        Ok(Self { name, array: array.readonly(), count })
+    }
+
+    /// All numbers, row after row.
+    pub fn list(&self) -> Cow<'_, [f64]> {
+        match self.array.as_slice() {
+            Ok(numbers) if self.array.is_c_contiguous() => Cow::Borrowed(numbers),
+            _ => Cow::Owned(self.array.as_array().iter().copied().collect()),
+        }
+    }
+}
+
+/// How many states these arguments have; `None` if all are of one state.
+///
+/// # Errors
+/// `ValueError` where they have different numbers of rows.
+pub(crate) fn count(rows: &[&Rows<'_>]) -> PyResult<Option<usize>> {
+    let several = rows.iter().find(|rows| rows.count.is_some());
+    let Some(several) = several else { return Ok(None) };
+    // An array without columns says nothing.
+    match rows.iter().find(|rows| rows.count != several.count) {
+        None => Ok(several.count),
+        Some(other) => Err(PyValueError::new_err(format!(
+            "{}: {} found, {} as in {} expected",
+            other.name,
+            other.count.map_or("one row".to_owned(), |count| format!("{count} rows")),
+            several.count.unwrap_or_default(),
+            several.name,
+        ))),
+    }
+}
+
+/// Anything that numpy makes an array of real numbers of.
+fn numbers<'py>(
+    name: &'static str,
+    argument: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let numpy = argument.py().import("numpy")?;
+    let found = numpy.call_method1("asarray", (argument,))?;
+    let array = found.cast::<PyUntypedArray>()?;
+    let kind = array.dtype().kind();
+    if !matches!(kind, b'f' | b'i' | b'u') {
+        return Err(PyTypeError::new_err(format!(
+            "{name}: {} found, real numbers expected",
+            array.dtype().str()?
+        )));
+    }
+    let array = found.call_method1("astype", ("float64",))?;
+    Ok(array.cast_into::<PyArrayDyn<f64>>()?)
+}
+
+fn told(shape: &[usize]) -> String {
+    match shape {
+        [one] => format!("({one},)"),
+        several => {
+            let sizes: Vec<String> = several.iter().map(usize::to_string).collect();
+            format!("({})", sizes.join(", "))
+        }
+    }
+}
+
+/// An array for numbers of one state, or of each of several.
+pub(crate) fn rows<'py>(
+    py: Python<'py>,
+    numbers: Vec<f64>,
+    count: Option<usize>,
+    width: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let flat = numbers.into_pyarray(py);
+    match count {
+        None => Ok(flat.into_any()),
+        Some(count) => Ok(flat.reshape([count, width])?.into_any()),
+    }
+}
+
+/// An array for a matrix of one state, or of each of several.
+pub(crate) fn matrices<'py>(
+    py: Python<'py>,
+    numbers: Vec<f64>,
+    count: Option<usize>,
+    size: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let flat: Bound<'py, PyArray1<f64>> = numbers.into_pyarray(py);
+    match count {
+        None => {
+            let matrix: Bound<'py, PyArray2<f64>> = flat.reshape([size, size])?;
+            Ok(matrix.into_any())
+        }
+        Some(count) => {
+            let matrices: Bound<'py, PyArray3<f64>> = flat.reshape([count, size, size])?;
+            Ok(matrices.into_any())
+        }
+    }
+}
+
+/// An array of one dimension that takes the place of a list.
+pub(crate) fn list<T: Element>(py: Python<'_>, numbers: Vec<T>) -> Bound<'_, PyAny> {
+    numbers.into_pyarray(py).into_any()
+}

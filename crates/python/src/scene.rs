@@ -1,0 +1,238 @@
+//! Scenes.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use nboom_cli::{Routines, svg, warnings};
+use nboom_io::{Format, ReadOptions, SceneDocument, SceneFile, Slot, parse, write_scene};
+use nboom_scalar::{Batch, Kernel};
+use nboom_sim::Options;
+use nboom_verify::{TestCase, compare};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::dynamics::Dynamics;
+use crate::error::{of_input, raised, wrong_input};
+use crate::evaluator::Evaluator;
+use crate::patience::Signals;
+use crate::simulator::Simulator;
+use crate::words::run_args;
+
+/// A scene that was read and checked.
+#[pyclass(frozen, module = "nboom._nboom")]
+pub(crate) struct Scene {
+    file: SceneFile,
+    /// Its text, in which numbers can be set.
+    document: OnceLock<SceneDocument>,
+    routines: Routines,
+}
+
+/// The routines that the package has.
+pub(crate) fn stock() -> Routines {
+    Routines {
+        for_runs: nboom_routines::for_runs(),
+        equations: nboom_routines::equations(),
+        batches: nboom_routines::batches(),
+        right_sides_of_eight: nboom_routines::right_sides_of_eight(),
+    }
+}
+
+impl Scene {
+    pub fn of(file: SceneFile) -> Self {
+        Self { file, document: OnceLock::new(), routines: stock() }
+    }
+
+    /// The scene as a text in which numbers can be set.
+    fn document(&self) -> PyResult<&SceneDocument> {
+        if let Some(document) = self.document.get() {
+            return Ok(document);
+        }
+        let (text, name) = (write_scene(&self.file), &self.file.scene.name);
+        let options = ReadOptions::default();
+        let made = SceneDocument::of_text(Format::Toml, (name, &text), name, None, &options);
+        let made = made.map_err(of_input)?;
+        Ok(self.document.get_or_init(|| made))
+    }
+
+    fn slot(&self, path: &str) -> PyResult<Slot> {
+        self.document()?.slot(path).map_err(|unknown| wrong_input(unknown.to_string()))
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// Reads a scene `NAME.toml`, a deck `NAME.nml` or a robot `NAME.urdf`.
+    #[staticmethod]
+    fn load(path: PathBuf, set: Vec<(String, f64)>, include_anywhere: bool) -> PyResult<Self> {
+        let options = ReadOptions { set, includes_from_anywhere: include_anywhere };
+        let file = nboom_io::read_scene_with(&path, &options).map_err(of_input)?;
+        let scene = Self::of(file);
+        if Format::of(&path) == Some(Format::Toml) {
+            let document = SceneDocument::read(&path, &options).map_err(of_input)?;
+            scene.document.get_or_init(|| document);
+        }
+        Ok(scene)
+    }
+
+    /// Reads a text in TOML, a deck (`nml`) or a robot (`urdf`).
+    #[staticmethod]
+    fn parse(text: &str, name: &str, format: &str, folder: Option<PathBuf>) -> PyResult<Self> {
+        let format = match format {
+            "toml" => Format::Toml,
+            "nml" => Format::Nml,
+            "urdf" => Format::Urdf,
+            other => {
+                return Err(PyValueError::new_err(format!(
+                    "format: `{other}` found, toml, nml or urdf expected"
+                )));
+            }
+        };
+        let (folder, options) = (folder.as_deref(), ReadOptions::default());
+        let file = parse(format, (name, text), name, folder, &options).map_err(of_input)?;
+        let scene = Self::of(file);
+        if format == Format::Toml {
+            let read = SceneDocument::of_text(format, (name, text), name, folder, &options);
+            let document = read.map_err(of_input)?;
+            scene.document.get_or_init(|| document);
+        }
+        Ok(scene)
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.file.scene.name
+    }
+
+    /// Initial and end time.
+    #[getter]
+    fn span(&self) -> (f64, f64) {
+        (self.file.scene.initial.time, self.file.scene.end_time)
+    }
+
+    #[getter]
+    fn degrees_of_freedom(&self) -> usize {
+        self.file.scene.degrees_of_freedom()
+    }
+
+    /// For each hinge what it is called, and its body if that has a name.
+    #[getter]
+    fn hinges(&self) -> Vec<(String, Option<String>)> {
+        let labels = self.file.scene.labels().iter();
+        let told = |[appendage, segment]: [usize; 2]| format!("{appendage},{segment}");
+        labels
+            .map(|label| (told(label.numbers()), label.name.as_deref().map(str::to_owned)))
+            .collect()
+    }
+
+    #[getter]
+    fn units(&self) -> String {
+        self.file.settings.units.as_ref().map_or("none", |units| units.name()).to_owned()
+    }
+
+    #[getter]
+    fn parameters(&self) -> Vec<(String, f64)> {
+        self.file.settings.parameters.clone()
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        warnings(&self.file)
+    }
+
+    #[getter]
+    fn sha256(&self) -> &str {
+        &self.file.sha256
+    }
+
+    /// A text in TOML that stands alone.
+    fn text(&self) -> PyResult<String> {
+        Ok(self.document()?.text())
+    }
+
+    /// A drawing in SVG, if the scene can be drawn.
+    fn svg(&self) -> Option<String> {
+        svg(&self.file.scene, &self.file.settings.units.clone().unwrap_or_default())
+    }
+
+    /// The number at a path.
+    fn number(&self, path: &str) -> PyResult<f64> {
+        let slot = self.slot(path)?;
+        Ok(self.document()?.number(&slot))
+    }
+
+    /// The scene with other numbers at these paths.
+    fn with_numbers(&self, values: Vec<(String, f64)>) -> PyResult<Self> {
+        let slots = values.iter().map(|(path, value)| Ok((self.slot(path)?, *value)));
+        let slots = slots.collect::<PyResult<Vec<_>>>()?;
+        let values: Vec<(&Slot, f64)> = slots.iter().map(|(slot, value)| (slot, *value)).collect();
+        let document = self.document()?.with(&values);
+        let file = document.scene(&[]).map_err(of_input)?;
+        Ok(Self { file, document: document.into(), routines: self.routines })
+    }
+
+    /// What runs the scene with these options of `nboom run`.
+    fn simulator(&self, words: Vec<String>) -> PyResult<Simulator> {
+        let args = run_args(&self.file.scene.name, &words)?;
+        let prepared = args.prepare(self.file.clone(), &self.routines);
+        Ok(Simulator::new(prepared.map_err(|error| raised(&error))?))
+    }
+
+    /// Runs the scene with these options of `nboom run` into the directory that they name.
+    fn write(&self, py: Python<'_>, words: Vec<String>) -> PyResult<()> {
+        let args = run_args(&self.file.scene.name, &words)?;
+        let prepared = args.prepare(self.file.clone(), &self.routines);
+        let prepared = prepared.map_err(|error| raised(&error))?;
+        let signals = Signals::new();
+        let written = py.detach(|| prepared.write(&args, &signals.interrupt()));
+        written.map(|_| ()).map_err(|error| signals.taken().unwrap_or_else(|| raised(&error)))
+    }
+
+    /// Code for the equations of motion, hinges free but those that are held at an angle.
+    fn dynamics(&self, words: Vec<String>, held: Vec<(usize, f64)>) -> PyResult<Dynamics> {
+        let args = run_args(&self.file.scene.name, &words)?;
+        let prepared = args.prepare(self.file.clone(), &self.routines);
+        let prepared = prepared.map_err(|error| raised(&error))?;
+        let scene = &prepared.scene;
+        let mut angles = vec![None; scene.bodies.len()];
+        for (hinge, angle) in held {
+            if !angle.is_finite() {
+                let label = scene.label(hinge);
+                return Err(PyValueError::new_err(format!(
+                    "held: {angle} found for hinge {label}, a finite number expected"
+                )));
+            }
+            angles[hinge] = Some(angle);
+        }
+        let options = Options { kernels: self.routines.for_runs, ..prepared.options };
+        let evaluator = Evaluator::new(scene, &angles, &options, self.routines.batches);
+        let evaluator = evaluator.map_err(wrong_input)?;
+        let label = |&hinge: &usize| scene.label(hinge).to_string();
+        let hinges = evaluator.free_hinges().iter().map(label).collect();
+        Ok(Dynamics::of(evaluator, hinges))
+    }
+
+    /// Compares all code that computes accelerations on random states: `verify.json`.
+    fn verify(&self, py: Python<'_>, states: usize, seed: u64, tolerance: f64) -> PyResult<String> {
+        let (scene, routines) = (self.file.scene.clone(), self.routines);
+        let compared = py.detach(|| {
+            let held = TestCase::with_held_hinges(&scene, states / 2, seed)?;
+            let free = TestCase::new(scene, states - held.len(), seed)?;
+            compare(&free, &held, routines.for_runs, routines.equations, tolerance)
+        });
+        Ok(compared.map_err(|error| raised(&error.into()))?.json())
+    }
+
+    /// The same scene with routines that were compiled for it.
+    fn with_library(&self, path: PathBuf) -> PyResult<Self> {
+        let (kernels, batches) = loaded(&path)?;
+        let for_runs = [kernels, self.routines.for_runs].concat().leak();
+        let right_sides = [batches, self.routines.right_sides_of_eight].concat().leak();
+        let routines = Routines { for_runs, right_sides_of_eight: right_sides, ..self.routines };
+        Ok(Self { file: self.file.clone(), document: self.document.clone(), routines })
+    }
+}
+
+/// Routines of a library.
+fn loaded(_path: &Path) -> PyResult<(&'static [Kernel], &'static [Batch])> {
+    Err(wrong_input("libraries are still to come".to_owned()))
+}

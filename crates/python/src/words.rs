@@ -1,0 +1,32 @@
+//! Options of runs: keyword arguments in Python, words of the command here.
+
+use clap::Parser;
+use clap::error::ErrorKind;
+use nboom_cli::{Cli, Command, RunArgs};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+use crate::error::wrong_input;
+
+/// The options of a run of the scene `name`, without messages on standard error.
+///
+/// # Errors
+/// `TypeError` of an option that there is not, `InputError` of a wrong value.
+pub(crate) fn run_args(name: &str, words: &[String]) -> PyResult<RunArgs> {
+    let fixed = ["nboom", "run", "--quiet"].into_iter();
+    let words = fixed.chain(words.iter().map(String::as_str)).chain(["--", name]);
+    match Cli::try_parse_from(words).map(|cli| cli.command) {
+        Ok(Command::Run(args)) => Ok(*args),
+        Ok(_) => Err(wrong_input("options of another command found".to_owned())),
+        Err(error) => {
+            let text = error.render().to_string();
+            let text = text.strip_prefix("error: ").unwrap_or(&text);
+            let reason = text.split("\n\nUsage").next().unwrap_or(text);
+            let reason = reason.split("\n\nFor more").next().unwrap_or(reason).trim().to_owned();
+            Err(match error.kind() {
+                ErrorKind::UnknownArgument => PyTypeError::new_err(reason),
+                _ => wrong_input(reason),
+            })
+        }
+    }
+}
