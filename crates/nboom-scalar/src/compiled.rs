@@ -5,14 +5,14 @@ use std::marker::PhantomData;
 use crate::batch::{Eight, PortableEight};
 use crate::{InstructionSet, Real, Routine};
 
-/// An evaluation on constants and coordinates, with what it computes.
-pub(crate) type Evaluate<N> = fn(&[N], &[N], &mut [N]);
-
 /// An evaluation that has a form for each instruction set; to be inlined into a function that is
 /// compiled for it.
 pub trait Compiled {
     /// What slices are made of.
     type Number;
+
+    /// The routine, which tells how long slices are.
+    type Routine: Routine;
 
     /// The form for AVX-512.
     ///
@@ -38,6 +38,7 @@ pub struct OneState<T>(PhantomData<T>);
 
 impl<T: Routine> Compiled for OneState<T> {
     type Number = f64;
+    type Routine = T;
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
@@ -62,6 +63,7 @@ pub struct EightStates<T>(PhantomData<T>);
 
 impl<T: Routine> Compiled for EightStates<T> {
     type Number = Eight;
+    type Routine = T;
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
@@ -80,42 +82,6 @@ impl<T: Routine> Compiled for EightStates<T> {
     fn portable(k: &[Eight], x: &[Eight], out: &mut [Eight]) {
         T::evaluate::<PortableEight>(as_registers(k), as_registers(x), as_registers_mut(out));
     }
-}
-
-/// The evaluation in code for an instruction set, if this processor has it.
-pub(crate) fn compiled<C: Compiled>(instructions: InstructionSet) -> Option<Evaluate<C::Number>> {
-    if instructions > InstructionSet::of_this_processor() {
-        return None;
-    }
-    match instructions {
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => Some(on_avx512::<C>),
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => Some(on_avx2::<C>),
-        _ => Some(C::portable),
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-fn on_avx512<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-        // SAFETY: this function is compiled for the features, and called only where they are there.
-        unsafe { C::avx512(k, x, out) };
-    }
-    // SAFETY: `compiled` hands this function out only where the features are there.
-    unsafe { inlined::<C>(k, x, out) }
-}
-
-#[cfg(target_arch = "x86_64")]
-fn on_avx2<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-    #[target_feature(enable = "avx2,fma")]
-    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-        // SAFETY: this function is compiled for the features, and called only where they are there.
-        unsafe { C::avx2(k, x, out) };
-    }
-    // SAFETY: `compiled` hands this function out only where the features are there.
-    unsafe { inlined::<C>(k, x, out) }
 }
 
 /// Work that is to be done in code for the vector instructions that the processor has.

@@ -1,10 +1,11 @@
-use crate::compiled::{Compiled, Evaluate, OneState, compiled};
+use crate::code::Code;
+use crate::compiled::{Compiled, OneState};
 use crate::{InstructionSet, Routine};
 
 /// What a routine runs on: a number of one state, or of several side by side.
 pub trait Numbers: Copy + PartialEq {
     /// The routine in its forms.
-    type Forms<T: Routine>: Compiled<Number = Self>;
+    type Forms<T: Routine>: Compiled<Number = Self, Routine = T>;
 
     /// One number in every state.
     fn splat(value: f64) -> Self;
@@ -59,8 +60,7 @@ pub struct RoutineOn<N> {
     pub outputs: usize,
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
-    prepare: fn(&[N], &mut [N]),
-    evaluate: Evaluate<N>,
+    pub(crate) code: Code<N>,
 }
 
 impl<N: Numbers> RoutineOn<N> {
@@ -83,8 +83,7 @@ impl<N: Numbers> RoutineOn<N> {
             coordinates: T::COORDINATES,
             outputs: T::OUTPUTS,
             instructions: instructions.name(),
-            prepare: N::prepare::<T>,
-            evaluate: compiled::<N::Forms<T>>(instructions)?,
+            code: Code::of::<T>(instructions)?,
         })
     }
 
@@ -120,7 +119,7 @@ impl<N: Numbers> RoutineOn<N> {
     /// # Panics
     /// When a slice does not have the length given above.
     pub fn prepare(&self, parameters: &[N], constants: &mut [N]) {
-        (self.prepare)(parameters, constants);
+        self.code.prepare(parameters, constants);
     }
 
     /// Computes what the routine is for.
@@ -128,6 +127,6 @@ impl<N: Numbers> RoutineOn<N> {
     /// # Panics
     /// When a slice does not have the length given above.
     pub fn evaluate(&self, constants: &[N], coordinates: &[N], outputs: &mut [N]) {
-        (self.evaluate)(constants, coordinates, outputs);
+        self.code.evaluate(constants, coordinates, outputs);
     }
 }

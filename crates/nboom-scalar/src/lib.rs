@@ -14,9 +14,11 @@
 //! ```
 
 mod batch;
+mod code;
 mod compiled;
 mod double_double;
 mod dual;
+mod foreign;
 mod instructions;
 mod isa;
 mod kernel;
@@ -39,6 +41,7 @@ pub use compiled::{
 };
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
+pub use foreign::{ForeignError, ForeignTable};
 pub use instructions::InstructionSet;
 pub use isa::Isa;
 #[cfg(target_arch = "x86_64")]
