@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use nboom_codegen::{CodegenError, Standing};
 use nboom_formulation::Formulation;
 use nboom_model::ModelError;
+use nboom_scalar::ForeignError;
 use nboom_verify::VerifyError;
 
 /// Why a package was not written, is not what it should be, or was not built.
@@ -80,20 +81,44 @@ pub enum PackageError {
     #[error("neither XDG_CACHE_HOME nor HOME is set, so a folder to build in has to be named")]
     NoFolder,
     /// Cargo cannot be started.
-    #[error("cannot start {}, which builds the simulator; it comes with Rust", program.display())]
+    #[error("cannot start {}, which builds generated code; it comes with Rust", program.display())]
     NoCargo {
         /// What was called.
         program: PathBuf,
         /// What the system says.
         source: io::Error,
     },
-    /// Cargo has not built the simulator.
+    /// Cargo has not built the package.
     #[error("cargo has failed in {}; its last lines:\n{last_lines}", directory.display())]
     Cargo {
         /// Where it ran.
         directory: PathBuf,
         /// What it said.
         last_lines: String,
+    },
+    /// A file is no library that can be loaded here.
+    #[error("{} is no library that can be loaded", path.display())]
+    NoLibrary {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: libloading::Error,
+    },
+    /// A library has no routines.
+    #[error("{} is a library, but not one of routines", path.display())]
+    NoRoutines {
+        /// The library.
+        path: PathBuf,
+        /// What the system says.
+        source: libloading::Error,
+    },
+    /// A library has routines in another layout than this program reads.
+    #[error("{} was built by another version of nboom", path.display())]
+    OtherVersion {
+        /// The library.
+        path: PathBuf,
+        /// The versions.
+        source: ForeignError,
     },
 }
 

@@ -15,12 +15,13 @@ pub(crate) fn read(path: &Path) -> Result<Option<Vec<u8>>, PackageError> {
     }
 }
 
-/// Makes a file hold a text; its time stamp stays where it does.
-pub(crate) fn put(path: &Path, text: &str) -> Result<(), PackageError> {
-    if read(path)?.is_some_and(|bytes| bytes == text.as_bytes()) {
-        return Ok(());
+/// Makes a file hold a text or bytes, and tells whether it did already; its time stamp stays then.
+pub(crate) fn put(path: &Path, what: impl AsRef<[u8]>) -> Result<bool, PackageError> {
+    if read(path)?.is_some_and(|bytes| bytes == what.as_ref()) {
+        return Ok(true);
     }
-    replace(path, text.as_bytes(), false)
+    replace(path, what.as_ref(), false)?;
+    Ok(false)
 }
 
 /// Gives a file other contents all at once, from one beside it that nobody else has. So a writing

@@ -33,13 +33,35 @@ pub(crate) fn of_simulator(name: &str, crates: &str) -> String {
         "{}\
          [dependencies]\n\
          nboom-cli = {{ path = \"{crates}/nboom-cli\", default-features = false }}\n\
-         nboom-scalar = {{ path = \"{crates}/nboom-scalar\" }}\n\
+         {}",
+        package(name),
+        end(crates)
+    )
+}
+
+/// `Cargo.toml` of a library that programs load, whose crates are in the folder `crates`.
+pub(crate) fn of_shared(name: &str, crates: &str) -> String {
+    format!(
+        "{}\
+         [lib]\n\
+         crate-type = [\"cdylib\"]\n\
+         \n\
+         [dependencies]\n\
+         {}",
+        package(name),
+        end(crates)
+    )
+}
+
+/// How the manifest of what is built ends: generated code uses a crate, and is compiled for speed.
+fn end(crates: &str) -> String {
+    format!(
+        "nboom-scalar = {{ path = \"{crates}/nboom-scalar\" }}\n\
          \n\
          [profile.release]\n\
          lto = \"thin\"\n\
          \n\
-         [workspace]\n",
-        package(name)
+         [workspace]\n"
     )
 }
 

@@ -1,7 +1,7 @@
 //! Sources that written packages are made of, as they were when this crate was built.
 
 /// A path and the text of the file there.
-type Source = (&'static str, &'static str);
+pub(crate) type Source = (&'static str, &'static str);
 
 /// The command and what it uses, a folder for each crate; licences and `Cargo.lock` beside.
 const ALL: &[Source] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
@@ -15,6 +15,11 @@ const MODULE: &str = "src/nboom_scalar";
 /// Files of the crates of the command.
 pub(crate) fn of_command() -> impl Iterator<Item = &'static Source> {
     ALL.iter().filter(|(path, _)| path.contains('/'))
+}
+
+/// Files of the crate that generated code uses.
+pub(crate) fn of_routines() -> impl Iterator<Item = &'static Source> {
+    ALL.iter().filter(|(path, _)| path.starts_with("nboom-scalar/"))
 }
 
 /// The crate that generated code uses as a module of the crate `name`, licences included. As a
