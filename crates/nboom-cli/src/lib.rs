@@ -110,8 +110,8 @@ pub use stresses::StressArgs;
 pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
-pub use verdict::negative_margin;
 pub use terminal::refuse;
+pub use verdict::negative_margin;
 
 use terminal::{print, say};
 

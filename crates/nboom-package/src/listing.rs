@@ -160,7 +160,7 @@ pub(crate) fn write(directory: &Path, key: u64, files: &Files) -> Result<(), Pac
             _ => {}
         }
     }
-    put(&directory.join(NAME), &after.text())
+    put(&directory.join(NAME), after.text()).map(|_| ())
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! Scenes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use nboom_cli::{Routines, svg, warnings};
+use nboom_formulation::Formulation;
 use nboom_io::{Format, ReadOptions, SceneDocument, SceneFile, Slot, parse, write_scene};
-use nboom_scalar::{Batch, Kernel};
+use nboom_package::{Build, Loaded, library, load};
 use nboom_sim::Options;
 use nboom_verify::{TestCase, compare};
 use pyo3::exceptions::PyValueError;
@@ -222,17 +223,29 @@ impl Scene {
         Ok(compared.map_err(|error| raised(&error.into()))?.json())
     }
 
-    /// The same scene with routines that were compiled for it.
-    fn with_library(&self, path: PathBuf) -> PyResult<Self> {
-        let (kernels, batches) = loaded(&path)?;
+    /// The same scene with routines that cargo compiles for it now.
+    fn compiled(
+        &self,
+        py: Python<'_>,
+        formulation: Option<&str>,
+        work: Option<PathBuf>,
+        offline: bool,
+    ) -> PyResult<Self> {
+        let named = |name| {
+            Formulation::named(name).ok_or_else(|| {
+                let known = Formulation::ALL.map(Formulation::name).join(", ");
+                wrong_input(format!("formulation: `{name}` found, one of {known} expected"))
+            })
+        };
+        let formulation = formulation.map_or(Ok(Build::default().formulation), named)?;
+        let build = Build { formulation, work, offline, ..Build::default() };
+        let SceneFile { scene, structure, .. } = &self.file;
+        let loaded = py.detach(|| load(&library(scene, structure.as_ref(), &build, |_| {})?.path));
+        let Loaded { kernels, batches } = loaded.map_err(|error| raised(&error.into()))?;
         let for_runs = [kernels, self.routines.for_runs].concat().leak();
-        let right_sides = [batches, self.routines.right_sides_of_eight].concat().leak();
-        let routines = Routines { for_runs, right_sides_of_eight: right_sides, ..self.routines };
+        let right_sides_of_eight = [batches, self.routines.right_sides_of_eight].concat().leak();
+        let batches = [batches, self.routines.batches].concat().leak();
+        let routines = Routines { for_runs, right_sides_of_eight, batches, ..self.routines };
         Ok(Self { file: self.file.clone(), document: self.document.clone(), routines })
     }
-}
-
-/// Routines of a library.
-fn loaded(_path: &Path) -> PyResult<(&'static [Kernel], &'static [Batch])> {
-    Err(wrong_input("libraries are still to come".to_owned()))
 }
