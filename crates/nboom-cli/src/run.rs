@@ -4,7 +4,8 @@ use std::time::Instant;
 use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, write_scene};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::{
-    Kept, Outcome, RunDescription, RunDirectory, StressTables, WorstLoads, with_causes,
+    Kept, Outcome, RunDescription, RunDirectory, StressDescription, StressTables, WorstLoads,
+    with_causes,
 };
 use nboom_sim::{
     Bound, Form, Method, Options, Path, RkamSettings, Tolerance, Witness, check_start, simulate,
@@ -100,7 +101,10 @@ impl RunArgs {
         let output = table_args::output(self, &file.settings, &scene, &units, times.as_deref())?;
         let record = Record::of(self, file.sha256.clone(), &scene_text, times.as_deref()).text();
         check_start(&scene, &options).map_err(CliError::Start)?;
+        let (every, signs) = (file.legacy.stress_interval, self.stresses.signs());
+        let tables = StressTables { every, signs };
         let run = RunDescription {
+            stresses: stresses.as_ref().and_then(|of| StressDescription::of(of, signs)),
             warnings,
             print_interval: file.legacy.print_interval.unwrap_or(1),
             input_sha256: Some(file.sha256),

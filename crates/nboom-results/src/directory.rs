@@ -139,11 +139,8 @@ impl RunDirectory {
         tables: StressTables,
     ) -> Result<Self, ResultsError> {
         let hinges = scene.labels().to_vec();
-        let (signs, pulses) = (tables.signs, analysis.settings().pulses);
-        let generated_for = analysis.generated_for();
         let headings = self.run.output.headings.clone();
-        let description = StressDescription { signs, pulses, generated_for };
-        self.run.stresses = analysis.has_stations().then_some(description);
+        self.run.stresses = StressDescription::of(&analysis, tables.signs);
         let stresses =
             StressWriter::create(self.place.partial(), hinges, analysis, tables, headings)?;
         self.stresses = Some(stresses);

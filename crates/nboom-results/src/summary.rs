@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use nboom_model::{HingeLabel, Scene, UnitSystem, WantedTable};
 use nboom_sim::{CodeOfRun, Conservation, Integration, OutputTimes, Selection, Summary};
-use nboom_strength::PulseShape;
+use nboom_strength::{PulseShape, StressAnalysis};
 use serde::Serialize;
 
 use crate::verdict::{VerdictKeys, WorstLoads};
@@ -168,6 +168,14 @@ pub struct StressDescription {
     pub pulses: PulseShape,
     /// Instruction set of the generated code that finds loads, if any does.
     pub generated_for: Option<&'static str>,
+}
+
+impl StressDescription {
+    /// That of an analysis; none if it has no stations, and so no stresses.
+    pub fn of(analysis: &StressAnalysis, signs: StressSigns) -> Option<Self> {
+        let (pulses, generated_for) = (analysis.settings().pulses, analysis.generated_for());
+        analysis.has_stations().then_some(Self { signs, pulses, generated_for })
+    }
 }
 
 /// What the stresses leave out.

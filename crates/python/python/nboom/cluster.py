@@ -22,8 +22,11 @@ __all__ = ["gather"]
 #: Seconds that a batch should take: long beside what a task of Dask costs, short beside a sweep.
 _BATCH = 1.0
 
+#: Seconds from batch to batch that this process needs, which waits for the disk at each.
+_INTERVAL = 0.02
+
 #: Most cases of a batch.
-_MOST_CASES = 20_000
+_MOST_CASES = 50_000
 
 #: Batches of a worker's thread that wait or run, so that it never waits itself.
 _AHEAD = 2
@@ -58,6 +61,11 @@ def _study(texts: tuple[str, str]) -> _nboom.Study:
         return _known[key]
 
 
+def own_maker() -> Maker:
+    """What results of this process depend on."""
+    return _nboom.maker()
+
+
 def maker_of_worker() -> Maker | str:
     """What a worker's results depend on, or why it cannot have any."""
     try:
@@ -77,6 +85,8 @@ def gather(
     """Runs the cases of a study on the workers of a client."""
     if getattr(client, "asynchronous", False):
         raise TypeError("client: an asynchronous one found, Client(..., asynchronous=False) expected")
+    if strangers not in ("refuse", "apart", "accept"):
+        raise ValueError(f"strangers: `{strangers}` found, refuse, apart or accept expected")
     gathering = study.gather(options)
     tell(*gathering.done())
     if gathering.missing():
@@ -121,14 +131,17 @@ class Dispatch:
                 self.take(future)
                 self.look_at_workers()
                 self.submit(completed)
-        except (CommClosedError, CancelledError, OSError, TimeoutError) as error:
+        except Exception as error:
+            # Whatever a client without a scheduler fails with.
+            if self.client.status == "running" and not isinstance(error, (CommClosedError, CancelledError)):
+                raise
             done, cases = self.gathering.done()
             raise SimulationError(
                 f"the cluster went away ({type(error).__name__}: {error}); {done} of {cases} cases are kept, "
                 "and resume=True does the others"
             ) from error
         finally:
-            if self.running:
+            if self.running and self.client.status == "running":
                 self.client.cancel(list(self.running), force=True)
 
     def look_at_workers(self) -> None:
@@ -142,7 +155,7 @@ class Dispatch:
 
     def check(self, makers: dict[str, Any], workers: dict[str, int]) -> None:
         """Refuses strangers, or leaves them without work."""
-        own = _nboom.maker()
+        own = own_maker()
         for worker, maker in makers.items():
             # Pickles and messages make lists of tuples.
             is_own = not isinstance(maker, str) and tuple(maker) == own
@@ -200,6 +213,8 @@ class Dispatch:
             raise error
         batch, maker, seconds = future.result()
         self.gathering.add(batch, tuple(maker))
-        per_case = seconds / (cases[1] - cases[0] + 1)
-        self.size = min(_MOST_CASES, max(1, int(_BATCH / max(per_case, 1e-9)), self.size // 2), 8 * self.size)
+        per_case = max(seconds / (cases[1] - cases[0] + 1), 1e-9)
+        target = max(_BATCH, _INTERVAL * sum(self.threads.values()))
+        # The first batches are short, and say little about how long cases take.
+        self.size = min(_MOST_CASES, 8 * self.size, max(int(target / per_case), self.size // 2, 1))
         self.tell(*self.gathering.done())
