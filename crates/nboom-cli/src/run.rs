@@ -114,15 +114,7 @@ impl RunArgs {
             output,
             ..RunDescription::new(&scene, &options, units)
         };
-        let (every, signs) = (file.legacy.stress_interval, self.stresses.signs());
-        Ok(PreparedRun {
-            scene,
-            options,
-            run,
-            stresses,
-            ignored,
-            tables: StressTables { every, signs },
-        })
+        Ok(PreparedRun { scene, options, run, stresses, ignored, tables })
     }
 }
 
