@@ -1,10 +1,13 @@
 """Sweeps: the bytes of the command, whatever comes in between."""
 
+import os
+import shutil
 import signal
 import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -122,3 +125,16 @@ def test_studies_and_directories_that_do_not_fit_are_refused(few, many, tmp_path
     wrong.write_text(few.read_text().replace("draws", "drawss"))
     with pytest.raises(nboom.InputError, match=r"wrong.toml:\d+:\d+: .*did you mean `draws`"):
         nboom.study(wrong)
+
+
+def test_an_array_of_slurm_makes_the_same(few, tmp_path, examples):
+    """The script as Slurm starts it, without Slurm."""
+    script = [shutil.which("bash"), examples / "cluster" / "sweep.slurm"]
+    path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+    for part in "123":
+        environment = os.environ | {"PATH": path, "SLURM_ARRAY_TASK_ID": part}
+        subprocess.run([*script, "run", few, tmp_path / "out", "3"], check=True, env=environment)
+    environment = os.environ | {"PATH": path}
+    subprocess.run([*script, "merge", few, tmp_path / "out", "3"], check=True, env=environment, stdout=subprocess.DEVNULL)
+    nboom.sweep(few, tmp_path / "whole", report=False)
+    assert same(tmp_path / "out", tmp_path / "whole")
