@@ -48,14 +48,17 @@ fn run_scene(
     interrupts: Interrupts<'_>,
 ) -> Result<String, CliError> {
     let prepared = args.prepare(file, routines)?;
+    // Before what may take long.
+    let interrupt = interrupts()?;
+    prepared.check()?;
     if !args.quiet {
         prepared.run.warnings.iter().for_each(|warning| say("warning", warning));
         prepared.ignored.iter().for_each(|ignored| say("note", ignored));
     }
-    prepared.write(args, &interrupts()?)
+    prepared.write(args, &interrupt)
 }
 
-/// A run that can begin.
+/// A run that can begin if [`Self::check`] says so.
 #[derive(Clone, Debug)]
 pub struct PreparedRun {
     /// The scene, with slips and with the end of the run.
@@ -100,7 +103,6 @@ impl RunArgs {
         let times = self.tables.times(&scene)?;
         let output = table_args::output(self, &file.settings, &scene, &units, times.as_deref())?;
         let record = Record::of(self, file.sha256.clone(), &scene_text, times.as_deref()).text();
-        check_start(&scene, &options).map_err(CliError::Start)?;
         let (every, signs) = (file.legacy.stress_interval, self.stresses.signs());
         let tables = StressTables { every, signs };
         let run = RunDescription {
@@ -119,6 +121,12 @@ impl RunArgs {
 }
 
 impl PreparedRun {
+    /// # Errors
+    /// When the motion cannot begin.
+    pub fn check(&self) -> Result<(), CliError> {
+        check_start(&self.scene, &self.options).map_err(CliError::Start)
+    }
+
     /// Simulates, writes all files into the directory that the arguments name, and returns an account.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use nboom_cli::{Routines, svg, warnings};
+use nboom_cli::{PreparedRun, Routines, RunArgs, svg, warnings};
 use nboom_formulation::Formulation;
 use nboom_io::{Format, ReadOptions, SceneDocument, SceneFile, Slot, parse, write_scene};
 use nboom_package::{Build, Loaded, library, load};
@@ -41,6 +41,14 @@ pub(crate) fn stock() -> Routines {
 impl Scene {
     pub fn of(file: SceneFile) -> Self {
         Self { file, document: OnceLock::new(), routines: stock() }
+    }
+
+    /// The options and the run that these words ask for.
+    fn prepared(&self, words: &[String]) -> PyResult<(RunArgs, PreparedRun)> {
+        let args = run_args(&self.file.scene.name, words)?;
+        let prepared = args.prepare(self.file.clone(), &self.routines);
+        let checked = prepared.and_then(|prepared| prepared.check().map(|()| prepared));
+        Ok((args, checked.map_err(|error| raised(&error))?))
     }
 
     /// The scene as a text in which numbers can be set.
@@ -173,16 +181,13 @@ impl Scene {
 
     /// What runs the scene with these options of `nboom run`.
     fn simulator(&self, words: Vec<String>) -> PyResult<Simulator> {
-        let args = run_args(&self.file.scene.name, &words)?;
-        let prepared = args.prepare(self.file.clone(), &self.routines);
-        Ok(Simulator::new(prepared.map_err(|error| raised(&error))?))
+        let (_, prepared) = self.prepared(&words)?;
+        Ok(Simulator::new(prepared))
     }
 
     /// Runs the scene with these options of `nboom run` into the directory that they name.
     fn write(&self, py: Python<'_>, words: Vec<String>) -> PyResult<()> {
-        let args = run_args(&self.file.scene.name, &words)?;
-        let prepared = args.prepare(self.file.clone(), &self.routines);
-        let prepared = prepared.map_err(|error| raised(&error))?;
+        let (args, prepared) = self.prepared(&words)?;
         let signals = Signals::new();
         let written = py.detach(|| prepared.write(&args, &signals.interrupt()));
         written.map(|_| ()).map_err(|error| signals.taken().unwrap_or_else(|| raised(&error)))
@@ -190,9 +195,7 @@ impl Scene {
 
     /// Code for the equations of motion, hinges free but those that are held at an angle.
     fn dynamics(&self, words: Vec<String>, held: Vec<(usize, f64)>) -> PyResult<Dynamics> {
-        let args = run_args(&self.file.scene.name, &words)?;
-        let prepared = args.prepare(self.file.clone(), &self.routines);
-        let prepared = prepared.map_err(|error| raised(&error))?;
+        let (_, prepared) = self.prepared(&words)?;
         let scene = &prepared.scene;
         let mut angles = vec![None; scene.bodies.len()];
         for (hinge, angle) in held {

@@ -115,13 +115,14 @@ impl Study {
     }
 
     /// The scene of a case, and the options of its run by name.
-    fn case(&self, number: u64) -> PyResult<(Scene, Vec<Choice>)> {
+    fn case(&self, number: i64) -> PyResult<(Scene, Vec<Choice>)> {
         let cases = self.study.cases();
-        if !(1..=cases).contains(&number) {
+        let found = u64::try_from(number).ok().filter(|number| (1..=cases).contains(number));
+        let Some(number) = found else {
             return Err(wrong_input(format!(
                 "case: {number} found, a number from 1 to {cases} expected"
             )));
-        }
+        };
         let file = self.study.scene_of(&self.study.case(number));
         let file = file.map_err(|why| wrong_input(format!("case {number} is rejected: {why}")))?;
         let option = |word: String| {

@@ -22,7 +22,10 @@ pub(crate) fn run_args(name: &str, words: &[String]) -> PyResult<RunArgs> {
             let text = error.render().to_string();
             let text = text.strip_prefix("error: ").unwrap_or(&text);
             let reason = text.split("\n\nUsage").next().unwrap_or(text);
-            let reason = reason.split("\n\nFor more").next().unwrap_or(reason).trim().to_owned();
+            let reason = reason.split("\n\nFor more").next().unwrap_or(reason);
+            // Words of a command line have other ways out.
+            let reason =
+                reason.split("\n\n  tip: to pass").next().unwrap_or(reason).trim().to_owned();
             Err(match error.kind() {
                 ErrorKind::UnknownArgument => PyTypeError::new_err(reason),
                 _ => wrong_input(reason),

@@ -72,12 +72,15 @@ def test_one_state_is_a_row_of_many(satellite):
             assert one.shape == (10,) and off(one, many[i]) < 1e-13
 
 
-def test_held_hinges_do_not_turn(satellite):
+def test_held_hinges_do_not_turn(satellite, examples):
     free = satellite.dynamics(path="generic")
     held = satellite.dynamics(path="generic", held={"1,1": 0.3, "2,2": -0.1})
     assert held.hinges == [free.hinges[1], free.hinges[2]]
     omega, beta, tau = states(held, 10)
     assert flat(held.accelerations(omega, beta, tau)).shape == (10, 8)
+    panels = nboom.load(examples / "cubesat.toml")
+    names = panels.dynamics().hinges
+    assert panels.dynamics(held={names[0]: 0.0, "x panel 2": 0.0}).hinges == names[2:]
     none = satellite.dynamics(held=dict.fromkeys(["1,1", "1,2", "2,1", "2,2"], 0.0))
     assert none.accelerations([1.0, 2.0, 3.0], [], [])[2].shape == (0,)
     with pytest.raises(nboom.InputError, match="`3,1` found, a hinge of the scene expected"):

@@ -132,6 +132,9 @@ def test_a_scene_shows_itself(examples):
 def test_verify_says_that_all_code_agrees(examples):
     found = nboom.load(examples / "n-boom-1970.nml").verify(states=10)
     assert found["passed"] and len(found["rows"]) > 10
+    with pytest.raises(nboom.ComparisonFailed, match="more than 1e-30") as caught:
+        nboom.load(examples / "n-boom-1970.nml").verify(states=2, tol=1e-30)
+    assert not caught.value.found["passed"]
     with pytest.raises(ValueError, match="states: 0 found"):
         nboom.load(examples / "n-boom-1970.nml").verify(states=0)
 

@@ -42,6 +42,10 @@ def test_threads_and_shards_do_not_matter(few, tmp_path):
     shards = [tmp_path / f"part-{i}" for i in (1, 2, 3)]
     for i, shard in enumerate(shards, 1):
         nboom.sweep(few, shard, shard=(i, 3))
+    part = nboom.Sweep(shards[0])
+    assert "shard 1/3 of 40 cases" in repr(part)
+    with pytest.raises(nboom.InputError, match="the shard 1/3 found, a whole sweep expected"):
+        _ = part.statistics
     nboom.merge(reversed(shards), tmp_path / "three", report=False)
     assert same(tmp_path / "one", tmp_path / "three")
     with pytest.raises(nboom.InputError, match="1/3"):
@@ -55,8 +59,9 @@ def test_a_case_is_the_run_of_its_row(few, tmp_path):
     for case in (1, 17, 40):
         run = sweep.study.case(case).run()
         assert run["omega_x"][-1] == sweep.cases["final_omega_x"][case - 1]
-    with pytest.raises(nboom.InputError, match="case: 41 found, a number from 1 to 40 expected"):
-        nboom.study(few).case(41)
+    for wrong in (41, 0, -1):
+        with pytest.raises(nboom.InputError, match=f"case: {wrong} found, a number from 1 to 40 expected"):
+            nboom.study(few).case(wrong)
 
 
 def test_progress_is_told(few, tmp_path):

@@ -85,8 +85,11 @@ impl Request {
             numbers.any(|at| cases.iter().any(|case| case[at - start] != 0.0))
         };
         let places: Vec<usize> = (0..RightSideLayout::lines(topology)).filter(pushes).collect();
+        if places.is_empty() {
+            return None;
+        }
         let name = format!("Pushed{}", self.name);
-        if self.is_general() && !places.is_empty() {
+        if self.is_general() {
             // States with held hinges that have no code of their own run in this one.
             return Some(Self { name, ..self.clone() }.for_right_side().with_lines(1));
         }
@@ -94,7 +97,7 @@ impl Request {
         for &place in &places {
             request.assumptions[RightSideLayout::line(topology, place)].fill(None);
         }
-        (!places.is_empty()).then_some(request)
+        Some(request)
     }
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 __all__ = ["ComparisonFailed", "Error", "InputError", "SceneWarning", "SimulationError", "TrustWarning"]
 
 
@@ -23,7 +25,11 @@ class SimulationError(Error, RuntimeError):
 
 
 class ComparisonFailed(Error, AssertionError):
-    """Codes that should agree do not."""
+    """Codes that should agree do not; ``found`` is what was compared."""
+
+    def __init__(self, message: str, found: dict[str, Any] | None = None) -> None:
+        super().__init__(message)
+        self.found = found
 
 
 class SceneWarning(UserWarning):

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _nboom
-from .errors import InputError, SceneWarning, TrustWarning
+from .errors import ComparisonFailed, InputError, SceneWarning, TrustWarning
 from .options import in_memory, words
 from .tables import Table
 
@@ -153,10 +153,12 @@ class Scene:
         """
         numbers = {hinge.label: i for i, hinge in enumerate(self.hinges)}
         numbers |= {hinge.body: i for i, hinge in enumerate(self.hinges) if hinge.body is not None}
+        # As `Dynamics.hinges` has them.
+        numbers |= {f"{hinge.label} ({hinge.body})": i for i, hinge in enumerate(self.hinges)}
         at = []
         for name, angle in (held or {}).items():
             if name not in numbers:
-                known = ", ".join(map(str, numbers))
+                known = ", ".join(hinge.body or hinge.label for hinge in self.hinges)
                 raise InputError(f"held: `{name}` found, a hinge of the scene expected: {known}")
             at.append((numbers[name], float(angle)))
         return self._inner.dynamics(words(options), at)
@@ -164,11 +166,19 @@ class Scene:
     def verify(self, states: int = 100, seed: int = 1970, tol: float = 1e-11) -> dict[str, Any]:
         """Compares all code that computes accelerations, matrices and right sides on random states.
 
-        Returns what ``nboom verify`` writes: ``passed``, and ``rows`` with the largest deviation of each code.
+        Returns what ``nboom verify`` writes: ``rows`` with the largest deviation of each code.
+
+        Raises
+        ------
+        ComparisonFailed
+            If one is above ``tol``; its ``found`` has all of them.
         """
         if not 1 <= states <= 1_000_000:
             raise ValueError(f"states: {states} found, a number from 1 to 1000000 expected")
-        return json.loads(self._inner.verify(states, seed, tol))
+        found = json.loads(self._inner.verify(states, seed, tol))
+        if not found["passed"]:
+            raise ComparisonFailed(f"{self.name}: codes deviate by more than {tol:g}", found)
+        return found
 
     def compile(
         self,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _nboom
-from .errors import SimulationError
+from .errors import InputError, SimulationError
 from .progress import shown
 from .scene import Scene, Simulator, framed
 from .tables import Table
@@ -80,7 +80,7 @@ class Sweep:
     @property
     def statistics(self) -> dict[str, Any]:
         """What statistics.json says: percentiles with confidence, drivers, chances of latches."""
-        return json.loads((self.directory / "statistics.json").read_text(encoding="utf-8"))
+        return json.loads(self._text("statistics.json"))
 
     @property
     def description(self) -> dict[str, Any]:
@@ -94,11 +94,21 @@ class Sweep:
 
     def report(self) -> str:
         """The page of the sweep: HTML that needs no network."""
-        return (self.directory / "report.html").read_text(encoding="utf-8")
+        return self._text("report.html")
+
+    def _text(self, name: str) -> str:
+        """A file of the directory, which a shard and a sweep without report do not have."""
+        path = self.directory / name
+        if not path.exists():
+            shard = self.description.get("shard")
+            told = f"the shard {shard} found, a whole sweep" if shard else "no such file found, one"
+            raise InputError(f"{path}: {told} expected")
+        return path.read_text(encoding="utf-8")
 
     def __repr__(self) -> str:
         of = self.description
-        return f"<nboom.Sweep {of['name']}: {of['cases']} cases in {self.directory}>"
+        part = f"shard {of['shard']} of " if "shard" in of else ""
+        return f"<nboom.Sweep {of['name']}: {part}{of['cases']} cases in {self.directory}>"
 
     def _repr_html_(self) -> str | None:
         page = self.directory / "report.html"
