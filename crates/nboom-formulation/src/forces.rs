@@ -90,7 +90,7 @@ impl<R: Real> Forces<R> {
     /// moment and force; of each line its end on the link, that on the main body, and a₀ to a₃.
     pub fn write(&self) -> Vec<R> {
         let mut numbers = Vec::new();
-        self.write_at(self.laws.len(), |hinge| Some(hinge), &mut numbers);
+        self.write_at(self.laws.len(), Some, &mut numbers);
         numbers
     }
 

@@ -3,8 +3,8 @@
 //! [`generate`] writes a crate with the routines of one scene. It needs nothing but Rust: what its
 //! code uses is a module of it. A certificate says how far its formulation is from the truth, and
 //! its tests measure the compiled code. [`is_current`] compares such a crate with what would be written now. [`compile`]
-//! builds the command `nboom`, without its generator, around the routines of a scene. [`library`] builds
-//! a library of them, which a running program can [`load`].
+//! builds the command `nboom`, without its generator, around the routines of a scene. [`library`](fn@library) builds
+//! a library of them, which a running program can [`load`](fn@load).
 //!
 //! One scene and one set of choices always give the same bytes. What somebody else has written or
 //! changed is not overwritten.

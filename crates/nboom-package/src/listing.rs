@@ -147,7 +147,7 @@ pub(crate) fn write(directory: &Path, key: u64, files: &Files) -> Result<(), Pac
             return Err(PackageError::NotOurs { path, standing });
         }
     }
-    put(&directory.join(NAME), &between.text())?;
+    put(&directory.join(NAME), between.text())?;
     for (path, text) in files {
         put(&directory.join(path), text)?;
     }
@@ -160,7 +160,8 @@ pub(crate) fn write(directory: &Path, key: u64, files: &Files) -> Result<(), Pac
             _ => {}
         }
     }
-    put(&directory.join(NAME), after.text()).map(|_| ())
+    put(&directory.join(NAME), after.text())?;
+    Ok(())
 }
 
 #[cfg(test)]
@@ -183,7 +184,7 @@ mod tests {
             let nothing = Listing { key: UNFINISHED, hashes: BTreeMap::new() };
             let before = Listing::read(place.path()).expect("ours").unwrap_or(nothing);
             let between = before.until(&Listing::new(key, &of(text)));
-            put(&place.path().join(NAME), &between.text()).expect("writable");
+            put(&place.path().join(NAME), between.text()).expect("writable");
             put(&place.path().join("a"), text).expect("writable");
         };
         broken(1, "old");

@@ -25,7 +25,7 @@ pub struct Loaded {
     pub batches: &'static [Batch],
 }
 
-/// Opens a library that [`library`](crate::library) has built, this version or another, for good.
+/// Opens a library that [`library`](fn@crate::library) has built, this version or another, for good.
 ///
 /// A library is code, and runs with all that this program may do: it has to be one to be trusted.
 ///

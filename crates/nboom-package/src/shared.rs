@@ -14,7 +14,7 @@ const CODE: &str = include_str!("../templates/shared.rs");
 /// What became of a library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Library {
-    /// The library, which [`load`](crate::load) takes.
+    /// The library, which [`load`](fn@crate::load) takes.
     pub path: PathBuf,
     /// The scene's topology.
     pub topology: String,
@@ -28,7 +28,7 @@ pub struct Library {
 
 /// Builds a library with the routines of
 /// [`Module::of_simulator`](nboom_codegen::Module::of_simulator) for one scene, for programs that
-/// [`load`](crate::load) it; `tell` hears how far it has come.
+/// [`load`](fn@crate::load) it; `tell` hears how far it has come.
 ///
 /// It stays in the folder to build in, under a name with a number for all that it is made of.
 ///

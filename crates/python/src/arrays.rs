@@ -66,9 +66,9 @@ pub(crate) fn count(rows: &[&Rows<'_>]) -> PyResult<Option<usize>> {
     match rows.iter().find(|rows| rows.count != several.count) {
         None => Ok(several.count),
         Some(other) => Err(PyValueError::new_err(format!(
-            "{}: {} found, {} as in {} expected",
+            "{}: {} found, rows of {} as in {} expected",
             other.name,
-            other.count.map_or("one row".to_owned(), |count| format!("{count} rows")),
+            other.count.map_or("one state".to_owned(), |count| format!("rows of {count} states")),
             several.count.unwrap_or_default(),
             several.name,
         ))),

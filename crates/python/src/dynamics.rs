@@ -16,6 +16,9 @@ use crate::routine::LANES;
 /// States that are taken between two looks for Ctrl-C.
 const CHUNK: usize = 512;
 
+/// How far the length of an attitude may be from 1.
+const UNIT: f64 = 1e-6;
+
 /// States from which on a call lets other threads of Python run.
 const MANY: usize = 64;
 
@@ -171,6 +174,7 @@ impl Dynamics {
         self.evaluate(py, states, |evaluator, look| {
             for chunk in chunks(states) {
                 lists.require_finite(chunk.clone())?;
+                lists.require_attitudes(chunk.clone())?;
                 lists.accelerations(evaluator, chunk, &mut found);
                 look()?;
             }
@@ -218,6 +222,7 @@ impl Dynamics {
         let is_there = self.evaluate(py, states, |evaluator, look| {
             for chunk in chunks(states) {
                 lists.require_finite(chunk.clone())?;
+                lists.require_attitudes(chunk.clone())?;
                 for i in chunk {
                     let matrix = &mut matrices[size * size * i..size * size * (i + 1)];
                     let right = &mut forcing[size * i..size * (i + 1)];
@@ -281,6 +286,23 @@ impl Lists<'_> {
                 let found = numbers[at];
                 return Err(PyValueError::new_err(format!(
                     "{name}[{place}]: {found} found, a finite number expected"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// # Errors
+    /// `ValueError` where an attitude of these states is no unit quaternion.
+    fn require_attitudes(&self, states: Range<usize>) -> PyResult<()> {
+        let Some(attitudes) = &self.attitude else { return Ok(()) };
+        for i in states {
+            let norm =
+                attitudes[4 * i..4 * i + 4].iter().map(|part| part * part).sum::<f64>().sqrt();
+            if (norm - 1.0).abs() > UNIT {
+                let place = if self.are_rows { format!("[{i}]") } else { String::new() };
+                return Err(PyValueError::new_err(format!(
+                    "attitude{place}: a quaternion of length {norm} found, 1 expected"
                 )));
             }
         }

@@ -55,5 +55,5 @@ def few(examples, tmp_path) -> Path:
 def many(examples, tmp_path) -> Path:
     """A study that lasts some seconds."""
     path = tmp_path / "many.toml"
-    path.write_text(STUDY.format(examples=examples, draws=30_000, rtol=1e-9))
+    path.write_text(STUDY.format(examples=examples, draws=12_000, rtol=1e-9))
     return path

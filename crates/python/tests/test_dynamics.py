@@ -121,7 +121,7 @@ def test_any_layout_of_numbers_is_taken(satellite):
         ({"beta": np.zeros((5, 3))}, ValueError, r"beta: an array of shape \(5, 3\) found, \(4,\) or \(N, 4\)"),
         ({"beta": np.zeros((2, 2, 4))}, ValueError, "beta: an array of shape"),
         ({"beta": 0.0}, ValueError, r"beta: an array of shape \(\) found"),
-        ({"tau": np.zeros((5, 4))}, ValueError, "one row found, 5 as in tau expected"),
+        ({"tau": np.zeros((5, 4))}, ValueError, "one state found, rows of 5 as in tau expected"),
         ({"tau": np.zeros(4, dtype=complex)}, TypeError, "tau: complex128 found, real numbers expected"),
         ({"tau": ["a", "b", "c", "d"]}, TypeError, "tau: .* found, real numbers expected"),
         ({"tau": [None] * 4}, TypeError, "tau: .* found, real numbers expected"),
@@ -129,6 +129,7 @@ def test_any_layout_of_numbers_is_taken(satellite):
         ({"omega": [0.0, np.inf, 0.0]}, ValueError, r"omega\[1\]: inf found"),
         ({"torque": np.zeros(3)}, ValueError, "torque: an array"),
         ({"attitude": np.zeros(3)}, ValueError, "attitude: an array"),
+        ({"attitude": np.zeros(4)}, ValueError, "attitude: a quaternion of length 0 found, 1 expected"),
         ({"time": float("inf")}, ValueError, "time: inf found"),
     ],
 )

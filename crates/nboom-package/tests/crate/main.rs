@@ -3,6 +3,7 @@
 
 mod code;
 mod freshness;
+mod library;
 mod readme;
 
 use std::collections::BTreeMap;

@@ -85,8 +85,6 @@ def gather(
     """Runs the cases of a study on the workers of a client."""
     if getattr(client, "asynchronous", False):
         raise TypeError("client: an asynchronous one found, Client(..., asynchronous=False) expected")
-    if strangers not in ("refuse", "apart", "accept"):
-        raise ValueError(f"strangers: `{strangers}` found, refuse, apart or accept expected")
     gathering = study.gather(options)
     tell(*gathering.done())
     if gathering.missing():

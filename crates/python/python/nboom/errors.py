@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
+from pathlib import Path
 from typing import Any
 
 __all__ = ["ComparisonFailed", "Error", "InputError", "SceneWarning", "SimulationError", "TrustWarning"]
@@ -38,3 +41,12 @@ class SceneWarning(UserWarning):
 
 class TrustWarning(UserWarning):
     """The results of a run are poor, or a part fails."""
+
+
+def warn(message: str, category: type[Warning]) -> None:
+    """Warns of a line outside of this package, the last one that was called from."""
+    package = str(Path(__file__).parent)
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, category, stacklevel=level - 1)

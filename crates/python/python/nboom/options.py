@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from .errors import InputError
+
 #: Options of ``nboom run`` that concern its files or its terminal alone.
 OF_FILES = frozenset(
     {
@@ -30,6 +32,7 @@ _NOT_HERE = {
     "include_anywhere": "nboom.load(path, include_anywhere=True)",
     "case": "nboom.study(path)",
     "quiet": "the warnings module",
+    "help": "help(nboom)",
 }
 
 
@@ -56,6 +59,8 @@ def _word(name: str, value: Any) -> str:
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
     if isinstance(value, (list, tuple, np.ndarray)):
+        if len(value) == 0:
+            raise InputError(f"{name}: an empty list found, one or more elements expected")
         return ",".join(_word(name, element) for element in value)
     raise TypeError(f"{name}: {value!r} found, a text, a number, a list of them or a truth value expected")
 

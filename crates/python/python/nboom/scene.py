@@ -6,13 +6,12 @@ import html
 import json
 import os
 import tempfile
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from . import _nboom
-from .errors import ComparisonFailed, InputError, SceneWarning, TrustWarning
+from .errors import ComparisonFailed, InputError, SceneWarning, TrustWarning, warn
 from .options import in_memory, words
 from .tables import Table
 
@@ -50,9 +49,9 @@ class Scene:
 
     def __init__(self, inner: _nboom.Scene) -> None:
         self._inner = inner
-        self._simulators: dict[str, Simulator] = {}
+        self._simulators: dict[tuple[str, ...], Simulator] = {}
         for warning in inner.warnings:
-            warnings.warn(warning, SceneWarning, stacklevel=3)
+            warn(warning, SceneWarning)
 
     @property
     def name(self) -> str:
@@ -132,7 +131,8 @@ class Scene:
         SimulationError
             If the motion cannot be followed; its ``run`` has what was found before.
         """
-        key = repr(sorted(options.items())) if options else ""
+        in_memory(options)
+        key = tuple(words(options))
         simulator = self._simulators.get(key)
         if simulator is None:
             if len(self._simulators) >= _MOST_SIMULATORS:
@@ -140,7 +140,12 @@ class Scene:
             simulator = self._simulators[key] = self.simulator(**options)
         return simulator.run()
 
-    def dynamics(self, held: Mapping[str, float] | None = None, **options: Any) -> _nboom.Dynamics:
+    def dynamics(
+        self,
+        held: Mapping[str, float] | None = None,
+        formulation: str | None = None,
+        path: str | None = None,
+    ) -> _nboom.Dynamics:
         """The equations of motion, to be evaluated at any states.
 
         Parameters
@@ -148,8 +153,8 @@ class Scene:
         held : dict, optional
             Hinges that are held, by body or label, with their angles [rad]; all others are free, however
             the scene begins.
-        **options
-            ``formulation`` and ``path`` of :meth:`run`, which choose the code.
+        formulation, path : str, optional
+            Which code, as of :meth:`run`.
         """
         numbers = {hinge.label: i for i, hinge in enumerate(self.hinges)}
         numbers |= {hinge.body: i for i, hinge in enumerate(self.hinges) if hinge.body is not None}
@@ -160,8 +165,10 @@ class Scene:
             if name not in numbers:
                 known = ", ".join(hinge.body or hinge.label for hinge in self.hinges)
                 raise InputError(f"held: `{name}` found, a hinge of the scene expected: {known}")
+            if numbers[name] in dict(at):
+                raise InputError(f"held: `{name}` found for the second time, each hinge once expected")
             at.append((numbers[name], float(angle)))
-        return self._inner.dynamics(words(options), at)
+        return self._inner.dynamics(words({"formulation": formulation, "path": path}), at)
 
     def verify(self, states: int = 100, seed: int = 1970, tol: float = 1e-11) -> dict[str, Any]:
         """Compares all code that computes accelerations, matrices and right sides on random states.
@@ -175,6 +182,8 @@ class Scene:
         """
         if not 1 <= states <= 1_000_000:
             raise ValueError(f"states: {states} found, a number from 1 to 1000000 expected")
+        if not 0 <= seed < 1 << 64:
+            raise ValueError(f"seed: {seed} found, a number from 0 to 2**64 - 1 expected")
         found = json.loads(self._inner.verify(states, seed, tol))
         if not found["passed"]:
             raise ComparisonFailed(f"{self.name}: codes deviate by more than {tol:g}", found)
@@ -232,9 +241,9 @@ class Simulator:
         known = frozenset(scene._inner.warnings)
         for warning in self._inner.warnings:
             if warning not in known:
-                warnings.warn(warning, SceneWarning, stacklevel=3)
+                warn(warning, SceneWarning)
         if self._inner.ignored is not None:
-            warnings.warn(self._inner.ignored, SceneWarning, stacklevel=3)
+            warn(self._inner.ignored, SceneWarning)
 
     def run(self) -> Run:
         """Runs it, as :meth:`Scene.run` does."""
@@ -246,7 +255,7 @@ class Simulator:
                 error.run = Run(self.scene, self.options, failed)  # type: ignore[attr-defined]
             raise
         for trouble in inner.troubles:
-            warnings.warn(trouble, TrustWarning, stacklevel=2)
+            warn(trouble, TrustWarning)
         return Run(self.scene, self.options, inner)
 
 

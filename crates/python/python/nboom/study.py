@@ -179,6 +179,10 @@ def sweep(
     KeyboardInterrupt
         Likewise.
     """
+    if strangers not in ("refuse", "apart", "accept"):
+        raise ValueError(f"strangers: `{strangers}` found, refuse, apart or accept expected")
+    if jobs is not None and not 1 <= jobs <= 65535:
+        raise ValueError(f"jobs: {jobs} found, a number from 1 to 65535 expected")
     what = study if isinstance(study, Study) else globals()["study"](study)
     directory = Path(output) if output is not None else Path("out") / what.name
     options = _nboom.SweepOptions(os.fspath(directory), resume, csv, accept_difference or strangers == "accept")

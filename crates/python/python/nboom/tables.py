@@ -77,6 +77,8 @@ class Table(Mapping[str, np.ndarray]):
         if self._array is None:
             raise TypeError("a table with texts found, one of numbers expected; take its columns by name")
         if dtype is not None and np.dtype(dtype) != self._array.dtype:
+            if copy is False:
+                raise ValueError(f"{np.dtype(dtype)} found, {self._array.dtype} expected: another type needs a copy")
             return self._array.astype(dtype)
         return self._array.copy() if copy else self._array
 

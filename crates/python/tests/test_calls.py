@@ -1,0 +1,152 @@
+"""Arguments as programs have them, warnings, and tables in other programs' hands."""
+
+import copy
+import csv
+import pickle
+import warnings
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import nboom
+
+ROBOT = ROOT / "tests" / "data" / "robots" / "gimbals.urdf"
+
+
+@pytest.fixture
+def satellite(examples):
+    return nboom.load(examples / "n-boom-1970.nml")
+
+
+@pytest.fixture
+def cubesat(examples):
+    return nboom.load(examples / "cubesat.toml")
+
+
+def states(count, hinges=4):
+    dice = np.random.default_rng(6)
+    # Few digits, so that float32 has them all.
+    return [np.round(8 * dice.normal(size=(count, size))) / 8 for size in (3, hinges, hinges)]
+
+
+@pytest.mark.parametrize("kind", ["<f4", ">f4", ">f8", "f2", "longdouble"])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_every_kind_of_real_number_is_taken(satellite, kind, order):
+    dynamics, arguments = satellite.dynamics(), states(20)
+    expected = np.concatenate(dynamics.accelerations(*arguments), axis=1)
+    others = [np.array(numbers, dtype=kind, order=order) for numbers in arguments]
+    np.testing.assert_array_equal(np.concatenate(dynamics.accelerations(*others), axis=1), expected)
+
+
+def test_arguments_are_not_written_to_nor_kept(satellite):
+    dynamics, arguments = satellite.dynamics(), states(100)
+    before = copy.deepcopy(arguments)
+    found = dynamics.accelerations(*arguments)
+    for now, then in zip(arguments, before, strict=True):
+        np.testing.assert_array_equal(now, then)
+    kept = found[0].copy()
+    dynamics.accelerations(*states(100))
+    arguments[0][:] = 0.0
+    np.testing.assert_array_equal(found[0], kept)
+    assert not any(np.shares_memory(a, b) for a in found for b in arguments)
+
+
+def test_no_states_have_no_accelerations(satellite):
+    found = satellite.dynamics().accelerations(*states(0))
+    assert [numbers.shape for numbers in found] == [(0, 3), (0, 3), (0, 4)]
+
+
+def test_equations_in_bulk_are_those_of_each_state(satellite):
+    dynamics, arguments = satellite.dynamics(path="generic", formulation="symmetric"), states(70)
+    matrices, forcings = dynamics.equations(*arguments)
+    assert matrices.shape == (70, 10, 10) and forcings.shape == (70, 10)
+    for i in (0, 33, 69):
+        matrix, forcing = dynamics.equations(*(numbers[i] for numbers in arguments))
+        np.testing.assert_array_equal(matrix, matrices[i])
+        np.testing.assert_array_equal(forcing, forcings[i])
+    arguments[1][69, 3] = np.inf
+    with pytest.raises(ValueError, match=r"beta\[69, 3\]: inf found, a finite number expected"):
+        dynamics.equations(*arguments)
+
+
+def test_threads_with_single_states_do_not_disturb_each_other(satellite):
+    dynamics, arguments = satellite.dynamics(), states(2_000)
+    each = list(zip(*arguments, strict=True))
+
+    def one(state):
+        return np.concatenate(dynamics.accelerations(*state))
+
+    expected = [one(state) for state in each]
+    with ThreadPoolExecutor(4) as threads:
+        np.testing.assert_array_equal(list(threads.map(one, each)), expected)
+
+
+def test_an_exception_of_an_argument_passes_through(satellite):
+    class Stubborn:
+        def __array__(self, dtype=None, copy=None):
+            raise RuntimeError("not today")
+
+    with pytest.raises(RuntimeError, match="not today"):
+        satellite.dynamics().accelerations(Stubborn(), [0.0] * 4, [0.0] * 4)
+
+
+@pytest.mark.skipif(not ROBOT.exists(), reason="there is no clone around the tests")
+def test_a_robot_from_a_file_runs_and_survives_pickling():
+    robot = nboom.load(ROBOT)
+    assert [hinge.body for hinge in robot.hinges] == ["ring", "antenna", "arm", "wrist inner", "wrist outer", "hand"]
+    again = pickle.loads(pickle.dumps(robot))
+    for scene in (again, copy.deepcopy(robot)):
+        assert np.asarray(scene.run(samples=5).states).tobytes() == np.asarray(robot.run(samples=5).states).tobytes()
+
+
+def test_a_number_with_a_unit_is_refused_with_its_place(examples):
+    text = (examples / "boom.toml").read_text()
+    wrong = text.replace("mass = 120.0", 'mass = "120 kg"')
+    line = text[: text.index("mass = 120.0")].count("\n") + 1
+    with pytest.raises(nboom.InputError, match=rf"^boom:{line}:\d+: mass: found `kg`"):
+        nboom.parse(wrong, "boom")
+
+
+def test_poor_results_are_warned_of(examples):
+    scene = nboom.load(examples / "boom.toml")
+    with pytest.warns(nboom.TrustWarning, match="poor conservation"):
+        nboom.load(examples / "n-boom-1970.nml").run(rtol=0.5, atol=0.5)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", nboom.TrustWarning)
+        scene.run()
+
+
+def test_events_have_the_hinges_of_the_file(cubesat, tmp_path):
+    run = cubesat.run()
+    with (run.save(tmp_path / "run") / "events.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    for name in ("appendage", "segment"):
+        assert [int(row[name] or 0) for row in rows] == run.events[name].tolist()
+    bodies = dict(zip([hinge.label for hinge in cubesat.hinges], [hinge.body for hinge in cubesat.hinges]))
+    labels = [f"{row['appendage']},{row['segment']}" for row in rows]
+    assert [bodies.get(label) for label in labels] == list(run.events["body"])
+
+
+def test_pandas_gets_the_motion_without_a_copy(cubesat):
+    run = cubesat.run(samples=20)
+    whole = np.asarray(run.states)
+    assert np.shares_memory(run.states.to_pandas().to_numpy(), whole)
+    assert not np.shares_memory(np.array(run.states), whole)
+
+
+def test_missing_cells_are_nulls_in_arrow(cubesat):
+    events = cubesat.run().events
+    table = events.to_arrow()
+    assert table.column("body").null_count == sum(body is None for body in events["body"]) > 0
+    assert np.isnan(events["impulse"]).any()
+    np.testing.assert_array_equal(table.column("impulse").to_numpy(), events["impulse"])
+
+
+def test_names_are_escaped_in_notebooks(examples):
+    text = (examples / "boom.toml").read_text()
+    scene = nboom.parse(text.replace('name = "boom"', 'name = "<b>&"'), "boom")
+    assert "<b>&<" not in scene._repr_html_() and "&lt;b&gt;&amp;" in scene._repr_html_()
+    table = nboom.Table({"<i>": ["<script>"]})
+    assert "<script>" not in table._repr_html_() and "<i>" not in table._repr_html_()
