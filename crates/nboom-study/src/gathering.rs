@@ -17,38 +17,28 @@ use crate::{Runner, Study, StudyError, columns, trajectory_columns};
 #[derive(Debug)]
 pub struct Gathering {
     directory: PathBuf,
-    state: State,
+    begin: Begin,
     accept_difference: bool,
-}
-
-#[derive(Debug)]
-enum State {
-    Complete(Report),
-    Open(Box<Begun>),
 }
 
 impl Gathering {
     pub(crate) fn new(begin: Begin, directory: &Path, accept_difference: bool) -> Self {
-        let state = match begin {
-            Begin::Complete(report) => State::Complete(report),
-            Begin::Open(begun) => State::Open(Box::new(begun)),
-        };
-        Self { directory: directory.to_owned(), state, accept_difference }
+        Self { directory: directory.to_owned(), begin, accept_difference }
     }
 
     /// The cases that are not there, in order.
     pub fn missing(&self) -> Vec<RangeInclusive<u64>> {
-        match &self.state {
-            State::Complete(_) => Vec::new(),
-            State::Open(begun) => begun.journal.missing(),
+        match &self.begin {
+            Begin::Complete(_) => Vec::new(),
+            Begin::Open(begun) => begun.journal.missing(),
         }
     }
 
     /// How many cases are there, and how many there are in all.
     pub fn done(&self) -> [u64; 2] {
-        match &self.state {
-            State::Complete(report) => [report.done; 2],
-            State::Open(begun) => [begun.journal.done(), begun.what.share()],
+        match &self.begin {
+            Begin::Complete(report) => [report.done; 2],
+            Begin::Open(begun) => [begun.journal.done(), begun.what.share()],
         }
     }
 
@@ -59,7 +49,7 @@ impl Gathering {
     /// When it is no whole batch of missing cases, when it is of another program or instruction set and that is not
     /// accepted, and when it cannot be written.
     pub fn add(&mut self, batch: &[u8], by: &Maker) -> Result<(), StudyError> {
-        let State::Open(begun) = &mut self.state else { return Ok(()) };
+        let Begin::Open(begun) = &mut self.begin else { return Ok(()) };
         let wrong = |found: String| StudyError::NoBatch { found };
         let head = Head::of_whole(batch);
         let head = head.ok_or_else(|| wrong(format!("{} damaged bytes", batch.len())))?;
@@ -92,9 +82,9 @@ impl Gathering {
     /// # Errors
     /// When a file cannot be written, and when a batch has other rows than the sweep.
     pub fn finish(self) -> Result<Report, StudyError> {
-        match self.state {
-            State::Complete(report) => Ok(report),
-            State::Open(begun) => begun.finish(),
+        match self.begin {
+            Begin::Complete(report) => Ok(*report),
+            Begin::Open(begun) => begun.finish(),
         }
     }
 }

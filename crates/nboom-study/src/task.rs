@@ -56,11 +56,12 @@ pub enum End {
 }
 
 /// What became of a task that was begun.
+#[derive(Debug)]
 pub(crate) enum Begin {
     /// All cases had been done before.
-    Complete(Report),
+    Complete(Box<Report>),
     /// Cases are missing.
-    Open(Begun),
+    Open(Box<Begun>),
 }
 
 /// A sweep whose directory is taken.
@@ -109,10 +110,10 @@ impl Task<'_> {
         watcher: &dyn Watcher,
     ) -> Result<Report, StudyError> {
         let mut begun = match self.begin()? {
-            Begin::Complete(report) => return Ok(report),
+            Begin::Complete(report) => return Ok(*report),
             Begin::Open(begun) => begun,
         };
-        let Begun { what, journal, .. } = &mut begun;
+        let Begun { what, journal, .. } = &mut *begun;
         Crew { columns: what.tables(), worker, jobs, watcher }.fill(journal, what.share())?;
         begun.finish()
     }
@@ -124,7 +125,9 @@ impl Task<'_> {
     pub fn begin(&self) -> Result<Begin, StudyError> {
         let place = Place::take(self.directory)?;
         let what = match place.state(&self.description, self.accept_difference)? {
-            State::Complete(what) => return settle(&place, what).map(Begin::Complete),
+            State::Complete(what) => {
+                return Ok(Begin::Complete(settle(&place, what)?.into()));
+            }
             State::Open(what) => what,
         };
         let journal = directory::journal(self.directory, &what)?;
@@ -136,7 +139,8 @@ impl Task<'_> {
         space::require(self.directory, self.bytes(&what, cases - before), cases)?;
         let texts = [self.study, self.scene].map(str::to_owned);
         place.begin(&what, self.study, self.scene)?;
-        Ok(Begin::Open(Begun { place, what, journal, before, texts, csv: self.csv }))
+        let begun = Begun { place, what, journal, before, texts, csv: self.csv };
+        Ok(Begin::Open(begun.into()))
     }
 
     /// About how much is still to be written, if so many cases are missing.
