@@ -8,7 +8,7 @@ use nboom_scalar::{Batch as Lanes, Kernel};
 use crate::description::{Description, Maker};
 use crate::directory::require_made_here;
 use crate::frame::{Batch, Columns, Head};
-use crate::task::{Begin, Begun, Report};
+use crate::task::{Begin, Report};
 use crate::{Runner, Study, StudyError, columns, trajectory_columns};
 
 /// The directory of a sweep that waits for batches of cases from elsewhere, see [`Study::run_batch`].
