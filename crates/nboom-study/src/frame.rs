@@ -1,5 +1,7 @@
 //! Frames of a journal: a line that says which cases follow in how many bytes, and their rows in CSV.
 
+use std::ops::RangeInclusive;
+
 use nboom_tables::{Cell, Column, Kind};
 
 use crate::Row;
@@ -114,9 +116,14 @@ impl Batch {
         self.cases += 1;
     }
 
-    /// The first line of its frame.
-    pub fn head(&self) -> Head {
-        let last = self.first + self.cases - 1;
+    /// The cases that it has.
+    pub fn range(&self) -> RangeInclusive<u64> {
+        self.first..=self.first + self.cases - 1
+    }
+
+    /// Its frame.
+    pub fn frame(&self) -> Vec<u8> {
+        let last = *self.range().end();
         let (rows, states) = (self.rows.len() as u64, self.states.len() as u64);
         let mut head = Head { first: self.first, last, rows, states, checksum: 0 };
         let mut checksum = crc32fast::Hasher::new();
@@ -124,12 +131,7 @@ impl Batch {
             checksum.update(part);
         }
         head.checksum = checksum.finalize();
-        head
-    }
-
-    /// Its frame.
-    pub fn frame(&self) -> Vec<u8> {
-        [self.head().text().as_bytes(), &self.rows, &self.states].concat()
+        [head.text().as_bytes(), &self.rows, &self.states].concat()
     }
 }
 

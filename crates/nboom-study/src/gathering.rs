@@ -74,7 +74,7 @@ impl Gathering {
             begun.place.describe(&what)?;
             begun.what = what;
         }
-        begun.journal.writer()?.append(batch, head)
+        begun.journal.writer()?.append(batch, head.first..=head.last)
     }
 
     /// Makes the tables if all cases are there, and says what the sweep came to.

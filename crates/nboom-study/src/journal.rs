@@ -240,15 +240,15 @@ pub(crate) struct JournalWriter<'a> {
 }
 
 impl JournalWriter<'_> {
-    /// Adds a frame of cases that are not there yet, with the first line `head`, and waits for the disk.
+    /// Adds the frame of these cases, which are not there yet, and waits for the disk.
     ///
     /// # Errors
     /// When it cannot be written; nothing may be added then.
-    pub fn append(&mut self, frame: &[u8], head: Head) -> Result<(), StudyError> {
+    pub fn append(&mut self, frame: &[u8], cases: RangeInclusive<u64>) -> Result<(), StudyError> {
         let written = self.file.write_all(frame).and_then(|()| self.file.sync_data());
         let journal = &mut *self.journal;
         written.map_err(StudyError::writing(&journal.path))?;
-        let Head { first, last, .. } = head;
+        let (first, last) = cases.into_inner();
         journal.frames.push(Frame { first, last, at: journal.end });
         journal.end += frame.len() as u64;
         journal.length = journal.end;

@@ -100,7 +100,7 @@ impl Crew<'_, '_> {
     ) -> Result<(), StudyError> {
         let mut journal = journal.writer()?;
         for batch in batches {
-            journal.append(&batch.frame(), batch.head())?;
+            journal.append(&batch.frame(), batch.range())?;
             done += batch.cases;
             self.watcher.progress(done, total);
         }

@@ -95,7 +95,7 @@ impl Simulator {
         self.prepared.ignored.as_deref()
     }
 
-    /// How the run is described before it begins: warnings.
+    /// What is probably a mistake, known before it begins.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.prepared.run.warnings.clone()

@@ -143,8 +143,7 @@ impl Study {
         (self.study.beside_its_scene(), self.study.document.text())
     }
 
-    /// Runs all cases in threads of this process; `tell` hears how many of how many are done. Returns how it
-    /// ended: `complete`, `was complete`.
+    /// Runs all cases in threads of this process; `tell` hears how many of how many are done.
     #[pyo3(signature = (options, jobs, shard, tell))]
     fn run(
         &self,

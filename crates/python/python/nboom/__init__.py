@@ -9,7 +9,8 @@
 
 from ._nboom import Dynamics, __version__
 from .errors import ComparisonFailed, Error, InputError, SceneWarning, SimulationError, TrustWarning
-from .scene import Hinge, Run, Scene, Simulator, load, parse, scene
+from .run import Run
+from .scene import Hinge, Scene, Simulator, load, parse, scene
 from .study import Study, Sweep, merge, read_sweep, study, sweep
 from .tables import Table
 

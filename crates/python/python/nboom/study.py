@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal
 from . import _nboom
 from .errors import InputError, SimulationError
 from .progress import shown
-from .scene import Scene, Simulator, framed
+from .run import framed
+from .scene import Scene, Simulator
 from .tables import Table
 
 if TYPE_CHECKING:
