@@ -26,7 +26,7 @@ fn larger(inner: &Topology, dice: &mut Rng) -> Topology {
     for &shape in inner.shapes() {
         shapes.push(match shape {
             Shape::Chain(links) => Shape::Chain(links + dice.below(3)),
-            Shape::Paddle => Shape::Paddle,
+            other => other,
         });
     }
     shapes.extend((0..dice.below(3)).map(|_| Shape::Chain(1 + dice.below(4))));

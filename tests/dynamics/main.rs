@@ -11,6 +11,7 @@ mod embedding;
 mod formulations;
 mod forward_dynamics;
 mod gimbals;
+mod limbs;
 mod lines;
 mod momenta;
 mod right_side;

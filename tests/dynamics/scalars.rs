@@ -257,6 +257,7 @@ fn branch<R: Real>(tree: &WeldedTree<R>, links: &[usize]) -> Branch<R> {
         rot_body_from_appendage: rot,
         point: rot.transpose_mul(root.point),
         links: Vec::<ChainLink<R>>::new(),
+        mounts: None,
     };
     for (i, &j) in links.iter().enumerate() {
         let link = &tree.links[j];

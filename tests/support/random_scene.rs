@@ -231,7 +231,12 @@ pub fn moment(bodies: usize, seed: u64, held: f64) -> Moment {
     for _ in 0..dice.below(4) {
         description.externals.push(external(dice, bodies));
     }
-    let scene = Scene::new(description).expect("random bodies are physical");
+    moment_of(Scene::new(description).expect("random bodies are physical"), seed, held)
+}
+
+/// A scene in a random mode; each hinge is held with probability `held`.
+pub fn moment_of(scene: Scene, seed: u64, held: f64) -> Moment {
+    let bodies = scene.bodies.len();
     let dice = &mut Rng::new(seed ^ 0x5eed);
     let states = [HingeState::Unreleased, HingeState::Locked];
     let hinges = (0..bodies).map(|_| match dice.chance(held) {

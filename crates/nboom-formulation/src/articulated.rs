@@ -1,14 +1,16 @@
 //! Formulation `articulated`: O(n) elimination, form P of the cost table in
 //! `docs/formulations.md`.
 
-use nboom_model::{Shape, Topology};
-use nboom_scalar::{ArticulatedInertia, Mat3, Real, Sym3, Twist, Vec3, Wrench};
+use nboom_model::{Limb, Shape, Topology, WeldedTree};
+use nboom_scalar::{Mat3, Real, Twist, Vec3};
 
 use crate::base::AtOrigin;
 use crate::chain::{self, Eliminated, OutboardShare, Outward, Spin, Turned};
 use crate::formulation::ClosedForm;
+use crate::limb::{self, EliminatedLink, LimbShare};
 use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
+use crate::recognise::{Uncovered, recognise};
 
 /// The row of [`Formulation`](crate::Formulation)'s table.
 pub(crate) struct Articulated;
@@ -16,6 +18,10 @@ pub(crate) struct Articulated;
 impl ClosedForm for Articulated {
     const NAME: &'static str = "articulated";
     const ABOUT: &'static str = "O(n) elimination over (ω̇, a_O, τ̇), hinge by hinge from the tips";
+
+    fn covers(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
+        recognise(tree).map(|_| ())
+    }
 
     fn solve<R: Real>(
         topology: &Topology,
@@ -29,7 +35,16 @@ impl ClosedForm for Articulated {
         for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
             let hinges = &coordinates.hinges[first..first + shape.hinges()];
             let number = appendages.len() + 1;
-            let appendage = Appendage::eliminate(number, shape, branch, omega, hinges);
+            R::remark(|| format!("Appendage {number}: ω in its axes, how its first joint moves."));
+            let appendage = match shape {
+                Shape::Limb(limb) => {
+                    let (share, links) = limb::eliminate(number, &limb, branch, omega, hinges);
+                    Appendage::Limb { limb, share, links }
+                }
+                Shape::Chain(_) | Shape::Paddle => Appendage::Planar(
+                    ChainOrPaddle::eliminate(number, shape == Shape::Paddle, branch, omega, hinges),
+                ),
+            };
             R::remark(|| format!("Appendage {number}: what it shows at O, main-body axes."));
             seen.add(&appendage.at_origin(branch));
             appendages.push(appendage);
@@ -41,41 +56,65 @@ impl ClosedForm for Articulated {
         R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
         let main = total.accelerations();
         let mut tau_dot = Vec::with_capacity(coordinates.hinges.len());
-        for (appendage, branch) in appendages.iter().zip(&parameters.branches) {
-            appendage.back(branch, main, &mut tau_dot);
+        for (i, (appendage, branch)) in appendages.iter().zip(&parameters.branches).enumerate() {
+            appendage.back(i + 1, branch, main, &mut tau_dot);
         }
         Solution { main, tau_dot }
     }
 }
 
 /// An appendage whose hinges have been eliminated.
-struct Appendage<R> {
-    /// Among the appendages, from 1.
-    number: usize,
+enum Appendage<R> {
+    Planar(ChainOrPaddle<R>),
+    Limb { limb: Limb, share: LimbShare<R>, links: Vec<EliminatedLink<R>> },
+}
+
+impl<R: Real> Appendage<R> {
+    fn at_origin(&self, branch: &Branch<R>) -> AtOrigin<R> {
+        match self {
+            Self::Planar(planar) => planar.at_origin(branch),
+            Self::Limb { share, .. } => share.at_origin(branch),
+        }
+    }
+
+    fn back(&self, number: usize, branch: &Branch<R>, main: Twist<R>, tau_dot: &mut Vec<R>) {
+        R::remark(|| format!("Appendage {number}: accelerations of its first joint."));
+        let (angular, linear) = first_hinge(branch.point, &branch.rot_body_from_appendage, main);
+        match self {
+            Self::Planar(planar) => planar.back(number, angular, linear, tau_dot),
+            Self::Limb { limb, links, .. } => {
+                let main = Twist { angular, linear };
+                tau_dot.extend(limb::back(number, limb, branch, links, main));
+            }
+        }
+    }
+}
+
+/// A chain or a paddle.
+struct ChainOrPaddle<R> {
     share: OutboardShare<R>,
     first_torque: R,
     eliminated: Vec<Eliminated<R>>,
     paddle: Option<Paddle<R>>,
 }
 
-impl<R: Real> Appendage<R> {
+impl<R: Real> ChainOrPaddle<R> {
     fn eliminate(
         number: usize,
-        shape: Shape,
+        is_paddle: bool,
         branch: &Branch<R>,
         omega: Vec3<R>,
         hinges: &[HingeCoordinates<R>],
     ) -> Self {
-        R::remark(|| format!("Appendage {number}: ω in its axes, and how its first hinge moves."));
         let spin = Spin::new(branch.rot_body_from_appendage.transpose_mul(omega));
         let start = Outward {
             alpha: R::zero(),
             sigma: R::zero(),
             hinge: spin.bias_of_main_point(branch.point),
         };
-        match shape {
-            Shape::Chain(_) => Self::eliminate_chain(number, &spin, branch, start, hinges),
-            Shape::Paddle => Self::eliminate_paddle(number, &spin, branch, start, hinges),
+        match is_paddle {
+            false => Self::eliminate_chain(number, &spin, branch, start, hinges),
+            true => Self::eliminate_paddle(number, &spin, branch, start, hinges),
         }
     }
 
@@ -106,7 +145,7 @@ impl<R: Real> Appendage<R> {
             eliminated.push(hinge);
         }
         eliminated.reverse();
-        Self { number, share, first_torque: hinges[0].torque, eliminated, paddle: None }
+        Self { share, first_torque: hinges[0].torque, eliminated, paddle: None }
     }
 
     fn eliminate_paddle(
@@ -130,7 +169,6 @@ impl<R: Real> Appendage<R> {
         R::remark(|| format!("Arm {number}, inward: its hinge eliminated."));
         let (share, eliminated) = paddle::arm_inward(&arm, of_arm.torque, &inertia, wrench);
         Self {
-            number,
             share,
             first_torque: of_arm.torque,
             eliminated: vec![eliminated],
@@ -142,10 +180,8 @@ impl<R: Real> Appendage<R> {
         at_origin(&self.share, self.first_torque, branch.point, &branch.rot_body_from_appendage)
     }
 
-    fn back(&self, branch: &Branch<R>, main: Twist<R>, tau_dot: &mut Vec<R>) {
-        let number = self.number;
-        R::remark(|| format!("Appendage {number}: accelerations of its first hinge."));
-        let (w, mut a) = first_hinge(branch.point, &branch.rot_body_from_appendage, main);
+    /// Adds τ̇ of all hinges when ω̇ and the acceleration of the first one, appendage axes, are these.
+    fn back(&self, number: usize, w: Vec3<R>, mut a: Vec3<R>, tau_dot: &mut Vec<R>) {
         let mut inboard = w.x;
         for (i, eliminated) in self.eliminated.iter().enumerate() {
             R::remark(|| format!("Link {number},{}, back: τ̇ of its hinge.", i + 1));
@@ -170,15 +206,7 @@ pub fn at_origin<R: Real>(
     point: Vec3<R>,
     rot: &Mat3<R>,
 ) -> AtOrigin<R> {
-    let zero = R::zero();
-    let [yy, zz, yz] = share.angular;
-    let inertia = ArticulatedInertia {
-        angular: Sym3 { xx: zero, yy, zz, xy: zero, xz: zero, yz },
-        coupling: Mat3 { rows: [Vec3::zero(), share.coupling[0], share.coupling[1]] },
-        linear: share.linear,
-    };
-    let [m2, m3] = share.moment;
-    let wrench = Wrench { moment: Vec3::new(first_torque, m2, m3), force: share.force };
+    let (inertia, wrench) = share.whole(first_torque);
     AtOrigin { inertia: inertia.seen_from(point), wrench: wrench.seen_from(point) }.rotated(rot)
 }
 

@@ -4,7 +4,7 @@
 //! angular acceleration about ê₁: each link shows its inboard neighbour a symmetric 5×5
 //! inertia over (ω̇₂, ω̇₃, a) and the moment about ê₁ that the hinge law prescribes.
 
-use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Sym3, Vec3, Wrench};
+use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Sym3, Vec3, Wrench};
 
 use crate::parameters::Reader;
 
@@ -49,7 +49,7 @@ impl<R: Real> Spin<R> {
     /// Bias acceleration of a vector fixed in a link that turns at `sigma` relative to the
     /// main body: the matrix N of `docs/equations.md`, times `v`.
     #[inline]
-    fn bias_of(&self, sigma: R, v: Vec3<R>) -> Vec3<R> {
+    pub(crate) fn bias_of(&self, sigma: R, v: Vec3<R>) -> Vec3<R> {
         let whole = self.w.x + sigma;
         let twice = whole + sigma;
         let square = whole * whole;
@@ -182,7 +182,7 @@ pub fn outward_at<R: Real>(
 }
 
 /// The tensor turned about the first axis.
-fn turned_inertia<R: Real>(k: &Sym3<R>, s: R, c: R) -> Sym3<R> {
+pub(crate) fn turned_inertia<R: Real>(k: &Sym3<R>, s: R, c: R) -> Sym3<R> {
     // With the half sum fixed, only half difference and product turn, at the double angle.
     let shift = s * ((k.yy - k.zz) * s + (k.yz + k.yz) * c);
     Sym3 {
@@ -247,6 +247,31 @@ pub struct Eliminated<R> {
     /// Moment left for ε.
     net_torque: R,
     next: [R; 2],
+}
+
+impl<R: Real> Eliminated<R> {
+    /// Its couplings to what is left, the inverse pivot, and the moment left for ε.
+    pub(crate) fn column_pivot_and_torque(&self) -> (Wrench<R>, R, R) {
+        let [u2, u3] = self.angular;
+        let moment = Vec3::new(R::zero(), u2, u3);
+        (Wrench { moment, force: self.linear }, self.inverse_pivot, self.net_torque)
+    }
+}
+
+impl<R: Real> OutboardShare<R> {
+    /// The share as six by six, with the moment about ê₁ that the hinge law prescribes.
+    #[inline]
+    pub(crate) fn whole(&self, torque: R) -> (ArticulatedInertia<R>, Wrench<R>) {
+        let zero = R::zero();
+        let [yy, zz, yz] = self.angular;
+        let inertia = ArticulatedInertia {
+            angular: Sym3 { xx: zero, yy, zz, xy: zero, xz: zero, yz },
+            coupling: Mat3 { rows: [Vec3::zero(), self.coupling[0], self.coupling[1]] },
+            linear: self.linear,
+        };
+        let [m2, m3] = self.moment;
+        (inertia, Wrench { moment: Vec3::new(torque, m2, m3), force: self.force })
+    }
 }
 
 /// One step of the inward sweep: `net_torque` is the hinge torque less that of the next hinge.

@@ -10,7 +10,7 @@ use nboom_model::{Shape, Topology};
 use nboom_scalar::{Mat3, RigidInertia, Sym3, Vec3};
 
 use crate::chain::ChainLink;
-use crate::parameters::{Layout, Parameters, write_link, write_place, write_rigid};
+use crate::parameters::{Layout, Parameters, write_link, write_links, write_place, write_rigid};
 
 /// A virtual link's moment of inertia about its hinge, 2⁻⁴⁰⁰.
 ///
@@ -35,8 +35,8 @@ pub struct Embedding {
 
 impl Embedding {
     /// Places the inner topology in the outer one: each chain, the longest first, in the shortest
-    /// chain that is left and long enough; each paddle in a paddle. `None` if one is left over;
-    /// then no other placement has room for all.
+    /// chain that is left and long enough; each paddle in a paddle, each limb in an equal one. `None` if
+    /// one is left over; then no other placement has room for all. No limb is virtual.
     pub fn new(inner: &Topology, outer: &Topology) -> Option<Self> {
         let mut left: Vec<usize> = (0..outer.shapes().len()).collect();
         let mut take = |shape: &Shape| {
@@ -47,6 +47,9 @@ impl Embedding {
             least
         };
         let branches = inner.shapes().iter().map(&mut take).collect::<Option<Vec<usize>>>()?;
+        if left.iter().any(|&branch| matches!(outer.shapes()[branch], Shape::Limb(_))) {
+            return None;
+        }
         let outer_places = Layout::places(outer);
         let firsts = first_hinges(outer);
         let of_branch = |(&branch, shape): (&usize, &Shape)| {
@@ -109,6 +112,10 @@ impl Embedding {
                 (real.rot_body_from_appendage, real.point)
             });
             write_place(&rot, point, numbers);
+            if let Some(real) = real.filter(|real| real.mounts.is_some()) {
+                write_links(real, numbers);
+                continue;
+            }
             for place in 0..shape.hinges() {
                 let real = real.and_then(|real| real.links.get(place).copied());
                 write_link(&real.unwrap_or_else(|| virtual_link(shape, place)), numbers);
@@ -132,16 +139,14 @@ fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<bool
     for (shape, real) in outer.shapes().iter().zip(real) {
         arbitrary.extend([real == 0; Layout::BRANCH]);
         for link in 0..shape.hinges() {
-            arbitrary.extend([false; Layout::LINK - WAY]);
             let next_is_virtual = link + 1 >= real && shape.hinges() > real;
-            arbitrary.extend([next_is_virtual; WAY]);
+            let end = arbitrary.len() + Layout::link(*shape, link);
+            arbitrary.resize(end - Layout::WAY, false);
+            arbitrary.resize(end, next_is_virtual);
         }
     }
     arbitrary
 }
-
-/// Numbers of a link's way to the next hinge, its last ones.
-const WAY: usize = 2;
 
 /// Whether an appendage can be filled up to the outer one.
 fn holds(outer: Shape, inner: Shape) -> bool {
@@ -185,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_topology_is_in_itself_as_it_is() {
-        for name in ["M", "S1", "P", "4xS5", "S5_2xS2_3xP"] {
+        for name in ["M", "S1", "P", "4xS5", "S5_2xS2_3xP", "S2_2xTr(rp)(s)_Ts"] {
             let found = embedding(name, name).expect("it is in itself");
             assert_eq!(found.places(), Layout::places(&topology(name)));
             assert_eq!(found.virtual_links(), 0);
@@ -218,6 +223,9 @@ mod tests {
             ("S3_S2", "S4_S1"),
             ("2xP", "4xS5_P"),
             ("S1", "M"),
+            ("Tr", "Trr"),
+            ("S1", "S1_Trr"),
+            ("Trp", "S2"),
         ] {
             assert_eq!(embedding(inner, outer), None, "{inner} in {outer}");
         }

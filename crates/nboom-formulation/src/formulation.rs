@@ -4,7 +4,7 @@ use nboom_model::{Topology, WeldedTree};
 use nboom_scalar::Real;
 
 use crate::parameters::{Coordinates, Parameters, Solution};
-use crate::recognise::{Uncovered, recognise};
+use crate::recognise::{Uncovered, chains_and_paddles};
 use crate::section5::Equations;
 use crate::{articulated, momentum, relative, report, symmetric};
 
@@ -24,7 +24,7 @@ pub(crate) trait ClosedForm {
     /// # Errors
     /// Why not.
     fn covers(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
-        recognise(tree).map(|_| ())
+        chains_and_paddles(tree)
     }
 
     /// The system that it solves, hinges appendage by appendage; `None` where it never forms one.
@@ -82,8 +82,8 @@ macro_rules! formulations {
             /// Whether it covers the tree.
             ///
             /// # Errors
-            /// Why not: no form covers links that are not rigid; all but `symmetric` take chains with
-            /// parallel axes and paddles of a free main body alone.
+            /// Why not: no form covers links that are not rigid; all but `symmetric` take a free main body
+            /// alone, and of those all but `articulated` only chains with parallel axes and paddles.
             pub fn covers(self, tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
                 match self {
                     $(Self::$name => <$form>::covers(tree),)*
@@ -106,8 +106,11 @@ macro_rules! formulations {
                 }
             }
 
-            /// Accelerations of a satellite of chains and paddles, with O at the inertial origin
-            /// where the formulation asks for its place.
+            /// Accelerations of a satellite, with O at the inertial origin where the formulation asks
+            /// for its place.
+            ///
+            /// # Panics
+            /// When the topology has a limb and the formulation is not `articulated`.
             pub fn solve<R: Real>(
                 self,
                 topology: &Topology,

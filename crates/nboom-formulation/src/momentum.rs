@@ -224,6 +224,7 @@ fn carried<R: Real>(
         let inboard = match shape {
             Shape::Chain(_) => main.angular,
             Shape::Paddle => motion.angular,
+            Shape::Limb(limb) => pose::no_limb(&limb),
         };
         motion.angular = inboard + link.axis * rate;
         let outboard = pose::momentum(&link.inertia, motion);

@@ -1,4 +1,4 @@
-use nboom_model::Topology;
+use nboom_model::{Shape, Topology};
 
 use crate::parameters::Layout;
 
@@ -34,6 +34,36 @@ const OF_APPENDAGE: [&str; Layout::BRANCH] = [
     "z of the first hinge",
 ];
 
+/// The numbers of a limb's link whose joint is parallel to its inboard one, before those of its body.
+const OF_WAY: [&str; Layout::WAY] = ["y from the inboard joint", "z from the inboard joint"];
+
+/// The numbers of any other limb's link, before those of its body.
+const OF_MOUNT: [&str; Layout::BRANCH] = [
+    "rotation xx",
+    "rotation xy",
+    "rotation xz",
+    "rotation yx",
+    "rotation yy",
+    "rotation yz",
+    "rotation zx",
+    "rotation zy",
+    "rotation zz",
+    "x from the inboard joint",
+    "y from the inboard joint",
+    "z from the inboard joint",
+];
+
+/// What the numbers of a link are.
+fn of_link(shape: Shape, link: usize) -> Vec<&'static str> {
+    let Shape::Limb(limb) = shape else { return OF_LINK.to_vec() };
+    let mount = match Layout::mount(&limb, link) {
+        0 => &[][..],
+        Layout::WAY => &OF_WAY,
+        _ => &OF_MOUNT,
+    };
+    [mount, &OF_LINK[..Layout::BODY]].concat()
+}
+
 impl Layout {
     /// What parameter `number` of a topology is, counted from 0; appendages are counted from 1 in
     /// the topology's order, links from the inboard one.
@@ -51,11 +81,13 @@ impl Layout {
                 return format!("{} of appendage {appendage}", OF_APPENDAGE[at]);
             }
             at -= Self::BRANCH;
-            if at < Self::LINK * shape.hinges() {
-                let (link, of_link) = (at / Self::LINK + 1, OF_LINK[at % Self::LINK]);
-                return format!("{of_link} of link {link} of appendage {appendage}");
+            for link in 0..shape.hinges() {
+                let names = of_link(*shape, link);
+                if let Some(name) = names.get(at) {
+                    return format!("{name} of link {} of appendage {appendage}", link + 1);
+                }
+                at -= names.len();
             }
-            at -= Self::LINK * shape.hinges();
         }
         panic!("parameter {number} of {topology}")
     }
@@ -89,6 +121,14 @@ mod tests {
         assert_eq!(
             Layout::name(&topology, count - 1),
             "z of the next hinge of link 2 of appendage 2"
+        );
+        let topology: Topology = "Trp".parse().expect("a topology");
+        let last = Layout::parameters(&topology) - 1;
+        assert_eq!(Layout::name(&topology, last), "inertia yz of link 2 of appendage 1");
+        let way = last - Layout::BODY;
+        assert_eq!(
+            Layout::name(&topology, way),
+            "z from the inboard joint of link 2 of appendage 1"
         );
     }
 }

@@ -1,4 +1,4 @@
-use nboom_model::{Shape, Topology};
+use nboom_model::{Limb, LimbJoint, Shape, Topology};
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::chain::ChainLink;
@@ -20,8 +20,34 @@ pub struct Branch<R> {
     /// The first hinge from O, appendage axes.
     pub point: Vec3<R>,
     /// The links, inboard before outboard. A paddle's two links are the arm and the paddle,
-    /// whose hinge is along η.
+    /// whose hinge is along η. Links of a limb have no way to a next hinge, but mounts.
     pub links: Vec<ChainLink<R>>,
+    /// Where each link of a limb but the first is mounted on its inboard link; of limbs alone.
+    pub mounts: Option<Vec<Mount<R>>>,
+}
+
+/// Where a link of a limb is mounted on its inboard link, which has turned about its own axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mount<R> {
+    /// Both links turn about parallel axes: second and third component of the way from joint to joint.
+    Parallel([R; 2]),
+    /// Any other.
+    Across {
+        /// Turns components along the axes of the joint into components of the inboard link; ê₁ is along
+        /// the joint.
+        rot: Mat3<R>,
+        /// The joint from that of the inboard link, along the axes of the inboard link.
+        point: Vec3<R>,
+    },
+}
+
+impl<R: Real> Branch<R> {
+    /// Where link `i` of a limb is mounted: the first on the main body.
+    pub(crate) fn mount(&self, i: usize) -> Mount<R> {
+        let mounts = self.mounts.as_deref().unwrap_or_default();
+        let (rot, point) = (self.rot_body_from_appendage, self.point);
+        i.checked_sub(1).map_or(Mount::Across { rot, point }, |before| mounts[before])
+    }
 }
 
 /// One state of a satellite and what acts on it.
@@ -67,8 +93,12 @@ impl Layout {
     pub const MAIN: usize = 10;
     /// Numbers of an appendage before its links.
     pub const BRANCH: usize = 12;
-    /// Numbers of a link.
+    /// Numbers of a link of a chain or paddle.
     pub const LINK: usize = 12;
+    /// Numbers of a body.
+    pub const BODY: usize = 10;
+    /// Numbers of a link's way to the next hinge, or from its inboard one where axes are parallel.
+    pub const WAY: usize = 2;
     /// Numbers of a state before the hinges: ω, external moment, external force.
     pub const STATE: usize = 9;
     /// Numbers of a hinge in a state: β, τ, torque.
@@ -78,8 +108,29 @@ impl Layout {
 
     /// How many numbers parameters take.
     pub fn parameters(topology: &Topology) -> usize {
-        let branch = |shape: &Shape| Self::BRANCH + Self::LINK * shape.hinges();
-        Self::MAIN + topology.shapes().iter().map(branch).sum::<usize>()
+        let appendages = topology.shapes().iter();
+        Self::MAIN + appendages.map(|&shape| Self::appendage(shape)).sum::<usize>()
+    }
+
+    /// How many numbers the parameters of an appendage take.
+    pub fn appendage(shape: Shape) -> usize {
+        Self::BRANCH + (0..shape.hinges()).map(|link| Self::link(shape, link)).sum::<usize>()
+    }
+
+    /// How many numbers the parameters of a link take: those of its body, and the way to the next hinge; in a
+    /// limb, before those of its body, where it is mounted.
+    pub fn link(shape: Shape, link: usize) -> usize {
+        let Shape::Limb(limb) = shape else { return Self::LINK };
+        Self::mount(&limb, link) + Self::BODY
+    }
+
+    /// How many numbers tell where a link of a limb is mounted; those of the first are the branch's.
+    pub fn mount(limb: &Limb, link: usize) -> usize {
+        match limb.links()[link].joint {
+            _ if link == 0 => 0,
+            LimbJoint::Parallel => Self::WAY,
+            LimbJoint::Revolute | LimbJoint::Prismatic => Self::BRANCH,
+        }
     }
 
     /// How many numbers a state takes.
@@ -152,15 +203,37 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
     }
 
     fn branch(&mut self, shape: Shape) -> Branch<R> {
-        let links_follow = self.branch_without_links();
-        let links = (0..shape.hinges()).map(|_| self.link()).collect();
-        Branch { links, ..links_follow }
+        let mut branch = self.branch_without_links();
+        let Shape::Limb(limb) = shape else {
+            branch.links = (0..shape.hinges()).map(|_| self.link()).collect();
+            return branch;
+        };
+        let mut mounts = Vec::with_capacity(shape.hinges());
+        for (i, link) in limb.links().iter().enumerate() {
+            if i > 0 {
+                mounts.push(self.mount(link.joint));
+            }
+            branch.links.push(ChainLink { inertia: self.rigid(), next: [R::zero(); 2] });
+        }
+        Branch { mounts: Some(mounts), ..branch }
+    }
+
+    fn mount(&mut self, joint: LimbJoint) -> Mount<R> {
+        match joint {
+            LimbJoint::Parallel => Mount::Parallel([self.next(), self.next()]),
+            LimbJoint::Revolute | LimbJoint::Prismatic => {
+                let rows = (self.vector(), self.vector(), self.vector());
+                let rot = Mat3::from_rows(rows.0, rows.1, rows.2);
+                Mount::Across { rot, point: self.vector() }
+            }
+        }
     }
 
     pub fn branch_without_links(&mut self) -> Branch<R> {
         let rows = (self.vector(), self.vector(), self.vector());
         let rot_body_from_appendage = Mat3::from_rows(rows.0, rows.1, rows.2);
-        Branch { rot_body_from_appendage, point: self.vector(), links: Vec::new() }
+        let point = self.vector();
+        Branch { rot_body_from_appendage, point, links: Vec::new(), mounts: None }
     }
 
     pub fn link(&mut self) -> ChainLink<R> {
@@ -172,7 +245,9 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
 impl<R: Real> Parameters<R> {
     /// Reads what [`write`](Self::write) writes: mass, first moment, moments xx, yy, zz and
     /// products xy, xz, yz of the main body; then for each appendage the rotation by rows and
-    /// the first hinge, and for each link the same ten numbers and the way to the next hinge.
+    /// the first hinge, and for each link the same ten numbers and the way to the next hinge. Before the
+    /// ten numbers of a limb's link stands where it is mounted: nothing for the first; the way from the
+    /// inboard joint where the axes are parallel; else the rotation by rows and the joint.
     pub fn read(topology: &Topology, numbers: impl IntoIterator<Item = R>) -> Self {
         let mut reader = Reader(numbers.into_iter());
         let main = reader.rigid();
@@ -186,9 +261,24 @@ impl<R: Real> Parameters<R> {
         write_rigid(&self.main, &mut numbers);
         for branch in &self.branches {
             write_place(&branch.rot_body_from_appendage, branch.point, &mut numbers);
-            branch.links.iter().for_each(|link| write_link(link, &mut numbers));
+            write_links(branch, &mut numbers);
         }
         numbers
+    }
+}
+
+/// Writes the links of an appendage.
+pub(crate) fn write_links<R: Real>(branch: &Branch<R>, numbers: &mut Vec<R>) {
+    let Some(mounts) = &branch.mounts else {
+        return branch.links.iter().for_each(|link| write_link(link, numbers));
+    };
+    for (i, link) in branch.links.iter().enumerate() {
+        match i.checked_sub(1).map(|before| &mounts[before]) {
+            None => {}
+            Some(Mount::Parallel(way)) => numbers.extend(way),
+            Some(Mount::Across { rot, point }) => write_place(rot, *point, numbers),
+        }
+        write_rigid(&link.inertia, numbers);
     }
 }
 

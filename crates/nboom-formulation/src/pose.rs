@@ -1,6 +1,6 @@
 //! The links of an appendage in one state, along appendage axes.
 
-use nboom_model::Shape;
+use nboom_model::{Limb, Shape};
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::chain::ChainLink;
@@ -20,11 +20,17 @@ pub(crate) struct Posed<R> {
     pub hinge_offset: Vec3<R>,
 }
 
+/// Limbs are covered by `articulated` alone, and no line pushes their links there.
+pub(crate) fn no_limb(limb: &Limb) -> ! {
+    panic!("{limb} is neither a chain nor a paddle")
+}
+
 /// The links of an appendage at these hinge angles.
 pub(crate) fn place<R: Real>(shape: Shape, branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
     match shape {
         Shape::Chain(_) => chain(branch, beta),
         Shape::Paddle => arm_and_paddle(branch, beta[0], beta[1]),
+        Shape::Limb(limb) => no_limb(&limb),
     }
 }
 
@@ -45,6 +51,7 @@ pub(crate) fn turns<R: Real>(shape: Shape, beta: &[R]) -> Vec<(Mat3<R>, Vec3<R>)
                 (paddle::rotation(arm, beta[1].sin_cos()), Vec3::new(R::zero(), arm.1, arm.0));
             vec![(about_first(arm), Vec3::unit_x()), outer]
         }
+        Shape::Limb(limb) => no_limb(&limb),
     }
 }
 
@@ -116,6 +123,7 @@ pub(crate) fn absolute<R: Real>(shape: Shape, relative: &[R]) -> Vec<R> {
             };
             relative.iter().map(add).collect()
         }
+        Shape::Limb(limb) => no_limb(&limb),
     }
 }
 

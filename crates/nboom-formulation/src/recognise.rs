@@ -4,7 +4,9 @@ use nboom_scalar::{Mat3, RigidInertia, Vec3};
 use crate::chain::ChainLink;
 use crate::parameters::{Branch, Parameters};
 
-/// A welded tree written as chains and paddles.
+mod limb;
+
+/// A welded tree written as chains, paddles and limbs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recognised {
     /// The shapes of its appendages.
@@ -17,8 +19,8 @@ pub struct Recognised {
     pub frames: Vec<LinkFrame>,
 }
 
-/// The frame of a link of a chain or paddle, ê₁ along the first hinge of the appendage, as it
-/// stands in the link's axes.
+/// The frame in which the constants of a link are written, as it stands in the link's axes. ê₁ is along the
+/// first hinge of a chain or paddle, in a limb along the link's own joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkFrame {
     /// Turns components along the frame into link components.
@@ -53,26 +55,18 @@ pub enum Uncovered {
 /// Departure from parallel or square axes that is taken for rounding.
 const SAME_AXIS: f64 = 1e-12;
 
-/// Writes the tree as chains and paddles.
+/// Writes the tree as chains, paddles, and limbs where an appendage is neither.
 ///
 /// # Errors
-/// When the main body is held, or with the first link that does not fit: one that is not rigid,
-/// carries a rotor or slides, one of two links on the same inboard link, or one whose axis is
-/// neither that of a chain nor that of a paddle.
+/// When the main body is held, or with the first link that does not fit: one that is not rigid or carries a
+/// rotor, or the first of an appendage of more than [`Limb::MOST_LINKS`].
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
-    if tree.held.is_some() {
-        return Err(Uncovered::HeldBase);
-    }
-    rigid(tree)?;
-    chains_and_paddles(tree).map_err(Uncovered::Link)
-}
-
-fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
-    let is_other = |link: &Link<f64>| link.joint.slides() || link.spin.is_some();
-    tree.links.iter().position(is_other).map_or(Ok(()), Err)?;
+    check(tree)?;
     let mut appendages: Vec<Appendage> = Vec::new();
-    for root in (0..tree.links.len()).filter(|&j| tree.links[j].inboard.is_none()) {
-        appendages.push(appendage(tree, root)?);
+    for root in roots(tree) {
+        let planar = planar(tree, root).ok();
+        let any = planar.or_else(|| limb::appendage(tree, root));
+        appendages.push(any.ok_or(Uncovered::Link(root))?);
     }
     let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape));
     let mut parameters = Parameters { main: tree.main, branches: Vec::new() };
@@ -87,7 +81,34 @@ fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<Recognised, usize> {
     Ok(Recognised { topology, parameters, links, frames })
 }
 
-/// A chain or a paddle of the tree, links inboard before outboard.
+/// Whether the tree is made of chains and paddles.
+///
+/// # Errors
+/// As [`recognise`], and with the first link that slides, branches, or has an axis that is neither that of a
+/// chain nor that of a paddle.
+pub(crate) fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
+    check(tree)?;
+    let slides = tree.links.iter().position(|link| link.joint.slides());
+    slides.map_or(Ok(()), |link| Err(Uncovered::Link(link)))?;
+    roots(tree).try_for_each(|root| planar(tree, root).map(|_| ()).map_err(Uncovered::Link))
+}
+
+/// Whether the main body is free, every link rigid and none carries a rotor.
+fn check(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
+    if tree.held.is_some() {
+        return Err(Uncovered::HeldBase);
+    }
+    rigid(tree)?;
+    let carries_rotor = tree.links.iter().position(|link| link.spin.is_some());
+    carries_rotor.map_or(Ok(()), |link| Err(Uncovered::Link(link)))
+}
+
+/// The links on the main body.
+fn roots(tree: &WeldedTree<f64>) -> impl Iterator<Item = usize> {
+    (0..tree.links.len()).filter(|&j| tree.links[j].inboard.is_none())
+}
+
+/// An appendage of the tree, links inboard before outboard.
 struct Appendage {
     shape: Shape,
     branch: Branch<f64>,
@@ -103,10 +124,14 @@ pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
     tree.turned.first().map_or(Ok(()), |&(link, _)| Err(Uncovered::Link(link)))
 }
 
-/// The appendage that begins with the link `root`.
-fn appendage(tree: &WeldedTree<f64>, root: usize) -> Result<Appendage, usize> {
+/// The chain or paddle that begins with the link `root`.
+///
+/// # Errors
+/// The first link that belongs to neither.
+fn planar(tree: &WeldedTree<f64>, root: usize) -> Result<Appendage, usize> {
     let links = path_outward(tree, root)?;
     let of = |j: usize| &tree.links[j];
+    links.iter().find(|&&j| of(j).joint.slides()).map_or(Ok(()), |&j| Err(j))?;
     match links[..] {
         [arm, paddle] if axis_along(of(paddle)).dot(of(arm).axis).abs() < SAME_AXIS => {
             let (branch, frames) = paddle_branch(of(arm), of(paddle));
@@ -133,6 +158,7 @@ fn chain_branch(
         rot_body_from_appendage: rot,
         point: rot.transpose_mul(first.point),
         links: vec![frame.constants(&first.inertia)],
+        mounts: None,
     };
     for pair in links.windows(2) {
         let (inboard, link) = (&tree.links[pair[0]], &tree.links[pair[1]]);
@@ -165,6 +191,7 @@ fn paddle_branch(arm: &Link<f64>, paddle: &Link<f64>) -> (Branch<f64>, [LinkFram
         rot_body_from_appendage: rot,
         point: rot.transpose_mul(arm.point) + Vec3::unit_x() * next.x,
         links: vec![of_arm, frames[1].constants(&paddle.inertia)],
+        mounts: None,
     };
     (branch, frames)
 }

@@ -37,6 +37,7 @@ mod external;
 mod hinge;
 mod joint;
 mod label;
+mod limb;
 mod mass;
 mod material;
 mod mode;
@@ -71,6 +72,7 @@ pub use hinge::{
 };
 pub use joint::Joint;
 pub use label::HingeLabel;
+pub use limb::{Limb, LimbJoint, LimbLink};
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use material::{Material, MaterialDefect};
 pub use mode::Mode;

@@ -1,6 +1,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::Limb;
+
 /// The hinges of one appendage that turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
@@ -8,6 +10,8 @@ pub enum Shape {
     Chain(usize),
     /// An arm and, about an axis square to the arm's hinge, a paddle.
     Paddle,
+    /// Any other.
+    Limb(Limb),
 }
 
 impl Shape {
@@ -16,14 +20,15 @@ impl Shape {
         match self {
             Self::Chain(links) => links,
             Self::Paddle => 2,
+            Self::Limb(limb) => limb.links().len(),
         }
     }
 }
 
 /// The appendages of a satellite by shape alone: what a routine is generated for.
 ///
-/// The order is canonical, chains first and longer ones before shorter ones, so that scenes
-/// that differ only in numbering have one topology.
+/// The order is canonical, chains first and limbs last, longer ones before shorter ones, so that
+/// scenes that differ only in numbering have one topology.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Topology {
     shapes: Vec<Shape>,
@@ -38,8 +43,9 @@ impl Topology {
         let mut shapes: Vec<Shape> =
             shapes.into_iter().filter(|shape| shape.hinges() > 0).collect();
         shapes.sort_by_key(|shape| match shape {
-            Shape::Chain(links) => (0, usize::MAX - links),
-            Shape::Paddle => (1, 0),
+            Shape::Chain(links) => (0, usize::MAX - links, None),
+            Shape::Paddle => (1, 0, None),
+            Shape::Limb(limb) => (2, usize::MAX - limb.links().len(), Some(*limb)),
         });
         Self { shapes }
     }
@@ -52,6 +58,11 @@ impl Topology {
     /// Hinges of all appendages.
     pub fn hinges(&self) -> usize {
         self.shapes.iter().map(|shape| shape.hinges()).sum()
+    }
+
+    /// Whether an appendage is neither a chain nor a paddle.
+    pub fn has_limbs(&self) -> bool {
+        self.shapes.iter().any(|shape| matches!(shape, Shape::Limb(_)))
     }
 
     /// Runs of equal shapes with their lengths, in canonical order.
@@ -79,6 +90,7 @@ impl fmt::Display for Topology {
             match shape {
                 Shape::Chain(links) => write!(f, "{separator}{times}S{links}")?,
                 Shape::Paddle => write!(f, "{separator}{times}P")?,
+                Shape::Limb(limb) => write!(f, "{separator}{times}{limb}")?,
             }
         }
         Ok(())
@@ -89,7 +101,7 @@ impl fmt::Display for Topology {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{text}` found, a topology like 4xS5_P expected: M, or appendages joined by _, each S and its \
-     links or P, at most {} hinges in all",
+     links, P, or T and the joints of a limb like Tr(rp)(s), at most {} hinges in all",
     Topology::MOST_HINGES
 )]
 pub struct TopologyError {
@@ -114,9 +126,10 @@ fn shapes(text: &str) -> Option<Vec<Shape>> {
             Some((count, shape)) => (number(count)?, shape),
             None => (1, group),
         };
-        let shape = match shape.strip_prefix('S') {
-            Some(links) => Shape::Chain(number(links)?),
-            None => (shape == "P").then_some(Shape::Paddle)?,
+        let shape = match (shape.strip_prefix('S'), shape) {
+            (Some(links), _) => Shape::Chain(number(links)?),
+            (_, "P") => Shape::Paddle,
+            _ => Shape::Limb(Limb::named(shape)?),
         };
         let hinges = count.checked_mul(shape.hinges())?;
         if hinges > Topology::MOST_HINGES - shapes.iter().map(|s: &Shape| s.hinges()).sum::<usize>()
@@ -149,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_name_reads_back() {
-        for name in ["M", "S1", "P", "4xS5_P", "S100", "S5_2xS2_3xP"] {
+        for name in ["M", "S1", "P", "4xS5_P", "S100", "S5_2xS2_3xP", "P_4xTrrp_Ts"] {
             let topology: Topology = name.parse().expect("a topology");
             assert_eq!(topology.to_string(), name);
         }

@@ -174,6 +174,7 @@ impl Rolled {
                     Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
                 }
                 Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
+                Shape::Limb(_) => todo!(),
             };
             for (any, live) in at_origin.iter_mut().zip(steps.at_origin()) {
                 *any |= live;

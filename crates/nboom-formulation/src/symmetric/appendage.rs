@@ -23,6 +23,7 @@ pub(super) fn arrow<R: Real>(
     match shape {
         Shape::Chain(_) => chain(&links, &Turning::new(w), &sigma, &torque),
         Shape::Paddle => paddle(&links, w, [sigma[0], sigma[1]], &torque),
+        Shape::Limb(limb) => pose::no_limb(&limb),
     }
 }
 

@@ -1,0 +1,85 @@
+//! Limbs by the closed form `articulated` against the recursion, which knows none.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nboom::formulation::{Formulation, Parameters, Recognised};
+use nboom::model::{LimbJoint, Scene, SceneDescription, Shape};
+use nboom::scalar::{Mat3, Sym3, Vec3};
+
+use crate::random_scene::{Rng, description, moment_of};
+use crate::satellites::{Satellite, flat};
+use crate::support::relative_error;
+
+const TREES: u64 = 3000;
+
+/// A random tree with what real ones have: axes parallel to inboard ones, frames that stand along each other,
+/// and links without mass that carry others.
+pub fn tree(seed: u64) -> SceneDescription {
+    let dice = &mut Rng::new(seed ^ 0x11b3);
+    let bodies = 1 + dice.below(14);
+    let mut scene = description(bodies, seed);
+    let is_aligned = dice.chance(0.5);
+    for i in 0..bodies {
+        if is_aligned {
+            let body = &mut scene.bodies[i];
+            body.mount.rot_inboard_from_hinge = quarter_turns(dice);
+            body.axis = [Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z()][dice.below(3)];
+        }
+        let Some(inboard) = scene.bodies[i].inboard else { continue };
+        if dice.chance(0.4) {
+            let axis = scene.bodies[inboard].axis;
+            let body = &mut scene.bodies[i];
+            body.axis = body.mount.rot_inboard_from_hinge.transpose_mul(axis);
+        }
+        if dice.chance(0.15) {
+            let inboard = &mut scene.bodies[inboard].mass_properties;
+            (inboard.mass, inboard.inertia) = (0.0, Sym3::zero());
+        }
+    }
+    scene
+}
+
+fn quarter_turns(dice: &mut Rng) -> Mat3<f64> {
+    let mut turn = |axis| Mat3::about_axis(axis, FRAC_PI_2 * dice.below(4) as f64);
+    turn(Vec3::unit_x()) * turn(Vec3::unit_y())
+}
+
+#[test]
+fn limbs_accelerate_as_the_recursion_says() {
+    let mut kinds = [0; 3];
+    for seed in 0..TREES {
+        let Ok(scene) = Scene::new(tree(seed)) else { continue };
+        let satellite = Satellite::of_moment(&moment_of(scene, seed, 0.2));
+        let recognised = satellite.recognised();
+        let coordinates = satellite.coordinates_of(&recognised);
+        let expected = satellite.expected(&recognised.links);
+        let Recognised { topology, parameters, .. } = &recognised;
+        let found = Formulation::Articulated.solve(topology, parameters, &coordinates);
+        let error = relative_error(&flat(&found), &expected, 0.0);
+        let allowed = satellite.allowed();
+        assert!(error < allowed, "seed {seed}, {topology}: {error:e} of {allowed:e}");
+        for shape in topology.shapes() {
+            let Shape::Limb(limb) = shape else { continue };
+            for link in limb.links() {
+                kinds[match link.joint {
+                    LimbJoint::Revolute => 0,
+                    LimbJoint::Parallel => 1,
+                    LimbJoint::Prismatic => 2,
+                }] += 1;
+            }
+        }
+    }
+    assert!(kinds.iter().all(|&count| count > 1000), "{kinds:?}");
+}
+
+#[test]
+fn numbers_of_limbs_read_back() {
+    for seed in 0..300 {
+        let Ok(scene) = Scene::new(tree(seed)) else { continue };
+        let Recognised { topology, parameters, .. } =
+            Satellite::of_moment(&moment_of(scene, seed, 0.2)).recognised();
+        let numbers = parameters.write();
+        assert_eq!(numbers.len(), nboom::formulation::Layout::parameters(&topology));
+        assert_eq!(Parameters::read(&topology, numbers), parameters);
+    }
+}
