@@ -10,7 +10,7 @@ mod scene;
 mod stresses;
 
 pub use error::CodegenError;
-pub(crate) use names::Names;
+pub(crate) use names::{Names, identifier};
 pub use output::Output;
 pub use routine::{HINGE_LIMIT, Level, Request, STRAIGHT_HINGE_LIMIT};
 pub use scene::{Numbers, held};

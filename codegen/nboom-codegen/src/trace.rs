@@ -7,8 +7,9 @@ mod stage;
 mod stresses;
 
 use nboom_formulation::Formulation;
+use nboom_model::Shape;
 
-pub(crate) use rolled::{Chain, Equal, Paddle, Placed, Rolled, Steps};
+pub(crate) use rolled::{Chain, Equal, LimbSteps, Paddle, Placed, Rolled, Steps};
 pub use routine::trace;
 pub(crate) use split::Split;
 pub(crate) use stage::{Masked, Traced};
@@ -25,6 +26,9 @@ pub const OPERATION_LIMIT: usize = 20_000;
 
 /// So many equal appendages fill a register, and a loop over it beats a straight line.
 const PACK: usize = 4;
+
+/// So many equal limbs do: each is longer than a chain, and both are one straight line.
+const PAIR: usize = 2;
 
 /// Hinges beyond which no straight line is tried: none is shorter than the limit.
 const STRAIGHT_HINGES: usize = 16;
@@ -57,21 +61,36 @@ impl Equations {
             let straight = straight.ok_or(CodegenError::Lines { topology, limit })?;
             return Ok(Self::Straight(straight));
         }
-        let side_by_side = request.topology.groups().iter().any(|&(_, count)| count >= PACK);
+        let side_by_side = request.topology.groups().into_iter().any(|(shape, count)| match shape {
+            Shape::Chain(_) | Shape::Paddle => count >= PACK,
+            Shape::Limb(_) => count >= PAIR,
+        });
         let straight = (request.topology.hinges() <= STRAIGHT_HINGES && !side_by_side)
             .then(straight)
             .filter(is_short);
-        Ok(straight.map_or_else(|| Self::Rolled(Box::new(Rolled::of(request))), Self::Straight))
+        if let Some(straight) = straight {
+            return Ok(Self::Straight(straight));
+        }
+        let rolled = Rolled::of(request);
+        let longest = rolled.limb_operations();
+        if longest > OPERATION_LIMIT {
+            return Err(too_long(request, longest));
+        }
+        Ok(Self::Rolled(Box::new(rolled)))
     }
 }
 
 /// # Errors
 /// When an optimising compiler would take too long for it.
 fn check_length(request: &Request, straight: &Split) -> Result<(), CodegenError> {
-    let (operations, limit) = (straight.evaluation().flops(), OPERATION_LIMIT);
-    if operations > limit {
-        let (topology, formulation) = (request.topology.to_string(), request.formulation);
-        return Err(CodegenError::Budget { topology, formulation, operations, limit });
+    let operations = straight.evaluation().flops();
+    if operations > OPERATION_LIMIT {
+        return Err(too_long(request, operations));
     }
     Ok(())
+}
+
+fn too_long(request: &Request, operations: usize) -> CodegenError {
+    let (topology, formulation) = (request.topology.to_string(), request.formulation);
+    CodegenError::Budget { topology, formulation, operations, limit: OPERATION_LIMIT }
 }

@@ -202,7 +202,7 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
         RigidInertia { mass, first_moment, about_origin }
     }
 
-    fn branch(&mut self, shape: Shape) -> Branch<R> {
+    pub fn branch(&mut self, shape: Shape) -> Branch<R> {
         let mut branch = self.branch_without_links();
         let Shape::Limb(limb) = shape else {
             branch.links = (0..shape.hinges()).map(|_| self.link()).collect();

@@ -12,43 +12,59 @@ use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Layout, Reader};
 
 mod forces;
+mod limb;
 
+pub use limb::{LIMB, LIMB_HINGES, LIMB_TAU_DOT, limb_back, limb_in, of_limb};
 pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, LAW, LINE, POWER, attitude, base_in_mode, law};
 
 /// A step: what it reads and writes, each a named group of so many numbers.
-#[derive(Clone, Copy, Debug)]
 pub struct Stage<R: 'static> {
     /// Name, used in generated code.
     pub name: &'static str,
     /// What it computes, in one line.
     pub about: &'static str,
     /// Groups read that are parameters.
-    pub parameters: &'static [Group],
+    pub parameters: Vec<Group>,
     /// Groups read that vary.
-    pub inputs: &'static [Group],
+    pub inputs: Vec<Group>,
     /// Groups written.
-    pub outputs: &'static [Group],
+    pub outputs: Vec<Group>,
     /// The step: parameters and inputs one after the other to outputs one after the other.
-    pub run: fn(&[R]) -> Vec<R>,
+    pub run: Box<dyn Fn(&[R]) -> Vec<R>>,
 }
 
-/// A named group of numbers.
+/// A named group of numbers, or the same for several links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Name.
     pub name: &'static str,
-    /// What its numbers are called.
+    /// What the numbers of one are called.
     pub numbers: &'static [&'static str],
+    /// Whose these are, counted from 1, and of how many; those of one alone are not counted.
+    links: Option<(usize, usize)>,
 }
 
 impl Group {
     const fn new(name: &'static str, numbers: &'static [&'static str]) -> Self {
-        Self { name, numbers }
+        Self { name, numbers, links: None }
+    }
+
+    /// The same numbers for each of `count` links from link `first` on.
+    const fn of_links(self, first: usize, count: usize) -> Self {
+        Self { links: Some((first, count)), ..self }
     }
 
     /// How many numbers it has.
     pub fn size(self) -> usize {
-        self.numbers.len()
+        self.links.map_or(1, |(_, count)| count) * self.numbers.len()
+    }
+
+    /// What each of its numbers is called.
+    pub fn names(self) -> Vec<String> {
+        let plain = || self.numbers.iter().map(|&name| name.to_owned()).collect();
+        let of_link = |link: usize| self.numbers.iter().map(move |name| format!("{name}_{link}"));
+        self.links
+            .map_or_else(plain, |(first, count)| (first..first + count).flat_map(of_link).collect())
     }
 }
 
@@ -140,16 +156,16 @@ pub fn start<R: Real>() -> Stage<R> {
     Stage {
         name: "start",
         about: "ω in appendage axes, and the bias acceleration of the first hinge.",
-        parameters: &[BRANCH],
-        inputs: &[OMEGA],
-        outputs: &[W, REACHED],
-        run: |numbers| {
+        parameters: vec![BRANCH],
+        inputs: vec![OMEGA],
+        outputs: vec![W, REACHED],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let branch = reader.branch_without_links();
             let w = branch.rot_body_from_appendage.transpose_mul(reader.vector());
             let hinge = Spin::new(w).bias_of_main_point(branch.point);
             [w.to_array().to_vec(), vec![R::zero()], hinge.to_array().to_vec()].concat()
-        },
+        }),
     }
 }
 
@@ -158,10 +174,10 @@ pub fn outward<R: Real>() -> Stage<R> {
     Stage {
         name: "outward",
         about: "A link turned by its absolute angle, with its bias, and how the next hinge moves.",
-        parameters: &[LINK],
-        inputs: &[W, TURN, TAU, REACHED],
-        outputs: &[TURNED, REACHED],
-        run: |numbers| {
+        parameters: vec![LINK],
+        inputs: vec![W, TURN, TAU, REACHED],
+        outputs: vec![TURNED, REACHED],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let link = reader.link();
             let spin = Spin::new(reader.vector());
@@ -170,7 +186,7 @@ pub fn outward<R: Real>() -> Stage<R> {
             let from = (reader.next(), reader.vector());
             let (turned, sigma, hinge) = chain::outward_at(&spin, &link, turn, tau, from);
             [turned.flat(), vec![sigma], hinge.to_array().to_vec()].concat()
-        },
+        }),
     }
 }
 
@@ -179,10 +195,10 @@ pub fn inward<R: Real>() -> Stage<R> {
     Stage {
         name: "inward",
         about: "A link's hinge eliminated: what it shows inboard, and what is left for the way back.",
-        parameters: &[LINK],
-        inputs: &[TURNED, NET_TORQUE, OUTBOARD_SHARE],
-        outputs: &[OUTBOARD_SHARE, ELIMINATED],
-        run: |numbers| {
+        parameters: vec![LINK],
+        inputs: vec![TURNED, NET_TORQUE, OUTBOARD_SHARE],
+        outputs: vec![OUTBOARD_SHARE, ELIMINATED],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let link = reader.link();
             let turned = Turned::read(&link, &mut reader);
@@ -190,7 +206,7 @@ pub fn inward<R: Real>() -> Stage<R> {
             let outboard = OutboardShare::read(&mut reader);
             let (share, eliminated) = chain::inward(&turned, net_torque, &outboard);
             [share.flat(), eliminated.flat()].concat()
-        },
+        }),
     }
 }
 
@@ -199,16 +215,16 @@ pub fn root<R: Real>() -> Stage<R> {
     Stage {
         name: "root",
         about: "What a chain shows at O, main-body axes.",
-        parameters: &[BRANCH],
-        inputs: &[OUTBOARD_SHARE, TORQUE],
-        outputs: &[AT_ORIGIN],
-        run: |numbers| {
+        parameters: vec![BRANCH],
+        inputs: vec![OUTBOARD_SHARE, TORQUE],
+        outputs: vec![AT_ORIGIN],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let branch = reader.branch_without_links();
             let share = OutboardShare::read(&mut reader);
             let torque = reader.next();
             at_origin(&share, torque, branch.point, &branch.rot_body_from_appendage).flat()
-        },
+        }),
     }
 }
 
@@ -217,16 +233,16 @@ pub fn base<R: Real>() -> Stage<R> {
     Stage {
         name: "base",
         about: "Accelerations of the main body from the sum of what all appendages show.",
-        parameters: &[MAIN],
-        inputs: &[OMEGA, EXTERNAL, AT_ORIGIN],
-        outputs: &[MAIN_RATES],
-        run: |numbers| {
+        parameters: vec![MAIN],
+        inputs: vec![OMEGA, EXTERNAL, AT_ORIGIN],
+        outputs: vec![MAIN_RATES],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let main = reader.rigid();
             let omega = reader.vector();
             let external = Wrench { moment: reader.vector(), force: reader.vector() };
             main_rates(&main, omega, &external, &AtOrigin::read(&mut reader))
-        },
+        }),
     }
 }
 
@@ -247,16 +263,16 @@ pub fn first<R: Real>() -> Stage<R> {
     Stage {
         name: "first",
         about: "ω̇ and the acceleration of the first hinge in appendage axes.",
-        parameters: &[BRANCH],
-        inputs: &[MAIN_RATES],
-        outputs: &[TURNING, HINGE_RATES],
-        run: |numbers| {
+        parameters: vec![BRANCH],
+        inputs: vec![MAIN_RATES],
+        outputs: vec![TURNING, HINGE_RATES],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let branch = reader.branch_without_links();
             let main = Twist { angular: reader.vector(), linear: reader.vector() };
             let (w, a) = first_hinge(branch.point, &branch.rot_body_from_appendage, main);
             [w.to_array(), a.to_array()].concat()
-        },
+        }),
     }
 }
 
@@ -265,17 +281,17 @@ pub fn back<R: Real>() -> Stage<R> {
     Stage {
         name: "back",
         about: "τ̇ of a hinge, and the accelerations of the next one.",
-        parameters: &[],
-        inputs: &[ELIMINATED, TURNING, HINGE_RATES],
-        outputs: &[TAU_DOT, TURNING, HINGE_RATES],
-        run: |numbers| {
+        parameters: vec![],
+        inputs: vec![ELIMINATED, TURNING, HINGE_RATES],
+        outputs: vec![TAU_DOT, TURNING, HINGE_RATES],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let eliminated = Eliminated::read(&mut reader);
             let (turning, a) = (reader.vector(), reader.vector());
             let (epsilon, next) = chain::back(&eliminated, [turning.y, turning.z], a);
             let passed = [epsilon, turning.y, turning.z];
             [vec![epsilon - turning.x], passed.to_vec(), next.to_array().to_vec()].concat()
-        },
+        }),
     }
 }
 
@@ -284,10 +300,10 @@ pub fn paddle_in<R: Real>() -> Stage<R> {
     Stage {
         name: "paddle_in",
         about: "Both hinges of a paddle eliminated: what it shows at O, and what they leave.",
-        parameters: &[BRANCH, LINK, PADDLE_LINK],
-        inputs: &[OMEGA, PADDLE_HINGES],
-        outputs: &[AT_ORIGIN, ELIMINATED, PADDLE],
-        run: |numbers| {
+        parameters: vec![BRANCH, LINK, PADDLE_LINK],
+        inputs: vec![OMEGA, PADDLE_HINGES],
+        outputs: vec![AT_ORIGIN, ELIMINATED, PADDLE],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let branch = reader.branch_without_links();
             let (arm, link) = (reader.link(), reader.link());
@@ -307,7 +323,7 @@ pub fn paddle_in<R: Real>() -> Stage<R> {
             let (share, eliminated) = paddle::arm_inward(&arm, torque, &inertia, wrench);
             let seen = at_origin(&share, torque, branch.point, &rot);
             [seen.flat(), eliminated.flat(), paddle.flat()].concat()
-        },
+        }),
     }
 }
 
@@ -316,10 +332,10 @@ pub fn paddle_back<R: Real>() -> Stage<R> {
     Stage {
         name: "paddle_back",
         about: "τ̇ of the two hinges of a paddle.",
-        parameters: &[],
-        inputs: &[ELIMINATED, PADDLE, TURNING, HINGE_RATES],
-        outputs: &[PADDLE_TAU_DOT],
-        run: |numbers| {
+        parameters: vec![],
+        inputs: vec![ELIMINATED, PADDLE, TURNING, HINGE_RATES],
+        outputs: vec![PADDLE_TAU_DOT],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let eliminated = Eliminated::read(&mut reader);
             let paddle = Paddle::read(&mut reader);
@@ -328,7 +344,7 @@ pub fn paddle_back<R: Real>() -> Stage<R> {
             let angular = Vec3::new(epsilon, turning.y, turning.z);
             let of_paddle = paddle::back(&paddle, Twist { angular, linear: next });
             vec![epsilon - turning.x, of_paddle]
-        },
+        }),
     }
 }
 

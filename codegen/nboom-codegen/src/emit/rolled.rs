@@ -92,7 +92,7 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
                 quote!(#array #of_law)
             })
         });
-        let branch = array("branch", Layout::BRANCH, place(group.parameter, &[(stride, a)]));
+        let branch = || array("branch", Layout::BRANCH, place(group.parameter, &[(stride, a)]));
         let rest = match steps {
             Steps::Chain(chain) => {
                 let Chain { start, outward, inward, root, first, .. } = chain.as_ref();
@@ -104,6 +104,7 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
                     let of_link = [outward, inward].map(|step| store(step, "link", i));
                     quote!(#link #(#of_link)*)
                 });
+                let branch = branch();
                 quote!(#branch #(#of_branch)* #links)
             }
             Steps::Paddle(paddle) => {
@@ -111,8 +112,14 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
                 let at = place(group.parameter, &[(stride, a)]);
                 let whole = array("whole", stride, at);
                 let of_whole = store(inward, "whole", None);
-                let of_branch = store(first, "branch", None);
+                let (branch, of_branch) = (branch(), store(first, "branch", None));
                 quote!(#whole #of_whole #branch #of_branch)
+            }
+            Steps::Limb(limb) => {
+                let at = place(group.parameter, &[(stride, a)]);
+                let whole = array("whole", stride, at);
+                let of_whole = [&limb.inward, &limb.back].map(|step| store(step, "whole", None));
+                quote!(#whole #(#of_whole)*)
             }
         };
         quote!(#laws #rest)

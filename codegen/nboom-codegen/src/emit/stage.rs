@@ -82,8 +82,9 @@ impl<'a> Step<'a> {
         for input in inputs {
             let (group, mask) = input;
             let live = (0..group.size()).filter(|&i| mask[i]).enumerate();
+            let names = group.names();
             let read = live.filter_map(|(slot, i)| {
-                Some((*node.get(&(at + i))?, slot, group.numbers[i].to_owned()))
+                Some((*node.get(&(at + i))?, slot, names[i].clone()))
             });
             all.add(group.name, size(input), Reading::Direct, read.collect::<Vec<_>>());
             at += group.size();
@@ -94,7 +95,7 @@ impl<'a> Step<'a> {
     /// What the parameters are called.
     fn names(&self) -> Vec<String> {
         let groups = self.traced.parameters.iter();
-        groups.flat_map(|group| group.numbers).map(|&name| name.to_owned()).collect()
+        groups.flat_map(|group| group.names()).collect()
     }
 
     /// The function that computes constants from parameters, where any is computed.

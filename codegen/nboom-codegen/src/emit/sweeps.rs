@@ -1,6 +1,8 @@
 //! Functions that take one appendage, or several side by side, through the sweeps.
 
-use nboom_formulation::stages::{AT_ORIGIN, ELIMINATED, OUTBOARD_SHARE, PADDLE, TURNED};
+use nboom_formulation::stages::{
+    AT_ORIGIN, ELIMINATED, LIMB, OUTBOARD_SHARE, PADDLE, TURNED, of_limb,
+};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -9,7 +11,7 @@ use crate::emit::driver::{Call, saved};
 use crate::emit::hinges::{Hinges, omega_spread};
 use crate::emit::places::{place, repeated, slot};
 use crate::request::{Output, Request};
-use crate::trace::{Chain, Equal, Paddle, Placed, Steps};
+use crate::trace::{Chain, Equal, LimbSteps, Paddle, Placed, Steps};
 
 /// The sweeps of a group of equal appendages.
 pub(crate) struct Sweeps<'a> {
@@ -43,6 +45,9 @@ impl<'a> Sweeps<'a> {
             Steps::Paddle(paddle) => {
                 [ELIMINATED, PADDLE].map(|group| (paddle.inward.traced.size(group), None)).to_vec()
             }
+            Steps::Limb(limb) => {
+                vec![(limb.inward.traced.size(of_limb(LIMB, &limb.limb)), None)]
+            }
         };
         Call { prefix: self.group.prefix(), count: self.group.count, saved }
     }
@@ -52,6 +57,7 @@ impl<'a> Sweeps<'a> {
         let (inward, outward) = match self.steps {
             Steps::Chain(chain) => (self.chain_in(chain), self.chain_out(chain)),
             Steps::Paddle(paddle) => (self.paddle_in(paddle), self.paddle_out(paddle)),
+            Steps::Limb(limb) => (self.limb_in(limb), self.limb_out(limb)),
         };
         let (saved, prefix) = (saved(&self.call().saved, &quote!(P)), self.group.prefix());
         let (in_name, out_name) = (format_ident!("{prefix}_in"), format_ident!("{prefix}_out"));
@@ -240,15 +246,7 @@ impl<'a> Sweeps<'a> {
         let Paddle { law, inward, .. } = paddle;
         let (inward_, k_inward) = (name(inward), self.argument(inward));
         let laws = law.as_ref().map(|law| self.laws(law));
-        let hinges = [0, 1].map(|number: usize| {
-            let (hinge, slot) = ((number, None), Literal::usize_unsuffixed(number));
-            let [beta, tau] = [self.hinges().beta(hinge), self.hinges().tau(hinge)];
-            let torque = match law {
-                Some(_) => quote!(torques[#slot]),
-                None => self.hinges().torque(hinge),
-            };
-            quote!(#beta, #tau, #torque)
-        });
+        let hinges = self.whole_hinges(law.is_some());
         let (omega, add) = (omega_spread(self.request.output), self.add(inward));
         quote! {
             let omega = #omega;
@@ -257,6 +255,46 @@ impl<'a> Sweeps<'a> {
             let shares;
             (shares, saved.0, saved.1) = #inward_(#k_inward omega, hinges);
             #add
+        }
+    }
+
+    /// β, τ and torque of each hinge.
+    fn whole_hinges(&self, has_laws: bool) -> Vec<TokenStream> {
+        let of_hinge = |number: usize| {
+            let (hinge, slot) = ((number, None), Literal::usize_unsuffixed(number));
+            let [beta, tau] = [self.hinges().beta(hinge), self.hinges().tau(hinge)];
+            let torque =
+                if has_laws { quote!(torques[#slot]) } else { self.hinges().torque(hinge) };
+            quote!(#beta, #tau, #torque)
+        };
+        (0..self.group.shape.hinges()).map(of_hinge).collect()
+    }
+
+    fn limb_in(&self, limb: &LimbSteps) -> TokenStream {
+        let LimbSteps { law, inward, .. } = limb;
+        let (inward_, k_inward) = (name(inward), self.argument(inward));
+        let laws = law.as_ref().map(|law| self.laws(law));
+        let hinges = self.whole_hinges(law.is_some());
+        let (omega, add) = (omega_spread(self.request.output), self.add(inward));
+        quote! {
+            let omega = #omega;
+            #laws
+            let hinges = [#(#hinges),*];
+            let shares;
+            (shares, *saved) = #inward_(#k_inward omega, hinges);
+            #add
+        }
+    }
+
+    fn limb_out(&self, limb: &LimbSteps) -> TokenStream {
+        let LimbSteps { back, .. } = limb;
+        let (back_, k_back) = (name(back), self.argument(back));
+        let names: Vec<Ident> =
+            (1..=self.group.shape.hinges()).map(|i| format_ident!("tau_dot_{i}")).collect();
+        let writes = names.iter().enumerate().map(|(i, name)| self.hinges().write(name, (i, None)));
+        quote! {
+            let [#(#names),*] = #back_(#k_back *saved, main);
+            #(#writes)*
         }
     }
 

@@ -114,8 +114,19 @@ fn owners(topology: &Topology) -> Vec<(String, &'static [&'static str])> {
     for (appendage, shape) in topology.shapes().iter().enumerate() {
         let appendage = appendage + 1;
         owners.push((format!("appendage {appendage}"), &BRANCH));
-        let link = |link| (format!("link {appendage},{link}"), &LINK[..]);
-        owners.extend((1..=Shape::hinges(*shape)).map(link));
+        for link in 0..shape.hinges() {
+            let owner = format!("link {appendage},{}", link + 1);
+            let Shape::Limb(limb) = shape else {
+                owners.push((owner, &LINK));
+                continue;
+            };
+            let mount = match Layout::mount(limb, link) {
+                Layout::WAY => &LINK[Layout::BODY..],
+                count => &BRANCH[..count],
+            };
+            owners.push((format!("the mount of {owner}"), mount));
+            owners.push((owner, &LINK[..Layout::BODY]));
+        }
     }
     owners
 }
@@ -164,15 +175,15 @@ const PRODUCTS: [usize; 3] = [7, 8, 9];
 /// The way to the next hinge along ζ.
 const WAY_ACROSS: [usize; 1] = [11];
 
-/// Where the numbers of each link begin.
+/// Where the numbers of each link of chains and paddles begin.
 pub(crate) fn links(topology: &Topology) -> Vec<usize> {
     let mut at = Layout::MAIN;
     let mut links = Vec::new();
     for shape in topology.shapes() {
-        at += Layout::BRANCH;
-        for _ in 0..Shape::hinges(*shape) {
-            links.push(at);
-            at += Layout::LINK;
+        let first = at + Layout::BRANCH;
+        at += Layout::appendage(*shape);
+        if !matches!(shape, Shape::Limb(_)) {
+            links.extend((first..at).step_by(Layout::LINK));
         }
     }
     links

@@ -54,7 +54,8 @@ pub enum CodegenError {
     /// A straight line would be too long for a compiler.
     #[error(
         "topology {topology}, formulation {formulation}: the evaluation takes {operations} \
-         operations, at most {limit} expected; only articulated is emitted as loops"
+         operations, at most {limit} expected; only chains and paddles by articulated are emitted as \
+         loops"
     )]
     Budget {
         /// The topology.
@@ -122,8 +123,16 @@ pub enum CodegenError {
         /// The scene.
         scene: String,
     },
-    /// A scene is not made of chains and paddles.
-    #[error("scene {scene}: hinge {hinge} belongs neither to a chain nor to a paddle")]
+    /// The formulation takes chains and paddles alone.
+    #[error("topology {topology}: of limbs, formulation {formulation} has none; articulated expected")]
+    NoLimbs {
+        /// The topology.
+        topology: String,
+        /// The formulation.
+        formulation: Formulation,
+    },
+    /// A scene has a body that is not rigid or carries a rotor, or an appendage of too many links.
+    #[error("scene {scene}: code is not generated for hinge {hinge} or what follows it")]
     NotCovered {
         /// The scene.
         scene: String,

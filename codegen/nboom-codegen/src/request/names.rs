@@ -9,6 +9,11 @@ use nboom_model::{Shape, Topology};
 
 use crate::request::Output;
 
+/// A topology's name without what cannot stand in an identifier.
+pub(crate) fn identifier(topology: &Topology) -> String {
+    topology.to_string().replace('_', "").replace('(', "I").replace(')', "O")
+}
+
 /// Names of all numbers that a routine reads and writes, in the order of its layout.
 pub(crate) struct Names {
     pub parameters: Vec<String>,
@@ -26,7 +31,7 @@ impl Names {
             parameters.extend(of_owner(BRANCH.numbers, &appendage.to_string()));
             for link in 1..=Shape::hinges(shape) {
                 let owner = format!("{appendage}_{link}");
-                parameters.extend(of_owner(LINK.numbers, &owner));
+                parameters.extend(of_link(shape, link - 1, &owner));
                 hinges.push(owner);
             }
         }
@@ -87,6 +92,17 @@ impl Names {
         }
         Self { parameters: Vec::new(), coordinates, outputs: Vec::new() }
     }
+}
+
+/// Those of a link of an appendage.
+fn of_link(shape: Shape, link: usize, owner: &str) -> Vec<String> {
+    let Shape::Limb(limb) = shape else { return of_owner(LINK.numbers, owner) };
+    let mount = match Layout::mount(&limb, link) {
+        0 => Vec::new(),
+        Layout::WAY => of_owner(&LINK.numbers[Layout::BODY..], owner),
+        _ => of_owner(BRANCH.numbers, owner),
+    };
+    [mount, of_owner(&LINK.numbers[..Layout::BODY], owner)].concat()
 }
 
 fn of_owner(names: &[&str], owner: &str) -> Vec<String> {

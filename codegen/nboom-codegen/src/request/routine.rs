@@ -179,6 +179,9 @@ impl Request {
             let topology = of_topology();
             return Err(CodegenError::TooLarge { topology, formulation, links, limit });
         }
+        if topology.has_limbs() && formulation != Formulation::Articulated {
+            return Err(CodegenError::NoLimbs { topology: of_topology(), formulation });
+        }
         if *output == Output::Equations && !formulation.has_equations() {
             return Err(CodegenError::NoEquations { topology: of_topology(), formulation });
         }

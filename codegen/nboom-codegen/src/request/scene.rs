@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use nboom_formulation::{Formulation, Layout, Recognised, Uncovered, recognise};
-use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
+use nboom_model::{HingeState, Mode, Scene, Shape, Topology, WeldedTree};
 
-use crate::request::{CodegenError, Level, Request};
+use crate::request::{CodegenError, Level, Request, identifier};
 
 /// Where a routine of a scene has the satellite's numbers from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -120,7 +120,7 @@ impl Request {
 
 /// `word` and the topology without what cannot stand in a name.
 pub(crate) fn name(word: &str, topology: &Topology) -> String {
-    format!("{word}{}", topology.to_string().replace('_', ""))
+    format!("{word}{}", identifier(topology))
 }
 
 /// The scene with the hinges that are not `free` held, at different angles around `angle`.
@@ -190,8 +190,17 @@ fn fixed(topology: &Topology, cases: &[Vec<f64>]) -> Vec<Option<f64>> {
 fn rotations(topology: &Topology) -> Vec<bool> {
     let mut all = vec![false; Layout::MAIN];
     for shape in topology.shapes() {
-        all.extend((0..Layout::BRANCH).map(|i| i < 9));
-        all.resize(all.len() + shape.hinges() * Layout::LINK, false);
+        let is_entry = |i: usize| i < 9;
+        all.extend((0..Layout::BRANCH).map(is_entry));
+        for link in 0..shape.hinges() {
+            let end = all.len() + Layout::link(*shape, link);
+            if let Shape::Limb(limb) = shape
+                && Layout::mount(limb, link) == Layout::BRANCH
+            {
+                all.extend((0..Layout::BRANCH).map(is_entry));
+            }
+            all.resize(end, false);
+        }
     }
     all
 }

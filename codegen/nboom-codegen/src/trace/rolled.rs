@@ -2,13 +2,13 @@
 
 use nboom_expr::{Expr, Operations};
 use nboom_formulation::stages::{
-    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, OUTBOARD_SHARE, PADDLE, POWER, REACHED, Stage,
-    TORQUE, TURNED,
+    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, LIMB, OUTBOARD_SHARE, PADDLE, POWER, REACHED,
+    Stage, TORQUE, TURNED,
 };
 use nboom_formulation::{Layout, RightSideLayout};
-use nboom_model::{Shape, Topology};
+use nboom_model::{Limb, Shape, Topology};
 
-use crate::request::{Output, Request};
+use crate::request::{Output, Request, identifier};
 use crate::trace::Traced;
 use crate::trace::stage::Masks;
 
@@ -43,6 +43,7 @@ pub(crate) struct Equal {
 pub(crate) enum Steps {
     Chain(Box<Chain>),
     Paddle(Box<Paddle>),
+    Limb(Box<LimbSteps>),
 }
 
 /// The steps of a chain, in the order in which their constants stand.
@@ -66,6 +67,15 @@ pub(crate) struct Paddle {
     pub back: Placed,
 }
 
+/// The steps of a limb, in the order in which their constants stand.
+pub(crate) struct LimbSteps {
+    pub limb: Limb,
+    /// The torque about a hinge, of a right side.
+    pub law: Option<Placed>,
+    pub inward: Placed,
+    pub back: Placed,
+}
+
 /// A traced step and where its constants stand.
 pub(crate) struct Placed {
     pub traced: Traced,
@@ -77,12 +87,12 @@ pub(crate) struct Placed {
 impl Equal {
     /// How many parameters an appendage has.
     pub fn parameters(&self) -> usize {
-        Layout::BRANCH + Layout::LINK * self.shape.hinges()
+        Layout::appendage(self.shape)
     }
 
     /// What names of functions begin with: `s3` for chains of three links, `p` for paddles.
     pub fn prefix(&self) -> String {
-        self.shape_name().to_lowercase()
+        identifier(&Topology::new([self.shape])).to_lowercase()
     }
 
     /// What its shape is called in a topology.
@@ -139,6 +149,7 @@ impl Steps {
                 of.law.iter().chain(steps).collect()
             }
             Self::Paddle(of) => of.law.iter().chain([&of.inward, &of.first, &of.back]).collect(),
+            Self::Limb(of) => of.law.iter().chain([&of.inward, &of.back]).collect(),
         }
     }
 
@@ -147,6 +158,7 @@ impl Steps {
         match self {
             Self::Chain(of) => of.law.as_ref(),
             Self::Paddle(of) => of.law.as_ref(),
+            Self::Limb(of) => of.law.as_ref(),
         }
     }
 
@@ -155,6 +167,7 @@ impl Steps {
         match self {
             Self::Chain(of) => of.root.traced.live(AT_ORIGIN),
             Self::Paddle(of) => of.inward.traced.live(AT_ORIGIN),
+            Self::Limb(of) => of.inward.traced.live(AT_ORIGIN),
         }
     }
 }
@@ -174,7 +187,7 @@ impl Rolled {
                     Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
                 }
                 Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
-                Shape::Limb(_) => todo!(),
+                Shape::Limb(of) => Steps::Limb(Box::new(limb(request, &group, of, &mut places))),
             };
             for (any, live) in at_origin.iter_mut().zip(steps.at_origin()) {
                 *any |= live;
@@ -211,6 +224,15 @@ impl Rolled {
     /// Operations of a preparation.
     pub fn preparation(&self) -> Operations {
         self.sum(|traced| traced.split.preparation())
+    }
+
+    /// Operations of all limbs, each of which is one straight line for all that are equal.
+    pub fn limb_operations(&self) -> usize {
+        let of_limbs = self.groups.iter().filter_map(|(_, steps)| match steps {
+            Steps::Limb(limb) => Some([&limb.inward, &limb.back]),
+            Steps::Chain(_) | Steps::Paddle(_) => None,
+        });
+        of_limbs.flatten().map(|step| step.traced.split.evaluation().flops()).sum()
     }
 
     fn sum(&self, of: impl Fn(&Traced) -> Operations) -> Operations {
@@ -310,6 +332,23 @@ fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Paddle {
         law: law(request, group, places),
         inward: places.place(inward, group.count),
         first: places.place(first, group.count),
+        back: places.place(back, group.count),
+    }
+}
+
+fn limb(request: &Request, group: &Equal, limb: Limb, places: &mut Places) -> LimbSteps {
+    let prefix = group.prefix();
+    let whole = group.assumptions(request, 0, group.parameters(), 1);
+    let level = request.level;
+    let inward = Traced::new(&prefix, &stages::limb_in(limb), &whole, &Masks::new());
+    let left = stages::of_limb(LIMB, &limb);
+    let masks = Masks::from([(LIMB.name, inward.live(left).to_vec())]);
+    let back = Traced::new(&prefix, &stages::limb_back(limb), &whole, &masks);
+    let [inward, back] = [inward, back].map(|step| step.regrouped(level));
+    LimbSteps {
+        limb,
+        law: law(request, group, places),
+        inward: places.place(inward, group.count),
         back: places.place(back, group.count),
     }
 }

@@ -18,7 +18,7 @@ pub(crate) type Masked = (Group, Vec<bool>);
 pub(crate) struct Traced {
     pub name: String,
     pub about: &'static str,
-    pub parameters: &'static [Group],
+    pub parameters: Vec<Group>,
     pub split: Split,
     pub inputs: Vec<Masked>,
     pub outputs: Vec<Masked>,
@@ -40,7 +40,7 @@ impl Traced {
         let mut all = assumptions.to_vec();
         let zero_or_open = |live: &bool| if *live { None } else { Some(0.0) };
         all.extend(inputs.iter().flat_map(|(_, mask)| mask).map(zero_or_open));
-        let graph = Graph::trace_with(&all, stage.run);
+        let graph = Graph::trace_with(&all, &stage.run);
         let mut ids = graph.outputs().iter();
         let outputs = stage.outputs.iter().map(|&group| {
             let live = ids.by_ref().take(group.size()).map(|&id| !is_zero(&graph, id)).collect();
@@ -49,7 +49,7 @@ impl Traced {
         let outputs = outputs.collect();
         let (name, about) = (format!("{prefix}_{}", stage.name), stage.about);
         let split = Split::new(graph, parameters);
-        Self { name, about, parameters: stage.parameters, split, inputs, outputs }
+        Self { name, about, parameters: stage.parameters.clone(), split, inputs, outputs }
     }
 
     /// With sums regrouped, for a step that is taken once and that all others wait for.

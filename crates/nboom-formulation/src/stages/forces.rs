@@ -29,15 +29,15 @@ pub fn attitude<R: Real>() -> Stage<R> {
     Stage {
         name: "attitude",
         about: "The rate of change of the attitude.",
-        parameters: &[],
-        inputs: &[ATTITUDE, OMEGA],
-        outputs: &[ATTITUDE_RATE],
-        run: |numbers| {
+        parameters: vec![],
+        inputs: vec![ATTITUDE, OMEGA],
+        outputs: vec![ATTITUDE_RATE],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let attitude = Quaternion { scalar: reader.next(), vector: reader.vector() };
             let Quaternion { scalar, vector } = attitude.rate(reader.vector());
             vec![scalar, vector.x, vector.y, vector.z]
-        },
+        }),
     }
 }
 
@@ -46,15 +46,15 @@ pub fn law<R: Real>() -> Stage<R> {
     Stage {
         name: "law",
         about: "The torque of spring and dashpot about a hinge, and the power of what depends on its rate.",
-        parameters: &[LAW],
-        inputs: &[BETA, TAU],
-        outputs: &[TORQUE, POWER],
-        run: |numbers| {
+        parameters: vec![LAW],
+        inputs: vec![BETA, TAU],
+        outputs: vec![TORQUE, POWER],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let law = HingeLaw::of_numbers(std::array::from_fn(|_| reader.next()));
             let (beta, tau) = (reader.next(), reader.next());
             vec![law.torque(beta, tau), law.rate_torque(tau) * tau]
-        },
+        }),
     }
 }
 
@@ -63,15 +63,15 @@ pub fn base_in_mode<R: Real>() -> Stage<R> {
     Stage {
         name: "base",
         about: "Accelerations of the main body from the sum of what all appendages show.",
-        parameters: &[MAIN, EXTERNAL],
-        inputs: &[OMEGA, AT_ORIGIN],
-        outputs: &[MAIN_RATES],
-        run: |numbers| {
+        parameters: vec![MAIN, EXTERNAL],
+        inputs: vec![OMEGA, AT_ORIGIN],
+        outputs: vec![MAIN_RATES],
+        run: Box::new(|numbers| {
             let mut reader = Reader(numbers.iter().copied());
             let main = reader.rigid();
             let external = Wrench { moment: reader.vector(), force: reader.vector() };
             let omega = reader.vector();
             main_rates(&main, omega, &external, &AtOrigin::read(&mut reader))
-        },
+        }),
     }
 }
