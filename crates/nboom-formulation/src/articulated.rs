@@ -19,6 +19,8 @@ impl ClosedForm for Articulated {
     const NAME: &'static str = "articulated";
     const ABOUT: &'static str = "O(n) elimination over (ω̇, a_O, τ̇), hinge by hinge from the tips";
 
+    const TAKES_LIMBS: bool = true;
+
     fn covers(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
         recognise(tree).map(|_| ())
     }
@@ -35,15 +37,21 @@ impl ClosedForm for Articulated {
         for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
             let hinges = &coordinates.hinges[first..first + shape.hinges()];
             let number = appendages.len() + 1;
-            R::remark(|| format!("Appendage {number}: ω in its axes, how its first joint moves."));
+            R::remark(|| {
+                format!("Appendage {number}: ω in its axes, and how its first joint moves.")
+            });
             let appendage = match shape {
                 Shape::Limb(limb) => {
                     let (share, links) = limb::eliminate(number, &limb, branch, omega, hinges);
                     Appendage::Limb { limb, share, links }
                 }
-                Shape::Chain(_) | Shape::Paddle => Appendage::Planar(
-                    ChainOrPaddle::eliminate(number, shape == Shape::Paddle, branch, omega, hinges),
-                ),
+                Shape::Chain(_) | Shape::Paddle => Appendage::Planar(ChainOrPaddle::eliminate(
+                    number,
+                    shape == Shape::Paddle,
+                    branch,
+                    omega,
+                    hinges,
+                )),
             };
             R::remark(|| format!("Appendage {number}: what it shows at O, main-body axes."));
             seen.add(&appendage.at_origin(branch));

@@ -3,8 +3,8 @@ use nboom_model::{Shape, Topology, WeldedTree};
 use nboom_scalar::{Mat3, Real, Vec3, Wrench};
 
 use crate::embedding::Embedding;
-use crate::parameters::{Branch, Parameters, Reader};
-use crate::pose;
+use crate::parameters::{Parameters, Reader};
+use crate::pose::{self, LinkPlace};
 use crate::recognise::Recognised;
 use crate::right_side::RightSideLayout;
 
@@ -149,9 +149,9 @@ impl<R: Real> Forces<R> {
                 continue;
             }
             R::remark(|| format!("Appendage {}: torques of the lines that push it.", number + 1));
-            let turns = pose::turns(shape, &beta[hinges.clone()]);
+            let links = pose::link_places(shape, branch, &beta[hinges.clone()]);
             let lines = hinges.clone().map(|hinge| self.places(hinge).map(|at| self.lines[at]));
-            push(branch, &turns, lines, &mut torques[hinges]);
+            push(&branch.rot_body_from_appendage, &links, lines, &mut torques[hinges]);
         }
         torques
     }
@@ -169,25 +169,22 @@ impl<R: Real> Forces<R> {
 /// Adds to the torques about the hinges of an appendage those of the lines that push its links. The
 /// reaction on the main body leaves no resultant.
 fn push<R: Real>(
-    branch: &Branch<R>,
-    turns: &[(Mat3<R>, Vec3<R>)],
+    rot_body_from_appendage: &Mat3<R>,
+    links: &[LinkPlace<R>],
     lines: impl Iterator<Item = impl Iterator<Item = LinkLine<R>>>,
     torques: &mut [R],
 ) {
-    let mut position = branch.point;
-    let mut inboard = Vec::new();
-    for (((rot, axis), lines), link) in turns.iter().zip(lines).zip(&branch.links) {
-        inboard.push((*axis, position));
+    for (i, (link, lines)) in links.iter().zip(lines).enumerate() {
         for line in lines {
-            let fixed = branch.rot_body_from_appendage.transpose_mul(line.main_body_point);
-            let end = position + *rot * line.point;
+            let fixed = rot_body_from_appendage.transpose_mul(line.main_body_point);
+            let end = link.position + link.rot * line.point;
             let force = line.law.push(end - fixed);
-            for ((axis, position), torque) in inboard.iter().zip(torques.iter_mut()) {
-                *torque += axis.dot((end - *position).cross(force));
+            for joint in std::iter::successors(Some(i), |&j| links[j].inboard) {
+                let LinkPlace { axis, position, slides, .. } = links[joint];
+                let acts = if slides { force } else { (end - position).cross(force) };
+                torques[joint] += axis.dot(acts);
             }
         }
-        let [ly, lz] = link.next;
-        position += *rot * Vec3::new(R::zero(), ly, lz);
     }
 }
 

@@ -19,6 +19,9 @@ pub(crate) trait ClosedForm {
     /// Whether it solves a system for the accelerations, whose matrix and right side can be had.
     const HAS_EQUATIONS: bool = false;
 
+    /// Whether it takes appendages that are neither chains nor paddles as limbs.
+    const TAKES_LIMBS: bool = false;
+
     /// Whether it covers the tree: chains with parallel axes and paddles, unless it says otherwise.
     ///
     /// # Errors
@@ -79,6 +82,14 @@ macro_rules! formulations {
                 }
             }
 
+            /// Whether satellites of this topology can be [solved](Self::solve).
+            pub fn takes(self, topology: &Topology) -> bool {
+                let takes_limbs = match self {
+                    $(Self::$name => <$form>::TAKES_LIMBS,)*
+                };
+                takes_limbs || !topology.has_limbs()
+            }
+
             /// Whether it covers the tree.
             ///
             /// # Errors
@@ -110,7 +121,7 @@ macro_rules! formulations {
             /// for its place.
             ///
             /// # Panics
-            /// When the topology has a limb and the formulation is not `articulated`.
+            /// When the formulation does not [take](Self::takes) the topology.
             pub fn solve<R: Real>(
                 self,
                 topology: &Topology,

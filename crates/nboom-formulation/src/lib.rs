@@ -29,9 +29,7 @@ pub use chain::ChainLink;
 pub use embedding::Embedding;
 pub use forces::{Forces, LinkLine};
 pub use formulation::Formulation;
-pub use parameters::{
-    Branch, Coordinates, HingeCoordinates, Layout, Mount, Parameters, Solution,
-};
+pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Mount, Parameters, Solution};
 pub use recognise::{LinkFrame, Recognised, Uncovered, recognise};
 pub use right_side::{RightSideLayout, right_side};
 pub use section5::Equations;

@@ -6,6 +6,7 @@
 //! What such axes carry shows its inboard link a six by six inertia, as a paddle does.
 
 mod outward;
+mod place;
 mod turn;
 
 use nboom_model::{Limb, LimbJoint};
@@ -13,6 +14,7 @@ use nboom_scalar::{ArticulatedInertia, Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::base::AtOrigin;
 use crate::limb::outward::{Moving, axes_stay, outward, turned_way};
+pub(crate) use crate::limb::place::link_places;
 use crate::limb::turn::Turn;
 use crate::parameters::{Branch, HingeCoordinates, Mount, Reader};
 
@@ -170,7 +172,8 @@ impl<R: Real> EliminatedJoint<R> {
 
 /// Numbers of an eliminated link, as [`EliminatedLink::flat`] has them.
 pub(crate) const OF_ELIMINATED_LINK: [&str; 13] = [
-    "sin", "cos", "bias_y", "bias_z", "travel", "ux", "uy", "uz", "vx", "vy", "vz", "inverse", "left",
+    "sin", "cos", "bias_y", "bias_z", "travel", "ux", "uy", "uz", "vx", "vy", "vz", "inverse",
+    "left",
 ];
 
 impl<R: Real> EliminatedLink<R> {
@@ -207,11 +210,7 @@ impl<R: Real> EliminatedLink<R> {
     }
 
     /// Those of link `i` of a limb.
-    pub fn read(
-        limb: &Limb,
-        i: usize,
-        reader: &mut Reader<impl Iterator<Item = R>>,
-    ) -> Self {
+    pub fn read(limb: &Limb, i: usize, reader: &mut Reader<impl Iterator<Item = R>>) -> Self {
         let (turn, still) = (Turn { sin: reader.next(), cos: reader.next() }, Turn::still());
         let (axes_turned, turned) = match limb.links()[i].joint {
             LimbJoint::Prismatic => (still, still),

@@ -4,8 +4,8 @@ use nboom_model::{Limb, Shape};
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::chain::ChainLink;
-use crate::paddle;
 use crate::parameters::{Branch, HingeCoordinates};
+use crate::{limb, paddle};
 
 /// A link turned into appendage axes.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub(crate) struct Posed<R> {
     pub hinge_offset: Vec3<R>,
 }
 
-/// Limbs are covered by `articulated` alone, and no line pushes their links there.
+/// Limbs are covered by `articulated` alone.
 pub(crate) fn no_limb(limb: &Limb) -> ! {
     panic!("{limb} is neither a chain nor a paddle")
 }
@@ -34,13 +34,28 @@ pub(crate) fn place<R: Real>(shape: Shape, branch: &Branch<R>, beta: &[R]) -> Ve
     }
 }
 
-/// What turns components of each link into appendage components, and the unit vector along its hinge.
-pub(crate) fn turns<R: Real>(shape: Shape, beta: &[R]) -> Vec<(Mat3<R>, Vec3<R>)> {
-    let about_first = |(s, c): (R, R)| {
-        let zero = R::zero();
-        Mat3::from_rows(Vec3::unit_x(), Vec3::new(zero, c, -s), Vec3::new(zero, s, c))
-    };
-    match shape {
+/// Where a link is, along appendage axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LinkPlace<R> {
+    /// Turns components of the link into appendage components.
+    pub rot: Mat3<R>,
+    /// Its origin from O.
+    pub position: Vec3<R>,
+    /// Unit vector along its joint, and whether it slides along it.
+    pub axis: Vec3<R>,
+    pub slides: bool,
+    /// The link inboard of it.
+    pub inboard: Option<usize>,
+}
+
+/// The places of all links of an appendage.
+pub(crate) fn link_places<R: Real>(
+    shape: Shape,
+    branch: &Branch<R>,
+    beta: &[R],
+) -> Vec<LinkPlace<R>> {
+    let turns = match shape {
+        Shape::Limb(limb) => return limb::link_places(&limb, branch, beta),
         Shape::Chain(_) => {
             let alpha = absolute(shape, beta).into_iter();
             alpha.map(|alpha| (about_first(alpha.sin_cos()), Vec3::unit_x())).collect()
@@ -51,8 +66,20 @@ pub(crate) fn turns<R: Real>(shape: Shape, beta: &[R]) -> Vec<(Mat3<R>, Vec3<R>)
                 (paddle::rotation(arm, beta[1].sin_cos()), Vec3::new(R::zero(), arm.1, arm.0));
             vec![(about_first(arm), Vec3::unit_x()), outer]
         }
-        Shape::Limb(limb) => no_limb(&limb),
+    };
+    let (mut position, mut places) = (branch.point, Vec::with_capacity(beta.len()));
+    for (i, ((rot, axis), link)) in turns.into_iter().zip(&branch.links).enumerate() {
+        places.push(LinkPlace { rot, position, axis, slides: false, inboard: i.checked_sub(1) });
+        let [ly, lz] = link.next;
+        position += rot * Vec3::new(R::zero(), ly, lz);
     }
+    places
+}
+
+/// R_x of an angle from its sine and cosine.
+pub(crate) fn about_first<R: Real>((s, c): (R, R)) -> Mat3<R> {
+    let zero = R::zero();
+    Mat3::from_rows(Vec3::unit_x(), Vec3::new(zero, c, -s), Vec3::new(zero, s, c))
 }
 
 fn chain<R: Real>(branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {

@@ -12,10 +12,12 @@ use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Layout, Reader};
 
 mod forces;
+mod group;
 mod limb;
 
-pub use limb::{LIMB, LIMB_HINGES, LIMB_TAU_DOT, limb_back, limb_in, of_limb};
 pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, LAW, LINE, POWER, attitude, base_in_mode, law};
+pub use group::Group;
+pub use limb::{LIMB, LIMB_HINGES, LIMB_TAU_DOT, limb_back, limb_in, of_limb};
 
 /// A step: what it reads and writes, each a named group of so many numbers.
 pub struct Stage<R: 'static> {
@@ -31,41 +33,6 @@ pub struct Stage<R: 'static> {
     pub outputs: Vec<Group>,
     /// The step: parameters and inputs one after the other to outputs one after the other.
     pub run: Box<dyn Fn(&[R]) -> Vec<R>>,
-}
-
-/// A named group of numbers, or the same for several links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Group {
-    /// Name.
-    pub name: &'static str,
-    /// What the numbers of one are called.
-    pub numbers: &'static [&'static str],
-    /// Whose these are, counted from 1, and of how many; those of one alone are not counted.
-    links: Option<(usize, usize)>,
-}
-
-impl Group {
-    const fn new(name: &'static str, numbers: &'static [&'static str]) -> Self {
-        Self { name, numbers, links: None }
-    }
-
-    /// The same numbers for each of `count` links from link `first` on.
-    const fn of_links(self, first: usize, count: usize) -> Self {
-        Self { links: Some((first, count)), ..self }
-    }
-
-    /// How many numbers it has.
-    pub fn size(self) -> usize {
-        self.links.map_or(1, |(_, count)| count) * self.numbers.len()
-    }
-
-    /// What each of its numbers is called.
-    pub fn names(self) -> Vec<String> {
-        let plain = || self.numbers.iter().map(|&name| name.to_owned()).collect();
-        let of_link = |link: usize| self.numbers.iter().map(move |name| format!("{name}_{link}"));
-        self.links
-            .map_or_else(plain, |(first, count)| (first..first + count).flat_map(of_link).collect())
-    }
 }
 
 /// Mass, first moment and inertia about a body's own point.

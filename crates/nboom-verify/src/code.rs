@@ -28,7 +28,7 @@ pub enum ComparedCode<'a> {
         /// The states.
         states: &'a [RandomState],
     },
-    /// A closed form for chains and paddles.
+    /// A closed form that takes the topology.
     ClosedForm {
         /// Which one.
         formulation: Formulation,
@@ -41,7 +41,7 @@ pub enum ComparedCode<'a> {
     Tree {
         /// The tree.
         tree: &'a WeldedTree<f64>,
-        /// The states.
+        /// The states, hinges in the tree's order.
         states: Vec<Coordinates<f64>>,
     },
     /// A generated routine.

@@ -18,8 +18,13 @@ pub(crate) struct EquationsCode<'a> {
 
 enum Way<'a> {
     ClosedForm(&'a Recognised),
-    Tree(&'a WeldedTree<f64>),
-    Routine { kernel: Kernel, recognised: &'a Recognised, constants: Vec<f64> },
+    /// The tree, and for each hinge of a state where it is in the tree.
+    Tree(&'a WeldedTree<f64>, Vec<usize>),
+    Routine {
+        kernel: Kernel,
+        recognised: &'a Recognised,
+        constants: Vec<f64>,
+    },
 }
 
 impl<'a> EquationsCode<'a> {
@@ -29,8 +34,10 @@ impl<'a> EquationsCode<'a> {
             let label = Label::generic(formulation.name());
             Self { label, formulation, way }
         };
-        let Some(recognised) = test_case.recognised() else {
-            return Ok(vec![generic(Formulation::Symmetric, Way::Tree(test_case.tree()))]);
+        let takes_symmetric = |found: &&Recognised| Formulation::Symmetric.takes(&found.topology);
+        let Some(recognised) = test_case.recognised().filter(takes_symmetric) else {
+            let way = Way::Tree(test_case.tree(), test_case.links());
+            return Ok(vec![generic(Formulation::Symmetric, way)]);
         };
         let size = 6 + recognised.topology.hinges();
         let mut routines = Vec::new();
@@ -56,10 +63,7 @@ impl<'a> EquationsCode<'a> {
                 let found = self.formulation.equations(topology, parameters, state);
                 found.expect("the formulation has equations")
             }
-            Way::Tree(tree) => Equations {
-                matrix: symmetric::tree_mass_matrix(tree, state),
-                forcing: symmetric::tree_forcing(tree, state),
-            },
+            Way::Tree(tree, links) => of_tree(tree, links, state),
             Way::Routine { kernel, recognised, constants } => {
                 let topology = &recognised.topology;
                 let mut found = vec![0.0; kernel.outputs];
@@ -68,6 +72,22 @@ impl<'a> EquationsCode<'a> {
                 Equations { matrix: found, forcing }
             }
         }
+    }
+}
+
+/// Those of a tree, for a state whose hinges are these links of it.
+fn of_tree(tree: &WeldedTree<f64>, links: &[usize], state: &Coordinates<f64>) -> Equations<f64> {
+    let mut in_tree = state.clone();
+    for (&link, hinge) in links.iter().zip(&state.hinges) {
+        in_tree.hinges[link] = *hinge;
+    }
+    let matrix = symmetric::tree_mass_matrix(tree, &in_tree);
+    let forcing = symmetric::tree_forcing(tree, &in_tree);
+    let rows: Vec<usize> = (0..6).chain(links.iter().map(|link| 6 + link)).collect();
+    let entry = |(&i, &j): (&usize, &usize)| matrix[i * rows.len() + j];
+    Equations {
+        matrix: rows.iter().flat_map(|i| rows.iter().map(move |j| (i, j))).map(entry).collect(),
+        forcing: rows.iter().map(|&i| forcing[i]).collect(),
     }
 }
 

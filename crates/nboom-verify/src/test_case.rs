@@ -140,8 +140,7 @@ impl TestCase {
         &self.states
     }
 
-    /// Topology and parameters as routines take them, where the scene is made of chains and
-    /// paddles.
+    /// Topology and parameters as routines take them, where the scene has them.
     pub fn recognised(&self) -> Option<&Recognised> {
         self.recognised.as_ref().ok()
     }
@@ -153,7 +152,10 @@ impl TestCase {
 
     /// The states as closed forms take them, hinges in the order of [`Self::links`].
     pub fn coordinates(&self) -> impl Iterator<Item = Coordinates<f64>> {
-        let links = self.links();
+        self.coordinates_in(self.links())
+    }
+
+    fn coordinates_in(&self, links: Vec<usize>) -> impl Iterator<Item = Coordinates<f64>> {
         let mut dynamics = self.dynamics.clone();
         self.states.iter().map(move |state| {
             let RandomState { omega, beta, tau } = state;
@@ -196,12 +198,15 @@ impl TestCase {
             states: &self.states,
         };
         let mut codes = vec![(Label::RECURSION, self.recursion()), (Label::DENSE, dense)];
-        let Some(recognised) = self.recognised() else {
+        let topology = self.recognised().map(|recognised| &recognised.topology);
+        if topology.is_none_or(|topology| !Formulation::Symmetric.takes(topology)) {
+            let states = self.coordinates_in((0..self.tree().links.len()).collect()).collect();
             let code = ComparedCode::Tree { tree: self.dynamics.tree(), states };
             codes.push((Label::generic(Formulation::Symmetric.name()), code));
-            return Ok(codes);
-        };
-        for formulation in Formulation::ALL {
+        }
+        let Some(recognised) = self.recognised() else { return Ok(codes) };
+        let takes = |formulation: &Formulation| formulation.takes(&recognised.topology);
+        for formulation in Formulation::ALL.into_iter().filter(takes) {
             let code = ComparedCode::ClosedForm { formulation, recognised, states: states.clone() };
             codes.push((Label::generic(formulation.name()), code));
         }
@@ -235,12 +240,20 @@ impl TestCase {
                 let line = |(path, formulation)| NotCovered { path, formulation, why: why.clone() };
                 all.map(line).collect()
             }
-            Ok(recognised) if self.taken(kernels).is_none() => {
-                let why = NoRoutine::because(recognised, self.is_pushed(), &choosing_from(kernels));
-                let why = why.to_string();
-                vec![NotCovered { path: "generated", formulation: None, why }]
+            Ok(recognised) => {
+                let why = || {
+                    NoRoutine::because(recognised, self.is_pushed(), &choosing_from(kernels))
+                        .to_string()
+                };
+                let generated = self.taken(kernels).is_none().then(|| ("generated", None, why()));
+                let generic = Formulation::ALL.into_iter().filter_map(|formulation| {
+                    formulation.covers(self.tree()).err()?;
+                    let why = format!("limbs of topology {}", recognised.topology);
+                    Some(("generic", Some(formulation.name()), why))
+                });
+                let line = |(path, formulation, why)| NotCovered { path, formulation, why };
+                generic.chain(generated).map(line).collect()
             }
-            Ok(_) => Vec::new(),
         }
     }
 

@@ -83,9 +83,8 @@ impl<'a> Step<'a> {
             let (group, mask) = input;
             let live = (0..group.size()).filter(|&i| mask[i]).enumerate();
             let names = group.names();
-            let read = live.filter_map(|(slot, i)| {
-                Some((*node.get(&(at + i))?, slot, names[i].clone()))
-            });
+            let read =
+                live.filter_map(|(slot, i)| Some((*node.get(&(at + i))?, slot, names[i].clone())));
             all.add(group.name, size(input), Reading::Direct, read.collect::<Vec<_>>());
             at += group.size();
         }

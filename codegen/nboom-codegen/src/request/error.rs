@@ -124,7 +124,9 @@ pub enum CodegenError {
         scene: String,
     },
     /// The formulation takes chains and paddles alone.
-    #[error("topology {topology}: of limbs, formulation {formulation} has none; articulated expected")]
+    #[error(
+        "topology {topology}: of limbs, formulation {formulation} has none; articulated expected"
+    )]
     NoLimbs {
         /// The topology.
         topology: String,

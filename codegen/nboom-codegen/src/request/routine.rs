@@ -179,7 +179,7 @@ impl Request {
             let topology = of_topology();
             return Err(CodegenError::TooLarge { topology, formulation, links, limit });
         }
-        if topology.has_limbs() && formulation != Formulation::Articulated {
+        if !formulation.takes(topology) {
             return Err(CodegenError::NoLimbs { topology: of_topology(), formulation });
         }
         if *output == Output::Equations && !formulation.has_equations() {

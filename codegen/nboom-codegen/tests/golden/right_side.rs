@@ -121,7 +121,7 @@ pub mod routine_right_side_s1 {
         let t197 = (f0_1_1_second + t190 * t194) / t190;
         let t157 = t106 + (t136 * t149 * (t132 - dy_1) - t135 * t149 * (t133 - dz_1));
         let t205 = t157 + (t184 * t197 * (t180 - dy_1) - t183 * t197 * (t181 - dz_1));
-        // Appendage 1: ω in its axes, and how its first hinge moves.
+        // Appendage 1: ω in its axes, and how its first joint moves.
         let [r11_1, r12_1, r13_1, r21_1, r22_1, r23_1] = R::gather_all(k, 10, 1);
         let [r31_1, r32_1, r33_1, dx_1] = R::gather_all(k, 16, 1);
         let t218 = r11_1 * omega_x + r21_1 * omega_y + r31_1 * omega_z;
@@ -343,7 +343,7 @@ pub mod routine_right_side_s1 {
         let t906 = t900 + t769 * t838;
         let t908 = t764 * t906 - (t899 + t761 * t834);
         let t912 = t758 * t906 - (t898 + t753 * t756 + t757 * t908);
-        // Appendage 1: accelerations of its first hinge.
+        // Appendage 1: accelerations of its first joint.
         let t925 = r11_1 * omega_dot_x + r21_1 * omega_dot_y + r31_1 * omega_dot_z;
         let t926 = r12_1 * omega_dot_x + r22_1 * omega_dot_y + r32_1 * omega_dot_z;
         let t927 = r13_1 * omega_dot_x + r23_1 * omega_dot_y + r33_1 * omega_dot_z;

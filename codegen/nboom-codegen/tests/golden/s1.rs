@@ -62,7 +62,7 @@ pub mod routine_s1 {
         // Sines and cosines of all angles.
         let beta_1_1 = R::gather(x, 9);
         let [(sin_beta_1_1, cos_beta_1_1)] = R::sin_cos_all([beta_1_1]);
-        // Appendage 1: ω in its axes, and how its first hinge moves.
+        // Appendage 1: ω in its axes, and how its first joint moves.
         let [r11_1, r12_1, r13_1, r21_1, r22_1, r23_1] = R::gather_all(k, 10, 1);
         let [r31_1, r32_1, r33_1, dx_1, dy_1, dz_1] = R::gather_all(k, 16, 1);
         let [omega_x, omega_y, omega_z] = R::gather_all(x, 0, 1);
@@ -284,7 +284,7 @@ pub mod routine_s1 {
         let a_z = -t735;
         let a_y = t593 * t735 - (t728 + t590 * t663);
         let a_x = t587 * t735 - (t727 + t582 * t585 + t586 * a_y);
-        // Appendage 1: accelerations of its first hinge.
+        // Appendage 1: accelerations of its first joint.
         let t755 = r11_1 * omega_dot_x + r21_1 * omega_dot_y + r31_1 * omega_dot_z;
         let t756 = r12_1 * omega_dot_x + r22_1 * omega_dot_y + r32_1 * omega_dot_z;
         let t757 = r13_1 * omega_dot_x + r23_1 * omega_dot_y + r33_1 * omega_dot_z;

@@ -1,4 +1,4 @@
-//! Satellites of any topology from a seed: chains and paddles with hinges held, their parameters,
+//! Satellites of any topology from a seed: chains, paddles and limbs with hinges held, their parameters,
 //! states, and what a routine may assume about them.
 
 use std::f64::consts::FRAC_PI_2;
@@ -6,8 +6,8 @@ use std::f64::consts::FRAC_PI_2;
 use nboom_elements::{HingeLaw, KickOffLaw};
 use nboom_formulation::{Forces, Layout, LinkLine, Recognised, RightSideLayout, recognise};
 use nboom_model::{
-    Appendage, Hinge, HingeState, MassProperties, Mode, Mount, Scene, SceneDescription, Segment,
-    Topology, WeldedTree,
+    Appendage, Body, Hinge, HingeState, Joint, MassProperties, Mode, Mount, Scene,
+    SceneDescription, Segment, Shape, Topology, WeldedTree,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3, Wrench};
 
@@ -112,7 +112,7 @@ fn welded(dice: &mut Rng) -> (Topology, usize, Vec<f64>) {
     let mode = Mode { hinges: states, ..Mode::at_start(&scene) };
     let beta: Vec<f64> = scene.bodies.iter().map(|_| dice.between(-3.0, 3.0)).collect();
     let tree = WeldedTree::new(&scene, &mode, &beta);
-    let Recognised { topology, parameters, .. } = recognise(&tree).expect("chains and paddles");
+    let Recognised { topology, parameters, .. } = recognise(&tree).expect("rigid bodies");
     (topology, held, parameters.write())
 }
 
@@ -123,11 +123,38 @@ fn scene(dice: &mut Rng, hinges: usize) -> Scene {
         main_body.center_of_mass = Vec3::zero();
     }
     let mut description = SceneDescription::at_rest("random", main_body, 1.0);
+    let limbs = if dice.chance(0.3) { 0.6 } else { 0.0 };
     while description.bodies.len() < hinges {
         let most = hinges - description.bodies.len();
-        description.attach(&appendage(dice, along_axes, most));
+        if dice.chance(limbs) {
+            limb(dice, along_axes, most, &mut description.bodies);
+        } else {
+            description.attach(&appendage(dice, along_axes, most));
+        }
     }
     Scene::new(description).expect("the bodies are physical")
+}
+
+/// A tree of at most this many joints: parallel to the inboard one, across it, or slides.
+fn limb(dice: &mut Rng, along_axes: bool, most: usize, bodies: &mut Vec<Body>) {
+    let first = bodies.len();
+    for i in first..first + 1 + dice.below(most) {
+        let inboard = (i > first).then(|| first + dice.below(i - first));
+        let rot_inboard_from_hinge = match dice.chance(0.4) {
+            true => Mat3::identity(),
+            false => dice.rotation(along_axes),
+        };
+        let joint = if dice.chance(0.2) { Joint::Prismatic } else { Joint::Revolute };
+        bodies.push(Body {
+            inboard,
+            mount: Mount { point: dice.vector(1.0), rot_inboard_from_hinge },
+            joint,
+            axis: Vec3::unit_x(),
+            mass_properties: dice.body(2.0, along_axes),
+            tip: Vec3::zero(),
+            hinge: Hinge::free(),
+        });
+    }
 }
 
 /// A chain or a paddle of at most this many hinges.
@@ -177,8 +204,11 @@ fn rigid_bodies(topology: &Topology) -> Vec<usize> {
     let (mut at, mut all) = (Layout::MAIN, vec![0]);
     for shape in topology.shapes() {
         at += Layout::BRANCH;
-        all.extend((0..shape.hinges()).map(|i| at + i * Layout::LINK));
-        at += shape.hinges() * Layout::LINK;
+        for link in 0..shape.hinges() {
+            let mount = if let Shape::Limb(limb) = shape { Layout::mount(limb, link) } else { 0 };
+            all.push(at + mount);
+            at += Layout::link(*shape, link);
+        }
     }
     all
 }

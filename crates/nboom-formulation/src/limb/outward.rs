@@ -128,7 +128,8 @@ impl<R: Real> Moving<R> {
     fn moves(&self, mount: &Mount<R>) -> AtMount<R> {
         match mount {
             Mount::Parallel(way) => {
-                let bias = self.origin + self.spin.bias_of(self.sigma, turned_way(self.turned, *way));
+                let bias =
+                    self.origin + self.spin.bias_of(self.sigma, turned_way(self.turned, *way));
                 AtMount { spin: self.spin.w, alpha: self.alpha, sigma: self.sigma, bias }
             }
             Mount::Across { rot, point } => {

@@ -9,7 +9,8 @@ use crate::recognise::{Appendage, LinkFrame, SAME_AXIS, axis_along, frame_of};
 /// The limb that begins with the link `root`; `None` if it has too many links.
 pub(super) fn appendage(tree: &WeldedTree<f64>, root: usize) -> Option<Appendage> {
     let found = links_outward(tree, root);
-    let of_limb: Vec<LimbLink> = found.iter().map(|&j| limb_link(tree, &found, j)).collect::<Option<_>>()?;
+    let of_limb: Vec<LimbLink> =
+        found.iter().map(|&j| limb_link(tree, &found, j)).collect::<Option<_>>()?;
     let (limb, order) = Limb::new(&of_limb)?;
     let links: Vec<usize> = order.into_iter().map(|i| found[i]).collect();
     let mut frames: Vec<LinkFrame> = Vec::with_capacity(links.len());

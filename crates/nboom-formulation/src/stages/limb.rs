@@ -6,9 +6,7 @@ use nboom_scalar::{Real, Twist};
 use crate::articulated::first_hinge;
 use crate::limb::{self, EliminatedLink, OF_ELIMINATED_LINK};
 use crate::parameters::{Branch, HingeCoordinates, Layout, Reader};
-use crate::stages::{
-    AT_ORIGIN, BODY, BRANCH, Group, MAIN_RATES, OMEGA, Stage, TAU_DOT,
-};
+use crate::stages::{AT_ORIGIN, BODY, BRANCH, Group, MAIN_RATES, OMEGA, Stage, TAU_DOT};
 
 /// Where a link is mounted on its inboard link.
 const MOUNT: Group = Group::new(

@@ -15,13 +15,13 @@ use nboom_codegen::{CodegenError, OPERATION_LIMIT};
 use nboom_formulation::{Formulation, Layout};
 use nboom_io::read_scene;
 use nboom_model::{
-    Appendage, External, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment, Spring,
-    Topology,
+    Appendage, External, Hinge, MassProperties, Mount, Rotor, RotorSpeed, Scene, SceneDescription,
+    Segment, Spring, Topology,
 };
 use nboom_package::{
     Choices, Numbers, PackageError, Standing, TOLERANCE, Written, generate, is_current,
 };
-use nboom_scalar::{Mat3, Sym3, Vec3};
+use nboom_scalar::{Sym3, Vec3};
 use tempfile::TempDir;
 
 /// A main body under thrust, with sprung chains of these lengths.
@@ -114,9 +114,10 @@ fn what_has_no_code_is_refused() {
     assert!(equations.contains("topology S1, formulation articulated"), "{equations}");
 
     let mut description = (*satellite("tree", &[2])).clone();
-    description.bodies[1].mount.rot_inboard_from_hinge = Mat3::from_euler_121(0.1, 0.2, 0.3);
-    let tree = Scene::new(description).expect("the bodies are physical");
-    let hinge = refused(&tree, choices);
+    let (axis, speed) = (Vec3::unit_x(), RotorSpeed::Constant(1.0));
+    description.rotors = vec![Rotor { body: Some(1), axis, inertia: 1e-3, speed }];
+    let with_rotor = Scene::new(description).expect("the bodies are physical");
+    let hinge = refused(&with_rotor, choices);
     assert!(hinge.contains("hinge 1,2"), "{hinge}");
 
     let report = Choices { formulation: Formulation::Report, ..choices };

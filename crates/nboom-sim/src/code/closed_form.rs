@@ -9,7 +9,7 @@ use nboom_scalar::{Real, Vec3, Wrench};
 #[derive(Clone, Debug)]
 pub(crate) struct ClosedForm<R> {
     formulation: Formulation,
-    /// `None` for a tree that is not made of chains and paddles, which `symmetric` alone covers.
+    /// `None` for a tree that `symmetric` alone covers: what is not made of chains and paddles.
     recognised: Option<(Topology, Parameters<R>)>,
     coordinates: Coordinates<R>,
     /// For each hinge of the coordinates, its link.
@@ -17,8 +17,7 @@ pub(crate) struct ClosedForm<R> {
     torques: Vec<R>,
 }
 
-/// A formulation is written for chains and paddles of rigid bodies on a free main body, and the mode is not
-/// made of them.
+/// A formulation is written for other trees than that of the mode.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotCovered {
     /// A hinge belongs to neither.
@@ -61,7 +60,7 @@ impl<R: Real> ClosedForm<R> {
                 NotCovered::Hinge { formulation, hinge: scene.label(tree.links[link].hinge) }
             }
         })?;
-        let recognised = recognise(tree).ok();
+        let recognised = recognise(tree).ok().filter(|found| formulation.takes(&found.topology));
         let in_tree_order = || (0..tree.links.len()).collect();
         let links = recognised.as_ref().map_or_else(in_tree_order, |found| found.links.clone());
         let recognised = recognised.map(|found| {

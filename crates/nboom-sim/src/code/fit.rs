@@ -3,7 +3,7 @@ use std::cmp::Reverse;
 use std::sync::Arc;
 
 use nboom_formulation::{Embedding, Forces, Formulation, Layout, Recognised};
-use nboom_model::Topology;
+use nboom_model::{Shape, Topology};
 use nboom_scalar::Kernel;
 
 use crate::options::Options;
@@ -24,18 +24,32 @@ pub struct Fit {
 /// `benches/README.md`; only comparisons matter.
 ///
 /// Straight lines take the hinges one after the other. Loops take equal appendages side by side,
-/// as many as a register holds.
+/// as many as a register holds; so do straight lines for equal limbs.
 fn duration(topology: &Topology, instructions: &str) -> usize {
     let groups = topology.groups();
-    if topology.hinges() <= 16 && groups.iter().all(|&(_, count)| count < 4) {
+    let is_limb = |shape: &Shape| matches!(shape, Shape::Limb(_));
+    let side_by_side =
+        |(shape, count): &(Shape, usize)| *count >= if is_limb(shape) { 2 } else { 4 };
+    if topology.hinges() <= 16 && !groups.iter().any(side_by_side) {
         return 20 + 36 * topology.hinges();
     }
+    let widest = match instructions {
+        "avx512" => 8,
+        "avx2" => 4,
+        _ => 1,
+    };
+    let limb_link = |count: usize| {
+        let rest = count % widest;
+        40 * (count / widest + rest / 4 + rest % 4 / 2 + rest % 2)
+    };
     let link = |count: usize| match instructions {
         "avx512" => 70 * (count / 8) + 50 * (count % 8 / 4 + count % 4),
         "avx2" => 60 * (count / 4) + 50 * (count % 4),
         _ => 50 * count,
     };
-    let sweeps = groups.into_iter().map(|(shape, count)| shape.hinges() * link(count));
+    let sweeps = groups.into_iter().map(|(shape, count)| {
+        shape.hinges() * if is_limb(&shape) { limb_link(count) } else { link(count) }
+    });
     45 + sweeps.sum::<usize>()
 }
 
@@ -223,6 +237,7 @@ mod tests {
             ("10xS1", "20xS5", &["avx512"]),
             ("S45", "S100", &[]),
             ("S50", "S100", &["avx512", "avx2", "portable"]),
+            ("4xTrrp", "4xTrrp", &["avx512", "avx2", "portable"]),
         ] {
             for instructions in ["avx512", "avx2", "portable"] {
                 let expected = on.contains(&instructions);

@@ -1,6 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{Layout, Recognised, Uncovered};
-use nboom_model::{HingeLabel, Scene, WeldedTree};
+use nboom_model::{HingeLabel, Limb, Scene, WeldedTree};
 use nboom_scalar::{Kernel, Vec3};
 
 use crate::code::fit::{Fit, Repertoire};
@@ -28,15 +28,15 @@ struct HingeNumbers {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoRoutine {
-    /// The mode is not made of chains and paddles of rigid bodies.
+    /// A body is not rigid or carries a rotor, or an appendage is too large.
     #[error(
-        "no {}: hinge {hinge} belongs neither to a chain nor to a paddle of rigid bodies",
-        routine(.form)
+        "no {}: what hinge {hinge} carries is not rigid, has a rotor, or has more than {} links",
+        routine(.form), Limb::MOST_LINKS
     )]
     Tree {
         /// The formulation asked for.
         form: Option<Form>,
-        /// The first hinge that does not.
+        /// The first such hinge.
         hinge: HingeLabel,
     },
     /// The main body is held.
