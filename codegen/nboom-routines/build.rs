@@ -4,30 +4,26 @@ use std::path::PathBuf;
 
 use nboom_codegen::{Level, Module, Request};
 use nboom_formulation::{Formulation, Layout, RightSideLayout};
-use nboom_model::Shape::{Chain, Paddle};
-use nboom_model::{Shape, Topology};
+use nboom_model::Topology;
 
-/// Topologies that scenes often have, or come through while their hinges are released and lock:
-/// one line each.
-fn stock() -> Vec<Vec<Shape>> {
-    vec![
-        vec![],
-        vec![Chain(1)],
-        vec![Chain(2)],
-        vec![Chain(3)],
-        vec![Chain(1); 2],
-        vec![Chain(2), Chain(1)],
-        vec![Chain(2); 2],
-        vec![Chain(3); 2],
-        vec![Chain(1); 4],
-        vec![Chain(3); 4],
-        vec![Chain(5); 4],
-        vec![Chain(5); 20],
-        vec![Chain(100)],
-        vec![Paddle],
-        vec![Chain(1), Paddle],
-        vec![Chain(2), Paddle],
-    ]
+/// Topologies that scenes often have, or come through while their hinges are released and lock.
+#[rustfmt::skip]
+const STOCK: [&str; 26] = [
+    // A main body alone, booms and wings of panels.
+    "M", "S1", "S2", "S3", "2xS1", "S2_S1", "2xS2", "2xS3", "2xS4", "4xS1", "4xS2", "4xS3", "4xS4",
+    "4xS5", "6xS1", "6xS2", "6xS3", "6xS4", "20xS5", "S100",
+    // Hinges canted to each other: a gimbal, a pair of booms, a gimbal on a boom.
+    "Trr", "2xTrr", "Trrr",
+    // Paddles, with the report's satellite last.
+    "P", "S1_P", "S2_P",
+];
+
+fn stock() -> impl Iterator<Item = Topology> {
+    STOCK.into_iter().map(topology)
+}
+
+fn topology(name: &str) -> Topology {
+    name.parse().expect("it is the name of a topology")
 }
 
 /// Formulations that have a routine of S2_P besides that of `articulated`.
@@ -54,8 +50,7 @@ fn main() {
 /// Routines for each topology of the stock, then S2_P by the other formulations.
 fn accelerations() -> Vec<Request> {
     let mut requests = Vec::new();
-    for shapes in stock() {
-        let topology = Topology::new(shapes);
+    for topology in stock() {
         for principal in [true, false] {
             let name = name(&topology, principal);
             let request = Request::new(&name, topology.clone(), Level::Fast).with_external_wrench();
@@ -79,15 +74,14 @@ const MOST_EQUAL: usize = 4;
 
 /// Right sides for topologies of the stock, without external wrench; of few hinges two more that
 /// assume nothing: one takes an external wrench, which a thrust is, the other a line that pushes each link, and
-/// of fewer hinges two of them and the wrench.
+/// of fewer hinges two of them and the wrench. Where lines push limbs, accelerations have to do.
 ///
 /// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
 /// eight states at once, too.
 fn right_sides() -> Vec<Request> {
     let mut requests = Vec::new();
-    let topologies = stock().into_iter().map(Topology::new);
     let is_wanted = |topology: &Topology| topology.groups().iter().all(|&(_, n)| n <= MOST_EQUAL);
-    for topology in topologies.filter(is_wanted) {
+    for topology in stock().filter(is_wanted) {
         let has_few = topology.hinges() <= FEW_HINGES;
         for principal in [true, false] {
             let name = name(&topology, principal);
@@ -95,7 +89,8 @@ fn right_sides() -> Vec<Request> {
             let request = if principal { request.with_principal_axes() } else { request };
             let general = || request.clone();
             let named = |kind: &str| Request { name: format!("{kind}{name}"), ..general() };
-            let is_pushed = has_few && !principal && topology.hinges() > 0;
+            let is_planar = topology.hinges() > 0 && !topology.has_limbs();
+            let is_pushed = has_few && !principal && is_planar;
             // With more hinges, more lines or a wrench beside them take too much straight code.
             let takes_both = topology.hinges() < FEW_HINGES;
             let pushed = is_pushed.then(|| {
@@ -117,41 +112,42 @@ fn right_sides() -> Vec<Request> {
 
 /// Routines that keep the closed form's every rounding on `f64`, for the tests.
 fn exact() -> Vec<Request> {
-    let satellite =
-        |name: &str, shapes: Vec<Shape>| Request::new(name, Topology::new(shapes), Level::Exact);
+    let satellite = |name: &str, of: &str| Request::new(name, topology(of), Level::Exact);
     let rolled = [
-        satellite("RolledS3", vec![Chain(3); 4]).with_external_wrench(),
-        satellite("RolledP", vec![Paddle; 3]).with_external_wrench(),
-        satellite("RolledS30", vec![Chain(30)]),
-        satellite("RolledMixed", vec![Chain(4), Chain(4), Chain(2), Paddle, Paddle]),
+        satellite("RolledS3", "4xS3").with_external_wrench(),
+        satellite("RolledP", "3xP").with_external_wrench(),
+        satellite("RolledS30", "S30"),
+        satellite("RolledMixed", "2xS4_S2_2xP"),
+        satellite("StraightLimb", "Tr(rp)(s)_S1").with_external_wrench(),
+        satellite("PackedLimbs", "3xTr(rpr)(s)_2xTs(r)(rp)_S2").with_external_wrench(),
     ];
     let general = Formulation::ALL.map(|formulation| s2_p("", Level::Exact, formulation));
     let principal = Formulation::ALL.map(|formulation| {
         let name = camel_case(formulation) + "S1P";
-        satellite(&name, vec![Chain(1), Paddle]).with_principal_axes().by(formulation)
+        satellite(&name, "S1_P").with_principal_axes().by(formulation)
     });
     let equations =
         with_equations(|formulation| s2_p("Equations", Level::Exact, formulation).for_equations());
-    let unequal = unequal(satellite("RolledUnequal", vec![Chain(2); 4]));
+    let unequal = unequal(satellite("RolledUnequal", "4xS2"));
     rolled.into_iter().chain([unequal]).chain(general).chain(principal).chain(equations).collect()
 }
 
 /// Right sides that keep every rounding.
 fn exact_right_sides() -> Vec<Request> {
-    let satellite = |name: &str, shapes: Vec<Shape>| {
-        Request::new(name, Topology::new(shapes), Level::Exact).for_right_side()
-    };
-    let mixed = vec![Chain(4), Chain(4), Chain(2), Chain(1), Paddle, Paddle];
+    let satellite =
+        |name: &str, of: &str| Request::new(name, topology(of), Level::Exact).for_right_side();
     vec![
-        satellite("RolledS3", vec![Chain(3); 4]).with_external_wrench(),
-        satellite("RolledP", vec![Paddle; 5]).with_external_wrench(),
-        satellite("RolledS30", vec![Chain(30)]),
-        satellite("RolledMixed", mixed),
-        unequal_laws(unequal(satellite("RolledUnequal", vec![Chain(2); 4]))),
-        satellite("StraightM", vec![]),
-        satellite("StraightS1P", vec![Chain(1), Paddle]).with_principal_axes(),
-        satellite("PushedS2P", vec![Chain(2), Paddle]).with_external_wrench().with_lines(2),
-        satellite("PushedS3", vec![Chain(3)]).with_lines(1).by(Formulation::Relative),
+        satellite("RolledS3", "4xS3").with_external_wrench(),
+        satellite("RolledP", "5xP").with_external_wrench(),
+        satellite("RolledS30", "S30"),
+        satellite("RolledMixed", "2xS4_S2_S1_2xP"),
+        unequal_laws(unequal(satellite("RolledUnequal", "4xS2"))),
+        satellite("StraightM", "M"),
+        satellite("StraightS1P", "S1_P").with_principal_axes(),
+        satellite("PushedS2P", "S2_P").with_external_wrench().with_lines(2),
+        satellite("PackedLimbs", "5xTr(rp)(s)_S2").with_external_wrench(),
+        satellite("PushedLimb", "Trs").with_lines(1),
+        satellite("PushedS3", "S3").with_lines(1).by(Formulation::Relative),
     ]
 }
 
@@ -194,9 +190,7 @@ fn with_equations(request: impl Fn(Formulation) -> Request) -> Vec<Request> {
 /// S2_P with external wrench, nothing assumed: for example `ReportEquationsS2P`.
 fn s2_p(word: &str, level: Level, formulation: Formulation) -> Request {
     let name = camel_case(formulation) + word + "S2P";
-    Request::new(&name, Topology::new([Chain(2), Paddle]), level)
-        .with_external_wrench()
-        .by(formulation)
+    Request::new(&name, topology("S2_P"), level).with_external_wrench().by(formulation)
 }
 
 fn camel_case(formulation: Formulation) -> String {

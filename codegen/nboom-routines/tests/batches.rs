@@ -5,7 +5,7 @@ use nboom_model::Topology;
 use nboom_routines::for_each_batched;
 use nboom_scalar::{Batch, Eight, InstructionSet, Kernel, Routine};
 
-use support::{Rng, parameters, shapes, state};
+use support::{Rng, parameters, state};
 
 mod support;
 
@@ -17,7 +17,7 @@ struct Satellites {
 
 impl Satellites {
     fn of(batch: &Batch) -> Self {
-        let topology = Topology::new(shapes(batch.topology));
+        let topology: Topology = batch.topology.parse().expect("a topology");
         let mut numbers = Rng::new(8);
         let mut eight =
             |make: &dyn Fn(&mut Rng) -> Vec<f64>| (0..8).map(|_| make(&mut numbers)).collect();

@@ -18,22 +18,36 @@ pub fn parameters(
 ) -> Vec<f64> {
     let mut all = body(100.0, numbers);
     for shape in topology.shapes() {
-        let rot = nboom_scalar::Mat3::from_euler_121(
-            numbers.between(-3.0, 3.0),
-            numbers.between(-3.0, 3.0),
-            numbers.between(-3.0, 3.0),
-        );
-        all.extend(rot.rows.into_iter().flat_map(nboom_scalar::Vec3::to_array));
-        all.extend((0..3).map(|_| numbers.between(-1.0, 1.0)));
-        for _ in 0..shape.hinges() {
+        all.extend(mount(numbers));
+        for link in 0..shape.hinges() {
+            let mut way = || [(); Layout::WAY].map(|()| numbers.between(0.2, 1.0));
+            let Shape::Limb(limb) = shape else {
+                let way = way();
+                all.extend(body(1.0, numbers));
+                all.extend(way);
+                continue;
+            };
+            match Layout::mount(limb, link) {
+                0 => {}
+                Layout::WAY => all.extend(way()),
+                _ => all.extend(mount(numbers)),
+            }
             all.extend(body(1.0, numbers));
-            all.extend((0..2).map(|_| numbers.between(0.2, 1.0)));
         }
     }
     for &(i, value) in assumptions {
         all[i] = value;
     }
     all
+}
+
+/// Any rotation, and a point.
+fn mount(numbers: &mut Rng) -> Vec<f64> {
+    let [a, b, c] = [(); 3].map(|()| numbers.between(-3.0, 3.0));
+    let rows = nboom_scalar::Mat3::from_euler_121(a, b, c).rows;
+    let mut mount: Vec<f64> = rows.into_iter().flat_map(nboom_scalar::Vec3::to_array).collect();
+    mount.extend((0..3).map(|_| numbers.between(-1.0, 1.0)));
+    mount
 }
 
 fn body(mass: f64, numbers: &mut Rng) -> Vec<f64> {
@@ -51,17 +65,4 @@ pub fn state(topology: &Topology, external: bool, numbers: &mut Rng) -> Vec<f64>
         state[3..9].fill(0.0);
     }
     state
-}
-
-/// The shapes that a topology's name stands for.
-pub fn shapes(name: &str) -> Vec<Shape> {
-    let shape = |text: &str| match text {
-        "P" => Shape::Paddle,
-        chain => Shape::Chain(chain[1..].parse().expect("a chain has a length")),
-    };
-    let group = |text: &str| match text.split_once('x') {
-        Some((count, of)) => vec![shape(of); count.parse().expect("a count")],
-        None => vec![shape(text)],
-    };
-    name.split('_').filter(|text| *text != "M").flat_map(group).collect()
 }
