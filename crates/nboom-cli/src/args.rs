@@ -292,6 +292,11 @@ pub struct VerifyArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 
+    /// Also compare code with the scene's numbers built in, which is compiled first and kept. Needs cargo.
+    #[cfg(feature = "generator")]
+    #[arg(long)]
+    pub compiled: bool,
+
     /// Number of random states: angles of any size, rates as large as the scene's initial angular
     /// rate, or of order 1 if that is zero.
     #[arg(long, value_name = "N", default_value = "100", value_parser = states_parser(),

@@ -8,6 +8,8 @@ use nboom_formulation::{Recognised, symmetric};
 use nboom_scalar::{Batch, Eight};
 use nboom_verify::{ComparedCode, Label, TestCase};
 
+#[cfg(feature = "generator")]
+use crate::compile::with_compiled;
 use crate::format::{code_columns, code_head, not_covered, routine_topology};
 use crate::run::default_directory;
 use crate::work_precision::work_precision;
@@ -27,6 +29,11 @@ pub struct BenchArgs {
     /// Print a line of words and numbers for each code instead of a table.
     #[arg(long)]
     pub harness: bool,
+
+    /// Also time code with the scene's numbers built in, which is compiled first and kept. Needs cargo.
+    #[cfg(feature = "generator")]
+    #[arg(long)]
+    pub compiled: bool,
 
     /// Instead, time whole runs against their error: every code that covers the scene with every
     /// integrator at relative tolerances from 1e-3 to 1e-14. Runs are of a prepared simulator; the table
@@ -77,6 +84,8 @@ struct Row {
 /// Times all code that computes accelerations, and returns the text for standard output.
 pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
+    #[cfg(feature = "generator")]
+    let routines = &with_compiled(routines, &file, args.compiled)?;
     if args.work_precision {
         let directory = default_directory(&file.scene.name);
         let directory = args.output.as_ref().unwrap_or(&directory);

@@ -5,10 +5,11 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use nboom_formulation::Formulation;
-use nboom_package::{Build, Built, Level, Progress, compile as build};
+use nboom_io::SceneFile;
+use nboom_package::{Build, Built, Level, Progress, compile as build, library, load};
 
 use crate::format::{count, short};
-use crate::{CliError, SceneArgs, check, choice, say};
+use crate::{CliError, Routines, SceneArgs, check, choice, say};
 
 /// Options of `nboom compile`.
 #[derive(Args, Debug)]
@@ -61,6 +62,26 @@ pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
         "{scene}: topology {topology}, {routines} routines, built {program} in {seconds} s\n\
          sources in {sources}\n"
     ))
+}
+
+/// These routines, and before them those of a scene if they are wanted: built as a library and loaded.
+pub(crate) fn with_compiled(
+    routines: &Routines,
+    file: &SceneFile,
+    wanted: bool,
+) -> Result<Routines, CliError> {
+    if !wanted {
+        return Ok(*routines);
+    }
+    let shown = Shown::new();
+    let built = library(&file.scene, file.structure.as_ref(), &Build::default(), |step| {
+        shown.show(&step);
+    });
+    shown.line.finish_and_clear();
+    let of_scene = load(&built?.path)?;
+    // They are for this one command, which ends with the program.
+    let for_runs = [of_scene.kernels, routines.for_runs].concat().leak();
+    Ok(Routines { for_runs, ..*routines })
 }
 
 /// How far a build has come and how long it has taken: on a terminal a line that changes, elsewhere

@@ -45,11 +45,13 @@ Examples:
 
 pub(crate) const VERIFY: &str = "\
 Examples:
-  nboom verify wing.toml --states 20";
+  nboom verify wing.toml --states 20
+  nboom verify robot.urdf --compiled";
 
 pub(crate) const BENCH: &str = "\
 Examples:
-  nboom bench boom.toml --seconds 0.01";
+  nboom bench boom.toml --seconds 0.01
+  nboom bench robot.urdf --compiled --harness";
 
 #[cfg(feature = "generator")]
 pub(crate) const NEW: &str = "\

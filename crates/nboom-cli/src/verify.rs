@@ -2,6 +2,8 @@ use std::fmt::Write;
 
 use nboom_verify::{Comparison, Hinges, Quantity, Row, TestCase, compare};
 
+#[cfg(feature = "generator")]
+use crate::compile::with_compiled;
 use crate::format::{code_columns, code_head, count, not_covered, routine_topology, short};
 use crate::run::default_directory;
 use crate::{CliError, Routines, VerifyArgs, check, output, print};
@@ -11,6 +13,8 @@ const FILE: &str = "verify.json";
 /// Compares all code that computes accelerations, writes the largest deviations and prints them.
 pub(crate) fn verify(args: &VerifyArgs, routines: &Routines) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
+    #[cfg(feature = "generator")]
+    let routines = &with_compiled(routines, &file, args.compiled)?;
     let beside = || default_directory(&file.scene.name).join(FILE);
     let path = args.output.clone().unwrap_or_else(beside);
     output::check(&path, &args.scene.scene)?;

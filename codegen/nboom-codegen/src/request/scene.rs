@@ -22,6 +22,10 @@ const FEW_HINGES: usize = 10;
 /// The most routines for states with held hinges.
 const LOCK_STATES: usize = 32;
 
+/// The most links of limbs in all routines for states with held hinges: every one is some hundred
+/// operations, and none repeats another.
+const LIMB_LINKS: usize = 60;
+
 /// Angles for which held hinges are welded to see which numbers are zero at any angle.
 pub(crate) const ANGLES: [f64; 2] = [0.723, -1.931];
 
@@ -30,7 +34,7 @@ impl Request {
     /// outside. The type's name is that of the topology after `Satellite` or `Baked`.
     ///
     /// # Errors
-    /// When the scene is not made of chains and paddles.
+    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
     pub fn of_scene(scene: &Scene, numbers: Numbers, level: Level) -> Result<Self, CodegenError> {
         let free = vec![true; scene.bodies.len()];
         let Recognised { topology, parameters, .. } = welded(scene, &free, 0.0)?;
@@ -54,7 +58,7 @@ impl Request {
     /// embedded.
     ///
     /// # Errors
-    /// When the scene is not made of chains and paddles.
+    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
     pub fn of_simulator(
         scene: &Scene,
         formulation: Formulation,
@@ -78,10 +82,10 @@ impl Request {
     ///
     /// All combinations of up to ten hinges are looked at; of more, those in which all
     /// appendages hold equally many hinges at their inboard or outboard end. There are at most
-    /// 32 routines, those of the most free hinges.
+    /// 32 routines, those of the most free hinges, and fewer of limbs of many links.
     ///
     /// # Errors
-    /// When the scene is not made of chains and paddles.
+    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
     pub fn lock_states(scene: &Scene, level: Level) -> Result<Vec<Self>, CodegenError> {
         let mut found: BTreeMap<Topology, Vec<Vec<f64>>> = BTreeMap::new();
         for free in combinations(scene) {
@@ -99,7 +103,13 @@ impl Request {
             })
             .collect();
         requests.sort_by_key(|request| usize::MAX - request.topology.hinges());
-        requests.truncate(LOCK_STATES);
+        let mut links = 0;
+        let few = requests.iter().take_while(|request| {
+            links += limb_links(&request.topology);
+            links <= LIMB_LINKS
+        });
+        let few = few.count().min(LOCK_STATES);
+        requests.truncate(few);
         Ok(requests)
     }
 
@@ -107,7 +117,7 @@ impl Request {
     /// topology.
     ///
     /// # Errors
-    /// When the scene is not made of chains and paddles.
+    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
     pub fn free_hinges(&self, scene: &Scene) -> Result<Option<Vec<bool>>, CodegenError> {
         for free in combinations(scene) {
             if welded(scene, &free, ANGLES[0])?.topology == self.topology {
@@ -116,6 +126,13 @@ impl Request {
         }
         Ok(None)
     }
+}
+
+/// Links of limbs that are not equal to others.
+fn limb_links(topology: &Topology) -> usize {
+    let groups = topology.groups().into_iter();
+    let limbs = groups.filter(|(shape, _)| matches!(shape, Shape::Limb(_)));
+    limbs.map(|(shape, _)| shape.hinges()).sum()
 }
 
 /// `word` and the topology without what cannot stand in a name.
