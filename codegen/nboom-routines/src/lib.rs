@@ -25,7 +25,9 @@ mod of_right_sides {
     include!(concat!(env!("OUT_DIR"), "/right_sides.rs"));
 }
 
-pub use stock::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
+pub use stock::{
+    General2Trr, GeneralTrrr, Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100,
+};
 
 /// The stock routines for accelerations: those of `articulated`, the more specialised one of each
 /// topology first, then those of S2_P by the other formulations.

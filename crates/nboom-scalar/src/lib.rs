@@ -21,6 +21,7 @@ mod dual;
 mod foreign;
 mod instructions;
 mod isa;
+mod jacobian;
 mod kernel;
 mod lanes;
 mod matrix;
@@ -46,6 +47,7 @@ pub use instructions::InstructionSet;
 pub use isa::Isa;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use isa::{Avx2, Avx512};
+pub use jacobian::jacobian;
 pub use kernel::{Kernel, Numbers, RoutineOn};
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;

@@ -1,0 +1,106 @@
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use crate::{Dual, Eight, EightNumbers, Routine, WorkOnEight, in_registers};
+
+/// Directions of differentiation that one evaluation takes at once.
+const DIRECTIONS: usize = 8;
+
+/// Evaluates a routine with the exact derivatives of its outputs with respect to some of its coordinates,
+/// torques among them, at constant parameters.
+///
+/// Writes the outputs to `outputs`, and to `derivatives` for each output a row with one entry for each of
+/// the coordinates `by`. An evaluation on dual numbers takes eight coordinates at once, in the vector
+/// registers of this processor.
+///
+/// # Panics
+/// When `constants`, `coordinates` or `outputs` are not as many as the routine's, when `by` is beyond the
+/// coordinates, or when `derivatives` has no room for each output and coordinate.
+///
+/// ```
+/// use nboom_scalar::{Isa, Real, Routine, jacobian};
+/// struct Pendulum;
+/// impl Routine for Pendulum {
+/// #   const RESULT: &'static str = "accelerations";
+/// #   const TOPOLOGY: &'static str = "S1";
+/// #   const FORMULATION: &'static str = "articulated";
+/// #   const ASSUMPTIONS: &'static [(usize, f64)] = &[];
+/// #   const EXTERNAL: bool = false;
+///     const PARAMETERS: usize = 1;
+///     const CONSTANTS: usize = 1;
+///     const COORDINATES: usize = 2;
+///     const OUTPUTS: usize = 1;
+/// #   fn prepare<R: Real>(parameters: &[R], constants: &mut [R]) { constants.copy_from_slice(parameters); }
+///     fn evaluate<R: Real>(k: &[R], x: &[R], out: &mut [R]) {
+///         out[0] = x[1] - k[0] * x[0].sin_cos().0;
+///     }
+/// #   fn evaluate_packed<I: Isa>(k: &[f64], x: &[f64], out: &mut [f64]) { Self::evaluate::<f64>(k, x, out); }
+/// }
+/// let (mut acceleration, mut derivatives) = ([0.0], [0.0; 2]);
+/// jacobian::<Pendulum>(&[9.81], &[0.5, 0.1], 0..2, &mut acceleration, &mut derivatives);
+/// assert!((derivatives[0] + 9.81 * 0.5_f64.cos()).abs() < 1e-14);
+/// assert_eq!(derivatives[1], 1.0);
+/// ```
+pub fn jacobian<T: Routine>(
+    constants: &[f64],
+    coordinates: &[f64],
+    by: Range<usize>,
+    outputs: &mut [f64],
+    derivatives: &mut [f64],
+) {
+    assert!(by.end <= coordinates.len(), "derivatives are by coordinates");
+    assert!(derivatives.len() == outputs.len() * by.len(), "room for each derivative");
+    in_registers(Directions::<T> {
+        constants,
+        coordinates,
+        by,
+        outputs,
+        derivatives,
+        of: PhantomData,
+    });
+}
+
+/// All directions, as many at once as registers hold.
+struct Directions<'a, T> {
+    constants: &'a [f64],
+    coordinates: &'a [f64],
+    by: Range<usize>,
+    outputs: &'a mut [f64],
+    derivatives: &'a mut [f64],
+    of: PhantomData<T>,
+}
+
+impl<T: Routine> WorkOnEight for Directions<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let Self { constants, coordinates, by, outputs, derivatives, .. } = self;
+        let known = |&value: &f64| Dual::constant(R::constant(value));
+        let constants: Vec<Dual<R>> = constants.iter().map(known).collect();
+        let mut point: Vec<Dual<R>> = coordinates.iter().map(known).collect();
+        let mut found = vec![Dual::constant(R::zero()); outputs.len()];
+        // Without any direction the outputs are wanted all the same.
+        for first in by.clone().step_by(DIRECTIONS).chain(by.is_empty().then_some(by.start)) {
+            let directions = first..by.end.min(first + DIRECTIONS);
+            for (lane, i) in directions.clone().enumerate() {
+                let mut along = Eight::splat(0.0);
+                along.0[lane] = 1.0;
+                point[i].derivative = R::load(&along);
+            }
+            T::evaluate(&constants, &point, &mut found);
+            for i in directions.clone() {
+                point[i].derivative = R::zero();
+            }
+            for (row, of_output) in found.iter().enumerate() {
+                let [mut value, mut derivative] = [Eight::splat(0.0); 2];
+                of_output.value.store(&mut value);
+                of_output.derivative.store(&mut derivative);
+                outputs[row] = value.0[0];
+                let start = row * by.len() + (first - by.start);
+                derivatives[start..start + directions.len()]
+                    .copy_from_slice(&derivative.0[..directions.len()]);
+            }
+        }
+    }
+}
