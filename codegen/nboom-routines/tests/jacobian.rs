@@ -7,7 +7,7 @@ use nboom_model::{Body, Hinge, Joint, MassProperties, Mount, Scene, SceneDescrip
 use nboom_routines::{General2Trr, GeneralTrrr, PrincipalS2P};
 use nboom_scalar::{Dual, Mat3, Routine, Sym3, Vec3, jacobian};
 
-use support::Rng;
+use support::{Rng, parameters, state};
 
 mod support;
 
@@ -124,7 +124,10 @@ fn derivatives_of_limbs_are_those_of_the_recursion() {
 
 #[test]
 fn any_coordinates_are_asked_for() {
-    let (k, x) = (vec![1.0; PrincipalS2P::CONSTANTS], vec![0.25; PrincipalS2P::COORDINATES]);
+    let dice = &mut Rng::new(11);
+    let topology = PrincipalS2P::TOPOLOGY.parse().expect("a topology");
+    let (mut k, x) = (vec![0.0; PrincipalS2P::CONSTANTS], state(&topology, true, dice));
+    PrincipalS2P::prepare(&parameters(&topology, PrincipalS2P::ASSUMPTIONS, dice), &mut k);
     let ask = |by: std::ops::Range<usize>| {
         let mut found = vec![0.0; PrincipalS2P::OUTPUTS];
         let mut derivatives = vec![0.0; PrincipalS2P::OUTPUTS * by.len()];
