@@ -226,7 +226,8 @@ impl Code {
                     };
                     format!("formulation {formulation} does not cover {what}")
                 })?;
-                let recognised = recognise(recursion.tree()).ok().map(Box::new);
+                let takes = |found: &Recognised| formulation.takes(&found.topology);
+                let recognised = recognise(recursion.tree()).ok().filter(takes).map(Box::new);
                 Ok(Self::ClosedForm { formulation, recognised })
             }
         };
@@ -245,7 +246,7 @@ impl Code {
                 Err(NoRoutine::because(recognised, pushed, options).to_string())
             }
             (None, Err(_)) if options.path == Path::Generated => Err(
-                "no generated routine covers the scene, which is not made of chains and paddles"
+                "no generated routine covers a main body that is held, or bodies that are not rigid"
                     .to_owned(),
             ),
             (None, _) => library(),
