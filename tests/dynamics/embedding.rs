@@ -213,8 +213,8 @@ fn the_choice_is_what_is_probably_fastest() {
     for (inner, chosen) in [
         ("M", Some("M")),
         ("S2_S1", Some("S2_S1")),
-        ("S4", Some("4xS5")),
-        ("4xS4", Some("4xS5")),
+        ("S4", Some("4xS4")),
+        ("4xS4", Some("4xS4")),
         ("3xS5_S4", Some("4xS5")),
         ("3xS1", Some("4xS1")),
         ("S3_S1", Some("4xS3")),

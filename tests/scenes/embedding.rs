@@ -67,7 +67,7 @@ fn a_deployment_with_staggered_lock_ups_is_that_of_the_recursion() {
     for (mode, why) in [
         (0, "routine for 4xS5, "),
         (1, "routine for 4xS5, 1 of 20 links virtual, "),
-        (8, "routine for 4xS5, 8 of 20 links virtual, "),
+        (8, "routine for 4xS4, 4 of 16 links virtual, "),
         (9, "routine for 4xS3, 1 of 12 links virtual, "),
         (16, "routine for 2xS2, "),
     ] {

@@ -45,13 +45,11 @@ Examples:
 
 pub(crate) const VERIFY: &str = "\
 Examples:
-  nboom verify wing.toml --states 20
-  nboom verify robot.urdf --compiled";
+  nboom verify wing.toml --states 20";
 
 pub(crate) const BENCH: &str = "\
 Examples:
-  nboom bench boom.toml --seconds 0.01
-  nboom bench robot.urdf --compiled --harness";
+  nboom bench boom.toml --seconds 0.01";
 
 #[cfg(feature = "generator")]
 pub(crate) const NEW: &str = "\

@@ -76,14 +76,14 @@ fn verify_and_bench_know_the_routine_that_a_run_embeds_the_scene_in() {
     assert_eq!(code(&run), 0, "{}", stderr(&run));
     let text = stdout(&run);
     let reason = text.lines().find(|line| line.starts_with("code at the start: ")).expect("a line");
-    let embedded = reason.contains("routine for 4xS5, 16 of 20 links virtual");
+    let embedded = reason.contains("routine for 4xS4, 12 of 16 links virtual");
     // Without wide registers the recursion is quicker.
     assert!(embedded || reason.contains("no routine for topology S4"), "{reason}");
     for args in
         [&["verify", "boom.nml", "--states", "4"], &["bench", "boom.nml", "--seconds", "1e-3"]]
     {
         let table = stdout(&nboom_on(&long_boom(), args));
-        assert_eq!(table.contains("  in 4xS5, 16 virtual links"), embedded, "{table}");
+        assert_eq!(table.contains("  in 4xS4, 12 virtual links"), embedded, "{table}");
         assert_eq!(table.contains("not covered"), !embedded, "{table}");
     }
     let lines =
