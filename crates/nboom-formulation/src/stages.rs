@@ -19,6 +19,9 @@ pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, LAW, LINE, POWER, attitude, base
 pub use group::Group;
 pub use limb::{LIMB, LIMB_HINGES, LIMB_TAU_DOT, limb_back, limb_in, of_limb};
 
+/// From numbers one after the other to numbers one after the other.
+pub type Run<R> = dyn Fn(&[R]) -> Vec<R>;
+
 /// A step: what it reads and writes, each a named group of so many numbers.
 pub struct Stage<R: 'static> {
     /// Name, used in generated code.
@@ -32,7 +35,7 @@ pub struct Stage<R: 'static> {
     /// Groups written.
     pub outputs: Vec<Group>,
     /// The step: parameters and inputs one after the other to outputs one after the other.
-    pub run: Box<dyn Fn(&[R]) -> Vec<R>>,
+    pub run: Box<Run<R>>,
 }
 
 /// Mass, first moment and inertia about a body's own point.
