@@ -59,7 +59,8 @@ const SAME_AXIS: f64 = 1e-12;
 ///
 /// # Errors
 /// When the main body is held, or with the first link that does not fit: one that is not rigid or carries a
-/// rotor, or the first of an appendage of more than [`Limb::MOST_LINKS`].
+/// rotor, or the first of an appendage of more than
+/// [`Limb::MOST_LINKS`](nboom_model::Limb::MOST_LINKS).
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
     check(tree)?;
     let mut appendages: Vec<Appendage> = Vec::new();

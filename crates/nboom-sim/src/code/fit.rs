@@ -172,8 +172,13 @@ impl Routines {
         if self.taking.len() == MOST_TOPOLOGIES {
             self.taking.clear();
         }
-        let candidates = self.entries.iter().filter_map(|entry| entry.candidate(topology));
-        self.taking.push((topology.clone(), candidates.collect()));
+        let mut entries: Vec<&Entry> = self.entries.iter().collect();
+        // One for this very topology is often also there for eight states, and the estimate is rough.
+        entries
+            .sort_by_key(|entry| entry.duration * if entry.topology == *topology { 3 } else { 4 });
+        let candidates = entries.into_iter().filter_map(|entry| entry.candidate(topology));
+        let candidates = candidates.collect();
+        self.taking.push((topology.clone(), candidates));
         self.taking.len() - 1
     }
 }
