@@ -196,6 +196,13 @@ impl Automatic {
         window.next_step = window.next_step.min(growth * usual);
     }
 
+    /// Takes note of what the step just taken says of the method that took it.
+    fn note_step(&mut self) {
+        let against = self.is_against();
+        self.against = if against { self.against + 1 } else { self.against.saturating_sub(2) };
+        self.explicit_steps += usize::from(self.active == Active::Explicit);
+    }
+
     /// Makes another method the active one, which goes on counting.
     fn hand_over(&mut self, to: Active, reason: &'static str) {
         let counts = self.window().counts;
@@ -249,14 +256,39 @@ impl Stepper for Automatic {
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
+        let mut attempt = self.begin_step(system, limit)?;
+        while let Some(step) = attempt {
+            self.explicit.take(system, step);
+            attempt = self.judge(limit)?;
+        }
+        Ok(())
+    }
+
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         if let Some((to, reason)) = self.better(system, limit) {
             self.change(system, to, reason);
         }
-        self.stepper_mut().step(system, limit)?;
-        let against = self.is_against();
-        self.against = if against { self.against + 1 } else { self.against.saturating_sub(2) };
-        self.explicit_steps += usize::from(self.active == Active::Explicit);
-        Ok(())
+        let attempt = self.stepper_mut().begin_step(system, limit)?;
+        if attempt.is_none() {
+            self.note_step();
+        }
+        Ok(attempt)
+    }
+
+    fn judge(&mut self, limit: f64) -> Result<Option<f64>, StepError> {
+        let attempt = self.stepper_mut().judge(limit)?;
+        if attempt.is_none() {
+            self.note_step();
+        }
+        Ok(attempt)
+    }
+
+    fn explicit(&mut self) -> Option<&mut RungeKutta> {
+        self.stepper_mut().explicit()
     }
 
     fn prepare_dense(&mut self, system: &mut dyn System) {

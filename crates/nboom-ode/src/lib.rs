@@ -52,7 +52,7 @@ pub use gauss_lanes::GaussLanes;
 pub use method::Method;
 pub use radau::Radau;
 pub use rkam::{Bound, Rkam, RkamSettings};
-pub use runge_kutta::RungeKutta;
+pub use runge_kutta::{EightSteps, RungeKutta};
 pub use stepper::{Choice, Stepper, Window};
 pub use system::{Counts, System, Tolerance};
 pub use taylor::Taylor;

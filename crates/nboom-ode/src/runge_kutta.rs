@@ -4,6 +4,10 @@ use crate::tableau::{DOP853, DOPRI5, Row, Tableau};
 use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
+mod lanes;
+
+pub use lanes::EightSteps;
+
 /// An explicit Runge-Kutta method with step control and dense output.
 #[derive(Clone, Debug)]
 pub struct RungeKutta {
@@ -21,6 +25,19 @@ pub struct RungeKutta {
     /// Terms of dense output, variable by variable.
     dense: Vec<f64>,
     previous_error: f64,
+    attempt: Attempt,
+    /// Whether the stages for dense output are those of the step.
+    has_dense_stages: bool,
+}
+
+/// The step that is tried.
+#[derive(Clone, Copy, Debug, Default)]
+struct Attempt {
+    step: f64,
+    /// Whether it ends at the limit.
+    reaches: bool,
+    /// Whether another one was rejected before.
+    after_rejection: bool,
 }
 
 /// Share of the step it had with which a restart begins: the whole of it costs accuracy where the motion
@@ -55,6 +72,8 @@ impl RungeKutta {
             sums: [Vec::new(), Vec::new()],
             dense: Vec::new(),
             previous_error: SMALL_ERROR,
+            attempt: Attempt::default(),
+            has_dense_stages: false,
         }
     }
 
@@ -80,8 +99,10 @@ impl RungeKutta {
         self.window.counts.evaluations += 1;
     }
 
-    fn take(&mut self, system: &mut dyn System, step: f64) {
+    /// Takes a step of this length, whatever its error.
+    pub fn take(&mut self, system: &mut dyn System, step: f64) {
         let last = self.tableau.stages;
+        self.has_dense_stages = false;
         for stage in 1..last {
             self.evaluate_stage(system, stage, step);
         }
@@ -89,6 +110,21 @@ impl RungeKutta {
         let size = self.size();
         self.window.end_state.copy_from_slice(&self.stage_state[..size]);
         self.evaluate(system, last, step);
+    }
+
+    /// Ends the step after this length, which was [taken](Self::take) whatever its error.
+    pub fn end_after(&mut self, step: f64) {
+        self.step = step;
+        self.window.end_time = self.window.time + step;
+    }
+
+    /// The step that is tried on the way to `limit`; its length.
+    fn propose(&mut self, limit: f64, after_rejection: bool) -> Result<f64, StepError> {
+        let Some((step, reaches)) = self.window.attempt(limit) else {
+            return Err(self.too_short(self.window.next_step));
+        };
+        self.attempt = Attempt { step, reaches, after_rejection };
+        Ok(step)
     }
 
     /// The last step times about the magnitude of the fastest motion's eigenvalue, from the two
@@ -250,37 +286,54 @@ impl Stepper for RungeKutta {
     }
 
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError> {
-        self.window.measure(system);
-        let mut last_rejected = false;
-        loop {
-            let Some((step, reaches)) = self.window.attempt(limit) else {
-                return Err(self.too_short(self.window.next_step));
-            };
-            let start = self.window.time;
+        let mut attempt = self.begin_step(system, limit)?;
+        while let Some(step) = attempt {
             self.take(system, step);
-            let error = self.error_norm(step);
-            if error <= 1.0 {
-                self.step = step;
-                let factor = self.factor(error);
-                let factor = if last_rejected { factor.min(1.0) } else { factor };
-                self.previous_error = error.max(SMALL_ERROR);
-                let end = if reaches { limit } else { start + step };
-                self.window.accept(end, reaches, step * factor);
-                return Ok(());
-            }
-            last_rejected = true;
-            self.window.counts.rejected += 1;
-            self.window.next_step = step * self.factor(error).min(1.0);
-            if start + 0.1 * self.window.next_step == start {
-                return Err(self.too_short(step));
-            }
+            attempt = self.judge(limit)?;
         }
+        Ok(())
+    }
+
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
+        self.window.measure(system);
+        self.propose(limit, false).map(Some)
+    }
+
+    fn explicit(&mut self) -> Option<&mut RungeKutta> {
+        Some(self)
+    }
+
+    fn judge(&mut self, limit: f64) -> Result<Option<f64>, StepError> {
+        let Attempt { step, reaches, after_rejection } = self.attempt;
+        let start = self.window.time;
+        let error = self.error_norm(step);
+        if error <= 1.0 {
+            self.step = step;
+            let factor = self.factor(error);
+            let factor = if after_rejection { factor.min(1.0) } else { factor };
+            self.previous_error = error.max(SMALL_ERROR);
+            let end = if reaches { limit } else { start + step };
+            self.window.accept(end, reaches, step * factor);
+            return Ok(None);
+        }
+        self.window.counts.rejected += 1;
+        self.window.next_step = step * self.factor(error).min(1.0);
+        if start + 0.1 * self.window.next_step == start {
+            return Err(self.too_short(step));
+        }
+        self.propose(limit, true).map(Some)
     }
 
     fn prepare_dense(&mut self, system: &mut dyn System) {
         let last = self.tableau.stages;
-        for stage in last + 1..self.tableau.c.len() {
-            self.evaluate_stage(system, stage, self.step);
+        if !self.has_dense_stages {
+            for stage in last + 1..self.tableau.c.len() {
+                self.evaluate_stage(system, stage, self.step);
+            }
         }
         let (h, stride, count) = (self.step, self.stride, self.terms());
         for i in 0..self.size() {
@@ -319,8 +372,7 @@ impl Stepper for RungeKutta {
 
     fn retake(&mut self, system: &mut dyn System, step: f64) {
         self.take(system, step);
-        self.step = step;
-        self.window.end_time = self.window.time + step;
+        self.end_after(step);
     }
 
     fn move_end(&mut self, system: &mut dyn System, by: f64) -> bool {

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::{Bernstein, Counts, Method, StepError, System};
+use crate::{Bernstein, Counts, Method, RungeKutta, StepError, System};
 
 /// A method that takes one step at a time.
 ///
@@ -31,6 +31,30 @@ pub trait Stepper: Send {
     /// # Errors
     /// When no step that changes the time meets the tolerance; the start is still there.
     fn step(&mut self, system: &mut dyn System, limit: f64) -> Result<(), StepError>;
+
+    /// Begins what [`step`](Self::step) does. An [explicit](Self::explicit) method returns the length of a step
+    /// that is then to be taken and [judged](Self::judge), by whoever evaluates its stages; other methods take
+    /// the step and return none.
+    ///
+    /// # Errors
+    /// As those of [`step`](Self::step).
+    fn begin_step(&mut self, system: &mut dyn System, limit: f64) -> Result<Option<f64>, StepError> {
+        self.step(system, limit).map(|()| None)
+    }
+
+    /// Judges the step that an explicit method was to take on the way to `limit`; none if it is good, else the
+    /// length of another one that is to be taken.
+    ///
+    /// # Errors
+    /// As those of [`step`](Self::step).
+    fn judge(&mut self, _limit: f64) -> Result<Option<f64>, StepError> {
+        Ok(None)
+    }
+
+    /// The explicit method that takes the next step, if one does.
+    fn explicit(&mut self) -> Option<&mut RungeKutta> {
+        None
+    }
 
     /// Prepares [`interpolate`](Self::interpolate) and [`polynomial`](Self::polynomial) for the
     /// step just taken, with further evaluations where the method needs some.

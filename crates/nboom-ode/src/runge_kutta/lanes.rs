@@ -1,0 +1,235 @@
+use nboom_scalar::{Eight, EightNumbers, WorkOnEight, in_registers};
+
+use super::RungeKutta;
+use crate::tableau::{Row, Tableau};
+
+/// Steps of eight systems side by side, each from its own start and of its own length: an explicit method's stages,
+/// one lane of a register for each system.
+///
+/// Nothing goes from one lane to another, so a step does not depend on the others.
+#[derive(Clone, Debug)]
+pub struct EightSteps {
+    tableau: &'static Tableau,
+    /// Variables of each system.
+    size: usize,
+    /// Stages that are evaluated, the one at the start included.
+    count: usize,
+    times: Eight,
+    lengths: Eight,
+    start: Vec<Eight>,
+    /// The stages one after the other.
+    stages: Vec<Eight>,
+    argument: Vec<Eight>,
+    end: Vec<Eight>,
+}
+
+impl EightSteps {
+    /// Steps like those of `one`, `with_dense` with the stages for dense output, too.
+    pub fn like(one: &RungeKutta, with_dense: bool) -> Self {
+        let (tableau, size) = (one.tableau, one.size());
+        let count = if with_dense { tableau.c.len() } else { tableau.stages + 1 };
+        let zeros = |count| vec![Eight::default(); count];
+        Self {
+            tableau,
+            size,
+            count,
+            times: Eight::default(),
+            lengths: Eight::default(),
+            start: zeros(size),
+            stages: zeros(size * count),
+            argument: zeros(size),
+            end: zeros(size),
+        }
+    }
+
+    /// Whether a step of `one` may be among them.
+    pub fn are_like(&self, one: &RungeKutta, with_dense: bool) -> bool {
+        self.tableau.method == one.tableau.method
+            && self.size == one.size()
+            && (self.count > one.tableau.stages + 1) == with_dense
+    }
+
+    /// Variables of each system.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Evaluations of each step.
+    pub fn evaluations(&self) -> usize {
+        self.count - 1
+    }
+
+    /// Puts the step of `one` that has this length into a lane.
+    pub fn put(&mut self, lane: usize, one: &RungeKutta, length: f64) {
+        self.times.0[lane] = one.window.time;
+        self.lengths.0[lane] = length;
+        let variables = self.start.iter_mut().zip(&mut self.stages);
+        for ((start, slope), (y, dy)) in variables.zip(one.window.state.iter().zip(&one.stages)) {
+            (start.0[lane], slope.0[lane]) = (*y, *dy);
+        }
+    }
+
+    /// Puts into the lanes from this one on what the first one has.
+    pub fn repeat_first_from(&mut self, lane: usize) {
+        let places = [&mut self.times, &mut self.lengths].into_iter();
+        let stages = self.stages[..self.size].iter_mut();
+        for numbers in places.chain(&mut self.start).chain(stages) {
+            let first = numbers.0[0];
+            numbers.0[lane..].fill(first);
+        }
+    }
+
+    /// Takes the steps; `derivatives` writes f(t, y) of eight states.
+    pub fn take(&mut self, mut derivatives: impl FnMut(&Eight, &[Eight], &mut [Eight])) {
+        let Self { tableau, size, count, times, lengths, start, stages, argument, end } = self;
+        for stage in 1..*count {
+            let (before, after) = stages.split_at_mut(stage * *size);
+            let weights = tableau.a[stage];
+            in_registers(Argument { start, stages: before, weights, lengths, out: argument });
+            if stage == tableau.stages {
+                end.copy_from_slice(argument);
+            }
+            let share = tableau.c[stage];
+            let time = |lane: usize| times.0[lane] + share * lengths.0[lane];
+            derivatives(&Eight(std::array::from_fn(time)), argument, &mut after[..*size]);
+        }
+    }
+
+    /// Gives `one` the step in a lane, which it put there.
+    pub fn get(&self, lane: usize, one: &mut RungeKutta) {
+        let (size, stride) = (self.size, one.stride);
+        let all = self.stages.chunks_exact(size).zip(one.stages.chunks_exact_mut(stride)).skip(1);
+        for (found, stage) in all {
+            for (number, found) in stage.iter_mut().zip(found) {
+                *number = found.0[lane];
+            }
+        }
+        for (i, found) in self.end.iter().enumerate() {
+            one.window.end_state[i] = found.0[lane];
+            one.stage_state[i] = found.0[lane];
+        }
+        one.has_dense_stages = self.count > self.tableau.stages + 1;
+        one.window.counts.evaluations += self.evaluations();
+    }
+}
+
+/// The argument of a stage of eight systems: the start, and a weighted sum of the stages before.
+struct Argument<'a> {
+    start: &'a [Eight],
+    stages: &'a [Eight],
+    weights: Row,
+    lengths: &'a Eight,
+    out: &'a mut [Eight],
+}
+
+impl WorkOnEight for Argument<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn carry_out<R: EightNumbers>(self) {
+        let Self { start, stages, weights, lengths, out } = self;
+        let (size, length) = (start.len(), R::load(lengths));
+        let (start, stages, out) = (R::all(start), R::all(stages), R::all_mut(out));
+        for i in 0..size {
+            let mut sum = R::zero();
+            for &(stage, weight) in weights {
+                sum = stages[stage * size + i].mul_add(R::constant(weight), sum);
+            }
+            out[i] = sum.mul_add(length, start[i]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Stepper, System, Tolerance};
+
+    /// Pendulums, each with a length of its own.
+    struct Pendulum(f64);
+
+    impl System for Pendulum {
+        fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+            (dy[0], dy[1]) = (y[1], -self.0 * y[0].sin() + 0.1 * t.cos());
+        }
+    }
+
+    const LENGTHS: [f64; 8] = [0.7, 1.1, 0.3, 2.0, 1.7, 0.9, 1.3, 0.2];
+
+    fn tolerance() -> Tolerance {
+        Tolerance { relative: 1e-9, absolute: 1e-12 }
+    }
+
+    /// A started method at a time of its own.
+    fn started(lane: usize, dopri5: bool) -> RungeKutta {
+        let make = if dopri5 { RungeKutta::dopri5 } else { RungeKutta::dop853 };
+        let mut one = make(tolerance());
+        let start = [0.1 + 0.2 * lane as f64, 0.5];
+        one.start(&mut Pendulum(LENGTHS[lane]), 0.3 * lane as f64, &start, 2);
+        one
+    }
+
+    fn derivatives(t: &Eight, y: &[Eight], dy: &mut [Eight]) {
+        for lane in 0..8 {
+            let mut found = [0.0; 2];
+            let one = [y[0].0[lane], y[1].0[lane]];
+            Pendulum(LENGTHS[lane]).derivative(t.0[lane], &one, &mut found);
+            (dy[0].0[lane], dy[1].0[lane]) = (found[0], found[1]);
+        }
+    }
+
+    #[test]
+    fn a_step_side_by_side_is_that_of_the_method_alone() {
+        for dopri5 in [false, true] {
+            let mut steps = EightSteps::like(&started(0, dopri5), true);
+            for lane in 0..8 {
+                steps.put(lane, &started(lane, dopri5), 0.05 + 0.01 * lane as f64);
+            }
+            steps.take(derivatives);
+            for lane in 0..8 {
+                let (length, mut system) = (0.05 + 0.01 * lane as f64, Pendulum(LENGTHS[lane]));
+                let (mut alone, mut beside) = (started(lane, dopri5), started(lane, dopri5));
+                alone.retake(&mut system, length);
+                steps.get(lane, &mut beside);
+                beside.end_after(length);
+                let before = beside.window().counts.evaluations;
+                alone.prepare_dense(&mut system);
+                beside.prepare_dense(&mut system);
+                assert_eq!(beside.window().counts.evaluations, before, "stages were there");
+                let (mut a, mut b) = ([0.0; 2], [0.0; 2]);
+                for fraction in [0.0, 0.3, 0.8, 1.0] {
+                    alone.interpolate(fraction, &mut a);
+                    beside.interpolate(fraction, &mut b);
+                    for (a, b) in a.iter().zip(&b) {
+                        // Products and sums are fused or not.
+                        assert!((a - b).abs() < 1e-15, "lane {lane}: {a} {b}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_does_not_depend_on_those_beside_it() {
+        let mut full = EightSteps::like(&started(0, false), false);
+        for lane in 0..8 {
+            full.put(lane, &started(lane, false), 0.1);
+        }
+        full.take(derivatives);
+        let mut alone = EightSteps::like(&started(0, false), false);
+        alone.put(0, &started(5, false), 0.1);
+        alone.repeat_first_from(1);
+        alone.take(|t, y, dy| {
+            let of_fifth = |numbers: &Eight| Eight::splat(numbers.0[0]);
+            let y: Vec<Eight> = y.iter().map(of_fifth).collect();
+            derivatives(&of_fifth(t), &y, dy);
+            let of_first: Vec<Eight> = dy.iter().map(|found| Eight::splat(found.0[5])).collect();
+            dy.copy_from_slice(&of_first);
+        });
+        let (mut beside, mut by_itself) = (started(5, false), started(5, false));
+        full.get(5, &mut beside);
+        alone.get(0, &mut by_itself);
+        assert_eq!(beside.window().end_state, by_itself.window().end_state);
+        assert_eq!(beside.stages, by_itself.stages);
+    }
+}
