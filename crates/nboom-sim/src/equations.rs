@@ -8,6 +8,7 @@ use nboom_series::Series;
 
 use crate::code::closed_form::{HELD_BASE, NotCovered};
 use crate::code::fit::Repertoire;
+use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{CodeError, under_own_laws};
 use crate::equations::eight_states::At;
@@ -68,6 +69,8 @@ pub(crate) struct Equations {
     momenta: bool,
     /// Whether the angular momentum stands for the rate where nothing changes it.
     momentum_for_rate: bool,
+    /// Whether explicit steps are taken in lanes.
+    lanes: bool,
 }
 
 impl Equations {
@@ -101,6 +104,7 @@ impl Equations {
             evaluations: 0,
             momenta: uses_momenta && options.integrates_momenta(),
             momentum_for_rate: uses_momenta && options.integrator.keeps_invariants(),
+            lanes: options.lanes,
         }
     }
 
@@ -239,6 +243,19 @@ impl Equations {
         self.entered.dynamics.motor_torques(motion, &self.accelerations, out);
     }
 
+    /// The right sides of the mode by which explicit steps are taken in lanes, and the layout of the variables;
+    /// none where they are taken alone.
+    pub fn in_lanes(&self) -> Option<(&RightSides, &VariableLayout)> {
+        let layout = &self.variables.layout;
+        let right_sides = self.entered.side_by_side(layout).filter(|_| self.lanes);
+        right_sides.map(|right_sides| (right_sides, layout))
+    }
+
+    /// Counts evaluations for a step in lanes.
+    pub fn count(&mut self, evaluations: usize) {
+        self.evaluations += evaluations;
+    }
+
     /// The largest rate so far.
     pub fn fastest(&self) -> f64 {
         self.sizes.rate()
@@ -307,6 +324,10 @@ impl System for Equations {
     }
 
     fn takes_eight(&mut self) -> bool {
+        // Lanes that other runs fill are not for stages.
+        if self.in_lanes().is_some() {
+            return false;
+        }
         let Self { scene, commands, variables, entered, .. } = self;
         let takes = entered.takes_eight(&variables.layout);
         if takes {

@@ -40,6 +40,7 @@ mod code;
 mod equations;
 mod error;
 mod events;
+mod lanes;
 mod options;
 mod run;
 
@@ -52,6 +53,7 @@ pub use code::selection::{CodeOfRun, Selection};
 pub use equations::totals::Totals;
 pub use error::{Feeds, SimError};
 pub use events::event::{Event, EventKind, Jump};
+pub use lanes::{Lanes, Task};
 pub use nboom_elements::{Commands, OwnLaw};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
 pub use options::{Form, OptionError, Options, Path};

@@ -90,6 +90,9 @@ pub struct Options {
     pub kernels: &'static [Kernel],
     /// Right sides among the generated routines, on eight states at once.
     pub batches: &'static [Batch],
+    /// Whether explicit steps are taken in lanes of registers, as those of eight runs side by side are
+    /// ([`Lanes`](crate::Lanes)). A run by itself then has the same result as beside others.
+    pub lanes: bool,
 }
 
 impl Default for Options {
@@ -107,6 +110,7 @@ impl Default for Options {
             formulation: None,
             kernels: &[],
             batches: &[],
+            lanes: false,
         }
     }
 }

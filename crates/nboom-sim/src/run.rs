@@ -12,6 +12,7 @@ use crate::events::event::{Event, EventKind};
 use crate::events::guard::{GuardKind, read};
 use crate::events::instant;
 use crate::events::situation::Situation;
+use crate::lanes::Lanes;
 use crate::options::Options;
 use crate::run::ledger::Ledger;
 use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
@@ -70,6 +71,7 @@ struct Run<'a> {
     /// What the recorder was shown last.
     seen: &'a mut Snapshot,
     stepper: &'a mut dyn Stepper,
+    lanes: &'a Lanes,
     ledger: Ledger,
     variables: &'a mut Vec<f64>,
     next_sample: usize,
@@ -91,6 +93,7 @@ impl<'a> Run<'a> {
         stepper: &'a mut dyn Stepper,
         workspace: &'a mut Workspace,
         control: Option<Control<'a>>,
+        lanes: &'a Lanes,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
         let Workspace { situation, scratch, shown, seen, variables, room, summary } = workspace;
@@ -118,6 +121,7 @@ impl<'a> Run<'a> {
             situation,
             equations,
             stepper,
+            lanes,
             variables,
             next_sample: 0,
             burst: (start, 0),
@@ -128,7 +132,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn complete(&mut self) -> Result<(), SimError> {
+    async fn complete(&mut self) -> Result<(), SimError> {
         let Equations { scene, entered, .. } = &*self.equations;
         self.options.check_span(scene.end_time - scene.initial.time)?;
         self.check_period()?;
@@ -141,7 +145,7 @@ impl<'a> Run<'a> {
             if self.situation.is_at_end(&self.equations.scene) {
                 return self.finish();
             }
-            let located = self.integrate_to_next_instant()?;
+            let located = self.integrate_to_next_instant().await?;
             let Equations { scene, entered, .. } = &*self.equations;
             self.situation.arrive(scene, &entered.dynamics, located);
         }
@@ -191,10 +195,10 @@ impl<'a> Run<'a> {
 
     /// Integrates until a guard changes sign, something is scheduled, or the end, and leaves the
     /// situation there. Returns the guard.
-    fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
+    async fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
         let limit = self.situation.limit(&self.equations.scene);
         loop {
-            self.step(limit)?;
+            self.step(limit).await?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
             let guards = &mut self.situation.guards;
             if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
@@ -203,7 +207,7 @@ impl<'a> Run<'a> {
             let change = guards.first_change(self.equations, self.stepper);
             let full = self.stepper.window().length();
             if let Some((kind, fraction)) = change {
-                self.locate(kind, fraction * full, full);
+                self.locate(kind, fraction * full, full).await;
             }
             self.sample_within(full, self.stepper.window().end_time)?;
             self.tell_step(full)?;
@@ -216,14 +220,44 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn step(&mut self, limit: f64) -> Result<(), SimError> {
+    async fn step(&mut self, limit: f64) -> Result<(), SimError> {
         self.check_interrupt(self.situation.state.time)?;
         self.check_progress()?;
         self.check_growth()?;
-        let taken = self.stepper.step(self.equations, limit);
-        taken.map_err(|error| self.stopped(error))?;
+        // Most steps are good, and searched for events.
+        let with_dense = self.recorder.needs_steps() || !self.situation.guards.list.is_empty();
+        let begun = self.stepper.begin_step(self.equations, limit);
+        let mut attempt = begun.map_err(|error| self.stopped(error))?;
+        while let Some(length) = attempt {
+            self.take(length, with_dense).await;
+            let judged = self.stepper.judge(limit);
+            attempt = judged.map_err(|error| self.stopped(error))?;
+        }
         self.note_method();
         Ok(())
+    }
+
+    /// Takes a step of this length by the explicit method, whatever its error, in a lane if the run is to.
+    async fn take(&mut self, length: f64, with_dense: bool) {
+        let Some(explicit) = self.stepper.explicit() else { return };
+        match self.equations.in_lanes() {
+            Some(mode) => {
+                let evaluations = self.lanes.step(explicit, mode, (length, with_dense)).await;
+                self.equations.count(evaluations);
+            }
+            None => explicit.take(self.equations, length),
+        }
+    }
+
+    /// Takes the step again with another length.
+    async fn retake(&mut self, length: f64) {
+        if self.stepper.explicit().is_none() {
+            return self.stepper.retake(self.equations, length);
+        }
+        self.take(length, false).await;
+        if let Some(explicit) = self.stepper.explicit() {
+            explicit.end_after(length);
+        }
     }
 
     /// Notes which method took the step, when that is a change.
@@ -238,11 +272,11 @@ impl<'a> Run<'a> {
     /// Takes the step again so that it ends where the guard is zero: Newton's method on the
     /// integrated motion itself, from the place where dense output has the zero. One step is
     /// mostly enough, whose end is then moved.
-    fn locate(&mut self, kind: GuardKind, guess: f64, full: f64) {
+    async fn locate(&mut self, kind: GuardKind, guess: f64, full: f64) {
         let mut step = guess;
         let mut last_correction = f64::INFINITY;
         for _ in 0..CORRECTIONS {
-            self.stepper.retake(self.equations, step);
+            self.retake(step).await;
             let window = self.stepper.window();
             let time = window.end_time;
             self.equations.read(time, &window.end_state, self.scratch);

@@ -1,6 +1,8 @@
+use std::sync::Arc;
+
 use nboom_dynamics::Recursive;
 use nboom_formulation::{Forces, Recognised, RightSideLayout};
-use nboom_scalar::{Batch, Eight, Numbers, RoutineOn};
+use nboom_scalar::{Batch, Eight, Kernel, Numbers, RoutineOn};
 
 use crate::code::fit::{Fit, Repertoire};
 
@@ -11,7 +13,7 @@ pub(crate) struct RightSide<N> {
     routine: RoutineOn<N>,
     constants: Vec<N>,
     /// For each free hinge, the routine's; none where they are the same.
-    hinges: Option<Vec<usize>>,
+    hinges: Option<Arc<[usize]>>,
     /// Hinges of the routine.
     all_hinges: usize,
     coordinates: Vec<N>,
@@ -21,7 +23,7 @@ pub(crate) struct RightSide<N> {
 /// The right side of a mode, on one state and, where there is such code, on eight.
 pub(crate) struct RightSides {
     pub of_one: RightSide<f64>,
-    pub of_eight: Option<RightSide<Eight>>,
+    batch: Option<Batch>,
 }
 
 impl RightSides {
@@ -39,29 +41,74 @@ impl RightSides {
         for (&link, &hinge) in recognised.links.iter().zip(fit.embedding.hinges()) {
             hinges[link] = hinge;
         }
-        let of_eight = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel));
-        Some(Self {
-            of_eight: of_eight.map(|batch| RightSide::new(*batch, &fit, hinges.clone())),
-            of_one: RightSide::new(fit.kernel, &fit, hinges),
-        })
+        let batch = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel)).copied();
+        Some(Self { of_one: RightSide::new(fit.kernel, &fit, &hinges), batch })
+    }
+
+    /// Whether there is code for eight states.
+    pub fn take_eight(&self) -> bool {
+        self.batch.is_some()
+    }
+
+    /// The right side on eight states of the scene, if there is such code.
+    pub fn of_eight(&self) -> Option<RightSide<Eight>> {
+        self.batch.map(|batch| self.of_one.on(batch))
+    }
+
+    /// Whether `eight` is for any scenes with the right side of this one.
+    pub fn are_in(&self, eight: &RightSide<Eight>) -> bool {
+        let Self { of_one, batch } = self;
+        batch.is_some_and(|batch| batch.is_of_same_routine(&eight.routine))
+            && of_one.hinges == eight.hinges
+    }
+
+    /// Makes a lane of `eight`, which they [are in](Self::are_in), that of their scene.
+    pub fn write_to(&self, lane: usize, eight: &mut RightSide<Eight>) {
+        for (numbers, &of_one) in eight.constants.iter_mut().zip(&self.of_one.constants) {
+            numbers.0[lane] = of_one;
+        }
     }
 }
 
-impl<N: Numbers> RightSide<N> {
-    fn new(routine: RoutineOn<N>, fit: &Fit, hinges: Vec<usize>) -> Self {
-        let zeros = |count| vec![N::splat(0.0); count];
+impl RightSide<f64> {
+    fn new(routine: Kernel, fit: &Fit, hinges: &[usize]) -> Self {
         let all_hinges = fit.embedding.outer().hinges();
         let differ = !hinges.iter().copied().eq(0..all_hinges);
         Self {
-            constants: fit.constants().into_iter().map(N::splat).collect(),
-            hinges: differ.then_some(hinges),
+            constants: fit.constants(),
+            hinges: differ.then(|| hinges.into()),
             all_hinges,
-            coordinates: zeros(routine.coordinates),
-            rates: zeros(routine.outputs),
+            coordinates: vec![0.0; routine.coordinates],
+            rates: vec![0.0; routine.outputs],
             routine,
         }
     }
 
+    /// The same on eight states.
+    fn on(&self, batch: Batch) -> RightSide<Eight> {
+        let zeros = |count| vec![Eight::default(); count];
+        RightSide {
+            constants: self.constants.iter().copied().map(Eight::splat).collect(),
+            hinges: self.hinges.clone(),
+            all_hinges: self.all_hinges,
+            coordinates: zeros(batch.coordinates),
+            rates: zeros(batch.outputs),
+            routine: batch,
+        }
+    }
+}
+
+impl RightSide<Eight> {
+    /// Makes the lanes from this one on those of the first scene.
+    pub fn repeat_first_from(&mut self, lane: usize) {
+        for numbers in &mut self.constants {
+            let first = numbers.0[0];
+            numbers.0[lane..].fill(first);
+        }
+    }
+}
+
+impl<N: Numbers> RightSide<N> {
     /// Writes the rates of attitude, ω, β and τ at `y`, which begins with these, to the beginning of
     /// `dy`, and anything to the rest; returns the power of the parts of the hinge torques that depend on
     /// rates.

@@ -5,7 +5,7 @@ use nboom_model::{Mode, Scene};
 use nboom_scalar::{Eight, Vec3};
 
 use crate::code::fit::Repertoire;
-use crate::code::right_side::RightSides;
+use crate::code::right_side::{RightSide, RightSides};
 use crate::code::selection::Selection;
 use crate::code::{AccelerationCode, CodeError};
 use crate::equations::eight_states::{At, EightStates};
@@ -27,6 +27,8 @@ pub(crate) struct PreparedMode {
     code: AccelerationCode,
     /// What computes all rates of change, if something does.
     right_sides: Option<RightSides>,
+    /// The same on eight states of this scene, made when an integrator asks for it.
+    right_side_of_eight: Option<RightSide<Eight>>,
     selection: Option<Selection>,
     /// Made when an integrator asks for it.
     jacobian: Option<Jacobian>,
@@ -63,6 +65,7 @@ impl PreparedMode {
             dynamics,
             code: AccelerationCode::Recursion,
             right_sides: None,
+            right_side_of_eight: None,
             selection: None,
             jacobian: None,
             eight_states: None,
@@ -134,10 +137,10 @@ impl PreparedMode {
                 self.right_sides = RightSides::fit(dynamics, recognised, repertoire, batches);
             }
             let told = match &self.right_sides {
-                Some(RightSides { of_eight: Some(_), .. }) => {
+                Some(right_sides) if right_sides.take_eight() => {
                     "whole right side, also of eight states"
                 }
-                Some(RightSides { of_eight: None, .. }) => "whole right side",
+                Some(_) => "whole right side",
                 None => "accelerations only",
             };
             selection.reason = format!("{}; {told}", selection.reason).into();
@@ -188,9 +191,7 @@ impl PreparedMode {
         match self.code {
             AccelerationCode::Recursion => true,
             AccelerationCode::Generated(_) => {
-                let of_eight =
-                    self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some());
-                layout.unknowns == Unknowns::Velocities && of_eight
+                layout.unknowns == Unknowns::Velocities && self.has_right_side_of_eight()
             }
             AccelerationCode::ClosedForm(_) | AccelerationCode::UnderOwnLaws(_) => false,
         }
@@ -198,10 +199,32 @@ impl PreparedMode {
 
     /// Makes ready what [`rates_of_eight`](Self::rates_of_eight) needs in `layout`.
     pub fn prepare_eight(&mut self, entry: Entry<'_>, layout: &VariableLayout) {
-        let has_right_side = self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some());
+        let has_right_side = self.has_right_side_of_eight();
+        if has_right_side {
+            self.right_side_of_eight();
+        }
         if !has_right_side || layout.thrust {
             self.eight_states(entry, layout);
         }
+    }
+
+    fn has_right_side_of_eight(&self) -> bool {
+        self.right_sides.as_ref().is_some_and(RightSides::take_eight)
+    }
+
+    fn right_side_of_eight(&mut self) -> Option<&mut RightSide<Eight>> {
+        let Self { right_sides, right_side_of_eight: made, .. } = self;
+        if made.is_none() {
+            *made = right_sides.as_ref().and_then(RightSides::of_eight);
+        }
+        made.as_mut()
+    }
+
+    /// The right sides by which explicit steps may be taken beside those of other runs in `layout`, if
+    /// there are such.
+    pub fn side_by_side(&self, layout: &VariableLayout) -> Option<&RightSides> {
+        let is_all = layout.unknowns == Unknowns::Velocities && !layout.thrust;
+        self.right_sides.as_ref().filter(|right_sides| is_all && right_sides.take_eight())
     }
 
     /// Writes ẏ of eight states to `dy`, if there is code for them in `layout`; returns whether
@@ -216,8 +239,7 @@ impl PreparedMode {
         if !self.takes_eight(layout) {
             return false;
         }
-        let right_side = self.right_sides.as_mut().and_then(|both| both.of_eight.as_mut());
-        let power = right_side.map(|right_side| right_side.write(at.y, dy));
+        let power = self.right_side_of_eight().map(|right_side| right_side.write(at.y, dy));
         match power {
             Some(power) if !layout.thrust => {
                 if let [work] = &mut dy[layout.dashpot_work()] {

@@ -9,6 +9,7 @@ use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::error::SimError;
 use crate::events::situation::Situation;
+use crate::lanes::Lanes;
 use crate::options::Options;
 use crate::run::record::{Failure, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
@@ -91,7 +92,8 @@ impl Simulator {
     /// When the motion cannot be followed to the end or the recorder refuses; what was recorded
     /// until then stands, and the failure says how far the run came.
     pub fn run(&mut self, recorder: &mut dyn Recorder) -> Result<&Summary, Failure> {
-        self.run_under(None, recorder)
+        let lanes = Lanes::new();
+        lanes.finish(self.run_under(None, &lanes, recorder))
     }
 
     /// Runs the scene as [`run`](Self::run) does, under a control law.
@@ -107,18 +109,35 @@ impl Simulator {
         control: Control<'_>,
         recorder: &mut dyn Recorder,
     ) -> Result<&Summary, Failure> {
-        self.run_under(Some(control), recorder)
+        let lanes = Lanes::new();
+        lanes.finish(self.run_under(Some(control), &lanes, recorder))
     }
 
-    fn run_under(
+    /// Runs the scene as [`run`](Self::run) does, its steps beside those of other runs that meet in `lanes` if
+    /// the options say so. Its result does not depend on these.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub async fn run_in(
+        &mut self,
+        lanes: &Lanes,
+        recorder: &mut dyn Recorder,
+    ) -> Result<&Summary, Failure> {
+        self.run_under(None, lanes, recorder).await
+    }
+
+    async fn run_under(
         &mut self,
         control: Option<Control<'_>>,
+        lanes: &Lanes,
         recorder: &mut dyn Recorder,
     ) -> Result<&Summary, Failure> {
         let Self { options, equations, stepper, workspace } = self;
         let control = control.map(|Control { period, law }| Control { period, law });
-        let mut run = Run::new(*options, equations, &mut **stepper, workspace, control, recorder);
-        let completed = run.complete();
+        let stepper = &mut **stepper;
+        let mut run =
+            Run::new(*options, equations, stepper, workspace, control, lanes, recorder);
+        let completed = run.complete().await;
         run.sum_up();
         let summary = &mut self.workspace.summary;
         if let Err(SimError::Interrupted { time }) = completed {
