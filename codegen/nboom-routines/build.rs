@@ -104,7 +104,7 @@ fn right_sides() -> Vec<Request> {
             let thrust = (has_few && !principal).then(|| named("Thrust").with_external_wrench());
             let on_eight = has_few || topology.shapes().len() == 1;
             requests.push(if on_eight { request.on_eight_states() } else { request });
-            requests.extend(pushed.into_iter().chain(thrust));
+            requests.extend(pushed.map(Request::on_eight_states).into_iter().chain(thrust));
         }
     }
     requests

@@ -23,6 +23,7 @@ mod control;
 mod decks;
 mod embedding;
 mod event_times;
+mod lanes;
 mod lock_ups;
 mod momenta;
 mod nbod2;

@@ -257,6 +257,11 @@ pub struct RunArgs {
     #[arg(long)]
     pub no_report: bool,
 
+    /// Take explicit steps as nboom sweep takes those of eight runs side by side: with the numbers of its tables,
+    /// to the last bit.
+    #[arg(long)]
+    pub lanes: bool,
+
     /// Figures for documents.
     #[command(flatten)]
     pub plots: PlotArgs,

@@ -95,7 +95,7 @@ fn arguments(args: &RunArgs, options: Vec<String>) -> RunArgs {
 
 /// The settings of a study as options of `nboom run`.
 pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
-    let RunSettings { stresses, hinge_loads, .. } = *settings;
+    let RunSettings { stresses, hinge_loads, lanes, .. } = *settings;
     let path = settings.path.map(|path| match path {
         Code::Auto => "auto",
         Code::Generated => "generated",
@@ -113,7 +113,7 @@ pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
         ("end-time", settings.end_time.map(|time| time.to_string())),
     ];
     let given = options.into_iter().filter_map(|(name, word)| Some(format!("--{name}={}", word?)));
-    let flags = [("--no-stresses", !stresses), ("--hinge-loads", hinge_loads)];
+    let flags = [("--no-stresses", !stresses), ("--hinge-loads", hinge_loads), ("--lanes", lanes)];
     let flags = flags.into_iter().filter(|(_, is_on)| *is_on).map(|(flag, _)| flag.to_owned());
     given.chain(flags).collect()
 }

@@ -166,7 +166,7 @@ fn options(
     routines: &Routines,
     legacy: &LegacySettings,
 ) -> Result<Options, CliError> {
-    let RunArgs { integrator, rtol, atol, max_events, formulation, .. } = *args;
+    let RunArgs { integrator, rtol, atol, max_events, formulation, lanes, .. } = *args;
     let path = match args.path {
         PathChoice::Generated if formulation == Some(Form::Recursive) => {
             return Err(CliError::GeneratedRecursion);
@@ -186,6 +186,7 @@ fn options(
         formulation,
         kernels,
         batches,
+        lanes,
         ..Options::default()
     };
     if integrator == Method::Rkam {

@@ -1,4 +1,6 @@
-use crate::compiled::{EightStates, as_registers, as_registers_mut};
+use std::cell::RefCell;
+
+use crate::compiled::EightStates;
 use crate::kernel::Numbers;
 use crate::{Pair, Routine, RoutineOn};
 
@@ -46,6 +48,36 @@ impl Numbers for Eight {
     }
 
     fn prepare<T: Routine>(parameters: &[Self], constants: &mut [Self]) {
-        T::prepare::<PortableEight>(as_registers(parameters), as_registers_mut(constants));
+        one_by_one([parameters], constants, |[parameters], out| T::prepare::<f64>(parameters, out));
     }
+}
+
+thread_local! {
+    /// Room for the numbers of one state, so that evaluations allocate nothing.
+    static ROOM: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Computes what is found for each of eight states, one after the other.
+pub(crate) fn one_by_one<const N: usize>(
+    of_eight: [&[Eight]; N],
+    out: &mut [Eight],
+    compute: impl Fn([&[f64]; N], &mut [f64]),
+) {
+    ROOM.with_borrow_mut(|room| {
+        let all: usize = of_eight.iter().map(|numbers| numbers.len()).sum();
+        room.resize(all + out.len(), 0.0);
+        let (inputs, found) = room.split_at_mut(all);
+        for lane in 0..8 {
+            let numbers = of_eight.iter().copied().flatten();
+            inputs.iter_mut().zip(numbers).for_each(|(one, all)| *one = all.0[lane]);
+            let mut rest = &*inputs;
+            let of_one = of_eight.map(|numbers| {
+                let (first, others) = rest.split_at(numbers.len());
+                rest = others;
+                first
+            });
+            compute(of_one, found);
+            out.iter_mut().zip(&*found).for_each(|(all, one)| all.0[lane] = *one);
+        }
+    });
 }

@@ -29,6 +29,8 @@ struct Meeting {
     task: usize,
     /// Tasks whose step is taken.
     woken: Vec<usize>,
+    /// Steps that were taken, and packs of them.
+    taken: [usize; 2],
 }
 
 /// Steps that are taken together.
@@ -40,7 +42,12 @@ struct Pack {
     tasks: Vec<usize>,
     /// How many have still to be fetched, once they are taken.
     waiting: Option<usize>,
+    /// How often others came first.
+    passed_over: usize,
 }
+
+/// How often a pack is passed over until that counts as much as one more step in it.
+const PATIENCE: usize = 8;
 
 /// A run, or several one after the other, that may take steps beside others.
 pub type Task<'a> = Pin<Box<dyn Future<Output = ()> + 'a>>;
@@ -69,7 +76,7 @@ impl Lanes {
     }
 
     /// Brings one task to its end, beside which there is none.
-    pub(crate) fn finish<T>(&self, task: impl Future<Output = T>) -> T {
+    pub fn finish<T>(&self, task: impl Future<Output = T>) -> T {
         let mut context = Context::from_waker(Waker::noop());
         let mut task = pin!(task);
         loop {
@@ -81,6 +88,16 @@ impl Lanes {
             meeting.woken = meeting.advance(woken);
             meeting.woken.clear();
         }
+    }
+
+    /// How many steps were taken here.
+    pub fn steps(&self) -> usize {
+        self.meeting.borrow().taken[0]
+    }
+
+    /// How many packs they were taken in, each of which has eight lanes.
+    pub fn packs(&self) -> usize {
+        self.meeting.borrow().taken[1]
     }
 
     /// Takes a step of this length by `explicit`, whatever its error, `with_dense` with the stages for dense
@@ -137,6 +154,7 @@ impl Meeting {
                     steps: EightSteps::like(explicit, with_dense),
                     tasks: Vec::with_capacity(8),
                     waiting: None,
+                    passed_over: 0,
                 };
                 self.packs.push(pack);
                 self.packs.len() - 1
@@ -145,23 +163,24 @@ impl Meeting {
         let pack = &mut self.packs[place];
         if pack.waiting.take().is_some() {
             pack.tasks.clear();
+            pack.passed_over = 0;
         }
         pack.tasks.push(self.task);
         Some(place)
     }
 
-    /// Takes the steps of full packs, or of the fullest one where none is full; adds to `woken` whose they are.
+    /// Takes the steps of one pack, the fullest unless others have waited for long; adds to `woken` whose they
+    /// are.
     fn advance(&mut self, mut woken: Vec<usize>) -> Vec<usize> {
         let open = self.packs.iter_mut().filter(|pack| pack.waiting.is_none());
-        let mut open: Vec<&mut Pack> = open.collect();
-        open.sort_by_key(|pack| std::cmp::Reverse(pack.tasks.len()));
-        for (i, pack) in open.into_iter().enumerate() {
-            if i > 0 && pack.tasks.len() < 8 {
-                break;
-            }
-            pack.take();
-            woken.extend(&pack.tasks);
+        let urgency = |pack: &&mut Pack| PATIENCE * pack.tasks.len() + pack.passed_over;
+        if let Some(next) = open.max_by_key(urgency) {
+            next.take();
+            self.taken[0] += next.tasks.len();
+            self.taken[1] += 1;
+            woken.extend(&next.tasks);
         }
+        self.packs.iter_mut().for_each(|pack| pack.passed_over += 1);
         woken
     }
 }
@@ -177,7 +196,7 @@ impl Pack {
 
     /// Takes the steps.
     fn take(&mut self) {
-        let Self { right_side, layout, steps, tasks, waiting } = self;
+        let Self { right_side, layout, steps, tasks, waiting, .. } = self;
         if tasks.len() < 8 {
             steps.repeat_first_from(tasks.len());
             right_side.repeat_first_from(tasks.len());

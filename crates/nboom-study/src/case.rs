@@ -4,7 +4,7 @@ use nboom_io::{Diagnostic, InputError, Sampling, SceneFile};
 use nboom_model::{ModelError, Scene};
 use nboom_results::{RunDescription, SummaryFile, WantedOutput, WorstLoads, with_causes};
 use nboom_scalar::{Batch, Kernel};
-use nboom_sim::{Options, OutputTimes, Path, SimError, Simulator, Summary};
+use nboom_sim::{Lanes, Options, OutputTimes, Path, SimError, Simulator, Summary};
 use nboom_strength::{Settings, StrengthError, StressAnalysis};
 
 use crate::observer::Observer;
@@ -185,8 +185,20 @@ impl<'s> Runner<'s> {
 
     /// The row of a case; `None` if it was interrupted.
     pub fn run(&mut self, case: &Case, interrupted: &dyn Fn() -> bool) -> Option<Row> {
+        let lanes = Lanes::new();
+        lanes.finish(self.run_in(&lanes, case, interrupted))
+    }
+
+    /// The row of a case whose steps are taken beside those of others that meet in `lanes`, if the study does not
+    /// say otherwise; `None` if it was interrupted.
+    pub async fn run_in(
+        &mut self,
+        lanes: &Lanes,
+        case: &Case,
+        interrupted: &dyn Fn() -> bool,
+    ) -> Option<Row> {
         let empty = || vec![Value::Empty; self.study.wanted.len()];
-        let (results, states, outcome, status) = match self.results(case, interrupted) {
+        let (results, states, outcome, status) = match self.results(lanes, case, interrupted).await {
             Ok((results, states)) => (results, states, Outcome::Ok, "ok".to_owned()),
             Err(Stop::Interrupted) => return None,
             Err(Stop::Rejected(why)) => {
@@ -208,7 +220,12 @@ impl<'s> Runner<'s> {
         Some(Row { cells, states, outcome })
     }
 
-    fn results(&mut self, case: &Case, interrupted: &dyn Fn() -> bool) -> Result<Results, Stop> {
+    async fn results(
+        &mut self,
+        lanes: &Lanes,
+        case: &Case,
+        interrupted: &dyn Fn() -> bool,
+    ) -> Result<Results, Stop> {
         let prepared = self.prepare(case)?;
         let scene = &prepared.scene;
         let mut observer = Observer {
@@ -223,7 +240,8 @@ impl<'s> Runner<'s> {
             states: Vec::new(),
         };
         let simulator = ready(&mut self.simulator, scene, prepared.options);
-        let summary = simulator.run(&mut observer).map_err(|failure| match failure.error {
+        let ran = simulator.run_in(lanes, &mut observer).await;
+        let summary = ran.map_err(|failure| match failure.error {
             SimError::Interrupted { .. } => Stop::Interrupted,
             error => Stop::Failed(in_one_line(&with_causes(&error))),
         })?;

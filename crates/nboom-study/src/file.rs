@@ -172,8 +172,8 @@ impl<'t> Reader<'t> {
     }
 
     fn run_settings(&mut self, root: &Fields<'t>) -> RunSettings {
-        let stresses = RunSettings { stresses: true, ..RunSettings::default() };
-        let Some(of) = self.table(root, "run") else { return stresses };
+        let usual = RunSettings { stresses: true, lanes: true, ..RunSettings::default() };
+        let Some(of) = self.table(root, "run") else { return usual };
         let number = |reader: &mut Self, key| reader.number(&of, key).map(|found| found.value);
         let code = self.choice(&of, "path").map(|found| match found.value {
             "generated" => Code::Generated,
@@ -192,6 +192,7 @@ impl<'t> Reader<'t> {
             end_time: number(self, "end_time"),
             stresses: self.flag(&of, "stresses").unwrap_or(true),
             hinge_loads: self.flag(&of, "hinge_loads").unwrap_or(false),
+            lanes: self.flag(&of, "lanes").unwrap_or(true),
         };
         if let Err(error) = settings.options().check() {
             self.error(

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use nboom_scalar::{Batch as Lanes, Kernel};
 
+use crate::cases::Cases;
 use crate::description::{Description, Maker};
 use crate::directory::require_made_here;
 use crate::frame::{Batch, Columns, Head};
 use crate::task::{Begin, Report};
-use crate::{Runner, Study, StudyError, columns, trajectory_columns};
+use crate::{Row, Study, StudyError, columns, trajectory_columns};
 
 /// The directory of a sweep that waits for batches of cases from elsewhere, see [`Study::run_batch`].
 ///
@@ -101,14 +102,14 @@ impl Study {
         let of_cases = columns(self);
         let of_states = if self.trajectories { trajectory_columns(self) } else { Vec::new() };
         let tables = Columns { cases: &of_cases, states: &of_states };
-        let mut runner = Runner::new(self, kernels, right_sides);
         let mut batch = Batch::from_case(*cases.start());
-        for number in cases {
-            if interrupted() {
-                return None;
-            }
-            batch.push(&runner.run(&self.case(number), interrupted)?, &tables);
-        }
-        Some(batch.frame())
+        let mut take = |row: Row| {
+            batch.push(&row, &tables);
+            true
+        };
+        let cases = Cases::new(cases, interrupted, &mut take);
+        self.worker(kernels, right_sides)(&cases);
+        let are_done = cases.are_done();
+        are_done.then(|| batch.frame())
     }
 }

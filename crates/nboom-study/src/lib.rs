@@ -6,6 +6,7 @@
 //! [`statistics`] sum up the table of all cases, and [`page`] shows them.
 
 mod case;
+mod cases;
 mod correlation;
 mod description;
 mod directory;
@@ -23,6 +24,7 @@ mod page;
 mod plan;
 mod row;
 mod shard;
+mod side_by_side;
 mod space;
 pub mod statistics;
 mod study;

@@ -163,6 +163,8 @@ pub struct RunSettings {
     pub stresses: bool,
     /// Whether loads of hinges are computed for any scene.
     pub hinge_loads: bool,
+    /// Whether runs take their explicit steps side by side.
+    pub lanes: bool,
 }
 
 impl RunSettings {
@@ -178,6 +180,7 @@ impl RunSettings {
             max_step: self.max_step.unwrap_or(defaults.max_step),
             max_events: self.max_events.unwrap_or(defaults.max_events),
             samples: self.samples.unwrap_or(defaults.samples),
+            lanes: self.lanes,
             ..defaults
         }
     }

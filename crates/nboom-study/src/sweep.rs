@@ -9,8 +9,7 @@ use crate::description::{Description, Maker, Source};
 use crate::directory::SWEPT_SCENE_FILE;
 use crate::gathering::Gathering;
 use crate::task::{Report, Task};
-use crate::workers::Worker;
-use crate::{Runner, Shard, Study, StudyError, Watcher, columns, trajectory_columns};
+use crate::{Shard, Study, StudyError, Watcher, columns, trajectory_columns};
 
 /// All cases of a study, or a part of them, run into a directory.
 #[derive(Clone, Debug)]
@@ -45,10 +44,7 @@ impl Sweep<'_> {
     /// continued.
     pub fn run(&self, watcher: &dyn Watcher) -> Result<Report, StudyError> {
         let study = self.study;
-        let worker = || -> Worker<'_> {
-            let mut runner = Runner::new(study, self.kernels, self.right_sides);
-            Box::new(move |number, interrupted| runner.run(&study.case(number), interrupted))
-        };
+        let worker = || study.worker(self.kernels, self.right_sides);
         self.task(|task| task.run(&worker, self.jobs, watcher))
     }
 

@@ -10,12 +10,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::cases::Cases;
 use crate::frame::{Batch, Columns};
 use crate::journal::Journal;
 use crate::{Row, StudyError, Watcher};
 
-/// Runs the case of a number; none if it is interrupted.
-pub(crate) type Worker<'a> = Box<dyn FnMut(u64, &dyn Fn() -> bool) -> Option<Row> + 'a>;
+/// Runs cases until there are no more.
+pub(crate) type Worker<'a> = Box<dyn FnMut(&Cases<'_>) + 'a>;
 
 /// How long a batch takes, unless there are many threads.
 const BATCH: Duration = Duration::from_millis(250);
@@ -140,29 +141,22 @@ impl Crew<'_, '_> {
     ) -> Result<bool, StudyError> {
         let mut batch = Batch::from_case(*range.start());
         let hand_on = |batch: Batch| batch.cases == 0 || sender.send(batch).is_ok();
-        for case in range {
-            let mut add = || {
-                let row = (!interrupted()).then(|| worker(case, interrupted)).flatten();
-                row.map(|row| batch.push(&row, &self.columns)).is_some()
-            };
-            let added = match catch_unwind(AssertUnwindSafe(&mut add)) {
-                Ok(added) => added,
-                Err(panic) => {
-                    hand_on(batch);
-                    return Err(StudyError::Panic { case, found: told(panic.as_ref()) });
-                }
-            };
-            if !added {
-                hand_on(batch);
-                return Ok(false);
+        let mut take = |row: Row| {
+            batch.push(&row, &self.columns);
+            if batch.bytes() < MOST_BYTES {
+                return true;
             }
-            if batch.bytes() >= MOST_BYTES
-                && !hand_on(std::mem::replace(&mut batch, Batch::from_case(case + 1)))
-            {
-                return Ok(false);
-            }
+            let next = Batch::from_case(batch.range().end() + 1);
+            hand_on(std::mem::replace(&mut batch, next))
+        };
+        let cases = Cases::new(range, interrupted, &mut take);
+        let ran = catch_unwind(AssertUnwindSafe(|| worker(&cases)));
+        let (case, are_done) = (cases.present(), cases.are_done());
+        let is_taken = hand_on(batch);
+        match ran {
+            Ok(()) => Ok(is_taken && are_done),
+            Err(panic) => Err(StudyError::Panic { case, found: told(panic.as_ref()) }),
         }
-        Ok(hand_on(batch))
     }
 }
 

@@ -45,9 +45,11 @@ impl Fake {
 
     pub fn run(&self, directory: &Path, watcher: &dyn Watcher) -> Result<Report, StudyError> {
         let worker = || -> Worker<'_> {
-            Box::new(|case, _| {
-                assert_ne!(case, self.broken, "a fault of the case");
-                Some(row(self.seed, case))
+            Box::new(|cases| {
+                while let Some(case) = cases.next() {
+                    assert_ne!(case, self.broken, "a fault of the case");
+                    cases.add(case, Some(row(self.seed, case)));
+                }
             })
         };
         let task = Task {

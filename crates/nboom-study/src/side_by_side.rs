@@ -1,0 +1,46 @@
+//! Cases of one thread that run side by side.
+
+use std::future::{Future, poll_fn};
+use std::pin::pin;
+
+use nboom_scalar::{Batch, Kernel};
+use nboom_sim::{Lanes, Task};
+
+use crate::cases::Cases;
+use crate::workers::Worker;
+use crate::{Runner, Study};
+
+/// Runs of one thread that go on at once. With several times as many as lanes, few steps wait long for others by
+/// the same code, and what all of them need still fits the cache of a core.
+const AT_ONCE: usize = 32;
+
+impl Study {
+    /// What runs cases in one thread, by this generated code.
+    pub(crate) fn worker(
+        &self,
+        kernels: &'static [Kernel],
+        right_sides: &'static [Batch],
+    ) -> Worker<'_> {
+        let at_once = if self.run.lanes { AT_ONCE } else { 1 };
+        let runner = |_| Runner::new(self, kernels, right_sides);
+        let mut runners: Vec<Runner<'_>> = (0..at_once).map(runner).collect();
+        let lanes = Lanes::new();
+        Box::new(move |cases| {
+            let task = |runner| -> Task<'_> { Box::pin(self.follow(runner, &lanes, cases)) };
+            lanes.carry_out(runners.iter_mut().map(task).collect());
+        })
+    }
+
+    /// Runs one case after the other, beside others that do the same.
+    async fn follow(&self, runner: &mut Runner<'_>, lanes: &Lanes, cases: &Cases<'_>) {
+        while let Some(number) = cases.next() {
+            let case = self.case(number);
+            let mut run = pin!(runner.run_in(lanes, &case, cases.interrupted()));
+            let go_on = poll_fn(|context| {
+                cases.go_on(number);
+                run.as_mut().poll(context)
+            });
+            cases.add(number, go_on.await);
+        }
+    }
+}

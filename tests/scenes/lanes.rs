@@ -1,0 +1,104 @@
+//! Runs side by side, whose steps are taken in lanes: each is what it is alone.
+
+use std::cell::RefCell;
+
+use nboom::model::{Scene, SceneDescription};
+use nboom::scalar::InstructionSet;
+use nboom::sim::{Lanes, Method, Options, Simulator, Summary, Task};
+
+use crate::catalog::Reference;
+use crate::collect::{Collected, run, tight};
+use crate::random_scene::Rng;
+use crate::trajectories::agrees;
+
+fn options(samples: usize) -> Options {
+    Options {
+        kernels: nboom_routines::for_runs(),
+        batches: nboom_routines::right_sides_of_eight(),
+        lanes: true,
+        ..tight(samples)
+    }
+}
+
+/// The scene with other masses and another spin, a few per cent away.
+fn dispersed(scene: &Scene, seed: u64) -> Scene {
+    let mut dice = Rng::new(seed);
+    let mut description: SceneDescription = (**scene).clone();
+    for body in &mut description.bodies {
+        body.mass_properties.mass *= dice.between(1.0, 1.02);
+    }
+    description.initial.omega_body = description.initial.omega_body * dice.between(0.99, 1.01);
+    Scene::new(description).expect("a physical scene")
+}
+
+/// Runs scenes side by side, as many at once as are said.
+fn beside(scenes: &[Scene], options: Options, at_once: usize) -> Vec<(Collected, Summary)> {
+    let lanes = Lanes::new();
+    let left = RefCell::new(scenes.iter().enumerate());
+    let found = RefCell::new(Vec::new());
+    let task = async || {
+        let next = || left.borrow_mut().next();
+        while let Some((number, scene)) = next() {
+            let mut collected = Collected::default();
+            let mut simulator = Simulator::new(scene, options);
+            let summary = simulator.run_in(&lanes, &mut collected).await.expect("it runs").clone();
+            found.borrow_mut().push((number, (collected, summary)));
+        }
+    };
+    lanes.carry_out((0..at_once).map(|_| -> Task<'_> { Box::pin(task()) }).collect());
+    let mut found = found.into_inner();
+    found.sort_by_key(|(number, _)| *number);
+    found.into_iter().map(|(_, run)| run).collect()
+}
+
+#[test]
+fn a_run_does_not_depend_on_those_beside_it() {
+    let mut scenes = Vec::new();
+    for reference in Reference::all() {
+        scenes.extend((0..5).map(|seed| dispersed(&reference.scene(), seed)));
+    }
+    for options in [
+        options(10),
+        Options { integrator: Method::Dopri5, rtol: 1e-6, atol: 1e-9, ..options(10) },
+    ] {
+        let alone: Vec<(Collected, Summary)> =
+            scenes.iter().map(|scene| run(scene, &options)).collect();
+        for at_once in [3, 16] {
+            let found = beside(&scenes, options, at_once);
+            assert_eq!(found.len(), scenes.len());
+            for (((found, summary), (alone, of_alone)), scene) in
+                found.iter().zip(&alone).zip(&scenes)
+            {
+                assert_eq!(found.samples, alone.samples, "{}", scene.name);
+                assert_eq!(found.events, alone.events, "{}", scene.name);
+                assert_eq!(summary, of_alone, "{}", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn runs_in_lanes_agree_with_the_references() {
+    for reference in Reference::all() {
+        let (found, _) = run(&reference.scene(), &options(reference.intervals()));
+        agrees("lanes", &found, &reference);
+    }
+}
+
+#[test]
+fn lanes_are_filled_by_runs_of_one_kind() {
+    if InstructionSet::of_this_processor() == InstructionSet::Portable {
+        return;
+    }
+    let reference = Reference::load("report_testcase");
+    let scenes: Vec<Scene> = (0..40).map(|seed| dispersed(&reference.scene(), seed)).collect();
+    let lanes = Lanes::new();
+    let task = async |scene: &Scene| {
+        let mut simulator = Simulator::new(scene, options(1));
+        simulator.run_in(&lanes, &mut Collected::default()).await.expect("it runs");
+    };
+    lanes.carry_out(scenes.iter().map(|scene| -> Task<'_> { Box::pin(task(scene)) }).collect());
+    let filled = lanes.steps() as f64 / (8 * lanes.packs()) as f64;
+    assert!(lanes.steps() > 40 * 40, "{} steps in lanes", lanes.steps());
+    assert!(filled > 0.5, "{filled} of all lanes are filled");
+}
