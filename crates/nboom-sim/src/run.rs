@@ -69,6 +69,8 @@ struct Run<'a> {
     shown: &'a mut State,
     /// What the recorder was shown last.
     seen: &'a mut Snapshot,
+    /// The motion before and after the present instant, where it is wanted.
+    sides: &'a mut [Snapshot; 2],
     stepper: &'a mut dyn Stepper,
     ledger: Ledger,
     variables: &'a mut Vec<f64>,
@@ -93,7 +95,8 @@ impl<'a> Run<'a> {
         control: Option<Control<'a>>,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
-        let Workspace { situation, scratch, shown, seen, variables, room, summary } = workspace;
+        let Workspace { situation, scratch, shown, seen, sides, variables, room, summary } =
+            workspace;
         stepper.reset();
         equations.begin();
         situation.begin(&equations.scene, &equations.start, &mut equations.entered.dynamics);
@@ -115,6 +118,7 @@ impl<'a> Run<'a> {
             scratch,
             shown,
             seen,
+            sides,
             situation,
             equations,
             stepper,
@@ -156,9 +160,9 @@ impl<'a> Run<'a> {
 
     /// Changes the mode as the instant demands and starts integration anew.
     fn pass_instant(&mut self) -> Result<(), SimError> {
-        let before = self.before_instant()?;
+        let has_before = self.before_instant()?;
         let Equations { scene, entered, .. } = &mut *self.equations;
-        self.situation.pass(scene, &mut entered.dynamics)?;
+        self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let (time, is_first) = (state.time, state.time <= scene.initial.time);
         self.equations.enter(mode, state, self.variables);
@@ -184,7 +188,7 @@ impl<'a> Run<'a> {
         let Equations { scene, entered, .. } = &*self.equations;
         self.situation.watch(scene, &entered.dynamics);
         finite::check_instant(scene, time, &self.situation.outcome)?;
-        self.tell_instant(before)?;
+        self.tell_instant(has_before)?;
         self.report()?;
         self.check_chatter()
     }

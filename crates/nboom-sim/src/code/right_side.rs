@@ -10,8 +10,10 @@ use crate::code::fit::{Fit, Repertoire};
 pub(crate) struct RightSide<N> {
     routine: RoutineOn<N>,
     constants: Vec<N>,
-    /// For each free hinge, the routine's; none where they are the same.
-    hinges: Option<Vec<usize>>,
+    /// For each free hinge, the routine's.
+    hinges: Vec<usize>,
+    /// Whether these are the same, in the same order.
+    are_same: bool,
     /// Hinges of the routine.
     all_hinges: usize,
     coordinates: Vec<N>,
@@ -20,6 +22,7 @@ pub(crate) struct RightSide<N> {
 
 /// The right side of a mode, on one state and, where there is such code, on eight.
 pub(crate) struct RightSides {
+    fit: Fit,
     pub of_one: RightSide<f64>,
     pub of_eight: Option<RightSide<Eight>>,
 }
@@ -35,26 +38,55 @@ impl RightSides {
     ) -> Option<Self> {
         let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised)?;
         let fit = repertoire.right_side(recognised, &forces)?;
-        let mut hinges = vec![0; recognised.links.len()];
-        for (&link, &hinge) in recognised.links.iter().zip(fit.embedding.hinges()) {
-            hinges[link] = hinge;
-        }
         let of_eight = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel));
-        Some(Self {
-            of_eight: of_eight.map(|batch| RightSide::new(*batch, &fit, hinges.clone())),
-            of_one: RightSide::new(fit.kernel, &fit, hinges),
-        })
+        let mut sides = Self {
+            of_eight: of_eight.map(|batch| RightSide::new(*batch, &fit)),
+            of_one: RightSide::new(fit.kernel, &fit),
+            fit,
+        };
+        sides.prepare(recognised);
+        Some(sides)
+    }
+
+    /// Takes the numbers of another satellite in the same mode, if the same routines are the best there.
+    pub fn renew(
+        &mut self,
+        dynamics: &Recursive<f64>,
+        recognised: &Recognised,
+        repertoire: &mut Repertoire,
+    ) -> bool {
+        let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised);
+        let is_same = forces
+            .is_some_and(|forces| repertoire.renew_right_side(&mut self.fit, recognised, &forces));
+        if is_same {
+            self.prepare(recognised);
+        }
+        is_same
+    }
+
+    /// Takes the numbers of the fit to a mode whose tree was `recognised`.
+    fn prepare(&mut self, recognised: &Recognised) {
+        let Self { fit, of_one, of_eight } = self;
+        fit.write_constants(&mut of_one.constants);
+        of_one.place(recognised, fit);
+        if let Some(of_eight) = of_eight {
+            let numbers = of_eight.constants.iter_mut().zip(&of_one.constants);
+            numbers.for_each(|(eight, &one)| *eight = Eight::splat(one));
+            of_eight.place(recognised, fit);
+        }
     }
 }
 
 impl<N: Numbers> RightSide<N> {
-    fn new(routine: RoutineOn<N>, fit: &Fit, hinges: Vec<usize>) -> Self {
+    /// With room for the numbers of a mode.
+    fn new(routine: RoutineOn<N>, fit: &Fit) -> Self {
         let zeros = |count| vec![N::splat(0.0); count];
+        let hinges = fit.embedding.hinges().to_vec();
         let all_hinges = fit.embedding.outer().hinges();
-        let differ = !hinges.iter().copied().eq(0..all_hinges);
         Self {
-            constants: fit.constants().into_iter().map(N::splat).collect(),
-            hinges: differ.then_some(hinges),
+            constants: zeros(routine.constants),
+            hinges,
+            are_same: false,
             all_hinges,
             coordinates: zeros(routine.coordinates),
             rates: zeros(routine.outputs),
@@ -62,14 +94,22 @@ impl<N: Numbers> RightSide<N> {
         }
     }
 
+    /// Notes where the numbers of each link stand.
+    fn place(&mut self, recognised: &Recognised, fit: &Fit) {
+        for (&link, &hinge) in recognised.links.iter().zip(fit.embedding.hinges()) {
+            self.hinges[link] = hinge;
+        }
+        self.are_same = self.hinges.iter().copied().eq(0..self.all_hinges);
+    }
+
     /// Writes the rates of attitude, ω, β and τ at `y`, which begins with these, to the beginning of
     /// `dy`, and anything to the rest; returns the power of the parts of the hinge torques that depend on
     /// rates.
     pub fn write(&mut self, y: &[N], dy: &mut [N]) -> N {
-        let Self { routine, constants, hinges, all_hinges, coordinates, rates } = self;
+        let Self { routine, constants, hinges, are_same, all_hinges, coordinates, rates } = self;
         let first = RightSideLayout::STATE;
         let power = first + 2 * *all_hinges;
-        let Some(hinges) = hinges else {
+        if *are_same {
             if let Some(dy) = dy.get_mut(..=power) {
                 // What belongs in the place of the power is not written yet.
                 routine.evaluate(constants, &y[..power], dy);
@@ -78,7 +118,7 @@ impl<N: Numbers> RightSide<N> {
             routine.evaluate(constants, &y[..power], rates);
             dy.copy_from_slice(&rates[..power]);
             return rates[power];
-        };
+        }
         let end = first + 2 * hinges.len();
         coordinates[..first].copy_from_slice(&y[..first]);
         let (of_beta, of_tau) = y[first..end].split_at(hinges.len());

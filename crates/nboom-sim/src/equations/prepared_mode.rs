@@ -1,6 +1,8 @@
+use std::sync::Arc;
+
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, Reach};
-use nboom_formulation::recognise;
+use nboom_formulation::{Recognised, Uncovered, recognise};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Eight, Vec3};
 
@@ -28,6 +30,8 @@ pub(crate) struct PreparedMode {
     /// What computes all rates of change, if something does.
     right_sides: Option<RightSides>,
     selection: Option<Selection>,
+    /// Whether the code has the numbers of the mode, and not those of one of the same kind.
+    is_fitted: bool,
     /// Made when an integrator asks for it.
     jacobian: Option<Jacobian>,
     /// Likewise; none where there are no registers for them.
@@ -46,16 +50,16 @@ pub(crate) struct Entry<'a> {
 }
 
 impl PreparedMode {
-    /// The mode of the scene of `dynamics` in which held hinges are at `beta`, for what `commands`
-    /// act on.
+    /// The mode of `satellite` in which held hinges are at `beta`, for what `commands` act on.
     pub fn new(
         mut dynamics: Recursive<f64>,
+        satellite: &Arc<Scene>,
         mode: &Mode,
         commands: &Commands,
         beta: impl Fn(usize) -> f64,
     ) -> Self {
         let beta: Vec<f64> = (0..mode.hinges.len()).map(beta).collect();
-        dynamics.set_mode(mode, &beta);
+        dynamics.set_scene(satellite, mode, &beta);
         Self {
             mode: mode.clone(),
             beta,
@@ -64,17 +68,31 @@ impl PreparedMode {
             code: AccelerationCode::Recursion,
             right_sides: None,
             selection: None,
+            is_fitted: false,
             jacobian: None,
             eight_states: None,
         }
     }
 
-    /// Whether it is this mode, with held hinges at these angles, and for what `commands` act on.
-    pub fn is(&self, mode: &Mode, commands: &Commands, beta: impl Fn(usize) -> f64) -> bool {
-        let is_held_there = |i: usize| mode.is_free(i) || self.beta[i] == beta(i);
-        self.mode == *mode
-            && self.reach == commands.reach()
-            && (0..self.beta.len()).all(is_held_there)
+    /// Whether it is this mode of some satellite, for what `commands` act on.
+    pub fn is_alike(&self, mode: &Mode, commands: &Commands) -> bool {
+        self.mode == *mode && self.reach == commands.reach()
+    }
+
+    /// Makes it that of `satellite` with held hinges at `beta`, of which it [is one](Self::is_alike), in the
+    /// room that it has.
+    pub fn make(&mut self, satellite: &Arc<Scene>, beta: impl Fn(usize) -> f64) {
+        let is_held_there = |i: usize| self.mode.is_free(i) || self.beta[i] == beta(i);
+        if Arc::ptr_eq(self.dynamics.scene(), satellite) && (0..self.beta.len()).all(is_held_there)
+        {
+            return;
+        }
+        for (i, angle) in self.beta.iter_mut().enumerate() {
+            *angle = beta(i);
+        }
+        self.dynamics.set_scene(satellite, &self.mode, &self.beta);
+        self.is_fitted = false;
+        (self.jacobian, self.eight_states) = (None, None);
     }
 
     /// Holds `commands`, which act on what it is [for](Self::is), in place of those that it held.
@@ -117,20 +135,56 @@ impl PreparedMode {
         options: &Options,
         since: f64,
     ) -> Result<Selection, CodeError> {
-        if let Some(selection) = &self.selection {
-            return Ok(Selection { since, ..selection.clone() });
+        if let (Some(known), true) = (&self.selection, self.is_fitted) {
+            return Ok(Selection { since, ..known.clone() });
         }
         let recognised = recognise(self.dynamics.tree());
+        let same = self.selection.take().filter(|_| self.renew(&recognised, repertoire));
+        let chosen = match same {
+            Some(same) => Selection { since, ..same },
+            None => self.choose(scene, own, &recognised, (repertoire, options), since)?,
+        };
+        (self.selection, self.is_fitted) = (Some(chosen.clone()), true);
+        Ok(chosen)
+    }
+
+    /// Takes the numbers of another satellite to the code that was chosen before, if it would be chosen again;
+    /// then the reason is the same, too.
+    fn renew(
+        &mut self,
+        recognised: &Result<Recognised, Uncovered>,
+        repertoire: &mut Repertoire,
+    ) -> bool {
+        let Self { dynamics, code, right_sides, reach, .. } = self;
+        let (AccelerationCode::Generated(routine), Ok(recognised)) = (code, recognised) else {
+            return false;
+        };
+        routine.renew(dynamics, recognised, repertoire)
+            && match right_sides {
+                Some(sides) => sides.renew(dynamics, recognised, repertoire),
+                None => *reach != Reach::Nothing,
+            }
+    }
+
+    fn choose(
+        &mut self,
+        scene: &Scene,
+        own: &OwnLaws,
+        recognised: &Result<Recognised, Uncovered>,
+        (repertoire, options): (&mut Repertoire, &Options),
+        since: f64,
+    ) -> Result<Selection, CodeError> {
+        let dynamics = &self.dynamics;
         let (code, mut selection) = if own.is_empty() {
-            let dynamics = &self.dynamics;
-            AccelerationCode::choose(scene, dynamics, &recognised, repertoire, options, since)?
+            AccelerationCode::choose(scene, dynamics, recognised, repertoire, options, since)?
         } else {
             AccelerationCode::under_own_laws(own, since)
         };
-        if let (AccelerationCode::Generated(_), Ok(recognised)) = (&code, &recognised) {
+        self.right_sides = None;
+        if let (AccelerationCode::Generated(_), Ok(recognised)) = (&code, recognised) {
             // Hinge laws are built into right sides.
             if self.reach == Reach::Nothing {
-                let (dynamics, batches) = (&self.dynamics, options.batches);
+                let batches = options.batches;
                 self.right_sides = RightSides::fit(dynamics, recognised, repertoire, batches);
             }
             let told = match &self.right_sides {
@@ -142,7 +196,7 @@ impl PreparedMode {
             };
             selection.reason = format!("{}; {told}", selection.reason).into();
         }
-        (self.code, self.selection) = (code, Some(selection.clone()));
+        self.code = code;
         Ok(selection)
     }
 
