@@ -1,6 +1,6 @@
 //! The one place that lists the force elements.
 
-use nboom_model::{Hinge, Mode, Scene, WeldedTree};
+use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{Mat3, Real, Twist, Vec3, Wrench};
 
 use crate::{Coordinate, Line, Names, Placed, Switched};
@@ -10,6 +10,7 @@ mod coupling;
 mod external;
 mod gravity;
 mod hinge_law;
+mod hinge_torque;
 mod kick_off;
 mod own_law;
 mod torque_table;
@@ -20,9 +21,9 @@ use coupling::CouplingLaw;
 pub use external::Push;
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
+pub use hinge_torque::HingeTorque;
 pub use kick_off::KickOffLaw;
 pub use own_law::{OwnLaw, OwnLaws};
-use torque_table::TablePiece;
 use withheld::WithheldMoment;
 
 /// The kinds of elements that are told apart in messages and files.
@@ -62,62 +63,6 @@ pub(crate) fn switched(
     for table in &scene.torque_tables {
         let angles = &mut table.points.iter().map(|point| point[0]);
         each(Kind::TorqueTable, table.hinge, Coordinate::Angle(table.hinge), angles);
-    }
-}
-
-/// The torque about one hinge: of its spring and dashpot, and of its table where it has one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HingeTorque<R> {
-    law: HingeLaw<R>,
-    table: Option<TablePiece<R>>,
-}
-
-impl<R: Real> HingeTorque<R> {
-    /// Writes that of each hinge of `scene` in `mode` to `all`.
-    fn write_all(scene: &Scene, mode: &Mode, all: &mut Vec<Self>) {
-        let hinges = scene.bodies.iter().map(|body| &body.hinge);
-        let law = |hinge: &Hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot);
-        all.clear();
-        all.extend(hinges.map(|hinge| Self { law: law(hinge), table: None }));
-        // Tables come last among the elements of a mode.
-        let first = mode.pieces.len() - scene.torque_tables.len();
-        for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
-            all[table.hinge].table = Some(TablePiece::new(table, piece));
-        }
-    }
-
-    /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
-    #[inline(always)]
-    pub fn torque(&self, beta: R, tau: R) -> R {
-        let torque = self.law.torque(beta, tau);
-        match &self.table {
-            Some(table) => torque + table.torque(beta),
-            None => torque,
-        }
-    }
-
-    /// The law of spring and dashpot, where they are all that acts about the hinge.
-    pub fn law(&self) -> Option<&HingeLaw<R>> {
-        self.table.is_none().then_some(&self.law)
-    }
-
-    /// The part of the torque that depends on the rate, and does work no potential accounts for.
-    #[inline(always)]
-    pub fn rate_torque(&self, tau: R) -> R {
-        self.law.rate_torque(tau)
-    }
-
-    /// Potential energy of the part that depends on the angle.
-    pub fn potential(&self, beta: R) -> R {
-        let potential = self.law.potential(beta);
-        self.table.as_ref().map_or(potential, |table| potential + table.potential(beta))
-    }
-}
-
-impl HingeTorque<f64> {
-    /// Whether the torque depends on the rate.
-    pub fn depends_on_rate(&self) -> bool {
-        self.law.depends_on_rate()
     }
 }
 
@@ -194,8 +139,7 @@ impl<R: Real> Elements<R> {
         let hinges = scene.bodies.iter().map(|body| &body.hinge);
         let of_hinges = self.torques.iter_mut().zip(hinges.zip(commands.hinge_torques()));
         for (torque, (hinge, &commanded)) in of_hinges {
-            let law = HingeLaw::new(&hinge.spring, &hinge.dashpot);
-            torque.law = law.with_constant(R::constant(commanded));
+            torque.hold(hinge, commanded);
         }
         self.commanded = commands::held(commands);
         self.external = on_main_link(&self.pushes, self.commanded);

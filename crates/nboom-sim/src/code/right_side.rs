@@ -24,7 +24,9 @@ pub(crate) struct RightSide<N> {
 pub(crate) struct RightSides {
     fit: Fit,
     pub of_one: RightSide<f64>,
-    pub of_eight: Option<RightSide<Eight>>,
+    of_eight: Option<RightSide<Eight>>,
+    /// Whether the numbers for eight states are those of the fit; not all integrators ask for them.
+    eight_are_prepared: bool,
 }
 
 impl RightSides {
@@ -42,6 +44,7 @@ impl RightSides {
         let mut sides = Self {
             of_eight: of_eight.map(|batch| RightSide::new(*batch, &fit)),
             of_one: RightSide::new(fit.kernel, &fit),
+            eight_are_prepared: false,
             fit,
         };
         sides.prepare(recognised);
@@ -66,14 +69,30 @@ impl RightSides {
 
     /// Takes the numbers of the fit to a mode whose tree was `recognised`.
     fn prepare(&mut self, recognised: &Recognised) {
-        let Self { fit, of_one, of_eight } = self;
+        let Self { fit, of_one, of_eight, eight_are_prepared } = self;
         fit.write_constants(&mut of_one.constants);
         of_one.place(recognised, fit);
         if let Some(of_eight) = of_eight {
-            let numbers = of_eight.constants.iter_mut().zip(&of_one.constants);
-            numbers.for_each(|(eight, &one)| *eight = Eight::splat(one));
             of_eight.place(recognised, fit);
         }
+        *eight_are_prepared = false;
+    }
+
+    /// Whether there is code for eight states.
+    pub fn takes_eight(&self) -> bool {
+        self.of_eight.is_some()
+    }
+
+    /// That on eight states, if there is one.
+    pub fn of_eight(&mut self) -> Option<&mut RightSide<Eight>> {
+        let Self { of_one, of_eight, eight_are_prepared, .. } = self;
+        let of_eight = of_eight.as_mut()?;
+        if !*eight_are_prepared {
+            let numbers = of_eight.constants.iter_mut().zip(&of_one.constants);
+            numbers.for_each(|(eight, &one)| *eight = Eight::splat(one));
+            *eight_are_prepared = true;
+        }
+        Some(of_eight)
     }
 }
 

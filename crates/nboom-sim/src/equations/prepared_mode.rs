@@ -188,10 +188,8 @@ impl PreparedMode {
                 self.right_sides = RightSides::fit(dynamics, recognised, repertoire, batches);
             }
             let told = match &self.right_sides {
-                Some(RightSides { of_eight: Some(_), .. }) => {
-                    "whole right side, also of eight states"
-                }
-                Some(RightSides { of_eight: None, .. }) => "whole right side",
+                Some(sides) if sides.takes_eight() => "whole right side, also of eight states",
+                Some(_) => "whole right side",
                 None => "accelerations only",
             };
             selection.reason = format!("{}; {told}", selection.reason).into();
@@ -242,8 +240,7 @@ impl PreparedMode {
         match self.code {
             AccelerationCode::Recursion => true,
             AccelerationCode::Generated(_) => {
-                let of_eight =
-                    self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some());
+                let of_eight = self.right_sides.as_ref().is_some_and(RightSides::takes_eight);
                 layout.unknowns == Unknowns::Velocities && of_eight
             }
             AccelerationCode::ClosedForm(_) | AccelerationCode::UnderOwnLaws(_) => false,
@@ -252,7 +249,7 @@ impl PreparedMode {
 
     /// Makes ready what [`rates_of_eight`](Self::rates_of_eight) needs in `layout`.
     pub fn prepare_eight(&mut self, entry: Entry<'_>, layout: &VariableLayout) {
-        let has_right_side = self.right_sides.as_ref().is_some_and(|both| both.of_eight.is_some());
+        let has_right_side = self.right_sides.as_ref().is_some_and(RightSides::takes_eight);
         if !has_right_side || layout.thrust {
             self.eight_states(entry, layout);
         }
@@ -270,7 +267,7 @@ impl PreparedMode {
         if !self.takes_eight(layout) {
             return false;
         }
-        let right_side = self.right_sides.as_mut().and_then(|both| both.of_eight.as_mut());
+        let right_side = self.right_sides.as_mut().and_then(RightSides::of_eight);
         let power = right_side.map(|right_side| right_side.write(at.y, dy));
         match power {
             Some(power) if !layout.thrust => {
