@@ -71,7 +71,7 @@ fn every_method_begins_anew() {
 
 /// Scenes that each differ from it in one thing.
 fn scenes_beside(scene: &Scene) -> Vec<Scene> {
-    let changes: [&dyn Fn(&mut SceneDescription); 10] = [
+    let changes: [&dyn Fn(&mut SceneDescription); 11] = [
         &|s| s.initial.omega_body.x += 0.25,
         &|s| s.end_time *= 0.75,
         &|s| s.bodies.iter_mut().for_each(|body| body.hinge.start.angle += 0.1),
@@ -81,6 +81,7 @@ fn scenes_beside(scene: &Scene) -> Vec<Scene> {
         &|s| s.bodies.iter_mut().for_each(|body| body.hinge.kick_off = None),
         &|s| s.bodies.iter_mut().for_each(|body| body.hinge.spring.linear *= 0.5),
         &|s| s.externals.iter_mut().for_each(|thrust| thrust.amount = thrust.amount * 1.5),
+        &|s| s.externals.truncate(1),
         &|s| s.gravity.iter_mut().for_each(|gravity| gravity.acceleration *= 0.5),
         &|s| {
             let table = TorqueTable { hinge: 0, points: vec![[-10.0, 0.0], [10.0, 1.0]] };

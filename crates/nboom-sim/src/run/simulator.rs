@@ -143,6 +143,7 @@ fn is_alike(a: &Scene, b: &Scene) -> bool {
     let springs = |body: &Body| body.hinge.kick_off.is_some();
     a.bodies.len() == b.bodies.len()
         && a.bodies.iter().map(springs).eq(b.bodies.iter().map(springs))
+        && a.externals.len() == b.externals.len()
         && a.externals_on_hinged().count() == b.externals_on_hinged().count()
         && a.rotors.len() == b.rotors.len()
         && a.base.is_held() == b.base.is_held()
