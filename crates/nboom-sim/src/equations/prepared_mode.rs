@@ -95,7 +95,7 @@ impl PreparedMode {
         (self.jacobian, self.eight_states) = (None, None);
     }
 
-    /// Holds `commands`, which act on what it is [for](Self::is), in place of those that it held.
+    /// Holds `commands`, which act on what it is [for](Self::is_alike), in place of those that it held.
     pub fn command(&mut self, commands: &Commands) {
         if self.reach == Reach::Nothing {
             return;
