@@ -30,6 +30,7 @@ fn lengths_are_those_of_the_reference() {
 
 #[test]
 fn lengths_by_their_path_are_those_by_poses_and_rates_their_derivatives() {
+    let mut circles = 0;
     for seed in 0..60 {
         let Moment { scene, mode, beta, tau, .. } = moment(6, seed, 0.3);
         let (mut dynamics, mut dual) = (Recursive::new(&scene), Recursive::new(&scene));
@@ -44,6 +45,12 @@ fn lengths_by_their_path_are_those_by_poses_and_rates_their_derivatives() {
             let found = dynamics.line_length(line, of_free);
             // The way to the end is as long as the bodies on it, of a few lengths.
             assert!((found.squared - expected).abs() < 1e-12 * (1.0 + expected), "{seed}, {line}");
+            if let Some(circle) = dynamics.line_circle(line) {
+                let (sin, cos) = free_beta[circle.position].sin_cos();
+                let squared = circle.mean + circle.along_cos * cos + circle.along_sin * sin;
+                assert!((squared - expected).abs() < 1e-12 * (1.0 + expected), "{seed}, {line}");
+                circles += 1;
+            }
             let moving = |j: usize| Dual { value: of_free(j)[0], derivative: of_free(j)[1] };
             let derivative: Dual<f64> = dual.line_length_squared(line, moving);
             let error = (found.squared_rate - derivative.derivative).abs();
@@ -53,4 +60,5 @@ fn lengths_by_their_path_are_those_by_poses_and_rates_their_derivatives() {
             );
         }
     }
+    assert!(circles > 10, "{circles}");
 }

@@ -1,7 +1,8 @@
 //! A simulator that runs again and again: what it has prepared changes nothing.
 
-use nboom::model::{Scene, SceneDescription, TorqueTable};
+use nboom::model::{Base, Gravity, Scene, SceneDescription, TorqueTable};
 use nboom::ode::Method;
+use nboom::scalar::{Quaternion, Vec3};
 use nboom::sim::{Options, Simulator, Summary};
 
 use crate::catalog::Reference;
@@ -70,13 +71,17 @@ fn every_method_begins_anew() {
 
 /// Scenes that each differ from it in one thing.
 fn scenes_beside(scene: &Scene) -> Vec<Scene> {
-    let changes: [&dyn Fn(&mut SceneDescription); 8] = [
+    let changes: [&dyn Fn(&mut SceneDescription); 11] = [
         &|s| s.initial.omega_body.x += 0.25,
         &|s| s.end_time *= 0.75,
         &|s| s.bodies.iter_mut().for_each(|body| body.hinge.start.angle += 0.1),
         &|s| s.main_body.mass *= 2.0,
+        // What acts along inertial axes, and a main body that is held against gravity.
+        &|s| s.initial.attitude = Quaternion { scalar: 0.8, vector: Vec3::unit_y() * 0.6 },
+        &|s| s.bodies.iter_mut().for_each(|body| body.hinge.kick_off = None),
         &|s| s.bodies.iter_mut().for_each(|body| body.hinge.spring.linear *= 0.5),
         &|s| s.externals.iter_mut().for_each(|thrust| thrust.amount = thrust.amount * 1.5),
+        &|s| s.externals.truncate(1),
         &|s| s.gravity.iter_mut().for_each(|gravity| gravity.acceleration *= 0.5),
         &|s| {
             let table = TorqueTable { hinge: 0, points: vec![[-10.0, 0.0], [10.0, 1.0]] };
@@ -109,4 +114,24 @@ fn another_scene_leaves_nothing_of_the_one_before() {
             }
         }
     }
+}
+
+#[test]
+fn a_held_main_body_is_held_in_the_attitude_of_its_scene() {
+    let reference = Reference::all().find(|r| r.name.starts_with("s08")).expect("a scene");
+    let mut scene = SceneDescription::clone(&reference.scene());
+    scene.base = Base::Fixed;
+    scene.gravity = Some(Gravity { up: Vec3::unit_z(), acceleration: 9.81 });
+    scene.initial.omega_body = Vec3::zero();
+    scene.initial.velocity_inertial = Vec3::zero();
+    let turned = Quaternion { scalar: 0.8, vector: Vec3::unit_x() * 0.6 };
+    let mut other = scene.clone();
+    other.initial.attitude = turned;
+    let [scene, other] = [scene, other].map(|s| Scene::new(s).expect("a physical scene"));
+    let mut simulator = Simulator::new(&scene, tight(5));
+    let first = next_run(&mut simulator);
+    simulator.set_scene(&other);
+    let expected = run(&other, &tight(5));
+    assert_ne!(first.0.samples, expected.0.samples);
+    assert_same(&next_run(&mut simulator), &expected, reference.name);
 }

@@ -48,6 +48,20 @@ pub struct LineJoint<R> {
     pub arm: R,
 }
 
+/// The length of a line that one hinge alone moves, which turns: |x̄|² = mean + along_cos cos β +
+/// along_sin sin β.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineCircle<R> {
+    /// The hinge's position in [`Recursive::free_hinges`].
+    pub position: usize,
+    /// The mean of |x̄|².
+    pub mean: R,
+    /// What it changes with cos β.
+    pub along_cos: R,
+    /// What it changes with sin β.
+    pub along_sin: R,
+}
+
 impl<R: Real> Recursive<R> {
     /// Energy and momenta when the system mass centre moves with `center_velocity` (inertial,
     /// main-body axes).
@@ -151,6 +165,30 @@ impl<R: Real> Recursive<R> {
             end = of_link.offset(self.tree.links[j].point, beta) + of_link.turned(beta) * end;
         }
         (end - line.main_body_point).norm_squared()
+    }
+
+    /// How a line's length depends on its hinge; none where other hinges move it too, and where the hinge slides.
+    ///
+    /// # Panics
+    /// When there are not so many lines.
+    pub fn line_circle(&self, line: usize) -> Option<LineCircle<R>> {
+        let line = &self.elements.lines()[line];
+        let mut path = self.path_inward(line.link);
+        let (Some(position), None) = (path.next(), path.next()) else { return None };
+        let of_link = &self.constants[position];
+        if of_link.joint().slides() {
+            return None;
+        }
+        let [still, along_cos, along_sin] = of_link.turned_parts(line.point);
+        let center = self.tree.links[position].point + still - line.main_body_point;
+        let twice = |along: Vec3<R>| center.dot(along) + center.dot(along);
+        Some(LineCircle {
+            position,
+            // Both parts are square to each other and of one length.
+            mean: center.norm_squared() + along_cos.norm_squared(),
+            along_cos: twice(along_cos),
+            along_sin: twice(along_sin),
+        })
     }
 
     /// Each free hinge that moves the end of a line, outboard before inboard.

@@ -43,6 +43,11 @@ impl<R: Real> LinkConstants<R> {
         }
     }
 
+    /// Constant, cosine's and sine's part of a vector of a link that [turns](Self::turned), inboard link's axes.
+    pub fn turned_parts(&self, vector: Vec3<R>) -> [Vec3<R>; 3] {
+        [&self.still, &self.along_cos, &self.along_sin].map(|part| *part * vector)
+    }
+
     /// The link's origin from the inboard link's, when it is at `point` at β = 0; inboard link's
     /// axes.
     #[inline(always)]

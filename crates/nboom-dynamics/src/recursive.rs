@@ -45,7 +45,7 @@ impl<R: Real> Accelerations<R> {
 
 /// The recursive formulation of one scene, in one mode at a time.
 ///
-/// Evaluations allocate nothing; setting the mode does.
+/// Evaluations allocate nothing; setting the mode does where there was not so much before.
 #[derive(Clone, Debug)]
 pub struct Recursive<R> {
     pub(crate) scene: Arc<Scene>,
@@ -68,40 +68,78 @@ pub struct Recursive<R> {
 impl<R: Real> Recursive<R> {
     /// The formulation of `scene` in the mode in which the scene starts.
     pub fn new(scene: &Scene) -> Self {
-        let mode = Mode::at_start(scene);
+        Self::of_scene(Arc::new(scene.clone()))
+    }
+
+    /// The [`new`](Self::new) formulation of a scene that it shares.
+    pub fn of_scene(scene: Arc<Scene>) -> Self {
+        let mode = Mode::at_start(&scene);
         let beta: Vec<R> =
             scene.bodies.iter().map(|body| R::constant(body.hinge.start.angle)).collect();
-        let tree = WeldedTree::new(scene, &mode, &beta);
-        Self::of_tree(Arc::new(scene.clone()), &mode, tree)
+        let tree = WeldedTree::new(&scene, &mode, &beta);
+        Self::of_tree(scene, &mode, tree)
     }
 
     /// Changes the mode; `beta` has the angle of every hinge of the scene \[rad\], of which those
     /// of the held ones are built in. Rotors [go on](Self::spin_from) from the speeds with which
     /// the scene starts.
     pub fn set_mode(&mut self, mode: &Mode, beta: &[R]) {
-        let tree = WeldedTree::new(&self.scene, mode, beta);
-        *self = Self::of_tree(Arc::clone(&self.scene), mode, tree);
+        self.tree.weld(&self.scene, mode, beta);
+        self.elements.set(&self.scene, mode, &self.tree);
+        self.take_up_tree();
+    }
+
+    /// Changes to a mode of another scene, as [`set_mode`](Self::set_mode) does to one of the same.
+    pub fn set_scene(&mut self, scene: &Arc<Scene>, mode: &Mode, beta: &[R]) {
+        self.scene = Arc::clone(scene);
+        self.set_mode(mode, beta);
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
     }
 
     fn of_tree(scene: Arc<Scene>, mode: &Mode, tree: WeldedTree<R>) -> Self {
-        let links = tree.links.len();
-        let motions = tree.rotors.iter().map(|rotor| rotor.motion).collect();
-        Self {
+        let mut recursive = Self {
             elements: Elements::new(&scene, mode, &tree),
-            rotors: (R::constant(scene.initial.time), motions),
-            constants: tree.links.iter().map(LinkConstants::new).collect(),
-            free: tree.links.iter().map(|link| link.hinge).collect(),
-            poses: vec![LinkPose::unset(); links],
-            hinges: vec![HingeFactor::unset(); links],
+            rotors: (R::zero(), Vec::new()),
+            constants: Vec::new(),
+            free: Vec::new(),
+            poses: Vec::new(),
+            hinges: Vec::new(),
             base: BaseFactor::unset(),
-            articulated: vec![ArticulatedInertia::of(&RigidInertia::zero()); links],
-            composite: vec![RigidInertia::zero(); links],
-            omegas: vec![Vec3::zero(); links],
-            twists: vec![Twist::zero(); links],
-            wrenches: vec![Wrench::zero(); links],
+            articulated: Vec::new(),
+            composite: Vec::new(),
+            omegas: Vec::new(),
+            twists: Vec::new(),
+            wrenches: Vec::new(),
             scene,
             tree,
-        }
+        };
+        recursive.take_up_tree();
+        recursive
+    }
+
+    /// Makes ready what follows from the tree.
+    fn take_up_tree(&mut self) {
+        let Self { scene, tree, rotors: (since, motions), constants, free, .. } = self;
+        *since = R::constant(scene.initial.time);
+        motions.clear();
+        motions.extend(tree.rotors.iter().map(|rotor| rotor.motion));
+        constants.clear();
+        constants.extend(tree.links.iter().map(LinkConstants::new));
+        free.clear();
+        free.extend(tree.links.iter().map(|link| link.hinge));
+        let links = tree.links.len();
+        self.poses.clear();
+        self.poses.resize(links, LinkPose::unset());
+        self.hinges.resize(links, HingeFactor::unset());
+        self.articulated.resize(links, ArticulatedInertia::of(&RigidInertia::zero()));
+        self.composite.resize(links, RigidInertia::zero());
+        self.omegas.resize(links, Vec3::zero());
+        self.twists.resize(links, Twist::zero());
+        self.wrenches.resize(links, Wrench::zero());
     }
 
     /// Holds `commands` in place of those that were held, until the mode is set anew.
@@ -296,6 +334,12 @@ impl Recursive<f64> {
     /// or along which where it slides, nothing has inertia at the angles `beta` of the free hinges.
     pub fn singular_hinge(&mut self, beta: &[f64]) -> Option<Option<usize>> {
         self.factor(beta);
+        self.singular_as_computed()
+    }
+
+    /// What [`singular_hinge`](Self::singular_hinge) is at the angles of the
+    /// [accelerations](Self::accelerations) that were computed last.
+    pub fn singular_as_computed(&self) -> Option<Option<usize>> {
         let regular = |j: usize| {
             let (pivot, at_hinge) = (1.0 / self.hinges[j].inverse_pivot, &self.articulated[j]);
             let whole = match self.poses[j].joint {

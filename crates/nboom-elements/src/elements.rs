@@ -1,6 +1,6 @@
 //! The one place that lists the force elements.
 
-use nboom_model::{Hinge, Mode, Scene, WeldedTree};
+use nboom_model::{Mode, Scene, WeldedTree};
 use nboom_scalar::{Mat3, Real, Twist, Vec3, Wrench};
 
 use crate::{Coordinate, Line, Names, Placed, Switched};
@@ -10,6 +10,7 @@ mod coupling;
 mod external;
 mod gravity;
 mod hinge_law;
+mod hinge_torque;
 mod kick_off;
 mod own_law;
 mod torque_table;
@@ -20,9 +21,9 @@ use coupling::CouplingLaw;
 pub use external::Push;
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
+pub use hinge_torque::HingeTorque;
 pub use kick_off::KickOffLaw;
 pub use own_law::{OwnLaw, OwnLaws};
-use torque_table::TablePiece;
 use withheld::WithheldMoment;
 
 /// The kinds of elements that are told apart in messages and files.
@@ -47,75 +48,21 @@ impl Kind {
     }
 }
 
-/// Kind, hinge, coordinate and bounds of each element whose law has several pieces, in the order of
-/// [`SceneDescription::pieces_at_rest`](nboom_model::SceneDescription): lines first.
-pub(crate) fn switched(scene: &Scene) -> Vec<(Kind, usize, Coordinate, Vec<f64>)> {
+/// Tells `each` kind, hinge, coordinate and bounds of each element whose law has several pieces, in the order
+/// of [`SceneDescription::pieces_at_rest`](nboom_model::SceneDescription): lines first.
+pub(crate) fn switched(
+    scene: &Scene,
+    mut each: impl FnMut(Kind, usize, Coordinate, &mut dyn Iterator<Item = f64>),
+) {
     let spring = |i: usize| Some((i, scene.bodies[i].hinge.kick_off?));
-    let springs = (0..scene.bodies.len()).filter_map(spring).enumerate();
-    let of_spring = springs.map(|(line, (hinge, spring))| {
-        (Kind::KickOff, hinge, Coordinate::Length(line), vec![spring.limit_length])
-    });
-    let of_table = scene.torque_tables.iter().map(|table| {
-        let angles = table.points.iter().map(|point| point[0]).collect();
-        (Kind::TorqueTable, table.hinge, Coordinate::Angle(table.hinge), angles)
-    });
-    of_spring.chain(of_table).collect()
-}
-
-/// The torque about one hinge: of its spring and dashpot, and of its table where it has one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HingeTorque<R> {
-    law: HingeLaw<R>,
-    table: Option<TablePiece<R>>,
-}
-
-impl<R: Real> HingeTorque<R> {
-    /// That of each hinge of `scene` in `mode`.
-    fn all(scene: &Scene, mode: &Mode) -> Vec<Self> {
-        let hinges = scene.bodies.iter().map(|body| &body.hinge);
-        let law = |hinge: &Hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot);
-        let mut torques: Vec<Self> =
-            hinges.map(|hinge| Self { law: law(hinge), table: None }).collect();
-        // Tables come last among the elements of a mode.
-        let first = mode.pieces.len() - scene.torque_tables.len();
-        for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
-            torques[table.hinge].table = Some(TablePiece::new(table, piece));
-        }
-        torques
+    let springs = (0..scene.bodies.len()).filter_map(spring);
+    for (line, (hinge, spring)) in springs.enumerate() {
+        let limit = &mut std::iter::once(spring.limit_length);
+        each(Kind::KickOff, hinge, Coordinate::Length(line), limit);
     }
-
-    /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
-    #[inline(always)]
-    pub fn torque(&self, beta: R, tau: R) -> R {
-        let torque = self.law.torque(beta, tau);
-        match &self.table {
-            Some(table) => torque + table.torque(beta),
-            None => torque,
-        }
-    }
-
-    /// The law of spring and dashpot, where they are all that acts about the hinge.
-    pub fn law(&self) -> Option<&HingeLaw<R>> {
-        self.table.is_none().then_some(&self.law)
-    }
-
-    /// The part of the torque that depends on the rate, and does work no potential accounts for.
-    #[inline(always)]
-    pub fn rate_torque(&self, tau: R) -> R {
-        self.law.rate_torque(tau)
-    }
-
-    /// Potential energy of the part that depends on the angle.
-    pub fn potential(&self, beta: R) -> R {
-        let potential = self.law.potential(beta);
-        self.table.as_ref().map_or(potential, |table| potential + table.potential(beta))
-    }
-}
-
-impl HingeTorque<f64> {
-    /// Whether the torque depends on the rate.
-    pub fn depends_on_rate(&self) -> bool {
-        self.law.depends_on_rate()
+    for table in &scene.torque_tables {
+        let angles = &mut table.points.iter().map(|point| point[0]);
+        each(Kind::TorqueTable, table.hinge, Coordinate::Angle(table.hinge), angles);
     }
 }
 
@@ -140,18 +87,33 @@ pub struct Elements<R> {
 impl<R: Real> Elements<R> {
     /// Those of `scene` in `mode`, whose links are those of `tree`.
     pub fn new(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Self {
-        let lines = Line::all(scene, mode, tree);
-        let pushes = Push::all(scene, mode, tree);
-        Self {
-            torques: HingeTorque::all(scene, mode),
-            couplings: CouplingLaw::all(scene, tree),
-            withheld: WithheldMoment::all(scene, mode, tree, &lines),
-            lines,
-            external: on_main_link(&pushes, None),
-            pushes,
+        let mut elements = Self {
+            torques: Vec::with_capacity(scene.bodies.len()),
+            couplings: Vec::with_capacity(scene.couplings.len()),
+            lines: Vec::new(),
+            withheld: Vec::new(),
+            pushes: Vec::new(),
             commanded: None,
-            switched: Switched::all(scene),
-        }
+            external: None,
+            switched: Vec::with_capacity(mode.pieces.len()),
+        };
+        elements.set(scene, mode, tree);
+        elements
+    }
+
+    /// Makes them the [new](Self::new) ones of any scene, mode and tree, in the room that they have.
+    pub fn set(&mut self, scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) {
+        HingeTorque::write_all(scene, mode, &mut self.torques);
+        self.couplings.clear();
+        self.couplings.extend(CouplingLaw::all(scene, tree));
+        self.lines.clear();
+        self.lines.extend(Line::all(scene, mode, tree));
+        self.withheld.clear();
+        self.withheld.extend(WithheldMoment::all(scene, mode, tree, &self.lines));
+        Push::write_all(scene, mode, tree, &mut self.pushes);
+        self.commanded = None;
+        self.external = on_main_link(&self.pushes, None);
+        Switched::write_all(scene, &mut self.switched);
     }
 
     /// The law of the torque about each hinge of the scene, whether it is held or free.
@@ -177,8 +139,7 @@ impl<R: Real> Elements<R> {
         let hinges = scene.bodies.iter().map(|body| &body.hinge);
         let of_hinges = self.torques.iter_mut().zip(hinges.zip(commands.hinge_torques()));
         for (torque, (hinge, &commanded)) in of_hinges {
-            let law = HingeLaw::new(&hinge.spring, &hinge.dashpot);
-            torque.law = law.with_constant(R::constant(commanded));
+            torque.hold(hinge, commanded);
         }
         self.commanded = commands::held(commands);
         self.external = on_main_link(&self.pushes, self.commanded);

@@ -60,11 +60,11 @@ pub struct Line<R> {
 
 impl<R: Real> Line<R> {
     /// All of a scene in `mode`, whose links are those of `tree`, by hinge.
-    pub fn all(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Vec<Self> {
+    pub fn all(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> impl Iterator<Item = Self> {
         let spring = |(hinge, body): (usize, &Body)| Some((hinge, body.hinge.kick_off?));
         let springs = scene.bodies.iter().enumerate().filter_map(spring);
         // Lines come first among the elements of a mode.
-        let of_spring = |((hinge, spring), &piece): ((usize, KickOffSpring), &usize)| {
+        let of_spring = move |((hinge, spring), &piece): ((usize, KickOffSpring), &usize)| {
             let (ends, member) = (Ends::of_spring(&spring), tree.members[hinge]);
             let in_link = member.rot_link_from_body * Vec3::constant(ends.body_point);
             Self {
@@ -79,7 +79,7 @@ impl<R: Real> Line<R> {
                 limit: spring.limit_length,
             }
         };
-        springs.zip(&mode.pieces).map(of_spring).collect()
+        springs.zip(&mode.pieces).map(of_spring)
     }
 
     /// The end on the body from O, and from the end on the main body; main-body axes.

@@ -37,14 +37,23 @@ pub enum Coordinate {
 }
 
 impl Switched {
-    /// All of a scene, in the order of [`Mode::pieces`](nboom_model::Mode).
-    pub fn all(scene: &Scene) -> Vec<Self> {
-        let of_index = |(index, (kind, hinge, coordinate, bounds))| Self {
-            id: ElementId { index, kind, hinge },
-            coordinate,
-            bounds,
-        };
-        elements::switched(scene).into_iter().enumerate().map(of_index).collect()
+    /// Writes all of a scene to `all`, in the order of [`Mode::pieces`](nboom_model::Mode).
+    pub(crate) fn write_all(scene: &Scene, all: &mut Vec<Self>) {
+        let mut count = 0;
+        elements::switched(scene, |kind, hinge, coordinate, at| {
+            let id = ElementId { index: count, kind, hinge };
+            let room = all.get_mut(count).map(|one| std::mem::take(&mut one.bounds));
+            let mut bounds = room.unwrap_or_default();
+            bounds.clear();
+            bounds.extend(at);
+            let one = Self { id, coordinate, bounds };
+            match all.get_mut(count) {
+                Some(place) => *place = one,
+                None => all.push(one),
+            }
+            count += 1;
+        });
+        all.truncate(count);
     }
 
     /// The piece that holds at `value` of the coordinate; at a bound, the one below.

@@ -76,24 +76,37 @@ impl<R: Real> WeldedTree<R> {
     /// turn as fast as when the scene starts until they are [set](Self::set_rotors).
     pub fn new(scene: &Scene, mode: &Mode, beta: &[R]) -> Self {
         let mut tree = Self {
-            main: rigid(&scene.main_body),
-            held: held(scene, mode),
+            main: RigidInertia::zero(),
+            held: None,
             main_spin: None,
             rotors: Vec::with_capacity(scene.rotors.len()),
-            links: Vec::new(),
+            links: Vec::with_capacity(scene.bodies.len()),
             members: Vec::with_capacity(scene.bodies.len()),
-            angles: beta.to_vec(),
+            angles: Vec::with_capacity(scene.bodies.len()),
             turned: Vec::new(),
         };
-        tree.main.about_origin += Sym3::constant(scene.rotor_inertia_of(None));
+        tree.weld(scene, mode, beta);
+        tree
+    }
+
+    /// Makes it the [new](Self::new) tree of any scene and mode, in the room that it has.
+    pub fn weld(&mut self, scene: &Scene, mode: &Mode, beta: &[R]) {
+        self.main = rigid(&scene.main_body);
+        self.main.about_origin += Sym3::constant(scene.rotor_inertia_of(None));
+        self.held = held(scene, mode);
+        self.main_spin = None;
+        self.links.clear();
+        self.members.clear();
+        self.turned.clear();
+        self.angles.clear();
+        self.angles.extend_from_slice(beta);
         for i in 0..scene.bodies.len() {
-            tree.place(scene, mode.is_free(i), i, beta[i]);
+            self.place(scene, mode.is_free(i), i, beta[i]);
             for order in scene.departures().turned.iter().filter(|order| order.body == i) {
-                tree.turn_otherwise(order, scene, mode, beta);
+                self.turn_otherwise(order, scene, mode, beta);
             }
         }
-        tree.mount_rotors(scene, mode);
-        tree
+        self.mount_rotors(scene, mode);
     }
 
     /// Whether there are rotors.
@@ -104,18 +117,26 @@ impl<R: Real> WeldedTree<R> {
 
     /// Makes the rotors turn like this, as the scene lists them; without allocation.
     pub fn set_rotors(&mut self, motions: impl Iterator<Item = RotorMotion<R>>) {
+        for (rotor, motion) in self.rotors.iter_mut().zip(motions) {
+            rotor.motion = motion;
+        }
+        self.spin();
+    }
+
+    /// Adds the rotors up link by link, as they turn.
+    fn spin(&mut self) {
         let Self { main_spin, links, rotors, .. } = self;
         let spins = links.iter_mut().map(|link| &mut link.spin);
         spins.chain([&mut *main_spin]).flatten().for_each(|spin| *spin = Spin::zero());
-        for (rotor, motion) in rotors.iter_mut().zip(motions) {
-            rotor.motion = motion;
+        for rotor in rotors {
             let spin = rotor.link.map_or(&mut *main_spin, |link| &mut links[link].spin);
             let spin = spin.get_or_insert_with(Spin::zero);
-            spin.add(rotor.axis * rotor.inertia, &motion);
+            spin.add(rotor.axis * rotor.inertia, &rotor.motion);
         }
     }
 
     fn mount_rotors(&mut self, scene: &Scene, mode: &Mode) {
+        self.rotors.clear();
         for (rotor, &piece) in scene.rotors.iter().zip(&mode.rotors) {
             let axis = Vec3::constant(rotor.axis);
             let member = rotor.body.map(|body| self.members[body]);
@@ -127,8 +148,7 @@ impl<R: Real> WeldedTree<R> {
                 motion: RotorMotion { speed, acceleration: rotor.speed.acceleration(piece) },
             });
         }
-        let motions: Vec<RotorMotion<R>> = self.rotors.iter().map(|rotor| rotor.motion).collect();
-        self.set_rotors(motions.into_iter());
+        self.spin();
     }
 
     fn place(&mut self, scene: &Scene, free: bool, i: usize, beta: R) {

@@ -108,6 +108,15 @@ impl Bernstein {
         scaled.first_negative(0.0, 1.0)
     }
 
+    /// The first point of [0, 1] beyond which the polynomial is on the other side of `level`, `side` being the
+    /// sign of their difference before.
+    pub fn leaves(&self, level: f64, side: f64) -> Option<f64> {
+        if self.coefficients().iter().all(|c| (c - level) * side >= 0.0) {
+            return None;
+        }
+        self.minus(level).leaves_side(side)
+    }
+
     fn first_negative(&self, from: f64, to: f64) -> Option<f64> {
         let c = self.coefficients();
         if c.iter().all(|&c| c >= 0.0) {

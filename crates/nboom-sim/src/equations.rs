@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, gravity};
 use nboom_formulation::Formulation;
@@ -41,7 +43,10 @@ const MOST_MODES: usize = 63;
 
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
+    /// A scene of the satellite that modes are prepared for, which differs in its initial state and its times
+    /// alone.
+    satellite: Arc<Scene>,
     /// The mode in which the scene starts.
     pub start: Mode,
     /// The mode that was entered last; modes are large, and change places at each event.
@@ -63,6 +68,8 @@ pub(crate) struct Equations {
     /// Made when an integrator asks for it in the mode.
     series: Option<Series<f64>>,
     sizes: Sizes,
+    /// The hinge about which nothing had inertia when the mode was entered, or the main body, if there was one.
+    pub singular: Option<Option<usize>>,
     /// Evaluations of accelerations, and series of them, that integration has asked for.
     evaluations: usize,
     /// Whether momenta are integrated.
@@ -84,10 +91,13 @@ impl Equations {
         let state = State::initial(scene);
         let at_start = Mode::at_start(scene);
         let commands = Commands::none(scene);
-        let dynamics = Recursive::new(scene);
+        let shared = Arc::new(scene.clone());
+        let dynamics = Recursive::of_scene(Arc::clone(&shared));
+        let entered = PreparedMode::new(dynamics, &shared, &at_start, &commands, |i| state.beta[i]);
         Self {
-            scene: scene.clone(),
-            entered: PreparedMode::new(dynamics, &at_start, &commands, |i| state.beta[i]).into(),
+            scene: Arc::clone(&shared),
+            satellite: shared,
+            entered: entered.into(),
             others: Vec::new(),
             repertoire,
             own,
@@ -101,6 +111,7 @@ impl Equations {
             rates: Rates::new(scene, layout),
             series: None,
             sizes: Sizes::of(scene),
+            singular: None,
             evaluations: 0,
             momenta: uses_momenta && options.integrates_momenta(),
             momentum_for_rate: uses_momenta && options.integrator.keeps_invariants(),
@@ -110,8 +121,20 @@ impl Equations {
 
     /// Takes another scene, whose satellite is that of all runs so far.
     pub fn set_scene(&mut self, scene: &Scene) {
-        self.scene.clone_from(scene);
+        self.scene = Arc::new(scene.clone());
         self.start = Mode::at_start(scene);
+    }
+
+    /// Takes a scene of another satellite, which has as many of everything. Its modes take the places of those
+    /// that are prepared.
+    pub fn set_satellite(&mut self, scene: &Scene) {
+        self.set_scene(scene);
+        self.satellite = Arc::clone(&self.scene);
+        self.gravity = gravity(scene);
+        self.total_mass = scene.total_mass();
+        self.reach = reach(scene);
+        self.rates = Rates::new(scene, self.variables.layout);
+        self.sizes = Sizes::of(scene);
     }
 
     /// Begins anew in the mode in which the scene starts.
@@ -119,14 +142,15 @@ impl Equations {
         self.sizes.begin(&self.scene);
         self.evaluations = 0;
         self.commands.clear();
-        let Self { scene, start, entered, others, commands, .. } = self;
-        change_mode(entered, others, start, commands, |i| scene.bodies[i].hinge.start.angle);
+        let Self { scene, satellite, start, entered, others, commands, .. } = self;
+        let angle = |i: usize| scene.bodies[i].hinge.start.angle;
+        change_mode(entered, others, (satellite, start), commands, angle);
     }
 
     /// Goes on from `state` in `mode`, under the commands; writes the variables to `y`.
     pub fn enter(&mut self, mode: &Mode, state: &mut State, y: &mut Vec<f64>) {
-        let Self { entered, others, commands, own, .. } = self;
-        change_mode(entered, others, mode, commands, |i| state.beta[i]);
+        let Self { entered, others, satellite, commands, own, .. } = self;
+        change_mode(entered, others, (satellite, mode), commands, |i| state.beta[i]);
         state.spin_up(&self.scene, mode, Some(commands.rotor_accelerations()));
         entered.spin_from(state);
         let elements = entered.dynamics.elements();
@@ -168,6 +192,7 @@ impl Equations {
         self.sizes.saw_tau(motion.tau);
         let Self { entered, own, accelerations, .. } = self;
         under_own_laws(own, &mut entered.dynamics, &motion, accelerations);
+        self.singular = entered.dynamics.singular_as_computed();
         let Accelerations { omega_dot_body, tau_dot, .. } = &self.accelerations;
         let force = self.entered.dynamics.outside_force(motion.beta);
         let linear = force.unwrap_or(Vec3::zero()) * (1.0 / self.total_mass);
@@ -280,26 +305,30 @@ fn without_momenta(scene: &Scene) -> Option<&'static str> {
     held.or((!scene.rotors.is_empty()).then_some("rotors"))
 }
 
-/// Makes that `entered` which is prepared for `mode` with held hinges at `beta`, one of the
+/// Makes that `entered` which is prepared for this mode of this satellite with held hinges at `beta`, one of the
 /// `others` if it is among them, and holds `commands` there.
 fn change_mode(
     entered: &mut Box<PreparedMode>,
     others: &mut Vec<Box<PreparedMode>>,
-    mode: &Mode,
+    (satellite, mode): (&Arc<Scene>, &Mode),
     commands: &Commands,
     beta: impl Fn(usize) -> f64 + Copy,
 ) {
-    let is_it = |prepared: &PreparedMode| prepared.is(mode, commands, beta);
+    let is_it = |prepared: &PreparedMode| prepared.is_alike(mode, commands);
     if !is_it(entered) {
         let next = match others.iter().position(|prepared| is_it(prepared)) {
             Some(at) => others.swap_remove(at),
-            None => PreparedMode::new(entered.dynamics.clone(), mode, commands, beta).into(),
+            None => {
+                let dynamics = entered.dynamics.clone();
+                PreparedMode::new(dynamics, satellite, mode, commands, beta).into()
+            }
         };
         if others.len() == MOST_MODES {
             others.remove(0);
         }
         others.push(std::mem::replace(entered, next));
     }
+    entered.make(satellite, beta);
     entered.command(commands);
 }
 

@@ -139,7 +139,7 @@ impl Meeting {
         let suits = |pack: &Pack| {
             pack.layout == *layout
                 && pack.steps.are_like(explicit, with_dense)
-                && right_sides.are_in(&pack.right_side)
+                && right_sides.are_like(&pack.right_side)
         };
         let open = |pack: &Pack| pack.waiting.is_none() && pack.tasks.len() < 8;
         let idle = |pack: &Pack| pack.waiting == Some(0);
@@ -149,7 +149,7 @@ impl Meeting {
             Some(place) => place,
             None => {
                 let pack = Pack {
-                    right_side: right_sides.of_eight()?,
+                    right_side: right_sides.of_eight_scenes()?,
                     layout: *layout,
                     steps: EightSteps::like(explicit, with_dense),
                     tasks: Vec::with_capacity(8),

@@ -70,6 +70,8 @@ struct Run<'a> {
     shown: &'a mut State,
     /// What the recorder was shown last.
     seen: &'a mut Snapshot,
+    /// The motion before and after the present instant, where it is wanted.
+    sides: &'a mut [Snapshot; 2],
     stepper: &'a mut dyn Stepper,
     lanes: &'a Lanes,
     ledger: Ledger,
@@ -96,7 +98,8 @@ impl<'a> Run<'a> {
         lanes: &'a Lanes,
         recorder: &'a mut dyn Recorder,
     ) -> Self {
-        let Workspace { situation, scratch, shown, seen, variables, room, summary } = workspace;
+        let Workspace { situation, scratch, shown, seen, sides, variables, room, summary } =
+            workspace;
         stepper.reset();
         equations.begin();
         situation.begin(&equations.scene, &equations.start, &mut equations.entered.dynamics);
@@ -118,6 +121,7 @@ impl<'a> Run<'a> {
             scratch,
             shown,
             seen,
+            sides,
             situation,
             equations,
             stepper,
@@ -160,9 +164,9 @@ impl<'a> Run<'a> {
 
     /// Changes the mode as the instant demands and starts integration anew.
     fn pass_instant(&mut self) -> Result<(), SimError> {
-        let before = self.before_instant()?;
+        let has_before = self.before_instant()?;
         let Equations { scene, entered, .. } = &mut *self.equations;
-        self.situation.pass(scene, &mut entered.dynamics)?;
+        self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let (time, is_first) = (state.time, state.time <= scene.initial.time);
         self.equations.enter(mode, state, self.variables);
@@ -188,7 +192,7 @@ impl<'a> Run<'a> {
         let Equations { scene, entered, .. } = &*self.equations;
         self.situation.watch(scene, &entered.dynamics);
         finite::check_instant(scene, time, &self.situation.outcome)?;
-        self.tell_instant(before)?;
+        self.tell_instant(has_before)?;
         self.report()?;
         self.check_chatter()
     }

@@ -46,8 +46,8 @@ impl<R: Real> End<R> {
 
 impl<R: Real> CouplingLaw<R> {
     /// All of a scene, whose links are those of `tree`.
-    pub fn all(scene: &Scene, tree: &WeldedTree<R>) -> Vec<Self> {
-        let of = |coupling: &Coupling| Self {
+    pub fn all(scene: &Scene, tree: &WeldedTree<R>) -> impl Iterator<Item = Self> {
+        let of = move |coupling: &Coupling| Self {
             ends: coupling.hinges.map(|hinge| End::new(hinge, tree)),
             ratio: R::constant(coupling.ratio),
             stiffness: R::constant(coupling.stiffness),
@@ -56,7 +56,7 @@ impl<R: Real> CouplingLaw<R> {
             is_mutual: coupling.is_mutual,
             brakes: coupling.damping != 0.0,
         };
-        scene.couplings.iter().map(of).collect()
+        scene.couplings.iter().map(of)
     }
 
     /// Torque on the first hinge by its spring and by its damper, at the β and τ of the ends.

@@ -40,10 +40,10 @@ impl<R: Real> Share<R> {
 }
 
 impl<R: Real> Push<R> {
-    /// All that act on the links of `tree` in `mode`, as at the beginning of the scene.
-    pub(crate) fn all(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) -> Vec<Self> {
+    /// Writes all that act on the links of `tree` in `mode`, as at the beginning of the scene, to `all`.
+    pub(crate) fn write_all(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>, all: &mut Vec<Self>) {
         let mut hinged = 0;
-        let mut all = Vec::new();
+        all.clear();
         for (external, &piece) in scene.externals.iter().zip(&mode.externals) {
             let place = external.body.map(|_| hinged);
             hinged += usize::from(place.is_some());
@@ -53,7 +53,6 @@ impl<R: Real> Push<R> {
         }
         let time = R::constant(scene.initial.time);
         all.iter_mut().for_each(|push| push.set(&Mat3::identity(), time));
-        all
     }
 
     fn new(one: &External, piece: usize, tree: &WeldedTree<R>, hinged: Option<usize>) -> Self {

@@ -17,14 +17,19 @@ pub(crate) struct WithheldMoment<R> {
 
 impl<R: Real> WithheldMoment<R> {
     /// All of the lines that act.
-    pub fn all(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>, lines: &[Line<R>]) -> Vec<Self> {
-        let of = |withheld: &Withheld| {
+    pub fn all(
+        scene: &Scene,
+        mode: &Mode,
+        tree: &WeldedTree<R>,
+        lines: &[Line<R>],
+    ) -> impl Iterator<Item = Self> {
+        let of = move |withheld: &Withheld| {
             let line = *lines.iter().find(|line| line.hinge == withheld.line && line.acts)?;
             let inboard = Some(withheld.inboard).filter(|&i| mode.is_free(i))?;
             let (link, member) = (tree.members[inboard].link?, tree.members[withheld.outboard]);
             Some(Self { link, line, outboard: member.link?, point: member.point })
         };
-        scene.departures().withheld.iter().filter_map(of).collect()
+        scene.departures().withheld.iter().filter_map(of)
     }
 
     /// The moment about the axis.

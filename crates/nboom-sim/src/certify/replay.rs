@@ -132,7 +132,7 @@ impl<'a> Replay<'a> {
     /// Changes the mode as the instant demands.
     fn pass_instant(&mut self) -> Result<(), SimError> {
         let Self { scene, situation, dynamics, .. } = self;
-        situation.pass(scene, dynamics)?;
+        situation.pass(scene, dynamics, None)?;
         let Situation { state, mode, .. } = &mut *situation;
         dynamics.set_mode(mode, &state.beta);
         state.spin_up(scene, mode, None);

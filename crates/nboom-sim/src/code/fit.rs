@@ -90,6 +90,12 @@ struct Candidate {
     embedding: Arc<Embedding>,
 }
 
+/// The first candidate that accepts the numbers of a mode, and these.
+struct Found<'a> {
+    candidate: &'a Candidate,
+    parameters: &'a [f64],
+}
+
 /// Topologies whose candidates are kept. Scenes have few.
 const MOST_TOPOLOGIES: usize = 64;
 
@@ -103,8 +109,12 @@ impl Repertoire {
     /// The first routine that computes accelerations in a mode in which something acts on the
     /// main body from outside or nothing does (`external`). `None` if there is none.
     pub fn best(&mut self, recognised: &Recognised, external: bool) -> Option<Fit> {
-        let may_hold = |kernel: &Kernel| kernel.external || !external;
-        self.accelerations.first(recognised, may_hold, |_, _| {})
+        self.first(recognised, external).map(Found::fit)
+    }
+
+    /// Writes the numbers of another such mode to `fit`, if its routine is the [best](Self::best) there too.
+    pub(crate) fn renew(&mut self, fit: &mut Fit, recognised: &Recognised, external: bool) -> bool {
+        self.first(recognised, external).is_some_and(|found| found.renew(fit))
     }
 
     /// The first routine that computes all rates of change in a mode in which `forces` act. `None` if
@@ -114,10 +124,51 @@ impl Repertoire {
         recognised: &Recognised,
         forces: &Forces<f64>,
     ) -> Option<Fit> {
+        self.first_right_side(recognised, forces).map(Found::fit)
+    }
+
+    /// Writes the numbers of another such mode to `fit`, if its routine is the first
+    /// [there](Self::right_side) too.
+    pub(crate) fn renew_right_side(
+        &mut self,
+        fit: &mut Fit,
+        recognised: &Recognised,
+        forces: &Forces<f64>,
+    ) -> bool {
+        self.first_right_side(recognised, forces).is_some_and(|found| found.renew(fit))
+    }
+
+    fn first(&mut self, recognised: &Recognised, external: bool) -> Option<Found<'_>> {
+        let may_hold = |kernel: &Kernel| kernel.external || !external;
+        self.accelerations.first(recognised, may_hold, |_, _| {})
+    }
+
+    fn first_right_side(
+        &mut self,
+        recognised: &Recognised,
+        forces: &Forces<f64>,
+    ) -> Option<Found<'_>> {
         let write = |embedding: &Embedding, numbers: &mut Vec<f64>| {
             forces.write_embedded(embedding, numbers);
         };
         self.right_sides.first(recognised, |_| true, write)
+    }
+}
+
+impl Found<'_> {
+    fn fit(self) -> Fit {
+        let Self { candidate: Candidate { kernel, embedding }, parameters } = self;
+        let embedding = Arc::clone(embedding);
+        Fit { kernel: *kernel, embedding, parameters: parameters.to_vec() }
+    }
+
+    /// Writes the numbers to a fit of the same candidate; returns whether it is one.
+    fn renew(self, fit: &mut Fit) -> bool {
+        let is_same = Arc::ptr_eq(&self.candidate.embedding, &fit.embedding);
+        if is_same {
+            fit.parameters.copy_from_slice(self.parameters);
+        }
+        is_same
     }
 }
 
@@ -149,7 +200,7 @@ impl Routines {
         recognised: &Recognised,
         may_take: impl Fn(&Kernel) -> bool,
         write: impl Fn(&Embedding, &mut Vec<f64>),
-    ) -> Option<Fit> {
+    ) -> Option<Found<'_>> {
         let of_topology = self.of(&recognised.topology);
         let Self { taking, parameters, .. } = self;
         let accepts = |Candidate { kernel, embedding }: &&Candidate| {
@@ -159,9 +210,8 @@ impl Routines {
         };
         let may_take = |candidate: &&Candidate| may_take(&candidate.kernel);
         let candidates = &taking[of_topology].1;
-        let Candidate { kernel, embedding } = candidates.iter().filter(may_take).find(accepts)?;
-        let embedding = Arc::clone(embedding);
-        Some(Fit { kernel: *kernel, embedding, parameters: self.parameters.clone() })
+        let candidate = candidates.iter().filter(may_take).find(accepts)?;
+        Some(Found { candidate, parameters })
     }
 
     /// Where the candidates of a topology are kept.
@@ -200,8 +250,13 @@ impl Fit {
     /// What the routine prepares of the satellite, [`Kernel::constants`] numbers.
     pub fn constants(&self) -> Vec<f64> {
         let mut constants = vec![0.0; self.kernel.constants];
-        self.kernel.prepare(&self.parameters, &mut constants);
+        self.write_constants(&mut constants);
         constants
+    }
+
+    /// Writes the [constants](Self::constants).
+    pub(crate) fn write_constants(&self, constants: &mut [f64]) {
+        self.kernel.prepare(&self.parameters, constants);
     }
 
     /// For each hinge of the mode's topology, where β, τ and torque stand in the routine's

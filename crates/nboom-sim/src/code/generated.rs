@@ -11,6 +11,8 @@ use crate::options::{Form, Options};
 pub(crate) struct Generated {
     fit: Fit,
     constants: Vec<f64>,
+    /// Whether the constants are those of the fit: where a right side does all, nothing asks for them.
+    is_prepared: bool,
     coordinates: Vec<f64>,
     outputs: Vec<f64>,
     hinges: Vec<HingeNumbers>,
@@ -176,19 +178,40 @@ impl Generated {
         let fit = repertoire
             .best(recognised, external)
             .ok_or_else(|| NoRoutine::because(recognised, external, options))?;
-        let mut hinges =
-            vec![HingeNumbers { in_state: [0; 3], in_output: 0 }; recognised.links.len()];
-        for (&link, (in_state, in_output)) in recognised.links.iter().zip(fit.hinges()) {
-            hinges[link] = HingeNumbers { in_state, in_output };
-        }
-        Ok(Self {
-            constants: fit.constants(),
+        let mut generated = Self {
+            constants: vec![0.0; fit.kernel.constants],
+            is_prepared: false,
             coordinates: vec![0.0; fit.kernel.coordinates],
             outputs: vec![0.0; fit.kernel.outputs],
-            torques: vec![0.0; hinges.len()],
-            hinges,
+            torques: vec![0.0; recognised.links.len()],
+            hinges: vec![HingeNumbers { in_state: [0; 3], in_output: 0 }; recognised.links.len()],
             fit,
-        })
+        };
+        generated.place(recognised);
+        Ok(generated)
+    }
+
+    /// Takes the numbers of another satellite in the same mode, if the same routine is the best there.
+    pub fn renew(
+        &mut self,
+        dynamics: &Recursive<f64>,
+        recognised: &Recognised,
+        repertoire: &mut Repertoire,
+    ) -> bool {
+        let external = dynamics.acts_on_main_body();
+        let is_same = repertoire.renew(&mut self.fit, recognised, external);
+        if is_same {
+            self.is_prepared = false;
+            self.place(recognised);
+        }
+        is_same
+    }
+
+    /// Notes where the numbers of each link stand.
+    fn place(&mut self, recognised: &Recognised) {
+        for (&link, (in_state, in_output)) in recognised.links.iter().zip(self.fit.hinges()) {
+            self.hinges[link] = HingeNumbers { in_state, in_output };
+        }
     }
 
     /// The routine, and how the mode fits it.
@@ -203,6 +226,10 @@ impl Generated {
         motion: &Motion<'_, f64>,
         out: &mut Accelerations<f64>,
     ) {
+        if !self.is_prepared {
+            self.fit.write_constants(&mut self.constants);
+            self.is_prepared = true;
+        }
         dynamics.hinge_forces(motion, &mut self.torques);
         let x = &mut self.coordinates;
         x[..3].copy_from_slice(&motion.omega_body.to_array());

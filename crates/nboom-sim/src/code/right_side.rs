@@ -1,8 +1,6 @@
-use std::sync::Arc;
-
 use nboom_dynamics::Recursive;
 use nboom_formulation::{Forces, Recognised, RightSideLayout};
-use nboom_scalar::{Batch, Eight, Kernel, Numbers, RoutineOn};
+use nboom_scalar::{Batch, Eight, Numbers, RoutineOn};
 
 use crate::code::fit::{Fit, Repertoire};
 
@@ -12,8 +10,10 @@ use crate::code::fit::{Fit, Repertoire};
 pub(crate) struct RightSide<N> {
     routine: RoutineOn<N>,
     constants: Vec<N>,
-    /// For each free hinge, the routine's; none where they are the same.
-    hinges: Option<Arc<[usize]>>,
+    /// For each free hinge, the routine's.
+    hinges: Vec<usize>,
+    /// Whether these are the same, in the same order.
+    are_same: bool,
     /// Hinges of the routine.
     all_hinges: usize,
     coordinates: Vec<N>,
@@ -22,8 +22,13 @@ pub(crate) struct RightSide<N> {
 
 /// The right side of a mode, on one state and, where there is such code, on eight.
 pub(crate) struct RightSides {
+    fit: Fit,
     pub of_one: RightSide<f64>,
     batch: Option<Batch>,
+    /// Made when an integrator asks for it.
+    of_eight: Option<RightSide<Eight>>,
+    /// Whether the numbers for eight states are those of the fit.
+    eight_are_prepared: bool,
 }
 
 impl RightSides {
@@ -37,63 +42,74 @@ impl RightSides {
     ) -> Option<Self> {
         let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised)?;
         let fit = repertoire.right_side(recognised, &forces)?;
-        let mut hinges = vec![0; recognised.links.len()];
-        for (&link, &hinge) in recognised.links.iter().zip(fit.embedding.hinges()) {
-            hinges[link] = hinge;
-        }
         let batch = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel)).copied();
-        Some(Self { of_one: RightSide::new(fit.kernel, &fit, &hinges), batch })
+        let of_one = RightSide::new(fit.kernel, &fit);
+        let mut sides = Self { of_one, batch, of_eight: None, eight_are_prepared: false, fit };
+        sides.prepare(recognised);
+        Some(sides)
+    }
+
+    /// Takes the numbers of another satellite in the same mode, if the same routines are the best there.
+    pub fn renew(
+        &mut self,
+        dynamics: &Recursive<f64>,
+        recognised: &Recognised,
+        repertoire: &mut Repertoire,
+    ) -> bool {
+        let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised);
+        let is_same = forces
+            .is_some_and(|forces| repertoire.renew_right_side(&mut self.fit, recognised, &forces));
+        if is_same {
+            self.prepare(recognised);
+        }
+        is_same
+    }
+
+    /// Takes the numbers of the fit to a mode whose tree was `recognised`.
+    fn prepare(&mut self, recognised: &Recognised) {
+        let Self { fit, of_one, eight_are_prepared, .. } = self;
+        fit.write_constants(&mut of_one.constants);
+        of_one.place(recognised, fit);
+        *eight_are_prepared = false;
     }
 
     /// Whether there is code for eight states.
-    pub fn take_eight(&self) -> bool {
+    pub fn takes_eight(&self) -> bool {
         self.batch.is_some()
     }
 
-    /// The right side on eight states of the scene, if there is such code.
-    pub fn of_eight(&self) -> Option<RightSide<Eight>> {
-        self.batch.map(|batch| self.of_one.on(batch))
+    /// That on eight states, if there is one.
+    pub fn of_eight(&mut self) -> Option<&mut RightSide<Eight>> {
+        let Self { fit, of_one, batch, of_eight, eight_are_prepared } = self;
+        let batch = (*batch)?;
+        let of_eight = of_eight.get_or_insert_with(|| RightSide::new(batch, fit));
+        if !*eight_are_prepared {
+            of_eight.hinges.clone_from(&of_one.hinges);
+            of_eight.are_same = of_one.are_same;
+            let numbers = of_eight.constants.iter_mut().zip(&of_one.constants);
+            numbers.for_each(|(eight, &one)| *eight = Eight::splat(one));
+            *eight_are_prepared = true;
+        }
+        Some(of_eight)
     }
 
-    /// Whether `eight` is for any scenes with the right side of this one.
-    pub fn are_in(&self, eight: &RightSide<Eight>) -> bool {
-        let Self { of_one, batch } = self;
-        batch.is_some_and(|batch| batch.is_of_same_routine(&eight.routine))
-            && of_one.hinges == eight.hinges
+    /// One on eight states of as many scenes with the right side of this one; none if there is no such code.
+    pub fn of_eight_scenes(&self) -> Option<RightSide<Eight>> {
+        let made = self.batch.map(|batch| RightSide::new(batch, &self.fit));
+        let Self { of_one: RightSide { hinges, are_same, .. }, .. } = self;
+        made.map(|made| RightSide { hinges: hinges.clone(), are_same: *are_same, ..made })
     }
 
-    /// Makes a lane of `eight`, which they [are in](Self::are_in), that of their scene.
+    /// Whether `eight` may have a [lane](Self::write_to) for this scene.
+    pub fn are_like(&self, eight: &RightSide<Eight>) -> bool {
+        let is_same = |batch: &Batch| batch.is_of_same_routine(&eight.routine);
+        self.of_one.hinges == eight.hinges && self.batch.as_ref().is_some_and(is_same)
+    }
+
+    /// Makes a lane of `eight`, which is [like](Self::are_like) this one, that of this scene.
     pub fn write_to(&self, lane: usize, eight: &mut RightSide<Eight>) {
         for (numbers, &of_one) in eight.constants.iter_mut().zip(&self.of_one.constants) {
             numbers.0[lane] = of_one;
-        }
-    }
-}
-
-impl RightSide<f64> {
-    fn new(routine: Kernel, fit: &Fit, hinges: &[usize]) -> Self {
-        let all_hinges = fit.embedding.outer().hinges();
-        let differ = !hinges.iter().copied().eq(0..all_hinges);
-        Self {
-            constants: fit.constants(),
-            hinges: differ.then(|| hinges.into()),
-            all_hinges,
-            coordinates: vec![0.0; routine.coordinates],
-            rates: vec![0.0; routine.outputs],
-            routine,
-        }
-    }
-
-    /// The same on eight states.
-    fn on(&self, batch: Batch) -> RightSide<Eight> {
-        let zeros = |count| vec![Eight::default(); count];
-        RightSide {
-            constants: self.constants.iter().copied().map(Eight::splat).collect(),
-            hinges: self.hinges.clone(),
-            all_hinges: self.all_hinges,
-            coordinates: zeros(batch.coordinates),
-            rates: zeros(batch.outputs),
-            routine: batch,
         }
     }
 }
@@ -109,14 +125,38 @@ impl RightSide<Eight> {
 }
 
 impl<N: Numbers> RightSide<N> {
+    /// With room for the numbers of a mode.
+    fn new(routine: RoutineOn<N>, fit: &Fit) -> Self {
+        let zeros = |count| vec![N::splat(0.0); count];
+        let hinges = fit.embedding.hinges().to_vec();
+        let all_hinges = fit.embedding.outer().hinges();
+        Self {
+            constants: zeros(routine.constants),
+            hinges,
+            are_same: false,
+            all_hinges,
+            coordinates: zeros(routine.coordinates),
+            rates: zeros(routine.outputs),
+            routine,
+        }
+    }
+
+    /// Notes where the numbers of each link stand.
+    fn place(&mut self, recognised: &Recognised, fit: &Fit) {
+        for (&link, &hinge) in recognised.links.iter().zip(fit.embedding.hinges()) {
+            self.hinges[link] = hinge;
+        }
+        self.are_same = self.hinges.iter().copied().eq(0..self.all_hinges);
+    }
+
     /// Writes the rates of attitude, ω, β and τ at `y`, which begins with these, to the beginning of
     /// `dy`, and anything to the rest; returns the power of the parts of the hinge torques that depend on
     /// rates.
     pub fn write(&mut self, y: &[N], dy: &mut [N]) -> N {
-        let Self { routine, constants, hinges, all_hinges, coordinates, rates } = self;
+        let Self { routine, constants, hinges, are_same, all_hinges, coordinates, rates } = self;
         let first = RightSideLayout::STATE;
         let power = first + 2 * *all_hinges;
-        let Some(hinges) = hinges else {
+        if *are_same {
             if let Some(dy) = dy.get_mut(..=power) {
                 // What belongs in the place of the power is not written yet.
                 routine.evaluate(constants, &y[..power], dy);
@@ -125,7 +165,7 @@ impl<N: Numbers> RightSide<N> {
             routine.evaluate(constants, &y[..power], rates);
             dy.copy_from_slice(&rates[..power]);
             return rates[power];
-        };
+        }
         let end = first + 2 * hinges.len();
         coordinates[..first].copy_from_slice(&y[..first]);
         let (of_beta, of_tau) = y[first..end].split_at(hinges.len());

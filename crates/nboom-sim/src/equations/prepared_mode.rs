@@ -1,11 +1,13 @@
+use std::sync::Arc;
+
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, Reach};
-use nboom_formulation::recognise;
+use nboom_formulation::{Recognised, Uncovered, recognise};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Eight, Vec3};
 
 use crate::code::fit::Repertoire;
-use crate::code::right_side::{RightSide, RightSides};
+use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{AccelerationCode, CodeError};
 use crate::equations::eight_states::{At, EightStates};
@@ -27,9 +29,9 @@ pub(crate) struct PreparedMode {
     code: AccelerationCode,
     /// What computes all rates of change, if something does.
     right_sides: Option<RightSides>,
-    /// The same on eight states of this scene, made when an integrator asks for it.
-    right_side_of_eight: Option<RightSide<Eight>>,
     selection: Option<Selection>,
+    /// Whether the code has the numbers of the mode, and not those of one of the same kind.
+    is_fitted: bool,
     /// Made when an integrator asks for it.
     jacobian: Option<Jacobian>,
     /// Likewise; none where there are no registers for them.
@@ -48,16 +50,16 @@ pub(crate) struct Entry<'a> {
 }
 
 impl PreparedMode {
-    /// The mode of the scene of `dynamics` in which held hinges are at `beta`, for what `commands`
-    /// act on.
+    /// The mode of `satellite` in which held hinges are at `beta`, for what `commands` act on.
     pub fn new(
         mut dynamics: Recursive<f64>,
+        satellite: &Arc<Scene>,
         mode: &Mode,
         commands: &Commands,
         beta: impl Fn(usize) -> f64,
     ) -> Self {
         let beta: Vec<f64> = (0..mode.hinges.len()).map(beta).collect();
-        dynamics.set_mode(mode, &beta);
+        dynamics.set_scene(satellite, mode, &beta);
         Self {
             mode: mode.clone(),
             beta,
@@ -65,22 +67,35 @@ impl PreparedMode {
             dynamics,
             code: AccelerationCode::Recursion,
             right_sides: None,
-            right_side_of_eight: None,
             selection: None,
+            is_fitted: false,
             jacobian: None,
             eight_states: None,
         }
     }
 
-    /// Whether it is this mode, with held hinges at these angles, and for what `commands` act on.
-    pub fn is(&self, mode: &Mode, commands: &Commands, beta: impl Fn(usize) -> f64) -> bool {
-        let is_held_there = |i: usize| mode.is_free(i) || self.beta[i] == beta(i);
-        self.mode == *mode
-            && self.reach == commands.reach()
-            && (0..self.beta.len()).all(is_held_there)
+    /// Whether it is this mode of some satellite, for what `commands` act on.
+    pub fn is_alike(&self, mode: &Mode, commands: &Commands) -> bool {
+        self.mode == *mode && self.reach == commands.reach()
     }
 
-    /// Holds `commands`, which act on what it is [for](Self::is), in place of those that it held.
+    /// Makes it that of `satellite` with held hinges at `beta`, of which it [is one](Self::is_alike), in the
+    /// room that it has.
+    pub fn make(&mut self, satellite: &Arc<Scene>, beta: impl Fn(usize) -> f64) {
+        let is_held_there = |i: usize| self.mode.is_free(i) || self.beta[i] == beta(i);
+        if Arc::ptr_eq(self.dynamics.scene(), satellite) && (0..self.beta.len()).all(is_held_there)
+        {
+            return;
+        }
+        for (i, angle) in self.beta.iter_mut().enumerate() {
+            *angle = beta(i);
+        }
+        self.dynamics.set_scene(satellite, &self.mode, &self.beta);
+        self.is_fitted = false;
+        (self.jacobian, self.eight_states) = (None, None);
+    }
+
+    /// Holds `commands`, which act on what it is [for](Self::is_alike), in place of those that it held.
     pub fn command(&mut self, commands: &Commands) {
         if self.reach == Reach::Nothing {
             return;
@@ -120,32 +135,66 @@ impl PreparedMode {
         options: &Options,
         since: f64,
     ) -> Result<Selection, CodeError> {
-        if let Some(selection) = &self.selection {
-            return Ok(Selection { since, ..selection.clone() });
+        if let (Some(known), true) = (&self.selection, self.is_fitted) {
+            return Ok(Selection { since, ..known.clone() });
         }
         let recognised = recognise(self.dynamics.tree());
+        let same = self.selection.take().filter(|_| self.renew(&recognised, repertoire));
+        let chosen = match same {
+            Some(same) => Selection { since, ..same },
+            None => self.choose(scene, own, &recognised, (repertoire, options), since)?,
+        };
+        (self.selection, self.is_fitted) = (Some(chosen.clone()), true);
+        Ok(chosen)
+    }
+
+    /// Takes the numbers of another satellite to the code that was chosen before, if it would be chosen again;
+    /// then the reason is the same, too.
+    fn renew(
+        &mut self,
+        recognised: &Result<Recognised, Uncovered>,
+        repertoire: &mut Repertoire,
+    ) -> bool {
+        let Self { dynamics, code, right_sides, reach, .. } = self;
+        let (AccelerationCode::Generated(routine), Ok(recognised)) = (code, recognised) else {
+            return false;
+        };
+        routine.renew(dynamics, recognised, repertoire)
+            && match right_sides {
+                Some(sides) => sides.renew(dynamics, recognised, repertoire),
+                None => *reach != Reach::Nothing,
+            }
+    }
+
+    fn choose(
+        &mut self,
+        scene: &Scene,
+        own: &OwnLaws,
+        recognised: &Result<Recognised, Uncovered>,
+        (repertoire, options): (&mut Repertoire, &Options),
+        since: f64,
+    ) -> Result<Selection, CodeError> {
+        let dynamics = &self.dynamics;
         let (code, mut selection) = if own.is_empty() {
-            let dynamics = &self.dynamics;
-            AccelerationCode::choose(scene, dynamics, &recognised, repertoire, options, since)?
+            AccelerationCode::choose(scene, dynamics, recognised, repertoire, options, since)?
         } else {
             AccelerationCode::under_own_laws(own, since)
         };
-        if let (AccelerationCode::Generated(_), Ok(recognised)) = (&code, &recognised) {
+        self.right_sides = None;
+        if let (AccelerationCode::Generated(_), Ok(recognised)) = (&code, recognised) {
             // Hinge laws are built into right sides.
             if self.reach == Reach::Nothing {
-                let (dynamics, batches) = (&self.dynamics, options.batches);
+                let batches = options.batches;
                 self.right_sides = RightSides::fit(dynamics, recognised, repertoire, batches);
             }
             let told = match &self.right_sides {
-                Some(right_sides) if right_sides.take_eight() => {
-                    "whole right side, also of eight states"
-                }
+                Some(sides) if sides.takes_eight() => "whole right side, also of eight states",
                 Some(_) => "whole right side",
                 None => "accelerations only",
             };
             selection.reason = format!("{}; {told}", selection.reason).into();
         }
-        (self.code, self.selection) = (code, Some(selection.clone()));
+        self.code = code;
         Ok(selection)
     }
 
@@ -191,40 +240,26 @@ impl PreparedMode {
         match self.code {
             AccelerationCode::Recursion => true,
             AccelerationCode::Generated(_) => {
-                layout.unknowns == Unknowns::Velocities && self.has_right_side_of_eight()
+                let of_eight = self.right_sides.as_ref().is_some_and(RightSides::takes_eight);
+                layout.unknowns == Unknowns::Velocities && of_eight
             }
             AccelerationCode::ClosedForm(_) | AccelerationCode::UnderOwnLaws(_) => false,
         }
-    }
-
-    /// Makes ready what [`rates_of_eight`](Self::rates_of_eight) needs in `layout`.
-    pub fn prepare_eight(&mut self, entry: Entry<'_>, layout: &VariableLayout) {
-        let has_right_side = self.has_right_side_of_eight();
-        if has_right_side {
-            self.right_side_of_eight();
-        }
-        if !has_right_side || layout.thrust {
-            self.eight_states(entry, layout);
-        }
-    }
-
-    fn has_right_side_of_eight(&self) -> bool {
-        self.right_sides.as_ref().is_some_and(RightSides::take_eight)
-    }
-
-    fn right_side_of_eight(&mut self) -> Option<&mut RightSide<Eight>> {
-        let Self { right_sides, right_side_of_eight: made, .. } = self;
-        if made.is_none() {
-            *made = right_sides.as_ref().and_then(RightSides::of_eight);
-        }
-        made.as_mut()
     }
 
     /// The right sides by which explicit steps may be taken beside those of other runs in `layout`, if
     /// there are such.
     pub fn side_by_side(&self, layout: &VariableLayout) -> Option<&RightSides> {
         let is_all = layout.unknowns == Unknowns::Velocities && !layout.thrust;
-        self.right_sides.as_ref().filter(|right_sides| is_all && right_sides.take_eight())
+        self.right_sides.as_ref().filter(|right_sides| is_all && right_sides.takes_eight())
+    }
+
+    /// Makes ready what [`rates_of_eight`](Self::rates_of_eight) needs in `layout`.
+    pub fn prepare_eight(&mut self, entry: Entry<'_>, layout: &VariableLayout) {
+        let has_right_side = self.right_sides.as_ref().is_some_and(RightSides::takes_eight);
+        if !has_right_side || layout.thrust {
+            self.eight_states(entry, layout);
+        }
     }
 
     /// Writes ẏ of eight states to `dy`, if there is code for them in `layout`; returns whether
@@ -239,7 +274,8 @@ impl PreparedMode {
         if !self.takes_eight(layout) {
             return false;
         }
-        let power = self.right_side_of_eight().map(|right_side| right_side.write(at.y, dy));
+        let right_side = self.right_sides.as_mut().and_then(RightSides::of_eight);
+        let power = right_side.map(|right_side| right_side.write(at.y, dy));
         match power {
             Some(power) if !layout.thrust => {
                 if let [work] = &mut dy[layout.dashpot_work()] {

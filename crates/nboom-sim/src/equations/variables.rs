@@ -28,9 +28,10 @@ impl<R: Number> Variables<R> {
         Self { layout, origin: origin.clone(), carrying, total_mass, tau }
     }
 
-    /// Goes on with another mode of the scene, which begins at `origin`, without allocation.
+    /// Goes on with a mode of a scene with as many hinges, which begins at `origin`, without allocation.
     pub fn begin(&mut self, scene: &Scene, mode: &Mode, layout: VariableLayout, origin: &State<R>) {
         self.layout = layout;
+        self.total_mass = R::constant(scene.total_mass());
         self.carrying = carrying_acceleration(scene, mode);
         self.origin.copy_from(origin);
         self.tau.resize(layout.free, R::zero());

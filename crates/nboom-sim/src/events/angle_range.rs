@@ -1,6 +1,6 @@
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
-use nboom_dynamics::Recursive;
+use nboom_dynamics::{LineCircle, Recursive};
 use nboom_ode::Bernstein;
 use nboom_scalar::Number;
 
@@ -31,28 +31,20 @@ impl AngleRange {
         beta: impl Fn(usize) -> f64,
         side: f64,
     ) -> Option<Self> {
-        let mut path = dynamics.line_joints(line);
-        let (Some(alone), None) = (path.next(), path.next()) else { return None };
-        if alone.joint.slides() {
-            return None;
-        }
-        let hinge = alone.position;
-        let squared =
-            |angle: f64| dynamics.line_length_squared(line, |_| R::constant(angle)).to_f64();
-        let (at_zero, at_pi) = (squared(0.0), squared(PI));
-        let mean = 0.5 * (at_zero + at_pi);
-        let (along_cos, along_sin) = (0.5 * (at_zero - at_pi), squared(FRAC_PI_2) - mean);
-        let (radius, phase) = (along_cos.hypot(along_sin), along_sin.atan2(along_cos));
+        let LineCircle { position: hinge, mean, along_cos, along_sin } =
+            dynamics.line_circle(line)?;
+        let [mean, along_cos, along_sin] = [mean, along_cos, along_sin].map(R::to_f64);
+        let radius = along_cos.hypot(along_sin);
         let cosine = (limit * limit - mean) / radius;
         let hardly_moves = radius <= NO_RADIUS * mean.max(limit * limit);
         // Beyond one the limit is out of reach; near one rounding tells.
         if hardly_moves || (cosine.abs() - 1.0).abs() < TOUCHED {
             return None;
         }
-        let beta = beta(hinge);
         if cosine.abs() > 1.0 {
             return Some(Self { hinge, low: f64::NEG_INFINITY, high: f64::INFINITY });
         }
+        let (beta, phase) = (beta(hinge), along_sin.atan2(along_cos));
         let (half, from_longest) = (cosine.acos(), (beta - phase).rem_euclid(TAU));
         let [low, high] = if side < 0.0 {
             [half - from_longest, TAU - half - from_longest]
@@ -65,8 +57,7 @@ impl AngleRange {
 
     /// Where on [0, 1] an angle leaves the range.
     pub fn left_by(&self, angle: &Bernstein) -> Option<f64> {
-        let (low, high) = (angle.minus(self.low), angle.minus(self.high));
-        let ends = [low.leaves_side(1.0), high.leaves_side(-1.0)];
+        let ends = [angle.leaves(self.low, 1.0), angle.leaves(self.high, -1.0)];
         ends.into_iter().flatten().reduce(f64::min)
     }
 }

@@ -126,16 +126,39 @@ const AT_BOUND: f64 = 1e-13;
 /// it moves is told from rounding.
 const BEYOND_ROUNDING: f64 = 1e-12;
 
+/// The angles of the free hinges over a step, each made when it is first asked for.
+#[derive(Default)]
+struct Angles(Vec<Option<Bernstein>>);
+
+impl Angles {
+    /// Those of another step of a mode with so many free hinges.
+    fn begin(&mut self, free: usize) {
+        self.0.clear();
+        self.0.resize(free, None);
+    }
+
+    /// That of the free hinge `position`; variable `first` is that of the first one.
+    fn of(&mut self, position: usize, first: usize, stepper: &dyn Stepper) -> &Bernstein {
+        self.0[position].get_or_insert_with(|| stepper.polynomial(first + position))
+    }
+}
+
 /// The guards of one mode.
 pub(crate) struct Guards {
     pub list: Vec<Guard>,
     interpolation: Interpolation,
     path: LinePath,
+    angles: Angles,
 }
 
 impl Guards {
     pub fn new() -> Self {
-        Self { list: Vec::new(), interpolation: Interpolation::new(), path: LinePath::default() }
+        Self {
+            list: Vec::new(),
+            interpolation: Interpolation::new(),
+            path: LinePath::default(),
+            angles: Angles::default(),
+        }
     }
 
     /// Sets the guards of `mode` at `state`. `lock_sides` has the side of its lock angle that each
@@ -153,6 +176,7 @@ impl Guards {
         self.list.clear();
         // Steps that look for events allocate nothing.
         self.path.make_room(dynamics.free_hinges().len());
+        self.angles.begin(dynamics.free_hinges().len());
         for (i, body) in scene.bodies.iter().enumerate() {
             if let Some(angle) = body.hinge.lock_angle.filter(|_| mode.is_free(i)) {
                 let leaving = Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() };
@@ -196,18 +220,23 @@ impl Guards {
         stepper: &dyn Stepper,
     ) -> Option<(GuardKind, f64)> {
         let mut first: Option<(GuardKind, f64)> = None;
+        let free = equations.entered.dynamics.free_hinges();
+        let first_angle = equations.variables.layout.beta().start;
+        self.angles.begin(free.len());
         for i in 0..self.list.len() {
             let guard = self.list[i];
             let change = match watched(guard.kind, equations.entered.dynamics.elements()) {
                 _ if let Some(range) = guard.range => {
-                    let first = equations.variables.layout.beta().start;
-                    range.left_by(&stepper.polynomial(first + range.hinge))
+                    range.left_by(self.angles.of(range.hinge, first_angle, stepper))
                 }
                 (Coordinate::Length(line), limit) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)
                 }
                 (Coordinate::Angle(hinge), angle) => {
-                    guard.side.change(&angle_polynomial(hinge, angle, equations, stepper))
+                    let position = free.binary_search(&hinge);
+                    let position = position.expect("guards watch only free hinges");
+                    let polynomial = self.angles.of(position, first_angle, stepper);
+                    guard.side.change(polynomial, angle)
                 }
             };
             if let Some(fraction) = change.filter(|&f| first.is_none_or(|(_, g)| f < g)) {
@@ -277,9 +306,10 @@ impl Guards {
         (line, limit): (usize, f64),
         side: Side,
     ) -> Option<f64> {
-        let (dynamics, path) = (&equations.entered.dynamics, &mut self.path);
+        let (dynamics, path, angles) =
+            (&equations.entered.dynamics, &mut self.path, &mut self.angles);
         let first = equations.variables.layout.beta().start;
-        path.follow(dynamics, line, |hinge| stepper.polynomial(first + hinge));
+        path.follow(dynamics, line, |hinge| *angles.of(hinge, first, stepper));
         if let Side::Known(sign) = side
             && path.keeps_side(dynamics, limit, sign)
         {
@@ -295,7 +325,7 @@ impl Guards {
             let polynomial = self.interpolation.through(&values);
             let has_left = polynomial.excursion() > BEYOND_ROUNDING * limit * limit;
             let known = matches!(side, Side::Known(_));
-            let change = side.change(&polynomial).filter(|_| known || has_left);
+            let change = side.change(&polynomial, 0.0).filter(|_| known || has_left);
             if let Side::Leaving { .. } = side {
                 side = Side::Known(values[Interpolation::POINTS - 1].signum());
             }
@@ -343,15 +373,4 @@ fn watched<R: Real>(kind: GuardKind, elements: &Elements<R>) -> (Coordinate, f64
             (element.coordinate, element.bounds[bound.number])
         }
     }
-}
-
-fn angle_polynomial(
-    hinge: usize,
-    angle: f64,
-    equations: &Equations,
-    stepper: &dyn Stepper,
-) -> Bernstein {
-    let position = equations.entered.dynamics.free_hinges().binary_search(&hinge);
-    let position = position.expect("guards watch only free hinges");
-    stepper.polynomial(equations.variables.layout.beta().start + position).minus(angle)
 }

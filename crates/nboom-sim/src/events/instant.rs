@@ -1,4 +1,4 @@
-use nboom_dynamics::{LockUp, Recursive, VelocityJump};
+use nboom_dynamics::{Invariants, LockUp, Recursive, VelocityJump};
 use nboom_model::{External, HingeState, Mode, Release, Rotor, SAME_ANGLE, Scene};
 use nboom_scalar::Number;
 
@@ -219,14 +219,14 @@ impl<R: Number> Outcome<R> {
         })
     }
 
-    /// Takes `state` and `mode` through an instant: lock-ups jointly, then releases, then force
-    /// laws and what acts from outside. `dynamics` is in the mode before and is left there.
+    /// Takes `state`, whose invariants may be `known`, and `mode` through an instant: lock-ups jointly, then
+    /// releases, then force laws and what acts from outside. `dynamics` is in the mode before and is left there.
     pub fn pass(
         &mut self,
         scene: &Scene,
         dynamics: &mut Recursive<R>,
         (arrivals, schedule): (&Arrivals, &Schedule<R>),
-        state: &mut State<R>,
+        (state, known): (&mut State<R>, Option<Invariants<R>>),
         mode: &mut Mode,
     ) -> Result<(), SimError> {
         self.reset();
@@ -241,9 +241,15 @@ impl<R: Number> Outcome<R> {
         if arrivals.is_empty() && self.released.is_empty() && goes_on(scene, mode, end) {
             return Ok(());
         }
-        let before = totals(state, dynamics);
+        let found = known.unwrap_or_else(|| state.invariants(dynamics));
+        let before = Totals::of(state, &found);
         self.lock(scene, dynamics, &arrivals.locks, state, mode)?;
-        let after = if self.locking.is_empty() { before } else { totals(state, dynamics) };
+        let after = if self.locking.is_empty() {
+            before
+        } else {
+            let found = state.invariants(dynamics);
+            Totals::of(state, &found)
+        };
         let Self { events, crossed, released, free, locking, lock_up } = self;
         let event = |kind, hinge, impulse: Option<R>, before: Totals| {
             let impulse = impulse.map(Number::to_f64);
@@ -297,7 +303,7 @@ impl<R: Number> Outcome<R> {
             }
         }
         let (time, hinge) = (state.time.to_f64(), Some(scene.label(first)));
-        let before = state.invariants(dynamics);
+        let before = state.held.map(|_| state.invariants(dynamics));
         let motion = state.motion(dynamics);
         let locked = dynamics.lock_up(motion.beta, motion.tau, locking, lock_up);
         locked.map_err(|_| SimError::LockUp { time, hinge })?;
@@ -311,7 +317,7 @@ impl<R: Number> Outcome<R> {
             mode.hinges[i] = HingeState::Locked;
         }
         state.follow_hinges(dynamics);
-        if state.held.is_some() {
+        if let Some(before) = before {
             // What moves the main body holds out against the impulse.
             let after = state.invariants(dynamics);
             let force = after.linear_momentum - before.linear_momentum;
@@ -330,11 +336,6 @@ fn goes_on(scene: &Scene, mode: &Mode, time: f64) -> bool {
     scene.externals.iter().zip(&mode.externals).all(acts_on)
         && scene.rotors.iter().zip(&mode.rotors).all(turns_on)
         && scene.base.piece_at(time) == mode.drive
-}
-
-fn totals<R: Number>(state: &mut State<R>, dynamics: &mut Recursive<R>) -> Totals {
-    let found = state.invariants(dynamics);
-    Totals::of(state, &found)
 }
 
 /// Whether the angle has arrived that releases hinge `i`.

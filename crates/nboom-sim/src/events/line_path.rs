@@ -58,7 +58,7 @@ impl LinePath {
         &mut self,
         dynamics: &Recursive<f64>,
         line: usize,
-        angle: impl Fn(usize) -> Bernstein,
+        mut angle: impl FnMut(usize) -> Bernstein,
     ) {
         self.hinges.clear();
         (self.line, self.turned, self.displaced) = (line, 0.0, 0.0);

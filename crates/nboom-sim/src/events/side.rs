@@ -47,12 +47,13 @@ pub(crate) enum Side {
 }
 
 impl Side {
-    /// Where on [0, 1] a guard that starts on this side leaves it.
-    pub fn change(self, polynomial: &Bernstein) -> Option<f64> {
+    /// Where on [0, 1] a guard that starts on this side of `level` leaves it.
+    pub fn change(self, polynomial: &Bernstein, level: f64) -> Option<f64> {
         match self {
-            Self::Known(sign) => polynomial.leaves_side(sign),
+            Self::Known(sign) => polynomial.leaves(level, sign),
             Self::Leaving { sign, at_rest } => {
-                let from_here = polynomial.minus(polynomial.coefficients()[0]);
+                let from_level = polynomial.minus(level);
+                let from_here = from_level.minus(from_level.coefficients()[0]);
                 let mut moved = from_here.without_root_at_start();
                 let largest = moved.coefficients().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
                 if at_rest || moved.coefficients()[0].abs() <= AT_REST * largest {

@@ -1,4 +1,4 @@
-use nboom_dynamics::Recursive;
+use nboom_dynamics::{Invariants, Recursive};
 use nboom_model::{Mode, Scene};
 use nboom_scalar::Number;
 
@@ -83,17 +83,23 @@ impl<R: Number> Situation<R> {
         self.arrivals.find(scene, &self.guards, dynamics, &self.state, located);
     }
 
-    /// Goes through the instant of what has arrived; `dynamics` stays in the mode before.
+    /// Goes through the instant of what has arrived; `dynamics` stays in the mode before. Energy and momenta of
+    /// the state may be `known`.
     ///
     /// # Errors
     /// When hinges cannot lock.
-    pub fn pass(&mut self, scene: &Scene, dynamics: &mut Recursive<R>) -> Result<(), SimError> {
+    pub fn pass(
+        &mut self,
+        scene: &Scene,
+        dynamics: &mut Recursive<R>,
+        known: Option<Invariants<R>>,
+    ) -> Result<(), SimError> {
         for (hinge, side) in self.lock_sides.iter_mut().enumerate() {
             *side = self.guards.lock_side(hinge).or(*side);
         }
         let Self { state, mode, schedule, arrivals, outcome, .. } = self;
         schedule.note_lock_ups(scene, arrivals.locks(), state.time);
-        outcome.pass(scene, dynamics, (arrivals, schedule), state, mode)?;
+        outcome.pass(scene, dynamics, (arrivals, schedule), (state, known), mode)?;
         for &hinge in &outcome.released {
             self.lock_sides[hinge] = LockSide::of(scene, hinge, state.beta[hinge]);
         }

@@ -94,9 +94,8 @@ impl Run<'_> {
     }
 
     /// Refuses a mode in which a link has no inertia about its hinge.
-    pub(super) fn check_regular(&mut self) -> Result<(), SimError> {
-        let dynamics = &mut self.equations.entered.dynamics;
-        match dynamics.singular_hinge(self.situation.state.motion(dynamics).beta) {
+    pub(super) fn check_regular(&self) -> Result<(), SimError> {
+        match self.equations.singular {
             None => Ok(()),
             Some(hinge) => Err(SimError::SingularMassMatrix {
                 time: self.situation.state.time,
@@ -106,12 +105,13 @@ impl Run<'_> {
     }
 
     /// Refuses a mode in which a force acts along a line that moves and has no length.
-    pub(super) fn check_lines(&mut self) -> Result<(), SimError> {
+    pub(super) fn check_lines(&self) -> Result<(), SimError> {
         let Self { situation: Situation { state, .. }, equations, .. } = self;
-        for line in 0..equations.entered.dynamics.elements().lines().len() {
-            let [length, _] = state.line_length(&equations.entered.dynamics, line);
-            let line = &equations.entered.dynamics.elements().lines()[line];
-            if line.acts && line.link.is_some() && length <= NO_LENGTH * line.size {
+        let dynamics = &equations.entered.dynamics;
+        for (number, line) in dynamics.elements().lines().iter().enumerate() {
+            let acts = line.acts && line.link.is_some();
+            let length = || state.line_length(dynamics, number)[0];
+            if acts && length() <= NO_LENGTH * line.size {
                 let (time, hinge) = (state.time, equations.scene.label(line.hinge));
                 return Err(SimError::NoDirection { time, hinge, element: line.kind.names().name });
             }

@@ -18,8 +18,8 @@ use crate::run::step_motion::Room;
 ///
 /// Each run prepares the modes that it comes into: the tree of links, the code that computes rates of
 /// change and its constants. Later runs find them prepared, and room for all they write: they allocate
-/// nothing, but for power series, the inertias of modes whose momenta are integrated, instants that a recorder
-/// asks for, and failures. Results do not depend on that.
+/// nothing, but for power series, the inertias of modes whose momenta are integrated, jumps at lock-ups that a
+/// recorder asks for, and failures. Results do not depend on that.
 pub struct Simulator {
     options: Options,
     equations: Equations,
@@ -33,6 +33,7 @@ pub(super) struct Workspace {
     pub scratch: State,
     pub shown: State,
     pub seen: Snapshot,
+    pub sides: [Snapshot; 2],
     pub variables: Vec<f64>,
     pub room: Room,
     pub summary: Summary,
@@ -45,6 +46,7 @@ impl Workspace {
             scratch: State::initial(scene),
             shown: State::initial(scene),
             seen: Snapshot::empty(),
+            sides: [Snapshot::empty(), Snapshot::empty()],
             variables: Vec::new(),
             room: Room::new(scene, elements),
             summary: Summary::empty(),
@@ -74,13 +76,16 @@ impl Simulator {
     }
 
     /// Takes another scene, under the program's own laws that the simulator has. What was prepared stays if
-    /// it differs in its initial state and its times alone; else its modes are prepared as they come.
+    /// it differs in its initial state and its times alone. Modes of a satellite that has as many of everything
+    /// take the places of those that are prepared, as they come; else all is prepared anew.
     pub fn set_scene(&mut self, scene: &Scene) {
-        if is_same_satellite(&self.equations.scene, scene) {
-            self.equations.set_scene(scene);
-            return;
-        }
         let Self { options, equations, workspace, .. } = self;
+        if is_same_satellite(&equations.scene, scene) {
+            return equations.set_scene(scene);
+        }
+        if is_alike(&equations.scene, scene) {
+            return equations.set_satellite(scene);
+        }
         let repertoire = std::mem::take(&mut equations.repertoire);
         *equations = Equations::new(scene, equations.own.clone(), repertoire, options);
         *workspace = Workspace::new(scene, equations.entered.dynamics.elements());
@@ -151,14 +156,30 @@ impl Simulator {
     }
 }
 
+/// Whether two scenes have as many of everything, so that what one needs room for the other does, and whether
+/// momenta can stand for rates in both.
+fn is_alike(a: &Scene, b: &Scene) -> bool {
+    let springs = |body: &Body| body.hinge.kick_off.is_some();
+    a.bodies.len() == b.bodies.len()
+        && a.bodies.iter().map(springs).eq(b.bodies.iter().map(springs))
+        && a.externals.len() == b.externals.len()
+        && a.externals_on_hinged().count() == b.externals_on_hinged().count()
+        && a.rotors.len() == b.rotors.len()
+        && a.base.is_held() == b.base.is_held()
+        && a.departures() == b.departures()
+}
+
 /// Whether two scenes are of one satellite, on which the same forces can act.
 fn is_same_satellite(a: &Scene, b: &Scene) -> bool {
     let are_same = |(a, b): (&Body, &Body)| {
         let hinge = Hinge { start: a.hinge.start, ..b.hinge };
         Body { hinge, ..*b } == *a
     };
+    // What holds a main body holds it in its initial attitude.
+    let are_held_alike = !a.base.is_held() || a.initial.attitude == b.initial.attitude;
     a.bodies.len() == b.bodies.len()
         && a.bodies.iter().zip(&b.bodies).all(are_same)
+        && (a.base == b.base && are_held_alike)
         && a.main_body == b.main_body
         && a.externals == b.externals
         && a.gravity == b.gravity

@@ -10,6 +10,10 @@ use crate::run::record::{Detail, InstantMotion, Snapshot};
 use crate::run::snapshot;
 use crate::run::step_motion::DenseStep;
 
+/// The sides of an instant.
+const BEFORE: usize = 0;
+const AFTER: usize = 1;
+
 impl Run<'_> {
     pub(super) fn sample_time(&self) -> f64 {
         let (start, end) = (self.equations.scene.initial.time, self.equations.scene.end_time);
@@ -102,31 +106,40 @@ impl Run<'_> {
         finite::check_snapshot(scene, seen)
     }
 
-    /// The present motion in detail.
-    fn motion_here(&mut self) -> Result<Snapshot, SimError> {
+    /// Sees the present motion in detail, on one side of an instant.
+    fn see_side(&mut self, side: usize) -> Result<(), SimError> {
         let found = self.show_present();
-        self.see(&found, true)?;
-        Ok(self.seen.clone())
+        std::mem::swap(self.seen, &mut self.sides[side]);
+        let seen = self.see(&found, true);
+        std::mem::swap(self.seen, &mut self.sides[side]);
+        seen
     }
 
-    /// The motion before an instant, if there is one and the recorder wants it.
-    pub(super) fn before_instant(&mut self) -> Result<Option<Snapshot>, SimError> {
+    /// Sees the motion before an instant; returns whether there is one and the recorder wants it.
+    pub(super) fn before_instant(&mut self) -> Result<bool, SimError> {
         let Situation { state, arrivals, .. } = &self.situation;
         let has_moved =
             state.time > self.equations.scene.initial.time || !arrivals.locks().is_empty();
-        if !(has_moved && self.recorder.needs_instants()) {
-            return Ok(None);
+        let is_wanted = has_moved && self.recorder.needs_instants();
+        if is_wanted {
+            self.see_side(BEFORE)?;
         }
-        self.motion_here().map(Some)
+        Ok(is_wanted)
     }
 
-    pub(super) fn tell_instant(&mut self, before: Option<Snapshot>) -> Result<(), SimError> {
+    pub(super) fn tell_instant(&mut self, has_before: bool) -> Result<(), SimError> {
         if self.situation.outcome.events.is_empty() || !self.recorder.needs_instants() {
             return Ok(());
         }
         let jumps = self.situation.outcome.jumps(self.equations.scene.bodies.len()).collect();
-        let (time, after) = (self.situation.state.time, self.motion_here()?);
-        let kept = self.recorder.instant(&InstantMotion { before, jumps, after });
+        self.see_side(AFTER)?;
+        let time = self.situation.state.time;
+        let [before, after] = std::mem::replace(self.sides, [Snapshot::empty(), Snapshot::empty()]);
+        let (before, room) = if has_before { (Some(before), None) } else { (None, Some(before)) };
+        let told = InstantMotion { before, jumps, after };
+        let kept = self.recorder.instant(&told);
+        // The next instant finds their room.
+        *self.sides = [told.before.or(room).unwrap_or_else(Snapshot::empty), told.after];
         kept.map_err(|source| SimError::Record { time, source })
     }
 
