@@ -11,6 +11,7 @@ mod embedding;
 mod formulations;
 mod forward_dynamics;
 mod gimbals;
+mod inverse;
 mod limbs;
 mod lines;
 mod momenta;
