@@ -10,7 +10,7 @@ use crate::satellites::{Satellite, random};
 const SATELLITES: u64 = 3000;
 
 /// The motion that the recursion gives, hinges in the order of the topology.
-fn motion(satellite: &Satellite, recognised: &Recognised) -> Motion<f64> {
+pub fn motion(satellite: &Satellite, recognised: &Recognised) -> Motion<f64> {
     let of = &satellite.accelerations;
     let hinge = |&j: &usize| {
         let (at, tau_dot) = (satellite.coordinates.hinges[j], of.tau_dot[j]);
@@ -36,19 +36,25 @@ fn assert_returns(satellite: &Satellite, label: &str) {
     let Recognised { topology, parameters, .. } = &recognised;
     let motion = motion(satellite, &recognised);
     let found = flat(&inverse_dynamics(topology, parameters, &motion));
-    let coordinates = satellite.coordinates_of(&recognised);
+    assert_drives(satellite, &recognised, &found, &format!("{label}, {topology}"));
+}
+
+/// Force, moment and torques that were found are those that acted.
+pub fn assert_drives(satellite: &Satellite, recognised: &Recognised, found: &[f64], label: &str) {
+    let coordinates = satellite.coordinates_of(recognised);
     let torques = coordinates.hinges.iter().map(|hinge| hinge.torque).collect();
     let expected = flat(&Drive { external: coordinates.external, torques });
     let accelerations = satellite.expected(&recognised.links);
-    let matrix = satellite.mass_matrix_of(&recognised);
-    let bias = satellite.forcing_of(&recognised);
+    let matrix = satellite.mass_matrix_of(recognised);
+    let forcing = satellite.forcing_of(recognised);
+    assert_eq!(found.len(), expected.len());
     for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
         // Rounding of the sum that each force is, and of the accelerations in it, which are off by a few
         // roundings of the largest times the condition.
         let terms = (0..accelerations.len()).map(|j| (matrix[(i, j)] * accelerations[j]).abs());
-        let size = terms.sum::<f64>() + bias[i].abs() + expected.abs();
+        let size = terms.sum::<f64>() + forcing[i].abs() + expected.abs();
         let (error, allowed) = ((found - expected).abs(), satellite.allowed() * size.max(1.0));
-        assert!(error < allowed, "{label}, {topology}, row {i}: {error:e} of {allowed:e}");
+        assert!(error < allowed, "{label}, row {i}: {error:e} of {allowed:e}");
     }
 }
 

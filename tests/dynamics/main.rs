@@ -10,6 +10,7 @@ mod closed_forms;
 mod embedding;
 mod formulations;
 mod forward_dynamics;
+mod generated;
 mod gimbals;
 mod inverse;
 mod limbs;
