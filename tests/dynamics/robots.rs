@@ -2,9 +2,12 @@
 //! slide.
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::formulation::{
+    Coordinates, Formulation, HingeCoordinates, Parameters, Recognised, recognise,
+};
 use nboom::io::{Format, read_scene};
 use nboom::model::{HingeState, Mode};
-use nboom::scalar::Vec3;
+use nboom::scalar::{Dual, Vec3, Wrench};
 use serde_json::Value;
 
 use crate::support::{data, data_path, numbers, relative_error};
@@ -67,6 +70,73 @@ fn largest_difference(name: &str, robot: &Value) -> f64 {
         relative_error(&found, &expected, 0.0)
     };
     states.iter().map(difference).fold(0.0, f64::max)
+}
+
+/// Two analytical derivatives in `f64`, on matrices of condition up to 1e4.
+const TOLERANCE_OF_DERIVATIVES: f64 = 1e-11;
+
+#[test]
+fn derivatives_by_angles_rates_and_torques_are_those_of_pinocchio() {
+    let (states, all) = (data("robots/accelerations.json"), data("robots/dynamics.json"));
+    for (name, expected) in all.as_object().expect("robots by name") {
+        let robot = &states[name];
+        let state = &robot["states"][expected["state"].as_u64().expect("a number") as usize];
+        for formulation in [Formulation::Articulated, Formulation::Symmetric] {
+            for (row, key) in ["by_angles", "by_rates", "by_torques"].into_iter().enumerate() {
+                let found = derivatives(name, robot, state, formulation, row);
+                let error = relative_error(&found, &numbers(&expected[key]), 0.0);
+                assert!(
+                    error < TOLERANCE_OF_DERIVATIVES,
+                    "{name}, {formulation}, {key}: {error:e}"
+                );
+            }
+        }
+    }
+}
+
+/// Derivatives of ω̇, a_O and τ̇, hinges in the order of the data: rows of one number for each angle, rate or
+/// torque (`of_hinge`).
+fn derivatives(
+    name: &str,
+    robot: &Value,
+    state: &Value,
+    formulation: Formulation,
+    of_hinge: usize,
+) -> Vec<f64> {
+    let scene = read_scene(&data_path(&format!("robots/{name}.urdf"))).expect("a robot").scene;
+    let Recognised { topology, parameters, links, .. } =
+        recognise(Recursive::<f64>::new(&scene).tree()).expect("rigid bodies");
+    let constants = parameters.write().into_iter().map(Dual::constant);
+    let parameters = Parameters::read(&topology, constants);
+    let names: Vec<&str> =
+        robot["hinges"].as_array().expect("links").iter().filter_map(Value::as_str).collect();
+    let of_link = |link: &usize| names.iter().position(|&name| scene.name_of(*link) == Some(name));
+    let order: Vec<usize> = links.iter().map(|link| of_link(link).expect("a hinge")).collect();
+    let values = ["angles", "rates", "torques"].map(|key| numbers(&state[key]));
+    let [x, y, z] = numbers(&state["omega"]).try_into().expect("three numbers");
+    let (n, mut all) = (order.len(), vec![0.0; (6 + order.len()) * order.len()]);
+    for along in 0..n {
+        let number = |row: usize, i: usize| match (row, i) == (of_hinge, along) {
+            true => Dual::variable(values[row][i]),
+            false => Dual::constant(values[row][i]),
+        };
+        let hinge = |&i: &usize| HingeCoordinates {
+            beta: number(0, i),
+            tau: number(1, i),
+            torque: number(2, i),
+        };
+        let coordinates = Coordinates {
+            omega: Vec3::new(x, y, z).map(Dual::constant),
+            external: Wrench::zero(),
+            hinges: order.iter().map(hinge).collect(),
+        };
+        let found = formulation.solve(&topology, &parameters, &coordinates);
+        let main = [found.main.angular.to_array(), found.main.linear.to_array()].concat();
+        let of_main = main.into_iter().enumerate();
+        let of_hinges = order.iter().map(|i| 6 + i).zip(found.tau_dot);
+        of_main.chain(of_hinges).for_each(|(row, dual)| all[row * n + along] = dual.derivative);
+    }
+    all
 }
 
 #[test]

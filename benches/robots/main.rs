@@ -1,5 +1,7 @@
-//! Nanoseconds for the accelerations of a robot, and for these with their derivatives by the angles, rates and
-//! torques of all joints, one thread. `cargo run --release` here prints a line for each, as `pinocchio.cpp` does.
+//! Nanoseconds for the accelerations of a robot: of one state, by code for this processor and by plain code, which
+//! takes equal legs one after the other; of each of eight states at once; and with their derivatives by the
+//! angles, rates and torques of all joints. One thread. `cargo run --release` here prints a line for each, as
+//! `pinocchio.cpp` does.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -7,7 +9,7 @@ use std::time::{Duration, Instant};
 use nboom::dynamics::Recursive;
 use nboom::formulation::{Layout, recognise};
 use nboom::io::read_scene;
-use nboom::scalar::{Kernel, Routine, jacobian};
+use nboom::scalar::{Batch, Eight, InstructionSet, Kernel, Routine, jacobian};
 
 /// States that are taken in turns.
 const STATES: usize = 64;
@@ -48,13 +50,29 @@ fn measure<T: Routine>(robot: &str) {
     let state = |i: usize| (0..T::COORDINATES).map(|j| number(i, j)).collect::<Vec<f64>>();
     let states: Vec<Vec<f64>> = (0..STATES).map(state).collect();
     let mut found = vec![0.0; T::OUTPUTS];
-    tell(
-        "accelerations",
-        robot,
-        time(|i| {
-            kernel.evaluate(&constants, black_box(&states[i]), black_box(&mut found));
-        }),
-    );
+    let plain = Kernel::with::<T>(InstructionSet::Portable).expect("every processor has it");
+    for (what, kernel) in [("accelerations", kernel), ("accelerations_plain", plain)] {
+        tell(
+            what,
+            robot,
+            time(|i| {
+                kernel.evaluate(&constants, black_box(&states[i]), black_box(&mut found));
+            }),
+        );
+    }
+    let (batch, spread) = (Batch::of::<T>(), |&number: &f64| Eight::splat(number));
+    let of_eight: Vec<Eight> = constants.iter().map(spread).collect();
+    let abreast: Vec<Vec<Eight>> = (0..STATES)
+        .map(|i| {
+            let number = |j: usize| Eight(std::array::from_fn(|k| states[(i + k) % STATES][j]));
+            (0..T::COORDINATES).map(number).collect()
+        })
+        .collect();
+    let mut all = vec![Eight::default(); T::OUTPUTS];
+    let times = time(|i| {
+        batch.evaluate(&of_eight, black_box(&abreast[i]), black_box(&mut all));
+    });
+    tell("accelerations_of_eight", robot, times.map(|ns| ns / 8.0));
     let by = Layout::STATE..T::COORDINATES;
     let mut derivatives = vec![0.0; T::OUTPUTS * by.len()];
     tell(
