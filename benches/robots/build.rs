@@ -4,7 +4,6 @@ fn main() -> Result<(), nboom_build::BuildError> {
     for robot in ["ur5", "panda", "anymal", "go2"] {
         nboom_build::Config::new()
             .baked_scene(format!("../../tests/data/robots/{robot}.urdf"))
-            .scalar_path("::nboom::scalar")
             .write(&format!("{robot}.rs"))?;
     }
     Ok(())

@@ -6,10 +6,10 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use nboom::dynamics::Recursive;
-use nboom::formulation::{Layout, recognise};
-use nboom::io::read_scene;
-use nboom::scalar::{Batch, Eight, InstructionSet, Kernel, Routine, jacobian};
+use nboom_dynamics::Recursive;
+use nboom_formulation::{Layout, recognise};
+use nboom_io::read_scene;
+use nboom_scalar::{Batch, Eight, InstructionSet, Kernel, Routine, jacobian};
 
 /// States that are taken in turns.
 const STATES: usize = 64;
