@@ -230,19 +230,18 @@ fn motions(
     let opposite = |all: Vec<f64>| -> Vec<f64> { all.iter().map(|number| -number).collect() };
     let accelerations: Vec<Vec<f64>> = truth.into_iter().map(opposite).collect();
     let drives = drives(test_case, &accelerations)?;
-    let states = inputs.into_iter().zip(accelerations).zip(drives);
-    let topology = &recognised.topology;
-    let case =
-        |(([parameters, mut coordinates], accelerations), drive): ((_, Vec<f64>), Vec<f64>)| {
-            let accelerations = in_routine(recognised, &accelerations);
-            coordinates[3..Layout::STATE].copy_from_slice(&accelerations[..Layout::OUTPUT]);
-            for place in Layout::places(topology) {
-                let [_, _, torque] = Layout::hinge_in_state(topology, place);
-                coordinates[torque] = accelerations[Layout::OUTPUT + place];
-            }
-            Tested { parameters, coordinates, expected: in_routine(recognised, &drive) }
-        };
-    Ok(states.map(case).collect())
+    let mut cases = Vec::new();
+    for (i, [parameters, mut coordinates]) in inputs.into_iter().enumerate() {
+        let accelerations = in_routine(recognised, &accelerations[i]);
+        coordinates[3..Layout::STATE].copy_from_slice(&accelerations[..Layout::OUTPUT]);
+        for place in Layout::places(&recognised.topology) {
+            let [_, _, torque] = Layout::hinge_in_state(&recognised.topology, place);
+            coordinates[torque] = accelerations[Layout::OUTPUT + place];
+        }
+        let expected = in_routine(recognised, &drives[i]);
+        cases.push(Tested { parameters, coordinates, expected });
+    }
+    Ok(cases)
 }
 
 /// Parameters and coordinates of each state.
