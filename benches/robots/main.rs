@@ -1,15 +1,10 @@
-//! Nanoseconds for the accelerations of a robot: of one state, by code for this processor and by plain code, which
-//! takes equal legs one after the other; of each of eight states at once; and with their derivatives by the
-//! angles, rates and torques of all joints. One thread. `cargo run --release` here prints a line for each, as
+//! Nanoseconds for the accelerations of a robot, its numbers built in: of one state, by code for this processor and
+//! by plain code, which takes equal legs one after the other; of each of eight states at once; and with their
+//! derivatives by the angles, rates and torques of all joints. One thread. `./run` prints a line for each, as
 //! `pinocchio.cpp` does.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-
-use nboom_dynamics::Recursive;
-use nboom_formulation::{Layout, recognise};
-use nboom_io::read_scene;
-use nboom_scalar::{Batch, Eight, InstructionSet, Kernel, Routine, jacobian};
 
 /// States that are taken in turns.
 const STATES: usize = 64;
@@ -20,16 +15,62 @@ const LONG: Duration = Duration::from_millis(800);
 /// Samples are about as long.
 const SAMPLE: Duration = Duration::from_micros(100);
 
-macro_rules! robots {
-    ($($robot:ident: $routine:ident,)*) => {
-        $(mod $robot {
-            include!(concat!(env!("OUT_DIR"), "/", stringify!($robot), ".rs"));
-        })*
+/// Numbers of a state before the joints: ω, moment, force.
+const BEFORE_JOINTS: usize = 9;
 
-        fn main() {
-            $(measure::<$robot::$routine>(stringify!($robot));)*
+fn main() {
+    ur5();
+    panda();
+    anymal();
+    go2();
+}
+
+/// A function for each robot: its crate has types of its own.
+macro_rules! robots {
+    ($($robot:ident: $routine:ident,)*) => {$(
+        fn $robot() {
+            use ::$robot::nboom_scalar::{Batch, Eight, InstructionSet, Kernel, jacobian};
+            use ::$robot::{$routine as Robot, Routine, parameters};
+
+            let mut constants = vec![0.0; Robot::CONSTANTS];
+            Robot::prepare(parameters(), &mut constants);
+            let states = states(Robot::COORDINATES);
+            let mut found = vec![0.0; Robot::OUTPUTS];
+            for (what, instructions) in [
+                ("accelerations", InstructionSet::of_this_processor()),
+                ("accelerations_plain", InstructionSet::Portable),
+            ] {
+                let kernel = Kernel::with::<Robot>(instructions).expect("the processor has it");
+                let call = |i: usize| {
+                    kernel.evaluate(&constants, black_box(&states[i]), black_box(&mut found));
+                };
+                tell(what, stringify!($robot), time(call));
+            }
+
+            let batch = Batch::of::<Robot>();
+            let of_eight: Vec<Eight> = constants.iter().map(|&k| Eight::splat(k)).collect();
+            let abreast = |i: usize| -> Vec<Eight> {
+                let number = |j: usize| {
+                    Eight(std::array::from_fn(|lane| states[(i + lane) % STATES][j]))
+                };
+                (0..Robot::COORDINATES).map(number).collect()
+            };
+            let abreast: Vec<Vec<Eight>> = (0..STATES).map(abreast).collect();
+            let mut all = vec![Eight::default(); Robot::OUTPUTS];
+            let times = time(|i| {
+                batch.evaluate(&of_eight, black_box(&abreast[i]), black_box(&mut all));
+            });
+            tell("accelerations_of_eight", stringify!($robot), times.map(|ns| ns / 8.0));
+
+            let by = BEFORE_JOINTS..Robot::COORDINATES;
+            let mut derivatives = vec![0.0; Robot::OUTPUTS * by.len()];
+            let call = |i: usize| {
+                let (x, to) = (black_box(&states[i]), black_box(&mut derivatives));
+                jacobian::<Robot>(&constants, x, by.clone(), &mut found, to);
+            };
+            tell("derivatives", stringify!($robot), time(call));
         }
-    };
+    )*};
 }
 
 robots! {
@@ -39,50 +80,9 @@ robots! {
     go2: Baked4xTrrp,
 }
 
-fn measure<T: Routine>(robot: &str) {
-    let path = format!("{}/../../tests/data/robots/{robot}.urdf", env!("CARGO_MANIFEST_DIR"));
-    let scene = read_scene(path.as_ref()).expect("the robot is in the clone").scene;
-    let recognised = recognise(Recursive::<f64>::new(&scene).tree()).expect("rigid bodies");
-    let kernel = Kernel::of::<T>();
-    let mut constants = vec![0.0; T::CONSTANTS];
-    kernel.prepare(&recognised.parameters.write(), &mut constants);
+fn states(size: usize) -> Vec<Vec<f64>> {
     let number = |i: usize, j: usize| (1.7 * i as f64 + 0.9 * j as f64).sin() * 1.5;
-    let state = |i: usize| (0..T::COORDINATES).map(|j| number(i, j)).collect::<Vec<f64>>();
-    let states: Vec<Vec<f64>> = (0..STATES).map(state).collect();
-    let mut found = vec![0.0; T::OUTPUTS];
-    let plain = Kernel::with::<T>(InstructionSet::Portable).expect("every processor has it");
-    for (what, kernel) in [("accelerations", kernel), ("accelerations_plain", plain)] {
-        tell(
-            what,
-            robot,
-            time(|i| {
-                kernel.evaluate(&constants, black_box(&states[i]), black_box(&mut found));
-            }),
-        );
-    }
-    let (batch, spread) = (Batch::of::<T>(), |&number: &f64| Eight::splat(number));
-    let of_eight: Vec<Eight> = constants.iter().map(spread).collect();
-    let abreast: Vec<Vec<Eight>> = (0..STATES)
-        .map(|i| {
-            let number = |j: usize| Eight(std::array::from_fn(|k| states[(i + k) % STATES][j]));
-            (0..T::COORDINATES).map(number).collect()
-        })
-        .collect();
-    let mut all = vec![Eight::default(); T::OUTPUTS];
-    let times = time(|i| {
-        batch.evaluate(&of_eight, black_box(&abreast[i]), black_box(&mut all));
-    });
-    tell("accelerations_of_eight", robot, times.map(|ns| ns / 8.0));
-    let by = Layout::STATE..T::COORDINATES;
-    let mut derivatives = vec![0.0; T::OUTPUTS * by.len()];
-    tell(
-        "derivatives",
-        robot,
-        time(|i| {
-            let x = black_box(&states[i]);
-            jacobian::<T>(&constants, x, by.clone(), &mut found, black_box(&mut derivatives));
-        }),
-    );
+    (0..STATES).map(|i| (0..size).map(|j| number(i, j)).collect()).collect()
 }
 
 /// The shortest and the middle sample, for one call each.
