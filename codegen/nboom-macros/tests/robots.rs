@@ -1,21 +1,16 @@
-//! Generated code of public robots against Pinocchio 4.1.0: derivatives of accelerations, inverse dynamics, mass
-//! matrix and bias.
+//! Generated code of a public robot against Pinocchio 4.1.0: inverse dynamics, mass matrix and bias. Its equations, and
+//! those of others, are compared in `tests/dynamics/robots.rs`.
 
 use std::path::PathBuf;
 
 use nboom::dynamics::Recursive;
 use nboom::formulation::{Coordinates, HingeCoordinates, Layout, Motion, Recognised, recognise};
 use nboom::io::read_scene;
-use nboom::scalar::{Kernel, Routine, Twist, Vec3, Wrench, jacobian};
+use nboom::scalar::{Kernel, Routine, Twist, Vec3, Wrench};
 use serde_json::Value;
 
-nboom::routine! { Arm: Trrpprr }
 nboom::routine! { ArmInverse: Trrpprr, inverse_dynamics }
 nboom::routine! { ArmMatrix: Trrpprr, equations, formulation = symmetric }
-nboom::routine! { GripperInverse: "Trrrrrrr(s)(s)", inverse_dynamics }
-nboom::routine! { GripperMatrix: "Trrrrrrr(s)(s)", equations, formulation = symmetric }
-nboom::routine! { QuadrupedInverse: 4xTrrp, inverse_dynamics }
-nboom::routine! { QuadrupedMatrix: 4xTrrp, equations, formulation = symmetric }
 
 /// Both codes compute in `f64`, on matrices of condition up to 1e4.
 const TOLERANCE: f64 = 1e-11;
@@ -93,27 +88,6 @@ impl Robot {
         rows
     }
 
-    /// Derivatives by the angles, rates and torques of all hinges.
-    fn derives<T: Routine>(&self) {
-        let topology = &self.recognised.topology;
-        let x = self.coordinates.write(topology);
-        let by = Layout::STATE..x.len();
-        let (mut found, mut all) = (vec![0.0; T::OUTPUTS], vec![0.0; T::OUTPUTS * by.len()]);
-        jacobian::<T>(&self.constants::<T>(), &x, by.clone(), &mut found, &mut all);
-        for (of_hinge, key) in ["by_angles", "by_rates", "by_torques"].into_iter().enumerate() {
-            let expected: Vec<Vec<f64>> =
-                self.expected[key].as_array().expect("rows").iter().map(numbers).collect();
-            let scale = expected.iter().flatten().fold(0.0_f64, |most, e| most.max(e.abs()));
-            for (row, output) in self.rows().into_iter().zip(all.chunks_exact(by.len())) {
-                for (&i, place) in self.order.iter().zip(Layout::places(topology)) {
-                    let at = Layout::hinge_in_state(topology, place)[of_hinge];
-                    let off = (output[at - by.start] - expected[row][i]).abs() / scale;
-                    assert!(off < TOLERANCE, "{}, {key}, {row}, {i}: {off:e}", T::TOPOLOGY);
-                }
-            }
-        }
-    }
-
     /// The forces for other accelerations.
     fn is_driven<T: Routine>(&self) {
         let topology = &self.recognised.topology;
@@ -163,21 +137,11 @@ impl Robot {
 }
 
 #[test]
-fn derivatives_are_those_of_pinocchio() {
-    // Others take compilers minutes; their closed forms are compared in `tests/dynamics/robots.rs`.
-    Robot::new("ur5").derives::<Arm>();
-}
-
-#[test]
 fn inverse_dynamics_is_that_of_pinocchio() {
     Robot::new("ur5").is_driven::<ArmInverse>();
-    Robot::new("panda").is_driven::<GripperInverse>();
-    Robot::new("go2").is_driven::<QuadrupedInverse>();
 }
 
 #[test]
 fn matrix_and_bias_are_those_of_pinocchio() {
     Robot::new("ur5").has_matrix::<ArmMatrix>();
-    Robot::new("panda").has_matrix::<GripperMatrix>();
-    Robot::new("go2").has_matrix::<QuadrupedMatrix>();
 }
