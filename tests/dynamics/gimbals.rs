@@ -105,17 +105,22 @@ fn a_body_without_mass_carries_another_one() {
 }
 
 #[test]
-fn a_ring_that_turns_about_the_axis_of_what_it_carries_is_told() {
+fn a_ring_that_moves_along_the_axis_of_what_it_carries_is_told() {
     let point = MassProperties::new(1.0, Vec3::unit_x(), Sym3::zero());
-    let ring = body(None, 1.0, Vec3::unit_z(), MassProperties::nothing());
-    let carried = body(Some(0), 0.0, Vec3::unit_z(), point);
     let main = MassProperties::new(10.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
-    let scene = SceneDescription {
-        bodies: vec![ring, carried],
-        ..SceneDescription::at_rest("twice", main, 1.0)
-    };
-    let scene = Scene::new(scene).expect("each number is right");
-    let failure = simulate(&scene, &Options::default(), &mut Nobody)
-        .expect_err("nothing says how the ring turns");
-    assert!(matches!(failure.error, SimError::SingularMassMatrix { .. }), "{}", failure.error);
+    for joint in [Joint::Revolute, Joint::Prismatic] {
+        let along = |inboard, at, of| Body { joint, ..body(inboard, at, Vec3::unit_z(), of) };
+        let bodies = vec![along(None, 1.0, MassProperties::nothing()), along(Some(0), 0.0, point)];
+        let scene = SceneDescription { bodies, ..SceneDescription::at_rest("twice", main, 1.0) };
+        let scene = Scene::new(scene).expect("each number is right");
+        for formulation in [Form::Recursive, Form::Closed(Formulation::Articulated)] {
+            let options = Options { formulation: Some(formulation), ..Options::default() };
+            let failure = simulate(&scene, &options, &mut Nobody)
+                .expect_err("nothing says how the ring moves");
+            let SimError::SingularMassMatrix { hinge, .. } = &failure.error else {
+                panic!("{joint:?}, {formulation:?}: {}", failure.error)
+            };
+            assert_eq!(*hinge, Some(scene.label(0)), "{joint:?}, {formulation:?}");
+        }
+    }
 }

@@ -2,9 +2,13 @@
 //! slide.
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::formulation::{
+    self, Coordinates, Drive, Formulation, HingeCoordinates, HingeMotion, Parameters, Recognised,
+    inverse_dynamics, recognise,
+};
 use nboom::io::{Format, read_scene};
 use nboom::model::{HingeState, Mode};
-use nboom::scalar::Vec3;
+use nboom::scalar::{Dual, Twist, Vec3, Wrench};
 use serde_json::Value;
 
 use crate::support::{data, data_path, numbers, relative_error};
@@ -67,6 +71,158 @@ fn largest_difference(name: &str, robot: &Value) -> f64 {
         relative_error(&found, &expected, 0.0)
     };
     states.iter().map(difference).fold(0.0, f64::max)
+}
+
+/// What two derivations in `f64` differ by is rounding, at most 5e-14 here.
+const TOLERANCE_OF_CLOSED_FORMS: f64 = 1e-12;
+
+/// A robot in one of the states, as closed forms take it.
+struct InState {
+    recognised: Recognised,
+    coordinates: Coordinates<f64>,
+    /// For each hinge of the topology, which it is in the data.
+    order: Vec<usize>,
+}
+
+impl InState {
+    fn new(name: &str, robot: &Value, state: &Value) -> Self {
+        let scene = read_scene(&data_path(&format!("robots/{name}.urdf"))).expect("a robot").scene;
+        let recognised = recognise(Recursive::<f64>::new(&scene).tree()).expect("rigid bodies");
+        let names: Vec<&str> =
+            robot["hinges"].as_array().expect("links").iter().filter_map(Value::as_str).collect();
+        let of_link =
+            |link: &usize| names.iter().position(|&name| scene.name_of(*link) == Some(name));
+        let order: Vec<usize> =
+            recognised.links.iter().map(|link| of_link(link).expect("a hinge")).collect();
+        let [beta, tau, torque] = ["angles", "rates", "torques"].map(|key| numbers(&state[key]));
+        let hinge = |&i: &usize| HingeCoordinates { beta: beta[i], tau: tau[i], torque: torque[i] };
+        let hinges = order.iter().map(hinge).collect();
+        let [x, y, z] = numbers(&state["omega"]).try_into().expect("three numbers");
+        let (omega, external) = (Vec3::new(x, y, z), Wrench::zero());
+        Self { recognised, coordinates: Coordinates { omega, external, hinges }, order }
+    }
+
+    /// Rows of six numbers and of one for each hinge in the order of the data.
+    fn rows(&self, of_main: [usize; 6]) -> Vec<usize> {
+        of_main.into_iter().chain(self.order.iter().map(|i| 6 + i)).collect()
+    }
+
+    /// Derivatives of ω̇, a_O and τ̇, hinges in the order of the data: rows of one number for each angle, rate
+    /// or torque (`of_hinge`).
+    fn derivatives(&self, formulation: Formulation, of_hinge: usize) -> Vec<f64> {
+        let Recognised { topology, parameters, .. } = &self.recognised;
+        let constants = parameters.write().into_iter().map(Dual::constant);
+        let parameters = Parameters::read(topology, constants);
+        let n = self.order.len();
+        let mut all = vec![0.0; (6 + n) * n];
+        for (along, &column) in self.order.iter().enumerate() {
+            let Coordinates { omega, hinges, .. } = &self.coordinates;
+            let dual = |i: usize, row: usize, value: f64| match (i, row) == (along, of_hinge) {
+                true => Dual::variable(value),
+                false => Dual::constant(value),
+            };
+            let hinge = |(i, hinge): (usize, &HingeCoordinates<f64>)| HingeCoordinates {
+                beta: dual(i, 0, hinge.beta),
+                tau: dual(i, 1, hinge.tau),
+                torque: dual(i, 2, hinge.torque),
+            };
+            let coordinates = Coordinates {
+                omega: Vec3::constant(*omega),
+                external: Wrench::zero(),
+                hinges: hinges.iter().enumerate().map(hinge).collect(),
+            };
+            let found = formulation.solve(topology, &parameters, &coordinates);
+            let main = [found.main.angular.to_array(), found.main.linear.to_array()].concat();
+            for (row, dual) in self.rows(MAIN).into_iter().zip(main.iter().chain(&found.tau_dot)) {
+                all[row * n + column] = dual.derivative;
+            }
+        }
+        all
+    }
+}
+
+/// Rows of the main body in the data.
+const MAIN: [usize; 6] = [0, 1, 2, 3, 4, 5];
+
+/// Those of matrices of ours, force before moment.
+const FORCE_FIRST: [usize; 6] = [3, 4, 5, 0, 1, 2];
+
+/// Each of the robots with what Pinocchio says about one of its states.
+fn for_each_robot(check: impl Fn(&str, &InState, &Value)) {
+    let (states, all) = (data("robots/accelerations.json"), data("robots/dynamics.json"));
+    let all = all.as_object().expect("robots by name");
+    assert_eq!(all.len(), 3);
+    for (name, expected) in all {
+        let robot = &states[name];
+        let state = &robot["states"][expected["state"].as_u64().expect("a number") as usize];
+        check(name, &InState::new(name, robot, state), expected);
+    }
+}
+
+#[test]
+fn derivatives_by_angles_rates_and_torques_are_those_of_pinocchio() {
+    for_each_robot(|name, robot, expected| {
+        for formulation in [Formulation::Articulated, Formulation::Symmetric] {
+            for (row, key) in ["by_angles", "by_rates", "by_torques"].into_iter().enumerate() {
+                let found = robot.derivatives(formulation, row);
+                let error = relative_error(&found, &numbers(&expected[key]), 0.0);
+                assert!(
+                    error < TOLERANCE_OF_CLOSED_FORMS,
+                    "{name}, {formulation}, {key}: {error:e}"
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn forces_for_given_accelerations_are_those_of_pinocchio() {
+    for_each_robot(|name, robot, expected| {
+        let Recognised { topology, parameters, .. } = &robot.recognised;
+        let given = numbers(&expected["accelerations"]);
+        let three = |at: usize| Vec3::new(given[at], given[at + 1], given[at + 2]);
+        let hinges = robot.coordinates.hinges.iter().zip(&robot.order);
+        let hinge = |(hinge, &i): (&HingeCoordinates<f64>, &usize)| HingeMotion {
+            beta: hinge.beta,
+            tau: hinge.tau,
+            tau_dot: given[6 + i],
+        };
+        let motion = formulation::Motion {
+            omega: robot.coordinates.omega,
+            main: Twist { angular: three(0), linear: three(3) },
+            hinges: hinges.map(hinge).collect(),
+        };
+        let Drive { external, torques } = inverse_dynamics(topology, parameters, &motion);
+        let found =
+            [&external.moment.to_array()[..], &external.force.to_array(), &torques].concat();
+        let mut in_order = vec![0.0; found.len()];
+        robot.rows(MAIN).into_iter().zip(found).for_each(|(row, found)| in_order[row] = found);
+        let error = relative_error(&in_order, &numbers(&expected["drive"]), 0.0);
+        assert!(error < TOLERANCE_OF_CLOSED_FORMS, "{name}: {error:e}");
+    });
+}
+
+#[test]
+fn mass_matrix_and_bias_are_those_of_pinocchio() {
+    for_each_robot(|name, robot, expected| {
+        let Recognised { topology, parameters, .. } = &robot.recognised;
+        let mut at_no_torque = robot.coordinates.clone();
+        at_no_torque.hinges.iter_mut().for_each(|hinge| hinge.torque = 0.0);
+        let found = Formulation::Symmetric.equations(topology, parameters, &at_no_torque);
+        let found = found.expect("it has equations");
+        let (rows, size) = (robot.rows(FORCE_FIRST), found.forcing.len());
+        let (mut matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
+        for (i, &row) in rows.iter().enumerate() {
+            bias[row] = -found.forcing[i];
+            for (j, &column) in rows.iter().enumerate() {
+                matrix[row * size + column] = found.matrix[i * size + j];
+            }
+        }
+        for (key, found) in [("mass_matrix", matrix), ("bias", bias)] {
+            let error = relative_error(&found, &numbers(&expected[key]), 0.0);
+            assert!(error < TOLERANCE_OF_CLOSED_FORMS, "{name}, {key}: {error:e}");
+        }
+    });
 }
 
 #[test]

@@ -91,6 +91,12 @@ impl Satellite {
         self.mass_matrix.select_rows(&order).select_columns(&order)
     }
 
+    /// u₀ in the order of a topology.
+    pub fn forcing_of(&self, recognised: &Recognised) -> Vec<f64> {
+        let order = (0..6).chain(recognised.links.iter().map(|&j| 6 + j));
+        order.map(|i| self.forcing[i]).collect()
+    }
+
     /// What two ways to the same accelerations may differ by, relative to the largest. 1e-11
     /// as such, and beyond a condition of 1e4 in proportion to it: rounding of the matrix, a
     /// few 1e-16 of each entry, is magnified by the condition.

@@ -32,9 +32,11 @@ pub fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-/// Largest absolute difference, divided by the largest magnitude expected (at least `floor`).
+/// Largest absolute difference, divided by the largest magnitude expected (at least `floor`); infinite where
+/// something is no number.
 pub fn relative_error(found: &[f64], expected: &[f64], floor: f64) -> f64 {
     assert_eq!(found.len(), expected.len());
     let scale = expected.iter().fold(floor, |m, e| m.max(e.abs()));
-    found.iter().zip(expected).map(|(f, e)| (f - e).abs() / scale).fold(0.0, f64::max)
+    let off = found.iter().zip(expected).map(|(f, e)| (f - e).abs() / scale);
+    off.fold(0.0, |worst, off| if off.is_nan() { f64::INFINITY } else { worst.max(off) })
 }

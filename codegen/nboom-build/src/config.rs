@@ -19,6 +19,7 @@ pub struct Config {
     external_wrench: bool,
     principal_axes: bool,
     equations: bool,
+    inverse_dynamics: bool,
     right_sides: bool,
     formulation: Formulation,
     level: Level,
@@ -43,6 +44,7 @@ impl Default for Config {
             external_wrench: false,
             principal_axes: false,
             equations: false,
+            inverse_dynamics: false,
             right_sides: false,
             formulation: Formulation::Articulated,
             level: Level::Fast,
@@ -117,6 +119,12 @@ impl Config {
     /// accelerations.
     pub fn for_equations(self) -> Self {
         Self { equations: true, ..self }
+    }
+
+    /// Routines are for inverse dynamics, instead of accelerations: from accelerations to the wrench on the
+    /// main body and the hinge torques.
+    pub fn for_inverse_dynamics(self) -> Self {
+        Self { inverse_dynamics: true, ..self }
     }
 
     /// Beside each routine for accelerations there is one for the right side of a mode's differential
@@ -268,6 +276,7 @@ impl Config {
         let request = request.by(self.formulation);
         match request.output {
             Output::Accelerations if self.equations => request.for_equations(),
+            Output::Accelerations if self.inverse_dynamics => request.for_inverse_dynamics(),
             _ => request,
         }
     }

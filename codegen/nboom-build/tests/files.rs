@@ -100,6 +100,9 @@ fn options_reach_the_code() {
     assert!(equations.contains("equations by formulation symmetric"));
     // Equations are no accelerations, which is what a run takes kernels for.
     assert!(!equations.contains("kernels()"));
+    let inverse = written(&satellite().for_inverse_dynamics());
+    assert!(inverse.contains("inverse_dynamics by formulation articulated"));
+    assert!(!inverse.contains("kernels()"));
 }
 
 #[test]

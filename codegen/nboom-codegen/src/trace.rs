@@ -6,7 +6,6 @@ mod split;
 mod stage;
 mod stresses;
 
-use nboom_formulation::Formulation;
 use nboom_model::Shape;
 
 pub(crate) use rolled::{Chain, Equal, LimbSteps, Paddle, Placed, Rolled, Steps};
@@ -49,7 +48,7 @@ impl Equations {
     pub fn of(request: &Request) -> Result<Self, CodegenError> {
         let is_short = |straight: &Split| straight.evaluation().flops() <= STRAIGHT_LIMIT;
         let straight = || Split::new(trace(request), request.assumptions.len()).at(request.level);
-        if request.formulation != Formulation::Articulated {
+        if !request.has_loops() {
             let straight = straight();
             check_length(request, &straight)?;
             return Ok(Self::Straight(straight));

@@ -352,6 +352,16 @@ fn what_a_formulation_cannot_give_is_refused() {
             if topology == "S60" && operations > limit),
         "{dense}"
     );
+    let longest_limb = format!("T{}", "r".repeat(64));
+    let long = refusal(&of(&longest_limb, Formulation::Articulated));
+    assert!(
+        matches!(&long, CodegenError::Budget { topology, operations, limit, .. }
+            if *topology == longest_limb && operations > limit),
+        "{long}"
+    );
+    let inverse = of("S2", Formulation::Report).for_inverse_dynamics();
+    let (topology, formulation) = ("S2".to_owned(), Formulation::Report);
+    assert_eq!(refusal(&inverse), CodegenError::NoInverse { topology, formulation });
     for name in ["S10", "4xS5"] {
         let expected = CodegenError::Lines { topology: name.to_owned(), limit: STRAIGHT_LIMIT };
         let right_side = of(name, Formulation::Articulated).for_right_side();

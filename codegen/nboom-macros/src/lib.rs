@@ -23,6 +23,7 @@ const SCALAR: &str = "::nboom::scalar";
 /// | `assumptions = principal` | inertias along the segment axes, mass centres and next hinges on the η axis, O at the main body's mass centre | all numbers at run time |
 /// | `external` | an external wrench on the main body | none |
 /// | `equations` | the matrix and the right side that the formulation solves | accelerations |
+/// | `inverse_dynamics` | wrench on the main body and hinge torques for given accelerations | accelerations |
 /// | `right_side` | the right side of a mode's differential equations, without lines that push links | accelerations |
 ///
 /// A routine with `assumptions = principal` computes something else for other satellites. Only

@@ -16,10 +16,12 @@ use crate::SCALAR;
 /// What the macro's text gets wrong, at the word that does; why nothing can be generated, at the
 /// topology or at the option that asks for it.
 pub(crate) fn expand(input: TokenStream) -> Result<TokenStream> {
-    let Input { attributes, visibility, name, topology, equations, request } = syn::parse2(input)?;
+    let Input { attributes, visibility, name, topology, result, request } = syn::parse2(input)?;
     let blamed = |error: &CodegenError| match error {
         CodegenError::Name(_) => name.span(),
-        CodegenError::NoEquations { .. } => equations.unwrap_or(topology),
+        CodegenError::NoEquations { .. } | CodegenError::NoInverse { .. } => {
+            result.unwrap_or(topology)
+        }
         _ => topology,
     };
     let generated =
@@ -41,8 +43,8 @@ struct Input {
     name: Ident,
     /// Where the topology stands.
     topology: Span,
-    /// Where equations are asked for.
-    equations: Option<Span>,
+    /// Where something other than accelerations is asked for.
+    result: Option<Span>,
     request: Request,
 }
 
@@ -69,8 +71,9 @@ impl Parse for Input {
             request = with(request, &option, input)?;
             given.push(option);
         }
-        let equations = given.iter().find(|option| *option == "equations").map(Ident::span);
-        Ok(Self { attributes, visibility, name, topology: span, equations, request })
+        let result = given.iter().find(|option| **option == request.output.name());
+        let result = result.map(Ident::span);
+        Ok(Self { attributes, visibility, name, topology: span, result, request })
     }
 }
 
@@ -92,6 +95,17 @@ fn topology(input: ParseStream<'_>) -> Result<(Topology, Span)> {
     text.parse().map(|topology| (topology, span)).map_err(|error| syn::Error::new(span, error))
 }
 
+/// What may follow the topology.
+const OPTIONS: [&str; 7] = [
+    "formulation",
+    "level",
+    "assumptions",
+    "external",
+    "equations",
+    "inverse_dynamics",
+    "right_side",
+];
+
 fn with(request: Request, option: &Ident, input: ParseStream<'_>) -> Result<Request> {
     Ok(match option.to_string().as_str() {
         "formulation" => request.by(value(input, &Formulation::ALL, Formulation::name)?),
@@ -104,12 +118,9 @@ fn with(request: Request, option: &Ident, input: ParseStream<'_>) -> Result<Requ
         }
         "external" => request.with_external_wrench(),
         "equations" => request.for_equations(),
+        "inverse_dynamics" => request.for_inverse_dynamics(),
         "right_side" => request.for_right_side(),
-        _ => {
-            let all =
-                ["formulation", "level", "assumptions", "external", "equations", "right_side"];
-            return Err(unknown(option, &all));
-        }
+        _ => return Err(unknown(option, &OPTIONS)),
     })
 }
 
@@ -193,8 +204,13 @@ mod tests {
     }
 
     #[test]
-    fn equations_that_a_formulation_does_not_form_are_refused_at_the_option() {
+    fn results_that_a_formulation_does_not_have_are_refused_at_the_option() {
         is_refused("S: S2, equations", "equations", &["formulation articulated", "no equations"]);
+        is_refused(
+            "S: S2, inverse_dynamics, formulation = report",
+            "inverse_dynamics",
+            &["formulation report", "only articulated has it"],
+        );
     }
 
     #[test]

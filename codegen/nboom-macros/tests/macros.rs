@@ -3,8 +3,8 @@
 
 use nboom::dynamics::Recursive;
 use nboom::formulation::{
-    Coordinates, Forces, Formulation, HingeCoordinates, Parameters, Recognised, recognise,
-    right_side,
+    Coordinates, Forces, Formulation, HingeCoordinates, Motion, Parameters, Recognised,
+    inverse_dynamics, recognise, right_side,
 };
 use nboom::model::{HingeState, Mode, Scene, SectionShape, Structure, Topology, WeldedTree};
 use nboom::scalar::{Kernel, Routine, Vec3, Wrench};
@@ -18,6 +18,7 @@ nboom::routine! {
     assumptions = principal,
 }
 nboom::routine! { RightSide: S2_P, right_side }
+nboom::routine! { Inverse: S2_P, inverse_dynamics }
 nboom::routine! { ByName: "2xS1", level = exact }
 nboom::routine! { OneToken: 4xS1_P }
 
@@ -90,6 +91,26 @@ fn a_routine_for_equations_gives_the_formulations_matrix() {
     let expected = expected.expect("it solves a system");
     agree(&outputs::<Forced>(), &[expected.matrix, expected.forcing].concat());
     assert!(Forced::EXTERNAL && !Forced::ASSUMPTIONS.is_empty());
+}
+
+#[test]
+fn a_routine_for_inverse_dynamics_undoes_one_for_accelerations() {
+    let topology: Topology = "S2_P".parse().expect("a topology");
+    let kernel = Kernel::of::<Inverse>();
+    let state = state();
+    let mut motion = Motion::read(&topology, &state.write(&topology));
+    let found = Formulation::Articulated.solve(&topology, &parameters(), &state);
+    motion.main = found.main;
+    for (hinge, tau_dot) in motion.hinges.iter_mut().zip(found.tau_dot) {
+        hinge.tau_dot = tau_dot;
+    }
+    let expected = inverse_dynamics(&topology, &parameters(), &motion);
+    for (torque, hinge) in expected.torques.iter().zip(&state.hinges) {
+        // A few roundings of terms that are some hundred times as large.
+        assert!((torque - hinge.torque).abs() < 1e-11, "{torque} {hinge:?}");
+    }
+    let found = evaluated(&kernel, &parameters().write(), &motion.write(&topology));
+    agree(&found, &expected.write(&topology));
 }
 
 /// Parameters of a right side for the sample with all hinges free, and what it gives at some

@@ -35,6 +35,12 @@ pub enum CliError {
         /// The format.
         format: &'static str,
     },
+    /// The environment names an instruction set that there is not.
+    #[error("NBOOM_INSTRUCTIONS: `{found}` found, portable, avx2 or avx512 expected")]
+    Instructions {
+        /// What it says.
+        found: String,
+    },
     /// The scene is wrong with the end time of the command line.
     #[error("--end-time: {}", .0.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; "))]
     EndTime(Vec<ModelError>),
@@ -264,7 +270,7 @@ impl CliError {
             Self::Deviation { .. } => 1,
             Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
-            Self::NoFormat | Self::VainFormat { .. } => 2,
+            Self::NoFormat | Self::VainFormat { .. } | Self::Instructions { .. } => 2,
             Self::NoScene { .. } | Self::NoDeck(_) | Self::WouldReplace { .. } => 2,
             Self::NoPicture { .. } => 2,
             #[cfg(feature = "generator")]

@@ -36,6 +36,10 @@ pub struct GenerateArgs {
     #[arg(long)]
     pub equations: bool,
 
+    /// Also generate inverse dynamics: hinge torques, and the wrench on the main body, for given accelerations.
+    #[arg(long)]
+    pub inverse_dynamics: bool,
+
     /// Also generate states with held hinges: all topologies with up to 10 hinges; with more, those
     /// in which all appendages are held in step; at most 32.
     #[arg(long)]
@@ -54,7 +58,7 @@ pub struct GenerateArgs {
 /// output.
 pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
-    let GenerateArgs { formulation, level, equations, lock_states, .. } = *args;
+    let GenerateArgs { formulation, level, equations, inverse_dynamics, lock_states, .. } = *args;
     let stresses = match (args.stresses, &file.structure) {
         (true, None) => {
             let scene = file.scene.name.clone();
@@ -63,7 +67,8 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
         (asked, structure) => structure.as_ref().filter(|_| asked),
     };
     let numbers = if args.baked { Numbers::Baked } else { Numbers::RunTime };
-    let choices = Choices { formulation, numbers, level, equations, lock_states, stresses };
+    let choices =
+        Choices { formulation, numbers, level, equations, inverse_dynamics, lock_states, stresses };
     let (scene, directory) = (&file.scene, &args.output);
     let written = if args.check {
         is_current(scene, &choices, directory)?;

@@ -73,7 +73,7 @@ mod work_precision;
 
 use std::process::ExitCode;
 
-use nboom_scalar::{Batch, Kernel};
+use nboom_scalar::{Batch, InstructionSet, Kernel};
 
 pub use args::{CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
 pub use bench::BenchArgs;
@@ -143,7 +143,7 @@ pub fn execute(cli: &Cli) -> ExitCode {
 
 /// Runs the command like `execute`, with other routines than the stock ones.
 pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
-    let printed = match &cli.command {
+    let of_command = || match &cli.command {
         Command::Run(args) => run::run(args, routines, &Interrupt::watch),
         Command::Report(args) => report::report(args),
         Command::Tables(args) => tables::tables(args),
@@ -167,11 +167,22 @@ pub fn execute_with(cli: &Cli, routines: &Routines) -> ExitCode {
         #[cfg(feature = "generator")]
         Command::Man(args) => man::man(args),
     };
-    match printed.and_then(|text| print(&text)) {
+    match check_instructions().and_then(|()| of_command()).and_then(|text| print(&text)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.lines().iter().for_each(|line| say("error", line));
             ExitCode::from(error.exit_code())
         }
+    }
+}
+
+/// # Errors
+/// When the environment names an instruction set that there is not.
+fn check_instructions() -> Result<(), CliError> {
+    match std::env::var(InstructionSet::VARIABLE) {
+        Ok(found) if InstructionSet::named(&found).is_none() => {
+            Err(CliError::Instructions { found })
+        }
+        _ => Ok(()),
     }
 }

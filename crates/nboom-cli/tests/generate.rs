@@ -66,6 +66,9 @@ fn a_crate_is_written_once_checked_and_not_overwritten() {
     let baked = [&check[..], &["--baked"]].concat();
     ends(&nboom(place, &baked), 1, &["is out of date"]);
 
+    let control = ["generate", "boom.nml", "-o", "control", "--inverse-dynamics"];
+    ends(&nboom(place, &control), 0, &["SatelliteS2, SatelliteS2Inverse"]);
+
     let routines = place.join("crate/src/routines.rs");
     let edited = fs::read_to_string(&routines).expect("readable") + "// mine\n";
     fs::write(&routines, &edited).expect("writable");

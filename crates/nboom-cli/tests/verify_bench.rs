@@ -269,3 +269,21 @@ fn bench_times_eight_states_at_once_and_names_hold_no_blanks() {
     let eight = names.iter().filter(|name| **name == "nboom_generated_articulated_lanes8");
     assert_eq!(eight.count(), 1, "{lines}");
 }
+
+#[test]
+fn the_environment_keeps_code_from_larger_instructions() {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("boom.nml"), BOOM).expect("writable");
+    let bench = |instructions: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+        command.current_dir(directory.path()).env("NBOOM_INSTRUCTIONS", instructions);
+        command.args(["bench", "boom.nml", "--harness", "--seconds", "0.001"]);
+        command.output().expect("the binary starts")
+    };
+    let portable = stdout(&bench("portable"));
+    assert!(portable.contains("_portable ") && !portable.contains("_avx"), "{portable}");
+    assert!(!stdout(&bench("avx2")).contains("_avx512"));
+    let wrong = bench("avx3");
+    assert_eq!(code(&wrong), 2);
+    assert!(stderr(&wrong).contains("`avx3` found, portable, avx2 or avx512 expected"));
+}

@@ -95,12 +95,13 @@ impl<R: Real> Turned<R> {
         Vec3::new(R::zero(), self.next[0], self.next[1])
     }
 
+    pub(crate) fn rigid(&self) -> RigidInertia<R> {
+        let Self { mass, first_moment, about_hinge: about_origin, .. } = *self;
+        RigidInertia { mass, first_moment, about_origin }
+    }
+
     pub(crate) fn inertia(&self) -> ArticulatedInertia<R> {
-        ArticulatedInertia::of(&RigidInertia {
-            mass: self.mass,
-            first_moment: self.first_moment,
-            about_origin: self.about_hinge,
-        })
+        ArticulatedInertia::of(&self.rigid())
     }
 
     pub(crate) fn wrench(&self) -> Wrench<R> {

@@ -5,18 +5,24 @@
 //! parallel joint follows, stand as the link does at this moment, so that its numbers need not be turned.
 //! What such axes carry shows its inboard link a six by six inertia, as a paddle does.
 
+mod composite;
+mod inverse;
 mod outward;
 mod place;
+mod stance;
 mod turn;
 
 use nboom_model::{Limb, LimbJoint};
 use nboom_scalar::{ArticulatedInertia, Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::base::AtOrigin;
-use crate::limb::outward::{Moving, axes_stay, outward, turned_way};
+pub(crate) use crate::limb::composite::composite;
+pub(crate) use crate::limb::inverse::inverse;
+use crate::limb::outward::{Moving, axes_stay, outward};
 pub(crate) use crate::limb::place::link_places;
+use crate::limb::stance::Stance;
 use crate::limb::turn::Turn;
-use crate::parameters::{Branch, HingeCoordinates, Mount, Reader};
+use crate::parameters::{Branch, HingeCoordinates, Reader};
 
 /// What a limb whose joints have been eliminated shows at its mount, along the axes of its first joint.
 pub(crate) struct LimbShare<R> {
@@ -26,12 +32,7 @@ pub(crate) struct LimbShare<R> {
 
 /// What the way back needs of a link.
 pub(crate) struct EliminatedLink<R> {
-    /// Of the axes from those of the mount, and of the link from these axes.
-    axes_turned: Turn<R>,
-    turned: Turn<R>,
-    /// Angular bias acceleration, along the link's own axes; the first component is zero.
-    bias: Vec3<R>,
-    travel: R,
+    stance: Stance<R>,
     joint: EliminatedJoint<R>,
 }
 
@@ -51,7 +52,8 @@ pub(crate) fn eliminate<R: Real>(
     omega: Vec3<R>,
     hinges: &[HingeCoordinates<R>],
 ) -> (LimbShare<R>, Vec<EliminatedLink<R>>) {
-    let links = outward(number, limb, branch, omega, hinges);
+    let rates = hinges.iter().map(|hinge| [hinge.beta, hinge.tau]);
+    let links = outward(number, limb.links(), branch, omega, rates);
     let own = |link: &Moving<R>| (link.body.inertia(), link.body.wrench());
     let mut seen: Vec<_> = links.iter().map(own).collect();
     let mut eliminated = Vec::with_capacity(links.len());
@@ -62,7 +64,7 @@ pub(crate) fn eliminate<R: Real>(
             LimbJoint::Prismatic => slide_eliminated(seen[i], torque),
             LimbJoint::Revolute | LimbJoint::Parallel => turn_eliminated(link, seen[i], torque),
         };
-        eliminated.push(EliminatedLink::new(link, joint));
+        eliminated.push(EliminatedLink { stance: link.stance, joint });
         let at_mount = link.at_mount(share);
         seen[i] = at_mount;
         if let Some(inboard) = limb.links()[i].inboard.map(usize::from) {
@@ -141,11 +143,10 @@ pub(crate) fn back<R: Real>(
         R::remark(|| format!("Link {number},{}, back: acceleration of its joint.", i + 1));
         let inboard = of_limb.inboard.map(usize::from);
         let at_mount = match inboard {
-            Some(inboard) => links[inboard].carries_along(&branch.mount(i), reached[inboard]),
+            Some(inboard) => links[inboard].stance.carries(&branch.mount(i), reached[inboard]),
             None => main,
         };
-        let at_mount = link.axes_turned.twist_back(at_mount);
-        let inboard = at_mount.at(Vec3::new(link.travel, R::zero(), R::zero()));
+        let inboard = link.stance.carried_by(at_mount);
         let (own, acceleration) = link.joint.back(of_limb.joint, inboard);
         tau_dot.push(acceleration);
         reached.push(own);
@@ -177,32 +178,13 @@ pub(crate) const OF_ELIMINATED_LINK: [&str; 13] = [
 ];
 
 impl<R: Real> EliminatedLink<R> {
-    fn new(link: &Moving<R>, joint: EliminatedJoint<R>) -> Self {
-        let Moving { axes_turned, turned, travel, .. } = *link;
-        Self { axes_turned, turned, bias: link.angular_bias(), travel, joint }
-    }
-
-    /// The accelerations of a mount on the link, along the axes there, when the link has these, but for
-    /// its bias.
-    fn carries_along(&self, mount: &Mount<R>, of_link: Twist<R>) -> Twist<R> {
-        match mount {
-            Mount::Parallel(way) => of_link.at(turned_way(self.turned, *way)),
-            Mount::Across { rot, point } => {
-                let Twist { angular, linear } = self.turned.twist_back(of_link).at(*point);
-                Twist {
-                    angular: rot.transpose_mul(angular + self.bias),
-                    linear: rot.transpose_mul(linear),
-                }
-            }
-        }
-    }
-
     /// The numbers that vary, of link `i` of a limb; of sine and cosine there is one pair, for either its axes
     /// or the link stays.
     pub fn flat(&self, limb: &Limb, i: usize) -> Vec<R> {
-        let turn = if axes_stay(limb, i) { self.turned } else { self.axes_turned };
+        let Stance { axes_turned, turned, travel, bias } = self.stance;
+        let turn = if axes_stay(limb.links(), i) { turned } else { axes_turned };
         let EliminatedJoint { column, inverse_pivot, net_force } = &self.joint;
-        let mut flat = vec![turn.sin, turn.cos, self.bias.y, self.bias.z, self.travel];
+        let mut flat = vec![turn.sin, turn.cos, bias.y, bias.z, travel];
         flat.extend(column.moment.to_array());
         flat.extend(column.force.to_array());
         flat.extend([*inverse_pivot, *net_force]);
@@ -214,7 +196,7 @@ impl<R: Real> EliminatedLink<R> {
         let (turn, still) = (Turn { sin: reader.next(), cos: reader.next() }, Turn::still());
         let (axes_turned, turned) = match limb.links()[i].joint {
             LimbJoint::Prismatic => (still, still),
-            _ if axes_stay(limb, i) => (still, turn),
+            _ if axes_stay(limb.links(), i) => (still, turn),
             _ => (turn, still),
         };
         let bias = Vec3::new(R::zero(), reader.next(), reader.next());
@@ -222,6 +204,6 @@ impl<R: Real> EliminatedLink<R> {
         let column = Wrench { moment: reader.vector(), force: reader.vector() };
         let (inverse_pivot, net_force) = (reader.next(), reader.next());
         let joint = EliminatedJoint { column, inverse_pivot, net_force };
-        Self { axes_turned, turned, bias, travel, joint }
+        Self { stance: Stance { axes_turned, turned, travel, bias }, joint }
     }
 }

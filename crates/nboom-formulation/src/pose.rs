@@ -20,7 +20,7 @@ pub(crate) struct Posed<R> {
     pub hinge_offset: Vec3<R>,
 }
 
-/// Limbs are covered by `articulated` alone.
+/// Limbs are covered by `articulated` and, in ways of its own, by `symmetric`.
 pub(crate) fn no_limb(limb: &Limb) -> ! {
     panic!("{limb} is neither a chain nor a paddle")
 }

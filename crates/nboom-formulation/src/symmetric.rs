@@ -3,7 +3,8 @@
 //!
 //! Chains are written with augmented bodies and absolute rates: everything outboard of a link
 //! is lumped at its outboard hinge, so that a diagonal entry is a constant and any other one is
-//! an inner product. [`solve_tree`] takes any tree whatsoever.
+//! an inner product. Limbs are written with composite bodies along the axes of their joints, and
+//! relative rates. [`solve_tree`] takes any tree whatsoever.
 
 mod appendage;
 mod tree;
@@ -30,6 +31,7 @@ impl ClosedForm for Symmetric {
         "kinetic-energy matrix over (a_O, ω̇, τ̇), appendages eliminated first; any tree";
 
     const HAS_EQUATIONS: bool = true;
+    const TAKES_LIMBS: bool = true;
 
     fn covers(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
         rigid(tree)
@@ -108,8 +110,8 @@ fn whole<R: Real>(
         let rot = &branch.rot_body_from_appendage;
         let arrow = appendage::with_relative_rates(shape, arrow);
         let first = whole.right.len();
-        for (i, row) in arrow.hinges.into_iter().enumerate() {
-            whole.inboard.push((i > 0).then(|| first + i - 1));
+        for (inboard, row) in arrow.inboard.into_iter().zip(arrow.hinges) {
+            whole.inboard.push(inboard.map(|inboard| first + inboard));
             whole.hinges.push([vec![R::zero(); first], row].concat());
         }
         whole.columns.extend(arrow.columns.into_iter().map(|column| pose::rotated(column, rot)));

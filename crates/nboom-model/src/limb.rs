@@ -14,7 +14,7 @@ pub struct Limb {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LimbLink {
     /// The inboard link; `None` is what the limb is mounted on.
-    pub inboard: Option<u8>,
+    pub inboard: Option<u16>,
     /// The joint between the two.
     pub joint: LimbJoint,
 }
@@ -74,7 +74,7 @@ impl Limb {
         let mut order = Vec::new();
         let mut waiting = vec![(0, None)];
         while let Some((i, inboard)) = waiting.pop() {
-            let number = limb.count as u8;
+            let number = limb.count as u16;
             limb.links[limb.count] = LimbLink { inboard, joint: links[i].joint };
             limb.count += 1;
             order.push(i);
@@ -95,7 +95,7 @@ impl Limb {
                     let joint =
                         LimbJoint::ALL.into_iter().find(|joint| joint.letter() == letter)?;
                     links.push(LimbLink { inboard, joint });
-                    inboard = Some(u8::try_from(links.len() - 1).ok()?);
+                    inboard = Some(u16::try_from(links.len() - 1).ok()?);
                 }
             }
         }
@@ -158,7 +158,7 @@ impl fmt::Debug for Limb {
 mod tests {
     use super::*;
 
-    fn link(inboard: Option<u8>, joint: LimbJoint) -> LimbLink {
+    fn link(inboard: Option<u16>, joint: LimbJoint) -> LimbLink {
         LimbLink { inboard, joint }
     }
 

@@ -114,6 +114,9 @@ impl OfFormulation {
                 ..nothing
             },
             Found::Equations(residual) => Self { residual: Some(*residual), ..nothing },
+            Found::InverseDynamics(found) => {
+                Self { deviation_from_double_double: Some(*found), ..nothing }
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use nboom_codegen::{Output, Request, trace};
 use nboom_expr::Graph;
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::{Scene, Shape};
-use nboom_verify::{Certificate, TestCase, certify, truth};
+use nboom_verify::{Certificate, TestCase, certify, drives, truth};
 
 use crate::PackageError;
 use crate::held::welded;
@@ -47,6 +47,8 @@ pub(crate) enum Found {
     /// The largest residual of equations solved by the true accelerations, each in terms of the sum
     /// of the magnitudes of what is added up.
     Equations(f64),
+    /// The largest deviation of forces, relative to the largest of them.
+    InverseDynamics(f64),
 }
 
 /// A state with what a routine gives there.
@@ -55,7 +57,7 @@ pub(crate) struct Tested {
     pub parameters: Vec<f64>,
     /// The state as routines take it.
     pub coordinates: Vec<f64>,
-    /// ω̇, a_O and τ̇ as routines give them, or what solves the formulation's equations.
+    /// ω̇, a_O and τ̇ as routines give them, or what causes them, or what solves the formulation's equations.
     pub expected: Vec<f64>,
 }
 
@@ -80,6 +82,9 @@ impl Certified {
                 Found::Accelerations(accelerations(&graph, request, &test_cases)?)
             }
             Output::Equations => Found::Equations(equations(&graph, request, &test_cases)?),
+            Output::InverseDynamics => {
+                Found::InverseDynamics(inverse_dynamics(&graph, request, &test_cases)?)
+            }
             Output::RightSide => unreachable!("crates have no right sides"),
         };
         let mut cases = Vec::new();
@@ -99,6 +104,7 @@ impl Certified {
                 ("accelerations", found.from_recursion.max(found.from_double_double))
             }
             Found::Equations(residual) => ("equations", *residual),
+            Found::InverseDynamics(deviation) => ("inverse dynamics", *deviation),
         };
         if deviation <= TOLERANCE {
             return Ok(());
@@ -116,7 +122,7 @@ impl Certified {
                 let magnified = (found.condition / HARMLESS_CONDITION).max(1.0);
                 magnified * ROUNDING.max(4.0 * found.from_double_double)
             }
-            Found::Equations(residual) => ROUNDING.max(4.0 * residual),
+            Found::Equations(found) | Found::InverseDynamics(found) => ROUNDING.max(4.0 * found),
         }
     }
 }
@@ -176,16 +182,66 @@ fn equations(
     Ok(most)
 }
 
+/// The largest deviation in any of the test cases' states.
+fn inverse_dynamics(
+    graph: &Graph,
+    request: &Request,
+    test_cases: &[TestCase],
+) -> Result<f64, PackageError> {
+    let mut most = 0.0_f64;
+    for test_case in test_cases {
+        for Tested { parameters, coordinates, expected } in tested(test_case, request)? {
+            let found = graph.evaluate(&[parameters, coordinates].concat());
+            let scale = expected.iter().fold(f64::MIN_POSITIVE, |most, e| most.max(e.abs()));
+            for (found, expected) in found.iter().zip(&expected) {
+                let off = (found - expected).abs() / scale;
+                most = most.max(if off.is_nan() { f64::INFINITY } else { off });
+            }
+        }
+    }
+    Ok(most)
+}
+
 /// All states of a test case with what is to come out.
 fn tested(test_case: &TestCase, request: &Request) -> Result<Vec<Tested>, PackageError> {
+    let (recognised, truth) = (recognised(test_case), truth(test_case)?);
+    let inputs = inputs(test_case, request);
+    if request.output == Output::InverseDynamics {
+        return motions(recognised, test_case, inputs, truth);
+    }
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Vec<f64>)| {
         let expected = match request.output {
-            Output::Equations => unknowns(request.formulation, recognised(test_case), &truth),
-            Output::Accelerations | Output::RightSide => in_routine(recognised(test_case), &truth),
+            Output::Equations => unknowns(request.formulation, recognised, &truth),
+            _ => in_routine(recognised, &truth),
         };
         Tested { parameters, coordinates, expected }
     };
-    Ok(inputs(test_case, request).into_iter().zip(truth(test_case)?).map(case).collect())
+    Ok(inputs.into_iter().zip(truth).map(case).collect())
+}
+
+/// The states with accelerations opposite to the true ones, for the forces that these take do not cancel
+/// where nothing acts.
+fn motions(
+    recognised: &Recognised,
+    test_case: &TestCase,
+    inputs: Vec<[Vec<f64>; 2]>,
+    truth: Vec<Vec<f64>>,
+) -> Result<Vec<Tested>, PackageError> {
+    let opposite = |all: Vec<f64>| -> Vec<f64> { all.iter().map(|number| -number).collect() };
+    let accelerations: Vec<Vec<f64>> = truth.into_iter().map(opposite).collect();
+    let drives = drives(test_case, &accelerations)?;
+    let mut cases = Vec::new();
+    for (i, [parameters, mut coordinates]) in inputs.into_iter().enumerate() {
+        let accelerations = in_routine(recognised, &accelerations[i]);
+        coordinates[3..Layout::STATE].copy_from_slice(&accelerations[..Layout::OUTPUT]);
+        for place in Layout::places(&recognised.topology) {
+            let [_, _, torque] = Layout::hinge_in_state(&recognised.topology, place);
+            coordinates[torque] = accelerations[Layout::OUTPUT + place];
+        }
+        let expected = in_routine(recognised, &drives[i]);
+        cases.push(Tested { parameters, coordinates, expected });
+    }
+    Ok(cases)
 }
 
 /// Parameters and coordinates of each state.
@@ -203,7 +259,7 @@ fn recognised(test_case: &TestCase) -> &Recognised {
     test_case.recognised().expect("requests are refused before when there are no chains")
 }
 
-/// Accelerations in the order of [`Layout`] from those in the scene's order.
+/// Accelerations, or what causes them, in the order of [`Layout`] from those in the scene's order.
 fn in_routine(recognised: &Recognised, truth: &[f64]) -> Vec<f64> {
     let mut all = truth.to_vec();
     for (&link, place) in recognised.links.iter().zip(Layout::places(&recognised.topology)) {
@@ -264,8 +320,11 @@ mod tests {
     fn with_mass_off(output: Output, share: f64) -> Result<Certified, PackageError> {
         let scene = one_boom();
         let request = Request::of_scene(&scene, Numbers::Baked, Level::Exact);
-        let mut request = request.expect("a boom is a chain").by(Formulation::Symmetric);
-        request.output = output;
+        let request = request.expect("a boom is a chain");
+        let mut request = match output {
+            Output::InverseDynamics => request.for_inverse_dynamics(),
+            _ => Request { output, ..request.by(Formulation::Symmetric) },
+        };
         let mass =
             request.assumptions[Layout::MAIN + Layout::BRANCH].as_mut().expect("it is built in");
         assert_eq!(*mass, 3.0);
@@ -275,7 +334,7 @@ mod tests {
 
     #[test]
     fn code_that_computes_something_else_is_not_certified() {
-        for output in [Output::Accelerations, Output::Equations] {
+        for output in [Output::Accelerations, Output::Equations, Output::InverseDynamics] {
             let right = with_mass_off(output, 0.0).expect("these are the scene's numbers");
             assert!(right.tolerance() < TOLERANCE);
             // Five times what may be off is seen of a boom that is a thirtieth of the whole.

@@ -7,16 +7,14 @@ use crate::certified::{Found, Tested};
 use crate::manifest::rust_name;
 
 const COMMON: &str = include_str!("../templates/certificate.rs");
-const ACCELERATIONS: &str = include_str!("../templates/certificate_accelerations.rs");
+const NUMBERS: &str = include_str!("../templates/certificate_numbers.rs");
 const EQUATIONS: &str = include_str!("../templates/certificate_equations.rs");
 const TEST: &str = include_str!("../templates/certificate_test.rs");
 
 /// `tests/certificate.rs` of the crate `name`.
 pub(crate) fn code(name: &str, routines: &[Routine]) -> String {
-    let has = |output| routines.iter().any(|routine| routine.request.output == output);
-    let parts = [(Output::Accelerations, ACCELERATIONS), (Output::Equations, EQUATIONS)];
-    let parts: String =
-        parts.into_iter().filter(|&(output, _)| has(output)).map(|(_, text)| text).collect();
+    let has_equations = routines.iter().any(|r| r.request.output == Output::Equations);
+    let parts = NUMBERS.to_owned() + if has_equations { EQUATIONS } else { "" };
     let name = rust_name(name);
     let tests: String = routines.iter().map(|routine| test(&name, routine)).collect();
     COMMON.replace("/*CRATE*/", &name) + &parts + &tests
@@ -27,7 +25,7 @@ fn test(of_crate: &str, routine: &Routine) -> String {
     let name = &routine.request.name;
     let (function, tolerance) = (name.to_lowercase(), routine.certified.tolerance());
     let off = match routine.certified.found {
-        Found::Accelerations(_) => "off_accelerations",
+        Found::Accelerations(_) | Found::InverseDynamics(_) => "off_numbers",
         Found::Equations(_) => "off_equations",
     };
     let values = [
@@ -52,6 +50,7 @@ pub(crate) fn table(routine: &Routine) -> String {
     let word = match routine.certified.found {
         Found::Accelerations(_) => "acceleration",
         Found::Equations(_) => "unknown",
+        Found::InverseDynamics(_) => "force",
     };
     let mut text = String::new();
     for (i, Tested { parameters, coordinates, expected }) in

@@ -123,8 +123,7 @@ impl Crate {
 
 /// The routines, each certified with the hinges free or held that it is for.
 fn routines(scene: &Scene, requests: &Requests) -> Result<Vec<Routine>, PackageError> {
-    let all_free = std::iter::once(&requests.whole).chain(&requests.equations);
-    let all_free = all_free.map(|request| routine(scene, request, None));
+    let all_free = requests.all_free().map(|request| routine(scene, request, None));
     let held = requests.held.iter().map(|request| {
         let free = request.free_hinges(scene)?;
         routine(scene, request, free.as_deref())

@@ -18,6 +18,9 @@ const CODE: &str = include_str!("../templates/lib.rs");
 /// What only a crate with equations has.
 const EQUATIONS: &str = include_str!("../templates/equations.rs");
 
+/// What only a crate with inverse dynamics has.
+const INVERSE: &str = include_str!("../templates/inverse_dynamics.rs");
+
 /// Paths and texts for a scene; `name` is the crate's.
 pub(crate) fn files(
     scene: &Scene,
@@ -35,6 +38,9 @@ pub(crate) fn files(
             .replace("UNKNOWNS", unknowns(request.formulation))
             .replace("EQUATIONS", &request.name)
     });
+    let inverse = requests.inverse_dynamics.as_ref();
+    let inverse = inverse.map(|request| INVERSE.replace("INVERSE", &request.name));
+    let has_functions = equations.is_some() || inverse.is_some();
     let hinges = hinges(scene, recognised);
     let values = [
         ("SCENE", in_words(&scene.name)),
@@ -47,10 +53,10 @@ pub(crate) fn files(
         ("NAMES", names.join(", ")),
         ("PARAMETER_COUNT", parameters.len().to_string()),
         ("PARAMETER_LIST", parameters.iter().map(|p| format!("    {p:?},\n")).collect()),
-        ("USES", if equations.is_some() { "\nuse std::sync::OnceLock;\n" } else { "" }.to_owned()),
+        ("USES", if has_functions { "\nuse std::sync::OnceLock;\n" } else { "" }.to_owned()),
         ("HINGE_COUNT", recognised.links.len().to_string()),
         ("HINGE_LIST", hinges),
-        ("EQUATIONS_FUNCTION", equations.unwrap_or_default()),
+        ("MORE_FUNCTIONS", equations.unwrap_or_default() + &inverse.unwrap_or_default()),
     ];
     let filled = |template: &str| {
         let fill = |text: String, (key, value): &(&str, String)| {

@@ -32,6 +32,6 @@ pub const HINGES: [Hinge; /*HINGE_COUNT*/] = [
 pub fn parameters() -> &'static [f64] {
     &PARAMETERS
 }
-/*EQUATIONS_FUNCTION*/
+/*MORE_FUNCTIONS*/
 const PARAMETERS: [f64; /*PARAMETER_COUNT*/] = [
 /*PARAMETER_LIST*/];

@@ -1,3 +1,5 @@
+use std::sync::OnceLock;
+
 /// What vector instructions code is compiled for; a processor that has one has all smaller ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
@@ -10,9 +12,30 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    /// The largest that this processor has.
-    #[cfg(target_arch = "x86_64")]
+    /// All, the smallest first.
+    pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
+
+    /// A variable of the environment that keeps code from larger sets than the one that it names, so that
+    /// they can be compared on one processor. It is read once.
+    pub const VARIABLE: &'static str = "NBOOM_INSTRUCTIONS";
+
+    /// The largest that this processor has, or the one that [`VARIABLE`](Self::VARIABLE) names if that is
+    /// smaller.
     pub fn of_this_processor() -> Self {
+        static FOUND: OnceLock<InstructionSet> = OnceLock::new();
+        *FOUND.get_or_init(|| {
+            let limit = std::env::var(Self::VARIABLE).ok().and_then(|name| Self::named(&name));
+            limit.map_or(Self::detected(), |limit| limit.min(Self::detected()))
+        })
+    }
+
+    /// The set with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|set| set.name() == name)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn detected() -> Self {
         if !(is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")) {
             Self::Portable
         } else if is_x86_feature_detected!("avx512f")
@@ -25,9 +48,8 @@ impl InstructionSet {
         }
     }
 
-    /// The largest that this processor has.
     #[cfg(not(target_arch = "x86_64"))]
-    pub fn of_this_processor() -> Self {
+    fn detected() -> Self {
         Self::Portable
     }
 

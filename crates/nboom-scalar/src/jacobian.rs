@@ -1,7 +1,7 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use crate::{Dual, Eight, EightNumbers, Routine, WorkOnEight, in_registers};
+use crate::{Dual, Eight, EightNumbers, Routine, WorkOnEight, in_vector_registers};
 
 /// Directions of differentiation that one evaluation takes at once.
 const DIRECTIONS: usize = 8;
@@ -11,7 +11,7 @@ const DIRECTIONS: usize = 8;
 ///
 /// Writes the outputs to `outputs`, and to `derivatives` for each output a row with one entry for each of
 /// the coordinates `by`. An evaluation on dual numbers takes eight coordinates at once, in the vector
-/// registers of this processor.
+/// registers of this processor, or one where it has none.
 ///
 /// # Panics
 /// When `constants`, `coordinates` or `outputs` are not as many as the routine's, when `by` is beyond the
@@ -50,14 +50,9 @@ pub fn jacobian<T: Routine>(
 ) {
     assert!(by.end <= coordinates.len(), "derivatives are by coordinates");
     assert!(derivatives.len() == outputs.len() * by.len(), "room for each derivative");
-    in_registers(Directions::<T> {
-        constants,
-        coordinates,
-        by,
-        outputs,
-        derivatives,
-        of: PhantomData,
-    });
+    let directions =
+        Directions::<T> { constants, coordinates, by, outputs, derivatives, of: PhantomData };
+    in_vector_registers(directions).unwrap_or_else(Directions::one_by_one);
 }
 
 /// All directions, as many at once as registers hold.
@@ -68,6 +63,26 @@ struct Directions<'a, T> {
     outputs: &'a mut [f64],
     derivatives: &'a mut [f64],
     of: PhantomData<T>,
+}
+
+impl<T: Routine> Directions<'_, T> {
+    /// Without vector registers code for eight would be eight times as long.
+    fn one_by_one(self) {
+        let Self { constants, coordinates, by, outputs, derivatives, .. } = self;
+        T::evaluate(constants, coordinates, outputs);
+        let known = |&value: &f64| Dual::constant(value);
+        let constants: Vec<Dual<f64>> = constants.iter().map(known).collect();
+        let mut point: Vec<Dual<f64>> = coordinates.iter().map(known).collect();
+        let mut found = vec![Dual::constant(0.0); outputs.len()];
+        for (column, i) in by.clone().enumerate() {
+            point[i].derivative = 1.0;
+            T::evaluate(&constants, &point, &mut found);
+            point[i].derivative = 0.0;
+            for (row, of_output) in found.iter().enumerate() {
+                derivatives[row * by.len() + column] = of_output.derivative;
+            }
+        }
+    }
 }
 
 impl<T: Routine> WorkOnEight for Directions<'_, T> {
@@ -101,6 +116,62 @@ impl<T: Routine> WorkOnEight for Directions<'_, T> {
                 derivatives[start..start + directions.len()]
                     .copy_from_slice(&derivative.0[..directions.len()]);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Isa, Real};
+
+    /// x² y, x / y and k x.
+    struct Three;
+
+    impl Routine for Three {
+        const RESULT: &'static str = "accelerations";
+        const TOPOLOGY: &'static str = "M";
+        const FORMULATION: &'static str = "articulated";
+        const ASSUMPTIONS: &'static [(usize, f64)] = &[];
+        const EXTERNAL: bool = false;
+        const PARAMETERS: usize = 1;
+        const CONSTANTS: usize = 1;
+        const COORDINATES: usize = 2;
+        const OUTPUTS: usize = 3;
+
+        fn prepare<R: Real>(parameters: &[R], constants: &mut [R]) {
+            constants.copy_from_slice(parameters);
+        }
+
+        fn evaluate<R: Real>(k: &[R], x: &[R], out: &mut [R]) {
+            out.copy_from_slice(&[x[0] * x[0] * x[1], x[0] / x[1], k[0] * x[0]]);
+        }
+
+        fn evaluate_packed<I: Isa>(k: &[f64], x: &[f64], out: &mut [f64]) {
+            Self::evaluate(k, x, out);
+        }
+    }
+
+    #[test]
+    fn one_direction_after_the_other_gives_the_same() {
+        for by in [0..0, 0..1, 1..2, 0..2] {
+            let (mut outputs, mut derivatives) = ([0.0; 3], vec![0.0; 3 * by.len()]);
+            Directions::<Three> {
+                constants: &[0.5],
+                coordinates: &[3.0, 2.0],
+                by: by.clone(),
+                outputs: &mut outputs,
+                derivatives: &mut derivatives,
+                of: PhantomData,
+            }
+            .one_by_one();
+            assert_eq!(outputs, [18.0, 1.5, 1.5]);
+            let all = [[12.0, 9.0], [0.5, -0.75], [0.5, 0.0]];
+            let expected: Vec<f64> = all.iter().flat_map(|row| row[by.clone()].to_vec()).collect();
+            assert_eq!(derivatives, expected);
+            let mut at_once = vec![0.0; 3 * by.len()];
+            jacobian::<Three>(&[0.5], &[3.0, 2.0], by, &mut outputs, &mut at_once);
+            assert_eq!((outputs, at_once), ([18.0, 1.5, 1.5], expected));
         }
     }
 }

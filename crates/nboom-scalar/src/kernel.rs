@@ -40,7 +40,7 @@ pub type Kernel = RoutineOn<f64>;
 /// [`Batch`](crate::Batch).
 #[derive(Clone, Copy, Debug)]
 pub struct RoutineOn<N> {
-    /// What an evaluation writes: `accelerations`, `equations`, `right_side` or `stresses`.
+    /// What an evaluation writes: `accelerations`, `equations`, `inverse_dynamics`, `right_side` or `stresses`.
     pub result: &'static str,
     /// Topology, for example `S2_P`.
     pub topology: &'static str,

@@ -5,14 +5,14 @@ use crate::{Isa, Real};
 pub const CONTRACT: u32 = 3;
 
 /// What generated code implements: accelerations of one topology by one formulation, the
-/// equations that the formulation solves for them, the right side of the differential equations of a
+/// equations that the formulation solves for them, what causes given accelerations, the right side of the differential equations of a
 /// mode, or the loads and stresses of one scene.
 ///
 /// Parameters are prepared once; an evaluation then allocates nothing and does not branch.
 /// The order of all numbers is that of `nboom_formulation::Layout`; of right sides that of
 /// `nboom_formulation::RightSideLayout`, of stresses that of `nboom_loads`.
 pub trait Routine {
-    /// What an evaluation writes: `accelerations`, `equations`, `right_side` or `stresses`.
+    /// What an evaluation writes: `accelerations`, `equations`, `inverse_dynamics`, `right_side` or `stresses`.
     const RESULT: &'static str;
     /// Topology, for example `S2_P`.
     const TOPOLOGY: &'static str;

@@ -56,3 +56,18 @@ pub fn truth(test_case: &TestCase) -> Result<Vec<Vec<f64>>, VerifyError> {
     let mut referee = Referee::new(test_case, 1);
     (0..test_case.states().len()).map(|i| Ok(referee.reference(i)?.truth())).collect()
 }
+
+/// What has to act in each state for these accelerations, computed in double-double by the recursion's mass
+/// matrix and rounded once: moment and force on the main body about O, then the torques of the scene's hinges.
+/// Accelerations are in the order of [`truth`].
+///
+/// # Errors
+/// As [`truth`].
+pub fn drives(
+    test_case: &TestCase,
+    accelerations: &[Vec<f64>],
+) -> Result<Vec<Vec<f64>>, VerifyError> {
+    let mut referee = Referee::new(test_case, 1);
+    let all = accelerations.iter().enumerate();
+    all.map(|(i, accelerations)| Ok(referee.reference(i)?.drive(accelerations))).collect()
+}

@@ -37,7 +37,7 @@ pub enum ComparedCode<'a> {
         /// The states.
         states: Vec<Coordinates<f64>>,
     },
-    /// `symmetric` for a tree that is not made of chains and paddles.
+    /// `symmetric` for a tree that is not made of chains, paddles and limbs.
     Tree {
         /// The tree.
         tree: &'a WeldedTree<f64>,

@@ -120,7 +120,7 @@ impl Rows {
 pub struct Comparison {
     /// Name of the scene.
     pub scene: String,
-    /// Its topology with all hinges free; none where it is not made of chains and paddles.
+    /// Its topology with all hinges free; none where it is not made of chains, paddles and limbs.
     pub topology: Option<String>,
     /// How many states there were.
     pub states: usize,

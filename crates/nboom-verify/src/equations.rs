@@ -34,8 +34,7 @@ impl<'a> EquationsCode<'a> {
             let label = Label::generic(formulation.name());
             Self { label, formulation, way }
         };
-        let takes_symmetric = |found: &&Recognised| Formulation::Symmetric.takes(&found.topology);
-        let Some(recognised) = test_case.recognised().filter(takes_symmetric) else {
+        let Some(recognised) = test_case.recognised() else {
             let way = Way::Tree(test_case.tree(), test_case.links());
             return Ok(vec![generic(Formulation::Symmetric, way)]);
         };
@@ -51,7 +50,10 @@ impl<'a> EquationsCode<'a> {
             let way = Way::Routine { kernel, recognised, constants: fit.constants() };
             routines.push(Self { label: Label::generated(&fit), formulation, way });
         }
-        let closed = Formulation::ALL.into_iter().filter(|formulation| formulation.has_equations());
+        let has_equations = |formulation: &Formulation| {
+            formulation.has_equations() && formulation.takes(&recognised.topology)
+        };
+        let closed = Formulation::ALL.into_iter().filter(has_equations);
         let closed = closed.map(|formulation| generic(formulation, Way::ClosedForm(recognised)));
         Ok(closed.chain(routines).collect())
     }

@@ -49,7 +49,7 @@ mod reference;
 mod test_case;
 mod work_precision;
 
-pub use certificate::{Certificate, certify, truth};
+pub use certificate::{Certificate, certify, drives, truth};
 pub use code::ComparedCode;
 pub use comparison::{Comparison, Row, compare};
 pub use dense::Dense;

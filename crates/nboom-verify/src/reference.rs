@@ -2,7 +2,7 @@
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{Equations, Formulation};
-use nboom_scalar::{DoubleDouble, Real, Vec3};
+use nboom_scalar::{DoubleDouble, Real, Vec3, Wrench};
 
 use crate::VerifyError;
 use crate::condition::condition;
@@ -67,6 +67,8 @@ impl<'a> Referee<'a> {
 struct OneState<R> {
     accelerations: Vec<R>,
     equations: Equations<R>,
+    /// What acts, in the order of the equations: force, moment, hinge torques.
+    acting: Vec<R>,
 }
 
 impl<R: Real> OneState<R> {
@@ -79,7 +81,11 @@ impl<R: Real> OneState<R> {
         let mut equations =
             Equations { matrix: vec![R::zero(); size * size], forcing: vec![R::zero(); size] };
         dynamics.equations(&motion, &mut equations.matrix, &mut equations.forcing);
-        Self { accelerations: accelerations(dynamics, &motion), equations }
+        let Wrench { moment, force } = dynamics.acting_on_main_body(omega_body);
+        let mut acting = [force.to_array(), moment.to_array()].concat();
+        acting.resize(size, R::zero());
+        dynamics.hinge_forces(&motion, &mut acting[6..]);
+        Self { accelerations: accelerations(dynamics, &motion), equations, acting }
     }
 }
 
@@ -110,6 +116,21 @@ impl Reference<'_> {
     /// The accelerations in double-double, rounded once.
     pub fn truth(&self) -> Vec<f64> {
         rounded(&self.exact.accelerations)
+    }
+
+    /// What has to act for these accelerations, in double-double, rounded once: moment, force, hinge torques;
+    /// accelerations are ω̇, a_O, then τ̇ in the scene's order.
+    pub fn drive(&self, accelerations: &[f64]) -> Vec<f64> {
+        let OneState { equations: Equations { matrix, forcing }, acting, .. } = &self.exact;
+        let unknowns = [&accelerations[3..6], &accelerations[..3], &accelerations[6..]].concat();
+        let row = |(i, row): (usize, &[DoubleDouble])| {
+            let start = acting[i] - forcing[i];
+            let terms = row.iter().zip(&unknowns).map(|(&m, &a)| m * DoubleDouble::from(a));
+            terms.fold(start, |sum, term| sum + term)
+        };
+        let rows = matrix.chunks_exact(unknowns.len()).enumerate();
+        let drive = rounded(&rows.map(row).collect::<Vec<_>>());
+        [&drive[3..6], &drive[..3], &drive[6..]].concat()
     }
 
     /// Deviations of accelerations.

@@ -198,13 +198,12 @@ impl TestCase {
             states: &self.states,
         };
         let mut codes = vec![(Label::RECURSION, self.recursion()), (Label::DENSE, dense)];
-        let topology = self.recognised().map(|recognised| &recognised.topology);
-        if topology.is_none_or(|topology| !Formulation::Symmetric.takes(topology)) {
+        let Some(recognised) = self.recognised() else {
             let states = self.coordinates_in((0..self.tree().links.len()).collect()).collect();
             let code = ComparedCode::Tree { tree: self.dynamics.tree(), states };
             codes.push((Label::generic(Formulation::Symmetric.name()), code));
-        }
-        let Some(recognised) = self.recognised() else { return Ok(codes) };
+            return Ok(codes);
+        };
         let takes = |formulation: &Formulation| formulation.takes(&recognised.topology);
         for formulation in Formulation::ALL.into_iter().filter(takes) {
             let code = ComparedCode::ClosedForm { formulation, recognised, states: states.clone() };

@@ -12,8 +12,8 @@ use crate::trace::Equal;
 /// Where ω begins in a state.
 pub(crate) fn omega(output: Output) -> usize {
     match output {
-        Output::Accelerations | Output::Equations => 0,
         Output::RightSide => RightSideLayout::OMEGA.start,
+        _ => 0,
     }
 }
 
@@ -41,16 +41,16 @@ impl Hinges<'_> {
     /// β of a hinge.
     pub fn beta(&self, hinge: Hinge<'_>) -> TokenStream {
         match self.output {
-            Output::Accelerations | Output::Equations => self.in_row(0, hinge),
             Output::RightSide => self.among(RightSideLayout::beta(self.topology).start, hinge),
+            _ => self.in_row(0, hinge),
         }
     }
 
     /// τ of a hinge.
     pub fn tau(&self, hinge: Hinge<'_>) -> TokenStream {
         match self.output {
-            Output::Accelerations | Output::Equations => self.in_row(1, hinge),
             Output::RightSide => self.among(RightSideLayout::tau(self.topology).start, hinge),
+            _ => self.in_row(1, hinge),
         }
     }
 
@@ -62,14 +62,14 @@ impl Hinges<'_> {
     /// Writes τ̇ of a hinge.
     pub fn write(&self, tau_dot: &Ident, hinge: Hinge<'_>) -> TokenStream {
         match self.output {
-            Output::Accelerations | Output::Equations => {
-                let start = Layout::OUTPUT + self.group.hinge;
-                let at = self.place(start, [self.group.count, 1], hinge);
-                quote!(#tau_dot.scatter(out, #at);)
-            }
             Output::RightSide => {
                 let (at, links) = self.apart(RightSideLayout::tau(self.topology).start, hinge);
                 quote!(#tau_dot.scatter_apart(out, #at, #links);)
+            }
+            _ => {
+                let start = Layout::OUTPUT + self.group.hinge;
+                let at = self.place(start, [self.group.count, 1], hinge);
+                quote!(#tau_dot.scatter(out, #at);)
             }
         }
     }

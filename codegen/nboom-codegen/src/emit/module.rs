@@ -16,7 +16,7 @@ use crate::trace::Equations;
 /// Routines that stand together.
 #[derive(Clone, Debug, Default)]
 pub struct Module {
-    /// Routines for accelerations, equations and right sides.
+    /// Routines for accelerations, equations, inverse dynamics and right sides.
     pub routines: Vec<Request>,
     /// Routines for loads and stresses.
     pub stresses: Vec<StressRequest>,
@@ -104,9 +104,11 @@ impl Module {
     }
 
     /// Code of a function `kernels` that lists the routines ready to run, and of a function `batches`;
-    /// equations are left out, and there are no functions where nothing is left.
+    /// equations and inverse dynamics are left out, since no run takes them, and there are no functions where nothing is left.
     fn table(&self) -> Result<TokenStream, CodegenError> {
-        let runs = |request: &&Request| request.output != Output::Equations;
+        let runs = |request: &&Request| {
+            matches!(request.output, Output::Accelerations | Output::RightSide)
+        };
         let routines = self.routines.iter().filter(runs).map(|r| (&r.name, &r.scalar_path));
         let stresses = self.stresses.iter().map(|r| (&r.name, &r.scalar_path));
         let listed: Vec<(&String, &String)> = routines.chain(stresses).collect();

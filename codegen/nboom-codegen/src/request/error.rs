@@ -54,8 +54,8 @@ pub enum CodegenError {
     /// A straight line would be too long for a compiler.
     #[error(
         "topology {topology}, formulation {formulation}: the evaluation takes {operations} \
-         operations, at most {limit} expected; only chains and paddles by articulated are emitted as \
-         loops"
+         operations, at most {limit} expected; only accelerations and right sides of chains and paddles \
+         by articulated are emitted as loops"
     )]
     Budget {
         /// The topology.
@@ -117,6 +117,16 @@ pub enum CodegenError {
         /// The formulation.
         formulation: Formulation,
     },
+    /// Inverse dynamics is not a matter of this formulation.
+    #[error(
+        "topology {topology}, formulation {formulation}: inverse dynamics found; only articulated has it"
+    )]
+    NoInverse {
+        /// The topology.
+        topology: String,
+        /// The formulation.
+        formulation: Formulation,
+    },
     /// The main body of a scene is held.
     #[error("scene {scene}: the main body is held, and code is generated for free ones")]
     HeldBase {
@@ -125,7 +135,8 @@ pub enum CodegenError {
     },
     /// The formulation takes chains and paddles alone.
     #[error(
-        "topology {topology}: of limbs, formulation {formulation} has none; articulated expected"
+        "topology {topology}: of limbs, formulation {formulation} has none; articulated or symmetric \
+         expected"
     )]
     NoLimbs {
         /// The topology.

@@ -41,6 +41,10 @@ impl Names {
                 let names = Self::of_accelerations(topology, parameters, &hinges);
                 Self { outputs: Vec::new(), ..names }
             }
+            Output::InverseDynamics => {
+                let names = Self::of_accelerations(topology, parameters, &hinges);
+                names.exchanged(topology)
+            }
             Output::RightSide => Self::of_right_side(parameters, &hinges),
         }
     }
@@ -58,6 +62,18 @@ impl Names {
             outputs[Layout::OUTPUT + place] = format!("tau_dot_{owner}");
         }
         Self { parameters, coordinates, outputs }
+    }
+
+    /// Accelerations are handed in, and what causes them comes out.
+    fn exchanged(mut self, topology: &Topology) -> Self {
+        let main = Layout::STATE - Layout::OUTPUT..Layout::STATE;
+        self.coordinates[main].swap_with_slice(&mut self.outputs[..Layout::OUTPUT]);
+        for place in Layout::places(topology) {
+            let [_, _, torque] = Layout::hinge_in_state(topology, place);
+            let tau_dot = &mut self.outputs[Layout::OUTPUT + place];
+            std::mem::swap(&mut self.coordinates[torque], tau_dot);
+        }
+        self
     }
 
     fn of_right_side(mut parameters: Vec<String>, hinges: &[String]) -> Self {

@@ -92,6 +92,15 @@ impl Request {
         self
     }
 
+    /// Code for inverse dynamics: from ω, ω̇, a_O and β, τ, τ̇ of each hinge to the wrench on the main body
+    /// and the hinge torques.
+    pub fn for_inverse_dynamics(mut self) -> Self {
+        self.output = Output::InverseDynamics;
+        self.assumptions.truncate(Layout::parameters(&self.topology));
+        self.external = true;
+        self
+    }
+
     /// Code for the right side of the differential equations of a mode, in the order of
     /// [`RightSideLayout`]. Hinge laws are handed in, and so is an external wrench if accelerations
     /// take one; lines are assumed not to push.
@@ -133,6 +142,11 @@ impl Request {
         self.output == Output::RightSide && (0..RightSideLayout::lines(&self.topology)).any(pushes)
     }
 
+    /// Whether its sweeps can be emitted as loops.
+    pub(crate) fn has_loops(&self) -> bool {
+        self.formulation == Formulation::Articulated && self.output != Output::InverseDynamics
+    }
+
     /// Assumes every parameter: code for one satellite.
     ///
     /// `parameters` are the numbers that `nboom_formulation::Parameters::write` gives, and for a right
@@ -170,10 +184,7 @@ impl Request {
         if found != expected {
             return Err(CodegenError::Parameters { topology: of_topology(), found, expected });
         }
-        let limit = match formulation {
-            Formulation::Articulated => HINGE_LIMIT,
-            _ => STRAIGHT_HINGE_LIMIT,
-        };
+        let limit = if self.has_loops() { HINGE_LIMIT } else { STRAIGHT_HINGE_LIMIT };
         let (links, formulation) = (topology.hinges(), *formulation);
         if links > limit {
             let topology = of_topology();
@@ -184,6 +195,9 @@ impl Request {
         }
         if *output == Output::Equations && !formulation.has_equations() {
             return Err(CodegenError::NoEquations { topology: of_topology(), formulation });
+        }
+        if *output == Output::InverseDynamics && formulation != Formulation::Articulated {
+            return Err(CodegenError::NoInverse { topology: of_topology(), formulation });
         }
         let bad = |(number, value): (usize, &Option<f64>)| {
             value.filter(|value| !value.is_finite()).map(|value| (number, value))

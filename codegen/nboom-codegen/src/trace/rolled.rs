@@ -269,7 +269,7 @@ fn base(request: &Request, at_origin: &[bool]) -> Traced {
             assumptions.extend(&request.assumptions[external]);
             stages::base_in_mode()
         }
-        Output::Accelerations | Output::Equations => stages::base(),
+        _ => stages::base(),
     };
     Traced::new("main", &stage, &assumptions, &masks).regrouped(request.level)
 }

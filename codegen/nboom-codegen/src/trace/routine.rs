@@ -1,5 +1,7 @@
 use nboom_expr::Graph;
-use nboom_formulation::{Coordinates, Equations, Forces, Layout, Parameters, right_side};
+use nboom_formulation::{
+    Coordinates, Equations, Forces, Layout, Motion, Parameters, inverse_dynamics, right_side,
+};
 
 use crate::request::{Output, Request};
 
@@ -30,6 +32,10 @@ pub fn trace(request: &Request) -> Graph {
                 let Equations { mut matrix, forcing } = found.expect("the request was checked");
                 matrix.extend(forcing);
                 matrix
+            }
+            Output::InverseDynamics => {
+                let motion = Motion::read(topology, state);
+                inverse_dynamics(topology, &satellite, &motion).write(topology)
             }
             Output::RightSide => {
                 let mut forces = Forces::read(topology.hinges(), of_forces.iter().copied());

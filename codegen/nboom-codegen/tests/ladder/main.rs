@@ -9,7 +9,8 @@ use std::collections::BTreeSet;
 
 use nboom_codegen::{Level, Output, Request, trace};
 use nboom_formulation::{
-    Coordinates, Equations, Forces, Formulation, Layout, Parameters, right_side,
+    Coordinates, Equations, Forces, Formulation, Layout, Motion, Parameters, inverse_dynamics,
+    right_side,
 };
 
 use satellite::Satellite;
@@ -31,6 +32,10 @@ fn closed_form(request: &Request, parameters: &[f64], state: &[f64]) -> Vec<f64>
             let found = formulation.equations(topology, &satellite, &coordinates());
             let Equations { matrix, forcing } = found.expect("it has equations");
             [matrix, forcing].concat()
+        }
+        Output::InverseDynamics => {
+            let motion = Motion::read(topology, state);
+            inverse_dynamics(topology, &satellite, &motion).write(topology)
         }
         Output::RightSide => {
             let forces = Forces::read(topology.hinges(), of_forces.iter().copied());
@@ -120,6 +125,19 @@ fn symmetric_is_recorded_as_it_computes() {
 #[test]
 fn articulated_is_recorded_as_it_computes() {
     assert_all_recorded(Formulation::Articulated);
+}
+
+#[test]
+fn inverse_dynamics_is_recorded_as_it_computes() {
+    for seed in 0..SATELLITES {
+        let Satellite { topology, assumptions, parameters, mut states, .. } =
+            Satellite::random(seed);
+        // Accelerations of the main body are there whether something acts from outside or not.
+        states.iter_mut().for_each(|state| state[3..9].fill(0.5 + seed as f64));
+        let request = Request::new("Random", topology, Level::Exact).for_inverse_dynamics();
+        let request = Request { assumptions, ..request };
+        assert_recorded(seed, &request, &parameters, &states);
+    }
 }
 
 #[test]

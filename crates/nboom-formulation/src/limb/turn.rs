@@ -1,6 +1,6 @@
 //! Turning about ê₁.
 
-use nboom_scalar::{ArticulatedInertia, Mat3, Real, Twist, Vec3, Wrench};
+use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Twist, Vec3, Wrench};
 
 use crate::chain;
 
@@ -40,6 +40,14 @@ impl<R: Real> Turn<R> {
 
     pub fn wrench(self, wrench: Wrench<R>) -> Wrench<R> {
         Wrench { moment: self.vector(wrench.moment), force: self.vector(wrench.force) }
+    }
+
+    pub fn rigid(self, body: &RigidInertia<R>) -> RigidInertia<R> {
+        RigidInertia {
+            mass: body.mass,
+            first_moment: self.vector(body.first_moment),
+            about_origin: chain::turned_inertia(&body.about_origin, self.sin, self.cos),
+        }
     }
 
     pub fn inertia(self, inertia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {

@@ -75,7 +75,7 @@ fn limb_link(tree: &WeldedTree<f64>, found: &[usize], j: usize) -> Option<LimbLi
         Some(inboard) if is_parallel(inboard, link) => LimbJoint::Parallel,
         _ => LimbJoint::Revolute,
     };
-    let inboard = inboard.map(u8::try_from).transpose().ok()?;
+    let inboard = inboard.map(u16::try_from).transpose().ok()?;
     Some(LimbLink { inboard, joint })
 }
 

@@ -1,20 +1,24 @@
-//! The arrow of one chain or paddle, along appendage axes.
+//! The arrow of one appendage, along its axes.
 
 use nboom_model::Shape;
 use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::arrow::Arrow;
 use crate::base::AtOrigin;
+use crate::limb;
 use crate::parameters::{Branch, HingeCoordinates};
 use crate::pose::{self, Posed, each, momentum, power};
 
-/// The arrow over the rates that [`pose::absolute`] gives, about O.
+/// The arrow about O over the rates that [`pose::absolute`] gives, of a limb over τ.
 pub(super) fn arrow<R: Real>(
     shape: Shape,
     branch: &Branch<R>,
     omega: Vec3<R>,
     hinges: &[HingeCoordinates<R>],
 ) -> Arrow<R> {
+    if let Shape::Limb(limb) = shape {
+        return limb::composite(&limb, branch, omega, hinges);
+    }
     let w = branch.rot_body_from_appendage.transpose_mul(omega);
     let beta = each(hinges, |hinge| hinge.beta);
     let sigma = pose::absolute(shape, &each(hinges, |hinge| hinge.tau));
@@ -29,7 +33,7 @@ pub(super) fn arrow<R: Real>(
 
 /// The arrow of the same appendage over τ: a unit τ turns the link and all outboard.
 pub(super) fn with_relative_rates<R: Real>(shape: Shape, mut arrow: Arrow<R>) -> Arrow<R> {
-    if shape == Shape::Paddle {
+    if !matches!(shape, Shape::Chain(_)) {
         return arrow;
     }
     let n = arrow.right.len();

@@ -5,6 +5,7 @@ fn a_crate_passes_its_tests_and_fails_them_when_its_code_is_wrong() {
     let choices = Choices {
         formulation: Formulation::Relative,
         equations: true,
+        inverse_dynamics: true,
         lock_states: true,
         ..Choices::default()
     };
@@ -17,7 +18,11 @@ fn a_crate_passes_its_tests_and_fails_them_when_its_code_is_wrong() {
     let text = fs::read_to_string(&routines).expect("readable");
     let first = text.find("fn evaluate_on").expect("a straight line");
     let last = text.rfind("fn evaluate_on").expect("a straight line");
-    for (evaluation, test) in [(first, "satelliteS2S1"), (last, "satelliteM")] {
+    let inverse = text.find("pub struct SatelliteS2S1Inverse").expect("it was asked for");
+    let inverse = inverse + text[inverse..].find("fn evaluate_on").expect("a straight line");
+    let evaluations =
+        [(first, "satelliteS2S1"), (inverse, "satelliteS2S1Inverse"), (last, "satelliteM")];
+    for (evaluation, test) in evaluations {
         // The first sum becomes a difference.
         let (head, tail) = text.split_at(evaluation);
         let wrong = head.to_owned() + &tail.replacen(" + ", " - ", 1);
@@ -133,11 +138,12 @@ fn routines_are_those_asked_for() {
     let all = Choices {
         formulation: Formulation::Symmetric,
         equations: true,
+        inverse_dynamics: true,
         lock_states: true,
         ..usual
     };
-    let expected = ["SatelliteS2", "SatelliteS2Equations", "SatelliteS1", "SatelliteM"];
-    assert_eq!(names(all), expected);
+    let all_free = ["SatelliteS2", "SatelliteS2Equations", "SatelliteS2Inverse"];
+    assert_eq!(names(all), [&all_free[..], &["SatelliteS1", "SatelliteM"]].concat());
 }
 
 #[test]

@@ -9,7 +9,7 @@ use nboom_scalar::{Real, Vec3, Wrench};
 #[derive(Clone, Debug)]
 pub(crate) struct ClosedForm<R> {
     formulation: Formulation,
-    /// `None` for a tree that `symmetric` alone covers: what is not made of chains and paddles.
+    /// `None` for a tree that `symmetric` alone covers: what is not made of chains, paddles and limbs.
     recognised: Option<(Topology, Parameters<R>)>,
     coordinates: Coordinates<R>,
     /// For each hinge of the coordinates, its link.

@@ -1,6 +1,6 @@
 
-/// The largest deviation, relative to the largest acceleration.
-fn off_accelerations(found: &[f64], expected: &[f64]) -> f64 {
+/// The largest deviation, relative to the largest number.
+fn off_numbers(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let scale = expected.iter().fold(f64::MIN_POSITIVE, |most, e| most.max(e.abs()));
     found.iter().zip(expected).fold(0.0, |most, (found, expected)| {
