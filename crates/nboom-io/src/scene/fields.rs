@@ -41,12 +41,14 @@ impl Fields<'_> {
 impl<'t> Fields<'t> {
     /// The entry of a key, and its ending if it is one of an angle.
     pub(super) fn entry(&self, key: &str) -> Option<(&'t Entry, &'static str)> {
-        let with = |ending: &'static str| {
-            let entry =
-                self.table.0.iter().find(|entry| entry.key.strip_suffix(ending) == Some(key));
-            entry.map(|entry| (entry, ending))
+        let endings = ["", ENDINGS[0], ENDINGS[1]];
+        let called_so = |entry: &'t Entry| {
+            let ending = entry.key.strip_prefix(key)?;
+            Some((endings.iter().position(|known| *known == ending)?, entry))
         };
-        self.table.get(key).map(|entry| (entry, "")).or_else(|| ENDINGS.into_iter().find_map(with))
+        let found = self.table.0.iter().filter_map(called_so);
+        let (ending, entry) = found.min_by_key(|(ending, _)| *ending)?;
+        Some((entry, endings[ending]))
     }
 
     /// The table of a key, unchecked.
