@@ -154,6 +154,16 @@ impl<'f> Report<'f> {
         push_bounded(&mut self.warnings, located(sources, at, symbol, found, expected));
     }
 
+    /// Warnings that were found before.
+    pub fn warn_again(&mut self, warnings: &[Diagnostic]) {
+        warnings.iter().for_each(|warning| push_bounded(&mut self.warnings, warning.clone()));
+    }
+
+    /// Whether nothing is wrong so far, and all warnings are kept.
+    pub fn has_all_of_a_scene(&self) -> bool {
+        self.errors.is_empty() && self.warnings.len() < MOST_KEPT
+    }
+
     /// Whether reading on is of no use.
     pub fn is_full(&self) -> bool {
         self.errors.len() >= MOST_KEPT
@@ -161,9 +171,12 @@ impl<'f> Report<'f> {
 
     /// By lines, file by file, the report's own first.
     pub fn sort(&mut self) {
-        let place = |d: &Diagnostic| (d.file != self.file, d.file.clone(), d.line, d.column);
-        self.errors.sort_by_cached_key(place);
-        self.warnings.sort_by_cached_key(place);
+        let order = |a: &Diagnostic, b: &Diagnostic| {
+            let [a, b] = [a, b].map(|d| (d.file != self.file, &d.file, d.line, d.column));
+            a.cmp(&b)
+        };
+        self.errors.sort_by(order);
+        self.warnings.sort_by(order);
     }
 
     /// Adds to each message the line of `text` that it is about.

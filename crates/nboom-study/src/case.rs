@@ -303,17 +303,16 @@ fn values(
         analysis.finish().map_err(|error| Stop::Failed(in_one_line(&error.to_string())))?;
         worst = WorstLoads::of(analysis);
     }
-    let mut keys = serde_json::Value::Null;
-    if wanted.iter().any(Wanted::of_summary) {
+    let run = wanted.iter().any(Wanted::of_summary).then(|| {
         let output = WantedOutput { times: observer.times.take(), ..WantedOutput::default() };
         let parameters = file.settings.parameters.clone();
         let run = RunDescription::new(scene, options, units(file));
-        let run = RunDescription { parameters, output, ..run };
-        let ended = SummaryFile::ended(&run, summary, &worst, 0.0, None, Vec::new());
-        keys = serde_json::to_value(ended).expect("the keys are texts");
-    }
+        RunDescription { parameters, output, ..run }
+    });
+    let ended = |run| SummaryFile::ended(run, summary, &worst, 0.0, None, Vec::new());
+    let keys = run.as_ref().map(ended);
     let (hinges, extremes) = (&observer.hinges, &observer.extremes);
     let labels = scene.labels();
-    let found = Found { labels, hinges, extremes, summary, worst: &worst, keys: &keys };
+    let found = Found { labels, hinges, extremes, summary, worst: &worst, keys: keys.as_ref() };
     Ok(Wanted::values(wanted, &found))
 }

@@ -2,11 +2,12 @@
 
 mod hinge;
 mod motion;
+mod seek;
 mod summary;
 
 use nboom_io::SceneFile;
 use nboom_model::{HingeLabel, Material};
-use nboom_results::WorstLoads;
+use nboom_results::{SummaryFile, WorstLoads};
 use nboom_sim::Summary;
 use nboom_tables::Column;
 
@@ -75,7 +76,7 @@ pub(crate) struct Found<'r> {
     pub summary: &'r Summary,
     pub worst: &'r WorstLoads,
     /// The content of `summary.json`, if [`Wanted::of_summary`] is true of any.
-    pub keys: &'r serde_json::Value,
+    pub keys: Option<&'r SummaryFile<'r>>,
 }
 
 impl Loads {
@@ -185,9 +186,7 @@ impl Wanted {
             let number = match &wanted.what {
                 What::Hinge(kind, hinge) => kind.value(*hinge, found),
                 What::Motion(_) => extremes.next().copied(),
-                What::Summary(pointer) => {
-                    found.keys.pointer(pointer).and_then(serde_json::Value::as_f64)
-                }
+                What::Summary(pointer) => found.keys.and_then(|keys| seek::number(keys, pointer)),
             };
             match (number, wanted.column.kind) {
                 (None, _) => Value::Empty,

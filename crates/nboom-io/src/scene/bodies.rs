@@ -22,8 +22,9 @@ impl Reader<'_, '_> {
         MassProperties::new(mass, mass_centre, inertia.unwrap_or(any))
     }
 
-    /// A body with its joint.
+    /// A body with its joint, in a table whose keys are not yet checked.
     pub fn body(&mut self, fields: &Fields<'_>, materials: &Materials) -> BodyDraft {
+        self.check_keys(fields);
         let name = self.body_name(fields).unwrap_or_default();
         let mass_properties = self.mass_properties(fields);
         let mut body = BodyDraft::new(name, mass_properties, Vec3::zero(), Vec3::unit_x());

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::expression;
 use super::include::Parts;
+use super::memory::Memory;
 use super::parameters::Parameters;
 use super::tree::Value;
 use super::{Found, ReadOptions, Sources, assemble, write_scene};
@@ -47,6 +48,8 @@ pub struct SceneDocument {
     sha256: String,
     /// Whether its text says something else.
     is_changed: bool,
+    /// What scenes that differ in numbers have in common, once the document is known to be right.
+    memory: Option<Arc<Memory>>,
 }
 
 impl SceneDocument {
@@ -80,14 +83,16 @@ impl SceneDocument {
         }
         let read = Self::parse((file, text), name, folder, options)?;
         read.scene(&[])?;
-        Ok(read.merged())
+        Ok(read.merged().with_memory())
     }
 
     /// The document of the text that a scene is written as.
     fn converted(file: &str, scene: &SceneFile) -> Result<Self, InputError> {
         let (name, text) = (&scene.scene.name, write_scene(scene));
         let file = format!("{}{IN_TOML}", file.trim_end_matches(IN_TOML));
-        Self::parse((&file, &text), name, None, &ReadOptions::default())
+        let read = Self::parse((&file, &text), name, None, &ReadOptions::default())?;
+        read.scene(&[])?;
+        Ok(read.with_memory())
     }
 
     /// A text of a scene, of which only its TOML has been checked.
@@ -113,6 +118,7 @@ impl SceneDocument {
             sources: Arc::new(sources),
             options: options.clone(),
             is_changed: false,
+            memory: None,
         })
     }
 
@@ -128,6 +134,12 @@ impl SceneDocument {
         }
         let options = ReadOptions { set: Vec::new(), ..self.options };
         Self { parts, options, is_changed, ..self }
+    }
+
+    /// One that reads once what its scenes have in common; it is in one file and right.
+    fn with_memory(self) -> Self {
+        let memory = Memory::of(self.parts.root(), self.parameters());
+        Self { memory: Some(Arc::new(memory)), ..self }
     }
 
     /// The document of the scene as it stands: each body that `repeat` makes has a table of its own, and all
@@ -216,11 +228,15 @@ impl SceneDocument {
     /// As [`Self::number`].
     #[must_use]
     pub fn with(&self, values: &[(&Slot, f64)]) -> Self {
-        let mut changed = Self { is_changed: true, ..self.clone() };
+        Self { is_changed: true, parts: self.parts_with(values), ..self.clone() }
+    }
+
+    fn parts_with(&self, values: &[(&Slot, f64)]) -> Parts {
+        let mut parts = self.parts.clone();
         for (slot, value) in values {
-            *child_mut(changed.parts.root_mut(), slot) = Value::Number(*value);
+            *child_mut(parts.root_mut(), slot) = Value::Number(*value);
         }
-        changed
+        parts
     }
 
     /// The scene with these numbers in their places.
@@ -231,11 +247,9 @@ impl SceneDocument {
     /// # Panics
     /// As [`Self::number`].
     pub fn scene(&self, values: &[(&Slot, f64)]) -> Result<SceneFile, InputError> {
-        if !values.is_empty() {
-            return self.with(values).scene(&[]);
-        }
+        let (parts, memory) = (self.parts_with(values), self.memory.as_deref());
         let mut report = Report::new(&self.file);
-        let found = assemble(&self.parts, &self.name, &self.options, &self.sources, &mut report);
+        let found = assemble(&parts, memory, &self.name, &self.options, &self.sources, &mut report);
         report.sort();
         match found {
             Some(Found { scene, structure, settings, stress_interval })
@@ -274,3 +288,6 @@ impl SceneDocument {
         &self.sha256
     }
 }
+
+#[cfg(test)]
+mod tests;

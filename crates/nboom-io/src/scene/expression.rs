@@ -38,6 +38,11 @@ pub(crate) fn is_name(text: &str) -> bool {
         && characters.all(is_of_name)
 }
 
+/// The names behind each `$` of a text.
+pub(crate) fn names(text: &str) -> impl Iterator<Item = &str> {
+    text.split('$').skip(1).map(|rest| rest.split(|c| !is_of_name(c)).next().unwrap_or_default())
+}
+
 fn is_of_name(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }

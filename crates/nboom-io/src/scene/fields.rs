@@ -3,7 +3,7 @@
 use nboom_scalar::Vec3;
 
 use super::expression;
-use super::keys::{ENDINGS, Key, TableKind};
+use super::keys::{ENDINGS, TableKind};
 use super::parameters::Parameters;
 use super::sources::{Place, Sources};
 use super::suggest;
@@ -15,13 +15,15 @@ pub(crate) struct Reader<'s, 'f> {
     pub sources: &'s Sources,
     pub report: &'s mut Report<'f>,
     pub parameters: &'s Parameters,
+    /// Whether the keys of all tables have been checked; numbers do not change them.
+    pub are_keys_right: bool,
 }
 
 /// A table whose keys are those of its kind.
 #[derive(Clone)]
 pub(crate) struct Fields<'t> {
     pub kind: &'static TableKind,
-    table: &'t Table,
+    pub(super) table: &'t Table,
     pub at: Place,
 }
 
@@ -38,13 +40,15 @@ impl Fields<'_> {
 
 impl<'t> Fields<'t> {
     /// The entry of a key, and its ending if it is one of an angle.
-    fn entry(&self, key: &str) -> Option<(&'t Entry, &'static str)> {
-        let with = |ending: &'static str| {
-            let entry =
-                self.table.0.iter().find(|entry| entry.key.strip_suffix(ending) == Some(key));
-            entry.map(|entry| (entry, ending))
+    pub(super) fn entry(&self, key: &str) -> Option<(&'t Entry, &'static str)> {
+        let endings = ["", ENDINGS[0], ENDINGS[1]];
+        let called_so = |entry: &'t Entry| {
+            let ending = entry.key.strip_prefix(key)?;
+            Some((endings.iter().position(|known| *known == ending)?, entry))
         };
-        self.table.get(key).map(|entry| (entry, "")).or_else(|| ENDINGS.into_iter().find_map(with))
+        let found = self.table.0.iter().filter_map(called_so);
+        let (ending, entry) = found.min_by_key(|(ending, _)| *ending)?;
+        Some((entry, endings[ending]))
     }
 
     /// The table of a key, unchecked.
@@ -86,12 +90,23 @@ impl Reader<'_, '_> {
         symbol: &str,
         node: &'t Node,
     ) -> Option<Fields<'t>> {
+        let fields = self.unchecked_table(kind, symbol, node)?;
+        self.check_keys(&fields);
+        Some(fields)
+    }
+
+    fn unchecked_table<'t>(
+        &mut self,
+        kind: &'static TableKind,
+        symbol: &str,
+        node: &'t Node,
+    ) -> Option<Fields<'t>> {
         let Value::Table(table) = &node.value else {
             let expected = format!("a table of a {}", kind.name);
             self.error(&node.at, symbol, node.value.kind(), &expected);
             return None;
         };
-        Some(self.fields(kind, table, &node.at))
+        Some(Fields { kind, table, at: node.at.clone() })
     }
 
     /// A table, checked as by [`open`](Self::open).
@@ -101,39 +116,8 @@ impl Reader<'_, '_> {
         table: &'t Table,
         at: &Place,
     ) -> Fields<'t> {
-        let mut meant = Vec::new();
-        for Entry { key, key_at, .. } in &table.0 {
-            if kind.key(key).is_none() {
-                let names: Vec<String> = kind.keys.iter().flat_map(Key::names).collect();
-                let near = suggest::nearest(key, names.iter().map(String::as_str));
-                meant.extend(near.and_then(|near| kind.key(near)).map(|key| key.name));
-                let found = format!("{} in {}", quoted(key), kind.name);
-                let (expected, help) = ("a key of this table", near.map(suggest::question));
-                self.report.error_with_help(self.sources, key_at, key, &found, expected, help);
-            }
-        }
-        for key in kind.keys {
-            let given: Vec<&Entry> =
-                table.0.iter().filter(|entry| key.is_called(&entry.key)).collect();
-            if let [_, second] = given[..] {
-                let found = format!("{} beside {}", quoted(&second.key), quoted(&given[0].key));
-                self.error(&second.key_at, &second.key, &found, "one of them");
-            }
-            // A key that is nearly there has been told.
-            if given.is_empty() && key.is_required && !meant.contains(&key.name) {
-                let found = format!("none in {}", kind.name);
-                self.error(at, &key.names().join(" or "), &found, &in_a_sentence(key.about));
-            }
-        }
         let fields = Fields { kind, table, at: at.clone() };
-        let given: Vec<&str> =
-            kind.one_of.iter().copied().filter(|key| fields.entry(key).is_some()).collect();
-        let is_nearly_there = given.is_empty() && kind.one_of.iter().any(|key| meant.contains(key));
-        if !kind.one_of.is_empty() && given.len() != 1 && !is_nearly_there {
-            let found = if given.is_empty() { "none".to_owned() } else { given.join(" and ") };
-            let expected = format!("exactly one of {}", kind.one_of.join(", "));
-            self.error(at, kind.name, &found, &expected);
-        }
+        self.check_keys(&fields);
         fields
     }
 
@@ -143,6 +127,13 @@ impl Reader<'_, '_> {
     }
 
     pub fn tables<'t>(&mut self, fields: &Fields<'t>, key: &'static str) -> Vec<Fields<'t>> {
+        let tables = self.unchecked(fields, key);
+        tables.iter().for_each(|table| self.check_keys(table));
+        tables
+    }
+
+    /// The tables in the list of a key, whose keys are not checked.
+    pub fn unchecked<'t>(&mut self, fields: &Fields<'t>, key: &'static str) -> Vec<Fields<'t>> {
         let (Some(known), Some(node)) = (fields.kind.key_called(key), fields.node(key)) else {
             return Vec::new();
         };
@@ -152,7 +143,7 @@ impl Reader<'_, '_> {
             self.error(&node.at, key, node.value.kind(), &expected);
             return Vec::new();
         };
-        nodes.iter().filter_map(|node| self.open(kind, key, node)).collect()
+        nodes.iter().filter_map(|node| self.unchecked_table(kind, key, node)).collect()
     }
 
     /// The entries of a table whose keys the scene chooses.
@@ -349,7 +340,7 @@ impl Reader<'_, '_> {
         }
         let mut numbers = [0.0; N];
         let mut are_right = true;
-        for (number, node) in numbers.iter_mut().zip(nodes) {
+        for (number, node) in numbers.iter_mut().zip(nodes.iter()) {
             match self.number_in(symbol, node) {
                 Some(value) => *number = value,
                 None => are_right = false,
@@ -357,14 +348,6 @@ impl Reader<'_, '_> {
         }
         are_right.then_some(numbers)
     }
-}
-
-/// A sentence without its point and with a small first letter, unless it begins with a name.
-fn in_a_sentence(about: &str) -> String {
-    let (first, rest) = about.split_at(about.chars().next().map_or(0, char::len_utf8));
-    let is_name = about.starts_with("Young") || about.starts_with("Poisson");
-    let first = if is_name { first.to_owned() } else { first.to_lowercase() };
-    first + rest.strip_suffix('.').unwrap_or(rest)
 }
 
 fn is_degrees(ending: &str) -> bool {

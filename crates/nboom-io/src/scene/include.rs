@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::ReadOptions;
 use super::catalog::{PART, SCENE};
@@ -131,8 +132,9 @@ impl Parts {
         let mut tables = self.tables.into_iter();
         let mut all: Vec<_> = tables.by_ref().take(1).collect();
         let root = &mut all[0].0;
-        tables.flat_map(|(table, _)| table.0).for_each(|entry| root.absorb(entry));
-        root.0.retain(|entry| entry.key != "include");
+        let others = tables.flat_map(|(table, _)| Arc::unwrap_or_clone(table.0));
+        others.for_each(|entry| root.absorb(entry));
+        Arc::make_mut(&mut root.0).retain(|entry| entry.key != "include");
         Self { tables: all, included: self.included }
     }
 

@@ -9,10 +9,12 @@ mod drive;
 mod expression;
 mod externals;
 mod fields;
+mod given_keys;
 mod hinges;
 mod include;
 mod keys;
 mod lists;
+mod memory;
 mod model_error;
 mod output;
 mod parameters;
@@ -41,6 +43,7 @@ pub use document::{SceneDocument, Slot, UnknownPath};
 use fields::{Fields, Reader};
 use include::Parts;
 pub use keys::{Holds, Key, TableKind, all_tables};
+use memory::Memory;
 use model_error::Responsible;
 use parameters::Parameters;
 pub use schema::schema;
@@ -85,9 +88,11 @@ struct Found {
     stress_interval: usize,
 }
 
-/// The parts of a scene. Wrong parts are reported; stand-ins allow checks of the rest.
+/// The parts of a scene, of which some may be in a memory. Wrong parts are reported; stand-ins allow checks of
+/// the rest.
 fn assemble(
     parts: &Parts,
+    memory: Option<&Memory>,
     name: &str,
     options: &ReadOptions,
     sources: &Sources,
@@ -95,7 +100,10 @@ fn assemble(
 ) -> Option<Found> {
     let entries: Vec<_> = parts.entries("parameters").collect();
     let parameters = Parameters::read(&entries, &options.set, sources, report);
-    let mut reader = Reader { sources, report, parameters: &parameters };
+    let are_keys_right = memory.is_some();
+    let mut reader = Reader { sources, report, parameters: &parameters, are_keys_right };
+    let recalled = memory.map(|memory| memory.recall(parts.root(), &parameters));
+    let recalled = recalled.unwrap_or_default();
     let roots: Vec<Fields<'_>> =
         parts.iter().map(|(kind, table, at)| reader.fields(kind, table, at)).collect();
     let root = &roots[0];
@@ -111,8 +119,11 @@ fn assemble(
     let mut materials = stations::Materials::new();
     roots.iter().for_each(|root| reader.materials(root, &mut materials));
     let tables: Vec<Fields<'_>> =
-        roots.iter().flat_map(|root| reader.tables(root, "body")).collect();
-    let bodies = tables.iter().map(|fields| reader.body(fields, &materials)).collect();
+        roots.iter().flat_map(|root| reader.unchecked(root, "body")).collect();
+    let body = |(i, fields): (usize, &Fields<'_>)| {
+        reader.once(recalled.body(i), |reader| reader.body(fields, &materials))
+    };
+    let bodies = tables.iter().enumerate().map(body).collect();
     let draft = SceneDraft { scene, bodies };
     let mut responsible = Responsible { root, bodies: &tables, of_draft: Vec::new() };
     let resolved = match draft.resolve() {
@@ -141,7 +152,9 @@ fn assemble(
         settings.sampling = reader.sampling(&output, &scene);
         settings.table = reader.wanted_table(&output, &scene);
     }
-    let structure = responsible.structure(&mut reader, &scene, resolved.structures);
+    let structure = reader.once(recalled.structure, |reader| {
+        responsible.structure(reader, &scene, resolved.structures)
+    });
     Some(Found { scene, structure, settings, stress_interval })
 }
 

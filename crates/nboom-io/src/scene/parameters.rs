@@ -28,6 +28,14 @@ impl Parameters {
         all
     }
 
+    /// The names of those that have other values elsewhere.
+    pub fn other_than(&self, elsewhere: &Self) -> Vec<&str> {
+        let bits = |value: Option<f64>| value.map(f64::to_bits);
+        let names = self.values.iter().map(|(name, value)| (name.as_str(), bits(Some(*value))));
+        let other = names.filter(|(name, value)| *value != bits(elsewhere.get(name)));
+        other.map(|(name, _)| name).collect()
+    }
+
     /// What was found and expected instead of an unknown name.
     pub fn unknown(&self, name: &str) -> (String, String) {
         unknown(name, self.values.keys().map(String::as_str))
@@ -41,7 +49,7 @@ impl Parameters {
         report: &mut Report<'_>,
     ) -> Self {
         let none = Self::default();
-        let mut reader = Reader { sources, report, parameters: &none };
+        let mut reader = Reader { sources, report, parameters: &none, are_keys_right: true };
         let mut known: HashMap<&str, &Entry> = HashMap::new();
         for &entry in entries {
             if !expression::is_name(&entry.key) {

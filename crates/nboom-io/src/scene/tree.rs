@@ -1,10 +1,12 @@
 //! The values of a TOML text, each with the place where it stands.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::expression;
 use super::sources::{Place, Sources};
 use crate::diagnostic::Report;
 
@@ -20,15 +22,15 @@ pub(crate) struct Node {
 pub(crate) enum Value {
     Number(f64),
     Text(String),
-    List(Vec<Node>),
+    List(Arc<Vec<Node>>),
     Table(Table),
     /// A kind of value that no scene has, in words.
     Other(&'static str),
 }
 
-/// Keys with their values, in the order of the text.
+/// Keys with their values, in the order of the text. Trees share what they have in common.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Table(pub Vec<Entry>);
+pub(crate) struct Table(pub Arc<Vec<Entry>>);
 
 /// A key with its value.
 #[derive(Clone, Debug)]
@@ -49,6 +51,28 @@ impl Value {
             Self::Other(kind) => kind,
         }
     }
+
+    /// Whether it is a table or list that two trees share.
+    pub fn is_shared_with(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Table(own), Self::Table(other)) => Arc::ptr_eq(&own.0, &other.0),
+            (Self::List(own), Self::List(other)) => Arc::ptr_eq(own, other),
+            _ => false,
+        }
+    }
+
+    /// Whether a text in it may have one of these parameters.
+    pub fn mentions(&self, parameters: &[&str]) -> bool {
+        !parameters.is_empty()
+            && match self {
+                Self::Text(text) => expression::names(text).any(|name| parameters.contains(&name)),
+                Self::List(nodes) => nodes.iter().any(|node| node.value.mentions(parameters)),
+                Self::Table(table) => {
+                    table.0.iter().any(|entry| entry.node.value.mentions(parameters))
+                }
+                Self::Number(_) | Self::Other(_) => false,
+            }
+    }
 }
 
 impl Table {
@@ -58,12 +82,17 @@ impl Table {
 
     /// Adds an entry; what is in it joins a table or list that has its key already.
     pub fn absorb(&mut self, entry: Entry) {
-        let Some(own) = self.0.iter_mut().find(|own| own.key == entry.key) else {
-            return self.0.push(entry);
+        let entries = Arc::make_mut(&mut self.0);
+        let Some(own) = entries.iter_mut().find(|own| own.key == entry.key) else {
+            return entries.push(entry);
         };
         match (&mut own.node.value, entry.node.value) {
-            (Value::Table(own), Value::Table(other)) => own.0.extend(other.0),
-            (Value::List(own), Value::List(other)) => own.extend(other),
+            (Value::Table(own), Value::Table(other)) => {
+                Arc::make_mut(&mut own.0).extend(Arc::unwrap_or_clone(other.0));
+            }
+            (Value::List(own), Value::List(other)) => {
+                Arc::make_mut(own).extend(Arc::unwrap_or_clone(other));
+            }
             _ => {}
         }
     }
@@ -100,7 +129,7 @@ impl Convert {
         };
         let mut entries: Vec<Entry> = table.into_iter().map(entry).collect();
         entries.sort_by_key(|entry| entry.key_at.bytes.start);
-        Table(entries)
+        Table(entries.into())
     }
 
     fn node(&self, value: Spanned<DeValue<'_>>) -> Node {
@@ -113,7 +142,7 @@ impl Convert {
             DeValue::Boolean(_) => Value::Other("true or false"),
             DeValue::Datetime(_) => Value::Other("a date or time"),
             DeValue::Array(list) => {
-                Value::List(list.into_iter().map(|value| self.node(value)).collect())
+                Value::List(Arc::new(list.into_iter().map(|value| self.node(value)).collect()))
             }
             DeValue::Table(table) => Value::Table(self.table(table)),
         };

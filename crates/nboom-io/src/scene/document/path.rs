@@ -1,5 +1,7 @@
 //! Paths to numbers of a scene.
 
+use std::sync::Arc;
+
 use crate::diagnostic::quoted;
 use crate::scene::suggest;
 use crate::scene::tree::{Entry, Node, Table, Value};
@@ -140,12 +142,12 @@ pub(super) fn child<'t>(root: &'t Table, slot: &Slot) -> &'t Value {
     slot.0[1..].iter().fold(value, below)
 }
 
-/// As [`child`], to be changed.
+/// As [`child`], to be changed; other trees keep what they share with this one.
 pub(super) fn child_mut<'t>(root: &'t mut Table, slot: &Slot) -> &'t mut Value {
-    let value = &mut root.0[slot.0[0]].node.value;
+    let value = &mut Arc::make_mut(&mut root.0)[slot.0[0]].node.value;
     slot.0[1..].iter().fold(value, |value, &place| match value {
-        Value::Table(table) => &mut table.0[place].node.value,
-        Value::List(nodes) => &mut nodes[place].value,
+        Value::Table(table) => &mut Arc::make_mut(&mut table.0)[place].node.value,
+        Value::List(nodes) => &mut Arc::make_mut(nodes)[place].value,
         _ => panic!("a place of another document"),
     })
 }
