@@ -57,10 +57,9 @@ fn a_run_does_not_depend_on_those_beside_it() {
     for reference in Reference::all() {
         scenes.extend((0..5).map(|seed| dispersed(&reference.scene(), seed)));
     }
-    for options in [
-        options(10),
-        Options { integrator: Method::Dopri5, rtol: 1e-6, atol: 1e-9, ..options(10) },
-    ] {
+    for options in
+        [options(10), Options { integrator: Method::Dopri5, rtol: 1e-6, atol: 1e-9, ..options(10) }]
+    {
         let alone: Vec<(Collected, Summary)> =
             scenes.iter().map(|scene| run(scene, &options)).collect();
         for at_once in [3, 16] {

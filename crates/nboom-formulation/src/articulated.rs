@@ -72,6 +72,7 @@ impl ClosedForm for Articulated {
 }
 
 /// An appendage whose hinges have been eliminated.
+#[expect(clippy::large_enum_variant, reason = "a limb, which is large, goes by value")]
 enum Appendage<R> {
     Planar(ChainOrPaddle<R>),
     Limb { limb: Limb, share: LimbShare<R>, links: Vec<EliminatedLink<R>> },

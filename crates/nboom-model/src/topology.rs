@@ -4,6 +4,7 @@ use std::str::FromStr;
 use crate::Limb;
 
 /// The hinges of one appendage that turn.
+#[expect(clippy::large_enum_variant, reason = "a topology has few shapes, which go by value")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
     /// A chain of this many links whose hinge axes are all parallel.

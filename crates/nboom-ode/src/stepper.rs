@@ -38,7 +38,11 @@ pub trait Stepper: Send {
     ///
     /// # Errors
     /// As those of [`step`](Self::step).
-    fn begin_step(&mut self, system: &mut dyn System, limit: f64) -> Result<Option<f64>, StepError> {
+    fn begin_step(
+        &mut self,
+        system: &mut dyn System,
+        limit: f64,
+    ) -> Result<Option<f64>, StepError> {
         self.step(system, limit).map(|()| None)
     }
 

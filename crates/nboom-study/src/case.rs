@@ -198,7 +198,8 @@ impl<'s> Runner<'s> {
         interrupted: &dyn Fn() -> bool,
     ) -> Option<Row> {
         let empty = || vec![Value::Empty; self.study.wanted.len()];
-        let (results, states, outcome, status) = match self.results(lanes, case, interrupted).await {
+        let (results, states, outcome, status) = match self.results(lanes, case, interrupted).await
+        {
             Ok((results, states)) => (results, states, Outcome::Ok, "ok".to_owned()),
             Err(Stop::Interrupted) => return None,
             Err(Stop::Rejected(why)) => {

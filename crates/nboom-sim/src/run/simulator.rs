@@ -140,8 +140,7 @@ impl Simulator {
         let Self { options, equations, stepper, workspace } = self;
         let control = control.map(|Control { period, law }| Control { period, law });
         let stepper = &mut **stepper;
-        let mut run =
-            Run::new(*options, equations, stepper, workspace, control, lanes, recorder);
+        let mut run = Run::new(*options, equations, stepper, workspace, control, lanes, recorder);
         let completed = run.complete().await;
         run.sum_up();
         let summary = &mut self.workspace.summary;

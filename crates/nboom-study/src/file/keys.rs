@@ -104,7 +104,11 @@ pub(super) const RUN: Table = Table {
         key("end_time", Holds::Number, "end of the runs, instead of the scene's"),
         key("stresses", Holds::Flag, "whether stresses are computed if the scene asks for them"),
         key("hinge_loads", Holds::Flag, "whether loads of hinges are computed for any scene"),
-        key("lanes", Holds::Flag, "whether steps of eight runs are taken side by side; by default true"),
+        key(
+            "lanes",
+            Holds::Flag,
+            "whether steps of eight runs are taken side by side; by default true",
+        ),
     ],
 };
 
