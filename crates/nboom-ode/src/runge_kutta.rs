@@ -4,7 +4,9 @@ use crate::tableau::{DOP853, DOPRI5, Row, Tableau};
 use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
+mod first_step;
 mod lanes;
+mod stiffness;
 
 pub use lanes::EightSteps;
 
@@ -127,26 +129,6 @@ impl RungeKutta {
         Ok(step)
     }
 
-    /// The last step times about the magnitude of the fastest motion's eigenvalue, from the two
-    /// derivatives at the step's end, of which one is at the last stage's argument.
-    pub(crate) fn stiffness(&mut self) -> f64 {
-        let last = self.tableau.stages;
-        self.combine(last - 1, self.step);
-        let (mut of_slopes, mut of_states) = (0.0, 0.0);
-        for i in 0..self.controlled {
-            let slope = |stage: usize| self.stages[stage * self.stride + i];
-            let size = self.window.sizes[i];
-            of_slopes += ((slope(last) - slope(last - 1)) / size).powi(2);
-            of_states += ((self.window.end_state[i] - self.stage_state[i]) / size).powi(2);
-        }
-        if of_states > 0.0 { self.step * (of_slopes / of_states).sqrt() } else { 0.0 }
-    }
-
-    /// What [`stiffness`](Self::stiffness) may be without steps being bounded by it.
-    pub(crate) fn stability_limit(&self) -> f64 {
-        self.tableau.stability_limit
-    }
-
     pub(crate) fn window_mut(&mut self) -> &mut Window {
         &mut self.window
     }
@@ -231,29 +213,6 @@ impl RungeKutta {
         let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
         let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
         StepError::Underflow { time, step, variable }
-    }
-
-    /// A first step from the times in which the first and the second derivative change the variables
-    /// by what they are, after Hairer, Nørsett, Wanner, Section II.4, who measure them in units of
-    /// time; infinite where nothing moves.
-    fn first_step(&mut self, system: &mut dyn System) -> f64 {
-        let n = self.size();
-        let size = self.norm(|i| self.window.magnitude(i));
-        let by_slope = size / self.norm(|i| self.stages[i]);
-        if !by_slope.is_finite() {
-            return f64::INFINITY;
-        }
-        let guess = 0.01 * by_slope;
-        for i in 0..n {
-            self.stage_state[i] = self.window.state[i] + guess * self.stages[i];
-        }
-        let second = &mut self.stages[self.stride..][..n];
-        system.derivative(self.window.time + guess, &self.stage_state[..n], second);
-        self.window.counts.evaluations += 1;
-        let stride = self.stride;
-        let curvature = self.norm(|i| self.stages[stride + i] - self.stages[i]) / guess;
-        let by_curvature = (size / curvature).sqrt();
-        by_slope.min(by_curvature) * (0.01 / size).powf(self.tableau.control.exponent)
     }
 
     /// Root mean square of `values` over the controlled variables, in units of the tolerance.
