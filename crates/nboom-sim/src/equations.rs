@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, gravity};
@@ -8,7 +8,7 @@ use nboom_scalar::{Vec3, Wrench};
 use nboom_series::Series;
 
 use crate::code::closed_form::{HELD_BASE, NotCovered};
-use crate::code::fit::Repertoire;
+use crate::code::fit::SharedRepertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
 use crate::code::{CodeError, under_own_laws};
@@ -53,7 +53,8 @@ pub(crate) struct Equations {
     pub entered: Box<PreparedMode>,
     /// Others that were entered.
     others: Vec<Box<PreparedMode>>,
-    pub repertoire: Repertoire,
+    /// Runs of one kind may share it.
+    pub repertoire: SharedRepertoire,
     /// Hinge laws of the program's own.
     pub own: OwnLaws,
     /// What a control law commands; they act from the next time a mode is entered.
@@ -83,7 +84,12 @@ pub(crate) struct Equations {
 impl Equations {
     /// Those of `scene`, in the mode in which it starts, under hinge laws of the program's own as
     /// well, by the routines of `repertoire`, which are those that `options` allow.
-    pub fn new(scene: &Scene, own: OwnLaws, repertoire: Repertoire, options: &Options) -> Self {
+    pub fn new(
+        scene: &Scene,
+        own: OwnLaws,
+        repertoire: SharedRepertoire,
+        options: &Options,
+    ) -> Self {
         let layout = VariableLayout::of_no_hinges();
         // Bodies whose inertia turns otherwise than they do have no momenta.
         let is_rigid = scene.departures().turned.is_empty();
@@ -221,7 +227,8 @@ impl Equations {
             let formulation = Formulation::Momentum;
             return Err(CodeError::NotCovered(NotCovered::Scene { formulation, what }));
         }
-        entered.select(scene, own, repertoire, options, since)
+        let mut repertoire = repertoire.lock().unwrap_or_else(PoisonError::into_inner);
+        entered.select(scene, own, &mut repertoire, options, since)
     }
 
     /// Accelerations without gravity in the mode that was entered, under what [acts from

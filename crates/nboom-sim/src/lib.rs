@@ -47,7 +47,7 @@ mod run;
 pub use certify::scales::{Scales, natural};
 pub use certify::trust::{Digits, EventTrust, Reference, Trust, Witness, differences, trust};
 pub use code::closed_form::NotCovered;
-pub use code::fit::{Fit, Repertoire};
+pub use code::fit::{Fit, Repertoire, SharedRepertoire};
 pub use code::generated::{NoRoutine, Unmet};
 pub use code::selection::{CodeOfRun, Selection};
 pub use equations::totals::Totals;

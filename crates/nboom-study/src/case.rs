@@ -1,10 +1,14 @@
 //! One case: its scene, its run, its row.
 
+use std::sync::Arc;
+
 use nboom_io::{Diagnostic, InputError, Sampling, SceneFile};
 use nboom_model::{ModelError, Scene};
 use nboom_results::{RunDescription, SummaryFile, WantedOutput, WorstLoads, with_causes};
 use nboom_scalar::{Batch, Kernel};
-use nboom_sim::{Lanes, Options, OutputTimes, Path, SimError, Simulator, Summary};
+use nboom_sim::{
+    Lanes, Options, OutputTimes, Path, Repertoire, SharedRepertoire, SimError, Simulator, Summary,
+};
 use nboom_strength::{Settings, StrengthError, StressAnalysis};
 
 use crate::observer::Observer;
@@ -162,6 +166,7 @@ type Results = (Vec<Value>, Vec<Vec<f64>>);
 pub struct Runner<'s> {
     study: &'s Study,
     options: Options,
+    repertoire: SharedRepertoire,
     /// With the options that it was made for.
     simulator: Option<(usize, Simulator)>,
     wanted: Vec<Extreme>,
@@ -176,11 +181,20 @@ impl<'s> Runner<'s> {
         right_sides: &'static [Batch],
     ) -> Self {
         let options = Options { kernels, batches: right_sides, ..study.run.options() };
+        Self::sharing(study, options, Repertoire::shared(&options))
+    }
+
+    /// Another runner, which has the routines of this one.
+    pub(crate) fn beside(&self) -> Self {
+        Self::sharing(self.study, self.options, Arc::clone(&self.repertoire))
+    }
+
+    fn sharing(study: &'s Study, options: Options, repertoire: SharedRepertoire) -> Self {
         let wanted = study.wanted.iter().filter_map(Wanted::extreme).collect();
         let hinges = study.nominal.scene.bodies.len();
         let columns =
             if study.trajectories { nboom_model::Column::all(hinges) } else { Vec::new() };
-        Self { study, options, simulator: None, wanted, columns }
+        Self { study, options, repertoire, simulator: None, wanted, columns }
     }
 
     /// The row of a case; `None` if it was interrupted.
@@ -240,7 +254,7 @@ impl<'s> Runner<'s> {
             columns: &self.columns,
             states: Vec::new(),
         };
-        let simulator = ready(&mut self.simulator, scene, prepared.options);
+        let simulator = ready(&mut self.simulator, scene, prepared.options, &self.repertoire);
         let ran = simulator.run_in(lanes, &mut observer).await;
         let summary = ran.map_err(|failure| match failure.error {
             SimError::Interrupted { .. } => Stop::Interrupted,
@@ -280,6 +294,7 @@ fn ready<'s>(
     simulator: &'s mut Option<(usize, Simulator)>,
     scene: &Scene,
     options: Options,
+    repertoire: &SharedRepertoire,
 ) -> &'s mut Simulator {
     let known = simulator.take().filter(|(samples, _)| *samples == options.samples);
     let ready = match known {
@@ -287,7 +302,7 @@ fn ready<'s>(
             known.set_scene(scene);
             known
         }
-        None => Simulator::new(scene, options),
+        None => Simulator::sharing(scene, options, Arc::clone(repertoire)),
     };
     &mut simulator.insert((options.samples, ready)).1
 }

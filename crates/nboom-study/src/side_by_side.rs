@@ -12,7 +12,7 @@ use crate::{Runner, Study};
 
 /// Runs of one thread that go on at once. With several times as many as lanes, few steps wait long for others by
 /// the same code, and what all of them need still fits the cache of a core.
-const AT_ONCE: usize = 32;
+const AT_ONCE: usize = 16;
 
 impl Study {
     /// What runs cases in one thread, by this generated code.
@@ -22,8 +22,10 @@ impl Study {
         right_sides: &'static [Batch],
     ) -> Worker<'_> {
         let at_once = if self.run.lanes { AT_ONCE } else { 1 };
-        let runner = |_| Runner::new(self, kernels, right_sides);
-        let mut runners: Vec<Runner<'_>> = (0..at_once).map(runner).collect();
+        let first = Runner::new(self, kernels, right_sides);
+        let others = (1..at_once).map(|_| first.beside());
+        let mut runners: Vec<Runner<'_>> = others.collect();
+        runners.push(first);
         let lanes = Lanes::new();
         Box::new(move |cases| {
             let task = |runner| -> Task<'_> { Box::pin(self.follow(runner, &lanes, cases)) };

@@ -1,6 +1,6 @@
 use std::cmp::Reverse;
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use nboom_formulation::{Embedding, Forces, Formulation, Layout, Recognised};
 use nboom_model::{Shape, Topology};
@@ -68,6 +68,9 @@ pub struct Repertoire {
     right_sides: Routines,
 }
 
+/// Routines that simulators share, so that each topology is looked up once for all of them.
+pub type SharedRepertoire = Arc<Mutex<Repertoire>>;
+
 /// The routines with one kind of result, in order.
 #[derive(Clone, Debug, Default)]
 struct Routines {
@@ -106,6 +109,11 @@ impl Repertoire {
     pub fn new(options: &Options) -> Self {
         let of = |result| Routines::all(options, result);
         Self { accelerations: of("accelerations"), right_sides: of("right_side") }
+    }
+
+    /// The routines that `options` allow, to be shared by simulators with the same.
+    pub fn shared(options: &Options) -> SharedRepertoire {
+        Arc::new(Mutex::new(Self::new(options)))
     }
 
     /// The first routine that computes accelerations in a mode in which something acts on the

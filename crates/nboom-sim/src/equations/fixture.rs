@@ -56,7 +56,7 @@ pub(super) fn in_motion(name: &str, formulation: Option<Form>) -> (Equations, Ve
     };
     let options = Options { formulation, ..Options::default() };
     let (mut equations, mut y) = (
-        Equations::new(&scene, OwnLaws::default(), Repertoire::new(&options), &options),
+        Equations::new(&scene, OwnLaws::default(), Repertoire::shared(&options), &options),
         Vec::new(),
     );
     equations.enter(&mode, &mut state, &mut y);

@@ -1,10 +1,12 @@
+use std::sync::Arc;
+
 use nboom_elements::{Elements, OwnLaw, OwnLaws};
 use nboom_model::{Body, Hinge, Scene};
 use nboom_ode::Stepper;
 
 use super::Run;
 use super::control::Control;
-use crate::code::fit::Repertoire;
+use crate::code::fit::{Repertoire, SharedRepertoire};
 use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::error::SimError;
@@ -65,11 +67,17 @@ impl Simulator {
     /// The recursion computes all accelerations, as no other code knows these laws; implicit methods take
     /// differences for derivatives. Runs that demand other code are refused.
     pub fn under_laws(scene: &Scene, options: Options, laws: Vec<OwnLaw>) -> Self {
-        Self::under(scene, options, OwnLaws::new(laws))
+        Self::under(scene, options, OwnLaws::new(laws), Repertoire::shared(&options))
     }
 
-    fn under(scene: &Scene, options: Options, own: OwnLaws) -> Self {
-        let equations = Equations::new(scene, own, Repertoire::new(&options), &options);
+    /// Prepares `scene` to be run with `options`, whose routines are in a repertoire that other simulators use
+    /// too.
+    pub fn sharing(scene: &Scene, options: Options, repertoire: SharedRepertoire) -> Self {
+        Self::under(scene, options, OwnLaws::default(), repertoire)
+    }
+
+    fn under(scene: &Scene, options: Options, own: OwnLaws, repertoire: SharedRepertoire) -> Self {
+        let equations = Equations::new(scene, own, repertoire, &options);
         let elements = equations.entered.dynamics.elements();
         let workspace = Workspace::new(scene, elements);
         Self { options, equations, stepper: options.stepper(), workspace }
@@ -86,7 +94,7 @@ impl Simulator {
         if is_alike(&equations.scene, scene) {
             return equations.set_satellite(scene);
         }
-        let repertoire = std::mem::take(&mut equations.repertoire);
+        let repertoire = Arc::clone(&equations.repertoire);
         *equations = Equations::new(scene, equations.own.clone(), repertoire, options);
         *workspace = Workspace::new(scene, equations.entered.dynamics.elements());
     }

@@ -60,6 +60,11 @@ impl Extreme {
         WantedTable { columns: vec![self.column], in_degrees: false }.needs_detail()
     }
 
+    /// Whether both sides of each instant may change it, and not only output times.
+    pub fn needs_instants(&self) -> bool {
+        self.taken != Taken::Final
+    }
+
     /// The value so far, NaN at the start, and that of a snapshot make the next one.
     pub fn follow(&self, value: &mut f64, snapshot: &Snapshot) {
         let here = quantity(&self.column, snapshot);
