@@ -7,11 +7,11 @@ use nboom::formulation::report::{self, OriginMotion};
 use nboom::formulation::{
     Coordinates, Equations, Formulation, Parameters, Recognised, Solution, relative, symmetric,
 };
-use nboom::model::{HingeState, Mode, Shape, Topology};
+use nboom::model::{Base, Drive, DrivePoint, Gravity, HingeState, Mode, Scene, Shape, Topology};
 use nboom::scalar::{Dual, Twist, Vec3, Wrench};
 
 use crate::forward_dynamics::{Case, cases};
-use crate::random_scene::{Rng, moment};
+use crate::random_scene::{Moment, Rng, moment};
 use crate::satellites::{Satellite, extreme, flat, random};
 use crate::support::{numbers, relative_error};
 
@@ -68,6 +68,37 @@ fn all_give_the_accelerations_of_satellites_with_masses_over_many_decades() {
             let allowed = satellite.allowed();
             assert!(error < allowed, "seed {seed}, {topology}, {formulation}: {error:e}");
         }
+    }
+}
+
+/// The satellite on a rig that is fixed, or that turns and slides along an axis ever faster.
+fn on_a_rig(moment: Moment, seed: u64) -> Moment {
+    let dice = &mut Rng::new(seed ^ 0x0419);
+    let mut scene = (*moment.scene).clone();
+    let axis = dice.direction();
+    let attitude = scene.initial.attitude.normalized().to_matrix();
+    scene.gravity = Some(Gravity { acceleration: 3.0, up: attitude * axis });
+    scene.base = match seed % 2 {
+        0 => Base::Fixed,
+        _ => {
+            let [alpha, a] = [dice.between(-2.0, 2.0), dice.between(-5.0, 5.0)];
+            let point = |time: f64| DrivePoint { time, rate: 0.4 + alpha * time, speed: a * time };
+            Base::Driven(Drive { axis, points: vec![point(0.0), point(1.0)] })
+        }
+    };
+    scene.begin_driven([false; 2]);
+    let omega = scene.initial.omega_body;
+    let scene = Scene::new(scene).expect("what was physical on a rig");
+    let mode = Mode { drive: 1, ..moment.mode };
+    Moment { scene, mode, omega, ..moment }
+}
+
+#[test]
+fn all_give_the_accelerations_of_satellites_on_rigs() {
+    for seed in 0..RANDOM_SATELLITES {
+        let satellite = Satellite::of_moment(&on_a_rig(random(seed), seed));
+        assert!(satellite.accelerations.origin_body != Vec3::zero());
+        assert_same_accelerations(&satellite, &format!("seed {seed}"));
     }
 }
 

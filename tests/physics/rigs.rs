@@ -6,9 +6,9 @@ use nboom::model::{
     MassProperties, Mode, Mount, Release, Scene, SceneDescription,
 };
 use nboom::scalar::{Sym3, Vec3};
-use nboom::sim::{EventKind, Form, Options, Path};
+use nboom::sim::{EventKind, Form, Method, Options, Path};
 
-use super::collect::{detail, try_run};
+use super::collect::{self, detail};
 use super::log::{options, run};
 use super::random_scene::{all_acting, conservative, hinged};
 
@@ -196,16 +196,50 @@ fn trees_on_a_rig_keep_their_energy_by_all_code_that_covers_them() {
     assert!(latches > 20, "{latches}");
 }
 
+/// Wings on a rig, by stock routines and by the recursion: whole right sides, one state and eight at once, under
+/// dashpots whose work is integrated, on a rig that is fixed or is moved.
 #[test]
-fn no_routine_for_a_rig_can_be_generated_and_none_is_promised() {
-    let mast = MassProperties::new(8.0, Vec3::zero(), Sym3::diagonal(0.3, 0.4, 0.5));
-    let scene = on_rig(mast, Joint::Revolute, Vec3::unit_z(), Hinge::free());
-    let scene = Scene::new(scene).expect("a valid scene");
-    let options = Options { path: Path::Generated, ..options(1, 1e-9) };
-    let (_, refused) = try_run(&scene, &options);
-    let told = refused.expect_err("no routine is for rigs").to_string();
-    let expected = "no routine: the main body is held; the generic path computes it";
-    assert!(told.contains(expected), "{told}");
+fn rigs_run_by_generated_code_as_by_the_recursion() {
+    for (i, changes) in [[0.0, 0.0], [0.7, -1.1]].into_iter().enumerate() {
+        let axis = Vec3::unit_z();
+        let mut scene = on_rig(
+            MassProperties::new(2.0, Vec3::unit_x(), Sym3::diagonal(0.1, 0.9, 0.9)),
+            Joint::Revolute,
+            Vec3::unit_y(),
+            Hinge::free(),
+        );
+        let second = Body { inboard: Some(0), ..scene.bodies[0].clone() };
+        scene.bodies.push(second);
+        for (body, lock) in scene.bodies.iter_mut().zip([Some(0.6), None]) {
+            body.mount.point = if body.inboard.is_some() { body.tip } else { Vec3::unit_x() };
+            body.hinge.dashpot.rate_linear = -0.3;
+            body.hinge.lock_angle = lock;
+        }
+        scene.gravity = Some(Gravity { acceleration: 3.0, up: axis });
+        hold(&mut scene, axis, changes);
+        let scene = Scene::new(scene).expect("a valid scene");
+        for integrator in [Method::Dop853, Method::GaussLanes] {
+            let by = |path: Path| {
+                let kernels = nboom_routines::for_runs();
+                let batches = nboom_routines::right_sides_of_eight();
+                let options = Options { path, kernels, batches, integrator, ..options(8, 1e-12) };
+                collect::run(&scene, &options)
+            };
+            let [(generated, told), (generic, _)] = [Path::Generated, Path::Generic].map(by);
+            assert_eq!(told.code().generated_share, 1.0);
+            let latches = generated.happenings();
+            assert!(latches.iter().any(|(kind, ..)| *kind == EventKind::LockUp), "case {i}");
+            assert!(told.conservation.energy < 1e-10, "{:?}", told.conservation);
+            for (a, b) in generated.samples.iter().zip(&generic.samples) {
+                // Sums over other steps.
+                assert!((a.omega_body - b.omega_body).norm() < 1e-13);
+                let [a, b] = [a, b].map(|seen| [&seen.beta[..], &seen.tau].concat());
+                let differ = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                // Either run errs by some 1e-11 at this tolerance.
+                assert!(differ < 1e-9, "case {i}, {integrator}: {differ:e}");
+            }
+        }
+    }
 }
 
 /// A table speeds up and slows down under a boom on its axis, which stays as it is in space, whatever gravity

@@ -164,14 +164,19 @@ impl<R: Real> Recursive<R> {
 
     /// Whether [`acting_on_main_body`](Self::acting_on_main_body) is anything.
     pub fn acts_on_main_body(&self) -> bool {
-        self.tree.has_rotors() || self.elements.acts_from_outside()
+        let acts = self.tree.has_rotors() || self.elements.acts_from_outside();
+        self.tree.held.map_or(acts, |held| held != Twist::zero())
     }
 
     /// All that acts from outside and the [moment](nboom_model::Spin::moment) of the rotors of the
     /// main body at the rate `omega_body`, about O, main-body axes: what belongs to the motion of
     /// the main body beside the [generalised forces](Self::hinge_forces) of the hinges, in the
-    /// posture in which they were asked for.
+    /// posture in which they were asked for. On a main body that is held, what
+    /// [holds](WeldedTree::holding) the heavy one in its place.
     pub fn acting_on_main_body(&self, omega_body: Vec3<R>) -> Wrench<R> {
+        if let Some(holding) = self.tree.holding() {
+            return holding;
+        }
         let mut acting = self.acting_from_outside();
         if let Some(spin) = self.tree.main_spin {
             acting.moment -= spin.moment(omega_body);
@@ -200,6 +205,13 @@ impl<R: Real> Recursive<R> {
         let of_main = self.solve(main, self.tree.held, &mut out.tau_dot);
         out.omega_dot_body = of_main.angular;
         out.origin_body = of_main.linear;
+    }
+
+    /// Sets the accelerations of a main body that is held to what they are but for rounding.
+    pub fn hold(&self, found: &mut Accelerations<R>) {
+        if let Some(held) = self.tree.held {
+            (found.omega_dot_body, found.origin_body) = (held.angular, held.linear);
+        }
     }
 
     /// The kinetic-energy matrix B₀ of (V, ω, τ) by composite bodies: (6 + free)² entries, row

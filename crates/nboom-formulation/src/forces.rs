@@ -208,7 +208,7 @@ impl Forces<f64> {
         for (law, &link) in forces.laws.iter_mut().zip(&recognised.links) {
             *law = *elements.torques()[tree.links[link].hinge].law()?;
         }
-        if let Some(external) = elements.external() {
+        if let Some(external) = tree.holding().or_else(|| elements.external()) {
             forces.external = external;
         }
         for (link, line) in elements.pushing() {

@@ -46,8 +46,6 @@ impl LinkFrame {
 /// Why a closed form does not cover a welded tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Uncovered {
-    /// It has no place for a main body that is held.
-    HeldBase,
     /// The first link (an index of the tree) that it cannot express.
     Link(usize),
 }
@@ -55,10 +53,11 @@ pub enum Uncovered {
 /// Departure from parallel or square axes that is taken for rounding.
 const SAME_AXIS: f64 = 1e-12;
 
-/// Writes the tree as chains, paddles, and limbs where an appendage is neither.
+/// Writes the tree as chains, paddles, and limbs where an appendage is neither. In place of a main body that is
+/// held there is [one so heavy](WeldedTree::main_to_move) that only a wrench that is meant to moves it.
 ///
 /// # Errors
-/// When the main body is held, or with the first link that does not fit: one that is not rigid or carries a
+/// With the first link that does not fit: one that is not rigid or carries a
 /// rotor, or the first of an appendage of more than
 /// [`Limb::MOST_LINKS`](nboom_model::Limb::MOST_LINKS).
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
@@ -70,7 +69,7 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
         appendages.push(any.ok_or(Uncovered::Link(root))?);
     }
     let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape));
-    let mut parameters = Parameters { main: tree.main, branches: Vec::new() };
+    let mut parameters = Parameters { main: tree.main_to_move(), branches: Vec::new() };
     let (mut links, mut frames) = (Vec::new(), Vec::new());
     for shape in topology.shapes() {
         let next = appendages.iter().position(|other| other.shape == *shape);
@@ -94,11 +93,8 @@ pub(crate) fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<(), Uncovered
     roots(tree).try_for_each(|root| planar(tree, root).map(|_| ()).map_err(Uncovered::Link))
 }
 
-/// Whether the main body is free, every link rigid and none carries a rotor.
+/// Whether every link is rigid and none carries a rotor.
 fn check(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
-    if tree.held.is_some() {
-        return Err(Uncovered::HeldBase);
-    }
     rigid(tree)?;
     let carries_rotor = tree.links.iter().position(|link| link.spin.is_some());
     carries_rotor.map_or(Ok(()), |link| Err(Uncovered::Link(link)))

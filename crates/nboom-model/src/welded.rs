@@ -1,4 +1,4 @@
-use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3};
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::{Joint, MassProperties, Mode, RotorMotion, Scene, Spin, TurnOrder, TurnedInertia};
 
@@ -71,6 +71,10 @@ pub struct Member<R> {
     pub rot_link_from_body: Mat3<R>,
 }
 
+/// Mass and moments of inertia of what stands for a main link that is held, 2⁴⁰⁰: what hinges exert on it is lost in
+/// rounding, and its square is a number.
+const HELD: f64 = f64::from_bits((1023 + 400) << 52);
+
 impl<R: Real> WeldedTree<R> {
     /// Welds the hinges that `mode` holds, at their angles in `beta` (one for each hinge). Rotors
     /// turn as fast as when the scene starts until they are [set](Self::set_rotors).
@@ -107,6 +111,24 @@ impl<R: Real> WeldedTree<R> {
             }
         }
         self.mount_rotors(scene, mode);
+    }
+
+    /// The main link as equations of free ones take it: itself, or in place of one that is held a body so heavy
+    /// that nothing moves it but the wrench that [holds](Self::holding) it.
+    pub fn main_to_move(&self) -> RigidInertia<R> {
+        let heavy = || RigidInertia {
+            mass: R::constant(HELD),
+            first_moment: Vec3::zero(),
+            about_origin: Sym3::constant(Sym3::diagonal(HELD, HELD, HELD)),
+        };
+        self.held.map_or(self.main, |_| heavy())
+    }
+
+    /// The wrench about O, main-body axes, under which the [main link](Self::main_to_move) moves as it is held,
+    /// if it is.
+    pub fn holding(&self) -> Option<Wrench<R>> {
+        let heavy = R::constant(HELD);
+        self.held.map(|held| Wrench { moment: held.angular * heavy, force: held.linear * heavy })
     }
 
     /// Whether there are rotors.

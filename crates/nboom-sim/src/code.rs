@@ -111,6 +111,7 @@ impl AccelerationCode {
             Self::ClosedForm(form) => form.accelerations(dynamics, motion, out),
             Self::Generated(routine) => routine.accelerations(dynamics, motion, out),
         }
+        dynamics.hold(out);
     }
 }
 

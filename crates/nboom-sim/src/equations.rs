@@ -7,7 +7,7 @@ use nboom_model::{Mode, Scene};
 use nboom_scalar::{Vec3, Wrench};
 use nboom_series::Series;
 
-use crate::code::closed_form::{HELD_BASE, NotCovered};
+use crate::code::closed_form::NotCovered;
 use crate::code::fit::SharedRepertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
@@ -307,7 +307,7 @@ impl Equations {
 /// What in `scene` keeps momenta from standing for rates.
 fn without_momenta(scene: &Scene) -> Option<&'static str> {
     // The reaction of what holds it changes them.
-    let held = scene.base.is_held().then_some(HELD_BASE);
+    let held = scene.base.is_held().then_some("a main body that is held");
     // The momenta of rotors are not counted.
     held.or((!scene.rotors.is_empty()).then_some("rotors"))
 }

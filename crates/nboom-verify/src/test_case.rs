@@ -224,13 +224,9 @@ impl TestCase {
     pub fn not_covered(&self, kernels: &'static [Kernel]) -> Vec<NotCovered> {
         match &self.recognised {
             Err(why) => {
-                let why = match *why {
-                    Uncovered::HeldBase => "held main body".to_owned(),
-                    Uncovered::Link(link) => {
-                        let hinge = self.dynamics.tree().links[link].hinge;
-                        format!("hinge {}", self.scene.label(hinge))
-                    }
-                };
+                let Uncovered::Link(link) = *why;
+                let hinge = self.dynamics.tree().links[link].hinge;
+                let why = format!("hinge {}", self.scene.label(hinge));
                 let generic = Formulation::ALL.into_iter().filter_map(|formulation| {
                     formulation.covers(self.dynamics.tree()).err()?;
                     Some(("generic", Some(formulation.name())))

@@ -149,10 +149,14 @@ impl Evaluator {
                 routine.accelerations(recursion, &motion, torques, [omega_dot, origin, tau_dot]);
             }
         }
+        if let Some(held) = recursion.tree().held {
+            omega_dot.copy_from_slice(&held.angular.to_array());
+            origin.copy_from_slice(&held.linear.to_array());
+        }
     }
 
     /// Writes the accelerations of eight states at once, the first of which has number `first`, if there is
-    /// code that does.
+    /// code that does, for a main body that is free.
     pub fn accelerations_of_eight(
         &mut self,
         states: &EightStates<'_>,
@@ -160,7 +164,7 @@ impl Evaluator {
         first: usize,
     ) -> bool {
         match &mut self.code {
-            Code::Routine(routine) => {
+            Code::Routine(routine) if self.recursion.tree().held.is_none() => {
                 routine.accelerations_of_eight(&mut self.recursion, states, out, first)
             }
             _ => false,
@@ -168,7 +172,8 @@ impl Evaluator {
     }
 
     /// Writes the matrix, row by row, and the right side of the formulation in a state, with O at the inertial
-    /// origin and hinges in the scene's order. False if the formulation never forms them.
+    /// origin and hinges in the scene's order. False if the formulation never forms them, or only for a main body
+    /// that is free.
     pub fn equations(&mut self, state: &State<'_>, matrix: &mut [f64], right: &mut [f64]) -> bool {
         let Self { recursion, code, torques, .. } = self;
         let motion = Motion { omega_body: state.omega, beta: state.beta, tau: state.tau };
@@ -180,6 +185,9 @@ impl Evaluator {
                 return true;
             }
         };
+        if recursion.tree().held.is_some() {
+            return false;
+        }
         recursion.hinge_forces(&motion, torques);
         add(state.added, torques);
         let x = coordinates(recursion, recognised, &motion, torques);
@@ -217,14 +225,9 @@ impl Code {
         let library = || match options.formulation {
             None | Some(Form::Recursive) => Ok(Self::Recursion),
             Some(Form::Closed(formulation)) => {
-                formulation.covers(recursion.tree()).map_err(|why| {
-                    let what = match why {
-                        Uncovered::HeldBase => "a main body that is held".to_owned(),
-                        Uncovered::Link(link) => {
-                            format!("hinge {}", scene.label(recursion.tree().links[link].hinge))
-                        }
-                    };
-                    format!("formulation {formulation} does not cover {what}")
+                formulation.covers(recursion.tree()).map_err(|Uncovered::Link(link)| {
+                    let hinge = scene.label(recursion.tree().links[link].hinge);
+                    format!("formulation {formulation} does not cover hinge {hinge}")
                 })?;
                 let takes = |found: &Recognised| formulation.takes(&found.topology);
                 let recognised = recognise(recursion.tree()).ok().filter(takes).map(Box::new);
@@ -246,7 +249,7 @@ impl Code {
                 Err(NoRoutine::because(recognised, pushed, options).to_string())
             }
             (None, Err(_)) if options.path == Path::Generated => Err(
-                "no generated routine covers a main body that is held, or bodies that are not rigid"
+                "no generated routine covers bodies that are not rigid"
                     .to_owned(),
             ),
             (None, _) => library(),

@@ -127,12 +127,6 @@ pub enum CodegenError {
         /// The formulation.
         formulation: Formulation,
     },
-    /// The main body of a scene is held.
-    #[error("scene {scene}: the main body is held, and code is generated for free ones")]
-    HeldBase {
-        /// The scene.
-        scene: String,
-    },
     /// The formulation takes chains and paddles alone.
     #[error(
         "topology {topology}: of limbs, formulation {formulation} has none; articulated or symmetric \

@@ -34,7 +34,7 @@ impl Request {
     /// outside. The type's name is that of the topology after `Satellite` or `Baked`.
     ///
     /// # Errors
-    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
+    /// When a body is not rigid, carries a rotor or is one of too many.
     pub fn of_scene(scene: &Scene, numbers: Numbers, level: Level) -> Result<Self, CodegenError> {
         let free = vec![true; scene.bodies.len()];
         let Recognised { topology, parameters, .. } = welded(scene, &free, 0.0)?;
@@ -44,8 +44,7 @@ impl Request {
             Numbers::Baked => "Baked",
         };
         let request = Self::new(&name(word, &topology), topology.clone(), level);
-        let is_pushed = !scene.externals.is_empty();
-        let request = if is_pushed { request.with_external_wrench() } else { request };
+        let request = if is_pushed(scene) { request.with_external_wrench() } else { request };
         Ok(match numbers {
             Numbers::RunTime => Self { assumptions: fixed(&topology, &[parameters]), ..request },
             Numbers::Baked => request.baked(&parameters),
@@ -58,7 +57,7 @@ impl Request {
     /// embedded.
     ///
     /// # Errors
-    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
+    /// When a body is not rigid, carries a rotor or is one of too many.
     pub fn of_simulator(
         scene: &Scene,
         formulation: Formulation,
@@ -85,7 +84,7 @@ impl Request {
     /// 32 routines, those of the most free hinges, and fewer of limbs of many links.
     ///
     /// # Errors
-    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
+    /// When a body is not rigid, carries a rotor or is one of too many.
     pub fn lock_states(scene: &Scene, level: Level) -> Result<Vec<Self>, CodegenError> {
         let mut found: BTreeMap<Topology, Vec<Vec<f64>>> = BTreeMap::new();
         for free in combinations(scene) {
@@ -98,7 +97,7 @@ impl Request {
             .into_iter()
             .map(|(topology, cases)| Self {
                 assumptions: fixed(&topology, &cases),
-                external: !scene.externals.is_empty(),
+                external: is_pushed(scene),
                 ..Self::new(&name("Satellite", &topology), topology, level)
             })
             .collect();
@@ -117,7 +116,7 @@ impl Request {
     /// topology.
     ///
     /// # Errors
-    /// When the main body is held, or a body is not rigid, carries a rotor or is one of too many.
+    /// When a body is not rigid, carries a rotor or is one of too many.
     pub fn free_hinges(&self, scene: &Scene) -> Result<Option<Vec<bool>>, CodegenError> {
         for free in combinations(scene) {
             if welded(scene, &free, ANGLES[0])?.topology == self.topology {
@@ -126,6 +125,11 @@ impl Request {
         }
         Ok(None)
     }
+}
+
+/// Whether something acts on the main body from outside, which includes what holds it.
+fn is_pushed(scene: &Scene) -> bool {
+    !scene.externals.is_empty() || scene.base.is_held()
 }
 
 /// Links of limbs that are not equal to others.
@@ -159,13 +163,9 @@ pub(crate) fn mode_with(scene: &Scene, free: &[bool]) -> Mode {
 /// The chains and paddles of a scene in which the hinges that are not `free` are held.
 pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
     let tree = held(scene, free, angle);
-    let name = || scene.name.clone();
-    recognise(&tree).map_err(|why| match why {
-        Uncovered::HeldBase => CodegenError::HeldBase { scene: name() },
-        Uncovered::Link(link) => {
-            let hinge = scene.label(tree.links[link].hinge).to_string();
-            CodegenError::NotCovered { scene: name(), hinge }
-        }
+    recognise(&tree).map_err(|Uncovered::Link(link)| {
+        let hinge = scene.label(tree.links[link].hinge).to_string();
+        CodegenError::NotCovered { scene: scene.name.clone(), hinge }
     })
 }
 

@@ -41,9 +41,6 @@ pub enum NotCovered {
     },
 }
 
-/// What most formulations do not cover.
-pub(crate) const HELD_BASE: &str = "a main body that is held";
-
 impl<R: Real> ClosedForm<R> {
     /// The closed form for the mode of `tree`.
     ///
@@ -54,11 +51,9 @@ impl<R: Real> ClosedForm<R> {
         tree: &WeldedTree<f64>,
         formulation: Formulation,
     ) -> Result<Self, NotCovered> {
-        formulation.covers(tree).map_err(|why| match why {
-            Uncovered::HeldBase => NotCovered::Scene { formulation, what: HELD_BASE },
-            Uncovered::Link(link) => {
-                NotCovered::Hinge { formulation, hinge: scene.label(tree.links[link].hinge) }
-            }
+        formulation.covers(tree).map_err(|Uncovered::Link(link)| NotCovered::Hinge {
+            formulation,
+            hinge: scene.label(tree.links[link].hinge),
         })?;
         let recognised = recognise(tree).ok().filter(|found| formulation.takes(&found.topology));
         let in_tree_order = || (0..tree.links.len()).collect();

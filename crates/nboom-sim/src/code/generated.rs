@@ -41,12 +41,6 @@ pub enum NoRoutine {
         /// The first such hinge.
         hinge: HingeLabel,
     },
-    /// The main body is held.
-    #[error("no {}: the main body is held", routine(.form))]
-    HeldBase {
-        /// The formulation asked for.
-        form: Option<Form>,
-    },
     /// No routine is for the mode's topology, and none is for a larger one that it fits into and
     /// that is not too large for it.
     #[error("no {} for topology {topology}", routine(.form))]
@@ -98,23 +92,18 @@ pub enum Unmet {
 impl NoRoutine {
     /// Why none fits the tree of a mode of `scene`, which is not made of chains and paddles.
     pub fn of_tree(
-        why: Uncovered,
+        Uncovered::Link(link): Uncovered,
         scene: &Scene,
         tree: &WeldedTree<f64>,
         form: Option<Form>,
     ) -> Self {
-        match why {
-            Uncovered::HeldBase => Self::HeldBase { form },
-            Uncovered::Link(link) => {
-                Self::Tree { form, hinge: scene.label(tree.links[link].hinge) }
-            }
-        }
+        Self::Tree { form, hinge: scene.label(tree.links[link].hinge) }
     }
 
     /// What to do about it.
     pub fn remedy(&self) -> &'static str {
         match self {
-            Self::HeldBase { .. } | Self::Tree { .. } => "the generic path computes it",
+            Self::Tree { .. } => "the generic path computes it",
             Self::Topology { .. } | Self::Unmet { .. } => {
                 "routines can be generated, or the generic path used"
             }

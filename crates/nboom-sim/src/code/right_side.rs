@@ -1,5 +1,6 @@
 use nboom_dynamics::Recursive;
 use nboom_formulation::{Forces, Recognised, RightSideLayout};
+use nboom_model::WeldedTree;
 use nboom_scalar::{Batch, Eight, Numbers, RoutineOn};
 
 use crate::code::fit::{Fit, Repertoire};
@@ -18,6 +19,8 @@ pub(crate) struct RightSide<N> {
     all_hinges: usize,
     coordinates: Vec<N>,
     rates: Vec<N>,
+    /// ω̇ of a main body that is held.
+    held: Option<[N; 3]>,
 }
 
 /// The right side of a mode, on one state and, where there is such code, on eight.
@@ -45,7 +48,7 @@ impl RightSides {
         let batch = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel)).copied();
         let of_one = RightSide::new(fit.kernel, &fit);
         let mut sides = Self { of_one, batch, of_eight: None, eight_are_prepared: false, fit };
-        sides.prepare(recognised);
+        sides.prepare(dynamics.tree(), recognised);
         Some(sides)
     }
 
@@ -60,16 +63,17 @@ impl RightSides {
         let is_same = forces
             .is_some_and(|forces| repertoire.renew_right_side(&mut self.fit, recognised, &forces));
         if is_same {
-            self.prepare(recognised);
+            self.prepare(dynamics.tree(), recognised);
         }
         is_same
     }
 
     /// Takes the numbers of the fit to a mode whose tree was `recognised`.
-    fn prepare(&mut self, recognised: &Recognised) {
+    fn prepare(&mut self, tree: &WeldedTree<f64>, recognised: &Recognised) {
         let Self { fit, of_one, eight_are_prepared, .. } = self;
         fit.write_constants(&mut of_one.constants);
         of_one.place(recognised, fit);
+        of_one.held = tree.held.map(|held| held.angular.to_array());
         *eight_are_prepared = false;
     }
 
@@ -86,6 +90,7 @@ impl RightSides {
         if !*eight_are_prepared {
             of_eight.hinges.clone_from(&of_one.hinges);
             of_eight.are_same = of_one.are_same;
+            of_eight.held = of_one.held.map(|omega_dot| omega_dot.map(Eight::splat));
             let numbers = of_eight.constants.iter_mut().zip(&of_one.constants);
             numbers.for_each(|(eight, &one)| *eight = Eight::splat(one));
             *eight_are_prepared = true;
@@ -137,6 +142,7 @@ impl<N: Numbers> RightSide<N> {
             all_hinges,
             coordinates: zeros(routine.coordinates),
             rates: zeros(routine.outputs),
+            held: None,
             routine,
         }
     }
@@ -153,7 +159,16 @@ impl<N: Numbers> RightSide<N> {
     /// `dy`, and anything to the rest; returns the power of the parts of the hinge torques that depend on
     /// rates.
     pub fn write(&mut self, y: &[N], dy: &mut [N]) -> N {
-        let Self { routine, constants, hinges, are_same, all_hinges, coordinates, rates } = self;
+        let power = self.write_as_computed(y, dy);
+        if let Some(omega_dot) = self.held {
+            dy[RightSideLayout::OMEGA].copy_from_slice(&omega_dot);
+        }
+        power
+    }
+
+    fn write_as_computed(&mut self, y: &[N], dy: &mut [N]) -> N {
+        let Self { routine, constants, hinges, are_same, all_hinges, coordinates, rates, .. } =
+            self;
         let first = RightSideLayout::STATE;
         let power = first + 2 * *all_hinges;
         if *are_same {

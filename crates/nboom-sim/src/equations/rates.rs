@@ -111,40 +111,39 @@ impl<R: Real> Rates<R> {
         if let [work] = &mut dy[layout.spin_up_work()] {
             *work = dynamics.spin_up_power(&motion);
         }
-        if !layout.thrust {
-            return;
-        }
-        if layout.held {
-            let velocity = attitude(y).normalized().to_matrix().transpose_mul(carried);
-            let power = power_on_held(dynamics, &motion, accelerations, velocity);
-            dy[layout.thrust_work().start] = power;
-        } else {
-            write_external(layout, dynamics, (&motion, (*total_mass, carried)), y, dy);
+        if layout.thrust {
+            let of_motion = (&motion, &*accelerations);
+            write_outside(layout, dynamics, of_motion, (*total_mass, carried), y, dy);
         }
     }
 
     /// Writes what is left of ẏ at `y` where the rates of attitude, ω, β and τ stand in `dy`
-    /// already, and the parts of hinge torques that depend on rates have the power `power`; the
-    /// main body is free.
+    /// already, and the parts of hinge torques that depend on rates have the power `power`; the velocity of
+    /// what is [carried](crate::equations::variables::Variables::carried) is `carried`, inertial axes.
     #[inline(always)]
     pub fn complete(
-        &self,
+        &mut self,
         dynamics: &mut Recursive<R>,
         power: R,
-        free_fall: Vec3<R>,
+        carried: Vec3<R>,
         y: &[R],
         dy: &mut [R],
     ) {
-        let Self { layout, total_mass, .. } = self;
+        let Self { layout, total_mass, accelerations, .. } = self;
         if let [work] = &mut dy[layout.dashpot_work()] {
             *work = power;
         }
-        if layout.thrust {
-            let omega_body = Vec3::new(y[4], y[5], y[6]);
-            let (beta, tau) = (&y[layout.beta()], &y[layout.hinge_motion()]);
-            let motion = Motion { omega_body, beta, tau };
-            write_external(layout, dynamics, (&motion, (*total_mass, free_fall)), y, dy);
+        if !layout.thrust {
+            return;
         }
+        let omega_body = Vec3::new(y[4], y[5], y[6]);
+        let (beta, tau) = (&y[layout.beta()], &y[layout.hinge_motion()]);
+        let motion = Motion { omega_body, beta, tau };
+        if layout.held {
+            dynamics.hold(accelerations);
+            accelerations.tau_dot.copy_from_slice(&dy[layout.hinge_motion()]);
+        }
+        write_outside(layout, dynamics, (&motion, accelerations), (*total_mass, carried), y, dy);
     }
 }
 
@@ -164,18 +163,25 @@ fn power_on_held<R: Real>(
     dynamics.outside(motion, &found).power + of_reaction
 }
 
+/// Writes the rates of what is integrated where something acts from outside or moves a held main body.
 #[inline(always)]
-fn write_external<R: Real>(
+fn write_outside<R: Real>(
     layout: &VariableLayout,
     dynamics: &mut Recursive<R>,
-    (motion, (total_mass, free_fall)): (&Motion<'_, R>, (R, Vec3<R>)),
+    (motion, accelerations): (&Motion<'_, R>, &Accelerations<R>),
+    (total_mass, carried): (R, Vec3<R>),
     y: &[R],
     dy: &mut [R],
 ) {
+    if layout.held {
+        let velocity = attitude(y).normalized().to_matrix().transpose_mul(carried);
+        dy[layout.thrust_work().start] = power_on_held(dynamics, motion, accelerations, velocity);
+        return;
+    }
     let to_inertial = attitude(y).normalized().to_matrix();
     let displacement = layout.thrust_motion().start;
     let added = &y[displacement + 3..][..3];
-    let velocity = free_fall + Vec3::new(added[0], added[1], added[2]);
+    let velocity = carried + Vec3::new(added[0], added[1], added[2]);
     let found = dynamics.invariants(motion, to_inertial.transpose_mul(velocity));
     let outside = dynamics.outside(motion, &found);
     let acceleration = to_inertial * outside.force * (R::one() / total_mass);
