@@ -6,7 +6,7 @@ use nboom::formulation::{
     Embedding, Forces, Formulation, HingeCoordinates, LinkLine, Parameters, Recognised,
     RightSideLayout, right_side,
 };
-use nboom::model::{KickOffSpring, Scene, Topology};
+use nboom::model::{KickOffSpring, Scene, Topology, TorqueTable};
 use nboom::scalar::Quaternion;
 
 use crate::limbs::tree;
@@ -20,7 +20,7 @@ const RANDOM_SATELLITES: u64 = 3000;
 const ROUNDING: f64 = 1e-13;
 
 /// A random satellite of chains and paddles with every kind of spring and dashpot, on some of whose
-/// bodies kick-off springs push, its hinges anywhere.
+/// bodies kick-off springs push, and torque tables about some hinges, which are anywhere.
 fn pushed(seed: u64) -> Moment {
     let (of_seed, dice) = (random(seed), &mut Rng::new(seed ^ 0x9a5));
     let mut description = (*of_seed.scene).clone();
@@ -40,11 +40,18 @@ fn pushed(seed: u64) -> Moment {
             limit_length: dice.between(1.0, 5.0),
         });
     }
+    for hinge in 0..description.bodies.len() {
+        if dice.chance(0.2) {
+            let points = [-1.5, 0.2, 0.4].map(|angle| [angle, dice.between(-3.0, 3.0)]).to_vec();
+            description.torque_tables.push(TorqueTable { hinge, points });
+        }
+    }
     let scene = Scene::new(description).expect("random bodies are physical");
     let mut mode = all_acting(&scene, of_seed.mode.hinges);
     mode.externals.clone_from(&of_seed.mode.externals);
-    for piece in &mut mode.pieces {
-        *piece = usize::from(dice.chance(0.3));
+    let lines = mode.pieces.len() - scene.torque_tables.len();
+    for (i, piece) in mode.pieces.iter_mut().enumerate() {
+        *piece = if i < lines { usize::from(dice.chance(0.3)) } else { dice.below(4) };
     }
     Moment { scene, mode, ..of_seed }
 }

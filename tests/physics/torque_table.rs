@@ -3,8 +3,9 @@
 
 use nboom::elements::Kind;
 use nboom::model::{Dashpot, Scene, SceneDescription, Spring, TorqueTable};
-use nboom::sim::{EventKind, Nobody, Options, Reference, Witness, simulate, trust};
+use nboom::sim::{EventKind, Method, Nobody, Options, Path, Reference, Witness, simulate, trust};
 
+use super::collect;
 use super::log::{options, run};
 use super::oscillators::scene;
 
@@ -47,6 +48,28 @@ fn a_table_acts_beside_a_spring() {
     let both = run(&with_table(share, start, 5.0, &[[-0.1, 0.2], [0.2, -0.4]]), &tight);
     for (a, b) in alone.samples.iter().zip(&both.samples) {
         assert!((a.beta[0] - b.beta[0]).abs() < 1e-12, "{}", a.time);
+    }
+}
+
+/// Each piece of a table is a law of generated right sides, on one state and on eight.
+#[test]
+fn tables_run_by_generated_code_as_by_the_recursion() {
+    let scene = Scene::new(curved()).expect("a valid scene");
+    for integrator in [Method::Dop853, Method::GaussLanes] {
+        let [generated, generic] = [Path::Generated, Path::Generic].map(|path| {
+            let kernels = nboom_routines::for_runs();
+            let batches = nboom_routines::right_sides_of_eight();
+            let options = Options { path, kernels, batches, integrator, ..options(100, 1e-12) };
+            collect::run(&scene, &options)
+        });
+        let reason = &generated.1.selections[0].reason;
+        assert!(reason.ends_with("whole right side, also of eight states"), "{reason}");
+        assert_eq!(generated.0.happenings().len(), generic.0.happenings().len());
+        assert!(generated.1.conservation.energy < 1e-10);
+        for (a, b) in generated.0.samples.iter().zip(&generic.0.samples) {
+            // Both swing for 12 time units over steep walls, each with errors of its own steps.
+            assert!((a.beta[0] - b.beta[0]).abs() < 1e-8, "{integrator}, {}", a.time);
+        }
     }
 }
 

@@ -17,7 +17,7 @@ use crate::request::{CodegenError, Request};
 
 /// Operations beyond which an evaluation is emitted as loops: more straight-line code than this
 /// no longer fits the processor's instruction cache.
-pub const STRAIGHT_LIMIT: usize = 2500;
+pub const STRAIGHT_LIMIT: usize = 2550;
 
 /// The most operations of an evaluation that cannot be emitted as loops: an optimising compiler
 /// takes 17 seconds for that much code in all instruction sets, and 95 for twice as much.

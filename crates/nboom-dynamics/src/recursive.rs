@@ -144,7 +144,7 @@ impl<R: Real> Recursive<R> {
 
     /// Holds `commands` in place of those that were held, until the mode is set anew.
     pub fn command(&mut self, commands: &Commands) {
-        self.elements.command(&self.scene, commands);
+        self.elements.command(commands);
     }
 
     /// The hinges that turn in this mode, as numbered in the scene, ascending.

@@ -132,14 +132,12 @@ impl<R: Real> Elements<R> {
         self.lines.iter().filter(|line| line.acts).filter_map(|line| Some((line.link?, line)))
     }
 
-    /// Holds `commands` in place of those that it held; `scene` is that of the elements.
+    /// Holds `commands` in place of those that it held.
     ///
     /// A torque that is held is a constant part of the law of its hinge, with a potential.
-    pub fn command(&mut self, scene: &Scene, commands: &Commands) {
-        let hinges = scene.bodies.iter().map(|body| &body.hinge);
-        let of_hinges = self.torques.iter_mut().zip(hinges.zip(commands.hinge_torques()));
-        for (torque, (hinge, &commanded)) in of_hinges {
-            torque.hold(hinge, commanded);
+    pub fn command(&mut self, commands: &Commands) {
+        for (torque, &commanded) in self.torques.iter_mut().zip(commands.hinge_torques()) {
+            torque.hold(commanded);
         }
         self.commanded = commands::held(commands);
         self.external = on_main_link(&self.pushes, self.commanded);

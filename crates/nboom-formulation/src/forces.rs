@@ -86,7 +86,7 @@ impl<R: Real> Forces<R> {
         Self { laws, external, lines }
     }
 
-    /// The numbers in the order of [`RightSideLayout`]: q₁, q₂, A₂, A₁, A₀ of each hinge; external
+    /// The numbers in the order of [`RightSideLayout`]: q₁, q₂, A₃, A₂, A₁, A₀, β₀ of each hinge; external
     /// moment and force; of each line its end on the link, that on the main body, and a₀ to a₃.
     pub fn write(&self) -> Vec<R> {
         let mut numbers = Vec::new();
@@ -191,8 +191,7 @@ fn push<R: Real>(
 impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
-    /// `None` where a right side has no place for them: where a free hinge has a torque table or is
-    /// coupled, where there are rotors, where more lines push one link than
+    /// `None` where a right side has no place for them: where a free hinge is coupled, where there are rotors, where more lines push one link than
     /// [`RightSideLayout::LINES_OF_LINK`], where a line does not transmit all of its moment, and
     /// where something from outside acts on a hinged link or is not constant along main-body axes.
     pub fn of(
@@ -206,7 +205,7 @@ impl Forces<f64> {
         }
         let mut forces = Self::none(recognised.links.len());
         for (law, &link) in forces.laws.iter_mut().zip(&recognised.links) {
-            *law = *elements.torques()[tree.links[link].hinge].law()?;
+            *law = *elements.torques()[tree.links[link].hinge].law();
         }
         if let Some(external) = tree.holding().or_else(|| elements.external()) {
             forces.external = external;

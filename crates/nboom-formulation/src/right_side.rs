@@ -26,8 +26,8 @@ impl RightSideLayout {
     pub const OMEGA: Range<usize> = 4..7;
     /// Numbers of y before the hinges.
     pub const STATE: usize = 7;
-    /// Numbers of the torque about a hinge: q₁, q₂, A₂, A₁, A₀.
-    pub const LAW: usize = 5;
+    /// Numbers of the torque about a hinge: q₁, q₂, A₃, A₂, A₁, A₀, β₀.
+    pub const LAW: usize = 7;
     /// Numbers of the external wrench about O, main-body axes: moment, force.
     pub const EXTERNAL: usize = 6;
     /// Numbers of a line: its end on the link, that on the main body, a₀ to a₃.

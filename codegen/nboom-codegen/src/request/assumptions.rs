@@ -147,7 +147,7 @@ fn owners_of_forces(topology: &Topology) -> Vec<(String, &'static [&'static str]
 }
 
 /// Torque about a hinge.
-const LAW: [&str; RightSideLayout::LAW] = ["q₁", "q₂", "A₂", "A₁", "A₀"];
+const LAW: [&str; RightSideLayout::LAW] = ["q₁", "q₂", "A₃", "A₂", "A₁", "A₀", "β₀"];
 /// Moment and force.
 const WRENCH: [&str; RightSideLayout::EXTERNAL] = ["M_x", "M_y", "M_z", "F_x", "F_y", "F_z"];
 /// Ends of a line on the link and on the main body, force by powers of its length.

@@ -51,7 +51,7 @@ impl Request {
         self.assumptions.iter().all(Option::is_none)
     }
 
-    /// No line pushes; numbers of laws are built in, or zeros that they have in all cases, or nothing.
+    /// No line pushes; numbers that laws have in all cases are built in, or zeros among them, or nothing.
     fn right_side(&self, cases: &[Vec<f64>]) -> Self {
         let name = format!("RightSide{}", self.name);
         // What assumes nothing is taken where nothing else is; it is not worth compilers' time, but of a
@@ -64,8 +64,8 @@ impl Request {
         for (i, assumed) in request.assumptions[start..of_laws].iter_mut().enumerate() {
             let value = cases[0][i];
             let same = cases.iter().all(|case| case[i] == value);
-            let simple = !self.is_general() && same && value == 0.0;
-            *assumed = (self.is_baked() || simple).then_some(value + 0.0);
+            let simple = !self.is_general() && value == 0.0;
+            *assumed = (same && (self.is_baked() || simple)).then_some(value + 0.0);
         }
         if self.is_baked() {
             let of_lines = RightSideLayout::external(&self.topology).end;
@@ -102,7 +102,7 @@ impl Request {
 }
 
 /// Notes what acts on a scene in which the hinges that are not `free` are held at angles around `angle`,
-/// and lines push or do not.
+/// and lines push or do not, on every piece of torque tables.
 fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bool) {
     let externals = vec![0; scene.externals.len()];
     let mut mode = Mode { externals, ..mode_with(scene, free) };
@@ -110,12 +110,18 @@ fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bo
     mode.pieces[..lines].fill(usize::from(!pushing));
     let tree = held(scene, free, angle);
     let Ok(recognised) = recognise(&tree) else { return };
-    let forces = Forces::of(&Elements::new(scene, &mode, &tree), &tree, &recognised);
-    let known = cases.entry(recognised.topology).or_insert_with(|| Some(Vec::new()));
-    match (known.as_mut(), forces) {
-        (Some(all), Some(forces)) => all.push(forces.write()),
-        // Other modes of the topology may have fewer lines.
-        _ if pushing => {}
-        _ => *known = None,
+    let last = scene.torque_tables.iter().map(|table| table.points.len()).max().unwrap_or(0);
+    for piece in 0..=last {
+        for (of_table, table) in mode.pieces[lines..].iter_mut().zip(&scene.torque_tables) {
+            *of_table = piece.min(table.points.len());
+        }
+        let forces = Forces::of(&Elements::new(scene, &mode, &tree), &tree, &recognised);
+        let known = cases.entry(recognised.topology.clone()).or_insert_with(|| Some(Vec::new()));
+        match (known.as_mut(), forces) {
+            (Some(all), Some(forces)) => all.push(forces.write()),
+            // Other modes of the topology may have fewer lines.
+            _ if pushing => {}
+            _ => *known = None,
+        }
     }
 }

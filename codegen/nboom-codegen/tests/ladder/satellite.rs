@@ -233,7 +233,7 @@ fn state(dice: &mut Rng, topology: &Topology, external: bool) -> Vec<f64> {
 fn forces(dice: &mut Rng, topology: &Topology, external: bool) -> (Vec<f64>, Vec<Option<f64>>) {
     let mut forces = Forces::none(topology.hinges());
     for law in &mut forces.laws {
-        *law = HingeLaw::of_numbers([(); 5].map(|()| dice.between(-1.0, 1.0)));
+        *law = HingeLaw::of_numbers([(); 7].map(|()| dice.between(-1.0, 1.0)));
     }
     if external {
         forces.external = Wrench { moment: dice.vector(1.0), force: dice.vector(1.0) };

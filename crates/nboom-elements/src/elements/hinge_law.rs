@@ -1,17 +1,20 @@
 use nboom_model::{Dashpot, Hinge, Spring};
 use nboom_scalar::Real;
 
-/// Torque of spring and dashpot about a hinge axis, eq. (6.1), with its powers of β collected:
-/// Q = (q₁τ + q₂)τ + (A₂β + A₁)β + A₀.
+/// Torque about a hinge axis while one piece of its table holds, if it has one: that of spring and dashpot, eq. (6.1),
+/// and of the table, with powers of s = β − β₀ collected: Q = (q₁τ + q₂)τ + ((A₃s + A₂)s + A₁)s + A₀.
 ///
 /// It acts on the outboard body along the hinge axis, and reversed on the inboard one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HingeLaw<R> {
     q1: R,
     q2: R,
+    a3: R,
     a2: R,
     a1: R,
     a0: R,
+    /// β₀, where the piece of the table begins; without one zero.
+    from: R,
 }
 
 impl<R: Real> HingeLaw<R> {
@@ -25,15 +28,31 @@ impl<R: Real> HingeLaw<R> {
         Self {
             q1: R::constant(dashpot.rate_quadratic),
             q2: R::constant(dashpot.rate_linear),
+            a3: R::zero(),
             a2: q3 + k1,
             a1: q4 + k2 + two * (q3 * gamma + k1 * theta),
             a0: (q3 * gamma + q4) * gamma + (k1 * theta + k2) * theta,
+            from: R::zero(),
         }
     }
 
-    /// The law with numbers q₁, q₂, A₂, A₁, A₀.
-    pub fn of_numbers([q1, q2, a2, a1, a0]: [R; 5]) -> Self {
-        Self { q1, q2, a2, a1, a0 }
+    /// The law with numbers q₁, q₂, A₃, A₂, A₁, A₀, β₀.
+    pub fn of_numbers([q1, q2, a3, a2, a1, a0, from]: [R; 7]) -> Self {
+        Self { q1, q2, a3, a2, a1, a0, from }
+    }
+
+    /// The law of spring and dashpot with a cubic by the angle from `from` beside it, its coefficients by ascending
+    /// powers.
+    pub(super) fn with_cubic(self, from: R, [c0, c1, c2, c3]: [R; 4]) -> Self {
+        let Self { a2, a1, a0, .. } = self;
+        Self {
+            a3: c3,
+            a2: a2 + c2,
+            a1: R::constant(2.0) * a2 * from + a1 + c1,
+            a0: (a2 * from + a1) * from + a0 + c0,
+            from,
+            ..self
+        }
     }
 
     /// The law with a constant torque beside it.
@@ -41,15 +60,16 @@ impl<R: Real> HingeLaw<R> {
         Self { a0: self.a0 + torque, ..self }
     }
 
-    /// q₁, q₂, A₂, A₁, A₀.
-    pub fn numbers(&self) -> [R; 5] {
-        [self.q1, self.q2, self.a2, self.a1, self.a0]
+    /// q₁, q₂, A₃, A₂, A₁, A₀, β₀.
+    pub fn numbers(&self) -> [R; 7] {
+        [self.q1, self.q2, self.a3, self.a2, self.a1, self.a0, self.from]
     }
 
     /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
     #[inline(always)]
     pub fn torque(&self, beta: R, tau: R) -> R {
-        self.rate_torque(tau) + (self.a2 * beta + self.a1) * beta + self.a0
+        let s = beta - self.from;
+        self.rate_torque(tau) + ((self.a3 * s + self.a2) * s + self.a1) * s + self.a0
     }
 
     /// The part of the torque that depends on the rate, and does work no potential accounts for.
@@ -58,10 +78,12 @@ impl<R: Real> HingeLaw<R> {
         (self.q1 * tau + self.q2) * tau
     }
 
-    /// Potential energy of the part that depends on the angle; zero at β = 0.
+    /// Potential energy of the part that depends on the angle; zero at β₀.
     pub fn potential(&self, beta: R) -> R {
-        let (half, third) = (R::constant(1.0 / 2.0), R::constant(1.0 / 3.0));
-        -(((self.a2 * third * beta + self.a1 * half) * beta + self.a0) * beta)
+        let [half, third, quarter] = [2.0, 3.0, 4.0].map(|power| R::constant(1.0 / power));
+        let s = beta - self.from;
+        let of_squares = self.a3 * quarter * s + self.a2 * third;
+        -(((of_squares * s + self.a1 * half) * s + self.a0) * s)
     }
 }
 
@@ -118,6 +140,23 @@ mod tests {
             HingeLaw::<f64>::new(&SPRING, &dashpot).depends_on_rate()
         };
         assert!(depends(0.05, 0.0) && depends(0.0, -0.6) && !depends(0.0, 0.0));
+    }
+
+    #[test]
+    fn a_cubic_adds_its_torque_wherever_it_is_written_from() {
+        let spring = HingeLaw::<f64>::new(&SPRING, &DASHPOT);
+        let (from, [c0, c1, c2, c3]) = (1.7, [0.3, -0.8, 2.0, -1.1]);
+        let both = spring.with_cubic(from, [c0, c1, c2, c3]);
+        for (beta, tau) in [(0.0, 0.0), (1.3, -2.0), (-4.0, 0.7)] {
+            let s: f64 = beta - from;
+            let cubic = c0 + c1 * s + c2 * s.powi(2) + c3 * s.powi(3);
+            let expected = spring.torque(beta, tau) + cubic;
+            assert!((both.torque(beta, tau) - expected).abs() < 1e-12);
+            let integral = c0 * s + c1 * s.powi(2) / 2.0 + c2 * s.powi(3) / 3.0 + c3 * s.powi(4) / 4.0;
+            let lost = spring.potential(beta) - spring.potential(from) - integral;
+            assert!((both.potential(beta) - lost).abs() < 1e-11);
+        }
+        assert_eq!(HingeLaw::of_numbers(both.numbers()), both);
     }
 
     #[test]

@@ -8,7 +8,12 @@ use super::torque_table::TablePiece;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HingeTorque<R> {
     law: HingeLaw<R>,
-    table: Option<TablePiece<R>>,
+    /// The law without what is commanded.
+    alone: HingeLaw<R>,
+    /// Potential energy where that of the law alone is zero.
+    stored: R,
+    /// A torque that is held.
+    commanded: R,
 }
 
 impl<R: Real> HingeTorque<R> {
@@ -17,33 +22,35 @@ impl<R: Real> HingeTorque<R> {
         let hinges = scene.bodies.iter().map(|body| &body.hinge);
         let law = |hinge: &Hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot);
         all.clear();
-        all.extend(hinges.map(|hinge| Self { law: law(hinge), table: None }));
+        let zero = R::zero();
+        let of_law = |law| Self { law, alone: law, stored: zero, commanded: zero };
+        all.extend(hinges.map(law).map(of_law));
         // Tables come last among the elements of a mode.
         let first = mode.pieces.len() - scene.torque_tables.len();
         for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
-            all[table.hinge].table = Some(TablePiece::new(table, piece));
+            let TablePiece { from, coefficients, stored } = TablePiece::new(table, piece);
+            let torque = &mut all[table.hinge];
+            torque.stored = torque.alone.potential(from) + stored;
+            torque.alone = torque.alone.with_cubic(from, coefficients);
+            torque.law = torque.alone;
         }
     }
 
-    /// Holds a commanded torque, as a constant part of the law of `hinge`.
-    pub(super) fn hold(&mut self, hinge: &Hinge, commanded: f64) {
-        let law = HingeLaw::new(&hinge.spring, &hinge.dashpot);
-        self.law = law.with_constant(R::constant(commanded));
+    /// Holds a commanded torque, as a constant part of the law.
+    pub(super) fn hold(&mut self, commanded: f64) {
+        self.commanded = R::constant(commanded);
+        self.law = self.alone.with_constant(self.commanded);
     }
 
     /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
     #[inline(always)]
     pub fn torque(&self, beta: R, tau: R) -> R {
-        let torque = self.law.torque(beta, tau);
-        match &self.table {
-            Some(table) => torque + table.torque(beta),
-            None => torque,
-        }
+        self.law.torque(beta, tau)
     }
 
-    /// The law of spring and dashpot, where they are all that acts about the hinge.
-    pub fn law(&self) -> Option<&HingeLaw<R>> {
-        self.table.is_none().then_some(&self.law)
+    /// The law of all that acts about the hinge in the mode.
+    pub fn law(&self) -> &HingeLaw<R> {
+        &self.law
     }
 
     /// The part of the torque that depends on the rate, and does work no potential accounts for.
@@ -54,8 +61,7 @@ impl<R: Real> HingeTorque<R> {
 
     /// Potential energy of the part that depends on the angle.
     pub fn potential(&self, beta: R) -> R {
-        let potential = self.law.potential(beta);
-        self.table.as_ref().map_or(potential, |table| potential + table.potential(beta))
+        self.alone.potential(beta) + self.stored - self.commanded * beta
     }
 }
 

@@ -25,11 +25,11 @@ pub(crate) const NAMES: Names = Names {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TablePiece<R> {
     /// The angle from which the piece is written.
-    from: R,
-    /// Torque by powers of the angle from there.
-    coefficients: [R; 4],
-    /// Potential energy there.
-    stored: R,
+    pub from: R,
+    /// Torque by ascending powers of the angle from there; positive when it increases β.
+    pub coefficients: [R; 4],
+    /// Potential energy there; zero at the table's first point.
+    pub stored: R,
 }
 
 impl<R: Real> TablePiece<R> {
@@ -55,18 +55,6 @@ impl<R: Real> TablePiece<R> {
             stored: R::constant(stored),
         }
     }
-
-    /// Torque at angle `beta` \[rad\]; positive when it increases β.
-    #[inline(always)]
-    pub fn torque(&self, beta: R) -> R {
-        let ([c0, c1, c2, c3], s) = (self.coefficients, beta - self.from);
-        ((c3 * s + c2) * s + c1) * s + c0
-    }
-
-    /// Potential energy; zero at the table's first point.
-    pub fn potential(&self, beta: R) -> R {
-        self.stored - integral(self.coefficients, beta - self.from)
-    }
 }
 
 /// The most energy that a table can store between its points, every torque taken by its magnitude.
@@ -76,9 +64,8 @@ pub(crate) fn stored(table: &TorqueTable) -> f64 {
 }
 
 /// The integral of a polynomial from zero to `s`.
-fn integral<R: Real>([c0, c1, c2, c3]: [R; 4], s: R) -> R {
-    let part = |c: R, power: f64| c * R::constant(1.0 / power);
-    (((part(c3, 4.0) * s + part(c2, 3.0)) * s + part(c1, 2.0)) * s + c0) * s
+fn integral([c0, c1, c2, c3]: [f64; 4], s: f64) -> f64 {
+    (((c3 / 4.0 * s + c2 / 3.0) * s + c1 / 2.0) * s + c0) * s
 }
 
 /// The cubic from point `k` to the next one: the angle it starts from, and its coefficients.
@@ -127,6 +114,7 @@ fn end_slope([a, b]: [f64; 2], [h, g]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::HingeLaw;
 
     /// Uneven, with a turn, a level part and a step.
     fn table() -> TorqueTable {
@@ -137,6 +125,20 @@ mod tests {
     fn piece_at(table: &TorqueTable, beta: f64) -> TablePiece<f64> {
         let piece = table.points.iter().filter(|point| beta > point[0]).count();
         TablePiece::new(table, piece)
+    }
+
+    impl TablePiece<f64> {
+        fn law(&self) -> HingeLaw<f64> {
+            HingeLaw::of_numbers([0.0; 7]).with_cubic(self.from, self.coefficients)
+        }
+
+        fn torque(&self, beta: f64) -> f64 {
+            self.law().torque(beta, 0.0)
+        }
+
+        fn potential(&self, beta: f64) -> f64 {
+            self.law().potential(beta) + self.stored
+        }
     }
 
     #[test]

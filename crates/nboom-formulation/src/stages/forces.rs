@@ -15,7 +15,7 @@ pub const ATTITUDE: Group = Group::new("attitude", &["chi", "kx", "ky", "kz"]);
 pub const ATTITUDE_RATE: Group =
     Group::new("attitude_rate", &["chi_dot", "kx_dot", "ky_dot", "kz_dot"]);
 /// Parameters of the torque about a hinge.
-pub const LAW: Group = Group::new("law", &["q1", "q2", "a2", "a1", "a0"]);
+pub const LAW: Group = Group::new("law", &["q1", "q2", "a3", "a2", "a1", "a0", "from"]);
 /// Parameters of the line that pushes a link: its ends, and its force by powers of its length.
 pub const LINE: Group =
     Group::new("line", &["px", "py", "pz", "ox", "oy", "oz", "f0", "f1", "f2", "f3"]);
@@ -45,7 +45,7 @@ pub fn attitude<R: Real>() -> Stage<R> {
 pub fn law<R: Real>() -> Stage<R> {
     Stage {
         name: "law",
-        about: "The torque of spring and dashpot about a hinge, and the power of what depends on its rate.",
+        about: "The torque of spring, dashpot and table about a hinge, and the power of what depends on its rate.",
         parameters: vec![LAW],
         inputs: vec![BETA, TAU],
         outputs: vec![TORQUE, POWER],
