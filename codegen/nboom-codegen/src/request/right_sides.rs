@@ -125,3 +125,61 @@ fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bo
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nboom_model::{
+        Body, Hinge, Joint, MassProperties, Mount, SceneDescription, Spring, TorqueTable,
+    };
+    use nboom_scalar::{Sym3, Vec3};
+
+    use super::*;
+    use crate::Level;
+    use crate::request::Numbers;
+
+    /// A boom of two segments with springs, a torque table about the outer hinge.
+    fn scene() -> Scene {
+        let properties = MassProperties::new(2.0, Vec3::unit_y(), Sym3::diagonal(0.5, 0.1, 0.5));
+        let mut scene = SceneDescription::at_rest("boom", properties, 1.0);
+        let (tip, axis) = (Vec3::unit_y() * 2.0, Vec3::unit_x());
+        for inboard in [None, Some(0)] {
+            let spring = Spring { quadratic: 0.0, linear: -0.7, preload_angle: 0.2 };
+            let hinge = Hinge { spring, ..Hinge::free() };
+            scene.bodies.push(Body {
+                inboard,
+                mount: Mount::at(tip),
+                joint: Joint::Revolute,
+                axis,
+                mass_properties: properties,
+                tip,
+                hinge,
+            });
+        }
+        let points = vec![[-1.0, 3.0], [0.5, -1.0], [1.5, 2.0]];
+        scene.torque_tables.push(TorqueTable { hinge: 1, points });
+        Scene::new(scene).expect("a valid scene")
+    }
+
+    #[test]
+    fn a_law_with_a_table_is_assumed_only_where_all_pieces_agree() {
+        let scene = scene();
+        for numbers in [Numbers::Baked, Numbers::RunTime] {
+            let accelerations = Request::of_scene(&scene, numbers, Level::Fast).expect("two links");
+            let found = Request::right_sides(&scene, &[accelerations]);
+            let [right_side] = &found[..] else { panic!("one right side: no line pushes") };
+            let of_hinge = |hinge| {
+                let law = RightSideLayout::law(&right_side.topology, hinge);
+                right_side.assumptions[law].to_vec()
+            };
+            let zero = Some(0.0);
+            // A table adds nothing that depends on the rate.
+            let beyond = [zero, zero, None, None, None, None, None];
+            assert_eq!(of_hinge(1), beyond, "{numbers:?}");
+            let spring = match numbers {
+                Numbers::Baked => [zero, zero, zero, zero, Some(-0.7), Some(-0.7 * 0.2), zero],
+                Numbers::RunTime => [zero, zero, zero, zero, None, None, zero],
+            };
+            assert_eq!(of_hinge(0), spring, "{numbers:?}");
+        }
+    }
+}

@@ -152,7 +152,8 @@ mod tests {
             let cubic = c0 + c1 * s + c2 * s.powi(2) + c3 * s.powi(3);
             let expected = spring.torque(beta, tau) + cubic;
             assert!((both.torque(beta, tau) - expected).abs() < 1e-12);
-            let integral = c0 * s + c1 * s.powi(2) / 2.0 + c2 * s.powi(3) / 3.0 + c3 * s.powi(4) / 4.0;
+            let integral =
+                c0 * s + c1 * s.powi(2) / 2.0 + c2 * s.powi(3) / 3.0 + c3 * s.powi(4) / 4.0;
             let lost = spring.potential(beta) - spring.potential(from) - integral;
             assert!((both.potential(beta) - lost).abs() < 1e-11);
         }
