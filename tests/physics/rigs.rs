@@ -208,7 +208,7 @@ fn rigs_run_by_generated_code_as_by_the_recursion() {
             Vec3::unit_y(),
             Hinge::free(),
         );
-        let second = Body { inboard: Some(0), ..scene.bodies[0].clone() };
+        let second = Body { inboard: Some(0), ..scene.bodies[0] };
         scene.bodies.push(second);
         for (body, lock) in scene.bodies.iter_mut().zip([Some(0.6), None]) {
             body.mount.point = if body.inboard.is_some() { body.tip } else { Vec3::unit_x() };

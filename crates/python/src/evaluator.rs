@@ -248,10 +248,9 @@ impl Code {
             (None, Ok(recognised)) if options.path == Path::Generated => {
                 Err(NoRoutine::because(recognised, pushed, options).to_string())
             }
-            (None, Err(_)) if options.path == Path::Generated => Err(
-                "no generated routine covers bodies that are not rigid"
-                    .to_owned(),
-            ),
+            (None, Err(_)) if options.path == Path::Generated => {
+                Err("no generated routine covers bodies that are not rigid".to_owned())
+            }
             (None, _) => library(),
         }
     }
