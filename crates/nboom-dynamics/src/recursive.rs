@@ -171,10 +171,10 @@ impl<R: Real> Recursive<R> {
     /// All that acts from outside and the [moment](nboom_model::Spin::moment) of the rotors of the
     /// main body at the rate `omega_body`, about O, main-body axes: what belongs to the motion of
     /// the main body beside the [generalised forces](Self::hinge_forces) of the hinges, in the
-    /// posture in which they were asked for. On a main body that is held, what
-    /// [holds](WeldedTree::holding) the heavy one in its place.
+    /// posture in which they were asked for. Of a main body that is held it is
+    /// the [wrench that holds it](WeldedTree::holding_wrench).
     pub fn acting_on_main_body(&self, omega_body: Vec3<R>) -> Wrench<R> {
-        if let Some(holding) = self.tree.holding() {
+        if let Some(holding) = self.tree.holding_wrench() {
             return holding;
         }
         let mut acting = self.acting_from_outside();

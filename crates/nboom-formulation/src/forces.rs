@@ -191,9 +191,10 @@ fn push<R: Real>(
 impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
-    /// `None` where a right side has no place for them: where a free hinge is coupled, where there are rotors, where more lines push one link than
-    /// [`RightSideLayout::LINES_OF_LINK`], where a line does not transmit all of its moment, and
-    /// where something from outside acts on a hinged link or is not constant along main-body axes.
+    /// `None` where a right side has no place for them: where a free hinge is coupled, where there are
+    /// rotors, where more lines push one link than [`RightSideLayout::LINES_OF_LINK`], where a line does
+    /// not transmit all of its moment, and where something from outside acts on a hinged link or is not
+    /// constant along main-body axes.
     pub fn of(
         elements: &Elements<f64>,
         tree: &WeldedTree<f64>,
@@ -205,9 +206,9 @@ impl Forces<f64> {
         }
         let mut forces = Self::none(recognised.links.len());
         for (law, &link) in forces.laws.iter_mut().zip(&recognised.links) {
-            *law = *elements.torques()[tree.links[link].hinge].law();
+            *law = elements.torques()[tree.links[link].hinge].law();
         }
-        if let Some(external) = tree.holding().or_else(|| elements.external()) {
+        if let Some(external) = tree.holding_wrench().or_else(|| elements.external()) {
             forces.external = external;
         }
         for (link, line) in elements.pushing() {

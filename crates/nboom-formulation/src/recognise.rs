@@ -43,22 +43,21 @@ impl LinkFrame {
     }
 }
 
-/// Why a closed form does not cover a welded tree.
+/// What of a welded tree a closed form does not cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Uncovered {
+pub struct Uncovered {
     /// The first link (an index of the tree) that it cannot express.
-    Link(usize),
+    pub link: usize,
 }
 
 /// Departure from parallel or square axes that is taken for rounding.
 const SAME_AXIS: f64 = 1e-12;
 
-/// Writes the tree as chains, paddles, and limbs where an appendage is neither. In place of a main body that is
-/// held there is [one so heavy](WeldedTree::main_to_move) that only a wrench that is meant to moves it.
+/// Writes the tree as chains, paddles, and limbs where an appendage is neither. A main body that
+/// is held is replaced by [one that is free and heavy](WeldedTree::free_main).
 ///
 /// # Errors
-/// With the first link that does not fit: one that is not rigid or carries a
-/// rotor, or the first of an appendage of more than
+/// The first link that does not fit: one that is not rigid or carries a rotor, or the first of an appendage of more than
 /// [`Limb::MOST_LINKS`](nboom_model::Limb::MOST_LINKS).
 pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
     check(tree)?;
@@ -66,10 +65,10 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
     for root in roots(tree) {
         let planar = planar(tree, root).ok();
         let any = planar.or_else(|| limb::appendage(tree, root));
-        appendages.push(any.ok_or(Uncovered::Link(root))?);
+        appendages.push(any.ok_or(Uncovered { link: root })?);
     }
     let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape));
-    let mut parameters = Parameters { main: tree.main_to_move(), branches: Vec::new() };
+    let mut parameters = Parameters { main: tree.free_main(), branches: Vec::new() };
     let (mut links, mut frames) = (Vec::new(), Vec::new());
     for shape in topology.shapes() {
         let next = appendages.iter().position(|other| other.shape == *shape);
@@ -89,15 +88,16 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
 pub(crate) fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
     check(tree)?;
     let slides = tree.links.iter().position(|link| link.joint.slides());
-    slides.map_or(Ok(()), |link| Err(Uncovered::Link(link)))?;
-    roots(tree).try_for_each(|root| planar(tree, root).map(|_| ()).map_err(Uncovered::Link))
+    slides.map_or(Ok(()), |link| Err(Uncovered { link }))?;
+    roots(tree)
+        .try_for_each(|root| planar(tree, root).map(|_| ()).map_err(|link| Uncovered { link }))
 }
 
 /// Whether every link is rigid and none carries a rotor.
 fn check(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
     rigid(tree)?;
     let carries_rotor = tree.links.iter().position(|link| link.spin.is_some());
-    carries_rotor.map_or(Ok(()), |link| Err(Uncovered::Link(link)))
+    carries_rotor.map_or(Ok(()), |link| Err(Uncovered { link }))
 }
 
 /// The links on the main body.
@@ -118,7 +118,7 @@ struct Appendage {
 /// # Errors
 /// The first link that is not.
 pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
-    tree.turned.first().map_or(Ok(()), |&(link, _)| Err(Uncovered::Link(link)))
+    tree.turned.first().map_or(Ok(()), |&(link, _)| Err(Uncovered { link }))
 }
 
 /// The chain or paddle that begins with the link `root`.

@@ -113,9 +113,9 @@ impl<R: Real> WeldedTree<R> {
         self.mount_rotors(scene, mode);
     }
 
-    /// The main link as equations of free ones take it: itself, or in place of one that is held a body so heavy
-    /// that nothing moves it but the wrench that [holds](Self::holding) it.
-    pub fn main_to_move(&self) -> RigidInertia<R> {
+    /// The main link as equations for a free one take it: itself, or in place of one that is held a body so heavy
+    /// that only the [wrench that holds it](Self::holding_wrench) moves it.
+    pub fn free_main(&self) -> RigidInertia<R> {
         let heavy = || RigidInertia {
             mass: R::constant(HELD),
             first_moment: Vec3::zero(),
@@ -124,9 +124,9 @@ impl<R: Real> WeldedTree<R> {
         self.held.map_or(self.main, |_| heavy())
     }
 
-    /// The wrench about O, main-body axes, under which the [main link](Self::main_to_move) moves as it is held,
-    /// if it is.
-    pub fn holding(&self) -> Option<Wrench<R>> {
+    /// The wrench about O, main-body axes, under which the [heavy main link](Self::free_main) moves as
+    /// the one that is held does, if one is.
+    pub fn holding_wrench(&self) -> Option<Wrench<R>> {
         let heavy = R::constant(HELD);
         self.held.map(|held| Wrench { moment: held.angular * heavy, force: held.linear * heavy })
     }

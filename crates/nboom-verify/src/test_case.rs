@@ -224,8 +224,7 @@ impl TestCase {
     pub fn not_covered(&self, kernels: &'static [Kernel]) -> Vec<NotCovered> {
         match &self.recognised {
             Err(why) => {
-                let Uncovered::Link(link) = *why;
-                let hinge = self.dynamics.tree().links[link].hinge;
+                let hinge = self.dynamics.tree().links[why.link].hinge;
                 let why = format!("hinge {}", self.scene.label(hinge));
                 let generic = Formulation::ALL.into_iter().filter_map(|formulation| {
                     formulation.covers(self.dynamics.tree()).err()?;

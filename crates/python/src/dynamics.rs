@@ -201,7 +201,7 @@ impl Dynamics {
     /// Raises
     /// ------
     /// ValueError
-    ///     If the formulation never forms them, as `articulated` in library code.
+    ///     If the formulation never forms them, as `articulated` in library code, or not for a main body that is held.
     #[pyo3(signature = (omega, beta, tau, torque=None, attitude=None, time=0.0))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn equations<'py>(
@@ -219,7 +219,7 @@ impl Dynamics {
         let (states, lists) = (count.unwrap_or(1), arguments.lists(self.free));
         let mut matrices = vec![0.0; size * size * states];
         let mut forcing = vec![0.0; size * states];
-        let is_there = self.evaluate(py, states, |evaluator, look| {
+        let formed = self.evaluate(py, states, |evaluator, look| {
             for chunk in chunks(states) {
                 lists.require_finite(chunk.clone())?;
                 lists.require_attitudes(chunk.clone())?;
@@ -227,20 +227,17 @@ impl Dynamics {
                     let matrix = &mut matrices[size * size * i..size * size * (i + 1)];
                     let right = &mut forcing[size * i..size * (i + 1)];
                     lists.set_outside(evaluator, i);
-                    if !evaluator.equations(&lists.state(i), matrix, right) {
-                        return Ok(false);
+                    if let Err(why) = evaluator.equations(&lists.state(i), matrix, right) {
+                        return Ok(Err(why));
                     }
                 }
                 look()?;
             }
-            Ok(true)
+            Ok(Ok(()))
         })?;
-        if !is_there {
-            return Err(PyValueError::new_err(format!(
-                "formulation {}: it never forms a mass matrix; report, relative, symmetric or recursive expected",
-                self.formulation
-            )));
-        }
+        formed.map_err(|why| {
+            PyValueError::new_err(format!("formulation {}: {why}", self.formulation))
+        })?;
         Ok([arrays::matrices(py, matrices, count, size)?, arrays::rows(py, forcing, count, size)?])
     }
 

@@ -8,7 +8,7 @@ use nboom_model::{HingeState, Mode, Scene};
 use nboom_scalar::{Batch, Quaternion, Twist, Vec3};
 use nboom_sim::{Form, NoRoutine, Options, Path, Repertoire};
 
-use crate::routine::Routine;
+use crate::routine::{LANES, Routine};
 
 /// Code for the equations of motion of a scene in one mode.
 #[derive(Clone)]
@@ -65,6 +65,10 @@ impl Found<'_> {
         ]
     }
 }
+
+/// Why a formulation has no equations, and which have some.
+const NO_EQUATIONS: &str =
+    "it never forms a mass matrix; report, relative, symmetric or recursive expected";
 
 impl Evaluator {
     /// Code for `scene`, whose hinges are free but those that are held at an angle, chosen as a run with
@@ -149,14 +153,11 @@ impl Evaluator {
                 routine.accelerations(recursion, &motion, torques, [omega_dot, origin, tau_dot]);
             }
         }
-        if let Some(held) = recursion.tree().held {
-            omega_dot.copy_from_slice(&held.angular.to_array());
-            origin.copy_from_slice(&held.linear.to_array());
-        }
+        self.hold(out, i);
     }
 
     /// Writes the accelerations of eight states at once, the first of which has number `first`, if there is
-    /// code that does, for a main body that is free.
+    /// code that does.
     pub fn accelerations_of_eight(
         &mut self,
         states: &EightStates<'_>,
@@ -164,17 +165,35 @@ impl Evaluator {
         first: usize,
     ) -> bool {
         match &mut self.code {
-            Code::Routine(routine) if self.recursion.tree().held.is_none() => {
-                routine.accelerations_of_eight(&mut self.recursion, states, out, first)
+            Code::Routine(routine) => {
+                let found = routine.accelerations_of_eight(&mut self.recursion, states, out, first);
+                (first..first + LANES).filter(|_| found).for_each(|i| self.hold(out, i));
+                found
             }
             _ => false,
         }
     }
 
+    /// Sets the accelerations of a main body that is held, of state number `i`, to what they are but for rounding.
+    fn hold(&self, out: &mut Found<'_>, i: usize) {
+        if let Some(held) = self.recursion.tree().held {
+            let [omega_dot, origin, _] = out.row(i, self.torques.len());
+            omega_dot.copy_from_slice(&held.angular.to_array());
+            origin.copy_from_slice(&held.linear.to_array());
+        }
+    }
+
     /// Writes the matrix, row by row, and the right side of the formulation in a state, with O at the inertial
-    /// origin and hinges in the scene's order. False if the formulation never forms them, or only for a main body
-    /// that is free.
-    pub fn equations(&mut self, state: &State<'_>, matrix: &mut [f64], right: &mut [f64]) -> bool {
+    /// origin and hinges in the scene's order.
+    ///
+    /// # Errors
+    /// Why the formulation forms none, and which do.
+    pub fn equations(
+        &mut self,
+        state: &State<'_>,
+        matrix: &mut [f64],
+        right: &mut [f64],
+    ) -> Result<(), &'static str> {
         let Self { recursion, code, torques, .. } = self;
         let motion = Motion { omega_body: state.omega, beta: state.beta, tau: state.tau };
         let (formulation, recognised) = match code {
@@ -182,11 +201,11 @@ impl Evaluator {
             Code::Recursion | Code::Routine(_) => {
                 recursion.equations(&motion, matrix, right);
                 add(state.added, &mut right[6..]);
-                return true;
+                return Ok(());
             }
         };
         if recursion.tree().held.is_some() {
-            return false;
+            return Err("the main body is held, and it is for free ones; recursive expected");
         }
         recursion.hinge_forces(&motion, torques);
         add(state.added, torques);
@@ -194,7 +213,7 @@ impl Evaluator {
         let (rows, forcing) = match recognised {
             Some(of) => match formulation.equations(&of.topology, &of.parameters, &x) {
                 Some(found) => (found.matrix, found.forcing),
-                None => return false,
+                None => return Err(NO_EQUATIONS),
             },
             None => {
                 let tree = recursion.tree();
@@ -209,7 +228,7 @@ impl Evaluator {
                 matrix[place(i) * size + place(j)] = rows[i * size + j];
             }
         }
-        true
+        Ok(())
     }
 }
 
@@ -225,7 +244,7 @@ impl Code {
         let library = || match options.formulation {
             None | Some(Form::Recursive) => Ok(Self::Recursion),
             Some(Form::Closed(formulation)) => {
-                formulation.covers(recursion.tree()).map_err(|Uncovered::Link(link)| {
+                formulation.covers(recursion.tree()).map_err(|Uncovered { link }| {
                     let hinge = scene.label(recursion.tree().links[link].hinge);
                     format!("formulation {formulation} does not cover hinge {hinge}")
                 })?;
@@ -248,8 +267,9 @@ impl Code {
             (None, Ok(recognised)) if options.path == Path::Generated => {
                 Err(NoRoutine::because(recognised, pushed, options).to_string())
             }
-            (None, Err(_)) if options.path == Path::Generated => {
-                Err("no generated routine covers bodies that are not rigid".to_owned())
+            (None, Err(&why)) if options.path == Path::Generated => {
+                Err(NoRoutine::of_tree(why, scene, recursion.tree(), options.formulation)
+                    .to_string())
             }
             (None, _) => library(),
         }

@@ -163,7 +163,7 @@ pub(crate) fn mode_with(scene: &Scene, free: &[bool]) -> Mode {
 /// The chains and paddles of a scene in which the hinges that are not `free` are held.
 pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
     let tree = held(scene, free, angle);
-    recognise(&tree).map_err(|Uncovered::Link(link)| {
+    recognise(&tree).map_err(|Uncovered { link }| {
         let hinge = scene.label(tree.links[link].hinge).to_string();
         CodegenError::NotCovered { scene: scene.name.clone(), hinge }
     })

@@ -4,15 +4,14 @@ use nboom_scalar::Real;
 use super::hinge_law::HingeLaw;
 use super::torque_table::TablePiece;
 
-/// The torque about one hinge: of its spring and dashpot, and of its table where it has one.
+/// The torque about one hinge: of its spring and dashpot, of its table where it has one, and what is commanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HingeTorque<R> {
+    /// Of spring, dashpot and table.
     law: HingeLaw<R>,
-    /// The law without what is commanded.
-    alone: HingeLaw<R>,
-    /// Potential energy where that of the law alone is zero.
+    /// Potential energy where that of the law is zero.
     stored: R,
-    /// A torque that is held.
+    /// A torque that a control law holds.
     commanded: R,
 }
 
@@ -23,34 +22,35 @@ impl<R: Real> HingeTorque<R> {
         let law = |hinge: &Hinge| HingeLaw::new(&hinge.spring, &hinge.dashpot);
         all.clear();
         let zero = R::zero();
-        let of_law = |law| Self { law, alone: law, stored: zero, commanded: zero };
+        let of_law = |law| Self { law, stored: zero, commanded: zero };
         all.extend(hinges.map(law).map(of_law));
         // Tables come last among the elements of a mode.
         let first = mode.pieces.len() - scene.torque_tables.len();
         for (table, &piece) in scene.torque_tables.iter().zip(&mode.pieces[first..]) {
-            let TablePiece { from, coefficients, stored } = TablePiece::new(table, piece);
-            let torque = &mut all[table.hinge];
-            torque.stored = torque.alone.potential(from) + stored;
-            torque.alone = torque.alone.with_cubic(from, coefficients);
-            torque.law = torque.alone;
+            all[table.hinge].add(TablePiece::new(table, piece));
         }
     }
 
-    /// Holds a commanded torque, as a constant part of the law.
+    /// Adds a piece of the table of the hinge.
+    fn add(&mut self, TablePiece { from, coefficients, stored }: TablePiece<R>) {
+        self.stored = self.law.potential(from) + stored;
+        self.law = self.law.with_cubic(from, coefficients);
+    }
+
+    /// Holds a commanded torque, which is constant.
     pub(super) fn hold(&mut self, commanded: f64) {
         self.commanded = R::constant(commanded);
-        self.law = self.alone.with_constant(self.commanded);
     }
 
     /// Torque at angle `beta` \[rad\] and rate `tau` \[rad/T\]; positive when it increases β.
     #[inline(always)]
     pub fn torque(&self, beta: R, tau: R) -> R {
-        self.law.torque(beta, tau)
+        self.law.torque(beta, tau) + self.commanded
     }
 
     /// The law of all that acts about the hinge in the mode.
-    pub fn law(&self) -> &HingeLaw<R> {
-        &self.law
+    pub fn law(&self) -> HingeLaw<R> {
+        self.law.with_constant(self.commanded)
     }
 
     /// The part of the torque that depends on the rate, and does work no potential accounts for.
@@ -61,7 +61,7 @@ impl<R: Real> HingeTorque<R> {
 
     /// Potential energy of the part that depends on the angle.
     pub fn potential(&self, beta: R) -> R {
-        self.alone.potential(beta) + self.stored - self.commanded * beta
+        self.law.potential(beta) + self.stored - self.commanded * beta
     }
 }
 
@@ -69,5 +69,36 @@ impl HingeTorque<f64> {
     /// Whether the torque depends on the rate.
     pub fn depends_on_rate(&self) -> bool {
         self.law.depends_on_rate()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nboom_model::{Dashpot, Spring, TorqueTable};
+
+    use super::*;
+
+    #[test]
+    fn pieces_of_a_table_meet_beside_a_spring_under_a_command() {
+        let spring = Spring { quadratic: 0.3, linear: -1.7, preload_angle: 0.4 };
+        let points = vec![[-1.0, 2.0], [-0.4, -0.5], [0.2, 3.0], [1.5, 3.5]];
+        let table = TorqueTable { hinge: 0, points };
+        let law = HingeLaw::<f64>::new(&spring, &Dashpot::default());
+        for (k, &[at, _]) in table.points.iter().enumerate() {
+            let [before, after] = [k, k + 1].map(|piece| {
+                let mut torque = HingeTorque { law, stored: 0.0, commanded: 0.0 };
+                torque.add(TablePiece::new(&table, piece));
+                torque.hold(1.3);
+                torque
+            });
+            // Some roundings of numbers below 10.
+            assert!((before.torque(at, 0.0) - after.torque(at, 0.0)).abs() < 1e-13);
+            assert!((before.potential(at) - after.potential(at)).abs() < 1e-13);
+            assert!((before.torque(at, 0.0) - before.law().torque(at, 0.0)).abs() < 1e-13);
+            let h = 1e-5;
+            let slope = (after.potential(at + h) - after.potential(at)) / h;
+            // A one-sided difference errs by h times half the slope of the torque, which is below 20.
+            assert!((slope + after.torque(at, 0.0)).abs() < 1e-3);
+        }
     }
 }

@@ -51,7 +51,7 @@ impl<R: Real> ClosedForm<R> {
         tree: &WeldedTree<f64>,
         formulation: Formulation,
     ) -> Result<Self, NotCovered> {
-        formulation.covers(tree).map_err(|Uncovered::Link(link)| NotCovered::Hinge {
+        formulation.covers(tree).map_err(|Uncovered { link }| NotCovered::Hinge {
             formulation,
             hinge: scene.label(tree.links[link].hinge),
         })?;

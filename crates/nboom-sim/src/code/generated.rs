@@ -92,7 +92,7 @@ pub enum Unmet {
 impl NoRoutine {
     /// Why none fits the tree of a mode of `scene`, which is not made of chains and paddles.
     pub fn of_tree(
-        Uncovered::Link(link): Uncovered,
+        Uncovered { link }: Uncovered,
         scene: &Scene,
         tree: &WeldedTree<f64>,
         form: Option<Form>,
