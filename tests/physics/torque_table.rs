@@ -67,8 +67,8 @@ fn tables_run_by_generated_code_as_by_the_recursion() {
         assert_eq!(generated.0.happenings().len(), generic.0.happenings().len());
         assert!(generated.1.conservation.energy < 1e-10);
         for (a, b) in generated.0.samples.iter().zip(&generic.0.samples) {
-            // Both swing for 12 time units over steep walls, each with errors of its own steps.
-            assert!((a.beta[0] - b.beta[0]).abs() < 1e-8, "{integrator}, {}", a.time);
+            // Both take the same steps and differ by rounding, which each of some fifty walls magnifies.
+            assert!((a.beta[0] - b.beta[0]).abs() < 1e-11, "{integrator}, {}", a.time);
         }
     }
 }

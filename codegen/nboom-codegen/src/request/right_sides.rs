@@ -128,8 +128,9 @@ fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bo
 
 #[cfg(test)]
 mod tests {
+    use nboom_formulation::Formulation;
     use nboom_model::{
-        Body, Hinge, Joint, MassProperties, Mount, SceneDescription, Spring, TorqueTable,
+        Base, Body, Hinge, Joint, MassProperties, Mount, SceneDescription, Spring, TorqueTable,
     };
     use nboom_scalar::{Sym3, Vec3};
 
@@ -158,6 +159,21 @@ mod tests {
         let points = vec![[-1.0, 3.0], [0.5, -1.0], [1.5, 2.0]];
         scene.torque_tables.push(TorqueTable { hinge: 1, points });
         Scene::new(scene).expect("a valid scene")
+    }
+
+    #[test]
+    fn code_for_a_rig_takes_the_wrench_that_holds_the_main_body() {
+        let rig = SceneDescription { base: Base::Fixed, ..(*scene()).clone() };
+        let rig = Scene::new(rig).expect("a valid scene");
+        let requests = Request::of_simulator(&rig, Formulation::Articulated, Level::Fast);
+        let requests = requests.expect("two links");
+        for request in Request::right_sides(&rig, &requests).iter().chain(&requests) {
+            assert!(request.external, "{}", request.name);
+        }
+        for right_side in Request::right_sides(&rig, &requests) {
+            let wrench = RightSideLayout::external(&right_side.topology);
+            assert!(right_side.assumptions[wrench].iter().all(Option::is_none));
+        }
     }
 
     #[test]
