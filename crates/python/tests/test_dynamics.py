@@ -204,9 +204,11 @@ mass = 3.0
 mass_centre = [0.0, 0.5, 0.0]
 inertia = [0.3, 0.02, 0.3]
 tip = [0.0, 1.0, 0.0]
-hinge = {{ axis = "x" }}
+hinge = {{ at = [0.0, 1.0, 0.0], axis = "x" }}
+[run]
+end = 1.0
 """
-DRIVEN = 'drive = { axis = "z", rate = [[0.0, 0.2], [9.0, 2.0]] }'
+DRIVEN = 'drive = { axis = "z", rate_rad = [[0.0, 0.2], [9.0, 2.0]] }'
 
 
 @pytest.mark.parametrize("held", ['base = "fixed"', DRIVEN])
