@@ -80,7 +80,7 @@ const MOST_EQUAL: usize = 4;
 /// eight states at once, too.
 fn right_sides() -> Vec<Request> {
     let mut requests = Vec::new();
-    let is_wanted = |topology: &Topology| topology.groups().iter().all(|&(_, n)| n <= MOST_EQUAL);
+    let is_wanted = |topology: &Topology| topology.groups().all(|(_, n)| n <= MOST_EQUAL);
     for topology in stock().filter(is_wanted) {
         let has_few = topology.hinges() <= FEW_HINGES;
         for principal in [true, false] {

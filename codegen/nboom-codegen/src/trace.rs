@@ -60,11 +60,10 @@ impl Equations {
             let straight = straight.ok_or(CodegenError::Lines { topology, limit })?;
             return Ok(Self::Straight(straight));
         }
-        let side_by_side =
-            request.topology.groups().into_iter().any(|(shape, count)| match shape {
-                Shape::Chain(_) | Shape::Paddle => count >= PACK,
-                Shape::Limb(_) => count >= PAIR,
-            });
+        let side_by_side = request.topology.groups().any(|(shape, count)| match shape {
+            Shape::Chain(_) | Shape::Paddle => count >= PACK,
+            Shape::Limb(_) => count >= PAIR,
+        });
         let straight = (request.topology.hinges() <= STRAIGHT_HINGES && !side_by_side)
             .then(straight)
             .filter(is_short);

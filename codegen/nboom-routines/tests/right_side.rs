@@ -187,7 +187,7 @@ fn stock_right_sides_agree_with_the_equations_in_this_processors_code() {
     let topologies: std::collections::BTreeSet<&str> = stock.iter().map(|k| k.topology).collect();
     let has_few_equal = |name: &&str| {
         let topology: Topology = name.parse().expect("a topology's name");
-        topology.groups().iter().all(|&(_, count)| count <= 4)
+        topology.groups().all(|(_, count)| count <= 4)
     };
     let of_accelerations = nboom_routines::all().iter().map(|kernel| kernel.topology);
     let of_accelerations = of_accelerations.filter(has_few_equal).collect();

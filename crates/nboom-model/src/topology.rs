@@ -67,15 +67,8 @@ impl Topology {
     }
 
     /// Runs of equal shapes with their lengths, in canonical order.
-    pub fn groups(&self) -> Vec<(Shape, usize)> {
-        let mut groups: Vec<(Shape, usize)> = Vec::new();
-        for &shape in &self.shapes {
-            match groups.last_mut() {
-                Some((last, count)) if *last == shape => *count += 1,
-                _ => groups.push((shape, 1)),
-            }
-        }
-        groups
+    pub fn groups(&self) -> impl Iterator<Item = (Shape, usize)> {
+        self.shapes.chunk_by(|a, b| a == b).map(|equal| (equal[0], equal.len()))
     }
 }
 
@@ -85,7 +78,7 @@ impl fmt::Display for Topology {
         if self.shapes.is_empty() {
             return write!(f, "M");
         }
-        for (i, (shape, count)) in self.groups().into_iter().enumerate() {
+        for (i, (shape, count)) in self.groups().enumerate() {
             let separator = if i > 0 { "_" } else { "" };
             let times = if count > 1 { format!("{count}x") } else { String::new() };
             match shape {

@@ -153,6 +153,11 @@ impl Equations {
         change_mode(entered, others, (satellite, start), commands, angle);
     }
 
+    /// Whether `mode` is the one that was entered.
+    pub fn is_in(&self, mode: &Mode) -> bool {
+        self.entered.mode == *mode
+    }
+
     /// Goes on from `state` in `mode`, under the commands; writes the variables to `y`.
     pub fn enter(&mut self, mode: &Mode, state: &mut State, y: &mut Vec<f64>) {
         let Self { entered, others, satellite, commands, own, .. } = self;

@@ -169,7 +169,11 @@ impl<'a> Run<'a> {
         self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let (time, is_first) = (state.time, state.time <= scene.initial.time);
-        self.equations.enter(mode, state, self.variables);
+        // A run begins in its first mode, mostly to stay there.
+        let goes_on = is_first && outcome.events.is_empty() && self.equations.is_in(mode);
+        if !goes_on {
+            self.equations.enter(mode, state, self.variables);
+        }
         let has_momenta = self.equations.variables.layout.has_momenta();
         if has_momenta || !outcome.events.is_empty() {
             self.invariants = None;

@@ -134,7 +134,7 @@ fn is_pushed(scene: &Scene) -> bool {
 
 /// Links of limbs that are not equal to others.
 fn limb_links(topology: &Topology) -> usize {
-    let groups = topology.groups().into_iter();
+    let groups = topology.groups();
     let limbs = groups.filter(|(shape, _)| matches!(shape, Shape::Limb(_)));
     limbs.map(|(shape, _)| shape.hinges()).sum()
 }

@@ -26,11 +26,10 @@ pub struct Fit {
 /// Straight lines take the hinges one after the other. Loops take equal appendages side by side,
 /// as many as a register holds; so do straight lines for equal limbs.
 fn duration(topology: &Topology, instructions: &str) -> usize {
-    let groups = topology.groups();
     let is_limb = |shape: &Shape| matches!(shape, Shape::Limb(_));
     let side_by_side =
-        |(shape, count): &(Shape, usize)| *count >= if is_limb(shape) { 2 } else { 4 };
-    if topology.hinges() <= 16 && !groups.iter().any(side_by_side) {
+        |(shape, count): (Shape, usize)| count >= if is_limb(&shape) { 2 } else { 4 };
+    if topology.hinges() <= 16 && !topology.groups().any(side_by_side) {
         return 20 + 36 * topology.hinges();
     }
     let widest = match instructions {
@@ -47,7 +46,7 @@ fn duration(topology: &Topology, instructions: &str) -> usize {
         "avx2" => 60 * (count / 4) + 50 * (count % 4),
         _ => 50 * count,
     };
-    let sweeps = groups.into_iter().map(|(shape, count)| {
+    let sweeps = topology.groups().map(|(shape, count)| {
         shape.hinges() * if is_limb(&shape) { limb_link(count) } else { link(count) }
     });
     45 + sweeps.sum::<usize>()

@@ -108,7 +108,7 @@ impl RightSides {
     /// Whether `eight` may have a [lane](Self::write_to) for this scene.
     pub fn are_like(&self, eight: &RightSide<Eight>) -> bool {
         let is_same = |batch: &Batch| batch.is_of_same_routine(&eight.routine);
-        self.of_one.hinges == eight.hinges && self.batch.as_ref().is_some_and(is_same)
+        self.of_one.hinges.iter().eq(&eight.hinges) && self.batch.as_ref().is_some_and(is_same)
     }
 
     /// Makes a lane of `eight`, which is [like](Self::are_like) this one, that of this scene.
