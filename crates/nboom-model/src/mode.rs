@@ -24,11 +24,12 @@ impl PartialEq for Mode {
         // Most lists are empty. Compared as memory, an empty one may cost hundreds of cycles: a masked load
         // from where nothing is.
         let are_same = |a: &[usize], b: &[usize]| a.iter().eq(b);
-        self.drive == other.drive
-            && self.hinges == other.hinges
-            && are_same(&self.pieces, &other.pieces)
-            && are_same(&self.externals, &other.externals)
-            && are_same(&self.rotors, &other.rotors)
+        let Self { hinges, pieces, externals, drive, rotors } = self;
+        *drive == other.drive
+            && *hinges == other.hinges
+            && are_same(pieces, &other.pieces)
+            && are_same(externals, &other.externals)
+            && are_same(rotors, &other.rotors)
     }
 }
 
@@ -47,5 +48,30 @@ impl Mode {
     /// Whether hinge `i` turns.
     pub fn is_free(&self, i: usize) -> bool {
         self.hinges[i] == HingeState::Free
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_that_differ_in_one_thing_differ() {
+        let mode = Mode {
+            hinges: vec![HingeState::Free, HingeState::Locked],
+            pieces: vec![0, 1],
+            externals: vec![2],
+            drive: 1,
+            rotors: vec![3],
+        };
+        assert_eq!(mode, mode.clone());
+        let others = [
+            Mode { hinges: vec![HingeState::Locked; 2], ..mode.clone() },
+            Mode { pieces: vec![0, 2], ..mode.clone() },
+            Mode { externals: vec![2, 0], ..mode.clone() },
+            Mode { drive: 0, ..mode.clone() },
+            Mode { rotors: Vec::new(), ..mode.clone() },
+        ];
+        assert!(others.iter().all(|other| *other != mode && mode != *other));
     }
 }

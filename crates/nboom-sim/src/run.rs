@@ -169,7 +169,7 @@ impl<'a> Run<'a> {
         self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let (time, is_first) = (state.time, state.time <= scene.initial.time);
-        // A run begins in its first mode, mostly to stay there.
+        // The mode in which a run begins is entered already.
         let goes_on = is_first && outcome.events.is_empty() && self.equations.is_in(mode);
         if !goes_on {
             self.equations.enter(mode, state, self.variables);
