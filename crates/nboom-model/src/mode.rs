@@ -72,6 +72,6 @@ mod tests {
             Mode { drive: 0, ..mode.clone() },
             Mode { rotors: Vec::new(), ..mode.clone() },
         ];
-        assert!(others.iter().all(|other| *other != mode && mode != *other));
+        assert!(others.iter().all(|other| *other != mode));
     }
 }
