@@ -2,10 +2,10 @@ use std::ops::Range;
 
 use collocation::Collocation;
 use control::{
-    CLEARLY, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, TELLING, error_of_end,
-    factor,
+    CLEARLY, History, Iteration, MOST, MOST_RETAKEN, Progress, REFUSED, TELLING, factor,
 };
 use dense::{Dense, Taken};
+use end_errors::EndErrors;
 use end_slopes::EndSlopes;
 use nboom_scalar::Eight;
 use stages::{Stages, Start};
@@ -17,6 +17,7 @@ use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Wi
 mod collocation;
 mod control;
 mod dense;
+mod end_errors;
 mod end_slopes;
 mod stages;
 
@@ -161,19 +162,15 @@ impl GaussLanes {
         }
     }
 
+    fn end_errors(&self) -> EndErrors<'_> {
+        let Self { collocation, window, per_tolerance, stages: Stages { slopes, .. }, .. } = self;
+        EndErrors { last_terms: &collocation.last_terms, slopes, window, per_tolerance }
+    }
+
     /// Mean error of the step, in units of the tolerance.
     fn error(&self) -> f64 {
         let controlled = &self.stages.variables.evaluated[..self.count];
-        let sum: f64 = controlled.iter().map(|&i| self.error_at_end(i)).sum();
-        sum / self.count.max(1) as f64
-    }
-
-    /// Error of an evaluated variable, in units of the tolerance.
-    fn error_at_end(&self, i: usize) -> f64 {
-        let slopes = &self.stages.slopes[i];
-        let terms = self.collocation.last_terms.map(|row| row.dot(slopes));
-        let magnitude = self.window.sizes[i] + self.window.state[i].abs();
-        error_of_end(terms, magnitude, self.per_tolerance[i])
+        self.end_errors().sum(controlled) / self.count.max(1) as f64
     }
 
     /// Tries a step; returns its error or, if that is too large, by how much the step should be
@@ -184,15 +181,24 @@ impl GaussLanes {
         }
         let error = self.error();
         if error.is_nan() || error > REFUSED {
+            if error.is_finite() {
+                // The shorter step lies inside its polynomial, and beyond that of the step before.
+                self.remember(step);
+            }
             return Err(factor(error).min(SHORTER));
         }
         Ok(error)
     }
 
-    /// Ends the step where the slopes lead.
-    fn keep(&mut self, step: f64) {
+    /// Keeps the polynomial of a step that starts where the present one does.
+    fn remember(&mut self, step: f64) {
         self.known.copy_from_slice(&self.stages.slopes);
         self.curve = Curve { length: step, from: 0.0 };
+    }
+
+    /// Ends the step where the slopes lead.
+    fn keep(&mut self, step: f64) {
+        self.remember(step);
         let Self { collocation, window, stages, lost, end_lost, known, .. } = self;
         for &i in &stages.variables.evaluated {
             let increment = lost[i] + collocation.weights.dot(&known[i]);
@@ -260,7 +266,8 @@ impl GaussLanes {
         if let Some(variable) = derivative.iter().position(|slope| !slope.is_finite()) {
             return StepError::NotFinite { time, variable };
         }
-        let larger = |&a: &usize, &b: &usize| self.error_at_end(a).total_cmp(&self.error_at_end(b));
+        let errors = self.end_errors();
+        let larger = |&a: &usize, &b: &usize| errors.of(a).total_cmp(&errors.of(b));
         let evaluated = &self.stages.variables.evaluated[..self.count];
         let variable = evaluated.iter().copied().max_by(larger).unwrap_or(0);
         StepError::Underflow { time, step, variable }
@@ -375,7 +382,7 @@ impl Stepper for GaussLanes {
     }
 
     fn error_of(&self, i: usize) -> f64 {
-        self.error_at_end(i) / self.iteration.step
+        self.end_errors().of(i) / self.iteration.step
     }
 
     fn choice(&self) -> Choice {

@@ -16,7 +16,7 @@ impl Eight {
     }
 
     /// The sum of products, halves added to halves.
-    #[inline]
+    #[inline(always)]
     pub fn dot(&self, other: &Self) -> f64 {
         let products: [f64; 8] = std::array::from_fn(|i| self.0[i] * other.0[i]);
         let pairs: [f64; 4] = std::array::from_fn(|i| products[i] + products[i + 4]);

@@ -11,7 +11,7 @@ const SLOW: f64 = 0.7;
 /// Contraction at which methods without iterations, or with Newton's, are cheaper.
 const RATHER_SLOW: f64 = 0.2;
 /// Error that the iteration leaves, in units of the tolerance; what is left of all steps adds up.
-const CONVERGED: f64 = 0.015;
+const CONVERGED: f64 = 0.005;
 
 /// The fixed-point iteration of a step.
 #[derive(Clone, Copy, Debug)]
@@ -86,13 +86,13 @@ impl Iteration {
 
 /// How much the error of a step may exceed the tolerance before it is tried again. As it goes with
 /// the sixteenth power of the step, a little too much is cheaper than another try.
-pub(super) const REFUSED: f64 = 20.0;
+pub(super) const REFUSED: f64 = 30.0;
 /// After so many iterations the error is known well enough to refuse a step that exceeds what is refused
 /// by this factor.
 pub(super) const TELLING: usize = 4;
-pub(super) const CLEARLY: f64 = 4.0;
+pub(super) const CLEARLY: f64 = 2.0;
 /// The share of the step that would just do.
-const SAFETY: f64 = 0.9;
+const SAFETY: f64 = 0.92;
 /// Limits of the change of step size, in general and in the first steps from a start.
 const SHRINK: f64 = 0.4;
 const GROW: f64 = 1.6;
@@ -156,18 +156,3 @@ impl History {
 const ACCURATE: f64 = 1.333_521_432_163_324;
 /// Errors below this tell nothing about the next one.
 const SMALL: f64 = 1e-8;
-
-/// Error of a step in units of the tolerance, whose last two Legendre coefficients of h u̇ are these,
-/// for a variable of this magnitude.
-///
-/// The end errs by about the square of the polynomial's error. The last coefficient tells that but
-/// where it happens to vanish: coefficients fall by about seven from one to the next.
-pub(super) fn error_of_end(last_terms: [f64; 2], magnitude: f64, per_tolerance: f64) -> f64 {
-    let [last, before] = last_terms;
-    let square = last * last + before * before / (FALL * FALL);
-    square * per_tolerance / (SHARE * magnitude)
-}
-
-const FALL: f64 = 7.0;
-/// Set by trials, so that errors inside steps are within about ten tolerances.
-const SHARE: f64 = 0.0065;
