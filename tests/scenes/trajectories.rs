@@ -1,6 +1,7 @@
 //! Every reference run, from JSON and from its deck, within the limits that are promised.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use nboom::model::Scene;
 use nboom::scalar::{Batch, Isa, Kernel, Real, Routine};
@@ -168,6 +169,20 @@ fn stages_go_side_by_side_by_default_where_code_takes_eight_states() {
     };
     assert!(methods(nboom_routines::right_sides_of_eight()).contains(&Method::GaussLanes));
     assert!(!methods(&[]).contains(&Method::GaussLanes));
+}
+
+/// A few rounds more for a smaller error do not make them look slow.
+#[test]
+fn stages_go_side_by_side_to_the_end_of_a_smooth_motion() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/scenes/top.nml");
+    let top = nboom::io::read_scene(&path).expect("a free body").scene;
+    for rtol in [1e-8, 1e-9] {
+        let (kernels, batches) =
+            (nboom_routines::for_runs(), nboom_routines::right_sides_of_eight());
+        let (_, summary) = run(&top, &Options { kernels, batches, rtol, atol: rtol, ..tight(20) });
+        let methods: Vec<_> = summary.integrations.iter().map(|i| i.choice.method).collect();
+        assert_eq!(methods, [Method::Dop853, Method::GaussLanes], "{rtol:e}");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::gauss::coefficients::STAGES;
 pub(super) const MOST: usize = 16;
 pub(super) const MOST_RETAKEN: usize = 60;
 /// Iterations that cost more than a shorter step would.
-const MANY: usize = 9;
+const MANY: usize = 10;
 /// Contraction at which a step is tried shorter.
 const SLOW: f64 = 0.7;
 /// Contraction at which methods without iterations, or with Newton's, are cheaper.
