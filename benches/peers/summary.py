@@ -140,26 +140,31 @@ def main():
         sys.exit("usage: summary.py DIR")
     directory = Path(sys.argv[1])
     read = lambda name: (directory / name).read_text().rstrip()
+    has = lambda name: (directory / name).exists()
     conditions = read("conditions.txt")
     date = re.search(r"date: (\S+)", conditions)[1]
-    special, general = evaluations(directory)
-    times, ratios = whole_run_tables(directory)
-    ratios_of_holding = [line for line in read("free_hinges.txt").splitlines() if "claim" in line]
-    print(f"# Evaluations and whole runs beside peers, {date}\n")
+    whole = "Whole runs" if not has("evaluations.txt") else "Evaluations and whole runs"
+    print(f"# {whole} beside peers, {date}\n")
     print("By `benches/peers/dated_run`, one thread, peers and ours in turns.\n")
     print(f"```text\n{conditions}\n```\n")
-    print("## Evaluations\n\nAll lines are in [evaluations.txt](evaluations.txt).\n")
-    print(special)
-    print("The kernels by hand with numbers at run time are for bodies of any shape:\n")
-    print(general)
+    if has("evaluations.txt"):
+        special, general = evaluations(directory)
+        print("## Evaluations\n\nAll lines are in [evaluations.txt](evaluations.txt).\n")
+        print(special)
+        print("The kernels by hand with numbers at run time are for bodies of any shape:\n")
+        print(general)
+    times, ratios = whole_run_tables(directory)
     print("## Whole runs, on T1_smooth\n")
     print("All lines of both rounds are in [whole-runs.txt](whole-runs.txt). The error of all is that of")
     print("the peers: the largest difference of any variable at the end over the largest variable.\n")
     print(times)
     print(ratios)
-    print(f"## What features cost\n\n```text\n{read('features.txt')}\n```\n")
-    print("## Held hinges\n\nAll lines are in [free_hinges.txt](free_hinges.txt).\n")
-    print("```text\n" + "\n".join(ratios_of_holding) + "\n```")
+    if has("features.txt"):
+        print(f"## What features cost\n\n```text\n{read('features.txt')}\n```\n")
+    if has("free_hinges.txt"):
+        lines = [line for line in read("free_hinges.txt").splitlines() if "claim" in line]
+        print("## Held hinges\n\nAll lines are in [free_hinges.txt](free_hinges.txt).\n")
+        print("```text\n" + "\n".join(lines) + "\n```")
 
 
 if __name__ == "__main__":
