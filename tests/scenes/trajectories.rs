@@ -171,7 +171,7 @@ fn stages_go_side_by_side_by_default_where_code_takes_eight_states() {
     assert!(!methods(&[]).contains(&Method::GaussLanes));
 }
 
-/// A few rounds more for a smaller error do not make them look slow.
+/// Rounds of a free body that are many, but converge well, do not look slow.
 #[test]
 fn stages_go_side_by_side_to_the_end_of_a_smooth_motion() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/scenes/top.nml");

@@ -12,6 +12,7 @@ pub(super) struct EndErrors<'a> {
     pub last_terms: &'a [Eight; 2],
     /// K.
     pub slopes: &'a [Eight],
+    /// The step, which knows the variables and their natural sizes.
     pub window: &'a Window,
     /// One over the error allowed.
     pub per_tolerance: &'a [f64],
