@@ -2,6 +2,7 @@
 
 mod faults;
 mod keys;
+mod overlap;
 mod reader;
 mod vary;
 
@@ -88,17 +89,17 @@ impl<'t> Reader<'t> {
         let document = if expanded { document.expanded()? } else { document };
         let nominal = document.scene(&[])?;
         self.check_end(root, &run, &nominal);
-        let variables: Vec<_> = self
-            .tables(root, "vary")
+        let varied = self.tables(root, "vary");
+        let variables: Vec<_> = varied
             .iter()
             .map(|of| (self.variable(of, &document, method), of.place_of("name")))
             .collect();
+        self.check_overlaps(&varied, &variables, &document);
         let names: Vec<String> =
             variables.iter().flat_map(|(of, _)| of).map(|of| of.name.clone()).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let pairs = self.tables(root, "correlation");
-        let correlations: Vec<_> =
-            pairs.iter().filter_map(|of| self.correlation(of, method, &names)).collect();
+        let correlations = self.correlations(&pairs, method, &names);
         let tables = self.tables(root, "fault");
         let faults: Vec<Fault> =
             tables.iter().filter_map(|of| self.fault(of, &document, &nominal)).collect();

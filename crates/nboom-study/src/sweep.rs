@@ -112,11 +112,15 @@ impl Study {
 
 /// About how many output times a case has.
 fn samples(study: &Study) -> u64 {
-    let of_scene = match &study.nominal.settings.sampling {
-        Some(Sampling::Uniform(samples)) => Some(*samples),
-        Some(Sampling::At(times)) => Some(times.len()),
-        Some(Sampling::Every(_)) | None => None,
+    let scene = &study.nominal.scene;
+    let of_scene = || match study.nominal.settings.sampling.as_ref()? {
+        Sampling::Uniform(samples) => Some(*samples),
+        times => {
+            let end_time = study.run.end_time.unwrap_or(scene.end_time);
+            // Those of a case that has too many are refused, case by case.
+            times.times([scene.initial.time, end_time]).ok().flatten().map(|times| times.len() + 1)
+        }
     };
-    let samples = study.run.samples.or(of_scene).unwrap_or(study.run.options().samples);
+    let samples = study.run.samples.or_else(of_scene).unwrap_or(study.run.options().samples);
     samples as u64 + 1
 }

@@ -182,6 +182,33 @@ fn what_is_wrong_is_told_with_its_line() {
         ("stuck = [\"1,2\"]", "stuck = [\"1,3\"]", 42, "by the name of its body or by its numbers"),
         ("name = \"late\"", "name = \"stuck\"", 35, "each name once"),
         ("scene = \"scene.toml\"\n", "", 1, "a text"),
+        ("main_body.mass", "parameters.k", 27, "a number that `k` changes too"),
+        (
+            "path = \"main_body.mass\"",
+            "path = \"body.boom.hinge.spring.stiffness\"\nas = \"factor\"",
+            27,
+            "a number that `k` changes too",
+        ),
+        (
+            "coefficient = -0.4",
+            "coefficient = -0.4\n[[correlation]]\nbetween = [\"body_tip_mass\", \"k\"]\ncoefficient = 0.4",
+            35,
+            "each pair once",
+        ),
+        ("failed_latch = [\"boom\"]", "failed_latch = [\"tip\"]", 44, "hinges with latch"),
+        ("broken_spring = [\"boom\"]", "broken_spring = [\"1,2\"]", 45, "hinges with spring"),
+        (
+            "stuck = [\"1,2\"]\nmissed_release = [\"boom\"]\nfailed_latch = [\"boom\"]\nbroken_spring = [\"boom\"]",
+            "",
+            40,
+            "nothing that is broken",
+        ),
+        (
+            "offset = 0.1 }",
+            "offset = 0.1 }, { path = \"body.tip.mass\", factor = 2.0 }",
+            38,
+            "each number in one change",
+        ),
     ] {
         assert!(STUDY.contains(from), "{from}");
         let text = STUDY.replacen(from, to, 1);

@@ -1,14 +1,19 @@
 //! What may be broken.
 
 use nboom_io::{SceneDocument, SceneFile, nearest};
-use nboom_model::{HingeState, Scene};
+use nboom_model::{HingeState, Scene, Spring};
 
+use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, quoted};
 use super::vary::relation;
 use crate::study::{Change, Fault, LateRelease};
 
 /// Ways in which a number of a fault can change one of the scene.
 const WAYS: [&str; 3] = ["value", "factor", "offset"];
+
+/// Keys of what a fault breaks.
+const BREAKS: [&str; 6] =
+    ["stuck", "missed_release", "late_release", "failed_latch", "broken_spring", "change"];
 
 impl<'t> Reader<'t> {
     /// A fault of a scene.
@@ -32,6 +37,23 @@ impl<'t> Reader<'t> {
         for &i in &missed_release {
             let start = nominal.scene.bodies[i].hinge.start.state;
             self.require_unreleased(of, "missed_release", start);
+        }
+        let hinge = |i: usize| &nominal.scene.bodies[i].hinge;
+        let has_no_latch = |&i: &usize| hinge(i).lock_angle.is_none();
+        let has_no_spring =
+            |&i: &usize| hinge(i).spring == Spring::default() && hinge(i).kick_off.is_none();
+        for (key, missing, what) in [
+            ("failed_latch", failed_latch.iter().any(has_no_latch), "latch"),
+            ("broken_spring", broken_spring.iter().any(has_no_spring), "spring or kick-off spring"),
+        ] {
+            if missing {
+                let (found, expected) =
+                    (format!("a hinge without {what}"), format!("hinges with {what}"));
+                self.error(&of.place_of(key), key, found, expected);
+            }
+        }
+        if !BREAKS.into_iter().any(|key| of.has(key)) {
+            self.error(&of.place(), "fault", "nothing that is broken", BREAKS.join(", or "));
         }
         let name = name.value.to_owned();
         let fault = Fault {
@@ -107,7 +129,7 @@ impl<'t> Reader<'t> {
     }
 
     fn changes(&mut self, of: &Fields<'t>, document: &SceneDocument) -> Vec<Change> {
-        let mut found = Vec::new();
+        let (mut found, mut places) = (Vec::new(), Vec::new());
         for inner in self.tables(of, "change") {
             let path = self.text(&inner, "path");
             let slot = path.and_then(|path| self.slot(document, &path));
@@ -120,7 +142,16 @@ impl<'t> Reader<'t> {
             let number = self.number(&inner, way);
             if let (Some(slot), Some(number)) = (slot, number) {
                 found.push(Change { slot, relation: relation(way), number: number.value });
+                places.push(inner.place_of("path"));
             }
+        }
+        let changed = found.iter().map(|Change { slot, relation, .. }| Changed {
+            slots: std::slice::from_ref(slot),
+            relation: *relation,
+        });
+        for [later, _] in overlaps(document, &changed.collect::<Vec<_>>()) {
+            let found = "a number that the fault changes before";
+            self.error(&places[later], "path", found, "each number in one change");
         }
         found
     }

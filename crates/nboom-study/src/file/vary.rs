@@ -1,7 +1,10 @@
 //! What varies, and together with what.
 
+use std::ops::Range;
+
 use nboom_io::{SceneDocument, Slot, nearest};
 
+use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, quoted};
 use crate::distribution::{Distribution, Unfit};
 use crate::study::{Correlation, Method, Relation, Variable};
@@ -147,7 +150,56 @@ impl<'t> Reader<'t> {
         })
     }
 
-    pub fn correlation(
+    /// Reports variables of which one would undo what another does.
+    pub fn check_overlaps(
+        &mut self,
+        tables: &[Fields<'t>],
+        variables: &[(Option<Variable>, Range<usize>)],
+        document: &SceneDocument,
+    ) {
+        let known = tables
+            .iter()
+            .zip(variables)
+            .filter_map(|(of, (variable, _))| variable.as_ref().map(|variable| (of, variable)));
+        let known: Vec<_> = known.collect();
+        let changed: Vec<_> = known
+            .iter()
+            .map(|(_, variable)| Changed { slots: &variable.slots, relation: variable.relation })
+            .collect();
+        for [later, earlier] in overlaps(document, &changed) {
+            let (of, key) =
+                (known[later].0, if known[later].0.has("path") { "path" } else { "paths" });
+            let found = format!("a number that {} changes too", quoted(&known[earlier].1.name));
+            self.error(&of.place_of(key), key, found, "each number in one table");
+        }
+    }
+
+    /// Correlations, of each pair one.
+    pub fn correlations(
+        &mut self,
+        tables: &[Fields<'t>],
+        method: Method,
+        names: &[&str],
+    ) -> Vec<Correlation> {
+        let mut all: Vec<Correlation> = Vec::new();
+        for of in tables {
+            let Some(found) = self.correlation(of, method, names) else { continue };
+            let [a, b] = found.between;
+            if all.iter().any(|known| [[a, b], [b, a]].contains(&known.between)) {
+                let place = of.place_of("between");
+                self.error(
+                    &place,
+                    "between",
+                    "a pair that is correlated already",
+                    "each pair once",
+                );
+            }
+            all.push(found);
+        }
+        all
+    }
+
+    fn correlation(
         &mut self,
         of: &Fields<'t>,
         method: Method,
