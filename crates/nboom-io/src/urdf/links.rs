@@ -12,6 +12,8 @@ use crate::scene::suggest;
 
 /// A robot as written.
 pub(super) struct Robot<'d> {
+    /// The byte at which it begins.
+    pub at: usize,
     pub name: Option<&'d str>,
     pub links: Vec<Link<'d>>,
     pub joints: Vec<JointElement<'d>>,
@@ -57,6 +59,8 @@ pub(super) enum Motion {
 const TYPES: [&str; 5] = ["revolute", "continuous", "prismatic", "fixed", "floating"];
 /// Parts of a joint that are read, some of them only to be named.
 const OF_JOINTS: [&str; 7] = ["origin", "parent", "child", "axis", "dynamics", "limit", "mimic"];
+/// Parts of an `inertial`.
+const OF_INERTIALS: [&str; 3] = ["origin", "mass", "inertia"];
 
 impl<'d> Robot<'d> {
     /// Reads all links and joints; those that are wrong are reported.
@@ -67,7 +71,9 @@ impl<'d> Robot<'d> {
             reader.error(root, "robot", &found, "the root element `robot` of URDF");
             return None;
         }
+        reader.check_attributes(root);
         let mut robot = Self {
+            at: root.range().start,
             name: root.attribute("name").filter(|name| !name.trim().is_empty()),
             links: Vec::new(),
             joints: Vec::new(),
@@ -92,17 +98,26 @@ impl<'d> Robot<'d> {
     }
 
     fn read_link(&mut self, node: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
+        reader.check_attributes(node);
         let (name, at) = (reader.text(node, "name"), node.range().start);
         let body = reader.inertial(node);
         for part in node.children().filter(Node::is_element) {
             if !part.has_tag_name("inertial") {
                 self.left_out.element(part.tag_name().name(), part.range().start);
+                continue;
+            }
+            for part in part.children().filter(Node::is_element) {
+                let tag = part.tag_name().name();
+                if !OF_INERTIALS.contains(&tag) {
+                    self.left_out.element(tag, part.range().start);
+                }
             }
         }
         self.links.extend(name.map(|name| Link { name, at, body }));
     }
 
     fn read_joint(&mut self, node: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
+        reader.check_attributes(node);
         let (name, at) = (reader.text(node, "name"), node.range().start);
         let [parent, child] = ["parent", "child"].map(|tag| {
             let end = reader.child(node, tag);
@@ -144,7 +159,10 @@ fn motion<'d>(node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) -
     match reader.text(node, "type")? {
         kind @ ("revolute" | "continuous" | "prismatic") => {
             let axis = reader.child(node, "axis");
-            let components = axis.and_then(|axis| reader.numbers(axis, "xyz"));
+            let components = axis.and_then(|axis| {
+                reader.text(axis, "xyz")?;
+                reader.numbers(axis, "xyz")
+            });
             let [x, y, z] = components.unwrap_or([1.0, 0.0, 0.0]);
             let Some(unit) = unit_vector(Vec3::new(x, y, z)) else {
                 let at = axis.unwrap_or(node);

@@ -1,5 +1,6 @@
 //! Robots in URDF: text to links and joints to a scene.
 
+mod attributes;
 mod left_out;
 mod lines;
 mod links;

@@ -54,12 +54,15 @@ impl<'d> Reader<'_, 'd, '_> {
         self.report.error(self.lines.position(at), symbol, found, expected);
     }
 
-    /// The child of this tag; a second one is an error.
+    /// The child of this tag, with attributes that it has; a second one is an error.
     pub fn child(&mut self, node: Node<'d, 'd>, tag: &str) -> Option<Node<'d, 'd>> {
         let mut children = node.children().filter(|child| child.has_tag_name(tag));
         let first = children.next();
         if let Some(second) = children.next() {
             self.error(second, tag, &format!("a second `{tag}`"), "one");
+        }
+        if let Some(first) = first {
+            self.check_attributes(first);
         }
         first
     }

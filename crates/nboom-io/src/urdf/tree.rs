@@ -49,6 +49,8 @@ pub(super) fn assemble(
 /// Which joints each link carries.
 struct Outboard {
     joints: Vec<Vec<usize>>,
+    /// The link inboard of each joint.
+    parent: Vec<usize>,
     /// The link outboard of each joint.
     child: Vec<usize>,
     /// The joint that carries each link.
@@ -75,6 +77,7 @@ impl Outboard {
         let links = robot.links.len();
         let mut found = Self {
             joints: vec![Vec::new(); links],
+            parent: Vec::new(),
             child: Vec::new(),
             carried_by: vec![None; links],
         };
@@ -93,6 +96,7 @@ impl Outboard {
                 reader.error_at(joint.at, "child", found, "a link that no joint carries: a tree");
             }
             found.joints[parent].push(j);
+            found.parent.push(parent);
             found.child.push(child);
         }
         reader.report.errors.is_empty().then_some(found)
@@ -100,20 +104,28 @@ impl Outboard {
 
     /// The link that no joint carries; of a root without mass that carries one floating link, this one.
     fn root(&self, robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) -> Option<usize> {
+        if robot.links.is_empty() {
+            reader.error_at(robot.at, "robot", "no link", "at least one");
+            return None;
+        }
         let carried = |i: &usize| self.carried_by[*i].is_some();
         let mut roots = (0..robot.links.len()).filter(|i| !carried(i));
         let Some(mut root) = roots.next() else {
-            let at = robot.joints.first().map_or(0, |joint| joint.at);
-            reader.error_at(at, "robot", "joints in a circle", "a root, which no joint carries");
+            self.report_circle(robot, reader);
             return None;
         };
         for other in roots {
+            let carries = !self.joints[other].is_empty();
             let [first, other] = [root, other].map(|i| &robot.links[i]);
-            let found = format!("link {} on no joint", quoted(other.name));
+            let found = if carries {
+                format!("a second root, link {}", quoted(other.name))
+            } else {
+                format!("link {} on no joint", quoted(other.name))
+            };
             let expected = format!("joints to all links but the root, {}", quoted(first.name));
             reader.error_at(other.at, "link", found, expected);
         }
-        self.report_circles(robot, root, reader);
+        self.report_circle(robot, reader);
         while let [joint] = self.joints[root][..]
             && matches!(robot.joints[joint].motion, Motion::Floats)
             && robot.links[root].body.is_none()
@@ -123,20 +135,38 @@ impl Outboard {
         reader.report.errors.is_empty().then_some(root)
     }
 
-    /// Every link is carried by one joint at most, so what the roots do not lead to hangs on itself.
-    fn report_circles(&self, robot: &Robot<'_>, root: usize, reader: &mut Reader<'_, '_, '_>) {
+    /// Every link is carried by one joint at most, so what the roots do not lead to hangs on a circle.
+    fn report_circle(&self, robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) {
         let mut seen = vec![false; robot.links.len()];
         let mut next: Vec<usize> =
-            (0..seen.len()).filter(|&i| i == root || self.carried_by[i].is_none()).collect();
+            (0..seen.len()).filter(|&i| self.carried_by[i].is_none()).collect();
         while let Some(link) = next.pop() {
             seen[link] = true;
             next.extend(self.joints[link].iter().map(|&joint| self.child[joint]));
         }
-        if let Some(link) = seen.iter().position(|seen| !seen) {
-            let link = &robot.links[link];
-            let found = format!("link {} in a circle of joints", quoted(link.name));
-            reader.error_at(link.at, "link", found, "a way to the root");
+        let Some(link) = seen.iter().position(|seen| !seen) else { return };
+        if let Some(joint) = self.circle_inboard(link).into_iter().min() {
+            let joint = &robot.joints[joint];
+            let found = format!("joint {} in a circle of joints", quoted(joint.name));
+            reader.error_at(joint.at, "joint", found, "a tree, whose root no joint carries");
         }
+    }
+
+    /// The joints of the circle on which a link hangs, or none.
+    fn circle_inboard(&self, link: usize) -> Vec<usize> {
+        let mut way = Vec::new();
+        let mut passed = vec![false; self.carried_by.len()];
+        let mut link = link;
+        while let Some(joint) = self.carried_by[link] {
+            if std::mem::replace(&mut passed[link], true) {
+                // The way to this link, which may hang beside the circle, is no part of it.
+                let start = way.iter().position(|&joint| self.child[joint] == link);
+                return way.split_off(start.unwrap_or_default());
+            }
+            way.push(joint);
+            link = self.parent[joint];
+        }
+        Vec::new()
     }
 }
 

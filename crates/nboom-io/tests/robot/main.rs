@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod public;
 mod robustness;
 mod rules;
 mod wrong;

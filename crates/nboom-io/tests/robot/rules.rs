@@ -106,3 +106,26 @@ fn what_is_left_out_is_named() {
         assert!(told.contains(&expected), "{told:?}");
     }
 }
+
+#[test]
+fn attributes_of_other_programs_are_no_errors() {
+    let parts = "<origin/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" jerk=\"2\"/>\
+                 <dynamics damping=\"0.7\" friction=\"0\" D=\"1\" K=\"2\" mu_coulomb=\"0\" mu_viscous=\"3\"/>";
+    let joint = joint("revolute", "base", "arm", parts).replacen(
+        "<joint",
+        "<joint dont_collapse=\"true\" xmlns:a=\"b\" a:c=\"d\"",
+        1,
+    );
+    assert_eq!(robot(&joint).scene.bodies[0].hinge.dashpot.rate_linear, -0.7);
+    let unused = "<axis/><dynamics/>";
+    robot(&self::joint("fixed", "base", "arm", unused));
+}
+
+#[test]
+fn what_is_left_out_of_an_inertial_is_named() {
+    let body = BODY.replace("</inertial>", "<inertai/></inertial>");
+    let text = format!("<robot name=\"arm\"><link name=\"base\">{body}</link></robot>");
+    let file = parse_robot("arm.urdf", &text, "file").expect("a robot");
+    let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
+    assert_eq!(told, ["inertai"]);
+}
