@@ -22,7 +22,7 @@ pub enum CliError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// Standard input is the scene, but no format is given.
-    #[error("-: --format toml or --format nml expected, which says what standard input is")]
+    #[error("-: --format toml, nml or urdf expected, which says what standard input is")]
     NoFormat,
     /// A format is given, but the scene is a file.
     #[error(

@@ -205,11 +205,14 @@ impl Description {
 /// How many characters of what is different are told.
 const TOLD: usize = 60;
 
+/// The first characters of a text, all of which can be seen.
+pub(crate) fn short(text: &str) -> String {
+    let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let short: String = text.chars().take(TOLD).map(visible).collect();
+    if text.chars().nth(TOLD).is_some() { short + "..." } else { short }
+}
+
 fn told(what: &str, then: &str, now: &str) -> String {
-    let short = |text: &str| {
-        let short: String = text.chars().take(TOLD).collect();
-        if short.len() < text.len() { short + "..." } else { short }
-    };
     match what {
         // Digits of a hash say nothing to anybody.
         "study" | "scene" => format!("another text of the {what}"),

@@ -2,12 +2,13 @@
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
+use std::iter::repeat;
 use std::path::{Path, PathBuf};
 
 use nboom_results::{Kind, Lock, ResultsError, write_file};
 
 use crate::StudyError;
-use crate::description::Description;
+use crate::description::{Description, short};
 use crate::journal::Journal;
 use crate::statistics::Summary;
 
@@ -104,6 +105,32 @@ impl Place {
         } else {
             State::Open(then.clone().also_by(now))
         })
+    }
+
+    /// An error that says of another study or scene where its text differs from what is here.
+    pub fn explained(&self, error: StudyError, [study, scene]: [&str; 2]) -> StudyError {
+        let StudyError::Different { directory, mut differences } = error else { return error };
+        for (name, now) in [(STUDY_FILE, study), (SWEPT_SCENE_FILE, scene)] {
+            // A file that cannot be read explains nothing, and is not what is wrong.
+            let then = text(&self.file(name)).unwrap_or_default();
+            let lines = then.lines().map(Some).chain(repeat(None));
+            let mut pairs = lines.zip(now.lines().map(Some).chain(repeat(None))).enumerate();
+            let ends = |pair: &(usize, (Option<&str>, Option<&str>))| pair.1 != (None, None);
+            let different = pairs.by_ref().take_while(ends).find(|(_, (then, now))| then != now);
+            if let Some((i, (then, now))) = different.filter(|_| !then.is_empty()) {
+                let told = |line: &str| format!("`{}`", short(line));
+                let [then, now] = [then, now].map(|line| line.map_or("no line".into(), told));
+                differences.push(format!("{name}, line {}: {then} then, {now} now", i + 1));
+            }
+        }
+        StudyError::Different { directory, differences }
+    }
+
+    /// # Errors
+    /// When a file of one of these names is not there.
+    pub fn require<const N: usize>(&self, names: [&str; N]) -> Result<(), StudyError> {
+        let missing = names.into_iter().map(|name| self.file(name)).find(|path| !path.exists());
+        missing.map_or(Ok(()), |path| Err(StudyError::Missing { path }))
     }
 
     /// Begins a sweep or continues it: says that it is not complete, and what it is of.

@@ -32,6 +32,15 @@ pub enum StudyError {
         /// What is wrong.
         found: String,
     },
+    /// A finished sweep lacks one of its files.
+    #[error(
+        "{}: nothing found, a file of a finished sweep expected; restore it, or delete the directory and sweep again",
+        path.display()
+    )]
+    Missing {
+        /// The file.
+        path: PathBuf,
+    },
     /// A journal is not what a sweep writes.
     #[error(
         "{}, byte {byte}: {found} found; restore the file, or delete the directory and sweep again",

@@ -124,3 +124,33 @@ fn samples(study: &Study) -> u64 {
     let samples = study.run.samples.or_else(of_scene).unwrap_or(study.run.options().samples);
     samples as u64 + 1
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn rows_of_a_trajectory_are_those_that_the_scene_asks_for() {
+        let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+        let scene = fs::read_to_string(examples.join("cubesat.toml")).expect("an example");
+        let place = tempfile::tempdir().expect("a directory");
+        let study = place.path().join("study.toml");
+        let study_text =
+            "scene = 'scene.toml'\ndraws = 1\n[[vary]]\npath = 'main_body.mass'\nvalues = [4]\n";
+        fs::write(&study, study_text).expect("writable");
+        let rows = |output: &str, run: &str| {
+            assert!(scene.contains("every = 0.01"));
+            let scene = scene.replace("every = 0.01", output);
+            fs::write(place.path().join("scene.toml"), scene).expect("writable");
+            fs::write(&study, format!("{study_text}[run]\n{run}\n")).expect("writable");
+            samples(&Study::read(&study).expect("a study"))
+        };
+        assert_eq!(rows("", "end_time = 5.0"), 201);
+        assert_eq!(rows("every = 0.001", "end_time = 5.0"), 5001);
+        assert_eq!(rows("every = 0.001", "samples = 10"), 11);
+        assert_eq!(rows("times = [1.0, 2.0]", ""), 4);
+    }
+}

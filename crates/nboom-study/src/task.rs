@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::description::Description;
-use crate::directory::{self, Place, State};
+use crate::directory::{
+    self, CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, Place, STATISTICS_FILE, State,
+};
 use crate::journal::Journal;
 use crate::tables;
 use crate::workers::{Crew, Worker};
@@ -124,7 +126,8 @@ impl Task<'_> {
     /// When the directory is refused.
     pub fn begin(&self) -> Result<Begin, StudyError> {
         let place = Place::take(self.directory)?;
-        let what = match place.state(&self.description, self.accept_difference)? {
+        let state = place.state(&self.description, self.accept_difference);
+        let what = match state.map_err(|error| place.explained(error, [self.study, self.scene]))? {
             State::Complete(what) => {
                 return Ok(Begin::Complete(settle(&place, what)?.into()));
             }
@@ -177,9 +180,16 @@ pub(crate) fn finish(
 }
 
 /// What a complete sweep came to, without the journal that it does not need.
+///
+/// # Errors
+/// When one of its files is not there.
 pub(crate) fn settle(place: &Place, what: Description) -> Result<Report, StudyError> {
     if what.shard.is_none() {
+        let has_csv = place.file(CASES_CSV_FILE).exists();
+        place.require([if has_csv { CASES_CSV_FILE } else { CASES_FILE }, STATISTICS_FILE])?;
         place.remove_journal()?;
+    } else {
+        place.require([JOURNAL_FILE])?;
     }
     let (done, files) = (what.share(), place.files());
     Ok(Report { end: End::WasComplete, description: what, done, computed: 0, files })

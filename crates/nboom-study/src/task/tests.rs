@@ -20,6 +20,7 @@ mod restarts;
 pub(crate) struct Fake {
     pub cases: u64,
     pub seed: u64,
+    pub study: &'static str,
     pub shard: Option<Shard>,
     pub jobs: usize,
     pub resume: bool,
@@ -34,6 +35,7 @@ impl Fake {
         Self {
             cases,
             seed: 1,
+            study: "draws = 1",
             shard: None,
             jobs: 2,
             resume: true,
@@ -55,7 +57,7 @@ impl Fake {
         let task = Task {
             directory,
             description: self.description(),
-            study: "draws = 1",
+            study: self.study,
             scene: "name = \"it\"",
             samples: 1,
             resume: self.resume,
@@ -81,7 +83,7 @@ impl Fake {
             name: "it".to_owned(),
             made_by: Maker { version: self.maker.to_owned(), ..Maker::current() },
             also_made_by: Vec::new(),
-            study: source("draws = 1"),
+            study: source(self.study),
             scene: source("name = \"it\""),
             seed: self.seed,
             method: "monte_carlo".to_owned(),

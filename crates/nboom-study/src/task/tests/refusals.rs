@@ -27,6 +27,36 @@ fn a_finished_sweep_is_not_repeated_and_another_is_refused() {
 }
 
 #[test]
+fn another_study_is_refused_with_the_line_that_differs() {
+    let place = tempfile::tempdir().expect("a directory");
+    let fake = Fake { study: "draws = 1\nseed = 1\n", ..Fake::of(12) };
+    fake.finish(place.path(), &[]);
+    for (study, told) in [
+        ("draws = 1\nseed = 2\n", "study.toml, line 2: `seed = 1` then, `seed = 2` now"),
+        ("draws = 1\n", "study.toml, line 2: `seed = 1` then, no line now"),
+    ] {
+        let error = refused(&Fake { study, ..fake.clone() }, place.path()).to_string();
+        assert!(error.contains("another text of the study") && error.contains(told), "{error}");
+        assert!(!error.contains("scene.toml"), "{error}");
+    }
+}
+
+#[test]
+fn a_finished_sweep_without_its_table_is_told() {
+    for (gone, told) in
+        [(&[CASES_FILE, CASES_CSV_FILE][..], CASES_FILE), (&[STATISTICS_FILE], STATISTICS_FILE)]
+    {
+        let place = tempfile::tempdir().expect("a directory");
+        Fake::of(12).finish(place.path(), &[]);
+        for path in gone.iter().map(|name| place.path().join(name)).filter(|path| path.exists()) {
+            fs::remove_file(path).expect("it is there");
+        }
+        let error = refused(&Fake::of(12), place.path()).to_string();
+        assert!(error.contains(told) && error.contains("sweep again"), "{error}");
+    }
+}
+
+#[test]
 fn an_unfinished_sweep_is_continued_only_if_that_is_asked_for() {
     let place = tempfile::tempdir().expect("a directory");
     let fake = Fake { jobs: 1, ..Fake::of(12) };
