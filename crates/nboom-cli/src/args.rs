@@ -79,7 +79,9 @@ pub enum Command {
     /// it magnifies rounding as much. If a formulation has a mass matrix and forcing, they are
     /// compared with those of the recursion for its unknowns, with O at the inertial origin.
     /// Deviations of an entry of the matrix are relative to the root of the product of its diagonal
-    /// entries in the matrix of kinetic energy, those of the forcing to its largest entry. The exit
+    /// entries in the matrix of kinetic energy, those of the forcing to its largest entry. The
+    /// scales of accelerations and forcing are at least a thousandth of the natural size of the terms, for
+    /// accelerations the square of the rates, so that results that cancel to zero are compared too. The exit
     /// code is 1 if a deviation is above the tolerance; the file is written even then.
     #[command(after_help = examples::VERIFY)]
     Verify(VerifyArgs),

@@ -63,7 +63,9 @@ impl fmt::Display for Label {
     }
 }
 
-/// What is compared, and what its deviations are relative to.
+/// What is compared, and what its deviations are relative to. The scale of accelerations and that of the
+/// forcing are at least a thousandth of the natural size of what adds up to them, such as |ω|² and |ω|² J, so
+/// that results that cancel to zero are compared too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {

@@ -42,6 +42,7 @@ mod condition;
 mod dense;
 mod equations;
 mod error;
+mod floor;
 mod label;
 mod plot;
 mod random;

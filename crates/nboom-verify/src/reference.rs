@@ -7,6 +7,7 @@ use nboom_scalar::{DoubleDouble, Real, Vec3, Wrench};
 use crate::VerifyError;
 use crate::condition::condition;
 use crate::equations::{expected, order};
+use crate::floor::Floor;
 use crate::test_case::{RandomState, TestCase};
 
 /// Deviations count in full up to this condition of the mass matrix. Beyond it they are divided by
@@ -53,7 +54,8 @@ impl<'a> Referee<'a> {
         let recursion = OneState::of(&mut self.recursion, state);
         let exact = OneState::of(&mut self.exact, state);
         let condition = condition(&recursion.equations.matrix);
-        let reference = Reference { test_case: self.test_case, recursion, exact, condition };
+        let floor = Floor::new(self.test_case.tree(), state, &recursion.equations.matrix);
+        let reference = Reference { test_case: self.test_case, recursion, exact, floor, condition };
         if singular.is_some() || !reference.is_good() {
             let hinge = singular.flatten().map(|hinge| self.test_case.scene().label(hinge));
             return Err(VerifyError::NoReference { state: self.first + i, hinge });
@@ -102,6 +104,7 @@ pub(crate) struct Reference<'a> {
     test_case: &'a TestCase,
     recursion: OneState<f64>,
     exact: OneState<DoubleDouble>,
+    floor: Floor,
     /// Of the mass matrix, scaled to diagonal 1.
     pub condition: f64,
 }
@@ -135,10 +138,10 @@ impl Reference<'_> {
 
     /// Deviations of accelerations.
     pub fn off_accelerations(&self, found: &[f64]) -> Deviation {
-        let allowance = allowance(self.condition);
+        let (allowance, floor) = (allowance(self.condition), self.floor.accelerations);
         Deviation {
-            from_recursion: of_largest(found, &self.recursion.accelerations) / allowance,
-            from_double_double: of_largest(found, &self.truth()) / allowance,
+            from_recursion: of_largest(found, &self.recursion.accelerations, floor) / allowance,
+            from_double_double: of_largest(found, &self.truth(), floor) / allowance,
         }
     }
 
@@ -155,9 +158,10 @@ impl Reference<'_> {
             from_recursion: largest(matrix, &recursion.matrix, |at| scale[at]),
             from_double_double: largest(matrix, &rounded(&exact.matrix), |at| scale[at]),
         };
+        let (forcing, floor) = (&found.forcing, self.floor.forcing);
         let of_forcing = Deviation {
-            from_recursion: of_largest(&found.forcing, &recursion.forcing),
-            from_double_double: of_largest(&found.forcing, &rounded(&exact.forcing)),
+            from_recursion: of_largest(forcing, &recursion.forcing, floor),
+            from_double_double: of_largest(forcing, &rounded(&exact.forcing), floor),
         };
         [of_matrix, of_forcing]
     }
@@ -187,9 +191,10 @@ fn rounded(numbers: &[DoubleDouble]) -> Vec<f64> {
     numbers.iter().map(|number| number.to_f64()).collect()
 }
 
-/// The largest deviation, relative to the largest number expected.
-fn of_largest(found: &[f64], expected: &[f64]) -> f64 {
-    let scale = expected.iter().fold(f64::MIN_POSITIVE, |most, number| most.max(number.abs()));
+/// The largest deviation, relative to the largest number expected, or to `floor` if that is larger.
+fn of_largest(found: &[f64], expected: &[f64], floor: f64) -> f64 {
+    let least = floor.max(f64::MIN_POSITIVE);
+    let scale = expected.iter().fold(least, |most, number| most.max(number.abs()));
     largest(found, expected, |_| scale)
 }
 
@@ -206,14 +211,67 @@ fn largest(found: &[f64], expected: &[f64], scale: impl Fn(usize) -> f64) -> f64
 
 #[cfg(test)]
 mod tests {
+    use nboom_model::{Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment};
+    use nboom_scalar::Sym3;
+
     use super::*;
 
     #[test]
     fn deviations_are_relative() {
-        assert_eq!(of_largest(&[1.0, -4.0], &[1.0, -4.0]), 0.0);
-        assert_eq!(of_largest(&[1.0, -3.0], &[1.0, -4.0]), 0.25);
+        assert_eq!(of_largest(&[1.0, -4.0], &[1.0, -4.0], 0.0), 0.0);
+        assert_eq!(of_largest(&[1.0, -3.0], &[1.0, -4.0], 0.0), 0.25);
         assert_eq!(largest(&[1.0, -3.0], &[0.5, -3.5], |at| [1.0, 2.0][at]), 0.5);
-        assert_eq!(of_largest(&[0.0], &[0.0]), 0.0);
+        assert_eq!(of_largest(&[0.0], &[0.0], 0.0), 0.0);
+    }
+
+    #[test]
+    fn a_floor_matters_below_itself_alone() {
+        assert_eq!(of_largest(&[1.0, -3.0], &[1.0, -4.0], 3.9), 0.25);
+        assert_eq!(of_largest(&[0.5], &[0.0], 2.0), 0.25);
+    }
+
+    /// A free body without offset, and a boom of so many segments on it.
+    fn free_body(inertia: [f64; 3], segments: usize) -> TestCase {
+        let [x, y, z] = inertia;
+        let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(x, y, z));
+        let mut description = SceneDescription::at_rest("free body", body, 1.0);
+        let rod = MassProperties::new(1.0, Vec3::unit_y(), Sym3::diagonal(1.4, 0.1, 1.4));
+        let segment = Segment { length: 2.0, mass_properties: rod, hinge: Hinge::free() };
+        if segments > 0 {
+            let (mount, segments) = (Mount::at(Vec3::unit_y()), vec![segment; segments]);
+            description.attach(&Appendage::Regular { mount, segments });
+        }
+        let scene = Scene::new(description).expect("the bodies are physical");
+        TestCase::new(scene, 100, 1970).expect("finite")
+    }
+
+    #[test]
+    fn a_wrong_forcing_of_a_sphere_is_found() {
+        let test_case = free_body([0.1; 3], 0);
+        let mut referee = Referee::new(&test_case, 1);
+        for (i, RandomState { omega, .. }) in test_case.states().iter().enumerate() {
+            let reference = referee.reference(i).expect("accelerations");
+            let mut found = reference.recursion.equations.clone();
+            let [_, right] = reference.off_equations(Formulation::Symmetric, &found);
+            assert!(right.worst() < 1e-12, "{right:?}");
+            found.forcing[4] += 1e-9 * 0.1 * omega.dot(*omega);
+            let [_, wrong] = reference.off_equations(Formulation::Symmetric, &found);
+            assert!(wrong.from_recursion.min(wrong.from_double_double) > 1e-9, "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_cancel_keeps_its_scale() {
+        let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for segments in [0, 3, 40] {
+            let test_case = free_body([40.0, 30.0, 20.0], segments);
+            let mut referee = Referee::new(&test_case, 1);
+            for i in 0..test_case.states().len() {
+                let Reference { recursion, floor, .. } = referee.reference(i).expect("one");
+                assert!(floor.accelerations < largest(&recursion.accelerations));
+                assert!(floor.forcing < largest(&recursion.equations.forcing));
+            }
+        }
     }
 
     #[test]
@@ -224,8 +282,8 @@ mod tests {
 
     #[test]
     fn what_cannot_be_compared_deviates_infinitely() {
-        assert!(of_largest(&[f64::NAN, -4.0], &[1.0, -4.0]).is_infinite());
-        assert!(of_largest(&[-4.0, f64::NAN], &[-5.0, 1.0]).is_infinite());
-        assert!(of_largest(&[1.0], &[1.0, -4.0]).is_infinite());
+        assert!(of_largest(&[f64::NAN, -4.0], &[1.0, -4.0], 0.0).is_infinite());
+        assert!(of_largest(&[-4.0, f64::NAN], &[-5.0, 1.0], 0.0).is_infinite());
+        assert!(of_largest(&[1.0], &[1.0, -4.0], 0.0).is_infinite());
     }
 }
