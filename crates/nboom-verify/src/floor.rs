@@ -12,9 +12,9 @@ const CANCELLED: f64 = 1e-3;
 /// The least scales of deviations in one state.
 ///
 /// With a generalised speed of 0 for the velocity of O, right sides are made of products mass matrix
-/// times speed times angular rate: the gyroscopic torque ω × J ω, the force m ω × (ω × c), and those of hinges. The natural size of
-/// entry i is then √(Σⱼ (Mᵢⱼ uⱼ)²) Ω, where u are the speeds and Ω² is the sum of the squares of ω and
-/// of the rates of hinges that turn. Divided by inertias that is Ω² for accelerations: a body that
+/// times speed times angular rate: the gyroscopic torque ω × J ω, the force m ω × (ω × c), and those of
+/// hinges. The natural size of entry i is then √(Σⱼ (Mᵢⱼ uⱼ)²) Ω, where u are the speeds and Ω² is the
+/// sum of the squares of ω and of the rates of hinges that turn. Divided by inertias that is Ω² for accelerations: a body that
 /// spins at Ω has points with accelerations Ω² r even where ω̇ is 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Floor {
