@@ -77,7 +77,7 @@ fn what_is_wrong_in_standard_input_is_told_by_its_place() {
 fn a_format_goes_with_standard_input_alone() {
     let place = Place::new();
     for (words, told) in [
-        (&["run", "-"][..], "--format nml expected"),
+        (&["run", "-"][..], "nml or urdf expected"),
         (&["run", "-", "--format", "toml"], "stdin:2:2: scene: found invalid unquoted key"),
         (&["check", "-", "--format", "urdf"], "stdin:2:2: robot: found text that is no XML"),
         (&["check", "-", "--format", "usd"], "unknown name, toml, nml, urdf expected"),
