@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use nboom_io::SceneFile;
 use nboom_model::Scene;
 use nboom_results::with_causes;
@@ -8,6 +10,10 @@ use crate::{CheckArgs, CliError, Routines, SceneArgs, output, picture, print_sce
 
 /// Reads a scene and returns what it contains for standard output.
 pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {
+    let is_svg = |path: &&PathBuf| path.extension().is_some_and(|ending| ending == "svg");
+    if let Some(path) = args.picture.as_ref().filter(|path| !is_svg(path)) {
+        return Err(CliError::NoSvg { path: path.clone() });
+    }
     let file = scene(&args.scene)?;
     let scene = &file.scene;
     #[cfg(feature = "generator")]

@@ -137,6 +137,12 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// A picture would have the ending of another format.
+    #[error("{}: found a name with another ending, expected a picture NAME.svg", path.display())]
+    NoSvg {
+        /// The file of the picture.
+        path: PathBuf,
+    },
     /// The scene is too large or too small to be drawn.
     #[error("{}: found places too far from or too near to each other, expected some that can be drawn", path.display())]
     NoPicture {
@@ -272,7 +278,7 @@ impl CliError {
             Self::Start(_) | Self::OutputIsInput { .. } => 2,
             Self::NoFormat | Self::VainFormat { .. } | Self::Instructions { .. } => 2,
             Self::NoScene { .. } | Self::NoDeck(_) | Self::WouldReplace { .. } => 2,
-            Self::NoPicture { .. } => 2,
+            Self::NoPicture { .. } | Self::NoSvg { .. } => 2,
             #[cfg(feature = "generator")]
             Self::Exists { .. } => 2,
             Self::Results(error) if error.is_refusal() => 2,

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, write_scene};
+use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, folder_name, write_scene};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::{
     Kept, Outcome, RunDescription, RunDirectory, StressDescription, StressTables, WorstLoads,
@@ -313,10 +313,7 @@ fn show(args: &RunArgs, kept: &Kept) -> Result<(), CliError> {
 
 /// `out/` and the scene's name, with characters replaced that a file name cannot have.
 pub(crate) fn default_directory(scene: &str) -> PathBuf {
-    let safe = |c: char| if c.is_control() || matches!(c, '/' | '\\') { '_' } else { c };
-    let name: String = scene.trim().chars().map(safe).collect();
-    let name = if name.trim_matches('.').is_empty() { "scene".to_owned() } else { name };
-    PathBuf::from("out").join(name)
+    PathBuf::from("out").join(folder_name(scene.trim()))
 }
 
 #[cfg(test)]
@@ -347,8 +344,8 @@ mod tests {
     fn no_scene_name_leads_out_of_the_output_directory() {
         for (name, path) in [
             ("boom", "out/boom"),
-            ("../boom", "out/.._boom"),
-            ("..", "out/scene"),
+            ("../boom", "out/_._boom"),
+            ("..", "out/_."),
             ("", "out/scene"),
             ("/etc", "out/_etc"),
         ] {

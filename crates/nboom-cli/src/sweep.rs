@@ -49,7 +49,7 @@ pub struct SweepArgs {
 /// Options of `nboom sweep` and `nboom merge`.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct SweepOutputs {
-    /// Write tables in CSV too.
+    /// Write tables in CSV too, also those of a sweep that was finished without.
     #[arg(long)]
     pub csv: bool,
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::InputError;
+use crate::scene::folder_name;
 
 /// The longest file of a scene that is read \[bytes\].
 pub(crate) const LARGEST: u64 = 16 << 20;
@@ -57,8 +58,7 @@ pub(crate) fn folder(path: &Path) -> &Path {
 
 /// What a scene in a file is called that does not say its name.
 pub(crate) fn scene_name(path: &Path) -> String {
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    name.replace(char::is_control, "\u{fffd}")
+    folder_name(&path.file_stem().unwrap_or_default().to_string_lossy())
 }
 
 /// The text of a scene from any reader, and the hash of its bytes; `path` stands for it in messages.

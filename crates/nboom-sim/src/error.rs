@@ -45,7 +45,7 @@ pub enum SimError {
         hinge: Option<HingeLabel>,
     },
     /// A body has no inertia about a hinge that is free.
-    #[error("at time {}, {}: nothing has inertia about this hinge, so the mass matrix is singular", moment(.time), place(.hinge))]
+    #[error("at time {}, {}: nothing has inertia {}, so the mass matrix is singular", moment(.time), place(.hinge), freedom(.hinge))]
     SingularMassMatrix {
         /// Time reached.
         time: f64,
@@ -223,6 +223,10 @@ fn moment(time: &f64) -> String {
 
 fn place(hinge: &Option<HingeLabel>) -> String {
     hinge.as_ref().map_or_else(|| "main body".to_owned(), |label| format!("hinge {label}"))
+}
+
+fn freedom(hinge: &Option<HingeLabel>) -> &'static str {
+    if hinge.is_some() { "about this hinge" } else { "in one of its directions" }
 }
 
 fn of_hinge(quantity: &str, hinge: &Option<HingeLabel>) -> String {

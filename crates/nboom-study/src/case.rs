@@ -27,8 +27,11 @@ impl From<InputError> for Rejection {
     fn from(error: InputError) -> Self {
         match &error {
             InputError::Content(errors) if !errors.is_empty() => {
-                let Diagnostic { symbol, found, expected, .. } = &errors[0];
-                Self(in_one_line(&format!("{symbol}: found {found}, expected {expected}")))
+                let Diagnostic { file, line, symbol, found, expected, .. } = &errors[0];
+                // A table is the same wherever its scene lies.
+                let file = std::path::Path::new(file).file_name().unwrap_or_default().display();
+                let text = format!("{file}:{line}: {symbol}: found {found}, expected {expected}");
+                Self(in_one_line(&text))
             }
             other => Self(in_one_line(&other.to_string())),
         }

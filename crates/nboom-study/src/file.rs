@@ -9,8 +9,12 @@ mod vary;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use nboom_io::{InputError, ReadOptions, SceneDocument, SceneFile, read_text};
-use nboom_sim::{Form, Method as Integrator, Path as Code};
+use nboom_io::{
+    Diagnostic, FOLDER_NAME, InputError, ReadOptions, SceneDocument, SceneFile, folder_name,
+    read_text,
+};
+use nboom_results::with_causes;
+use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code};
 use toml::de::DeTable;
 
 use crate::plan::{Case, Plan};
@@ -18,13 +22,10 @@ use crate::study::{Fault, Method, RunSettings, Study, Variable};
 use crate::wanted::{Loads, UnknownResult, Wanted};
 use keys::STUDY;
 pub use keys::schema;
-use reader::{Fields, Reader, quoted};
+use reader::{Fields, Reader, parted, quoted};
 
 /// The longest study that is read \[bytes\].
 const LONGEST: u64 = 16 << 20;
-
-/// The longest name \[bytes\].
-const LONGEST_NAME: usize = 200;
 
 impl Study {
     /// Reads a study, and the scene that it varies.
@@ -43,14 +44,19 @@ impl Study {
             reader.error(&place, "study", found, expected);
             return Err(InputError::Content(reader.errors));
         }
+        let key = |name: &str| table.get_ref().iter().find(|(key, _)| key.get_ref() == name);
+        if let (None, Some((main_body, _))) = (key("scene"), key("main_body")) {
+            let expected = "a study, which names a scene; nboom run runs a scene";
+            reader.error(&main_body.span(), "study", "a scene", expected);
+            return Err(InputError::Content(reader.errors));
+        }
         let root = reader.fields(table.get_ref(), &STUDY, 0..0);
-        let study = reader.study(&root, path, &text)?;
+        let study = reader.study(&root, path, &text);
+        reader.errors.sort_by_key(|error| (error.line, error.column));
         match study {
-            Some(study) if reader.errors.is_empty() => Ok(study),
-            _ => {
-                reader.errors.sort_by_key(|error| (error.line, error.column));
-                Err(InputError::Content(reader.errors))
-            }
+            Ok(Some(study)) if reader.errors.is_empty() => Ok(study),
+            Ok(_) => Err(InputError::Content(reader.errors)),
+            Err(of_scene) => Err(InputError::Content([reader.errors, of_scene].concat())),
         }
     }
 
@@ -66,13 +72,13 @@ impl Study {
 }
 
 impl<'t> Reader<'t> {
-    /// The study, or nothing if too much is wrong.
+    /// The study, or nothing if too much is wrong; errors are those of the scene.
     fn study(
         &mut self,
         root: &Fields<'t>,
         path: &Path,
         text: &str,
-    ) -> Result<Option<Study>, InputError> {
+    ) -> Result<Option<Study>, Vec<Diagnostic>> {
         let name = self.name(root, path);
         let seed = self.whole(root, "seed").map_or(1, |seed| seed.value);
         let method = self.choice(root, "method").map_or(Method::MonteCarlo, |found| {
@@ -84,10 +90,22 @@ impl<'t> Reader<'t> {
         let run = self.run_settings(root);
         let expanded = self.flag(root, "expanded").unwrap_or(false);
         let Some(scene) = self.text(root, "scene") else { return Ok(None) };
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let document = SceneDocument::read(&folder.join(scene.value), &ReadOptions::default())?;
-        let document = if expanded { document.expanded()? } else { document };
-        let nominal = document.scene(&[])?;
+        let read = || -> Result<_, InputError> {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let document = SceneDocument::read(&folder.join(scene.value), &ReadOptions::default())?;
+            let document = if expanded { document.expanded()? } else { document };
+            let nominal = document.scene(&[])?;
+            Ok((document, nominal))
+        };
+        let (document, nominal) = match read() {
+            Ok(found) => found,
+            Err(InputError::Content(errors)) => return Err(errors),
+            Err(error) => {
+                let found = with_causes(&error);
+                self.error(&scene.place, "scene", found, "the file of a scene");
+                return Ok(None);
+            }
+        };
         self.check_end(root, &run, &nominal);
         let varied = self.tables(root, "vary");
         let variables: Vec<_> = varied
@@ -118,8 +136,8 @@ impl<'t> Reader<'t> {
             Err(error) => {
                 let place = pairs.first().map_or_else(|| root.place_of("method"), Fields::place);
                 let text = error.to_string();
-                let (found, expected) = text.split_once(" found, ").unwrap_or((&text, "a plan"));
-                self.error(&place, "study", found, expected.trim_end_matches(" expected"));
+                let (found, expected) = parted(&text, "a plan");
+                self.error(&place, "study", found, expected);
                 return Ok(None);
             }
         };
@@ -144,16 +162,10 @@ impl<'t> Reader<'t> {
 
     /// The study's name, which becomes that of a folder.
     fn name(&mut self, root: &Fields<'t>, path: &Path) -> String {
-        let of_file = path.file_stem().unwrap_or_default().to_string_lossy();
-        let of_file = of_file.replace(char::is_control, "\u{fffd}");
-        let Some(name) = self.text(root, "name") else { return of_file };
-        let is_file_name = !name.value.trim().is_empty()
-            && name.value.len() <= LONGEST_NAME
-            && !name.value.contains(['/', '\\', ':'])
-            && !name.value.contains(char::is_control)
-            && !name.value.starts_with('.');
-        if !is_file_name {
-            let expected = "the name of a folder: no / \\ : and no dot first";
+        let of_file = || folder_name(&path.file_stem().unwrap_or_default().to_string_lossy());
+        let Some(name) = self.text(root, "name") else { return of_file() };
+        if folder_name(name.value) != name.value {
+            let expected = format!("the name of a folder: {FOLDER_NAME}");
             self.error(&name.place, "name", quoted(name.value), expected);
         }
         name.value.to_owned()
@@ -195,13 +207,15 @@ impl<'t> Reader<'t> {
             hinge_loads: self.flag(&of, "hinge_loads").unwrap_or(false),
             lanes: self.flag(&of, "lanes").unwrap_or(true),
         };
-        if let Err(error) = settings.options().check() {
-            self.error(
-                &of.place(),
-                "run",
-                format!("{} {:e}", error.option, error.value),
-                error.expected,
-            );
+        let RunSettings { rtol, atol, max_step, .. } = settings;
+        for (key, alone) in [
+            ("rtol", RunSettings { rtol, ..usual.clone() }),
+            ("atol", RunSettings { atol, ..usual.clone() }),
+            ("max_step", RunSettings { max_step, ..usual.clone() }),
+        ] {
+            if let Err(OptionError { value, expected, .. }) = alone.options().check() {
+                self.error(&of.place_of(key), key, format!("{value:e}"), expected);
+            }
         }
         settings
     }
@@ -209,16 +223,18 @@ impl<'t> Reader<'t> {
     fn check_end(&mut self, root: &Fields<'t>, run: &RunSettings, nominal: &SceneFile) {
         let Some(end_time) = run.end_time else { return };
         if let Err(errors) = nominal.scene.ending_at(end_time) {
-            let found = errors.first().map_or_else(String::new, ToString::to_string);
-            self.error(&root.place_of("run"), "end_time", found, "a time after the start");
+            let text = errors.first().map_or_else(String::new, ToString::to_string);
+            let (found, expected) = parted(&text, "a time after the start");
+            self.error(&root.place_of("run"), "end_time", found, expected);
         }
     }
 
     fn wanted(&mut self, root: &Fields<'t>, nominal: &SceneFile, run: &RunSettings) -> Vec<Wanted> {
         let loads = Loads::of(nominal, run);
-        let Some(texts) = self.texts(root, "results") else {
+        if !root.has("results") {
             return Wanted::defaults(nominal, loads);
-        };
+        }
+        let texts = self.texts(root, "results").unwrap_or_default();
         let mut all = Vec::new();
         for text in &texts {
             match Wanted::named(text.value, nominal, loads) {

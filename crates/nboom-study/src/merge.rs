@@ -38,7 +38,7 @@ pub fn merge(
     let (whole, (first, _)) = (whole.expect("there is a shard"), &parts[0]);
     let place = Place::take(directory)?;
     let what = match place.state(&whole, accept_difference)? {
-        State::Complete(what) => return settle(&place, what),
+        State::Complete(what) => return settle(&place, what, csv),
         State::Open(what) => what,
     };
     let journals: Result<Vec<Journal>, _> = parts.iter().map(whole_journal).collect();

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nboom_results::make_file;
-use nboom_tables::{Column, Format, TableWriter};
+use nboom_tables::{Column, Format, TableWriter, read_table};
 
 use crate::directory::{
     CASES_CSV_FILE, CASES_FILE, Place, TRAJECTORIES_CSV_FILE, TRAJECTORIES_FILE,
@@ -75,6 +75,27 @@ pub(crate) fn write_tables(
     };
     all.into_iter().filter(is_wanted).try_for_each(|table| {
         make_file(&place.file(table.file), |path: &Path| table.write(path, journals, texts))
+    })
+}
+
+/// Writes those tables in CSV that are not there, from those in Parquet.
+///
+/// # Errors
+/// When a table cannot be read or written; an earlier one then stays.
+pub(crate) fn add_csv(place: &Place, columns: Columns<'_>) -> Result<(), StudyError> {
+    let pairs = [
+        (CASES_FILE, CASES_CSV_FILE, columns.cases),
+        (TRAJECTORIES_FILE, TRAJECTORIES_CSV_FILE, columns.states),
+    ];
+    let missing = |of: &(&str, &str, &[Column])| !of.2.is_empty() && !place.file(of.1).exists();
+    pairs.into_iter().filter(missing).try_for_each(|(from, to, columns)| {
+        make_file(&place.file(to), |path: &Path| -> Result<(), StudyError> {
+            let mut table = TableWriter::csv(path, columns.to_vec())?;
+            read_table(&place.file(from), columns, |cells| -> Result<(), StudyError> {
+                Ok(table.row(cells)?)
+            })?;
+            Ok(table.finish()?)
+        })
     })
 }
 

@@ -129,7 +129,7 @@ impl Task<'_> {
         let state = place.state(&self.description, self.accept_difference);
         let what = match state.map_err(|error| place.explained(error, [self.study, self.scene]))? {
             State::Complete(what) => {
-                return Ok(Begin::Complete(settle(&place, what)?.into()));
+                return Ok(Begin::Complete(settle(&place, what, self.csv)?.into()));
             }
             State::Open(what) => what,
         };
@@ -176,17 +176,21 @@ pub(crate) fn finish(
     }
     let what = Description { complete: true, counts: Some(statistics.counts), ..what };
     place.describe(&what)?;
-    Ok(Report { end: End::Complete, ..settle(place, what)? })
+    Ok(Report { end: End::Complete, ..settle(place, what, csv)? })
 }
 
-/// What a complete sweep came to, without the journal that it does not need.
+/// What a complete sweep came to, without the journal that it does not need and with the tables in CSV that are
+/// asked for.
 ///
 /// # Errors
-/// When one of its files is not there.
-pub(crate) fn settle(place: &Place, what: Description) -> Result<Report, StudyError> {
+/// When one of its files is not there, and when a table cannot be written.
+pub(crate) fn settle(place: &Place, what: Description, csv: bool) -> Result<Report, StudyError> {
     if what.shard.is_none() {
         let has_csv = place.file(CASES_CSV_FILE).exists();
         place.require([if has_csv { CASES_CSV_FILE } else { CASES_FILE }, STATISTICS_FILE])?;
+        if csv {
+            tables::add_csv(place, what.tables())?;
+        }
         place.remove_journal()?;
     } else {
         place.require([JOURNAL_FILE])?;

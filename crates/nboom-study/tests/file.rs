@@ -156,9 +156,11 @@ fn what_is_wrong_is_told_with_its_line() {
         ("final omega_z", "lock_time of boon", 6, "boom"),
         ("final omega_z", "verdict.worst_load", 6, "a run with stresses"),
         ("trajectories = true", "trajectories = 1", 7, "true or false"),
-        ("rtol = 1e-8", "rtol = 2.0", 9, "1e-14 to below 1"),
+        ("rtol = 1e-8", "rtol = 2.0", 10, "1e-14 to below 1"),
+        ("samples = 10", "max_step = -1.0", 12, "a number above zero"),
+        ("\"scene.toml\"", "\"sene.toml\"", 1, "the file cannot be read"),
         ("dop853", "dop85", 11, "did you mean `dop853`"),
-        ("end_time = 5.0", "end_time = -5.0", 9, "a time after the start"),
+        ("end_time = 5.0", "end_time = -5.0", 9, "a time not before the initial time"),
         ("parameters.k", "parameters.kk", 17, "`parameters.kk`"),
         ("body.tip.mass\", \"", "body.tip.masss\", \"", 22, "did you mean `body.tip.mass`"),
         ("as = \"factor\"", "as = \"times\"", 18, "one of value, factor, offset"),
@@ -166,8 +168,8 @@ fn what_is_wrong_is_told_with_its_line() {
         ("from = 0.5", "from = inf", 19, "a number"),
         ("sigma = 0.2", "sigma = 0.2, to = -1.0", 23, "above that of `from`"),
         ("log_normal", "lognormal", 23, "did you mean `log_normal`"),
-        ("weights = [3, 1]", "weights = [3]", 28, "as many numbers as `values`"),
-        ("weights = [3, 1]", "weights = [0, 0]", 28, "a finite sum above zero"),
+        ("weights = [3, 1]", "weights = [3]", 29, "as many numbers as `values`"),
+        ("weights = [3, 1]", "weights = [0, 0]", 29, "a finite sum above zero"),
         ("weights = [3, 1]", "points = 3", 29, "it with `uniform`, in a grid"),
         ("name = \"spin\"", "name = \"k\"", 26, "a name that no other column has"),
         ("name = \"spin\"", "name = \"case\"", 26, "nor case, seed, fault or status"),
@@ -176,12 +178,13 @@ fn what_is_wrong_is_told_with_its_line() {
         ("[\"k\", ", "[\"body_tip_mass\", ", 32, "two variables"),
         ("-0.4", "-1.0", 33, "above -1 and below 1"),
         ("hinge = \"boom\"", "hinge = \"bom\"", 37, "did you mean `boom`"),
-        ("hinge = \"boom\"", "hinge = \"tip\"", 35, "one by time expected"),
+        ("hinge = \"boom\"", "hinge = \"tip\"", 35, "expected one by time"),
         ("by = 0.5", "by = -0.5", 37, "a number above zero"),
         ("offset = 0.1", "offset = 0.1, factor = 2.0", 38, "one of value, factor, offset"),
         ("stuck = [\"1,2\"]", "stuck = [\"1,3\"]", 42, "by the name of its body or by its numbers"),
         ("name = \"late\"", "name = \"stuck\"", 35, "each name once"),
         ("scene = \"scene.toml\"\n", "", 1, "a text"),
+        (STUDY, SCENE, 8, "nboom run runs a scene"),
         ("main_body.mass", "parameters.k", 27, "a number that `k` changes too"),
         (
             "path = \"main_body.mass\"",
@@ -232,6 +235,41 @@ fn several_mistakes_are_told_at_once() {
     let Err(InputError::Content(errors)) = read(&text) else { panic!("wrong") };
     let lines: Vec<usize> = errors.iter().map(|error| error.line).collect();
     assert_eq!(lines, [3, 23]);
+}
+
+/// What follows from a mistake is not told as another.
+#[test]
+fn one_mistake_is_told_once() {
+    let grid = "scene = 'scene.toml'\nmethod = 'grid'\n[[vary]]\npath = 'parameters.k'\n";
+    for more in [
+        "uniform = { from = 1, to = 2 }\npoints = 1",
+        "values = ['a']",
+        "values = [2, nan]",
+        "values = [1, 2]\nweights = ['a', 1]",
+        "values = [1, 2]\n[run]\nrtol = 2.0",
+        "values = [1, 2]\n[[fault]]\nname = 'late'\nlate_release = { hinge = 'tip', by = 1 }",
+    ] {
+        let method = if more.contains("weights") { "draws = 2\n" } else { "" };
+        let grid =
+            if method.is_empty() { grid } else { &grid.replace("method = 'grid'\n", method) };
+        let Err(InputError::Content(errors)) = read(&format!("{grid}{more}\n")) else {
+            panic!("{more}")
+        };
+        assert_eq!(errors.len(), 1, "{more}: {errors:#?}");
+    }
+}
+
+#[test]
+fn mistakes_of_the_scene_come_after_those_of_the_study() {
+    let place = place(&STUDY.replace("seed = 7", "sead = 7"));
+    let scene = SCENE.replace("mass = 100.0", "mass = -1.0");
+    fs::write(place.path().join("scene.toml"), scene).expect("writable");
+    let Err(InputError::Content(errors)) = Study::read(&place.path().join("study.toml")) else {
+        panic!("wrong")
+    };
+    let told: Vec<String> = errors.iter().map(ToString::to_string).collect();
+    assert_eq!(told.len(), 2, "{told:#?}");
+    assert!(told[0].contains("study.toml:3:") && told[1].contains("scene.toml:9:"), "{told:#?}");
 }
 
 #[test]

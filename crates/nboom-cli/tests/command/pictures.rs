@@ -105,6 +105,16 @@ fn a_scene_of_one_body_and_one_without_latches_are_drawn() {
 }
 
 #[test]
+fn a_picture_in_another_format_is_refused() {
+    let place = Place::new();
+    assert_eq!(code(&place.nboom(&["new", "wing"])), 0);
+    let check = place.nboom(&["check", "wing.toml", "--picture", "wing.png"]);
+    assert_eq!(code(&check), 2);
+    assert!(stderr(&check).contains("NAME.svg"), "{}", stderr(&check));
+    assert!(!place.path("wing.png").exists());
+}
+
+#[test]
 fn places_beyond_all_drawings_are_refused() {
     let place = Place::new();
     assert_eq!(code(&place.nboom(&["new", "wing"])), 0);

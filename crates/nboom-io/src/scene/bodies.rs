@@ -5,7 +5,7 @@ use nboom_scalar::{Mat3, Sym3, Vec3};
 
 use super::fields::{Fields, Reader};
 use super::stations::Materials;
-use super::{LONGEST_NAME, hinges};
+use super::{BODY_NAME, hinges, is_body_name};
 use crate::diagnostic::quoted;
 use crate::words;
 
@@ -54,12 +54,8 @@ impl Reader<'_, '_> {
     /// A name that fits into a line of text.
     fn body_name<'t>(&mut self, fields: &Fields<'t>) -> Option<&'t str> {
         let name = self.text(fields, "name")?;
-        let fits = !name.trim().is_empty()
-            && name.len() <= LONGEST_NAME
-            && !name.contains(char::is_control);
-        if !fits {
-            let expected = format!("1 to {LONGEST_NAME} bytes of text in one line");
-            self.error(&fields.place("name"), "name", &quoted(name), &expected);
+        if !is_body_name(name) {
+            self.error(&fields.place("name"), "name", &quoted(name), BODY_NAME);
         }
         Some(name)
     }

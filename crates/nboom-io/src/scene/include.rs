@@ -41,6 +41,10 @@ impl Parts {
             .into_iter()
             .collect();
         parts.add(main, sources, report);
+        if let (Some(entry), None) = (parts.root().get("scene"), parts.root().get("main_body")) {
+            let expected = "a scene; nboom sweep runs a study, nboom run --case one case of it";
+            report.error_at(sources, &entry.key_at, "scene", "a study", expected);
+        }
         let mut next = 0;
         while next < parts.tables.len() && report.errors.is_empty() {
             let folder = folders[next].clone();

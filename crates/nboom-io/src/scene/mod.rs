@@ -16,6 +16,7 @@ mod keys;
 mod lists;
 mod memory;
 mod model_error;
+mod names;
 mod output;
 mod parameters;
 mod rotors;
@@ -45,13 +46,12 @@ use include::Parts;
 pub use keys::{Holds, Key, TableKind, all_tables};
 use memory::Memory;
 use model_error::Responsible;
+pub(crate) use names::{BODY_NAME, is_body_name};
+pub use names::{FOLDER_NAME, folder_name};
 use parameters::Parameters;
 pub use schema::schema;
 pub(crate) use sources::{Place, Sources};
 pub use write::write_scene;
-
-/// Longest name of a scene or a body \[bytes\].
-const LONGEST_NAME: usize = 200;
 
 /// How a scene in TOML is read.
 #[derive(Clone, Debug, Default)]
@@ -162,14 +162,9 @@ impl Reader<'_, '_> {
     /// The scene's own name, which becomes that of a folder.
     fn scene_name<'t>(&mut self, root: &Fields<'t>) -> Option<&'t str> {
         let name = self.text(root, "name")?;
-        let is_file_name = !name.trim().is_empty()
-            && name.len() <= LONGEST_NAME
-            && !name.contains(['/', '\\', ':'])
-            && !name.contains(char::is_control)
-            && !name.starts_with('.');
-        if !is_file_name {
-            let expected = "the name of a folder: no / \\ : and no dot first";
-            self.error(&root.place("name"), "name", &quoted(name), expected);
+        if folder_name(name) != name {
+            let expected = format!("the name of a folder: {}", FOLDER_NAME);
+            self.error(&root.place("name"), "name", &quoted(name), &expected);
         }
         Some(name)
     }

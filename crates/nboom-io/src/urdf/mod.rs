@@ -8,7 +8,7 @@ mod reader;
 mod tree;
 
 use nboom_model::{Scene, UnitSystem};
-use roxmltree::Document;
+use roxmltree::{Document, Error as XmlError};
 
 use crate::deck::phrases;
 use crate::diagnostic::{Position, Report};
@@ -52,8 +52,7 @@ fn read(text: &str, name: &str, report: &mut Report<'_>) -> Option<Scene> {
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => {
-            let at = Position { line: error.pos().row as usize, column: error.pos().col as usize };
-            report.error(at, "robot", no_xml(&error), "XML");
+            report_no_xml(&error, text, report);
             return None;
         }
     };
@@ -83,8 +82,19 @@ fn refuse(message: &str, report: &mut Report<'_>) {
     report.error(Position::START, "robot", found, expected);
 }
 
-/// What the parser says, without its place.
-fn no_xml(error: &roxmltree::Error) -> String {
+/// Reports what the parser says, at its place; some of its errors have none.
+fn report_no_xml(error: &XmlError, text: &str, report: &mut Report<'_>) {
+    let at = match error {
+        XmlError::UnclosedRootNode | XmlError::UnexpectedEndOfStream => {
+            Lines::of(text).position(text.trim_end().len())
+        }
+        XmlError::DtdDetected => {
+            let at = Lines::of(text).position(text.find("<!DOCTYPE").unwrap_or_default());
+            return report.error(at, "robot", "a document type (DTD)", "a robot without one");
+        }
+        _ => Position { line: error.pos().row as usize, column: error.pos().col as usize },
+    };
     let message = error.to_string().replace(&format!(" at {}", error.pos()), "");
-    format!("text that is no XML ({})", message.replace(char::is_control, "\u{fffd}"))
+    let message = message.replace(char::is_control, "\u{fffd}");
+    report.error(at, "robot", format!("text that is no XML ({message})"), "XML");
 }

@@ -8,7 +8,7 @@ use super::links::{JointElement, Link, Motion, Robot};
 use super::reader::{Placement, Reader};
 use crate::deck::phrases;
 use crate::diagnostic::quoted;
-use crate::scene::suggest;
+use crate::scene::{BODY_NAME, folder_name, is_body_name, suggest};
 
 /// When the run ends \[s\].
 const END: f64 = 10.0;
@@ -41,7 +41,7 @@ pub(super) fn assemble(
     if !reader.report.errors.is_empty() {
         return None;
     }
-    let name = robot.name.unwrap_or(name).replace(char::is_control, "\u{fffd}");
+    let name = folder_name(robot.name.unwrap_or(name));
     let scene = SceneDescription::at_rest(&name, parts.main.joined, END);
     Some(SceneDraft { scene, bodies: parts.bodies.into_iter().map(|(draft, _)| draft).collect() })
 }
@@ -62,6 +62,9 @@ impl Outboard {
     fn find(robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
         let mut numbers = BTreeMap::new();
         for (i, link) in robot.links.iter().enumerate() {
+            if !is_body_name(link.name) {
+                reader.error_at(link.at, "link", quoted(link.name), BODY_NAME);
+            }
             if numbers.insert(link.name, i).is_some() {
                 let found = format!("a second link {}", quoted(link.name));
                 reader.error_at(link.at, "link", found, "names of their own");

@@ -4,7 +4,7 @@ use nboom_io::{SceneDocument, SceneFile, nearest};
 use nboom_model::{HingeState, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
-use super::reader::{At, Fields, Reader, quoted};
+use super::reader::{At, Fields, Reader, parted, quoted};
 use super::vary::relation;
 use crate::study::{Change, Fault, LateRelease};
 
@@ -77,7 +77,8 @@ impl<'t> Reader<'t> {
             made.map_err(|errors| errors.first().map_or_else(String::new, ToString::to_string))
         });
         if let Err(why) = broken {
-            self.error(&of.place(), "fault", why, "a fault that leaves a scene");
+            let (found, expected) = parted(&why, "a fault that leaves a scene");
+            self.error(&of.place(), "fault", found, expected);
         }
     }
 

@@ -200,7 +200,8 @@ impl<'t> Reader<'t> {
                 None
             }
         };
-        Some(items.value.iter().filter_map(item).collect())
+        let found: Vec<_> = items.value.iter().map(item).collect();
+        found.into_iter().collect()
     }
 
     /// A table below this one.
@@ -282,6 +283,14 @@ fn kind(value: &DeValue<'_>) -> String {
         DeValue::Datetime(_) => "a date or time".to_owned(),
         DeValue::Array(_) => "a list".to_owned(),
         DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+/// What a message of the form `… found, … expected` says was found and expected; `otherwise` of another form.
+pub(super) fn parted<'m>(message: &'m str, otherwise: &'m str) -> (&'m str, &'m str) {
+    match message.split_once(" found, ") {
+        Some((found, expected)) => (found, expected.trim_end_matches(" expected")),
+        None => (message, otherwise),
     }
 }
 

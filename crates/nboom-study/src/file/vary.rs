@@ -106,8 +106,10 @@ impl<'t> Reader<'t> {
             "uniform" => self.uniform(of)?,
             "values" => {
                 let values = self.numbers(of, "values")?.value;
-                let weights = self.numbers(of, "weights").map(|weights| weights.value);
-                let weights = weights.unwrap_or_else(|| vec![1.0; values.len()]);
+                let weights = match of.has("weights") {
+                    true => self.numbers(of, "weights")?.value,
+                    false => vec![1.0; values.len()],
+                };
                 Distribution::Values { values, weights }
             }
             name => self.bell(of, name)?,
@@ -117,7 +119,8 @@ impl<'t> Reader<'t> {
             self.error(&of.place_of(name), name, "a distribution without points", expected);
         }
         if let Err(Unfit { key, found, expected }) = found.check() {
-            self.error(&of.place_of(name), key, found, expected);
+            let place = of.place_of(if of.has(key) { key } else { name });
+            self.error(&place, key, found, expected);
         }
         Some(found)
     }
@@ -128,6 +131,9 @@ impl<'t> Reader<'t> {
         let to = self.number(&inner, "to").map(|found| found.value);
         let points = self.whole(of, "points").map(|found| found.value);
         let (from, to) = (from?, to?);
+        if of.has("points") && points.is_none() {
+            return None;
+        }
         Some(match points {
             Some(points) => Distribution::Points { from, to, points },
             None => Distribution::Uniform { from, to },

@@ -150,7 +150,12 @@ fn what_makes_no_scene_is_rejected_and_what_cannot_be_followed_fails() {
     let outcomes: Vec<Outcome> = rows.iter().map(|row| row.outcome).collect();
     use Outcome::{Failed, Ok, Rejected};
     assert_eq!(outcomes, [Rejected, Rejected, Ok, Failed]);
-    assert_eq!(status(&rows[0]), "rejected: mass: found mass -1, expected a positive finite mass");
+    let scene = fs::read_to_string(example("cubesat.toml")).expect("an example");
+    let x_panel = scene.find("name = \"x panel\"").expect("the body");
+    let mass = x_panel + scene[x_panel..].find("mass =").expect("its mass");
+    let line = scene[..mass].matches('\n').count() + 1;
+    let refused = "mass: found mass -1, expected a positive finite mass";
+    assert_eq!(status(&rows[0]), format!("rejected: cubesat.toml:{line}: {refused}"));
     assert!(status(&rows[3]).starts_with("failed: at time "), "{}", status(&rows[3]));
     for row in [&rows[0], &rows[3]] {
         assert_eq!(cell(&study, row, "final_nutation"), &Value::Empty);

@@ -134,3 +134,20 @@ fn what_is_done_before_a_disk_is_full_is_kept() {
     assert_eq!(report.computed, 2000 - journal.done());
     assert_eq!(tables(place.path()), expected(&fake));
 }
+
+/// Tables in CSV that a finished sweep lacks come from those in Parquet.
+#[test]
+fn tables_in_csv_can_be_asked_for_later() {
+    let place = tempfile::tempdir().expect("a directory");
+    let (fake, directory) = (Fake::of(40), place.path());
+    fake.finish(directory, &[]);
+    for name in [CASES_CSV_FILE, TRAJECTORIES_CSV_FILE] {
+        if directory.join(CASES_FILE).exists() {
+            fs::remove_file(directory.join(name)).expect("it was there");
+        }
+    }
+    let report = fake.run(directory, &Patient).expect("it is finished");
+    assert_eq!((report.end, report.computed), (End::WasComplete, 0));
+    assert_eq!(tables(directory), expected(&fake));
+    assert!(report.files.contains(&directory.join(CASES_CSV_FILE)));
+}
