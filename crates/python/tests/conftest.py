@@ -1,6 +1,7 @@
 """What tests share."""
 
 import os
+import signal
 import warnings
 from pathlib import Path
 
@@ -13,6 +14,14 @@ ROOT = Path(__file__).resolve().parents[3]
 def examples() -> Path:
     """The examples of the repository."""
     return Path(os.environ.get("NBOOM_EXAMPLES", ROOT / "examples"))
+
+
+@pytest.fixture(autouse=True)
+def interruptible():
+    """A shell may start what it runs in the background with Ctrl-C ignored, which tests send themselves."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(autouse=True)
