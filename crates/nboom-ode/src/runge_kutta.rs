@@ -1,10 +1,9 @@
 use std::ops::Range;
 
-use crate::tableau::{DOP853, DOPRI5, Tableau};
-use crate::weighted_sum::{BLOCK, add_sum, sum_up};
+use crate::tableau::{DOP853, DOPRI5, Row, Tableau};
+use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
-mod error_norm;
 mod first_step;
 mod lanes;
 mod stiffness;
@@ -150,7 +149,10 @@ impl RungeKutta {
     /// Writes the argument of a stage.
     fn combine(&mut self, stage: usize, step: f64) {
         let Self { tableau, window, stages, stage_state, .. } = self;
-        add_sum(&window.state, stages, tableau.a[stage], step, stage_state);
+        sum_up(stages, tableau.a[stage], step, stage_state);
+        for (out, y) in stage_state.iter_mut().zip(&window.state) {
+            *out += y;
+        }
     }
 
     fn evaluate(&mut self, system: &mut dyn System, stage: usize, step: f64) {
@@ -159,6 +161,41 @@ impl RungeKutta {
         let time = self.window.time + self.tableau.c[stage] * step;
         system.derivative(time, &self.stage_state[..size], derivative);
         self.window.counts.evaluations += 1;
+    }
+
+    /// Estimated error of the step in units of the tolerance.
+    fn error_norm(&mut self, step: f64) -> f64 {
+        let Self { tableau, stages, sums: [errors, lowers], .. } = self;
+        sum_up(stages, tableau.error, 1.0, errors);
+        sum_up(stages, tableau.lower_error, 1.0, lowers);
+        let (mut error, mut lower) = (0.0, 0.0);
+        for i in 0..self.controlled {
+            let inverse = 1.0 / self.scale_of(i);
+            error += (self.sums[0][i] * inverse).powi(2);
+            lower += (self.sums[1][i] * inverse).powi(2);
+        }
+        let finite = self.window.end_state.iter().all(|y| y.is_finite());
+        if !finite || !(error + lower).is_finite() {
+            return f64::INFINITY;
+        }
+        let count = self.controlled.max(1) as f64;
+        if self.tableau.lower_error.is_empty() {
+            return step.abs() * (error / count).sqrt();
+        }
+        let denominator = error + 0.01 * lower;
+        if denominator <= 0.0 {
+            return 0.0;
+        }
+        step.abs() * error / (denominator * count).sqrt()
+    }
+
+    fn estimate(&self, weights: Row, i: usize) -> f64 {
+        weights.iter().map(|&(j, e)| e * self.stages[j * self.stride + i]).sum()
+    }
+
+    fn scale_of(&self, i: usize) -> f64 {
+        let value = self.window.state[i].abs().max(self.window.end_state[i].abs());
+        self.tolerance.allowed(self.window.sizes[i], value)
     }
 
     fn factor(&self, error: f64) -> f64 {
@@ -176,6 +213,12 @@ impl RungeKutta {
         let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
         let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
         StepError::Underflow { time, step, variable }
+    }
+
+    /// Root mean square of `values` over the controlled variables, in units of the tolerance.
+    fn norm(&self, values: impl Fn(usize) -> f64) -> f64 {
+        let square = |i: usize| (values(i) / self.scale_of(i)).powi(2);
+        ((0..self.controlled).map(square).sum::<f64>() / self.controlled.max(1) as f64).sqrt()
     }
 }
 

@@ -58,7 +58,6 @@ pub struct Tolerance {
 
 impl Tolerance {
     /// The error allowed in a variable of natural size `size` whose value is `value`.
-    #[inline(always)]
     pub(crate) fn allowed(self, size: f64, value: f64) -> f64 {
         self.absolute * size + self.relative * value.abs()
     }

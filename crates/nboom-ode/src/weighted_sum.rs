@@ -8,16 +8,10 @@ pub(crate) const BLOCK: usize = 8;
 /// Writes `factor` times the weighted sum of stages to `out`; each stage is as long as `out`, a whole
 /// number of [`BLOCK`]s.
 pub(crate) fn sum_up(stages: &[f64], weights: Row, factor: f64, out: &mut [f64]) {
-    add_sum(&[], stages, weights, factor, out);
-}
-
-/// Likewise, added to `start`, which may be shorter.
-pub(crate) fn add_sum(start: &[f64], stages: &[f64], weights: Row, factor: f64, out: &mut [f64]) {
-    vectorised(WeightedSum { start, stages, weights, factor, out });
+    vectorised(WeightedSum { stages, weights, factor, out });
 }
 
 struct WeightedSum<'a> {
-    start: &'a [f64],
     stages: &'a [f64],
     weights: Row,
     factor: f64,
@@ -40,7 +34,7 @@ impl Work for WeightedSum<'_> {
 impl WeightedSum<'_> {
     #[inline(always)]
     fn in_pieces<const N: usize>(self) {
-        let Self { start, stages, weights, factor, out } = self;
+        let Self { stages, weights, factor, out } = self;
         let stride = out.len();
         for (piece, out) in out.as_chunks_mut::<N>().0.iter_mut().enumerate() {
             let mut sums = [0.0; N];
@@ -52,9 +46,6 @@ impl WeightedSum<'_> {
             }
             for (out, sum) in out.iter_mut().zip(sums) {
                 *out = factor * sum;
-            }
-            for (out, start) in out.iter_mut().zip(start.get(piece * N..).unwrap_or(&[])) {
-                *out += start;
             }
         }
     }
