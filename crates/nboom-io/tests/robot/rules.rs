@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nboom_io::{SceneFile, parse_robot};
+use nboom_io::{ReadOptions, SceneFile, parse_robot, parse_scene, write_scene};
 use nboom_scalar::{Sym3, Vec3};
 
 const BODY: &str = "<inertial><origin xyz=\"0.5 0 0\"/><mass value=\"2\"/>\
@@ -128,4 +128,19 @@ fn what_is_left_out_of_an_inertial_is_named() {
     let file = parse_robot("arm.urdf", &text, "file").expect("a robot");
     let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
     assert_eq!(told, ["inertai"]);
+}
+
+/// A scene that is made of a robot can be read, whatever the robot is called.
+#[test]
+fn a_robot_has_the_name_of_a_folder() {
+    let long = "\u{e9}".repeat(150);
+    let cut = "\u{e9}".repeat(100);
+    for (name, expected) in [("a/b:c", "a_b_c"), ("..", "_."), (&long, &cut)] {
+        let text = format!("<robot name=\"{name}\"><link name=\"base\">{BODY}</link></robot>");
+        let file = parse_robot("arm.urdf", &text, "file").expect("a robot");
+        assert_eq!(file.scene.name, expected);
+        let options = ReadOptions::default();
+        let again = parse_scene("arm.toml", &write_scene(&file), "arm", None, &options);
+        assert_eq!(again.expect("a scene").scene.name, expected);
+    }
 }
