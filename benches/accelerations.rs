@@ -10,9 +10,9 @@ use std::hint::black_box;
 use std::path::Path;
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
-use nboom::formulation::{Forces, Recognised, recognise};
+use nboom::formulation::{Forces, Recognised, RightSideLayout, assumptions_in_a_word, recognise};
 use nboom::model::{HingeState, Mode, Scene};
-use nboom::scalar::{Dual, Eight, Kernel, Real, Routine};
+use nboom::scalar::{Dual, Eight, Real, Routine};
 use nboom_routines::{Principal4S5, Principal20S5, PrincipalS2P, PrincipalS100};
 use timing::{STATES, State, numbers, state, time};
 
@@ -55,7 +55,7 @@ fn measure(name: &str, scene: &Scene) {
         let generated = time(|i| {
             kernel.evaluate(black_box(&constants), black_box(&coordinates[i]), black_box(&mut out));
         });
-        let assumptions = kernel.assumptions_in_a_word();
+        let assumptions = assumptions_in_a_word(kernel);
         let label = format!("generated_articulated_{assumptions}_{}", kernel.instructions);
         report(name, &label, generated, recursive);
     }
@@ -83,9 +83,12 @@ fn right_sides(
     let forces = forces.expect("the scenes have springs and dashpots alone");
     let numbers = [recognised.parameters.write(), forces.write()].concat();
     let topology = recognised.topology.to_string();
-    let kernels: Vec<&Kernel> =
-        nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == topology).collect();
-    for (kernel, word) in kernels.into_iter().zip(["principal", "general", "general_lines"]) {
+    let kernels = nboom_routines::right_sides().iter();
+    for kernel in kernels.filter(|kernel| kernel.topology == topology) {
+        let first_line = RightSideLayout::coefficients(&recognised.topology, 0).start;
+        let is_pushed = kernel.assumptions.iter().all(|&(at, _)| at != first_line);
+        let word =
+            format!("{}{}", assumptions_in_a_word(kernel), if is_pushed { "_lines" } else { "" });
         assert!(kernel.accepts(&numbers), "the scenes have principal axes");
         let (mut constants, mut out) = (vec![0.0; kernel.constants], vec![0.0; kernel.outputs]);
         kernel.prepare(&numbers, &mut constants);

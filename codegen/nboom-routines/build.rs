@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use nboom_codegen::{Level, Module, Request};
-use nboom_formulation::{Formulation, Layout, RightSideLayout};
-use nboom_model::Topology;
+use nboom_formulation::{Formulation, Layout, RightSideLayout, Symmetry};
+use nboom_model::{Shape, Topology};
 
 /// Topologies that scenes often have, or come through while their hinges are released and lock.
 #[rustfmt::skip]
@@ -47,14 +47,22 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
 }
 
+/// What routines of a topology assume. Of chains there is one more kind: with some links held at any angle to the
+/// next, a boom along principal axes is mirrored still.
+fn symmetries(topology: &Topology) -> impl Iterator<Item = Symmetry> {
+    let has_chains = topology.hinges() > 0
+        && topology.shapes().iter().all(|shape| matches!(shape, Shape::Chain(_)));
+    Symmetry::ALL.into_iter().filter(move |kind| *kind != Symmetry::Mirrored || has_chains)
+}
+
 /// Routines for each topology of the stock, then S2_P by the other formulations.
 fn accelerations() -> Vec<Request> {
     let mut requests = Vec::new();
     for topology in stock() {
-        for principal in [true, false] {
-            let name = name(&topology, principal);
-            let request = Request::new(&name, topology.clone(), Level::Fast).with_external_wrench();
-            requests.push(if principal { request.with_principal_axes() } else { request });
+        for symmetry in symmetries(&topology) {
+            let name = name(&topology, symmetry);
+            let request = Request::new(&name, topology.clone(), Level::Fast);
+            requests.push(request.with_external_wrench().with_symmetry(symmetry));
         }
     }
     requests.extend(OTHERS.map(|formulation| s2_p("", Level::Fast, formulation)));
@@ -83,14 +91,15 @@ fn right_sides() -> Vec<Request> {
     let is_wanted = |topology: &Topology| topology.groups().all(|(_, n)| n <= MOST_EQUAL);
     for topology in stock().filter(is_wanted) {
         let has_few = topology.hinges() <= FEW_HINGES;
-        for principal in [true, false] {
-            let name = name(&topology, principal);
+        for symmetry in symmetries(&topology) {
+            let name = name(&topology, symmetry);
             let request = Request::new(&name, topology.clone(), Level::Fast).for_right_side();
-            let request = if principal { request.with_principal_axes() } else { request };
+            let request = request.with_symmetry(symmetry);
             let general = || request.clone();
             let named = |kind: &str| Request { name: format!("{kind}{name}"), ..general() };
             let is_planar = topology.hinges() > 0 && !topology.has_limbs();
-            let is_pushed = has_few && !principal && is_planar;
+            let is_general = symmetry == Symmetry::General;
+            let is_pushed = has_few && is_general && is_planar;
             // With more hinges, more lines or a wrench beside them take too much straight code.
             let takes_both = topology.hinges() < FEW_HINGES;
             let pushed = is_pushed.then(|| {
@@ -101,7 +110,7 @@ fn right_sides() -> Vec<Request> {
                     pushed.with_lines(1)
                 }
             });
-            let thrust = (has_few && !principal).then(|| named("Thrust").with_external_wrench());
+            let thrust = (has_few && is_general).then(|| named("Thrust").with_external_wrench());
             let on_eight = has_few || topology.shapes().len() == 1;
             requests.push(if on_eight { request.on_eight_states() } else { request });
             requests.extend(pushed.map(Request::on_eight_states).into_iter().chain(thrust));
@@ -124,7 +133,7 @@ fn exact() -> Vec<Request> {
     let general = Formulation::ALL.map(|formulation| s2_p("", Level::Exact, formulation));
     let principal = Formulation::ALL.map(|formulation| {
         let name = camel_case(formulation) + "S1P";
-        satellite(&name, "S1_P").with_principal_axes().by(formulation)
+        satellite(&name, "S1_P").with_symmetry(Symmetry::Principal).by(formulation)
     });
     let equations =
         with_equations(|formulation| s2_p("Equations", Level::Exact, formulation).for_equations());
@@ -143,7 +152,7 @@ fn exact_right_sides() -> Vec<Request> {
         satellite("RolledMixed", "2xS4_S2_S1_2xP"),
         unequal_laws(unequal(satellite("RolledUnequal", "4xS2"))),
         satellite("StraightM", "M"),
-        satellite("StraightS1P", "S1_P").with_principal_axes(),
+        satellite("StraightS1P", "S1_P").with_symmetry(Symmetry::Principal),
         satellite("PushedS2P", "S2_P").with_external_wrench().with_lines(2),
         satellite("PackedLimbs", "5xTr(rp)(s)_S2").with_external_wrench(),
         satellite("PushedLimb", "Trs").with_lines(1),
@@ -198,8 +207,12 @@ fn camel_case(formulation: Formulation) -> String {
     first.to_uppercase() + rest
 }
 
-/// For example `PrincipalS2P` or `General4S3`.
-fn name(topology: &Topology, principal: bool) -> String {
-    let kind = if principal { "Principal" } else { "General" };
+/// For example `PrincipalS2P`, `Mirrored2S2` or `General4S3`.
+fn name(topology: &Topology, symmetry: Symmetry) -> String {
+    let kind = match symmetry {
+        Symmetry::Principal => "Principal",
+        Symmetry::Mirrored => "Mirrored",
+        Symmetry::General => "General",
+    };
     format!("{kind}{}", topology.to_string().replace(['_', 'x'], ""))
 }

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use nboom::formulation::{
-    Coordinates, Embedding, Formulation, Layout, Parameters, Recognised, recognise,
+    Coordinates, Embedding, Formulation, Layout, Parameters, Recognised, Symmetry,
+    assumptions_in_a_word, recognise,
 };
 use nboom::model::{HingeState, Mode, Scene, Shape, Topology, WeldedTree};
 use nboom::scalar::Kernel;
@@ -131,9 +132,9 @@ fn stock_routines_give_the_accelerations_of_satellites_embedded_in_them() {
     }
 }
 
-/// A scene of the benches in a random state of a random mode; hinges are held at angle zero, those
+/// A scene of the benches in a random state of a random mode; hinges are held at angles up to `held_at`, those
 /// at the main body never.
-fn with_principal_axes(scene: &Scene, seed: u64) -> Moment {
+fn in_some_mode(scene: &Scene, held_at: f64, seed: u64) -> Moment {
     let dice = &mut Rng::new(seed);
     let at_main_body = |i: usize| scene.bodies[i].inboard.is_none();
     let held = dice.between(0.0, 0.7);
@@ -144,11 +145,11 @@ fn with_principal_axes(scene: &Scene, seed: u64) -> Moment {
         })
         .collect();
     let mode = Mode { hinges, ..Mode::at_start(scene) };
-    let of_free = |size: f64, dice: &mut Rng| -> Vec<f64> {
-        let any = |i| if mode.is_free(i) { dice.between(-size, size) } else { 0.0 };
-        (0..scene.bodies.len()).map(any).collect()
+    let of_hinges = |[free, held]: [f64; 2], dice: &mut Rng| -> Vec<f64> {
+        let size = |i| if mode.is_free(i) { free } else { held };
+        (0..scene.bodies.len()).map(|i| size(i) * dice.between(-1.0, 1.0)).collect()
     };
-    let (beta, tau) = (of_free(3.0, dice), of_free(2.0, dice));
+    let (beta, tau) = (of_hinges([3.0, held_at], dice), of_hinges([2.0, 0.0], dice));
     let (omega, velocity_body) = (dice.vector(2.0), dice.vector(2.0));
     Moment { scene: scene.clone(), mode, beta, tau, omega, velocity_body }
 }
@@ -159,14 +160,21 @@ fn bench_scene(name: &str) -> Scene {
 }
 
 #[test]
-fn routines_for_principal_axes_take_satellites_with_fewer_links() {
-    for (name, topology) in [("T2", "4xS5"), ("T4", "20xS5"), ("T1", "S2_P")] {
+fn routines_for_symmetric_satellites_take_those_with_fewer_links() {
+    for (name, topology, symmetry, held_at) in [
+        ("T2", "4xS5", Symmetry::Principal, 0.0),
+        ("T2", "4xS5", Symmetry::Mirrored, 3.0),
+        ("T4", "20xS5", Symmetry::Principal, 0.0),
+        ("T4", "20xS5", Symmetry::Mirrored, 3.0),
+        ("T1", "S2_P", Symmetry::Principal, 0.0),
+    ] {
         let scene = bench_scene(name);
-        let of_it = |kernel: &Kernel| kernel.topology == topology && !kernel.assumptions.is_empty();
+        let is_symmetric = |kernel: &Kernel| assumptions_in_a_word(kernel) == symmetry.name();
+        let of_it = |kernel: &Kernel| kernel.topology == topology && is_symmetric(kernel);
         let options = choosing_from(nboom_routines::all().iter().copied().filter(of_it));
         let mut checked = 0;
         for seed in 0..200 {
-            let satellite = Satellite::of_moment(&with_principal_axes(&scene, seed));
+            let satellite = Satellite::of_moment(&in_some_mode(&scene, held_at, seed));
             let recognised = satellite.recognised();
             let Some(fit) = Repertoire::new(&options).best(&recognised, false) else { continue };
             check_routine(&satellite, &recognised, &fit, &format!("{name}, seed {seed}"));

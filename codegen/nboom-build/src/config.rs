@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 use nboom_codegen::{Level, Module, Numbers, Output, Request, Standing, StressRequest};
-use nboom_formulation::Formulation;
+use nboom_formulation::{Formulation, Symmetry};
 use nboom_io::{SceneFile, read_scene};
 
 use crate::BuildError;
@@ -17,7 +17,7 @@ pub struct Config {
     lock_states: bool,
     stresses: bool,
     external_wrench: bool,
-    principal_axes: bool,
+    symmetry: Symmetry,
     equations: bool,
     inverse_dynamics: bool,
     right_sides: bool,
@@ -42,7 +42,7 @@ impl Default for Config {
             lock_states: false,
             stresses: false,
             external_wrench: false,
-            principal_axes: false,
+            symmetry: Symmetry::General,
             equations: false,
             inverse_dynamics: false,
             right_sides: false,
@@ -108,11 +108,9 @@ impl Config {
         Self { external_wrench: true, ..self }
     }
 
-    /// Routines of topologies assume that inertias stand along the segment axes, every
-    /// mass centre and next hinge is on its segment's η axis, and O is at the main body's mass
-    /// centre. Only `Kernel::accepts` refuses the numbers of other satellites.
-    pub fn with_principal_axes(self) -> Self {
-        Self { principal_axes: true, ..self }
+    /// Routines of topologies assume this of the satellite. Only `Kernel::accepts` refuses the numbers of others.
+    pub fn with_symmetry(self, symmetry: Symmetry) -> Self {
+        Self { symmetry, ..self }
     }
 
     /// Routines write the matrix and the right side that the formulation solves, instead of
@@ -242,9 +240,7 @@ impl Config {
                     .map_err(|source| BuildError::Topology { name: name.clone(), source })?;
                 let mut request = Request::new(name, topology, self.level);
                 request.external = self.external_wrench;
-                if self.principal_axes {
-                    request = request.with_principal_axes();
-                }
+                request = request.with_symmetry(self.symmetry);
                 let right_side = self.right_sides.then(|| {
                     let name = format!("RightSide{name}");
                     Request { name, ..request.clone() }.for_right_side()

@@ -22,4 +22,4 @@ mod error;
 pub use config::Config;
 pub use error::BuildError;
 pub use nboom_codegen::Level;
-pub use nboom_formulation::Formulation;
+pub use nboom_formulation::{Formulation, Symmetry};

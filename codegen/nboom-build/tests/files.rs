@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use nboom_build::{BuildError, Config, Formulation, Level};
+use nboom_build::{BuildError, Config, Formulation, Level, Symmetry};
 
 const SAMPLE: &str = "../../examples/n-boom-1970.nml";
 
@@ -92,7 +92,7 @@ fn options_reach_the_code() {
     assert!(plain.contains("by formulation articulated, level fast"));
     assert!(plain.contains("pub fn kernels() -> &'static [::nboom::scalar::Kernel]"));
     assert!(plain.contains("const EXTERNAL: bool = false"));
-    let forced = written(&satellite().with_external_wrench().with_principal_axes());
+    let forced = written(&satellite().with_external_wrench().with_symmetry(Symmetry::Principal));
     assert!(forced.contains("const EXTERNAL: bool = true"));
     assert!(forced.contains("O at the main body's mass centre"));
     let equations = satellite().formulation(Formulation::Symmetric).for_equations();

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use nboom_codegen::{
     CodegenError, HINGE_LIMIT, Level, Request, STRAIGHT_LIMIT, StressRequest, generate, source,
 };
-use nboom_formulation::{Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout};
+use nboom_formulation::{
+    Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout, Symmetry,
+};
 use nboom_loads::{Loads, SceneMotion};
 use nboom_model::{
     Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Material, Mount, Scene,
@@ -32,7 +34,7 @@ fn s1() -> Request {
 fn four_s3() -> Request {
     Request::new("FourS3", Topology::new([Shape::Chain(3); 4]), Level::Fast)
         .with_external_wrench()
-        .with_principal_axes()
+        .with_symmetry(Symmetry::Principal)
 }
 
 /// One boom that a line pushes, with its hinge law and its attitude.

@@ -1,7 +1,7 @@
 //! What generated code of S2_P costs is what the documents say.
 
 use nboom_codegen::{Level, Request, generate};
-use nboom_formulation::Formulation;
+use nboom_formulation::{Formulation, Symmetry};
 
 const DOCUMENT: &str = include_str!("../../../docs/formulations.md");
 
@@ -21,7 +21,7 @@ fn documented() -> Vec<(String, String)> {
 fn counted(formulation: Formulation) -> String {
     let topology = "S2_P".parse().expect("a topology");
     let general = Request::new("S2P", topology, Level::Fast).with_external_wrench().by(formulation);
-    let requests = [general.clone(), general.with_principal_axes()];
+    let requests = [general.clone(), general.with_symmetry(Symmetry::Principal)];
     let cells = requests.map(|request| {
         let cost = generate(&request).expect("S2_P can be generated").evaluation;
         format!("{} + {} + {}", cost.additions, cost.multiplications, cost.divisions)

@@ -20,13 +20,13 @@ const SCALAR: &str = "::nboom::scalar";
 /// | --- | --- | --- |
 /// | `formulation = NAME` | `report`, `relative`, `symmetric`, `articulated` or `momentum` | `articulated` |
 /// | `level = NAME` | `exact`: values of the closed form; `fast`: fused products and sums | `fast` |
-/// | `assumptions = principal` | inertias along the segment axes, mass centres and next hinges on the η axis, O at the main body's mass centre | all numbers at run time |
+/// | `assumptions = NAME` | `principal`: inertias along the segment axes, mass centres and next hinges on the η axis, O at the main body's mass centre; `mirrored`: links of chains that the plane ηζ divides into halves that mirror each other; `general`: none | `general` |
 /// | `external` | an external wrench on the main body | none |
 /// | `equations` | the matrix and the right side that the formulation solves | accelerations |
 /// | `inverse_dynamics` | wrench on the main body and hinge torques for given accelerations | accelerations |
 /// | `right_side` | the right side of a mode's differential equations, without lines that push links | accelerations |
 ///
-/// A routine with `assumptions = principal` computes something else for other satellites. Only
+/// A routine with assumptions computes something else for other satellites. Only
 /// `Kernel::accepts` refuses their numbers; `Kernel::prepare` does not look.
 ///
 /// ```

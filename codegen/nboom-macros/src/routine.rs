@@ -1,7 +1,7 @@
 //! `routine! { pub Satellite: S2_P, level = exact }`.
 
 use nboom_codegen::{CodegenError, Level, Request, generate};
-use nboom_formulation::Formulation;
+use nboom_formulation::{Formulation, Symmetry};
 use nboom_model::Topology;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -113,9 +113,7 @@ fn with(request: Request, option: &Ident, input: ParseStream<'_>) -> Result<Requ
             let level = value(input, &[Level::Exact, Level::Fast], Level::name)?;
             Request { level, ..request }
         }
-        "assumptions" => {
-            value(input, &["principal"], |name| name).map(|_| request.with_principal_axes())?
-        }
+        "assumptions" => request.with_symmetry(value(input, &Symmetry::ALL, Symmetry::name)?),
         "external" => request.with_external_wrench(),
         "equations" => request.for_equations(),
         "inverse_dynamics" => request.for_inverse_dynamics(),
@@ -189,7 +187,11 @@ mod tests {
             &["`newton` found", "report, relative, symmetric, articulated, momentum expected"],
         );
         is_refused("S: S2, level = quick", "quick", &["`quick` found, one of exact, fast"]);
-        is_refused("S: S2, assumptions = none", "none", &["one of principal expected"]);
+        is_refused(
+            "S: S2, assumptions = none",
+            "none",
+            &["one of principal, mirrored, general expected"],
+        );
         is_refused("S: S2, external, external", "external", &["`external` is given twice"]);
     }
 

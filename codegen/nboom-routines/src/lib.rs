@@ -1,8 +1,7 @@
 //! Generated routines of common topologies, ready to run.
 //!
-//! Each topology comes twice: for satellites whose inertias stand along the segment axes, with
-//! every mass centre on its segment's η axis and O at the main body's mass centre, and for all
-//! others.
+//! Each topology comes for each `Symmetry` of `nboom-formulation` that it may have: along principal axes, with
+//! mirrored links if it has chains alone, and any.
 //!
 //! ```
 //! let topologies: Vec<_> = nboom_routines::all().iter().map(|kernel| kernel.topology).collect();

@@ -2,7 +2,9 @@
 //! rounding at level `fast`, in this processor's instruction set; and what a routine assumes is
 //! never read.
 
-use nboom_formulation::{Coordinates, Equations, Formulation, Layout, Parameters};
+use nboom_formulation::{
+    Coordinates, Equations, Formulation, Layout, Parameters, assumptions_in_a_word,
+};
 use nboom_model::Topology;
 use nboom_scalar::{Kernel, Lanes, Routine};
 
@@ -192,6 +194,20 @@ fn the_stock_has_all_formulations_of_one_topology_and_articulated_before_them() 
     let first_other = stock.iter().position(|kernel| kernel.formulation != "articulated");
     let articulated = |kernel: &&Kernel| kernel.formulation == "articulated";
     assert_eq!(first_other, Some(stock.iter().filter(articulated).count()));
+}
+
+#[test]
+fn a_word_says_what_each_routine_of_the_stock_assumes() {
+    let words = |topology: &str| -> Vec<&str> {
+        let of_topology =
+            nboom_routines::for_runs().iter().filter(|kernel| kernel.topology == topology);
+        of_topology.map(assumptions_in_a_word).collect()
+    };
+    assert_eq!(words("4xS5"), ["principal", "mirrored", "general"].repeat(2));
+    assert_eq!(words("2xS4"), ["principal", "mirrored", "general"].repeat(2));
+    assert_eq!(words("S1_P")[..2], ["principal", "general"]);
+    assert_eq!(words("Trrr")[..2], ["principal", "general"]);
+    assert_eq!(words("M")[..2], ["principal", "general"]);
 }
 
 #[test]

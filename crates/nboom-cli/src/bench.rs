@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use nboom_formulation::{Recognised, symmetric};
+use nboom_formulation::{Recognised, assumptions_in_a_word, symmetric};
 use nboom_scalar::{Batch, Eight};
 use nboom_verify::{ComparedCode, Label, TestCase};
 
@@ -126,7 +126,7 @@ fn rows(test_case: &TestCase, routines: &Routines, seconds: f64) -> Result<Vec<R
 
 /// Whether a batch is the same routine.
 fn is_of(batch: &Batch, label: &Label) -> bool {
-    (Some(batch.topology), batch.formulation, batch.assumptions_in_a_word())
+    (Some(batch.topology), batch.formulation, assumptions_in_a_word(batch))
         == (label.topology, label.formulation, label.assumptions)
 }
 

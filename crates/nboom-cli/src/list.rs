@@ -1,5 +1,6 @@
 use std::fmt::Write;
 
+use nboom_formulation::assumptions_in_a_word;
 use nboom_io::{Holds, SCENE, TableKind, all_tables};
 use nboom_model::Quantity;
 use nboom_results::{FILES, PLOTS_FOLDER};
@@ -47,9 +48,9 @@ pub(crate) fn text(routines: &Routines) -> String {
     chapter("quantities (columns of [output] in a scene)", quantities.collect());
     let kernels = routines.for_runs.iter();
     let stock = kernels.map(|kernel| {
-        let assumes = if kernel.assumptions.is_empty() { "" } else { ", principal axes" };
         let result = kernel.result.replace('_', " ");
-        row(kernel.topology, &format!("{result} by {}{assumes}", kernel.formulation))
+        let assumes = assumptions_in_a_word(kernel);
+        row(kernel.topology, &format!("{result} by {}, {assumes}", kernel.formulation))
     });
     let mut stock: Vec<_> = stock.collect();
     stock.dedup();

@@ -24,6 +24,7 @@ mod right_side;
 mod section5;
 pub mod stages;
 pub mod symmetric;
+mod symmetry;
 
 pub use base::AtOrigin;
 pub use chain::ChainLink;
@@ -35,3 +36,4 @@ pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Mount, Param
 pub use recognise::{LinkFrame, Recognised, Uncovered, recognise};
 pub use right_side::{RightSideLayout, right_side};
 pub use section5::Equations;
+pub use symmetry::{Symmetry, assumptions_in_a_word, links};

@@ -87,16 +87,6 @@ impl<N: Numbers> RoutineOn<N> {
         })
     }
 
-    /// What it assumes of a satellite: `general` nothing, `principal` some parameters, `baked` all
-    /// of them.
-    pub fn assumptions_in_a_word(&self) -> &'static str {
-        match self.assumptions.len() {
-            0 => "general",
-            count if count == self.parameters => "baked",
-            _ => "principal",
-        }
-    }
-
     /// Whether both are forms of one generated routine, or of routines that differ in their name alone.
     pub fn is_of_same_routine<M>(&self, other: &RoutineOn<M>) -> bool {
         let what = [self.result, self.topology, self.formulation];

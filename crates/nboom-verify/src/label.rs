@@ -1,5 +1,6 @@
 use std::fmt;
 
+use nboom_formulation::assumptions_in_a_word;
 use nboom_scalar::Kernel;
 use nboom_sim::Fit;
 use serde::Serialize;
@@ -11,8 +12,7 @@ pub struct Label {
     pub path: &'static str,
     /// The form of the equations of motion.
     pub formulation: &'static str,
-    /// What it assumes of a scene: `general` nothing, `principal` some parameters, `baked` all of
-    /// them.
+    /// What it assumes of a scene, as [`assumptions_in_a_word`] says it.
     pub assumptions: &'static str,
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
@@ -46,7 +46,7 @@ impl Label {
     pub fn generated(fit: &Fit) -> Self {
         let (kernel, virtual_links) = (&fit.kernel, fit.embedding.virtual_links());
         let Kernel { formulation, instructions, topology, .. } = *kernel;
-        let (assumptions, topology) = (kernel.assumptions_in_a_word(), Some(topology));
+        let (assumptions, topology) = (assumptions_in_a_word(kernel), Some(topology));
         Self { path: "generated", formulation, assumptions, instructions, topology, virtual_links }
     }
 

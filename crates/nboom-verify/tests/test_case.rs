@@ -61,7 +61,7 @@ impl<const ASSUMED: usize> Routine for Assuming<ASSUMED> {
 fn labels_say_what_is_assumed() {
     for (kernel, assumptions) in [
         (Kernel::of::<Assuming<0>>(), "general"),
-        (Kernel::of::<Assuming<2>>(), "principal"),
+        (Kernel::of::<Assuming<2>>(), "general"),
         (Kernel::of::<Assuming<3>>(), "baked"),
     ] {
         let topology: Topology = "M".parse().expect("a topology");

@@ -46,10 +46,12 @@ pub fn hash(bytes: &[u8]) -> u64 {
 mod tests {
     use super::*;
     use crate::{Level, Module, Request};
+    use nboom_formulation::Symmetry;
 
     fn module() -> Module {
         let request = |name: &str| {
-            Request::new(name, name.parse().expect("a topology"), Level::Fast).with_principal_axes()
+            Request::new(name, name.parse().expect("a topology"), Level::Fast)
+                .with_symmetry(Symmetry::Principal)
         };
         vec![request("S1"), request("P")].into()
     }

@@ -1,6 +1,6 @@
 //! What a routine assumes, in words.
 
-use nboom_formulation::{Layout, RightSideLayout};
+use nboom_formulation::{Layout, RightSideLayout, links};
 use nboom_model::{Shape, Topology};
 
 use crate::request::{Output, Request};
@@ -175,24 +175,11 @@ const PRODUCTS: [usize; 3] = [7, 8, 9];
 /// The way to the next hinge along ζ.
 const WAY_ACROSS: [usize; 1] = [11];
 
-/// Where the numbers of each link of chains and paddles begin.
-pub(crate) fn links(topology: &Topology) -> Vec<usize> {
-    let mut at = Layout::MAIN;
-    let mut links = Vec::new();
-    for shape in topology.shapes() {
-        let first = at + Layout::BRANCH;
-        at += Layout::appendage(*shape);
-        if !matches!(shape, Shape::Limb(_)) {
-            links.extend((first..at).step_by(Layout::LINK));
-        }
-    }
-    links
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Level;
+    use nboom_formulation::Symmetry;
 
     fn phrases(request: &Request) -> Vec<String> {
         request.assumptions_in_words()
@@ -204,7 +191,7 @@ mod tests {
         let general = Request::new("S2P", topology.clone(), Level::Fast);
         assert_eq!(phrases(&general), ["no external wrench on the main body"]);
         assert_eq!(phrases(&general.clone().with_external_wrench()), [""; 0]);
-        let principal = general.clone().with_principal_axes().with_external_wrench();
+        let principal = general.clone().with_symmetry(Symmetry::Principal).with_external_wrench();
         assert_eq!(
             phrases(&principal),
             [

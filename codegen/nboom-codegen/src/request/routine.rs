@@ -1,7 +1,6 @@
-use nboom_formulation::{Formulation, Layout, RightSideLayout};
+use nboom_formulation::{Formulation, Layout, RightSideLayout, Symmetry};
 use nboom_model::Topology;
 
-use crate::request::assumptions::links;
 use crate::request::{CodegenError, Output};
 
 /// The most hinges that `articulated` is generated for, as loops.
@@ -156,21 +155,9 @@ impl Request {
         self
     }
 
-    /// Assumes what holds of the report's decks: every mass centre on its segment's
-    /// η axis, every inertia along the segment axes, O at the main body's mass centre.
-    pub fn with_principal_axes(mut self) -> Self {
-        const FIRST_MOMENT_X: usize = 1;
-        const FIRST_MOMENT_Z: usize = 3;
-        const PRODUCTS: [usize; 3] = [7, 8, 9];
-        const NEXT_Z: usize = 11;
-        for at in [1, 2, 3, 7, 8, 9] {
-            self.assumptions[at] = Some(0.0);
-        }
-        for link in links(&self.topology) {
-            for at in [FIRST_MOMENT_X, FIRST_MOMENT_Z, NEXT_Z].into_iter().chain(PRODUCTS) {
-                self.assumptions[link + at] = Some(0.0);
-            }
-        }
+    /// Assumes this of the satellite.
+    pub fn with_symmetry(mut self, symmetry: Symmetry) -> Self {
+        symmetry.zeros(&self.topology).into_iter().for_each(|at| self.assumptions[at] = Some(0.0));
         self
     }
 

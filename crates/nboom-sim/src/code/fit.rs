@@ -42,8 +42,8 @@ fn duration(topology: &Topology, instructions: &str) -> usize {
         40 * (count / widest + rest / 4 + rest % 4 / 2 + rest % 2)
     };
     let link = |count: usize| match instructions {
-        "avx512" => 70 * (count / 8) + 50 * (count % 8 / 4 + count % 4),
-        "avx2" => 60 * (count / 4) + 50 * (count % 4),
+        "avx512" => 50 * (count / 8) + 35 * (count % 8 / 4) + 50 * (count % 4),
+        "avx2" => 50 * (count / 4) + 50 * (count % 4),
         _ => 50 * count,
     };
     let sweeps = topology.groups().map(|(shape, count)| {
@@ -234,7 +234,7 @@ impl Routines {
         let mut entries: Vec<&Entry> = self.entries.iter().collect();
         // One for this very topology is often also there for eight states, and the estimate is rough.
         entries
-            .sort_by_key(|entry| entry.duration * if entry.topology == *topology { 3 } else { 4 });
+            .sort_by_key(|entry| entry.duration * if entry.topology == *topology { 1 } else { 2 });
         let candidates = entries.into_iter().filter_map(|entry| entry.candidate(topology));
         let candidates = candidates.collect();
         self.taking.push((topology.clone(), candidates));
@@ -303,8 +303,8 @@ mod tests {
         for (inner, outer, on) in [
             ("S4", "4xS5", &["avx512", "avx2"][..]),
             ("3xS5_S4", "4xS5", &["avx512", "avx2", "portable"]),
-            ("10xS1", "20xS5", &[]),
-            ("12xS1", "20xS5", &["avx512"]),
+            ("8xS1", "20xS5", &[]),
+            ("10xS1", "20xS5", &["avx512"]),
             ("S45", "S100", &[]),
             ("S50", "S100", &["avx512", "avx2", "portable"]),
             ("4xTrrp", "4xTrrp", &["avx512", "avx2", "portable"]),
