@@ -36,4 +36,4 @@ pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Mount, Param
 pub use recognise::{LinkFrame, Recognised, Uncovered, recognise};
 pub use right_side::{RightSideLayout, right_side};
 pub use section5::Equations;
-pub use symmetry::{Symmetry, assumptions_in_a_word, links};
+pub use symmetry::{Symmetry, assumptions_in_a_word};

@@ -124,6 +124,20 @@ impl Layout {
         Self::mount(&limb, link) + Self::BODY
     }
 
+    /// Where the numbers of each link of chains and paddles begin.
+    pub fn links(topology: &Topology) -> Vec<usize> {
+        let mut at = Self::MAIN;
+        let mut links = Vec::new();
+        for shape in topology.shapes() {
+            let first = at + Self::BRANCH;
+            at += Self::appendage(*shape);
+            if !matches!(shape, Shape::Limb(_)) {
+                links.extend((first..at).step_by(Self::LINK));
+            }
+        }
+        links
+    }
+
     /// How many numbers tell where a link of a limb is mounted; those of the first are the branch's.
     pub fn mount(limb: &Limb, link: usize) -> usize {
         match limb.links()[link].joint {

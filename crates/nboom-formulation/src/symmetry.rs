@@ -1,4 +1,4 @@
-use nboom_model::{Shape, Topology};
+use nboom_model::Topology;
 use nboom_scalar::RoutineOn;
 
 use crate::parameters::Layout;
@@ -46,7 +46,7 @@ impl Symmetry {
     pub fn zeros(self, topology: &Topology) -> Vec<usize> {
         let of_links = |places: &[usize]| -> Vec<usize> {
             let of_link = |link: usize| places.iter().map(move |at| link + at);
-            links(topology).into_iter().flat_map(of_link).collect()
+            Layout::links(topology).into_iter().flat_map(of_link).collect()
         };
         let [out_of_plane, in_plane] = [OUT_OF_PLANE, IN_PLANE].map(|places| of_links(&places));
         match self {
@@ -55,20 +55,6 @@ impl Symmetry {
             Self::General => Vec::new(),
         }
     }
-}
-
-/// Where the numbers of each link of chains and paddles begin.
-pub fn links(topology: &Topology) -> Vec<usize> {
-    let mut at = Layout::MAIN;
-    let mut links = Vec::new();
-    for shape in topology.shapes() {
-        let first = at + Layout::BRANCH;
-        at += Layout::appendage(*shape);
-        if !matches!(shape, Shape::Limb(_)) {
-            links.extend((first..at).step_by(Layout::LINK));
-        }
-    }
-    links
 }
 
 /// What a routine assumes of a satellite: `baked` all of it; the name of the most special [`Symmetry`] whose zeros it

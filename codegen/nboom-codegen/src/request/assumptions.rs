@@ -1,6 +1,6 @@
 //! What a routine assumes, in words.
 
-use nboom_formulation::{Layout, RightSideLayout, links};
+use nboom_formulation::{Layout, RightSideLayout};
 use nboom_model::{Shape, Topology};
 
 use crate::request::{Output, Request};
@@ -37,7 +37,7 @@ fn phrases(request: &Request) -> Vec<String> {
     if all_zero(0, &PRODUCTS) {
         say(&[0], &PRODUCTS, "main body along its principal axes".to_owned());
     }
-    let links = links(topology);
+    let links = Layout::links(topology);
     for (places, phrase) in [
         (&CENTER_ACROSS[..], "mass centre in the plane square to the hinge axis"),
         (&CENTER_OUT[..], "no first moment along ζ"),
