@@ -42,10 +42,13 @@ fn phrases(request: &Request) -> Vec<String> {
         (&CENTER_ACROSS[..], "mass centre in the plane square to the hinge axis"),
         (&CENTER_OUT[..], "no first moment along ζ"),
         (&PRODUCTS[..], "inertia along the segment axes"),
+        (&PRODUCTS_ACROSS[..], "inertia mirrored by the plane square to the hinge axis"),
         (&WAY_ACROSS[..], "next hinge on the η axis"),
     ] {
-        let found: Vec<usize> =
-            links.iter().copied().filter(|&link| all_zero(link, places)).collect();
+        // Inertia along the segment axes is mirrored, too.
+        let is_said = |link: usize| places == PRODUCTS_ACROSS && all_zero(link, &PRODUCTS);
+        let is_so = |&link: &usize| all_zero(link, places) && !is_said(link);
+        let found: Vec<usize> = links.iter().copied().filter(is_so).collect();
         if !found.is_empty() {
             let (count, of) = (found.len(), links.len());
             say(&found, places, format!("{phrase} of {count} of {of} links"));
@@ -172,6 +175,8 @@ const CENTER_ACROSS: [usize; 1] = [1];
 const CENTER_OUT: [usize; 1] = [3];
 /// Products of inertia.
 const PRODUCTS: [usize; 3] = [7, 8, 9];
+/// Products of inertia with ξ.
+const PRODUCTS_ACROSS: [usize; 2] = [7, 8];
 /// The way to the next hinge along ζ.
 const WAY_ACROSS: [usize; 1] = [11];
 
@@ -201,6 +206,14 @@ mod tests {
                 "no first moment along ζ of 4 of 4 links",
                 "inertia along the segment axes of 4 of 4 links",
                 "next hinge on the η axis of 4 of 4 links",
+            ]
+        );
+        let mirrored = general.clone().with_symmetry(Symmetry::Mirrored).with_external_wrench();
+        assert_eq!(
+            phrases(&mirrored),
+            [
+                "mass centre in the plane square to the hinge axis of 4 of 4 links",
+                "inertia mirrored by the plane square to the hinge axis of 4 of 4 links",
             ]
         );
         let mut partly = principal;
