@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use nboom::formulation::{Formulation, Parameters, Recognised};
-use nboom::model::{LimbJoint, Scene, SceneDescription, Shape};
+use nboom::model::{Base, Gravity, LimbJoint, Scene, SceneDescription, Shape};
 use nboom::scalar::{Mat3, Sym3, Vec3};
 
 use crate::formulations::assert_same_equations;
@@ -26,6 +26,15 @@ pub fn tree(seed: u64) -> Scene {
 /// A tree in a random state, some of its joints held.
 pub fn satellite(seed: u64) -> Satellite {
     in_motion(&tree(seed), seed)
+}
+
+/// A tree on a rig, in a random state under gravity.
+pub fn satellite_on_a_rig(seed: u64) -> Satellite {
+    let mut rig = description_of(seed, 0.0);
+    rig.base = Base::Fixed;
+    (rig.initial.omega_body, rig.initial.velocity_inertial) = (Vec3::zero(), Vec3::zero());
+    rig.gravity = Some(Gravity { acceleration: 3.0, up: Vec3::unit_y() });
+    in_motion(&Scene::new(rig).expect("all bodies have mass"), seed)
 }
 
 fn in_motion(tree: &Scene, seed: u64) -> Satellite {

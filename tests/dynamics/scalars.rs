@@ -244,7 +244,7 @@ fn parameters<R: Real>(case: &Prepared, tree: &WeldedTree<R>) -> Parameters<R> {
         branches.push(branch(tree, links));
         first += shape.hinges();
     }
-    Parameters { main: tree.main, branches }
+    Parameters { main: tree.main, main_is_held: false, branches }
 }
 
 fn branch<R: Real>(tree: &WeldedTree<R>, links: &[usize]) -> Branch<R> {

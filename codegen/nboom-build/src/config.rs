@@ -17,6 +17,7 @@ pub struct Config {
     lock_states: bool,
     stresses: bool,
     external_wrench: bool,
+    held_main_body: bool,
     symmetry: Symmetry,
     equations: bool,
     inverse_dynamics: bool,
@@ -42,6 +43,7 @@ impl Default for Config {
             lock_states: false,
             stresses: false,
             external_wrench: false,
+            held_main_body: false,
             symmetry: Symmetry::General,
             equations: false,
             inverse_dynamics: false,
@@ -103,9 +105,15 @@ impl Config {
     }
 
     /// Routines of topologies take an external wrench on the main body. Those of scenes do where
-    /// the scene has a thrust.
+    /// something acts on the scene from outside or holds its main body.
     pub fn with_external_wrench(self) -> Self {
         Self { external_wrench: true, ..self }
+    }
+
+    /// Routines of topologies are for a main body that is held, as on a test rig. The external wrench is that which
+    /// holds it. Those of scenes are where the scene holds it.
+    pub fn with_held_main_body(self) -> Self {
+        Self { held_main_body: true, ..self }
     }
 
     /// Routines of topologies assume this of the satellite. Only `Kernel::accepts` refuses the numbers of others.
@@ -241,6 +249,9 @@ impl Config {
                 let mut request = Request::new(name, topology, self.level);
                 request.external = self.external_wrench;
                 request = request.with_symmetry(self.symmetry);
+                if self.held_main_body {
+                    request = request.with_held_main_body();
+                }
                 let right_side = self.right_sides.then(|| {
                     let name = format!("RightSide{name}");
                     Request { name, ..request.clone() }.for_right_side()

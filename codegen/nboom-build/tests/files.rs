@@ -95,6 +95,8 @@ fn options_reach_the_code() {
     let forced = written(&satellite().with_external_wrench().with_symmetry(Symmetry::Principal));
     assert!(forced.contains("const EXTERNAL: bool = true"));
     assert!(forced.contains("O at the main body's mass centre"));
+    let held = written(&satellite().with_external_wrench().with_held_main_body());
+    assert!(held.contains("main body held"));
     let equations = satellite().formulation(Formulation::Symmetric).for_equations();
     let equations = written(&equations);
     assert!(equations.contains("equations by formulation symmetric"));

@@ -22,6 +22,7 @@ const SCALAR: &str = "::nboom::scalar";
 /// | `level = NAME` | `exact`: values of the closed form; `fast`: fused products and sums | `fast` |
 /// | `assumptions = NAME` | `principal`: inertias along the segment axes, mass centres and next hinges on the η axis, O at the main body's mass centre; `mirrored`: links of chains that the plane ηζ divides into halves that mirror each other; `general`: none | `general` |
 /// | `external` | an external wrench on the main body | none |
+/// | `held` | a main body that is held, as on a test rig; the external wrench is that which holds it | a free one |
 /// | `equations` | the matrix and the right side that the formulation solves | accelerations |
 /// | `inverse_dynamics` | wrench on the main body and hinge torques for given accelerations | accelerations |
 /// | `right_side` | the right side of a mode's differential equations, without lines that push links | accelerations |

@@ -96,11 +96,12 @@ fn topology(input: ParseStream<'_>) -> Result<(Topology, Span)> {
 }
 
 /// What may follow the topology.
-const OPTIONS: [&str; 7] = [
+const OPTIONS: [&str; 8] = [
     "formulation",
     "level",
     "assumptions",
     "external",
+    "held",
     "equations",
     "inverse_dynamics",
     "right_side",
@@ -115,6 +116,7 @@ fn with(request: Request, option: &Ident, input: ParseStream<'_>) -> Result<Requ
         }
         "assumptions" => request.with_symmetry(value(input, &Symmetry::ALL, Symmetry::name)?),
         "external" => request.with_external_wrench(),
+        "held" => request.with_held_main_body(),
         "equations" => request.for_equations(),
         "inverse_dynamics" => request.for_inverse_dynamics(),
         "right_side" => request.for_right_side(),

@@ -2,7 +2,7 @@
 //! `docs/formulations.md`.
 
 use nboom_model::{Limb, Shape, Topology, WeldedTree};
-use nboom_scalar::{Mat3, Real, Twist, Vec3};
+use nboom_scalar::{Mat3, Real, Twist, Vec3, Wrench};
 
 use crate::base::AtOrigin;
 use crate::chain::{self, Eliminated, OutboardShare, Outward, Spin, Turned};
@@ -53,22 +53,38 @@ impl ClosedForm for Articulated {
                     hinges,
                 )),
             };
-            R::remark(|| format!("Appendage {number}: what it shows at O, main-body axes."));
-            seen.add(&appendage.at_origin(branch));
+            if !parameters.main_is_held {
+                R::remark(|| format!("Appendage {number}: what it shows at O, main-body axes."));
+                seen.add(&appendage.at_origin(branch));
+            }
             appendages.push(appendage);
             first += shape.hinges();
         }
-        R::remark(|| "Main body: its own wrench, and all shares at O.".to_owned());
-        let mut total = AtOrigin::of_main_body(&parameters.main, omega, &coordinates.external);
-        total.add(&seen);
-        R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
-        let main = total.accelerations();
+        let main = accelerations_of_main(parameters, omega, &coordinates.external, &seen);
         let mut tau_dot = Vec::with_capacity(coordinates.hinges.len());
         for (i, (appendage, branch)) in appendages.iter().zip(&parameters.branches).enumerate() {
             appendage.back(i + 1, branch, main, &mut tau_dot);
         }
         Solution { main, tau_dot }
     }
+}
+
+/// ω̇ and a_O of a main body on which appendages are `seen` at O.
+fn accelerations_of_main<R: Real>(
+    Parameters { main, main_is_held, .. }: &Parameters<R>,
+    omega: Vec3<R>,
+    external: &Wrench<R>,
+    seen: &AtOrigin<R>,
+) -> Twist<R> {
+    if *main_is_held {
+        R::remark(|| "Main body: as it is held.".to_owned());
+        return AtOrigin::accelerations_of_held(main, external);
+    }
+    R::remark(|| "Main body: its own wrench, and all shares at O.".to_owned());
+    let mut total = AtOrigin::of_main_body(main, omega, external);
+    total.add(seen);
+    R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
+    total.accelerations()
 }
 
 /// An appendage whose hinges have been eliminated.

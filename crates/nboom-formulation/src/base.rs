@@ -44,6 +44,15 @@ impl<R: Real> AtOrigin<R> {
         Self { inertia, wrench }
     }
 
+    /// The accelerations (ω̇, a_O) of a main body that is held, which so heavy a one takes from the external wrench
+    /// about O, whatever its appendages do.
+    #[inline]
+    pub fn accelerations_of_held(main: &RigidInertia<R>, external: &Wrench<R>) -> Twist<R> {
+        // A power of two, so that what holds it comes out as it was.
+        let inverse = R::one() / main.mass;
+        Twist { angular: external.moment * inverse, linear: external.force * inverse }
+    }
+
     /// The accelerations (ω̇, a_O) under which the wrench vanishes; a_O is eliminated first.
     #[inline]
     pub fn accelerations(&self) -> Twist<R> {

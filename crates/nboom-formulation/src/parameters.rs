@@ -1,4 +1,4 @@
-use nboom_model::{Limb, LimbJoint, Shape, Topology};
+use nboom_model::{Limb, LimbJoint, Shape, Topology, WeldedTree};
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::chain::ChainLink;
@@ -8,6 +8,9 @@ use crate::chain::ChainLink;
 pub struct Parameters<R> {
     /// The main body about O, main-body axes.
     pub main: RigidInertia<R>,
+    /// Whether the main body is held. Then `main` is [so heavy](WeldedTree::heavy_main) that nothing but the external
+    /// wrench moves it, and `articulated` does not ask what else would.
+    pub main_is_held: bool,
     /// The appendages in the topology's order.
     pub branches: Vec<Branch<R>>,
 }
@@ -105,6 +108,13 @@ impl Layout {
     pub const HINGE: usize = 3;
     /// Numbers of accelerations before the hinges: ω̇, a_O.
     pub const OUTPUT: usize = 6;
+
+    /// The numbers of a main body that is held.
+    pub fn held_main() -> Vec<f64> {
+        let mut numbers = Vec::with_capacity(Self::MAIN);
+        write_rigid(&WeldedTree::heavy_main(), &mut numbers);
+        numbers
+    }
 
     /// How many numbers parameters take.
     pub fn parameters(topology: &Topology) -> usize {
@@ -261,12 +271,12 @@ impl<R: Real> Parameters<R> {
     /// products xy, xz, yz of the main body; then for each appendage the rotation by rows and
     /// the first hinge, and for each link the same ten numbers and the way to the next hinge. Before the
     /// ten numbers of a limb's link stands where it is mounted: nothing for the first; the way from the
-    /// inboard joint where the axes are parallel; else the rotation by rows and the joint.
+    /// inboard joint where the axes are parallel; else the rotation by rows and the joint. The main body is free.
     pub fn read(topology: &Topology, numbers: impl IntoIterator<Item = R>) -> Self {
         let mut reader = Reader(numbers.into_iter());
         let main = reader.rigid();
         let branches = topology.shapes().iter().map(|&shape| reader.branch(shape)).collect();
-        Self { main, branches }
+        Self { main, main_is_held: false, branches }
     }
 
     /// The numbers in order.

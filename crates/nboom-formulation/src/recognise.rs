@@ -68,7 +68,8 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
         appendages.push(any.ok_or(Uncovered { link: root })?);
     }
     let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape));
-    let mut parameters = Parameters { main: tree.free_main(), branches: Vec::new() };
+    let (main, main_is_held) = (tree.free_main(), tree.held.is_some());
+    let mut parameters = Parameters { main, main_is_held, branches: Vec::new() };
     let (mut links, mut frames) = (Vec::new(), Vec::new());
     for shape in topology.shapes() {
         let next = appendages.iter().position(|other| other.shape == *shape);

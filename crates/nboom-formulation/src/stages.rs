@@ -3,7 +3,7 @@
 //! Each step maps flat groups of numbers to flat groups of numbers, so that it can be traced
 //! once and emitted as one function that a loop calls for every link.
 
-use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
+use nboom_scalar::{ArticulatedInertia, Mat3, Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::articulated::{at_origin, first_hinge};
 use crate::base::AtOrigin;
@@ -11,11 +11,13 @@ use crate::chain::{self, Eliminated, OutboardShare, Outward, Spin, Turned};
 use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Layout, Reader};
 
+mod base;
 mod forces;
 mod group;
 mod limb;
 
-pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, LAW, LINE, POWER, attitude, base_in_mode, law};
+pub use base::{base, base_in_mode, held_base, held_base_in_mode};
+pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, LAW, LINE, POWER, attitude, law};
 pub use group::Group;
 pub use limb::{LIMB, LIMB_HINGES, LIMB_TAU_DOT, limb_back, limb_in, of_limb};
 
@@ -36,6 +38,22 @@ pub struct Stage<R: 'static> {
     pub outputs: Vec<Group>,
     /// The step: parameters and inputs one after the other to outputs one after the other.
     pub run: Box<Run<R>>,
+}
+
+impl<R: Real> Stage<R> {
+    /// The step without a group that it writes.
+    pub fn without(self, group: Group) -> Self {
+        let Self { outputs, run, .. } = self;
+        let is_written = |other: &Group| *other != group;
+        let kept: Vec<bool> =
+            outputs.iter().flat_map(|of| std::iter::repeat_n(is_written(of), of.size())).collect();
+        let outputs = outputs.into_iter().filter(is_written).collect();
+        let run = move |numbers: &[R]| {
+            let written = run(numbers).into_iter().zip(&kept);
+            written.filter(|(_, kept)| **kept).map(|(number, _)| number).collect()
+        };
+        Self { outputs, run: Box::new(run), ..self }
+    }
 }
 
 /// Mass, first moment and inertia about a body's own point.
@@ -196,36 +214,6 @@ pub fn root<R: Real>() -> Stage<R> {
             at_origin(&share, torque, branch.point, &branch.rot_body_from_appendage).flat()
         }),
     }
-}
-
-/// Accelerations of the main body from the sum of what all appendages show.
-pub fn base<R: Real>() -> Stage<R> {
-    Stage {
-        name: "base",
-        about: "Accelerations of the main body from the sum of what all appendages show.",
-        parameters: vec![MAIN],
-        inputs: vec![OMEGA, EXTERNAL, AT_ORIGIN],
-        outputs: vec![MAIN_RATES],
-        run: Box::new(|numbers| {
-            let mut reader = Reader(numbers.iter().copied());
-            let main = reader.rigid();
-            let omega = reader.vector();
-            let external = Wrench { moment: reader.vector(), force: reader.vector() };
-            main_rates(&main, omega, &external, &AtOrigin::read(&mut reader))
-        }),
-    }
-}
-
-fn main_rates<R: Real>(
-    main: &RigidInertia<R>,
-    omega: Vec3<R>,
-    external: &Wrench<R>,
-    seen: &AtOrigin<R>,
-) -> Vec<R> {
-    let mut total = AtOrigin::of_main_body(main, omega, external);
-    total.add(seen);
-    let rates = total.accelerations();
-    [rates.angular.to_array(), rates.linear.to_array()].concat()
 }
 
 /// ω̇ and the first hinge's acceleration in appendage axes.

@@ -116,12 +116,17 @@ impl<R: Real> WeldedTree<R> {
     /// The main link as equations for a free one take it: itself, or in place of one that is held a body so heavy
     /// that only the [wrench that holds it](Self::holding_wrench) moves it.
     pub fn free_main(&self) -> RigidInertia<R> {
-        let heavy = || RigidInertia {
+        self.held.map_or(self.main, |_| Self::heavy_main())
+    }
+
+    /// What stands for a main link that is held where equations take a free one, about O: a mass and moments of
+    /// inertia of 2⁴⁰⁰.
+    pub fn heavy_main() -> RigidInertia<R> {
+        RigidInertia {
             mass: R::constant(HELD),
             first_moment: Vec3::zero(),
             about_origin: Sym3::constant(Sym3::diagonal(HELD, HELD, HELD)),
-        };
-        self.held.map_or(self.main, |_| heavy())
+        }
     }
 
     /// The wrench about O, main-body axes, under which the [heavy main link](Self::free_main) moves as

@@ -1,6 +1,6 @@
 //! A routine whose sweeps are loops over links, and over equal appendages side by side.
 
-use nboom_formulation::stages::EXTERNAL;
+use nboom_formulation::stages::{EXTERNAL, OMEGA};
 use nboom_formulation::{Layout, RightSideLayout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -96,7 +96,8 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
         let rest = match steps {
             Steps::Chain(chain) => {
                 let Chain { start, outward, inward, root, first, .. } = chain.as_ref();
-                let of_branch = [start, root, first].map(|step| store(step, "branch", None));
+                let of_branch = [start].into_iter().chain(root).chain([first]);
+                let of_branch = of_branch.map(|step| store(step, "branch", None));
                 let links = repeated("i", group.shape.hinges(), false, |i| {
                     let at = group.parameter + Layout::BRANCH;
                     let at = place(at, &[(stride, a), (Layout::LINK, i)]);
@@ -149,12 +150,15 @@ fn main_body(rolled: &Rolled, at_origin: usize, request: &Request) -> TokenStrea
         let start = Literal::usize_unsuffixed(rolled.base.start);
         quote!(P::gather_all(k, #start, 1),)
     });
-    let of_state = request.external && request.output != Output::RightSide;
-    let external = of_state.then(|| {
-        let places = (3..3 + EXTERNAL.size()).map(Literal::usize_unsuffixed);
-        quote!(P::spread_all([#(x[#places]),*]),)
-    });
     let omega = omega_spread(request.output);
+    let read = rolled.base.traced.reads().map(|group| match group {
+        OMEGA => quote!(omega),
+        EXTERNAL => {
+            let places = (3..3 + EXTERNAL.size()).map(Literal::usize_unsuffixed);
+            quote!(P::spread_all([#(x[#places]),*]))
+        }
+        _ => quote!(P::spread_all(seen)),
+    });
     let write = match &rolled.attitude {
         None => quote!(P::scatter_all(rates, out, 0, 1);),
         Some(attitude) => {
@@ -179,7 +183,7 @@ fn main_body(rolled: &Rolled, at_origin: usize, request: &Request) -> TokenStrea
             out: &mut [S],
         ) -> [S; 6] {
             let omega = #omega;
-            let rates = #step(#constants omega, #external P::spread_all(seen));
+            let rates = #step(#constants #(#read),*);
             #write
             [#(rates[#main].sum()),*]
         }

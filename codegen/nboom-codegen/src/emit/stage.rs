@@ -160,7 +160,8 @@ fn literal(count: usize) -> Literal {
     Literal::usize_unsuffixed(count)
 }
 
-fn one_or_all(mut parts: Vec<TokenStream>) -> TokenStream {
+/// One part as it is, any other number of them as a tuple.
+pub(crate) fn one_or_all(mut parts: Vec<TokenStream>) -> TokenStream {
     match parts.len() {
         1 => parts.remove(0),
         _ => quote!((#(#parts),*)),

@@ -10,6 +10,7 @@ use crate::emit::comment::comment;
 use crate::emit::driver::{Call, saved};
 use crate::emit::hinges::{Hinges, omega_spread};
 use crate::emit::places::{place, repeated, slot};
+use crate::emit::stage::one_or_all;
 use crate::request::{Output, Request};
 use crate::trace::{Chain, Equal, LimbSteps, Paddle, Placed, Steps};
 
@@ -122,10 +123,13 @@ impl<'a> Sweeps<'a> {
         let Chain { start, outward, inward, root, .. } = chain;
         let (angles, laws) = (self.angles(), chain.law.as_ref().map(|law| self.laws(law)));
         let outward = self.links_outward(outward);
-        let (inward, add) = (self.links_inward(inward, chain.law.is_some()), self.add(root));
+        let inward = self.links_inward(inward, chain.law.is_some());
         let omega = omega_spread(self.request.output);
-        let (start_, root_) = (name(start), name(root));
-        let [k_start, k_root] = [start, root].map(|step| self.argument(step));
+        let (start_, k_start) = (name(start), self.argument(start));
+        let shown = root.as_ref().map(|root| {
+            let (root_, k_root, add) = (name(root), self.argument(root), self.add());
+            quote!(let shares = #root_(#k_root share, [outer]); #add)
+        });
         quote! {
             let omega = #omega;
             let (w, mut reached) = #start_(#k_start omega);
@@ -133,8 +137,7 @@ impl<'a> Sweeps<'a> {
             #laws
             #outward
             #inward
-            let shares = #root_(#k_root share, [outer]);
-            #add
+            #shown
         }
     }
 
@@ -247,14 +250,16 @@ impl<'a> Sweeps<'a> {
         let (inward_, k_inward) = (name(inward), self.argument(inward));
         let laws = law.as_ref().map(|law| self.laws(law));
         let hinges = self.whole_hinges(law.is_some());
-        let (omega, add) = (omega_spread(self.request.output), self.add(inward));
+        let omega = omega_spread(self.request.output);
+        let taken = self.shown_with(
+            &[quote!(saved.0), quote!(saved.1)],
+            |written| quote!(#written = #inward_(#k_inward omega, hinges);),
+        );
         quote! {
             let omega = #omega;
             #laws
             let hinges = [#(#hinges),*];
-            let shares;
-            (shares, saved.0, saved.1) = #inward_(#k_inward omega, hinges);
-            #add
+            #taken
         }
     }
 
@@ -275,14 +280,16 @@ impl<'a> Sweeps<'a> {
         let (inward_, k_inward) = (name(inward), self.argument(inward));
         let laws = law.as_ref().map(|law| self.laws(law));
         let hinges = self.whole_hinges(law.is_some());
-        let (omega, add) = (omega_spread(self.request.output), self.add(inward));
+        let omega = omega_spread(self.request.output);
+        let taken = self.shown_with(
+            &[quote!(*saved)],
+            |written| quote!(#written = #inward_(#k_inward omega, hinges);),
+        );
         quote! {
             let omega = #omega;
             #laws
             let hinges = [#(#hinges),*];
-            let shares;
-            (shares, *saved) = #inward_(#k_inward omega, hinges);
-            #add
+            #taken
         }
     }
 
@@ -311,9 +318,24 @@ impl<'a> Sweeps<'a> {
         }
     }
 
-    /// Adds the shares that a step returns to what is seen at O.
-    fn add(&self, step: &Placed) -> TokenStream {
-        let own = step.traced.live(AT_ORIGIN);
+    /// The inward step of a whole appendage, which writes what it is `kept` for the way back after what it shows
+    /// at O, if that is asked.
+    fn shown_with(
+        &self,
+        kept: &[TokenStream],
+        take: impl Fn(TokenStream) -> TokenStream,
+    ) -> TokenStream {
+        if self.steps.shows().is_none() {
+            return take(one_or_all(kept.to_vec()));
+        }
+        let (taken, add) = (take(quote!((shares, #(#kept),*))), self.add());
+        quote!(let shares; #taken #add)
+    }
+
+    /// Adds the shares of an appendage to what is seen at O.
+    fn add(&self) -> TokenStream {
+        let Some(shows) = self.steps.shows() else { return TokenStream::new() };
+        let own = shows.traced.live(AT_ORIGIN);
         let all = self.at_origin.iter().zip(own).filter(|(any, _)| **any).map(|(_, own)| *own);
         let places: Vec<usize> = all.enumerate().filter(|(_, own)| *own).map(|(i, _)| i).collect();
         let count = Literal::usize_unsuffixed(places.len());

@@ -31,11 +31,15 @@ fn phrases(request: &Request) -> Vec<String> {
         all.for_each(|at| said[at] = true);
         phrases.push(phrase);
     };
-    if all_zero(0, &CENTER) {
-        say(&[0], &CENTER, "O at the main body's mass centre".to_owned());
-    }
-    if all_zero(0, &PRODUCTS) {
-        say(&[0], &PRODUCTS, "main body along its principal axes".to_owned());
+    let is_held = request.holds_main_body();
+    for (is_so, places, phrase) in [
+        (is_held, &WHOLE[..], "main body held"),
+        (!is_held && all_zero(0, &CENTER), &CENTER, "O at the main body's mass centre"),
+        (!is_held && all_zero(0, &PRODUCTS), &PRODUCTS, "main body along its principal axes"),
+    ] {
+        if is_so {
+            say(&[0], places, phrase.to_owned());
+        }
     }
     let links = Layout::links(topology);
     for (places, phrase) in [
@@ -167,6 +171,8 @@ const BRANCH: [&str; Layout::BRANCH] =
 const LINK: [&str; Layout::LINK] =
     ["m", "c_ξ", "c_η", "c_ζ", "J_ξξ", "J_ηη", "J_ζζ", "J_ξη", "J_ξζ", "J_ηζ", "l_η", "l_ζ"];
 
+/// A body, all of it.
+const WHOLE: [usize; Layout::BODY] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
 /// First moment, all of it.
 const CENTER: [usize; 3] = [1, 2, 3];
 /// First moment along ê₁.
@@ -216,6 +222,8 @@ mod tests {
                 "inertia mirrored by the plane square to the hinge axis of 4 of 4 links",
             ]
         );
+        let held = general.clone().with_held_main_body().with_external_wrench();
+        assert_eq!(phrases(&held), ["main body held"]);
         let mut partly = principal;
         // Rows of a rotation first, then the hinge's place; the second link of the paddle is 2,2.
         for first in [Layout::MAIN, Layout::MAIN + Layout::BRANCH + 2 * Layout::LINK] {

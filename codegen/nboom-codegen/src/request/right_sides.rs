@@ -47,8 +47,10 @@ impl Request {
         self.assumptions.iter().all(Option::is_some)
     }
 
+    /// Whether it assumes nothing, but that the main body is held if it is.
     fn is_general(&self) -> bool {
-        self.assumptions.iter().all(Option::is_none)
+        let known = if self.holds_main_body() { Layout::MAIN } else { 0 };
+        self.assumptions[known..].iter().all(Option::is_none)
     }
 
     /// No line pushes; numbers that laws have in all cases are built in, or zeros among them, or nothing.

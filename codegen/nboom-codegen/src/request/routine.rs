@@ -141,6 +141,12 @@ impl Request {
         self.output == Output::RightSide && (0..RightSideLayout::lines(&self.topology)).any(pushes)
     }
 
+    /// Whether it assumes that the main body is held.
+    pub(crate) fn holds_main_body(&self) -> bool {
+        let held = Layout::held_main().into_iter().map(Some);
+        self.assumptions[..Layout::MAIN].iter().copied().eq(held)
+    }
+
     /// Whether its sweeps can be emitted as loops.
     pub(crate) fn has_loops(&self) -> bool {
         self.formulation == Formulation::Articulated && self.output != Output::InverseDynamics
@@ -158,6 +164,13 @@ impl Request {
     /// Assumes this of the satellite.
     pub fn with_symmetry(mut self, symmetry: Symmetry) -> Self {
         symmetry.zeros(&self.topology).into_iter().for_each(|at| self.assumptions[at] = Some(0.0));
+        self
+    }
+
+    /// Code for a main body that is held, as on a test rig: the external wrench is that which holds it.
+    pub fn with_held_main_body(mut self) -> Self {
+        let held = Layout::held_main().into_iter().map(Some);
+        self.assumptions.splice(..Layout::MAIN, held);
         self
     }
 

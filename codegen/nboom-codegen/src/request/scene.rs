@@ -44,17 +44,17 @@ impl Request {
             Numbers::Baked => "Baked",
         };
         let request = Self::new(&name(word, &topology), topology.clone(), level);
-        let request = if is_pushed(scene) { request.with_external_wrench() } else { request };
-        Ok(match numbers {
+        let request = match numbers {
             Numbers::RunTime => Self { assumptions: fixed(&topology, &[parameters]), ..request },
             Numbers::Baked => request.baked(&parameters),
-        })
+        };
+        Ok(request.on(scene))
     }
 
     /// What a simulator for a scene has: code with the scene's numbers, with numbers at run time,
     /// for [`lock_states`](Self::lock_states), and by `articulated` also code `General` that
-    /// assumes nothing, in which other states with held hinges and other numbers can be
-    /// embedded.
+    /// assumes nothing, but that the main body is held if it is, in which other states with held hinges and other
+    /// numbers can be embedded.
     ///
     /// # Errors
     /// When a body is not rigid, carries a rotor or is one of too many.
@@ -71,7 +71,7 @@ impl Request {
         all.extend(Self::lock_states(scene, level)?);
         if formulation == Formulation::Articulated {
             let general = Self::new(&name("General", &topology), topology, level);
-            all.push(general.with_external_wrench());
+            all.push(general.on(scene).with_external_wrench());
         }
         Ok(all.into_iter().map(|request| request.by(formulation)).collect())
     }
@@ -97,9 +97,9 @@ impl Request {
             .into_iter()
             .map(|(topology, cases)| Self {
                 assumptions: fixed(&topology, &cases),
-                external: is_pushed(scene),
                 ..Self::new(&name("Satellite", &topology), topology, level)
             })
+            .map(|request| request.on(scene))
             .collect();
         requests.sort_by_key(|request| usize::MAX - request.topology.hinges());
         let mut links = 0;
@@ -110,6 +110,15 @@ impl Request {
         let few = few.count().min(LOCK_STATES);
         requests.truncate(few);
         Ok(requests)
+    }
+
+    /// The request for the main body of a scene, on which something acts from outside or nothing, and which may be
+    /// held.
+    fn on(self, scene: &Scene) -> Self {
+        if scene.base.is_held() {
+            return self.with_held_main_body().with_external_wrench();
+        }
+        if scene.externals.is_empty() { self } else { self.with_external_wrench() }
     }
 
     /// Which hinges are free in the first of a scene's lock states that has the request's
@@ -125,11 +134,6 @@ impl Request {
         }
         Ok(None)
     }
-}
-
-/// Whether something acts on the main body from outside, which includes what holds it.
-fn is_pushed(scene: &Scene) -> bool {
-    !scene.externals.is_empty() || scene.base.is_held()
 }
 
 /// Links of limbs that are not equal to others.

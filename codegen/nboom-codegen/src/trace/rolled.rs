@@ -2,8 +2,8 @@
 
 use nboom_expr::{Expr, Operations};
 use nboom_formulation::stages::{
-    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, LIMB, OUTBOARD_SHARE, PADDLE, POWER, REACHED,
-    Stage, TORQUE, TURNED,
+    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, LIMB, MAIN_RATES, OUTBOARD_SHARE, PADDLE, POWER,
+    REACHED, Stage, TORQUE, TURNED,
 };
 use nboom_formulation::{Layout, RightSideLayout};
 use nboom_model::{Limb, Shape, Topology};
@@ -53,7 +53,8 @@ pub(crate) struct Chain {
     pub start: Placed,
     pub outward: Placed,
     pub inward: Placed,
-    pub root: Placed,
+    /// None where nothing asks what is seen at O.
+    pub root: Option<Placed>,
     pub first: Placed,
     pub back: Placed,
 }
@@ -145,8 +146,8 @@ impl Steps {
     fn all(&self) -> Vec<&Placed> {
         match self {
             Self::Chain(of) => {
-                let steps = [&of.start, &of.outward, &of.inward, &of.root, &of.first, &of.back];
-                of.law.iter().chain(steps).collect()
+                let inward = [&of.start, &of.outward, &of.inward];
+                of.law.iter().chain(inward).chain(&of.root).chain([&of.first, &of.back]).collect()
             }
             Self::Paddle(of) => of.law.iter().chain([&of.inward, &of.first, &of.back]).collect(),
             Self::Limb(of) => of.law.iter().chain([&of.inward, &of.back]).collect(),
@@ -162,13 +163,14 @@ impl Steps {
         }
     }
 
-    /// Which numbers at O an appendage shows.
-    pub fn at_origin(&self) -> &[bool] {
-        match self {
-            Self::Chain(of) => of.root.traced.live(AT_ORIGIN),
-            Self::Paddle(of) => of.inward.traced.live(AT_ORIGIN),
-            Self::Limb(of) => of.inward.traced.live(AT_ORIGIN),
-        }
+    /// The step that tells what an appendage shows at O, if one does.
+    pub fn shows(&self) -> Option<&Placed> {
+        let step = match self {
+            Self::Chain(of) => of.root.as_ref(),
+            Self::Paddle(of) => Some(&of.inward),
+            Self::Limb(of) => Some(&of.inward),
+        };
+        step.filter(|step| step.traced.writes(AT_ORIGIN))
     }
 }
 
@@ -189,8 +191,9 @@ impl Rolled {
                 Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
                 Shape::Limb(of) => Steps::Limb(Box::new(limb(request, &group, of, &mut places))),
             };
-            for (any, live) in at_origin.iter_mut().zip(steps.at_origin()) {
-                *any |= live;
+            if let Some(shows) = steps.shows() {
+                let live = shows.traced.live(AT_ORIGIN);
+                at_origin.iter_mut().zip(live).for_each(|(any, live)| *any |= live);
             }
             parameter += count * group.parameters();
             hinge += count * shape.hinges();
@@ -263,15 +266,20 @@ fn base(request: &Request, at_origin: &[bool]) -> Traced {
         (EXTERNAL.name, vec![request.external; EXTERNAL.size()]),
     ]);
     let mut assumptions = request.assumptions[..Layout::MAIN].to_vec();
-    let stage = match request.output {
-        Output::RightSide => {
-            let external = RightSideLayout::external(&request.topology);
-            assumptions.extend(&request.assumptions[external]);
-            stages::base_in_mode()
-        }
-        _ => stages::base(),
+    let in_mode = request.output == Output::RightSide;
+    if in_mode {
+        let external = RightSideLayout::external(&request.topology);
+        assumptions.extend(&request.assumptions[external]);
+    }
+    let stage = match (request.holds_main_body(), in_mode) {
+        (true, true) => stages::held_base_in_mode(),
+        (true, false) => stages::held_base(),
+        (false, true) => stages::base_in_mode(),
+        (false, false) => stages::base(),
     };
-    Traced::new("main", &stage, &assumptions, &masks).regrouped(request.level)
+    let traced = Traced::new("main", &stage, &assumptions, &masks);
+    // Of a main body that is held and that nothing moves all of them are zero.
+    traced.passing_on(MAIN_RATES, &[true; MAIN_RATES.numbers.len()]).regrouped(request.level)
 }
 
 /// The torque about a hinge of a group, of a right side.
@@ -301,7 +309,8 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
     ]);
     let inward =
         settled(&mut masks, OUTBOARD_SHARE, |masks| trace(&stages::inward(), &link, masks));
-    let root = trace(&stages::root(), &branch, &masks);
+    let shows = !request.holds_main_body();
+    let root = shows.then(|| trace(&stages::root(), &branch, &masks));
     let first = trace(&stages::first(), &branch, &Masks::new());
     masks.insert(ELIMINATED.name, inward.live(ELIMINATED).to_vec());
     let back = trace(&stages::back(), &[], &masks);
@@ -311,7 +320,7 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
         start: places.place(start, once),
         outward: places.place(outward, each),
         inward: places.place(inward, each),
-        root: places.place(root, once),
+        root: root.map(|root| places.place(root, once)),
         first: places.place(first, once),
         back: places.place(back, each),
     }
@@ -321,7 +330,8 @@ fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Paddle {
     let prefix = group.prefix();
     let whole = group.assumptions(request, 0, group.parameters(), 1);
     let branch = group.assumptions(request, 0, Layout::BRANCH, 1);
-    let inward = Traced::new(&prefix, &stages::paddle_in(), &whole, &Masks::new());
+    let paddle_in = as_asked(stages::paddle_in(), request);
+    let inward = Traced::new(&prefix, &paddle_in, &whole, &Masks::new());
     let first = Traced::new(&prefix, &stages::first(), &branch, &Masks::new());
     let masks = Masks::from([
         (ELIMINATED.name, inward.live(ELIMINATED).to_vec()),
@@ -340,7 +350,8 @@ fn limb(request: &Request, group: &Equal, limb: Limb, places: &mut Places) -> Li
     let prefix = group.prefix();
     let whole = group.assumptions(request, 0, group.parameters(), 1);
     let level = request.level;
-    let inward = Traced::new(&prefix, &stages::limb_in(limb), &whole, &Masks::new());
+    let limb_in = as_asked(stages::limb_in(limb), request);
+    let inward = Traced::new(&prefix, &limb_in, &whole, &Masks::new());
     let left = stages::of_limb(LIMB, &limb);
     let masks = Masks::from([(LIMB.name, inward.live(left).to_vec())]);
     let back = Traced::new(&prefix, &stages::limb_back(limb), &whole, &masks);
@@ -351,6 +362,11 @@ fn limb(request: &Request, group: &Equal, limb: Limb, places: &mut Places) -> Li
         inward: places.place(inward, group.count),
         back: places.place(back, group.count),
     }
+}
+
+/// A step without what it shows at O, where a main body that is held does not ask.
+fn as_asked(stage: Stage<Expr>, request: &Request) -> Stage<Expr> {
+    if request.holds_main_body() { stage.without(AT_ORIGIN) } else { stage }
 }
 
 /// Traces again and again until the numbers of `group` that can be other than zero stay the

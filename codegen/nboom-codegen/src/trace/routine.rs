@@ -20,7 +20,10 @@ pub fn trace(request: &Request) -> Graph {
     Graph::trace_with(&inputs, |inputs| {
         let (parameters, state) = inputs.split_at(parameters);
         let (of_satellite, of_forces) = parameters.split_at(Layout::parameters(topology));
-        let satellite = Parameters::read(topology, of_satellite.iter().copied());
+        let satellite = Parameters {
+            main_is_held: request.holds_main_body(),
+            ..Parameters::read(topology, of_satellite.iter().copied())
+        };
         match output {
             Output::Accelerations => {
                 let state = Coordinates::read(topology, state);

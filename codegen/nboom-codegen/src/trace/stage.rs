@@ -66,6 +66,17 @@ impl Traced {
         self
     }
 
+    /// The groups that it reads, parameters aside, of which any number can be other than zero.
+    pub fn reads(&self) -> impl Iterator<Item = Group> {
+        let is_live = |(_, mask): &&Masked| mask.contains(&true);
+        self.inputs.iter().filter(is_live).map(|(group, _)| *group)
+    }
+
+    /// Whether it writes a group.
+    pub fn writes(&self, group: Group) -> bool {
+        self.outputs.iter().any(|(other, _)| *other == group)
+    }
+
     /// Which numbers of an output group can be other than zero.
     pub fn live(&self, group: Group) -> &[bool] {
         let found = self.outputs.iter().find(|(other, _)| *other == group);

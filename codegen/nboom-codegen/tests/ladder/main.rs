@@ -22,7 +22,9 @@ const SATELLITES: u64 = 2000;
 fn closed_form(request: &Request, parameters: &[f64], state: &[f64]) -> Vec<f64> {
     let Request { topology, formulation, output, .. } = request;
     let (of_satellite, of_forces) = parameters.split_at(Layout::parameters(topology));
+    let main_is_held = of_satellite[..Layout::MAIN] == Layout::held_main();
     let satellite = Parameters::read(topology, of_satellite.iter().copied());
+    let satellite = Parameters { main_is_held, ..satellite };
     let coordinates = || Coordinates::read(topology, state);
     match output {
         Output::Accelerations => {
@@ -161,6 +163,7 @@ fn the_satellites_are_of_all_kinds() {
         |s: &Satellite| s.assumptions.iter().flatten().any(|value| value.abs() > 1.5),
         |s: &Satellite| s.held > 0 && skew_links(s) > 0,
         |s: &Satellite| s.topology.has_limbs(),
+        Satellite::is_on_a_rig,
     ] {
         let count = with(&holds);
         assert!(count > SATELLITES as usize / 10 && count < SATELLITES as usize, "{count}");

@@ -36,6 +36,11 @@ pub struct Satellite {
 }
 
 impl Satellite {
+    /// Whether its main body is held, which is assumed then.
+    pub fn is_on_a_rig(&self) -> bool {
+        self.parameters[..Layout::MAIN] == Layout::held_main()
+    }
+
     /// Whether a line pushes a link, or something is assumed of the forces.
     pub fn pushed_or_known(&self) -> bool {
         let hinges = self.topology.hinges();
@@ -47,12 +52,17 @@ impl Satellite {
     pub fn random(seed: u64) -> Self {
         let dice = &mut Rng::new(seed);
         let (topology, held, mut parameters) = welded(dice);
-        let assumptions = assumptions(dice, &topology, &mut parameters);
+        let mut assumptions = assumptions(dice, &topology, &mut parameters);
         let external = dice.chance(0.5);
         let states = (0..STATES).map(|_| state(dice, &topology, external)).collect();
         let (forces, force_assumptions) = forces(dice, &topology, external);
         let count = RightSideLayout::coordinates(&topology);
         let variables = (0..STATES).map(|_| numbers(dice, count)).collect();
+        if dice.chance(0.15) {
+            for (i, number) in Layout::held_main().into_iter().enumerate() {
+                (parameters[i], assumptions[i]) = (number, Some(number));
+            }
+        }
         Self {
             topology,
             held,

@@ -1,13 +1,10 @@
 //! Steps that a right side takes beside those of the accelerations.
 
 use nboom_elements::HingeLaw;
-use nboom_scalar::{Quaternion, Real, Wrench};
+use nboom_scalar::{Quaternion, Real};
 
-use crate::base::AtOrigin;
 use crate::parameters::Reader;
-use crate::stages::{
-    AT_ORIGIN, EXTERNAL, Group, MAIN, MAIN_RATES, OMEGA, Stage, TAU, TORQUE, main_rates,
-};
+use crate::stages::{Group, OMEGA, Stage, TAU, TORQUE};
 
 /// Attitude: χ, K̄.
 pub const ATTITUDE: Group = Group::new("attitude", &["chi", "kx", "ky", "kz"]);
@@ -54,24 +51,6 @@ pub fn law<R: Real>() -> Stage<R> {
             let law = HingeLaw::of_numbers(std::array::from_fn(|_| reader.next()));
             let (beta, tau) = (reader.next(), reader.next());
             vec![law.torque(beta, tau), law.rate_torque(tau) * tau]
-        }),
-    }
-}
-
-/// [`base`](super::base) with an external wrench that stays the same as long as the mode.
-pub fn base_in_mode<R: Real>() -> Stage<R> {
-    Stage {
-        name: "base",
-        about: "Accelerations of the main body from the sum of what all appendages show.",
-        parameters: vec![MAIN, EXTERNAL],
-        inputs: vec![OMEGA, AT_ORIGIN],
-        outputs: vec![MAIN_RATES],
-        run: Box::new(|numbers| {
-            let mut reader = Reader(numbers.iter().copied());
-            let main = reader.rigid();
-            let external = Wrench { moment: reader.vector(), force: reader.vector() };
-            let omega = reader.vector();
-            main_rates(&main, omega, &external, &AtOrigin::read(&mut reader))
         }),
     }
 }
