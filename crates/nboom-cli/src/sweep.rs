@@ -6,12 +6,13 @@ use std::thread;
 
 use clap::{Args, Parser, value_parser};
 use nboom_results::write_file;
-use nboom_study::statistics::Summary;
+use nboom_study::statistics::{Counts, Summary};
 use nboom_study::{
     End, Facts, PAGE_FILE, Report, STUDY_FILE, SWEPT_SCENE_FILE, Shard, Study, StudyError, Sweep,
     SweepDirectory, Watcher,
 };
 
+use crate::format::short;
 use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
 use crate::run::run;
@@ -86,6 +87,17 @@ pub enum SweepError {
         /// Cases in all.
         cases: u64,
     },
+    /// All cases are done, and none of them ran.
+    #[error(
+        "none of {} cases ran: {} rejected, {} failed; the column status of the tables in {} says why",
+        counts.cases, counts.rejected, counts.failed, directory.display()
+    )]
+    NoneRan {
+        /// The directory.
+        directory: PathBuf,
+        /// How many cases there are.
+        counts: Counts,
+    },
 }
 
 impl SweepError {
@@ -98,7 +110,7 @@ impl SweepError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Study(error) if error.is_refusal() => 2,
-            Self::Study(_) | Self::Interrupted { .. } => 3,
+            Self::Study(_) | Self::Interrupted { .. } | Self::NoneRan { .. } => 3,
         }
     }
 }
@@ -166,8 +178,22 @@ pub fn finish_sweep(
         write_page(&sweep, directory)?;
     }
     let statistics = sweep.statistics().map_err(SweepError::Study)?;
+    warn_of_negative_margins(&statistics);
+    if counts.ok == 0 {
+        return Err(SweepError::NoneRan { directory: directory.to_owned(), counts }.into());
+    }
     let told = sweep_account::text(report, &statistics, directory);
     Ok(if outputs.quiet { String::new() } else { told })
+}
+
+fn warn_of_negative_margins(statistics: &Summary) {
+    for column in statistics.columns.iter().filter(|column| column.is_result && column.is_margin())
+    {
+        if let Some(worst) = column.worst().first().filter(|worst| worst.value < 0.0) {
+            let (label, value, case) = (&column.label, short(worst.value, 3), worst.case);
+            say("warning", &format!("{label}: negative, down to {value} in case {case}"));
+        }
+    }
 }
 
 /// The finished sweep in a directory, if one is there.
@@ -175,7 +201,7 @@ pub(crate) fn finished(directory: &Path) -> Result<Option<SweepDirectory>, CliEr
     Ok(SweepDirectory::read(directory).map_err(SweepError::Study)?)
 }
 
-/// Runs the cases with the largest results again, for their pages.
+/// Runs the cases with the worst results again, for their pages.
 fn run_worst(
     sweep: &SweepDirectory,
     directory: &Path,
@@ -195,13 +221,13 @@ fn run_worst(
     Ok(())
 }
 
-/// The cases with the largest results of each kind, without repetition.
+/// The cases with the worst results of each kind, without repetition.
 fn worst(statistics: &Summary) -> Vec<u64> {
     let mut cases = Vec::new();
     let results = || statistics.columns.iter().filter(|column| column.is_result);
     // The first of all results, before the second of any.
     for rank in 0..MOST_PAGES {
-        for extreme in results().filter_map(|column| column.largest.get(rank)) {
+        for extreme in results().filter_map(|column| column.worst().get(rank)) {
             if cases.len() < MOST_PAGES && !cases.contains(&extreme.case) {
                 cases.push(extreme.case);
             }

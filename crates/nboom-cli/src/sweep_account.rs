@@ -4,7 +4,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use nboom_study::Report;
-use nboom_study::statistics::{Percentile, Summary};
+use nboom_study::statistics::{Percentile, Proportion, Summary};
+
+/// The method whose points are not drawn.
+const GRID: &str = "grid";
+
+/// The head of percentiles with bounds.
+const BOUNDED: &str = "95 %, by 95 % confidence";
 
 /// The percentiles that are printed.
 const PERCENTS: [f64; 3] = [5.0, 50.0, 95.0];
@@ -36,7 +42,9 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
         counts.rejected,
         counts.failed
     );
-    let rows: Vec<[String; 5]> = rows(statistics);
+    // Points of a grid are chosen and not drawn.
+    let is_drawn = of.method != GRID;
+    let rows: Vec<[String; 5]> = rows(statistics, is_drawn);
     let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
     for row in &rows {
         let cells = row.iter().enumerate().map(|(i, cell)| format!("{cell:<0$}", width(i)));
@@ -49,26 +57,21 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
     text.push('\n');
     for latch in &statistics.latches {
         for (fault, latched) in latch.by_end.iter().enumerate().filter(|(_, of)| of.of > 0) {
-            let share = |share: f64| format!("{:.4}", share);
-            let _ = writeln!(
-                text,
-                "{} latches in {} of {} cases{}: {} to {}",
-                latch.hinge,
-                latched.count,
-                latched.of,
-                group(fault),
-                share(latched.low),
-                share(latched.high)
-            );
+            let Proportion { count, of, low, high } = *latched;
+            let cases = if counts.ok == counts.cases { "cases" } else { "cases that ran" };
+            let bounds = if is_drawn { format!(": {low:.4} to {high:.4}") } else { String::new() };
+            let (hinge, group) = (&latch.hinge, group(fault));
+            let _ = writeln!(text, "{hinge} latches in {count} of {of} {cases}{group}{bounds}");
         }
     }
     let _ = writeln!(text, "files  {}", directory.display());
     text
 }
 
-/// Of each result of cases without fault its percentiles, and what drives it most.
-fn rows(statistics: &Summary) -> Vec<[String; 5]> {
-    let head = ["", "5 %", "median", "95 %, by 95 % confidence", "driven by"];
+/// Of each result of cases without fault its percentiles, that of the worse side with bounds if there are
+/// any, and what drives it most.
+fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
+    let head = ["", "5 %", "median", if has_bounds { BOUNDED } else { "95 %" }, "driven by"];
     let mut rows = vec![head.map(str::to_owned)];
     for column in statistics.columns.iter().filter(|column| column.is_result) {
         let of = |percent: f64| {
@@ -76,22 +79,29 @@ fn rows(statistics: &Summary) -> Vec<[String; 5]> {
             spread.percentiles.iter().find(|of| of.percent == percent).copied()
         };
         let [low, median, high] = PERCENTS.map(of);
-        let value = |of: Option<Percentile>| of.map_or("-".to_owned(), |of| number(of.value));
-        let bounds = match high {
-            Some(Percentile { value, low: Some(low), high: Some(high), .. }) => {
-                format!("{} ({} to {})", number(value), number(low), number(high))
-            }
-            other => value(other),
-        };
+        let is_small = column.is_worst_if_small();
+        let [low, high] = [(low, is_small), (high, !is_small)]
+            .map(|(of, is_worse)| told(of, has_bounds && is_worse));
         let driver =
             column.drivers.first().filter(|driver| driver.coefficient.abs() > driver.bound);
         let driver = driver.map_or_else(String::new, |driver| {
             format!("{} {:+.2}", statistics.columns[driver.variable].label, driver.coefficient)
         });
         let unit = column.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
-        rows.push([format!("{}{unit}", column.label), value(low), value(median), bounds, driver]);
+        rows.push([format!("{}{unit}", column.label), low, told(median, false), high, driver]);
     }
     rows
+}
+
+/// A percentile, with its bounds or without.
+fn told(of: Option<Percentile>, has_bounds: bool) -> String {
+    match of {
+        Some(Percentile { value, low: Some(low), high: Some(high), .. }) if has_bounds => {
+            format!("{} ({} to {})", number(value), number(low), number(high))
+        }
+        Some(Percentile { value, .. }) => number(value),
+        None => "-".to_owned(),
+    }
 }
 
 /// Five digits.

@@ -374,6 +374,7 @@ impl<'a> Run<'a> {
         summary.jacobians = counts.jacobians;
         summary.factorizations = counts.factorizations;
         summary.conservation = self.ledger.residuals();
+        summary.has_angular_momentum = self.ledger.has_angular_momentum();
         summary.integrator = self.options.integrator.name();
         summary.attitude_drift = self.attitude_norm.largest_drift;
         summary.verdict.end(&mode.hinges, &state.beta);

@@ -111,6 +111,18 @@ pub enum StudyError {
         /// What the program says.
         found: String,
     },
+    /// The system does not start so many threads.
+    #[error(
+        "thread {number} of {jobs} cannot be started; fewer jobs expected; cases that were done are kept"
+    )]
+    Threads {
+        /// Which one, from 1.
+        number: usize,
+        /// How many there should be.
+        jobs: usize,
+        /// What the system says.
+        source: io::Error,
+    },
     /// Something that should be a batch of cases from elsewhere is none.
     #[error("{found} found, a batch of cases of this sweep expected")]
     NoBatch {
@@ -161,7 +173,9 @@ impl StudyError {
     pub fn is_refusal(&self) -> bool {
         match self {
             Self::Results(error) => error.is_refusal(),
-            Self::Tables(_) | Self::Read { .. } | Self::Panic { .. } => false,
+            Self::Tables(_) | Self::Read { .. } | Self::Panic { .. } | Self::Threads { .. } => {
+                false
+            }
             _ => true,
         }
     }

@@ -143,11 +143,17 @@ impl Wanted {
     /// Those of a study that does not say any: what became of latches, the nutation, conservation, and the
     /// worst stress and margin; as far as the scene has them.
     pub fn defaults(file: &SceneFile, loads: Loads) -> Vec<Self> {
-        let latches = file.scene.bodies.iter().zip(file.scene.labels());
-        let latches = latches.filter(|(body, _)| body.hinge.lock_angle.is_some());
-        let names = latches.map(|(_, label)| {
+        let labels = file.scene.labels();
+        let columns: Vec<_> =
+            labels.iter().map(|label| label.name.as_deref().map(column_name)).collect();
+        // Names that are the same as those of columns, `panel +x` and `panel -x`, do not tell hinges apart.
+        let is_alone = |i: usize| columns.iter().filter(|other| **other == columns[i]).count() == 1;
+        let latches = file.scene.bodies.iter().zip(labels).enumerate();
+        let latches = latches.filter(|(_, (body, _))| body.hinge.lock_angle.is_some());
+        let names = latches.map(|(i, (_, label))| {
             let [appendage, segment] = label.numbers();
-            label.name.as_deref().map_or(format!("{appendage},{segment}"), str::to_owned)
+            let name = label.name.as_deref().filter(|_| is_alone(i));
+            name.map_or(format!("{appendage},{segment}"), str::to_owned)
         });
         let mut texts: Vec<String> = names
             .flat_map(|name| [format!("lock_time of {name}"), format!("impulse of {name}")])
@@ -185,7 +191,7 @@ impl Wanted {
         let value = |wanted: &Self| {
             let number = match &wanted.what {
                 What::Hinge(kind, hinge) => kind.value(*hinge, found),
-                What::Motion(_) => extremes.next().copied(),
+                What::Motion(of) => extremes.next().map(|&value| of.meant(value, found.summary)),
                 What::Summary(pointer) => found.keys.and_then(|keys| seek::number(keys, pointer)),
             };
             match (number, wanted.column.kind) {

@@ -67,7 +67,8 @@ impl Crew<'_, '_> {
     /// Runs the cases that a journal lacks, or some of them if it is interrupted.
     ///
     /// # Errors
-    /// When the journal cannot be written, and when a case panics. What was written stays.
+    /// When the journal cannot be written, when a thread cannot be started, and when a case panics. What was
+    /// written stays.
     pub fn fill(&self, journal: &mut Journal, total: u64) -> Result<(), StudyError> {
         let missing = journal.missing();
         let done = total - missing.iter().map(count).sum::<u64>();
@@ -76,10 +77,28 @@ impl Crew<'_, '_> {
         let queue = Queue { ranges: Mutex::new(missing.into()), jobs: jobs as u64 };
         let stop = AtomicBool::new(false);
         let (sender, batches) = mpsc::sync_channel(jobs);
+        let gate = Mutex::new(());
         thread::scope(|scope| {
-            let start = |sender| scope.spawn(|| self.work(&queue, &stop, sender));
-            let threads: Vec<_> = (0..jobs).map(|_| start(sender.clone())).collect();
-            drop(sender);
+            let mut threads = Vec::new();
+            let mut all_started = Ok(());
+            // Nothing is begun before all threads are there, which takes the memory that they need.
+            let closed = gate.lock();
+            for number in 1..=jobs {
+                let (sender, thread) = (sender.clone(), thread::Builder::new());
+                let work = || {
+                    drop(gate.lock());
+                    self.work(&queue, &stop, sender)
+                };
+                match thread.spawn_scoped(scope, work) {
+                    Ok(thread) => threads.push(thread),
+                    Err(source) => {
+                        stop.store(true, Ordering::Relaxed);
+                        all_started = Err(StudyError::Threads { number, jobs, source });
+                        break;
+                    }
+                }
+            }
+            drop((sender, closed));
             let written = self.write(journal, batches, done, total);
             stop.store(true, Ordering::Relaxed);
             let join = |thread: thread::ScopedJoinHandle<'_, _>| match thread.join() {
@@ -87,7 +106,7 @@ impl Crew<'_, '_> {
                 Err(panic) => std::panic::resume_unwind(panic),
             };
             let worked = threads.into_iter().map(join).fold(Ok(()), Result::and);
-            written.and(worked)
+            all_started.and(written).and(worked)
         })
     }
 
@@ -117,6 +136,9 @@ impl Crew<'_, '_> {
     ) -> Result<(), StudyError> {
         let time = BATCH.max(INTERVAL * u32::try_from(self.jobs).unwrap_or(u32::MAX));
         let interrupted = || stop.load(Ordering::Relaxed) || self.watcher.interrupted();
+        if stop.load(Ordering::Relaxed) {
+            return Ok(());
+        }
         let mut worker = (self.worker)();
         let mut size = 1;
         while let Some(range) = queue.take(size) {

@@ -117,3 +117,30 @@ fn an_interrupted_sweep_says_how_to_go_on() {
     second.refused("two at once", 2, &["swept"]);
     assert_eq!(first.end().code(), Some(0));
 }
+
+#[test]
+fn more_threads_than_there_is_memory_for_are_an_error_and_nothing_is_lost() {
+    let place = place("sweep-threads");
+    let args = [&SWEEP[..], &["-o", "swept"]].concat();
+    let stopped = place.nboom(&[&args[..], &["--jobs", "2000"]].concat());
+    stopped.refused("2000 threads", 3, &["of 2000 cannot be started", "fewer jobs expected"]);
+    let resumed = place.start(&args).end();
+    assert_eq!(resumed.code(), Some(0), "{}", resumed.stderr());
+}
+
+#[test]
+fn a_sweep_of_which_nothing_ran_is_not_well() {
+    let place = place("sweep-none");
+    let study = STUDY.replace("draws = 1500", "draws = 5");
+    for (path, values, told) in [
+        ("main_body.mass", "from = -2.0, to = -1.0", "5 rejected, 0 failed"),
+        ("body[1].hinge.spring.stiffness", "from = -1e9, to = -9e8", "0 rejected, 5 failed"),
+    ] {
+        let study = study.replace("initial.rate_deg[1]", path);
+        place.write("study.toml", study.replace("from = 400.0, to = 600.0", values));
+        let finished = place.start(&[&SWEEP[..], &["-o", told]].concat()).end();
+        finished.refused(path, 3, &["none of 5 cases ran", told, "status"]);
+        let table = place.read(&format!("{told}/cases.csv"));
+        assert_eq!(table.lines().count(), 6, "the reasons are there");
+    }
+}

@@ -31,6 +31,8 @@ pub(crate) struct Ledger {
     residuals: Balances,
     /// Largest ones so far.
     scales: Balances,
+    /// The largest angular momentum so far.
+    angular_momentum: f64,
     /// Whether what holds the main body changes the momenta.
     held: bool,
     mass: f64,
@@ -49,6 +51,7 @@ impl Ledger {
             start_rotor_energy: invariants.rotor_energy,
             residuals: Balances::default(),
             scales: Balances::default(),
+            angular_momentum: 0.0,
             held: state.held.is_some(),
             mass: equations.scene.total_mass(),
             reach: equations.reach,
@@ -71,11 +74,20 @@ impl Ledger {
         self.relative(&self.residuals)
     }
 
+    /// Whether an angular momentum was more than rounding so far.
+    pub fn has_angular_momentum(&self) -> bool {
+        self.angular_momentum > ROUNDING * self.momentum_of_energy() * self.reach
+    }
+
+    /// All of the energy in the linear motion of a point.
+    fn momentum_of_energy(&self) -> f64 {
+        (2.0 * self.mass).sqrt() * self.scales.energy.sqrt()
+    }
+
     /// Residuals relative to the largest scales so far.
     fn relative(&self, found: &Balances) -> Conservation {
         let scales = &self.scales;
-        // All of the energy in one motion, of a point for linear momentum.
-        let momentum = (2.0 * self.mass).sqrt() * scales.energy.sqrt();
+        let momentum = self.momentum_of_energy();
         let relative = |residual: f64, scale: f64, of_energy: f64| {
             if residual == 0.0 { 0.0 } else { residual / scale.max(ROUNDING * of_energy) }
         };
@@ -117,6 +129,8 @@ impl Ledger {
             + work.lock_ups
             - self.start_energy;
         let energy_scale = now.kinetic_energy + potential.scale;
+        let angular_momentum = now.angular_momentum_inertial.norm();
+        self.angular_momentum = self.angular_momentum.max(angular_momentum);
         let (largest, scales) = (&mut self.residuals, &mut self.scales);
         let pairs = [
             ("linear momentum", &mut scales.linear_momentum, invariants.linear_momentum_scale),

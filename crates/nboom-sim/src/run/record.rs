@@ -244,6 +244,9 @@ pub struct Summary {
     pub events: usize,
     /// Largest residuals of the conservation laws at output times and events.
     pub conservation: Conservation,
+    /// Whether an angular momentum has been more than rounding of what the energy could make of it, so that the
+    /// nutation says something.
+    pub has_angular_momentum: bool,
     /// Evaluations of the Jacobian, by implicit integrators.
     pub jacobians: usize,
     /// Factorisations of iteration matrices, by implicit integrators.
@@ -271,6 +274,7 @@ impl Summary {
             evaluations: 0,
             events: 0,
             conservation: Conservation::default(),
+            has_angular_momentum: false,
             jacobians: 0,
             factorizations: 0,
             attitude_drift: 0.0,

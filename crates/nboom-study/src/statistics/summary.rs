@@ -60,6 +60,29 @@ pub struct SummaryColumn {
     pub largest: Vec<Extreme>,
 }
 
+/// What starts the text of a result that is a margin.
+const MARGINS: [&str; 2] = ["margin of ", "verdict.smallest_margin"];
+
+/// What starts that of the smallest of a run.
+const SMALLEST: &str = "smallest ";
+
+impl SummaryColumn {
+    /// Whether it is a margin, which should not be negative.
+    pub fn is_margin(&self) -> bool {
+        MARGINS.iter().any(|start| self.label.starts_with(start))
+    }
+
+    /// Whether its smallest numbers are the worst; else the largest are.
+    pub fn is_worst_if_small(&self) -> bool {
+        self.is_margin() || self.label.starts_with(SMALLEST)
+    }
+
+    /// The worst numbers of all cases, worst first.
+    pub fn worst(&self) -> &[Extreme] {
+        if self.is_worst_if_small() { &self.smallest } else { &self.largest }
+    }
+}
+
 /// How numbers spread.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {

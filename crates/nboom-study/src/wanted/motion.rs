@@ -1,9 +1,9 @@
 //! Columns of the table of states, at the end or at their extremes.
 
 use nboom_io::{SceneFile, nearest};
-use nboom_model::{Column, WantedTable};
+use nboom_model::{Column, Quantity, WantedTable};
 use nboom_results::quantity;
-use nboom_sim::Snapshot;
+use nboom_sim::{Snapshot, Summary};
 
 use super::{Named, What, refused};
 use crate::table::{of_motion, units};
@@ -55,6 +55,13 @@ pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {
 }
 
 impl Extreme {
+    /// What it is in a run of this summary: NaN where it says nothing.
+    pub fn meant(&self, value: f64, summary: &Summary) -> f64 {
+        let is_rounding =
+            self.column.quantity == Quantity::Nutation && !summary.has_angular_momentum;
+        if is_rounding { f64::NAN } else { value }
+    }
+
     /// Whether it takes an evaluation of the equations of motion.
     pub fn needs_detail(&self) -> bool {
         WantedTable { columns: vec![self.column], in_degrees: false }.needs_detail()
