@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-15;
 /// A topology that holds the inner one: chains up to two links longer, and appendages added.
 fn larger(inner: &Topology, dice: &mut Rng) -> Topology {
     let mut shapes = Vec::new();
-    for &shape in inner.shapes() {
+    for shape in inner.shapes().iter().cloned() {
         shapes.push(match shape {
             Shape::Chain(links) => Shape::Chain(links + dice.below(3)),
             other => other,

@@ -8,7 +8,7 @@ mod stresses;
 
 use nboom_model::Shape;
 
-pub(crate) use rolled::{Chain, Equal, LimbSteps, Paddle, Placed, Rolled, Steps};
+pub(crate) use rolled::{Chain, Equal, Joints, Kind, LimbSteps, Paddle, Placed, Rolled, Steps};
 pub use routine::trace;
 pub(crate) use split::Split;
 pub(crate) use stage::{Masked, Traced};
@@ -19,9 +19,13 @@ use crate::request::{CodegenError, Request};
 /// no longer fits the processor's instruction cache.
 pub const STRAIGHT_LIMIT: usize = 2550;
 
-/// The most operations of an evaluation that cannot be emitted as loops: an optimising compiler
-/// takes 17 seconds for that much code in all instruction sets, and 95 for twice as much.
+/// The most operations of all straight lines, and of all steps of joints: an optimising compiler takes 17 seconds
+/// for that much code in all instruction sets, and 95 for twice as much. A limb beyond it is taken joint by joint,
+/// which is about as fast by then.
 pub const OPERATION_LIMIT: usize = 20_000;
+
+/// Links beyond which a limb is not tried as a straight line.
+const STRAIGHT_LINKS: usize = 64;
 
 /// So many equal appendages fill a register, and a loop over it beats a straight line.
 const PACK: usize = 4;
@@ -71,9 +75,9 @@ impl Equations {
             return Ok(Self::Straight(straight));
         }
         let rolled = Rolled::of(request);
-        let longest = rolled.limb_operations();
-        if longest > OPERATION_LIMIT {
-            return Err(too_long(request, longest));
+        let operations = rolled.joint_operations();
+        if operations > OPERATION_LIMIT {
+            return Err(too_long(request, operations));
         }
         Ok(Self::Rolled(Box::new(rolled)))
     }

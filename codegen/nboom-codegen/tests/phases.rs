@@ -8,9 +8,16 @@ const PHASES: [&str; 3] = ["request", "trace", "emit"];
 /// The files of a phase.
 fn files(phase: &str) -> Vec<PathBuf> {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let entries = fs::read_dir(src.join(phase)).expect("a phase is a folder");
-    let inside = entries.map(|entry| entry.expect("readable").path());
-    inside.chain([src.join(phase).with_extension("rs")]).collect()
+    let mut files = vec![src.join(phase).with_extension("rs")];
+    let mut folders = vec![src.join(phase)];
+    while let Some(folder) = folders.pop() {
+        let entries = fs::read_dir(folder).expect("a phase is a folder");
+        let paths = entries.map(|entry| entry.expect("readable").path());
+        let (inside, of_folder): (Vec<_>, Vec<_>) = paths.partition(|path| path.is_dir());
+        folders.extend(inside);
+        files.extend(of_folder);
+    }
+    files
 }
 
 #[test]

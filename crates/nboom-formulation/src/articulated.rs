@@ -7,7 +7,7 @@ use nboom_scalar::{Mat3, Real, Twist, Vec3, Wrench};
 use crate::base::AtOrigin;
 use crate::chain::{self, Eliminated, OutboardShare, Outward, Spin, Turned};
 use crate::formulation::ClosedForm;
-use crate::limb::{self, EliminatedLink, LimbShare};
+use crate::limb::{self, EliminatedLink};
 use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
 use crate::recognise::{Uncovered, recognise};
@@ -34,7 +34,7 @@ impl ClosedForm for Articulated {
         let mut seen = AtOrigin::nothing();
         let mut first = 0;
         let mut appendages = Vec::with_capacity(parameters.branches.len());
-        for (&shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
+        for (shape, branch) in topology.shapes().iter().zip(&parameters.branches) {
             let hinges = &coordinates.hinges[first..first + shape.hinges()];
             let number = appendages.len() + 1;
             R::remark(|| {
@@ -42,12 +42,12 @@ impl ClosedForm for Articulated {
             });
             let appendage = match shape {
                 Shape::Limb(limb) => {
-                    let (share, links) = limb::eliminate(number, &limb, branch, omega, hinges);
-                    Appendage::Limb { limb, share, links }
+                    let (share, links) = limb::eliminate(number, limb, branch, omega, hinges);
+                    Appendage::Limb { limb: limb.clone(), share, links }
                 }
                 Shape::Chain(_) | Shape::Paddle => Appendage::Planar(ChainOrPaddle::eliminate(
                     number,
-                    shape == Shape::Paddle,
+                    *shape == Shape::Paddle,
                     branch,
                     omega,
                     hinges,
@@ -88,17 +88,16 @@ fn accelerations_of_main<R: Real>(
 }
 
 /// An appendage whose hinges have been eliminated.
-#[expect(clippy::large_enum_variant, reason = "a limb, which is large, goes by value")]
 enum Appendage<R> {
     Planar(ChainOrPaddle<R>),
-    Limb { limb: Limb, share: LimbShare<R>, links: Vec<EliminatedLink<R>> },
+    Limb { limb: Limb, share: AtOrigin<R>, links: Vec<EliminatedLink<R>> },
 }
 
 impl<R: Real> Appendage<R> {
     fn at_origin(&self, branch: &Branch<R>) -> AtOrigin<R> {
         match self {
             Self::Planar(planar) => planar.at_origin(branch),
-            Self::Limb { share, .. } => share.at_origin(branch),
+            Self::Limb { share, .. } => limb::at_origin(share, branch),
         }
     }
 

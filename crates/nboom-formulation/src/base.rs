@@ -32,6 +32,12 @@ impl<R: Real> AtOrigin<R> {
         self.wrench.add(other.wrench);
     }
 
+    /// What is seen at a point from which the former is at `r`.
+    #[inline]
+    pub fn seen_from(&self, r: Vec3<R>) -> Self {
+        Self { inertia: self.inertia.seen_from(r), wrench: self.wrench.seen_from(r) }
+    }
+
     /// What is seen along other axes through the same point.
     #[inline]
     pub fn rotated(&self, rot: &Mat3<R>) -> Self {

@@ -6,7 +6,7 @@
 
 use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Sym3, Vec3, Wrench};
 
-use crate::parameters::Reader;
+mod numbers;
 
 /// Constants of one link, link axes (first axis along the hinge).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,6 +90,13 @@ pub struct Turned<R> {
 }
 
 impl<R: Real> Turned<R> {
+    /// A link without a next hinge.
+    pub(crate) fn last(rigid: RigidInertia<R>, wrench: Wrench<R>) -> Self {
+        let RigidInertia { mass, first_moment, about_origin: about_hinge } = rigid;
+        let Wrench { moment, force } = wrench;
+        Self { first_moment, about_hinge, mass, next: [R::zero(); 2], moment, force }
+    }
+
     /// The way to the next hinge.
     pub(crate) fn hinge_offset(&self) -> Vec3<R> {
         Vec3::new(R::zero(), self.next[0], self.next[1])
@@ -340,60 +347,4 @@ pub fn back<R: Real>(eliminated: &Eliminated<R>, omega_dot: [R; 2], a: Vec3<R>) 
     let [ly, lz] = eliminated.next;
     let next = Vec3::new(a.x + lz * w2 - ly * w3, a.y - lz * epsilon, a.z + ly * epsilon);
     (epsilon, next)
-}
-
-type Numbers<'a, R> = Reader<std::iter::Copied<std::slice::Iter<'a, R>>>;
-
-impl<R: Real> Turned<R> {
-    /// The numbers that vary; mass, hinge-axis moment and first component stay constants.
-    pub(crate) fn flat(&self) -> Vec<R> {
-        let k = &self.about_hinge;
-        let mut flat = vec![self.first_moment.y, self.first_moment.z];
-        flat.extend([k.yy, k.zz, k.xy, k.xz, k.yz]);
-        flat.extend(self.next);
-        flat.extend(self.moment.to_array());
-        flat.extend(self.force.to_array());
-        flat
-    }
-
-    pub(crate) fn read(link: &ChainLink<R>, reader: &mut Numbers<'_, R>) -> Self {
-        let constant = &link.inertia;
-        let first_moment = Vec3::new(constant.first_moment.x, reader.next(), reader.next());
-        let about_hinge = Sym3 {
-            xx: constant.about_origin.xx,
-            yy: reader.next(),
-            zz: reader.next(),
-            xy: reader.next(),
-            xz: reader.next(),
-            yz: reader.next(),
-        };
-        Self {
-            first_moment,
-            about_hinge,
-            mass: constant.mass,
-            next: [reader.next(), reader.next()],
-            moment: reader.vector(),
-            force: reader.vector(),
-        }
-    }
-}
-
-impl<R: Real> Eliminated<R> {
-    pub(crate) fn flat(&self) -> Vec<R> {
-        let mut flat = self.angular.to_vec();
-        flat.extend(self.linear.to_array());
-        flat.extend([self.inverse_pivot, self.net_torque]);
-        flat.extend(self.next);
-        flat
-    }
-
-    pub(crate) fn read(reader: &mut Numbers<'_, R>) -> Self {
-        Self {
-            angular: [reader.next(), reader.next()],
-            linear: reader.vector(),
-            inverse_pivot: reader.next(),
-            net_torque: reader.next(),
-            next: [reader.next(), reader.next()],
-        }
-    }
 }

@@ -40,8 +40,8 @@ impl Embedding {
     pub fn new(inner: &Topology, outer: &Topology) -> Option<Self> {
         let mut left: Vec<usize> = (0..outer.shapes().len()).collect();
         let mut take = |shape: &Shape| {
-            let of = |&branch: &usize| outer.shapes()[branch];
-            let holds = |branch: &usize| holds(of(branch), *shape);
+            let of = |&branch: &usize| &outer.shapes()[branch];
+            let holds = |branch: &usize| holds(of(branch), shape);
             let least = left.iter().copied().filter(holds).min_by_key(|branch| of(branch).hinges());
             left.retain(|&branch| Some(branch) != least);
             least
@@ -105,7 +105,7 @@ impl Embedding {
     ) {
         numbers.clear();
         write_rigid(&inner.main, numbers);
-        for (number, &shape) in self.outer.shapes().iter().enumerate() {
+        for (number, shape) in self.outer.shapes().iter().enumerate() {
             let real = self.branches.iter().position(|&branch| branch == number);
             let real = real.map(|of_inner| &inner.branches[of_inner]);
             let (rot, point) = real.map_or((Mat3::identity(), Vec3::zero()), |real| {
@@ -140,7 +140,7 @@ fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<bool
         arbitrary.extend([real == 0; Layout::BRANCH]);
         for link in 0..shape.hinges() {
             let next_is_virtual = link + 1 >= real && shape.hinges() > real;
-            let end = arbitrary.len() + Layout::link(*shape, link);
+            let end = arbitrary.len() + Layout::link(shape, link);
             arbitrary.resize(end - Layout::WAY, false);
             arbitrary.resize(end, next_is_virtual);
         }
@@ -149,7 +149,7 @@ fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<bool
 }
 
 /// Whether an appendage can be filled up to the outer one.
-fn holds(outer: Shape, inner: Shape) -> bool {
+fn holds(outer: &Shape, inner: &Shape) -> bool {
     match (outer, inner) {
         (Shape::Chain(outer), Shape::Chain(inner)) => outer >= inner,
         (outer, inner) => outer == inner,
@@ -167,7 +167,7 @@ fn first_hinges(topology: &Topology) -> Vec<usize> {
 }
 
 /// A virtual link at a place of an appendage.
-fn virtual_link(shape: Shape, place: usize) -> ChainLink<f64> {
+fn virtual_link(shape: &Shape, place: usize) -> ChainLink<f64> {
     let axis = match (shape, place) {
         (Shape::Paddle, 1) => Vec3::unit_y(),
         _ => Vec3::unit_x(),

@@ -142,7 +142,7 @@ impl<R: Real> Forces<R> {
             hinges.map(|(law, (&beta, &tau))| law.torque(beta, tau)).collect();
         let mut first = 0;
         let appendages = topology.shapes().iter().zip(&parameters.branches);
-        for (number, (&shape, branch)) in appendages.enumerate() {
+        for (number, (shape, branch)) in appendages.enumerate() {
             let hinges = first..first + shape.hinges();
             first = hinges.end;
             if self.lines.is_empty() {

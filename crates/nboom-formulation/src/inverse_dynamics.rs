@@ -83,7 +83,7 @@ pub fn inverse_dynamics<R: Real>(
     let Motion { omega, main, hinges } = motion;
     let mut external = parameters.main.inertia_wrench(*omega, *main);
     let mut torques = Vec::with_capacity(hinges.len());
-    for (i, (&shape, branch)) in topology.shapes().iter().zip(&parameters.branches).enumerate() {
+    for (i, (shape, branch)) in topology.shapes().iter().zip(&parameters.branches).enumerate() {
         let number = i + 1;
         R::remark(|| format!("Appendage {number}: accelerations of its first joint."));
         let rot = &branch.rot_body_from_appendage;
@@ -100,7 +100,7 @@ pub fn inverse_dynamics<R: Real>(
 }
 
 /// An appendage of any shape in terms of a limb: its links and their mounts.
-fn in_links<R: Real>(shape: Shape, branch: &Branch<R>) -> (Vec<LimbLink>, Branch<R>) {
+fn in_links<R: Real>(shape: &Shape, branch: &Branch<R>) -> (Vec<LimbLink>, Branch<R>) {
     let ways = branch.links.iter().map(|link| link.next);
     let link = |i: usize, joint| {
         let inboard = i.checked_sub(1);
@@ -109,7 +109,7 @@ fn in_links<R: Real>(shape: Shape, branch: &Branch<R>) -> (Vec<LimbLink>, Branch
     };
     match shape {
         Shape::Limb(limb) => (limb.links().to_vec(), branch.clone()),
-        Shape::Chain(count) => {
+        &Shape::Chain(count) => {
             let links = (0..count).map(|i| match i {
                 0 => link(i, LimbJoint::Revolute),
                 _ => link(i, LimbJoint::Parallel),

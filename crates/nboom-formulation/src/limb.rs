@@ -13,120 +13,123 @@ mod stance;
 mod turn;
 
 use nboom_model::{Limb, LimbJoint};
-use nboom_scalar::{ArticulatedInertia, Real, Sym3, Twist, Vec3, Wrench};
+use nboom_scalar::{Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::base::AtOrigin;
+use crate::chain::Turned;
 pub(crate) use crate::limb::composite::composite;
 pub(crate) use crate::limb::inverse::inverse;
-use crate::limb::outward::{Moving, axes_stay, outward};
+use crate::limb::outward::outward;
+pub(crate) use crate::limb::outward::{AtMount, Motion, Moving};
 pub(crate) use crate::limb::place::link_places;
-use crate::limb::stance::Stance;
-use crate::limb::turn::Turn;
+pub(crate) use crate::limb::stance::Stance;
+pub use crate::limb::stance::Standing;
+pub(crate) use crate::limb::turn::Turn;
 use crate::parameters::{Branch, HingeCoordinates, Reader};
-
-/// What a limb whose joints have been eliminated shows at its mount, along the axes of its first joint.
-pub(crate) struct LimbShare<R> {
-    inertia: ArticulatedInertia<R>,
-    wrench: Wrench<R>,
-}
 
 /// What the way back needs of a link.
 pub(crate) struct EliminatedLink<R> {
-    stance: Stance<R>,
-    joint: EliminatedJoint<R>,
+    pub stance: Stance<R>,
+    pub joint: EliminatedJoint<R>,
 }
 
 /// An eliminated joint: what the inboard accelerations other than about or along ê₁ take, and what is left.
-struct EliminatedJoint<R> {
+pub(crate) struct EliminatedJoint<R> {
     column: Wrench<R>,
     inverse_pivot: R,
     /// What is left for the joint.
     net_force: R,
 }
 
-/// Eliminates all joints of a limb from its tips inward.
+/// Eliminates all joints of a limb from its tips inward: what it shows at its mount, along the axes of its
+/// first joint, and what its joints leave.
 pub(crate) fn eliminate<R: Real>(
     number: usize,
     limb: &Limb,
     branch: &Branch<R>,
     omega: Vec3<R>,
     hinges: &[HingeCoordinates<R>],
-) -> (LimbShare<R>, Vec<EliminatedLink<R>>) {
+) -> (AtOrigin<R>, Vec<EliminatedLink<R>>) {
     let rates = hinges.iter().map(|hinge| [hinge.beta, hinge.tau]);
     let links = outward(number, limb.links(), branch, omega, rates);
-    let own = |link: &Moving<R>| (link.body.inertia(), link.body.wrench());
-    let mut seen: Vec<_> = links.iter().map(own).collect();
+    let mut seen: Vec<_> = links.iter().map(|link| of_body(&link.body)).collect();
+    let mut outboard = vec![AtOrigin::nothing(); links.len()];
     let mut eliminated = Vec::with_capacity(links.len());
     for (i, link) in links.iter().enumerate().rev() {
         R::remark(|| format!("Link {number},{}, inward: its joint eliminated.", i + 1));
-        let torque = hinges[i].torque;
-        let (joint, share) = match limb.links()[i].joint {
-            LimbJoint::Prismatic => slide_eliminated(seen[i], torque),
-            LimbJoint::Revolute | LimbJoint::Parallel => turn_eliminated(link, seen[i], torque),
-        };
+        let (joint, share) =
+            EliminatedJoint::of(limb.links()[i].joint, &link.body, &seen[i], hinges[i].torque);
         eliminated.push(EliminatedLink { stance: link.stance, joint });
-        let at_mount = link.at_mount(share);
-        seen[i] = at_mount;
+        seen[i] = link.stance.share_at_mount(&share);
         if let Some(inboard) = limb.links()[i].inboard.map(usize::from) {
-            let (inertia, wrench) = links[inboard].carries(&branch.mount(i), at_mount);
-            seen[inboard].0.add(&inertia);
-            seen[inboard].1.add(wrench);
+            let carried = links[inboard].stance.share_carried(&branch.mount(i), &seen[i]);
+            outboard[inboard].add(&carried);
+            // The part that stands next to its inboard link is the last of those outboard of it.
+            if inboard + 1 == i {
+                seen[inboard].add(&outboard[inboard]);
+            }
         }
     }
     eliminated.reverse();
-    let (inertia, wrench) = seen[0];
-    (LimbShare { inertia, wrench }, eliminated)
+    (seen[0], eliminated)
 }
 
-impl<R: Real> LimbShare<R> {
-    /// What the limb shows at O, main-body axes.
-    pub fn at_origin(&self, branch: &Branch<R>) -> AtOrigin<R> {
-        let (inertia, wrench) = (&self.inertia, self.wrench);
-        let at_origin = AtOrigin {
-            inertia: inertia.seen_from(branch.point),
-            wrench: wrench.seen_from(branch.point),
-        };
-        at_origin.rotated(&branch.rot_body_from_appendage)
+/// What the body of a link shows at its origin.
+pub(crate) fn of_body<R: Real>(body: &Turned<R>) -> AtOrigin<R> {
+    AtOrigin { inertia: body.inertia(), wrench: body.wrench() }
+}
+
+/// What a limb shows at O, main-body axes, if it shows this at its mount.
+pub(crate) fn at_origin<R: Real>(share: &AtOrigin<R>, branch: &Branch<R>) -> AtOrigin<R> {
+    share.seen_from(branch.point).rotated(&branch.rot_body_from_appendage)
+}
+
+impl<R: Real> EliminatedJoint<R> {
+    /// The motion of a joint eliminated from what its link with all outboard of it shows at its origin: what it
+    /// leaves, and what it transmits.
+    pub fn of(
+        joint: LimbJoint,
+        body: &Turned<R>,
+        seen: &AtOrigin<R>,
+        torque: R,
+    ) -> (Self, AtOrigin<R>) {
+        match joint {
+            LimbJoint::Prismatic => Self::of_slide(seen, torque),
+            LimbJoint::Revolute | LimbJoint::Parallel => {
+                let (share, eliminated) = body.eliminate(&seen.inertia, seen.wrench, torque);
+                let (column, inverse_pivot, net_force) = eliminated.column_pivot_and_torque();
+                let (inertia, wrench) = share.whole(torque);
+                (Self { column, inverse_pivot, net_force }, AtOrigin { inertia, wrench })
+            }
+        }
     }
-}
 
-fn turn_eliminated<R: Real>(
-    link: &Moving<R>,
-    (inertia, wrench): (ArticulatedInertia<R>, Wrench<R>),
-    torque: R,
-) -> (EliminatedJoint<R>, (ArticulatedInertia<R>, Wrench<R>)) {
-    let (share, eliminated) = link.body.eliminate(&inertia, wrench, torque);
-    let (column, inverse_pivot, net_force) = eliminated.column_pivot_and_torque();
-    (EliminatedJoint { column, inverse_pivot, net_force }, share.whole(torque))
-}
-
-/// Eliminates the motion along ê₁.
-fn slide_eliminated<R: Real>(
-    (inertia, wrench): (ArticulatedInertia<R>, Wrench<R>),
-    force: R,
-) -> (EliminatedJoint<R>, (ArticulatedInertia<R>, Wrench<R>)) {
-    let [x, y, z] = inertia.coupling.rows;
-    let linear = &inertia.linear;
-    let column = Wrench {
-        moment: Vec3::new(x.x, y.x, z.x),
-        force: Vec3::new(linear.xx, linear.xy, linear.xz),
-    };
-    let inverse_pivot = R::one() / linear.xx;
-    let net_force = force - wrench.force.x;
-    let ratio = net_force * inverse_pivot;
-    let mut left = inertia.without(&column, inverse_pivot);
-    // Exactly zero, so that nothing is computed of them.
-    let zero = R::zero();
-    left.linear = Sym3 { xx: zero, xy: zero, xz: zero, ..left.linear };
-    left.coupling.rows.iter_mut().for_each(|row| row.x = zero);
-    let mut transmitted = Wrench {
-        moment: wrench.moment + column.moment * ratio,
-        force: wrench.force + column.force * ratio,
-    };
-    transmitted.force.x = force;
-    // The way back finds the whole acceleration along ê₁, as about it where a link turns.
-    let column = Wrench { force: Vec3 { x: zero, ..column.force }, ..column };
-    (EliminatedJoint { column, inverse_pivot, net_force }, (left, transmitted))
+    /// Eliminates the motion along ê₁.
+    fn of_slide(AtOrigin { inertia, wrench }: &AtOrigin<R>, force: R) -> (Self, AtOrigin<R>) {
+        let [x, y, z] = inertia.coupling.rows;
+        let linear = &inertia.linear;
+        let column = Wrench {
+            moment: Vec3::new(x.x, y.x, z.x),
+            force: Vec3::new(linear.xx, linear.xy, linear.xz),
+        };
+        let inverse_pivot = R::one() / linear.xx;
+        let net_force = force - wrench.force.x;
+        let ratio = net_force * inverse_pivot;
+        let mut left = inertia.without(&column, inverse_pivot);
+        // Exactly zero, so that nothing is computed of them.
+        let zero = R::zero();
+        left.linear = Sym3 { xx: zero, xy: zero, xz: zero, ..left.linear };
+        left.coupling.rows.iter_mut().for_each(|row| row.x = zero);
+        let mut transmitted = Wrench {
+            moment: wrench.moment + column.moment * ratio,
+            force: wrench.force + column.force * ratio,
+        };
+        transmitted.force.x = force;
+        // The way back finds the whole acceleration along ê₁, as about it where a link turns.
+        let column = Wrench { force: Vec3 { x: zero, ..column.force }, ..column };
+        let joint = Self { column, inverse_pivot, net_force };
+        (joint, AtOrigin { inertia: left, wrench: transmitted })
+    }
 }
 
 /// τ̇ of all joints when ω̇ and the acceleration of the mount, appendage axes, are these.
@@ -156,7 +159,7 @@ pub(crate) fn back<R: Real>(
 
 impl<R: Real> EliminatedJoint<R> {
     /// The accelerations outboard of the joint, and its own, from those inboard of it.
-    fn back(&self, joint: LimbJoint, inboard: Twist<R>) -> (Twist<R>, R) {
+    pub fn back(&self, joint: LimbJoint, inboard: Twist<R>) -> (Twist<R>, R) {
         let Self { column, inverse_pivot, net_force } = self;
         let carried = column.moment.dot(inboard.angular) + column.force.dot(inboard.linear);
         let found = (*net_force - carried) * *inverse_pivot;
@@ -178,32 +181,21 @@ pub(crate) const OF_ELIMINATED_LINK: [&str; 13] = [
 ];
 
 impl<R: Real> EliminatedLink<R> {
-    /// The numbers that vary, of link `i` of a limb; of sine and cosine there is one pair, for either its axes
-    /// or the link stays.
-    pub fn flat(&self, limb: &Limb, i: usize) -> Vec<R> {
-        let Stance { axes_turned, turned, travel, bias } = self.stance;
-        let turn = if axes_stay(limb.links(), i) { turned } else { axes_turned };
+    /// The numbers that vary.
+    pub fn flat(&self, standing: Standing) -> Vec<R> {
         let EliminatedJoint { column, inverse_pivot, net_force } = &self.joint;
-        let mut flat = vec![turn.sin, turn.cos, bias.y, bias.z, travel];
+        let mut flat = self.stance.flat(standing).to_vec();
         flat.extend(column.moment.to_array());
         flat.extend(column.force.to_array());
         flat.extend([*inverse_pivot, *net_force]);
         flat
     }
 
-    /// Those of link `i` of a limb.
-    pub fn read(limb: &Limb, i: usize, reader: &mut Reader<impl Iterator<Item = R>>) -> Self {
-        let (turn, still) = (Turn { sin: reader.next(), cos: reader.next() }, Turn::still());
-        let (axes_turned, turned) = match limb.links()[i].joint {
-            LimbJoint::Prismatic => (still, still),
-            _ if axes_stay(limb.links(), i) => (still, turn),
-            _ => (turn, still),
-        };
-        let bias = Vec3::new(R::zero(), reader.next(), reader.next());
-        let travel = reader.next();
+    /// Those of a link that stands so.
+    pub fn read(standing: Standing, reader: &mut Reader<impl Iterator<Item = R>>) -> Self {
+        let stance = Stance::read(standing, reader);
         let column = Wrench { moment: reader.vector(), force: reader.vector() };
         let (inverse_pivot, net_force) = (reader.next(), reader.next());
-        let joint = EliminatedJoint { column, inverse_pivot, net_force };
-        Self { stance: Stance { axes_turned, turned, travel, bias }, joint }
+        Self { stance, joint: EliminatedJoint { column, inverse_pivot, net_force } }
     }
 }

@@ -196,7 +196,7 @@ fn appendages<'a, R: Real>(
     velocities: &'a Velocities<R>,
 ) -> impl Iterator<Item = Appendage<'a, R>> {
     let mut first = 0;
-    topology.shapes().iter().zip(&parameters.branches).map(move |(&shape, branch)| {
+    topology.shapes().iter().zip(&parameters.branches).map(move |(shape, branch)| {
         let of = first..first + shape.hinges();
         first += shape.hinges();
         let rot = &branch.rot_body_from_appendage;
@@ -213,7 +213,7 @@ fn appendages<'a, R: Real>(
 /// Outward for velocities, inward for momenta; `main` is the motion of the main body's point at
 /// the first hinge.
 fn carried<R: Real>(
-    shape: Shape,
+    shape: &Shape,
     links: &[Posed<R>],
     sigma: &[R],
     main: Twist<R>,
@@ -224,7 +224,7 @@ fn carried<R: Real>(
         let inboard = match shape {
             Shape::Chain(_) => main.angular,
             Shape::Paddle => motion.angular,
-            Shape::Limb(limb) => pose::no_limb(&limb),
+            Shape::Limb(limb) => pose::no_limb(limb),
         };
         motion.angular = inboard + link.axis * rate;
         let outboard = pose::momentum(&link.inertia, motion);

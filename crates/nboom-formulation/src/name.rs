@@ -54,9 +54,9 @@ const OF_MOUNT: [&str; Layout::BRANCH] = [
 ];
 
 /// What the numbers of a link are.
-fn of_link(shape: Shape, link: usize) -> Vec<&'static str> {
+fn of_link(shape: &Shape, link: usize) -> Vec<&'static str> {
     let Shape::Limb(limb) = shape else { return OF_LINK.to_vec() };
-    let mount = match Layout::mount(&limb, link) {
+    let mount = match Layout::mount(limb, link) {
         0 => &[][..],
         Layout::WAY => &OF_WAY,
         _ => &OF_MOUNT,
@@ -82,7 +82,7 @@ impl Layout {
             }
             at -= Self::BRANCH;
             for link in 0..shape.hinges() {
-                let names = of_link(*shape, link);
+                let names = of_link(shape, link);
                 if let Some(name) = names.get(at) {
                     return format!("{name} of link {} of appendage {appendage}", link + 1);
                 }

@@ -119,19 +119,19 @@ impl Layout {
     /// How many numbers parameters take.
     pub fn parameters(topology: &Topology) -> usize {
         let appendages = topology.shapes().iter();
-        Self::MAIN + appendages.map(|&shape| Self::appendage(shape)).sum::<usize>()
+        Self::MAIN + appendages.map(Self::appendage).sum::<usize>()
     }
 
     /// How many numbers the parameters of an appendage take.
-    pub fn appendage(shape: Shape) -> usize {
+    pub fn appendage(shape: &Shape) -> usize {
         Self::BRANCH + (0..shape.hinges()).map(|link| Self::link(shape, link)).sum::<usize>()
     }
 
     /// How many numbers the parameters of a link take: those of its body, and the way to the next hinge; in a
     /// limb, before those of its body, where it is mounted.
-    pub fn link(shape: Shape, link: usize) -> usize {
+    pub fn link(shape: &Shape, link: usize) -> usize {
         let Shape::Limb(limb) = shape else { return Self::LINK };
-        Self::mount(&limb, link) + Self::BODY
+        Self::mount(limb, link) + Self::BODY
     }
 
     /// Where the numbers of each link of chains and paddles begin.
@@ -140,7 +140,7 @@ impl Layout {
         let mut links = Vec::new();
         for shape in topology.shapes() {
             let first = at + Self::BRANCH;
-            at += Self::appendage(*shape);
+            at += Self::appendage(shape);
             if !matches!(shape, Shape::Limb(_)) {
                 links.extend((first..at).step_by(Self::LINK));
             }
@@ -226,7 +226,7 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
         RigidInertia { mass, first_moment, about_origin }
     }
 
-    pub fn branch(&mut self, shape: Shape) -> Branch<R> {
+    pub fn branch(&mut self, shape: &Shape) -> Branch<R> {
         let mut branch = self.branch_without_links();
         let Shape::Limb(limb) = shape else {
             branch.links = (0..shape.hinges()).map(|_| self.link()).collect();
@@ -242,7 +242,7 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
         Branch { mounts: Some(mounts), ..branch }
     }
 
-    fn mount(&mut self, joint: LimbJoint) -> Mount<R> {
+    pub fn mount(&mut self, joint: LimbJoint) -> Mount<R> {
         match joint {
             LimbJoint::Parallel => Mount::Parallel([self.next(), self.next()]),
             LimbJoint::Revolute | LimbJoint::Prismatic => {
@@ -275,7 +275,7 @@ impl<R: Real> Parameters<R> {
     pub fn read(topology: &Topology, numbers: impl IntoIterator<Item = R>) -> Self {
         let mut reader = Reader(numbers.into_iter());
         let main = reader.rigid();
-        let branches = topology.shapes().iter().map(|&shape| reader.branch(shape)).collect();
+        let branches = topology.shapes().iter().map(|shape| reader.branch(shape)).collect();
         Self { main, main_is_held: false, branches }
     }
 

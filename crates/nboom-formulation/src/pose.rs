@@ -26,11 +26,11 @@ pub(crate) fn no_limb(limb: &Limb) -> ! {
 }
 
 /// The links of an appendage at these hinge angles.
-pub(crate) fn place<R: Real>(shape: Shape, branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
+pub(crate) fn place<R: Real>(shape: &Shape, branch: &Branch<R>, beta: &[R]) -> Vec<Posed<R>> {
     match shape {
         Shape::Chain(_) => chain(branch, beta),
         Shape::Paddle => arm_and_paddle(branch, beta[0], beta[1]),
-        Shape::Limb(limb) => no_limb(&limb),
+        Shape::Limb(limb) => no_limb(limb),
     }
 }
 
@@ -50,12 +50,12 @@ pub(crate) struct LinkPlace<R> {
 
 /// The places of all links of an appendage.
 pub(crate) fn link_places<R: Real>(
-    shape: Shape,
+    shape: &Shape,
     branch: &Branch<R>,
     beta: &[R],
 ) -> Vec<LinkPlace<R>> {
     let turns = match shape {
-        Shape::Limb(limb) => return limb::link_places(&limb, branch, beta),
+        Shape::Limb(limb) => return limb::link_places(limb, branch, beta),
         Shape::Chain(_) => {
             let alpha = absolute(shape, beta).into_iter();
             alpha.map(|alpha| (about_first(alpha.sin_cos()), Vec3::unit_x())).collect()
@@ -139,7 +139,7 @@ pub(crate) fn turned_tensor<R: Real>(k: &Sym3<R>, s: R, c: R) -> Sym3<R> {
 }
 
 /// Rates relative to the main body: σ of a chain's links are sums of τ, a paddle's are its τ.
-pub(crate) fn absolute<R: Real>(shape: Shape, relative: &[R]) -> Vec<R> {
+pub(crate) fn absolute<R: Real>(shape: &Shape, relative: &[R]) -> Vec<R> {
     match shape {
         Shape::Paddle => relative.to_vec(),
         Shape::Chain(_) => {
@@ -150,12 +150,12 @@ pub(crate) fn absolute<R: Real>(shape: Shape, relative: &[R]) -> Vec<R> {
             };
             relative.iter().map(add).collect()
         }
-        Shape::Limb(limb) => no_limb(&limb),
+        Shape::Limb(limb) => no_limb(limb),
     }
 }
 
 /// The inverse of [`absolute`].
-pub(crate) fn relative<R: Real>(shape: Shape, absolute: &[R]) -> Vec<R> {
+pub(crate) fn relative<R: Real>(shape: &Shape, absolute: &[R]) -> Vec<R> {
     let difference = |i: usize| match shape {
         Shape::Chain(_) if i > 0 => absolute[i] - absolute[i - 1],
         _ => absolute[i],

@@ -67,7 +67,7 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
         let any = planar.or_else(|| limb::appendage(tree, root));
         appendages.push(any.ok_or(Uncovered { link: root })?);
     }
-    let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape));
+    let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape.clone()));
     let (main, main_is_held) = (tree.free_main(), tree.held.is_some());
     let mut parameters = Parameters { main, main_is_held, branches: Vec::new() };
     let (mut links, mut frames) = (Vec::new(), Vec::new());

@@ -48,7 +48,7 @@ pub fn equations_at<R: Real>(
     let mut equations = section5::equations_at(topology, parameters, coordinates, place);
     let size = equations.forcing.len();
     let mut first = 6;
-    for &shape in topology.shapes() {
+    for shape in topology.shapes() {
         if matches!(shape, Shape::Chain(_)) {
             for row in equations.matrix.chunks_exact_mut(size) {
                 for j in (first + 1..first + shape.hinges()).rev() {

@@ -50,7 +50,7 @@ pub fn solve_at<R: Real>(
     let unknowns = equations_at(topology, parameters, coordinates, place).solve();
     let mut tau_dot = Vec::new();
     let mut first = 6;
-    for &shape in topology.shapes() {
+    for shape in topology.shapes() {
         tau_dot.extend(pose::relative(shape, &unknowns[first..first + shape.hinges()]));
         first += shape.hinges();
     }

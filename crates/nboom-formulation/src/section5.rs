@@ -67,7 +67,7 @@ pub fn equations_at<R: Real>(
     let mut bias = parameters.main.inertia_wrench(omega, Twist::zero());
     let mut first = 6;
     let branches = topology.shapes().iter().zip(&parameters.branches);
-    for (i, (&shape, branch)) in branches.enumerate() {
+    for (i, (shape, branch)) in branches.enumerate() {
         let hinges = &coordinates.hinges[first - 6..first - 6 + shape.hinges()];
         R::remark(|| format!("Appendage {}: rows and columns of its hinges.", i + 1));
         let share = Share::of(shape, branch, omega, hinges, place);
@@ -125,7 +125,7 @@ struct Share<R> {
 
 impl<R: Real> Share<R> {
     fn of(
-        shape: Shape,
+        shape: &Shape,
         branch: &Branch<R>,
         omega: Vec3<R>,
         hinges: &[HingeCoordinates<R>],
@@ -211,7 +211,7 @@ fn outboard_bias<R: Real>(links: &[Posed<R>], own: &[Wrench<R>]) -> Vec<Wrench<R
 /// m ḡ and the moment of each link about its hinge when no rate changes: eqs., (A-17)
 /// and, corrected: note 11. ρ̄ and v̄ are left out.
 fn bias_wrenches<R: Real>(
-    shape: Shape,
+    shape: &Shape,
     links: &[Posed<R>],
     w: Vec3<R>,
     sigma: &[R],
@@ -233,13 +233,13 @@ fn bias_wrenches<R: Real>(
 
 /// Ω̄ of link `i`, and what it changes by along appendage axes while σ̇ is zero.
 fn relative_rotation<R: Real>(
-    shape: Shape,
+    shape: &Shape,
     links: &[Posed<R>],
     sigma: &[R],
     i: usize,
 ) -> (Vec3<R>, Vec3<R>) {
     let e1 = Vec3::unit_x();
-    if shape != Shape::Paddle || i == 0 {
+    if *shape != Shape::Paddle || i == 0 {
         return (e1 * sigma[i], Vec3::zero());
     }
     let eta = links[1].axis;
@@ -249,7 +249,7 @@ fn relative_rotation<R: Real>(
 /// Force, and moment about its own hinge, for unit σ̇ of each hinge: eqs. (4.21), (5.6) and
 /// (5.9).
 fn columns<R: Real>(
-    shape: Shape,
+    shape: &Shape,
     links: &[Posed<R>],
     outboard: &[RigidInertia<R>],
 ) -> Vec<Wrench<R>> {
@@ -263,7 +263,7 @@ fn columns<R: Real>(
             let carried = Twist { angular: Vec3::zero(), linear: e1.cross(link.hinge_offset) };
             column.add(pose::momentum(outer, carried).seen_from(link.hinge_offset));
         }
-        if shape == Shape::Paddle && i == 0 {
+        if *shape == Shape::Paddle && i == 0 {
             column.add(spun(&links[1].inertia, e1).seen_from(link.hinge_offset));
         }
         column
@@ -273,7 +273,7 @@ fn columns<R: Real>(
 
 /// Aᵣₛ of eqs. (5.11) and (5.12).
 fn hinge_block<R: Real>(
-    shape: Shape,
+    shape: &Shape,
     links: &[Posed<R>],
     outboard: &[RigidInertia<R>],
     columns: &[Wrench<R>],
@@ -285,7 +285,7 @@ fn hinge_block<R: Real>(
             return row.axis.dot(columns[j].seen_from(column.hinge - row.hinge).moment);
         }
         let mut moment = outboard[i].first_moment.cross(e1.cross(column.hinge_offset));
-        if shape == Shape::Paddle {
+        if *shape == Shape::Paddle {
             moment += outboard[i].about_origin * e1;
         }
         row.axis.dot(moment)

@@ -14,11 +14,17 @@ use crate::parameters::{Layout, Reader};
 mod base;
 mod forces;
 mod group;
+mod joint;
 mod limb;
 
+pub use crate::limb::Standing;
 pub use base::{base, base_in_mode, held_base, held_base_in_mode};
 pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, LAW, LINE, POWER, attitude, law};
 pub use group::Group;
+pub use joint::{
+    BIAS, JOINT, Mounting, OUTBOARD, RATES, SHARE, STANCE, joint_back, joint_inward, joint_outward,
+    limb_root, mount_back, mount_inward, mount_outward,
+};
 pub use limb::{LIMB, LIMB_HINGES, LIMB_TAU_DOT, limb_back, limb_in, of_limb};
 
 /// From numbers one after the other to numbers one after the other.

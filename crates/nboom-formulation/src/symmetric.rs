@@ -63,7 +63,7 @@ impl ClosedForm for Symmetric {
         R::remark(|| "Main body: a_O eliminated, ω̇ solved for, then a_O.".to_owned());
         let main = total.accelerations();
         let mut tau_dot = Vec::new();
-        for (i, (&shape, (rot, left))) in topology.shapes().iter().zip(&eliminated).enumerate() {
+        for (i, (shape, (rot, left))) in topology.shapes().iter().zip(&eliminated).enumerate() {
             R::remark(|| format!("Appendage {}, back: τ̇ of its hinges.", i + 1));
             let seen = Twist {
                 angular: rot.transpose_mul(main.angular),
@@ -83,7 +83,7 @@ fn appendages<'a, R: Real>(
 ) -> impl Iterator<Item = (&'a Branch<R>, Arrow<R>)> {
     let mut first = 0;
     let branches = topology.shapes().iter().zip(&parameters.branches).enumerate();
-    branches.map(move |(i, (&shape, branch))| {
+    branches.map(move |(i, (shape, branch))| {
         R::remark(|| format!("Appendage {}: its block of the matrix, its right side.", i + 1));
         let hinges = &coordinates.hinges[first..first + shape.hinges()];
         first += shape.hinges();
@@ -106,7 +106,7 @@ fn whole<R: Real>(
         base: AtOrigin::of_main_body(&parameters.main, *omega, external),
     };
     let shapes = topology.shapes().iter();
-    for (&shape, (branch, arrow)) in shapes.zip(appendages(topology, parameters, coordinates)) {
+    for (shape, (branch, arrow)) in shapes.zip(appendages(topology, parameters, coordinates)) {
         let rot = &branch.rot_body_from_appendage;
         let arrow = appendage::with_relative_rates(shape, arrow);
         let first = whole.right.len();

@@ -1,13 +1,13 @@
 use std::fmt;
+use std::sync::Arc;
 
 /// The links of an appendage of any form: a tree of bodies, each on a joint about or along one axis.
 ///
 /// The order is canonical: a link stands before all that is outboard of it, and of the parts outboard of
 /// one link the larger ones come first, then by name. Limbs that differ only in numbering are equal.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Limb {
-    count: usize,
-    links: [LimbLink; Limb::MOST_LINKS],
+    links: Arc<[LimbLink]>,
 }
 
 /// A link of a limb.
@@ -43,10 +43,9 @@ impl LimbJoint {
 }
 
 impl Limb {
-    /// The most links that a limb can have.
-    pub const MOST_LINKS: usize = 64;
-
-    const UNUSED: LimbLink = LimbLink { inboard: None, joint: LimbJoint::Revolute };
+    /// The most links that a limb can have, as many as a routine has hinges: what puts them in order takes room
+    /// in proportion to the square of their number.
+    pub const MOST_LINKS: usize = 1000;
 
     /// The limb of links that stand inboard before outboard, the first on what the limb is mounted on and
     /// no other; with it, for each link of the canonical order, which of these it is.
@@ -70,17 +69,15 @@ impl Limb {
 
     fn in_order(links: &[LimbLink]) -> (Self, Vec<usize>) {
         let parts = parts(links);
-        let mut limb = Self { count: 0, links: [Self::UNUSED; Self::MOST_LINKS] };
-        let mut order = Vec::new();
+        let (mut in_order, mut order) = (Vec::new(), Vec::new());
         let mut waiting = vec![(0, None)];
         while let Some((i, inboard)) = waiting.pop() {
-            let number = limb.count as u16;
-            limb.links[limb.count] = LimbLink { inboard, joint: links[i].joint };
-            limb.count += 1;
+            let number = order.len() as u16;
+            in_order.push(LimbLink { inboard, joint: links[i].joint });
             order.push(i);
             waiting.extend(parts[i].outboard.iter().rev().map(|&j| (j, Some(number))));
         }
-        (limb, order)
+        (Self { links: in_order.into() }, order)
     }
 
     /// The limb with this name, as [`Display`](fmt::Display) writes it, its parts in any order.
@@ -107,7 +104,7 @@ impl Limb {
 
     /// The links, inboard before outboard.
     pub fn links(&self) -> &[LimbLink] {
-        &self.links[..self.count]
+        &self.links
     }
 }
 
@@ -197,7 +194,7 @@ mod tests {
             assert_eq!(Limb::named(name).map(|limb| limb.to_string()).as_deref(), Some(name));
         }
         assert_eq!(Limb::named("Tr(s)(rp)"), Limb::named("Tr(rp)(s)"));
-        let long = format!("T{}", "r".repeat(65));
+        let long = format!("T{}", "r".repeat(Limb::MOST_LINKS + 1));
         let deep = format!("Tr{}", "(".repeat(100_000));
         let wrong = ["T", "Tp", "Tsp", "Tr(r)", "Tr(r", "Tr)r", "Tr()", "T(r)", "Tr(r)r", "Trx"];
         for name in wrong.into_iter().chain([&long[..], &deep]) {

@@ -4,8 +4,7 @@ use std::str::FromStr;
 use crate::Limb;
 
 /// The hinges of one appendage that turn.
-#[expect(clippy::large_enum_variant, reason = "a topology has few shapes, which go by value")]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
     /// A chain of this many links whose hinge axes are all parallel.
     Chain(usize),
@@ -17,9 +16,9 @@ pub enum Shape {
 
 impl Shape {
     /// How many hinges it has.
-    pub fn hinges(self) -> usize {
+    pub fn hinges(&self) -> usize {
         match self {
-            Self::Chain(links) => links,
+            Self::Chain(links) => *links,
             Self::Paddle => 2,
             Self::Limb(limb) => limb.links().len(),
         }
@@ -46,7 +45,7 @@ impl Topology {
         shapes.sort_by_key(|shape| match shape {
             Shape::Chain(links) => (0, usize::MAX - links, None),
             Shape::Paddle => (1, 0, None),
-            Shape::Limb(limb) => (2, usize::MAX - limb.links().len(), Some(*limb)),
+            Shape::Limb(limb) => (2, usize::MAX - limb.links().len(), Some(limb.clone())),
         });
         Self { shapes }
     }
@@ -68,7 +67,7 @@ impl Topology {
 
     /// Runs of equal shapes with their lengths, in canonical order.
     pub fn groups(&self) -> impl Iterator<Item = (Shape, usize)> {
-        self.shapes.chunk_by(|a, b| a == b).map(|equal| (equal[0], equal.len()))
+        self.shapes.chunk_by(|a, b| a == b).map(|equal| (equal[0].clone(), equal.len()))
     }
 }
 

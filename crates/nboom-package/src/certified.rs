@@ -273,7 +273,7 @@ fn in_routine(recognised: &Recognised, truth: &[f64]) -> Vec<f64> {
 fn unknowns(formulation: Formulation, recognised: &Recognised, truth: &[f64]) -> Vec<f64> {
     let mut all = [&truth[3..6], &truth[..3]].concat();
     let mut links = recognised.links.iter();
-    for &shape in recognised.topology.shapes() {
+    for shape in recognised.topology.shapes() {
         let summed = formulation == Formulation::Report && matches!(shape, Shape::Chain(_));
         let mut inboard = 0.0;
         for link in links.by_ref().take(shape.hinges()) {

@@ -125,7 +125,7 @@ pub(crate) fn order(test_case: &TestCase) -> Vec<usize> {
 fn to_absolute_rates<R: Real>(topology: &Topology, matrix: &mut [R]) {
     let size = 6 + topology.hinges();
     let mut first = 6;
-    for &shape in topology.shapes() {
+    for shape in topology.shapes() {
         if matches!(shape, Shape::Chain(_)) {
             for row in matrix.chunks_exact_mut(size) {
                 for j in first..first + shape.hinges() - 1 {

@@ -11,8 +11,9 @@ use crate::emit::item::{Item, Signature};
 use crate::emit::places::{place, repeated};
 use crate::emit::stage::Step;
 use crate::emit::sweeps::Sweeps;
+use crate::emit::sweeps::joints::{Tables, prepared};
 use crate::request::{Level, Output, Request};
-use crate::trace::{Chain, Equal, Paddle, Placed, Rolled, Steps};
+use crate::trace::{Chain, Equal, Joints, Kind, Paddle, Placed, Rolled, Steps};
 
 /// The routine's items.
 pub(crate) fn items(rolled: &Rolled, request: &Request, signature: &Signature) -> TokenStream {
@@ -121,6 +122,30 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
                 let whole = array("whole", stride, at);
                 let of_whole = [&limb.inward, &limb.back].map(|step| store(step, "whole", None));
                 quote!(#whole #(#of_whole)*)
+            }
+            Steps::Joints(joints) => {
+                let Joints { start, root, first, .. } = joints.as_ref();
+                let of_branch = [start].into_iter().chain(root).chain([first]);
+                let of_branch = of_branch.map(|step| store(step, "branch", None));
+                let number = format_ident!("number");
+                let of_link = |step| store(step, "of_link", Some(&number));
+                let size = |kind: &Kind| kind.parameters();
+                let of_mount = prepared(&joints.mounts, size, group, of_link);
+                let of_joint = prepared(&joints.joints, size, group, of_link);
+                let tables = Tables::new(group, joints);
+                let (mounts, joints) = (tables.mounts(), tables.joints());
+                let (branch, links) = (branch(), Literal::usize_unsuffixed(group.shape.hinges()));
+                quote! {
+                    #branch #(#of_branch)*
+                    for i in 0..#links {
+                        if i > 0 {
+                            let [_, kind, number, at] = #mounts[i];
+                            #of_mount
+                        }
+                        let [kind, number, at] = #joints[i];
+                        #of_joint
+                    }
+                }
             }
         };
         quote!(#laws #rest)

@@ -1,7 +1,9 @@
 //! Functions that take one appendage, or several side by side, through the sweeps.
 
+pub(crate) mod joints;
+
 use nboom_formulation::stages::{
-    AT_ORIGIN, ELIMINATED, LIMB, OUTBOARD_SHARE, PADDLE, TURNED, of_limb,
+    AT_ORIGIN, ELIMINATED, JOINT, LIMB, OUTBOARD_SHARE, PADDLE, TURNED, of_limb,
 };
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -49,6 +51,10 @@ impl<'a> Sweeps<'a> {
             Steps::Limb(limb) => {
                 vec![(limb.inward.traced.size(of_limb(LIMB, &limb.limb)), None)]
             }
+            Steps::Joints(joints) => {
+                let left = joints.joints[0].inward.traced.size(JOINT);
+                vec![(left, Some(self.group.shape.hinges()))]
+            }
         };
         Call { prefix: self.group.prefix(), count: self.group.count, saved }
     }
@@ -59,6 +65,11 @@ impl<'a> Sweeps<'a> {
             Steps::Chain(chain) => (self.chain_in(chain), self.chain_out(chain)),
             Steps::Paddle(paddle) => (self.paddle_in(paddle), self.paddle_out(paddle)),
             Steps::Limb(limb) => (self.limb_in(limb), self.limb_out(limb)),
+            Steps::Joints(joints) => (self.joints_in(joints), self.joints_out(joints)),
+        };
+        let tables = match self.steps {
+            Steps::Joints(joints) => Some(self.tables(joints)),
+            _ => None,
         };
         let (saved, prefix) = (saved(&self.call().saved, &quote!(P)), self.group.prefix());
         let (in_name, out_name) = (format_ident!("{prefix}_in"), format_ident!("{prefix}_out"));
@@ -72,6 +83,7 @@ impl<'a> Sweeps<'a> {
         let in_about = format!(" Inward through {taken}; adds to `seen`.");
         let out_about = format!(" Outward through {taken}.");
         quote! {
+            #tables
             #[doc = #in_about]
             #[inline(always)]
             fn #in_name<S: Real, P: Pack<S>>(
@@ -126,10 +138,7 @@ impl<'a> Sweeps<'a> {
         let inward = self.links_inward(inward, chain.law.is_some());
         let omega = omega_spread(self.request.output);
         let (start_, k_start) = (name(start), self.argument(start));
-        let shown = root.as_ref().map(|root| {
-            let (root_, k_root, add) = (name(root), self.argument(root), self.add());
-            quote!(let shares = #root_(#k_root share, [outer]); #add)
-        });
+        let shown = self.shown(root.as_ref(), &quote!(share, [outer]));
         quote! {
             let omega = #omega;
             let (w, mut reached) = #start_(#k_start omega);
@@ -316,6 +325,14 @@ impl<'a> Sweeps<'a> {
             #arm
             #outer
         }
+    }
+
+    /// The step that tells what an appendage shows at O, with its arguments, if that is asked.
+    fn shown(&self, root: Option<&Placed>, arguments: &TokenStream) -> Option<TokenStream> {
+        root.map(|root| {
+            let (root_, k_root, add) = (name(root), self.argument(root), self.add());
+            quote!(let shares = #root_(#k_root #arguments); #add)
+        })
     }
 
     /// The inward step of a whole appendage, which writes what it is `kept` for the way back after what it shows

@@ -23,6 +23,7 @@ pub(crate) fn formatted(tokens: TokenStream) -> String {
     while at < lines.len() {
         let (taken, found) = filled(&lines[at..])
             .or_else(|| joined(&lines[at..]))
+            .or_else(|| broken(lines[at]))
             .unwrap_or_else(|| (1, lines[at].to_owned()));
         formatted += &found;
         formatted.push('\n');
@@ -71,6 +72,13 @@ fn joined(lines: &[&str]) -> Option<(usize, String)> {
         .then_some((inside + 2, joined))
 }
 
+/// A constant whose text does not fit in a line, in two.
+fn broken(line: &str) -> Option<(usize, String)> {
+    let (constant, text) = line.split_once(" = ").filter(|(_, text)| text.starts_with('"'))?;
+    let is_long = line.chars().count() > WIDE;
+    is_long.then(|| (1, format!("{constant} =\n{}    {text}", indent(line))))
+}
+
 fn indent(line: &str) -> &str {
     &line[..line.len() - line.trim_start().len()]
 }
@@ -93,5 +101,12 @@ mod tests {
             fn a_name_of_some_letters(first: [f64; 3], second: [f64; 3], third: [f64; 3], k: f64) {}
         });
         assert_eq!(text.lines().count(), 1, "{text}");
+    }
+
+    #[test]
+    fn a_long_text_has_a_line_of_its_own() {
+        let long = "T".repeat(80);
+        let text = formatted(quote!(const TOPOLOGY: &'static str = #long;));
+        assert_eq!(text, format!("const TOPOLOGY: &'static str =\n    \"{long}\";\n"));
     }
 }

@@ -51,18 +51,18 @@ pub enum CodegenError {
         /// The most that is generated.
         limit: usize,
     },
-    /// A straight line would be too long for a compiler.
+    /// A straight line would be too long for a compiler, or the steps of limbs that are all different would be.
     #[error(
         "topology {topology}, formulation {formulation}: the evaluation takes {operations} \
-         operations, at most {limit} expected; only accelerations and right sides of chains and paddles \
-         by articulated are emitted as loops"
+         operations, at most {limit} expected; only accelerations and right sides by articulated are \
+         emitted as loops, and only joints that are alike share a step"
     )]
     Budget {
         /// The topology.
         topology: String,
         /// The formulation.
         formulation: Formulation,
-        /// Additions, multiplications, divisions and square roots of an evaluation.
+        /// Additions, multiplications, divisions and square roots of an evaluation, or of the steps.
         operations: usize,
         /// The most that is emitted.
         limit: usize,

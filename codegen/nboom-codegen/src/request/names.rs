@@ -9,9 +9,20 @@ use nboom_model::{Shape, Topology};
 
 use crate::request::Output;
 
-/// A topology's name without what cannot stand in an identifier.
+/// The longest identifier of a topology: files are named by it, too.
+const LONGEST: usize = 160;
+
+/// A topology's name without what cannot stand in an identifier; where that is too long, its hinges and a number
+/// that follows from its name.
 pub(crate) fn identifier(topology: &Topology) -> String {
-    topology.to_string().replace('_', "").replace('(', "I").replace(')', "O")
+    let name = topology.to_string().replace('_', "").replace('(', "I").replace(')', "O");
+    if name.len() <= LONGEST {
+        return name;
+    }
+    // FNV-1a.
+    let of_byte = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325, of_byte);
+    format!("{}Hinges{hash:016x}", topology.hinges())
 }
 
 /// Names of all numbers that a routine reads and writes, in the order of its layout.
@@ -26,7 +37,7 @@ impl Names {
     /// equations have no names.
     pub fn of(topology: &Topology, output: Output) -> Self {
         let (mut parameters, mut hinges) = (of_owner(MAIN.numbers, "main"), Vec::new());
-        for (appendage, &shape) in topology.shapes().iter().enumerate() {
+        for (appendage, shape) in topology.shapes().iter().enumerate() {
             let appendage = appendage + 1;
             parameters.extend(of_owner(BRANCH.numbers, &appendage.to_string()));
             for link in 1..=Shape::hinges(shape) {
@@ -111,9 +122,9 @@ impl Names {
 }
 
 /// Those of a link of an appendage.
-fn of_link(shape: Shape, link: usize, owner: &str) -> Vec<String> {
+fn of_link(shape: &Shape, link: usize, owner: &str) -> Vec<String> {
     let Shape::Limb(limb) = shape else { return of_owner(LINK.numbers, owner) };
-    let mount = match Layout::mount(&limb, link) {
+    let mount = match Layout::mount(limb, link) {
         0 => Vec::new(),
         Layout::WAY => of_owner(&LINK.numbers[Layout::BODY..], owner),
         _ => of_owner(BRANCH.numbers, owner),
@@ -127,4 +138,18 @@ fn of_owner(names: &[&str], owner: &str) -> Vec<String> {
 
 fn owned(names: &[&[&str]]) -> Vec<String> {
     names.concat().into_iter().map(str::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_topologies_have_short_names_of_their_own() {
+        let of = |name: String| identifier(&name.parse().expect("a topology"));
+        assert_eq!(of("Tr(rp)(s)_2xP".to_owned()), "2xPTrIrpOIsO");
+        let [long, other] = ["r", "s"].map(|last| of(format!("T{}{last}", "r".repeat(999))));
+        assert!(long.len() < 40 && long.starts_with("1000Hinges"), "{long}");
+        assert!(other.starts_with("1000Hinges") && other != long, "{other}");
+    }
 }

@@ -214,7 +214,7 @@ fn rotations(topology: &Topology) -> Vec<bool> {
         let is_entry = |i: usize| i < 9;
         all.extend((0..Layout::BRANCH).map(is_entry));
         for link in 0..shape.hinges() {
-            let end = all.len() + Layout::link(*shape, link);
+            let end = all.len() + Layout::link(shape, link);
             if let Shape::Limb(limb) = shape
                 && Layout::mount(limb, link) == Layout::BRANCH
             {

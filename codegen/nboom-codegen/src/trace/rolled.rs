@@ -1,16 +1,22 @@
 //! Sweeps step by step: over links, and over equal appendages side by side.
 
+mod joints;
+mod limb;
+
 use nboom_expr::{Expr, Operations};
 use nboom_formulation::stages::{
-    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, LIMB, MAIN_RATES, OUTBOARD_SHARE, PADDLE, POWER,
+    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, MAIN_RATES, OUTBOARD_SHARE, PADDLE, POWER,
     REACHED, Stage, TORQUE, TURNED,
 };
 use nboom_formulation::{Layout, RightSideLayout};
-use nboom_model::{Limb, Shape, Topology};
+use nboom_model::{Shape, Topology};
 
 use crate::request::{Output, Request, identifier};
-use crate::trace::Traced;
+pub(crate) use crate::trace::rolled::joints::{Joints, Kind};
+pub(crate) use crate::trace::rolled::limb::LimbSteps;
+use crate::trace::rolled::limb::Lines;
 use crate::trace::stage::Masks;
+use crate::trace::{OPERATION_LIMIT, STRAIGHT_LINKS, Traced};
 
 /// The steps of all sweeps of a request.
 pub(crate) struct Rolled {
@@ -27,7 +33,6 @@ pub(crate) struct Rolled {
 }
 
 /// Equal appendages.
-#[derive(Clone, Copy)]
 pub(crate) struct Equal {
     pub shape: Shape,
     pub count: usize,
@@ -44,6 +49,7 @@ pub(crate) enum Steps {
     Chain(Box<Chain>),
     Paddle(Box<Paddle>),
     Limb(Box<LimbSteps>),
+    Joints(Box<Joints>),
 }
 
 /// The steps of a chain, in the order in which their constants stand.
@@ -68,15 +74,6 @@ pub(crate) struct Paddle {
     pub back: Placed,
 }
 
-/// The steps of a limb, in the order in which their constants stand.
-pub(crate) struct LimbSteps {
-    pub limb: Limb,
-    /// The torque about a hinge, of a right side.
-    pub law: Option<Placed>,
-    pub inward: Placed,
-    pub back: Placed,
-}
-
 /// A traced step and where its constants stand.
 pub(crate) struct Placed {
     pub traced: Traced,
@@ -88,17 +85,27 @@ pub(crate) struct Placed {
 impl Equal {
     /// How many parameters an appendage has.
     pub fn parameters(&self) -> usize {
-        Layout::appendage(self.shape)
+        Layout::appendage(&self.shape)
     }
 
-    /// What names of functions begin with: `s3` for chains of three links, `p` for paddles.
+    /// Where the parameters of link `i` begin among those of an appendage.
+    pub fn link(&self, i: usize) -> usize {
+        Layout::BRANCH + (0..i).map(|link| Layout::link(&self.shape, link)).sum::<usize>()
+    }
+
+    /// What names of functions begin with: `s3` for chains of three links, `p` for paddles, and for limbs whose
+    /// names are long their links and the hinges before.
     pub fn prefix(&self) -> String {
-        identifier(&Topology::new([self.shape])).to_lowercase()
+        let links = self.shape.hinges();
+        if matches!(self.shape, Shape::Limb(_)) && links > STRAIGHT_LINKS {
+            return format!("t{links}_{}", self.hinge);
+        }
+        identifier(&Topology::new([self.shape.clone()])).to_lowercase()
     }
 
     /// What its shape is called in a topology.
     pub fn shape_name(&self) -> String {
-        Topology::new([self.shape]).to_string()
+        Topology::new([self.shape.clone()]).to_string()
     }
 
     /// What is assumed of every appendage: `size` numbers from `offset` on, and of every one of
@@ -151,6 +158,7 @@ impl Steps {
             }
             Self::Paddle(of) => of.law.iter().chain([&of.inward, &of.first, &of.back]).collect(),
             Self::Limb(of) => of.law.iter().chain([&of.inward, &of.back]).collect(),
+            Self::Joints(of) => of.law.iter().chain(of.all()).collect(),
         }
     }
 
@@ -160,6 +168,7 @@ impl Steps {
             Self::Chain(of) => of.law.as_ref(),
             Self::Paddle(of) => of.law.as_ref(),
             Self::Limb(of) => of.law.as_ref(),
+            Self::Joints(of) => of.law.as_ref(),
         }
     }
 
@@ -169,6 +178,7 @@ impl Steps {
             Self::Chain(of) => of.root.as_ref(),
             Self::Paddle(of) => Some(&of.inward),
             Self::Limb(of) => Some(&of.inward),
+            Self::Joints(of) => of.root.as_ref(),
         };
         step.filter(|step| step.traced.writes(AT_ORIGIN))
     }
@@ -180,23 +190,30 @@ impl Rolled {
         let mut places = Places::default();
         let mut groups = Vec::new();
         let mut at_origin = vec![false; AT_ORIGIN.size()];
-        let (mut parameter, mut hinge) = (Layout::MAIN, 0);
+        let (mut parameter, mut hinge, mut in_lines) = (Layout::MAIN, 0, 0);
         for (shape, count) in request.topology.groups() {
+            let links = shape.hinges();
             let law = RightSideLayout::law(&request.topology, hinge).start;
             let group = Equal { shape, count, parameter, hinge, law };
-            let steps = match shape {
-                Shape::Chain(links) => {
+            let steps = match &group.shape {
+                Shape::Chain(_) => {
                     Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
                 }
                 Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
-                Shape::Limb(of) => Steps::Limb(Box::new(limb(request, &group, of, &mut places))),
+                Shape::Limb(of) => match Lines::of(request, &group, of) {
+                    Some(lines) if in_lines + lines.operations() <= OPERATION_LIMIT => {
+                        in_lines += lines.operations();
+                        Steps::Limb(Box::new(lines.placed(request, &group, &mut places)))
+                    }
+                    _ => Steps::Joints(Box::new(Joints::of(request, &group, of, &mut places))),
+                },
             };
             if let Some(shows) = steps.shows() {
                 let live = shows.traced.live(AT_ORIGIN);
                 at_origin.iter_mut().zip(live).for_each(|(any, live)| *any |= live);
             }
             parameter += count * group.parameters();
-            hinge += count * shape.hinges();
+            hinge += count * links;
             groups.push((group, steps));
         }
         let base = places.place(base(request, &at_origin), 1);
@@ -215,10 +232,16 @@ impl Rolled {
     /// Operations of an evaluation.
     pub fn evaluation(&self) -> Operations {
         let mut operations = self.sum(|traced| traced.split.evaluation());
-        // Absolute angles are added up, and their sines taken, between the steps of chains.
-        for (_, steps) in &self.groups {
-            if let Steps::Chain(chain) = steps {
-                operations.angles += chain.outward.times;
+        // Sines of absolute angles are taken, and what joints show their inboard links is added up, between steps.
+        for (group, steps) in &self.groups {
+            match steps {
+                Steps::Chain(chain) => operations.angles += chain.outward.times,
+                Steps::Joints(joints) => {
+                    operations.angles += group.count * group.shape.hinges();
+                    let shown = joints.mounts.iter().map(|kind| kind.inward.times * joints.shown());
+                    operations.additions += shown.sum::<usize>();
+                }
+                Steps::Paddle(_) | Steps::Limb(_) => {}
             }
         }
         operations
@@ -229,13 +252,13 @@ impl Rolled {
         self.sum(|traced| traced.split.preparation())
     }
 
-    /// Operations of all limbs, each of which is one straight line for all that are equal.
-    pub fn limb_operations(&self) -> usize {
-        let of_limbs = self.groups.iter().filter_map(|(_, steps)| match steps {
-            Steps::Limb(limb) => Some([&limb.inward, &limb.back]),
-            Steps::Chain(_) | Steps::Paddle(_) => None,
+    /// Operations of the steps of all joints and mounts, each step once.
+    pub fn joint_operations(&self) -> usize {
+        let steps = self.groups.iter().filter_map(|(_, steps)| match steps {
+            Steps::Joints(joints) => Some(joints.all()),
+            Steps::Chain(_) | Steps::Paddle(_) | Steps::Limb(_) => None,
         });
-        of_limbs.flatten().map(|step| step.traced.split.evaluation().flops()).sum()
+        steps.flatten().map(|step| step.traced.split.evaluation().flops()).sum()
     }
 
     fn sum(&self, of: impl Fn(&Traced) -> Operations) -> Operations {
@@ -247,7 +270,7 @@ impl Rolled {
 
 /// Where the constants of the next step stand.
 #[derive(Default)]
-struct Places {
+pub(crate) struct Places {
     constants: usize,
 }
 
@@ -308,7 +331,7 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
         (OUTBOARD_SHARE.name, vec![false; OUTBOARD_SHARE.size()]),
     ]);
     let inward =
-        settled(&mut masks, OUTBOARD_SHARE, |masks| trace(&stages::inward(), &link, masks));
+        settled(&mut masks, |masks| vec![trace(&stages::inward(), &link, masks)]).remove(0);
     let shows = !request.holds_main_body();
     let root = shows.then(|| trace(&stages::root(), &branch, &masks));
     let first = trace(&stages::first(), &branch, &Masks::new());
@@ -346,42 +369,32 @@ fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Paddle {
     }
 }
 
-fn limb(request: &Request, group: &Equal, limb: Limb, places: &mut Places) -> LimbSteps {
-    let prefix = group.prefix();
-    let whole = group.assumptions(request, 0, group.parameters(), 1);
-    let level = request.level;
-    let limb_in = as_asked(stages::limb_in(limb), request);
-    let inward = Traced::new(&prefix, &limb_in, &whole, &Masks::new());
-    let left = stages::of_limb(LIMB, &limb);
-    let masks = Masks::from([(LIMB.name, inward.live(left).to_vec())]);
-    let back = Traced::new(&prefix, &stages::limb_back(limb), &whole, &masks);
-    let [inward, back] = [inward, back].map(|step| step.regrouped(level));
-    LimbSteps {
-        limb,
-        law: law(request, group, places),
-        inward: places.place(inward, group.count),
-        back: places.place(back, group.count),
-    }
-}
-
 /// A step without what it shows at O, where a main body that is held does not ask.
 fn as_asked(stage: Stage<Expr>, request: &Request) -> Stage<Expr> {
     if request.holds_main_body() { stage.without(AT_ORIGIN) } else { stage }
 }
 
-/// Traces again and again until the numbers of `group` that can be other than zero stay the
-/// same.
-fn settled(masks: &mut Masks, group: Group, trace: impl Fn(&Masks) -> Traced) -> Traced {
+/// Traces steps again and again until the numbers that can be other than zero stay the same, of all groups that
+/// they write and that `masks` names to begin with.
+fn settled(masks: &mut Masks, trace: impl Fn(&Masks) -> Vec<Traced>) -> Vec<Traced> {
     loop {
         let traced = trace(masks);
-        let known = masks.get_mut(group.name).expect("the group has a mask to begin with");
         let mut grown = false;
-        for (known, live) in known.iter_mut().zip(traced.live(group)) {
-            grown |= *live && !*known;
-            *known |= *live;
+        for (group, live) in traced.iter().flat_map(|step| &step.outputs) {
+            let Some(known) = masks.get_mut(group.name) else { continue };
+            for (known, live) in known.iter_mut().zip(live) {
+                grown |= *live && !*known;
+                *known |= *live;
+            }
         }
         if !grown {
-            return traced.passing_on(group, known);
+            let passing_on = |step: Traced| {
+                let groups: Vec<Group> = step.outputs.iter().map(|&(group, _)| group).collect();
+                let known =
+                    groups.iter().filter_map(|group| Some((*group, masks.get(group.name)?)));
+                known.fold(step, |step, (group, known)| step.passing_on(group, known))
+            };
+            return traced.into_iter().map(passing_on).collect();
         }
     }
 }

@@ -217,7 +217,7 @@ fn rigid_bodies(topology: &Topology) -> Vec<usize> {
         for link in 0..shape.hinges() {
             let mount = if let Shape::Limb(limb) = shape { Layout::mount(limb, link) } else { 0 };
             all.push(at + mount);
-            at += Layout::link(*shape, link);
+            at += Layout::link(shape, link);
         }
     }
     all

@@ -1,34 +1,38 @@
 //! Where the links of a limb are, and how they move.
 
-use nboom_model::{LimbJoint, LimbLink};
-use nboom_scalar::{ArticulatedInertia, Real, Vec3, Wrench};
+use nboom_model::LimbLink;
+use nboom_scalar::{Real, Vec3};
 
-use crate::base::AtOrigin;
 use crate::chain::{self, ChainLink, Spin, Turned};
-use crate::limb::stance::Stance;
+use crate::limb::stance::{Stance, Standing};
 use crate::limb::turn::Turn;
 use crate::parameters::{Branch, Mount};
 
 /// A link in one state.
-pub(super) struct Moving<R> {
+pub(crate) struct Moving<R> {
     pub stance: Stance<R>,
-    /// How far the link has turned from its axes, and how fast it turns.
-    alpha: R,
-    sigma: R,
-    /// ω of these axes.
-    spin: Spin<R>,
-    /// Bias acceleration of the link's origin.
-    origin: Vec3<R>,
+    pub motion: Motion<R>,
     pub body: Turned<R>,
+}
+
+/// How a link and the axes move in which it is written.
+pub(crate) struct Motion<R> {
+    /// How far the link has turned from these axes, and how fast it turns.
+    pub alpha: R,
+    pub sigma: R,
+    /// ω of these axes.
+    pub spin: Spin<R>,
+    /// Bias acceleration of the link's origin.
+    pub origin: Vec3<R>,
 }
 
 /// The motion at a mount: ω of the axes there, angle and rate about ê₁ of the link inboard of it where that is
 /// parallel, and the bias acceleration.
-struct AtMount<R> {
-    spin: Vec3<R>,
-    alpha: R,
-    sigma: R,
-    bias: Vec3<R>,
+pub(crate) struct AtMount<R> {
+    pub spin: Vec3<R>,
+    pub alpha: R,
+    pub sigma: R,
+    pub bias: Vec3<R>,
 }
 
 /// All `links` of an appendage whose coordinates and rates are β, τ, when the main body turns at `omega`.
@@ -43,23 +47,24 @@ pub(super) fn outward<R: Real>(
     for (i, (link, rates)) in links.iter().zip(rates).enumerate() {
         R::remark(|| format!("Link {number},{}, outward: its bias.", i + 1));
         let at_mount = match link.inboard.map(usize::from) {
-            Some(inboard) => moving[inboard].moves(&branch.mount(i)),
+            Some(inboard) => {
+                let Moving { stance, motion, .. } = &moving[inboard];
+                motion.at(stance, &branch.mount(i))
+            }
             None => of_main_body(branch, omega),
         };
-        moving.push(match link.joint {
-            LimbJoint::Prismatic => Moving::sliding(&branch.links[i], &at_mount, rates),
-            _ => Moving::turning(&branch.links[i], at_mount, rates, axes_stay(links, i)),
+        let [beta, tau] = rates;
+        let constants = &branch.links[i];
+        moving.push(match Standing::of(links, i) {
+            Standing::Sliding => Moving::sliding(constants, &at_mount, rates),
+            standing => {
+                let alpha = at_mount.alpha + beta;
+                let turn = Turn::by(alpha);
+                Moving::turning(constants, &at_mount, standing.turns(turn), [alpha, tau])
+            }
         });
     }
     moving
-}
-
-/// Whether the axes of a link stay those of its mount, for parallel joints have them in common.
-pub(super) fn axes_stay(links: &[LimbLink], i: usize) -> bool {
-    let follows = |link: &LimbLink| {
-        link.joint == LimbJoint::Parallel && link.inboard.map(usize::from) == Some(i)
-    };
-    links[i].joint != LimbJoint::Revolute || links.iter().any(follows)
 }
 
 fn of_main_body<R: Real>(branch: &Branch<R>, omega: Vec3<R>) -> AtMount<R> {
@@ -69,26 +74,25 @@ fn of_main_body<R: Real>(branch: &Branch<R>, omega: Vec3<R>) -> AtMount<R> {
 }
 
 impl<R: Real> Moving<R> {
-    fn turning(
+    /// A link that has turned by `alpha` from the axes of its mount, at τ from what is inboard of it.
+    pub fn turning(
         constants: &ChainLink<R>,
-        at_mount: AtMount<R>,
-        [beta, tau]: [R; 2],
-        axes_stay: bool,
+        at_mount: &AtMount<R>,
+        [axes_turned, turned]: [Turn<R>; 2],
+        [alpha, tau]: [R; 2],
     ) -> Self {
-        let AtMount { spin, alpha, sigma, bias } = at_mount;
-        let alpha = alpha + beta;
-        let (turn, still) = (Turn::by(alpha), Turn::still());
-        let (axes_turned, turned) = if axes_stay { (still, turn) } else { (turn, still) };
-        let spin = Spin::new(axes_turned.vector_back(spin));
-        let origin = axes_turned.vector_back(bias);
+        let spin = Spin::new(axes_turned.vector_back(at_mount.spin));
+        let origin = axes_turned.vector_back(at_mount.bias);
+        let from = (at_mount.sigma, origin);
         let (body, sigma, _) =
-            chain::outward_at(&spin, constants, (turned.sin, turned.cos), tau, (sigma, origin));
+            chain::outward_at(&spin, constants, (turned.sin, turned.cos), tau, from);
         let bias = angular_bias(turned, spin.w, sigma);
         let stance = Stance { axes_turned, turned, travel: R::zero(), bias };
-        Self { stance, alpha, sigma, spin, origin, body }
+        Self { stance, motion: Motion { alpha, sigma, spin, origin }, body }
     }
 
-    fn sliding(constants: &ChainLink<R>, at_mount: &AtMount<R>, [beta, tau]: [R; 2]) -> Self {
+    /// A link at travel β from its mount, at τ.
+    pub fn sliding(constants: &ChainLink<R>, at_mount: &AtMount<R>, [beta, tau]: [R; 2]) -> Self {
         let (zero, still) = (R::zero(), Turn::still());
         let w = at_mount.spin;
         let spin = Spin::new(w);
@@ -99,56 +103,25 @@ impl<R: Real> Moving<R> {
             chain::outward_at(&spin, constants, (still.sin, still.cos), zero, (zero, origin));
         let bias = angular_bias(still, w, sigma);
         let stance = Stance { axes_turned: still, turned: still, travel: beta, bias };
-        Self { stance, alpha: zero, sigma, spin, origin, body }
+        Self { stance, motion: Motion { alpha: zero, sigma, spin, origin }, body }
     }
+}
 
-    /// How a mount on the link moves.
-    fn moves(&self, mount: &Mount<R>) -> AtMount<R> {
+impl<R: Real> Motion<R> {
+    /// How a mount on the link moves, which stands so.
+    pub fn at(&self, stance: &Stance<R>, mount: &Mount<R>) -> AtMount<R> {
         match mount {
             Mount::Parallel(way) => {
-                let bias = self.origin + self.spin.bias_of(self.sigma, self.stance.way(*way));
+                let bias = self.origin + self.spin.bias_of(self.sigma, stance.way(*way));
                 AtMount { spin: self.spin.w, alpha: self.alpha, sigma: self.sigma, bias }
             }
             Mount::Across { rot, point } => {
-                let Stance { turned, bias, .. } = self.stance;
+                let Stance { turned, bias, .. } = *stance;
                 let w = own_spin(turned, self.spin.w, self.sigma);
                 let of_point = Spin::new(w).bias_of_main_point(*point);
                 let bias = turned.vector_back(self.origin) + (of_point + bias.cross(*point));
                 let (spin, bias) = (rot.transpose_mul(w), rot.transpose_mul(bias));
                 AtMount { spin, alpha: R::zero(), sigma: R::zero(), bias }
-            }
-        }
-    }
-
-    /// What the link's joint transmits, at its mount and along the axes there.
-    pub fn at_mount(
-        &self,
-        (inertia, wrench): (ArticulatedInertia<R>, Wrench<R>),
-    ) -> (ArticulatedInertia<R>, Wrench<R>) {
-        let inertia = inertia.seen_from(self.stance.along());
-        (self.stance.axes_turned.inertia(&inertia), self.stance.wrench_at_mount(wrench))
-    }
-
-    /// What a joint at a mount on the link transmits, at the link's origin and along its axes.
-    pub fn carries(
-        &self,
-        mount: &Mount<R>,
-        (inertia, wrench): (ArticulatedInertia<R>, Wrench<R>),
-    ) -> (ArticulatedInertia<R>, Wrench<R>) {
-        let Stance { turned, bias, .. } = self.stance;
-        match mount {
-            Mount::Parallel(way) => {
-                let way = self.stance.way(*way);
-                (inertia.seen_from(way), wrench.seen_from(way))
-            }
-            Mount::Across { rot, point } => {
-                let AtOrigin { inertia, mut wrench } = AtOrigin { inertia, wrench }.rotated(rot);
-                wrench.add(Wrench {
-                    moment: inertia.angular * bias,
-                    force: inertia.coupling.transpose_mul(bias),
-                });
-                let (inertia, wrench) = (inertia.seen_from(*point), wrench.seen_from(*point));
-                (turned.inertia(&inertia), turned.wrench(wrench))
             }
         }
     }

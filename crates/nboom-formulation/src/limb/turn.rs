@@ -6,7 +6,7 @@ use crate::chain;
 
 /// An angle about ê₁ by its sine and cosine.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Turn<R> {
+pub(crate) struct Turn<R> {
     pub sin: R,
     pub cos: R,
 }

@@ -4,19 +4,19 @@ use nboom_model::{Limb, Shape};
 use nboom_scalar::{Real, Twist};
 
 use crate::articulated::first_hinge;
-use crate::limb::{self, EliminatedLink, OF_ELIMINATED_LINK};
+use crate::limb::{self, EliminatedLink, OF_ELIMINATED_LINK, Standing};
 use crate::parameters::{Branch, HingeCoordinates, Layout, Reader};
 use crate::stages::{AT_ORIGIN, BODY, BRANCH, Group, MAIN_RATES, OMEGA, Stage, TAU_DOT};
 
 /// Where a link is mounted on its inboard link.
-const MOUNT: Group = Group::new(
+pub(super) const MOUNT: Group = Group::new(
     "mount",
     &["m11", "m12", "m13", "m21", "m22", "m23", "m31", "m32", "m33", "px", "py", "pz"],
 );
 /// The way from a parallel joint.
-const WAY: Group = Group::new("way", &["ly", "lz"]);
+pub(super) const WAY: Group = Group::new("way", &["ly", "lz"]);
 /// A link's body.
-const LINK_BODY: Group = Group::new("link", &BODY);
+pub(super) const LINK_BODY: Group = Group::new("link", &BODY);
 /// β, τ and torque of each joint; their number is that of the limb's links.
 pub const LIMB_HINGES: Group = Group::new("hinges", &["beta", "tau", "torque"]);
 /// What the eliminated joints leave.
@@ -46,7 +46,7 @@ fn parameters(limb: &Limb) -> Vec<Group> {
 type Numbers<'a, R> = Reader<std::iter::Copied<std::slice::Iter<'a, R>>>;
 
 fn branch<R: Real>(limb: &Limb, reader: &mut Numbers<'_, R>) -> Branch<R> {
-    reader.branch(Shape::Limb(*limb))
+    reader.branch(&Shape::Limb(limb.clone()))
 }
 
 /// All joints of a limb eliminated.
@@ -68,8 +68,10 @@ pub fn limb_in<R: Real>(limb: Limb) -> Stage<R> {
                 })
                 .collect();
             let (share, links) = limb::eliminate(1, &limb, &branch, omega, &hinges);
-            let mut found = share.at_origin(&branch).flat();
-            found.extend(links.iter().enumerate().flat_map(|(i, link)| link.flat(&limb, i)));
+            let mut found = limb::at_origin(&share, &branch).flat();
+            let flat =
+                |(i, link): (usize, &EliminatedLink<R>)| link.flat(Standing::of(limb.links(), i));
+            found.extend(links.iter().enumerate().flat_map(flat));
             found
         }),
     }
@@ -87,8 +89,9 @@ pub fn limb_back<R: Real>(limb: Limb) -> Stage<R> {
             let mut reader = Reader(numbers.iter().copied());
             let branch = branch(&limb, &mut reader);
             let links = 0..limb.links().len();
+            let standing = |i| Standing::of(limb.links(), i);
             let links: Vec<_> =
-                links.map(|i| EliminatedLink::read(&limb, i, &mut reader)).collect();
+                links.map(|i| EliminatedLink::read(standing(i), &mut reader)).collect();
             let main = Twist { angular: reader.vector(), linear: reader.vector() };
             let rot = &branch.rot_body_from_appendage;
             let (angular, linear) = first_hinge(branch.point, rot, main);

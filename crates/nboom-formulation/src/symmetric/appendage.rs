@@ -11,13 +11,13 @@ use crate::pose::{self, Posed, each, momentum, power};
 
 /// The arrow about O over the rates that [`pose::absolute`] gives, of a limb over τ.
 pub(super) fn arrow<R: Real>(
-    shape: Shape,
+    shape: &Shape,
     branch: &Branch<R>,
     omega: Vec3<R>,
     hinges: &[HingeCoordinates<R>],
 ) -> Arrow<R> {
     if let Shape::Limb(limb) = shape {
-        return limb::composite(&limb, branch, omega, hinges);
+        return limb::composite(limb, branch, omega, hinges);
     }
     let w = branch.rot_body_from_appendage.transpose_mul(omega);
     let beta = each(hinges, |hinge| hinge.beta);
@@ -27,12 +27,12 @@ pub(super) fn arrow<R: Real>(
     match shape {
         Shape::Chain(_) => chain(&links, &Turning::new(w), &sigma, &torque),
         Shape::Paddle => paddle(&links, w, [sigma[0], sigma[1]], &torque),
-        Shape::Limb(limb) => pose::no_limb(&limb),
+        Shape::Limb(limb) => pose::no_limb(limb),
     }
 }
 
 /// The arrow of the same appendage over τ: a unit τ turns the link and all outboard.
-pub(super) fn with_relative_rates<R: Real>(shape: Shape, mut arrow: Arrow<R>) -> Arrow<R> {
+pub(super) fn with_relative_rates<R: Real>(shape: &Shape, mut arrow: Arrow<R>) -> Arrow<R> {
     if !matches!(shape, Shape::Chain(_)) {
         return arrow;
     }
