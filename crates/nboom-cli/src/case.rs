@@ -8,6 +8,7 @@ use nboom_io::SceneFile;
 use nboom_sim::Path as Code;
 use nboom_study::{RunSettings, Study};
 
+use crate::scene_args::read_options;
 use crate::{Cli, CliError, Command, RunArgs};
 
 /// Why a case of a study cannot be run.
@@ -50,15 +51,11 @@ pub enum CaseError {
 /// When the study is wrong or has no such case, and when its numbers make no scene.
 pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), CliError> {
     let path = &args.scene.scene;
-    let given = [
-        ("--set", !args.scene.set.is_empty()),
-        ("--format", args.scene.format.is_some()),
-        ("--include-anywhere", args.scene.include_anywhere),
-    ];
+    let given = [("--set", !args.scene.set.is_empty()), ("--format", args.scene.format.is_some())];
     if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
         return Err(CaseError::NotOfAStudy { option }.into());
     }
-    let study = Study::read(path)?;
+    let study = Study::read_with(path, &read_options(args.scene.include_anywhere))?;
     let cases = study.cases();
     if !(1..=cases).contains(&case) {
         return Err(CaseError::NoSuchCase { path: path.clone(), found: case, cases }.into());

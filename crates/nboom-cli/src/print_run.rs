@@ -306,6 +306,7 @@ mod tests {
             factorizations: 0,
             events: counted,
             conservation,
+            has_angular_momentum: true,
             integrator: "auto",
             integrations: [Method::Dop853, Method::Radau5, Method::Dop853]
                 .map(|method| Integration { since: 0.0, choice: Choice { method, reason: "" } })

@@ -33,14 +33,19 @@ pub struct SceneArgs {
 /// The argument for standard input.
 pub(crate) const STANDARD_INPUT: &str = "-";
 
+/// How the scene of a study is read.
+pub(crate) fn read_options(includes_from_anywhere: bool) -> ReadOptions {
+    ReadOptions { includes_from_anywhere, ..ReadOptions::default() }
+}
+
 impl SceneArgs {
     /// The scene, checked.
     ///
     /// # Errors
     /// When it cannot be read or is wrong, and when only one of `-` and `--format` is there.
     pub(crate) fn read(&self) -> Result<SceneFile, CliError> {
-        let options =
-            ReadOptions { set: self.set.clone(), includes_from_anywhere: self.include_anywhere };
+        let set = self.set.clone();
+        let options = ReadOptions { set, ..read_options(self.include_anywhere) };
         match (self.scene == Path::new(STANDARD_INPUT), self.format) {
             (false, None) => Ok(read_scene_with(&self.scene, &options)?),
             (true, Some(format)) => {

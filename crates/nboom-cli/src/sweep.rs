@@ -16,6 +16,7 @@ use crate::format::short;
 use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
 use crate::run::run;
+use crate::scene_args::read_options;
 use crate::{Cli, CliError, Command, Routines, say, sweep_account};
 
 /// Options of `nboom sweep`.
@@ -41,6 +42,10 @@ pub struct SweepArgs {
     /// Run one of n equal parts of the cases, the i-th, from 1; nboom merge puts parts together.
     #[arg(long, value_name = "i/n")]
     pub shard: Option<Shard>,
+
+    /// Let the scene include files outside of its folder.
+    #[arg(long)]
+    pub include_anywhere: bool,
 
     /// What is the same for a sweep and its parts put together.
     #[command(flatten)]
@@ -123,7 +128,7 @@ const MOST_PAGES: usize = 12;
 
 /// Runs all cases of a study, and returns the text for standard output.
 pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, CliError> {
-    let study = Study::read(&args.study)?;
+    let study = Study::read_with(&args.study, &read_options(args.include_anywhere))?;
     let directory = args.output.clone().unwrap_or_else(|| Path::new("out").join(&study.name));
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     let sweep = Sweep {
@@ -172,12 +177,14 @@ pub fn finish_sweep(
         return Ok(if outputs.quiet { String::new() } else { told });
     }
     let sweep = finished(directory)?.ok_or_else(|| SweepError::gone(directory))?;
-    let has_page = report.end == End::WasComplete && directory.join(PAGE_FILE).exists();
-    if !outputs.no_report && !has_page {
+    let statistics = sweep.statistics().map_err(SweepError::Study)?;
+    let has_page = |case: u64| page_folder(directory, case).join(PAGE_FILE).is_file();
+    let are_there =
+        directory.join(PAGE_FILE).exists() && worst(&statistics).into_iter().all(has_page);
+    if !outputs.no_report && !(report.end == End::WasComplete && are_there) {
         run_worst(&sweep, directory, routines, interrupts)?;
         write_page(&sweep, directory)?;
     }
-    let statistics = sweep.statistics().map_err(SweepError::Study)?;
     warn_of_negative_margins(&statistics);
     if counts.ok == 0 {
         return Err(SweepError::NoneRan { directory: directory.to_owned(), counts }.into());

@@ -210,6 +210,12 @@ fn steps(new: &Earlier, old: Option<&Earlier>) -> Vec<Step> {
     steps
 }
 
+/// # Errors
+/// When a directory has no name of its own, as the root, or one that those of unfinished runs have.
+pub fn require_named(directory: &Path) -> Result<(), ResultsError> {
+    parted(directory).map(|_| ())
+}
+
 /// Parent and name of a directory for results.
 fn parted(directory: &Path) -> Result<(PathBuf, OsString), ResultsError> {
     let unnamed = || ResultsError::Name { path: directory.to_owned() };

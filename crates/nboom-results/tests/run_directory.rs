@@ -106,6 +106,7 @@ fn outcome(error: Option<&str>) -> Outcome {
         factorizations: 3,
         events: 2,
         conservation,
+        has_angular_momentum: true,
         integrator: "auto",
         integrations: vec![integration(0.0, Method::Dop853), integration(5.0, Method::Radau5)],
         attitude_drift: 3e-12,

@@ -1,7 +1,9 @@
 //! `study.json`: what a sweep is, by which it is told from others.
 
+use std::collections::BTreeMap;
 use std::env;
 
+use nboom_io::sha256;
 use nboom_scalar::InstructionSet;
 use nboom_tables::{Column, Kind};
 use serde::{Deserialize, Serialize};
@@ -28,9 +30,9 @@ pub struct Description {
     /// What else computed some of its cases.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub also_made_by: Vec<Maker>,
-    /// The study.
+    /// The study, the file `study.toml` beside this one.
     pub study: Source,
-    /// The scene with all that it includes.
+    /// The scene with all that it includes, the file `scene.toml` beside this one.
     pub scene: Source,
     /// The seed of everything random.
     pub seed: u64,
@@ -52,6 +54,9 @@ pub struct Description {
     pub results: Vec<String>,
     /// Whether all cases are done.
     pub complete: bool,
+    /// How long the files of its tables are \[bytes\]; a shard has none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub tables: BTreeMap<String, u64>,
     /// What became of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counts: Option<Counts>,
@@ -68,11 +73,17 @@ pub struct Maker {
     pub platform: String,
 }
 
-/// What something was read from.
+/// A text that a sweep wrote.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
-    /// In hexadecimal digits.
+    /// Of the file's bytes, in hexadecimal digits.
     pub sha256: String,
+}
+
+impl Source {
+    pub(crate) fn of(text: &str) -> Self {
+        Self { sha256: sha256(text.as_bytes()) }
+    }
 }
 
 impl Maker {
@@ -109,6 +120,9 @@ impl Description {
         }
         let is_of_cases = |column: &Column| column.name == "case" && column.kind == Kind::Integer;
         let states = &found.trajectory_columns;
+        if found.complete && found.shard.is_none() && found.tables.is_empty() {
+            return Err("a complete sweep without tables".to_owned());
+        }
         let is_right = found.columns.first().is_some_and(is_of_cases)
             && found.columns.last().is_some_and(|column| column.kind == Kind::Text)
             && (states.is_empty() || is_of_cases(&states[0]));
@@ -120,7 +134,7 @@ impl Description {
         serde_json::to_string_pretty(self).expect("the keys are texts") + "\n"
     }
 
-    pub(crate) fn tables(&self) -> Columns<'_> {
+    pub(crate) fn columns_of_tables(&self) -> Columns<'_> {
         Columns { cases: &self.columns, states: &self.trajectory_columns }
     }
 

@@ -1,14 +1,15 @@
 //! The directory of a sweep, which one process at a time may write.
 
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::iter::repeat;
 use std::path::{Path, PathBuf};
 
-use nboom_results::{Kind, Lock, ResultsError, write_file};
+use nboom_io::sha256;
+use nboom_results::{Kind, Lock, ResultsError, require_named, write_file};
 
 use crate::StudyError;
-use crate::description::{Description, short};
+use crate::description::{Description, Source, short};
 use crate::journal::Journal;
 use crate::statistics::Summary;
 
@@ -73,8 +74,9 @@ impl Place {
     /// Locks a directory, which is made if need be.
     ///
     /// # Errors
-    /// When another process holds it, and when something there has the name of a file of a sweep and is none.
+    /// When it has the name of no directory for results, when another process holds it, and when something there has the name of a file of a sweep and is none.
     pub fn take(path: &Path) -> Result<Self, StudyError> {
+        require_named(path)?;
         let lock = Lock::acquire(path, path)?;
         let found = description(path)?;
         for name in FILES {
@@ -96,9 +98,17 @@ impl Place {
     /// What can be done here for this sweep.
     ///
     /// # Errors
-    /// When another sweep is here; when it is of another program or machine, unless that is accepted.
+    /// When another sweep is here; when it is of another program or machine, unless that is accepted; and when
+    /// its study or scene is not what it wrote.
     pub fn state(&self, now: &Description, accept_difference: bool) -> Result<State, StudyError> {
         let Some(then) = &self.found else { return Ok(State::Open(now.clone())) };
+        match sources(&self.path, then) {
+            // A kill may come before they are written, and a resume writes them.
+            Err(StudyError::Missing { .. }) if !then.complete => {}
+            found => {
+                found?;
+            }
+        }
         require_same(&self.path, then, now, accept_difference)?;
         Ok(if then.complete {
             State::Complete(then.clone())
@@ -254,15 +264,38 @@ pub(crate) fn description(directory: &Path) -> Result<Option<Description>, Study
     Description::parse(&text).map(Some).map_err(|found| StudyError::NoSweep { path, found })
 }
 
+/// The study and the scene in the directory of a sweep, as the sweep wrote them.
+///
+/// # Errors
+/// When one of them is not there or is another one.
+pub(crate) fn sources(directory: &Path, what: &Description) -> Result<[String; 2], StudyError> {
+    let as_written = |name: &str, Source { sha256: written }: &Source| {
+        let path = directory.join(name);
+        if !path.exists() {
+            return Err(StudyError::Missing { path });
+        }
+        let bytes = bytes(&path)?;
+        let [found, expected] = [&sha256(&bytes), written].map(|hash| format!("SHA-256 {hash}"));
+        let text = String::from_utf8(bytes).ok().filter(|_| found == expected);
+        text.ok_or(StudyError::Altered { path, found, expected })
+    };
+    Ok([as_written(STUDY_FILE, &what.study)?, as_written(SWEPT_SCENE_FILE, &what.scene)?])
+}
+
 /// Reads a text.
 ///
 /// # Errors
 /// When it cannot be read.
 pub(crate) fn text(path: &Path) -> Result<String, StudyError> {
-    let mut text = String::new();
-    let read = File::open(path).and_then(|file| file.take(LONGEST).read_to_string(&mut text));
+    let not_text = |error| StudyError::reading(path)(io::Error::new(ErrorKind::InvalidData, error));
+    String::from_utf8(bytes(path)?).map_err(not_text)
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, StudyError> {
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST).read_to_end(&mut bytes));
     read.map_err(StudyError::reading(path))?;
-    Ok(text)
+    Ok(bytes)
 }
 
 /// Reads which cases the journal in a directory has.

@@ -41,6 +41,20 @@ pub enum StudyError {
         /// The file.
         path: PathBuf,
     },
+    /// A file of a sweep is not what the sweep wrote.
+    #[error(
+        "{}: {found} found, {expected} expected, as the sweep wrote it; restore it, or delete the \
+         directory and sweep again",
+        path.display()
+    )]
+    Altered {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: String,
+        /// What the sweep wrote.
+        expected: String,
+    },
     /// A journal is not what a sweep writes.
     #[error(
         "{}, byte {byte}: {found} found; restore the file, or delete the directory and sweep again",
@@ -102,6 +116,21 @@ pub enum StudyError {
         needed: u64,
         /// Cases in all.
         cases: u64,
+    },
+    /// Memory is too small for the trajectories of runs that go on at once.
+    #[error(
+        "{free} MB of memory free found, about {needed} MB expected for trajectories of {rows} rows in {jobs} \
+         threads; take fewer output times, or fewer threads with --jobs"
+    )]
+    Memory {
+        /// Megabytes that are free.
+        free: u64,
+        /// Megabytes that are needed.
+        needed: u64,
+        /// Rows of a trajectory.
+        rows: u64,
+        /// Threads.
+        jobs: u64,
     },
     /// A case stopped by a mistake of the program.
     #[error("case {case} stopped by a mistake of nboom: {found}; cases before it are kept")]

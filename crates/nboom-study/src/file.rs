@@ -1,5 +1,6 @@
 //! `STUDY.toml`: text to a checked study.
 
+mod effect;
 mod faults;
 mod keys;
 mod overlap;
@@ -7,19 +8,22 @@ mod reader;
 mod vary;
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::path::Path;
 
 use nboom_io::{
     Diagnostic, FOLDER_NAME, InputError, ReadOptions, SceneDocument, SceneFile, folder_name,
-    read_text,
+    read_utf8,
 };
 use nboom_results::with_causes;
 use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code};
 use toml::de::DeTable;
 
+use crate::directory::SWEPT_SCENE_FILE;
 use crate::plan::{Case, Plan};
 use crate::study::{Fault, Method, RunSettings, Study, Variable};
 use crate::wanted::{Loads, UnknownResult, Wanted};
+use effect::Runs;
 use keys::STUDY;
 pub use keys::schema;
 use reader::{Fields, Reader, parted, quoted};
@@ -33,7 +37,15 @@ impl Study {
     /// # Errors
     /// When a file cannot be read or the scene is wrong; and all that is wrong in the study, with its lines.
     pub fn read(path: &Path) -> Result<Self, InputError> {
-        let text = read_text(path, LONGEST)?;
+        Self::read_with(path, &ReadOptions::default())
+    }
+
+    /// As [`Self::read`], with a scene that is read with these options.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Self, InputError> {
+        let text = read_utf8(path, LONGEST, "study")?;
         let file = path.display().to_string();
         let mut reader = Reader::new(&file, &text);
         let (table, errors) = DeTable::parse_recoverable(&text);
@@ -51,7 +63,7 @@ impl Study {
             return Err(InputError::Content(reader.errors));
         }
         let root = reader.fields(table.get_ref(), &STUDY, 0..0);
-        let study = reader.study(&root, path, &text);
+        let study = reader.study(&root, (path, &text), options);
         reader.errors.sort_by_key(|error| (error.line, error.column));
         match study {
             Ok(Some(study)) if reader.errors.is_empty() => Ok(study),
@@ -76,8 +88,8 @@ impl<'t> Reader<'t> {
     fn study(
         &mut self,
         root: &Fields<'t>,
-        path: &Path,
-        text: &str,
+        (path, text): (&Path, &str),
+        options: &ReadOptions,
     ) -> Result<Option<Study>, Vec<Diagnostic>> {
         let name = self.name(root, path);
         let seed = self.whole(root, "seed").map_or(1, |seed| seed.value);
@@ -92,8 +104,10 @@ impl<'t> Reader<'t> {
         let Some(scene) = self.text(root, "scene") else { return Ok(None) };
         let read = || -> Result<_, InputError> {
             let folder = path.parent().unwrap_or(Path::new(""));
-            let document = SceneDocument::read(&folder.join(scene.value), &ReadOptions::default())?;
+            let document = SceneDocument::read(&folder.join(scene.value), options)?;
             let document = if expanded { document.expanded()? } else { document };
+            // Lines in the table of cases are those of the scene beside it.
+            let document = document.alone(SWEPT_SCENE_FILE)?;
             let nominal = document.scene(&[])?;
             Ok((document, nominal))
         };
@@ -101,8 +115,14 @@ impl<'t> Reader<'t> {
             Ok(found) => found,
             Err(InputError::Content(errors)) => return Err(errors),
             Err(error) => {
-                let found = with_causes(&error);
-                self.error(&scene.place, "scene", found, "the file of a scene");
+                let told = with_causes(&error);
+                let parts = told.split_once(": found ");
+                let parts = parts.and_then(|(file, found)| {
+                    let (found, expected) = found.split_once(", expected ")?;
+                    Some((format!("{}, {found}", quoted(file)), expected))
+                });
+                let (found, expected) = parts.unwrap_or((told.clone(), "the file of a scene"));
+                self.error(&scene.place, "scene", found, expected);
                 return Ok(None);
             }
         };
@@ -119,8 +139,10 @@ impl<'t> Reader<'t> {
         let pairs = self.tables(root, "correlation");
         let correlations = self.correlations(&pairs, method, &names);
         let tables = self.tables(root, "fault");
-        let faults: Vec<Fault> =
-            tables.iter().filter_map(|of| self.fault(of, &document, &nominal)).collect();
+        let mut fault = |of: &Fields<'t>| {
+            self.fault(of, &document, &nominal).map(|fault| (fault, of.place_of("name")))
+        };
+        let faults: Vec<_> = tables.iter().filter_map(&mut fault).collect();
         let wanted = self.wanted(root, &nominal, &run);
         self.check_columns(root, &variables, &faults, &wanted);
         if variables.is_empty() && tables.is_empty() {
@@ -130,14 +152,22 @@ impl<'t> Reader<'t> {
             return Ok(None);
         }
         let variables: Vec<Variable> = variables.into_iter().filter_map(|(of, _)| of).collect();
+        let faults: Vec<Fault> = faults.into_iter().map(|(fault, _)| fault).collect();
+        let runs = Runs { document: &document, nominal: &nominal, run: &run };
+        self.check_effects([&varied, &tables], (&variables, &faults), &runs);
+        if !self.errors.is_empty() {
+            return Ok(None);
+        }
         let plan = Plan::new(method, seed, draws, &variables, &correlations, faults.len());
         let plan = match plan {
             Ok(plan) => plan,
             Err(error) => {
-                let place = pairs.first().map_or_else(|| root.place_of("method"), Fields::place);
-                let text = error.to_string();
-                let (found, expected) = parted(&text, "a plan");
-                self.error(&place, "study", found, expected);
+                let (key, found, expected) = error.told();
+                let place = match pairs.first().filter(|_| key == "correlation") {
+                    Some(pair) => pair.place(),
+                    None => root.place_of(key),
+                };
+                self.error(&place, key, found, expected);
                 return Ok(None);
             }
         };
@@ -252,8 +282,8 @@ impl<'t> Reader<'t> {
     fn check_columns(
         &mut self,
         root: &Fields<'t>,
-        variables: &[(Option<Variable>, std::ops::Range<usize>)],
-        faults: &[Fault],
+        variables: &[(Option<Variable>, Range<usize>)],
+        faults: &[(Fault, Range<usize>)],
         wanted: &[Wanted],
     ) {
         let mut names: BTreeSet<&str> = vary::RESERVED.into();
@@ -276,10 +306,10 @@ impl<'t> Reader<'t> {
             }
         }
         let mut names = BTreeSet::new();
-        for fault in faults {
+        for (fault, place) in faults {
             if !names.insert(&fault.name) {
-                let found = format!("{} twice", quoted(&fault.name));
-                self.error(&root.place_of("fault"), "fault", found, "each name once");
+                let found = format!("{}, the name of a fault before", quoted(&fault.name));
+                self.error(place, "name", found, "each name once");
             }
         }
     }

@@ -21,7 +21,8 @@ impl SweepDirectory {
     /// Reads what the sweep in a directory is; none if no sweep has written there.
     ///
     /// # Errors
-    /// When it is not complete, or a shard; when its description cannot be read.
+    /// When it is not complete, or a shard; when its description cannot be read; when its study or scene is not what
+    /// the sweep wrote.
     pub fn read(path: &Path) -> Result<Option<Self>, StudyError> {
         let Some(description) = directory::description(path)? else { return Ok(None) };
         let directory = path.to_owned();
@@ -32,6 +33,7 @@ impl SweepDirectory {
             let (done, cases) = (directory::journal(path, &description)?.done(), description.cases);
             return Err(StudyError::Unfinished { directory, done, cases });
         }
+        directory::sources(path, &description)?;
         Ok(Some(Self { path: directory, description }))
     }
 

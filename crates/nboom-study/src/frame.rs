@@ -1,5 +1,6 @@
 //! Frames of a journal: a line that says which cases follow in how many bytes, and their rows in CSV.
 
+use std::borrow::Cow;
 use std::io::Write as _;
 use std::ops::RangeInclusive;
 
@@ -122,8 +123,8 @@ impl Batch {
         self.first..=self.first + self.cases - 1
     }
 
-    /// Its frame.
-    pub fn frame(&self) -> Vec<u8> {
+    /// Its frame, in pieces, which may be too long to be held twice.
+    pub fn frame(&self) -> [Cow<'_, [u8]>; 3] {
         let last = *self.range().end();
         let (rows, states) = (self.rows.len() as u64, self.states.len() as u64);
         let mut head = Head { first: self.first, last, rows, states, checksum: 0 };
@@ -132,7 +133,7 @@ impl Batch {
             checksum.update(part);
         }
         head.checksum = checksum.finalize();
-        [head.text().as_bytes(), &self.rows, &self.states].concat()
+        [head.text().into_bytes().into(), (&self.rows).into(), (&self.states).into()]
     }
 }
 

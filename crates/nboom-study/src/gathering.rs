@@ -75,7 +75,7 @@ impl Gathering {
             begun.place.describe(&what)?;
             begun.what = what;
         }
-        begun.journal.writer()?.append(batch, head.first..=head.last)
+        begun.journal.writer()?.append(&[batch], head.first..=head.last)
     }
 
     /// Makes the tables if all cases are there, and says what the sweep came to.
@@ -110,6 +110,6 @@ impl Study {
         let cases = Cases::new(cases, interrupted, &mut take);
         self.worker(kernels, right_sides)(&cases);
         let are_done = cases.are_done();
-        are_done.then(|| batch.frame())
+        are_done.then(|| batch.frame().concat())
     }
 }

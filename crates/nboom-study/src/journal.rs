@@ -240,17 +240,23 @@ pub(crate) struct JournalWriter<'a> {
 }
 
 impl JournalWriter<'_> {
-    /// Adds the frame of these cases, which are not there yet, and waits for the disk.
+    /// Adds the frame of these cases, in pieces, which are not there yet, and waits for the disk.
     ///
     /// # Errors
     /// When it cannot be written; nothing may be added then.
-    pub fn append(&mut self, frame: &[u8], cases: RangeInclusive<u64>) -> Result<(), StudyError> {
-        let written = self.file.write_all(frame).and_then(|()| self.file.sync_data());
+    pub fn append(
+        &mut self,
+        frame: &[impl AsRef<[u8]>],
+        cases: RangeInclusive<u64>,
+    ) -> Result<(), StudyError> {
+        let pieces = || frame.iter().map(AsRef::as_ref);
+        let written = pieces().try_for_each(|piece| self.file.write_all(piece));
+        let written = written.and_then(|()| self.file.sync_data());
         let journal = &mut *self.journal;
         written.map_err(StudyError::writing(&journal.path))?;
         let (first, last) = cases.into_inner();
         journal.frames.push(Frame { first, last, at: journal.end });
-        journal.end += frame.len() as u64;
+        journal.end += pieces().map(<[u8]>::len).sum::<usize>() as u64;
         journal.length = journal.end;
         Ok(())
     }

@@ -17,6 +17,7 @@ mod file;
 mod finished;
 mod frame;
 mod gathering;
+mod hinges;
 mod journal;
 mod merge;
 mod observer;

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::description::Description;
-use crate::directory::{self, Place, STUDY_FILE, SWEPT_SCENE_FILE, State, require_same};
+use crate::directory::{self, Place, State, require_same};
 use crate::journal::Journal;
 use crate::task::{Report, finish, settle};
 use crate::{Shard, StudyError, space, tables};
@@ -15,8 +15,8 @@ const NAMED: usize = 10;
 /// Shards may come in any order, and stay as they are. `csv` and `accept_difference` are as in a sweep.
 ///
 /// # Errors
-/// When a directory is no finished shard of the same sweep, when not each shard is given once, and when the
-/// directory is refused or cannot be written.
+/// When a directory is no finished shard of the same sweep, or has another study or scene than the sweep wrote, when
+/// not each shard is given once, and when the directory is refused or cannot be written.
 pub fn merge(
     shards: &[PathBuf],
     directory: &Path,
@@ -24,8 +24,9 @@ pub fn merge(
     accept_difference: bool,
 ) -> Result<Report, StudyError> {
     let parts = in_order(shards)?;
-    let mut whole: Option<Description> = None;
+    let (mut whole, mut texts): (Option<Description>, _) = (None, None);
     for (path, part) in &parts {
+        texts = Some(directory::sources(path, part)?);
         let part = Description { shard: None, complete: false, counts: None, ..part.clone() };
         whole = Some(match whole {
             None => part,
@@ -35,7 +36,7 @@ pub fn merge(
             }
         });
     }
-    let (whole, (first, _)) = (whole.expect("there is a shard"), &parts[0]);
+    let (whole, [study, scene]) = whole.zip(texts).expect("there is a shard");
     let place = Place::take(directory)?;
     let what = match place.state(&whole, accept_difference)? {
         State::Complete(what) => return settle(&place, what, csv),
@@ -45,8 +46,6 @@ pub fn merge(
     let journals = journals?;
     let bytes: u64 = journals.iter().map(Journal::bytes).sum();
     space::require(directory, bytes.saturating_mul(tables::formats(csv)), what.cases)?;
-    let study = directory::text(&first.join(STUDY_FILE))?;
-    let scene = directory::text(&first.join(SWEPT_SCENE_FILE))?;
     place.begin(&what, &study, &scene)?;
     finish(&place, what, &journals, [&study, &scene], csv)
 }

@@ -4,8 +4,6 @@ pub(crate) mod draw;
 mod latin_hypercube;
 mod sobol;
 
-use std::fmt;
-
 use crate::correlation::Copula;
 use crate::distribution::Distribution;
 use crate::study::{Correlation, Method, Variable};
@@ -50,31 +48,33 @@ enum Way {
 }
 
 /// Why there is no plan of a study.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PlanError {
-    /// A grid has more points than draws may be.
-    TooManyPoints,
-    /// A Sobol sequence has fewer dimensions than there are variables.
-    TooManyVariables,
+    /// A grid has about so many points, more than draws may be.
+    TooManyPoints(f64),
+    /// A Sobol sequence has fewer dimensions than there are variables, of which there are so many.
+    TooManyVariables(usize),
     /// Correlations of these variables contradict each other.
     Correlations(Vec<String>),
 }
 
-impl fmt::Display for PlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl PlanError {
+    /// The key of a study that it is about, what is there, and what is expected.
+    pub fn told(&self) -> (&'static str, String, String) {
         match self {
-            Self::TooManyPoints => {
-                write!(f, "a grid of more points found, at most {MOST_DRAWS} expected")
+            Self::TooManyPoints(points) => {
+                let expected = format!("at most {MOST_DRAWS}");
+                ("method", format!("a grid of {points:e} points"), expected)
             }
-            Self::TooManyVariables => {
-                write!(f, "more variables found, at most {} expected", sobol::MOST_VARIABLES)
+            Self::TooManyVariables(count) => {
+                let expected = format!("at most {} by sobol", sobol::MOST_VARIABLES);
+                ("method", format!("{count} variables"), expected)
             }
-            Self::Correlations(names) => write!(
-                f,
-                "correlations of {} that no numbers have together found, a positive definite matrix \
-                 expected",
-                names.join(", ")
-            ),
+            Self::Correlations(names) => {
+                let names = names.join(", ");
+                let found = format!("coefficients of {names} that no numbers have together");
+                ("correlation", found, "a positive definite matrix".to_owned())
+            }
         }
     }
 }
@@ -100,15 +100,17 @@ impl Plan {
             variables.iter().map(|variable| variable.distribution.clone()).collect();
         let (way, draws) = match method {
             Method::Grid => {
-                let mut points = distributions.iter().map(|of| of.points().unwrap_or(1));
-                let all = points.try_fold(1_u64, |all, points| all.checked_mul(points));
-                let all = all.filter(|all| *all <= MOST_DRAWS).ok_or(PlanError::TooManyPoints)?;
-                (Way::Grid, all)
+                let points = distributions.iter().map(|of| of.points().unwrap_or(1));
+                let all = points.clone().try_fold(1_u64, |all, points| all.checked_mul(points));
+                let about = || points.map(|points| points as f64).product();
+                let all = all.filter(|all| *all <= MOST_DRAWS);
+                (Way::Grid, all.ok_or_else(|| PlanError::TooManyPoints(about()))?)
             }
             Method::LatinHypercube => (Way::LatinHypercube(Strata::new(seed, draws)), draws),
             Method::Sobol => {
                 let sequence = Sequence::new(seed, variables.len());
-                (Way::Sobol(sequence.ok_or(PlanError::TooManyVariables)?), draws)
+                let found = variables.len();
+                (Way::Sobol(sequence.ok_or(PlanError::TooManyVariables(found))?), draws)
             }
             Method::MonteCarlo => (Way::MonteCarlo, draws),
         };
@@ -206,9 +208,12 @@ mod tests {
     fn grids_and_sequences_have_limits() {
         let many = variable(Distribution::Points { from: 0.0, to: 1.0, points: 1 << 40 });
         let found = Plan::new(Method::Grid, 1, 0, &[many.clone(), many], &[], 0);
-        assert_eq!(found.err(), Some(PlanError::TooManyPoints));
+        assert_eq!(
+            found.err(),
+            Some(PlanError::TooManyPoints((1_u64 << 40) as f64 * (1_u64 << 40) as f64))
+        );
         let found = Plan::new(Method::Sobol, 1, 10, &uniform(101), &[], 0);
-        assert_eq!(found.err(), Some(PlanError::TooManyVariables));
+        assert_eq!(found.err(), Some(PlanError::TooManyVariables(101)));
     }
 
     /// The largest distance of an empirical distribution from the uniform one, times √n, stays below 2.2 but

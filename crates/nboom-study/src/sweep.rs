@@ -1,6 +1,7 @@
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use nboom_io::{Sampling, sha256};
+use nboom_io::Sampling;
 use nboom_scalar::{Batch, Kernel};
 use toml::Spanned;
 use toml::de::DeTable;
@@ -45,7 +46,7 @@ impl Sweep<'_> {
     pub fn run(&self, watcher: &dyn Watcher) -> Result<Report, StudyError> {
         let study = self.study;
         let worker = || study.worker(self.kernels, self.right_sides);
-        self.task(|task| task.run(&worker, self.jobs, watcher))
+        self.task(self.jobs, |task| task.run(&worker, watcher))
     }
 
     /// Begins the sweep or continues it for cases that run elsewhere.
@@ -53,25 +54,29 @@ impl Sweep<'_> {
     /// # Errors
     /// When the directory is refused.
     pub fn gather(&self) -> Result<Gathering, StudyError> {
-        let begin = self.task(|task| task.begin())?;
+        let begin = self.task(0, |task| task.begin())?;
         Ok(Gathering::new(begin, &self.directory, self.accept_difference))
     }
 
-    fn task<T>(&self, make: impl FnOnce(&Task<'_>) -> T) -> T {
+    /// What is done with the task whose cases run in so many threads.
+    fn task<T>(&self, jobs: usize, make: impl FnOnce(&Task<'_>) -> T) -> T {
         let study = self.study;
+        let (text, scene) = (study.beside_its_scene(), study.document.text());
         make(&Task {
             directory: &self.directory,
-            description: self.description(),
-            study: &study.beside_its_scene(),
-            scene: &study.document.text(),
+            description: self.description(&text, &scene),
+            study: &text,
+            scene: &scene,
             samples: samples(study),
+            jobs,
             resume: self.resume,
             csv: self.csv,
             accept_difference: self.accept_difference,
         })
     }
 
-    fn description(&self) -> Description {
+    /// What it is, of which these are the files.
+    fn description(&self, text: &str, scene: &str) -> Description {
         let study = self.study;
         let states = study.trajectories.then(|| trajectory_columns(study));
         Description {
@@ -79,8 +84,8 @@ impl Sweep<'_> {
             name: study.name.clone(),
             made_by: Maker::current(),
             also_made_by: Vec::new(),
-            study: Source { sha256: sha256(study.text.as_bytes()) },
-            scene: Source { sha256: study.document.sha256().to_owned() },
+            study: Source::of(text),
+            scene: Source::of(scene),
             seed: study.seed,
             method: study.method.name().to_owned(),
             draws: study.draws,
@@ -90,6 +95,7 @@ impl Sweep<'_> {
             trajectory_columns: states.unwrap_or_default(),
             results: study.wanted.iter().map(|wanted| wanted.text().to_owned()).collect(),
             complete: false,
+            tables: BTreeMap::new(),
             counts: None,
         }
     }

@@ -1,5 +1,8 @@
 //! The tables of a sweep, from its journals.
 
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use nboom_results::make_file;
@@ -12,6 +15,10 @@ use crate::frame::Columns;
 use crate::journal::{Journal, Part};
 use crate::statistics::{Statistics, Summary};
 use crate::{Description, StudyError};
+
+/// Tables in Parquet and in CSV, of cases and of trajectories.
+const TWINS: [[&str; 2]; 2] =
+    [[CASES_FILE, CASES_CSV_FILE], [TRAJECTORIES_FILE, TRAJECTORIES_CSV_FILE]];
 
 /// A table in one format.
 #[derive(Clone, Copy, Debug)]
@@ -78,17 +85,61 @@ pub(crate) fn write_tables(
     })
 }
 
-/// Writes those tables in CSV that are not there, from those in Parquet.
+/// How long the tables are that are there \[bytes\].
+///
+/// # Errors
+/// When the system does not say.
+pub(crate) fn lengths(place: &Place) -> Result<BTreeMap<String, u64>, StudyError> {
+    let mut found = BTreeMap::new();
+    for name in TWINS.as_flattened() {
+        if let Some(length) = length(&place.file(name))? {
+            found.insert((*name).to_owned(), length);
+        }
+    }
+    Ok(found)
+}
+
+/// # Errors
+/// When a table is not as long as it was, or is not there; one in CSV may be gone where there is that in Parquet.
+pub(crate) fn require(place: &Place, tables: &BTreeMap<String, u64>) -> Result<(), StudyError> {
+    let is_copy = |name: &str| {
+        TWINS.iter().any(|[parquet, csv]| name == *csv && tables.contains_key(*parquet))
+    };
+    for (name, expected) in tables {
+        let path = place.file(name);
+        match length(&path)? {
+            Some(found) if found == *expected => {}
+            None if is_copy(name) => {}
+            None => return Err(StudyError::Missing { path }),
+            Some(found) => {
+                let [found, expected] = [found, *expected].map(|bytes| format!("{bytes} bytes"));
+                return Err(StudyError::Altered { path, found, expected });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// How long a file is \[bytes\], if it is there.
+fn length(path: &Path) -> Result<Option<u64>, StudyError> {
+    match fs::metadata(path) {
+        Ok(found) => Ok(Some(found.len())),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(StudyError::reading(path)(error)),
+    }
+}
+
+/// Writes those tables in CSV that are not there, from those in Parquet, and says whether there were any.
 ///
 /// # Errors
 /// When a table cannot be read or written; an earlier one then stays.
-pub(crate) fn add_csv(place: &Place, columns: Columns<'_>) -> Result<(), StudyError> {
-    let pairs = [
-        (CASES_FILE, CASES_CSV_FILE, columns.cases),
-        (TRAJECTORIES_FILE, TRAJECTORIES_CSV_FILE, columns.states),
-    ];
-    let missing = |of: &(&str, &str, &[Column])| !of.2.is_empty() && !place.file(of.1).exists();
-    pairs.into_iter().filter(missing).try_for_each(|(from, to, columns)| {
+pub(crate) fn add_csv(place: &Place, columns: Columns<'_>) -> Result<bool, StudyError> {
+    let is_missing = |&([_, csv], columns): &([&str; 2], &[Column])| {
+        !columns.is_empty() && !place.file(csv).exists()
+    };
+    let pairs = TWINS.into_iter().zip([columns.cases, columns.states]);
+    let missing: Vec<_> = pairs.filter(is_missing).collect();
+    missing.iter().try_for_each(|&([from, to], columns)| {
         make_file(&place.file(to), |path: &Path| -> Result<(), StudyError> {
             let mut table = TableWriter::csv(path, columns.to_vec())?;
             read_table(&place.file(from), columns, |cells| -> Result<(), StudyError> {
@@ -96,7 +147,8 @@ pub(crate) fn add_csv(place: &Place, columns: Columns<'_>) -> Result<(), StudyEr
             })?;
             Ok(table.finish()?)
         })
-    })
+    })?;
+    Ok(!missing.is_empty())
 }
 
 impl Table<'_> {

@@ -1,11 +1,10 @@
 //! A sweep from its directory to its tables, whatever runs its cases.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::description::Description;
-use crate::directory::{
-    self, CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, Place, STATISTICS_FILE, State,
-};
+use crate::directory::{self, JOURNAL_FILE, Place, STATISTICS_FILE, State};
 use crate::journal::Journal;
 use crate::tables;
 use crate::workers::{Crew, Worker};
@@ -23,6 +22,8 @@ pub(crate) struct Task<'a> {
     pub scene: &'a str,
     /// About how many rows a trajectory has.
     pub samples: u64,
+    /// Threads in which cases run; none if they run elsewhere.
+    pub jobs: usize,
     /// Whether what was begun is continued.
     pub resume: bool,
     /// Whether tables are in CSV too.
@@ -100,7 +101,7 @@ impl Begun {
 }
 
 impl Task<'_> {
-    /// Makes the sweep or continues it, in so many threads, each with a worker of its own.
+    /// Makes the sweep or continues it, in threads each with a worker of its own.
     ///
     /// # Errors
     /// When the directory is refused, and when it could not be finished. What is done stays, and can be
@@ -108,7 +109,6 @@ impl Task<'_> {
     pub fn run<'w>(
         &self,
         worker: &(dyn Fn() -> Worker<'w> + Sync),
-        jobs: usize,
         watcher: &dyn Watcher,
     ) -> Result<Report, StudyError> {
         let mut begun = match self.begin()? {
@@ -116,7 +116,8 @@ impl Task<'_> {
             Begin::Open(begun) => begun,
         };
         let Begun { what, journal, .. } = &mut *begun;
-        Crew { columns: what.tables(), worker, jobs, watcher }.fill(journal, what.share())?;
+        Crew { columns: what.columns_of_tables(), worker, jobs: self.jobs, watcher }
+            .fill(journal, what.share())?;
         begun.finish()
     }
 
@@ -139,7 +140,10 @@ impl Task<'_> {
             let directory = self.directory.to_owned();
             return Err(StudyError::Unfinished { directory, done: before, cases });
         }
-        space::require(self.directory, self.bytes(&what, cases - before), cases)?;
+        let missing = cases - before;
+        let jobs = self.jobs as u64;
+        space::require_memory(&what.columns_of_tables(), self.samples, missing, jobs)?;
+        space::require(self.directory, self.bytes(&what, missing), cases)?;
         let texts = [self.study, self.scene].map(str::to_owned);
         place.begin(&what, self.study, self.scene)?;
         let begun = Begun { place, what, journal, before, texts, csv: self.csv };
@@ -150,7 +154,7 @@ impl Task<'_> {
     fn bytes(&self, what: &Description, missing: u64) -> u64 {
         let formats = if what.shard.is_some() { 0 } else { tables::formats(self.csv) };
         let rows = missing.saturating_add(formats.saturating_mul(what.cases));
-        rows.saturating_mul(space::of_case(&what.tables(), self.samples))
+        rows.saturating_mul(space::of_case(&what.columns_of_tables(), self.samples))
     }
 }
 
@@ -169,12 +173,15 @@ pub(crate) fn finish(
     csv: bool,
 ) -> Result<Report, StudyError> {
     let statistics = tables::statistics(&what, journals)?;
+    let mut of_tables = BTreeMap::new();
     if what.shard.is_none() {
         let texts = [("study", study), ("scene", scene)];
-        tables::write_tables(place, what.tables(), journals, &texts, csv)?;
+        tables::write_tables(place, what.columns_of_tables(), journals, &texts, csv)?;
+        of_tables = tables::lengths(place)?;
         place.sum_up(&statistics)?;
     }
-    let what = Description { complete: true, counts: Some(statistics.counts), ..what };
+    let counts = Some(statistics.counts);
+    let what = Description { complete: true, tables: of_tables, counts, ..what };
     place.describe(&what)?;
     Ok(Report { end: End::Complete, ..settle(place, what, csv)? })
 }
@@ -183,13 +190,18 @@ pub(crate) fn finish(
 /// asked for.
 ///
 /// # Errors
-/// When one of its files is not there, and when a table cannot be written.
-pub(crate) fn settle(place: &Place, what: Description, csv: bool) -> Result<Report, StudyError> {
+/// When one of its files is not there or is not as long as it was, and when a table cannot be written.
+pub(crate) fn settle(
+    place: &Place,
+    mut what: Description,
+    csv: bool,
+) -> Result<Report, StudyError> {
     if what.shard.is_none() {
-        let has_csv = place.file(CASES_CSV_FILE).exists();
-        place.require([if has_csv { CASES_CSV_FILE } else { CASES_FILE }, STATISTICS_FILE])?;
-        if csv {
-            tables::add_csv(place, what.tables())?;
+        place.require([STATISTICS_FILE])?;
+        tables::require(place, &what.tables)?;
+        if csv && tables::add_csv(place, what.columns_of_tables())? {
+            what.tables = tables::lengths(place)?;
+            place.describe(&what)?;
         }
         place.remove_journal()?;
     } else {

@@ -12,6 +12,7 @@ use nboom_sim::Summary;
 use nboom_tables::Column;
 
 use crate::RunSettings;
+use crate::hinges;
 use crate::row::Value;
 pub(crate) use hinge::Happened;
 pub(crate) use motion::Extreme;
@@ -121,12 +122,13 @@ impl Wanted {
     /// # Errors
     /// When there is no such result.
     pub fn named(text: &str, file: &SceneFile, loads: Loads) -> Result<Self, UnknownResult> {
-        let text = text.trim();
-        let found = match (text.split_once(' '), text.split_once(" of ")) {
+        // Names of bodies may begin and end with blanks.
+        let (whole, text) = (text.trim_start(), text.trim());
+        let found = match (whole.split_once(' '), whole.split_once(" of ")) {
             (Some((word, column)), _) if motion::WORDS.contains(&word) => {
-                motion::named(word, column.trim(), file)
+                motion::named(word, column.trim_start(), file)
             }
-            (_, Some((word, body))) => hinge::named(word.trim(), body.trim(), file, loads),
+            (_, Some((word, body))) => hinge::named(word.trim(), body, file, loads),
             _ => summary::named(text, file, loads),
         };
         match found {
@@ -150,11 +152,11 @@ impl Wanted {
         let is_alone = |i: usize| columns.iter().filter(|other| **other == columns[i]).count() == 1;
         let latches = file.scene.bodies.iter().zip(labels).enumerate();
         let latches = latches.filter(|(_, (body, _))| body.hinge.lock_angle.is_some());
-        let names = latches.map(|(i, (_, label))| {
-            let [appendage, segment] = label.numbers();
-            let name = label.name.as_deref().filter(|_| is_alone(i));
-            name.map_or(format!("{appendage},{segment}"), str::to_owned)
-        });
+        let name = |i: usize, label: &HingeLabel| match is_alone(i) {
+            true => hinges::name(label),
+            false => hinges::numbers(label),
+        };
+        let names = latches.map(|(i, (_, label))| name(i, label));
         let mut texts: Vec<String> = names
             .flat_map(|name| [format!("lock_time of {name}"), format!("impulse of {name}")])
             .collect();

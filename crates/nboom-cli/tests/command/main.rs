@@ -11,6 +11,7 @@ mod report;
 mod scenes;
 mod standard_input;
 mod strengths;
+mod sweep_results;
 mod sweeps;
 mod tables;
 mod told;

@@ -47,7 +47,7 @@ fn place() -> Place {
 }
 
 /// The table of a sweep in `directory`: each row by the names of its columns.
-fn cases(place: &Place, directory: &str) -> Vec<BTreeMap<String, String>> {
+pub(crate) fn cases(place: &Place, directory: &str) -> Vec<BTreeMap<String, String>> {
     let rows = rows(&place.path(directory).join("cases.csv"));
     let names: Vec<&str> = rows[0].split(',').collect();
     let row = |row: &String| {
@@ -60,7 +60,7 @@ fn cases(place: &Place, directory: &str) -> Vec<BTreeMap<String, String>> {
     rows[1..].iter().map(row).collect()
 }
 
-fn sweep(place: &Place, more: &[&str]) -> std::process::Output {
+pub(crate) fn sweep(place: &Place, more: &[&str]) -> std::process::Output {
     let output = place.nboom(&[&["sweep", "study.toml", "--csv"], more].concat());
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     output
@@ -296,65 +296,64 @@ fn the_schema_of_studies_is_one() {
     assert!(!jsonschema::is_valid(&schema, &toml::from_str(&wrong).expect("TOML")));
 }
 
-/// Two panels on `+x` and `-x`, from rest.
-const PANELS: &str = r#"
-[run]
-end = 3.0
-
-[main_body]
-mass = 10.0
-inertia = [1.0, 1.0, 1.0]
-
-[[body]]
-name = "panel +x"
-mass = 1.0
-mass_centre = [0.5, 0.0, 0.0]
-inertia = [0.1, 0.1, 0.1]
-hinge = { at = [0.2, 0.0, 0.0], axis = "y", start_deg = 90.0, latch_deg = 0.0, spring = { stiffness = 0.5 } }
-
-[[body]]
-name = "panel -x"
-mass = 1.0
-mass_centre = [-0.5, 0.0, 0.0]
-inertia = [0.1, 0.1, 0.1]
-hinge = { at = [-0.2, 0.0, 0.0], axis = "-y", start_deg = 90.0, latch_deg = 0.0, spring = { stiffness = 0.5 } }
-"#;
-
+/// What the scene includes lies elsewhere; the directory then repeats by itself.
 #[test]
-fn names_that_differ_in_a_sign_have_columns_of_their_own_and_no_momentum_has_no_nutation() {
-    let place = Place::new();
-    place.write("panels.toml", PANELS);
-    let vary =
-        "[[vary]]\nname = 'hub'\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
-    place.write("study.toml", &format!("scene = 'panels.toml'\ndraws = 9\n{vary}"));
-    sweep(&place, &["--no-report"]);
-    for case in cases(&place, "out/study") {
-        let [first, second] = ["lock_time_of_1_1", "lock_time_of_2_1"].map(|name| &case[name]);
-        assert!(!first.is_empty() && first == second, "they mirror each other: {case:?}");
-        assert_eq!(case["final_nutation"], "", "rounding has no direction");
+fn a_scene_may_include_files_from_anywhere_if_that_is_asked_for() {
+    let place = place();
+    assert_eq!(code(&place.nboom(&["convert", "boom.nml", "-o", "boom.toml"])), 0);
+    let scene = fs::read_to_string(place.path("boom.toml")).expect("a scene");
+    place.write("more.toml", "[parameters]\nk = 1.0\n");
+    fs::create_dir(place.path("in")).expect("writable");
+    place.write("in/boom.toml", &format!("include = [\"../more.toml\"]\n{scene}"));
+    place.write("in/study.toml", &STUDY.replace("boom.nml", "boom.toml"));
+    let sweep = ["sweep", "in/study.toml", "--csv", "--no-report", "-o", "all"];
+    refused(&place.nboom(&sweep), 2, &["more.toml", "--include-anywhere"]);
+    let run = ["run", "in/study.toml", "--case", "58", "-o", "there"];
+    refused(&place.nboom(&run), 2, &["more.toml", "--include-anywhere"]);
+    for words in [&sweep[..], &run] {
+        let output = place.nboom(&[words, &["--include-anywhere"]].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
     }
+    let again = place.nboom(&["run", "all/study.toml", "--case", "58", "-o", "here"]);
+    assert_eq!(code(&again), 0, "{}", stderr(&again));
+    let states = |directory: &str| rows(&place.path(directory).join("states.csv"));
+    assert_eq!(states("here"), states("there"));
+    let nutation = states("here").last().and_then(|row| row.rsplit(',').next()).map(str::to_owned);
+    assert_eq!(nutation.as_ref(), Some(&cases(&place, "all")[57]["final_nutation"]));
 }
 
 #[test]
-fn the_worst_margins_are_the_smallest() {
-    let place = Place::new();
-    let study = "scene = 'four.toml'\ndraws = 12\nresults = ['verdict.smallest_margin']\n";
-    let vary = "[[vary]]\nname = 'root'\npath = 'parameters.root_damping'\nas = 'factor'\nuniform = { from = 0.4, to = 1.6 }\n";
-    place.write("four.toml", include_str!("../../../../examples/solar-array.toml"));
-    place.write("study.toml", &format!("{study}{vary}"));
-    let output = place.nboom(&["sweep", "study.toml", "--csv"]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let mut margins: Vec<(f64, String)> = cases(&place, "out/study")
-        .iter()
-        .map(|case| {
-            (case["verdict_smallest_margin"].parse().expect("a margin"), case["case"].clone())
-        })
-        .collect();
-    margins.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (margin, case) in &margins[..5] {
-        let page = place.path("out/study/worst").join(format!("case-{case}/report.html"));
-        assert!(page.is_file(), "{margin} of case {case} is among the worst: {margins:?}");
+fn directories_that_runs_refuse_are_refused() {
+    let place = place();
+    for directory in ["/", "x.partial"] {
+        for command in [&["sweep", "study.toml"][..], &["run", "boom.nml"]] {
+            let output = place.nboom(&[command, &["-o", directory]].concat());
+            refused(&output, 2, &[directory, ".partial"]);
+        }
     }
-    let is_told = stderr(&output).contains(&format!("in case {}", margins[0].1));
-    assert_eq!(is_told, margins[0].0 < 0.0, "{}", stderr(&output));
+    assert!(!place.path("x.partial").exists());
+}
+
+#[test]
+fn pages_of_worst_cases_that_are_gone_are_made_again() {
+    let place = place();
+    place.write("study.toml", &STUDY.replace("draws = 40", "draws = 2"));
+    sweep(&place, &["-o", "all"]);
+    let pages = || fs::read_dir(place.path("all/worst")).map_or(0, Iterator::count);
+    let before = pages();
+    assert!(before > 0);
+    fs::remove_dir_all(place.path("all/worst")).expect("it is there");
+    sweep(&place, &["-o", "all"]);
+    assert_eq!(pages(), before);
+}
+
+#[test]
+fn shards_whose_study_was_changed_are_not_merged() {
+    let place = place();
+    for shard in ["1/2", "2/2"] {
+        sweep(&place, &["-o", &shard[..1], "--shard", shard]);
+    }
+    place.write("2/study.toml", &STUDY.replace("to = 60.0", "to = 61.0"));
+    refused(&place.nboom(&["merge", "1", "2", "-o", "all"]), 2, &["2/study.toml", "SHA-256"]);
+    assert!(!place.path("all").exists());
 }

@@ -152,6 +152,18 @@ impl SceneDocument {
         Ok(Self { sha256: self.sha256, ..expanded })
     }
 
+    /// The document of its text that stands alone, which messages call `file`.
+    ///
+    /// # Errors
+    /// None are to be expected.
+    pub fn alone(self, file: &str) -> Result<Self, InputError> {
+        let read = Self::parse((file, &self.text()), &self.name, None, &ReadOptions::default())?;
+        read.scene(&[])?;
+        let mut alone = Self { sha256: self.sha256, ..read }.with_memory();
+        alone.parts.included = self.parts.included;
+        Ok(alone)
+    }
+
     /// The place of a number, or of an expression that gives one: keys with dots between them, as in TOML.
     /// A table in a list goes by its name or by its number, from 1; elements of lists go by numbers:
     /// `body.left panel.mass_centre[2]`, `main_body.force[1].from`. A part in quotes may have dots.
@@ -171,6 +183,9 @@ impl SceneDocument {
         }
         if self.is_made_by_repeat(&steps) {
             return Err(unknown(path::REPEATED, None));
+        }
+        if steps[0] == Step::Key("parameters".to_owned()) && root.get("parameters").is_none() {
+            return Err(unknown(path::NO_PARAMETERS, None));
         }
         let nearest = path::nearest(root, &steps, &is_number);
         Err(unknown(path::NO_NUMBER, nearest.map(|slot| path::text(root, &slot))))

@@ -1,11 +1,12 @@
 //! What may be broken.
 
 use nboom_io::{SceneDocument, SceneFile, nearest};
-use nboom_model::{HingeState, Scene, Spring};
+use nboom_model::{HingeState, Release, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, parted, quoted};
 use super::vary::relation;
+use crate::hinges;
 use crate::study::{Change, Fault, LateRelease};
 
 /// Ways in which a number of a fault can change one of the scene.
@@ -23,12 +24,14 @@ impl<'t> Reader<'t> {
         document: &SceneDocument,
         nominal: &SceneFile,
     ) -> Option<Fault> {
-        let hinges = |reader: &mut Self, key| reader.hinges(of, key, &nominal.scene);
-        let stuck = hinges(self, "stuck");
-        let missed_release = hinges(self, "missed_release");
-        let failed_latch = hinges(self, "failed_latch");
-        let broken_spring = hinges(self, "broken_spring");
-        let late_release = self.late_releases(of, &nominal.scene);
+        let before = self.errors.len();
+        let named = |reader: &mut Self, key| reader.hinges(of, key, &nominal.scene);
+        let stuck = named(self, "stuck");
+        let missed_release = named(self, "missed_release");
+        let failed_latch = named(self, "failed_latch");
+        let broken_spring = named(self, "broken_spring");
+        let gone = [("stuck", &stuck[..]), ("missed_release", &missed_release)];
+        let late_release = self.late_releases(of, &nominal.scene, gone);
         let changes = self.changes(of, document);
         let name = self.text(of, "name")?;
         if name.value.trim().is_empty() || name.value.contains(char::is_control) {
@@ -52,6 +55,9 @@ impl<'t> Reader<'t> {
                 self.error(&of.place_of(key), key, found, expected);
             }
         }
+        for key in BREAKS.into_iter().filter(|key| of.has_empty_list(key)) {
+            self.error(&of.place_of(key), key, "an empty list", "at least one entry");
+        }
         if !BREAKS.into_iter().any(|key| of.has(key)) {
             self.error(&of.place(), "fault", "nothing that is broken", BREAKS.join(", or "));
         }
@@ -65,7 +71,9 @@ impl<'t> Reader<'t> {
             broken_spring,
             changes,
         };
-        self.try_fault(of, &fault, nominal);
+        if self.errors.len() == before {
+            self.try_fault(of, &fault, nominal);
+        }
         Some(fault)
     }
 
@@ -90,22 +98,27 @@ impl<'t> Reader<'t> {
     }
 
     fn hinges(&mut self, of: &Fields<'t>, key: &'static str, scene: &Scene) -> Vec<usize> {
-        let names = self.texts(of, key).unwrap_or_default();
-        names.iter().filter_map(|name| self.hinge(name, scene)).collect()
+        let mut found = Vec::new();
+        for name in self.texts(of, key).unwrap_or_default() {
+            let Some(hinge) = self.hinge(&name, scene) else { continue };
+            self.require_once(&name, found.contains(&hinge));
+            found.push(hinge);
+        }
+        found
+    }
+
+    fn require_once(&mut self, name: &At<&str>, is_there: bool) {
+        if is_there {
+            let found = format!("{}, a hinge that is there before", quoted(name.value));
+            self.error(&name.place, name.key, found, "each hinge once");
+        }
     }
 
     /// A hinge by the name of its body or by its numbers.
     fn hinge(&mut self, name: &At<&str>, scene: &Scene) -> Option<usize> {
-        let numbers = |i: usize| {
-            let [appendage, segment] = scene.labels()[i].numbers();
-            format!("{appendage},{segment}")
-        };
-        let all = || 0..scene.bodies.len();
-        let is_it = |i: &usize| scene.name_of(*i) == Some(name.value) || numbers(*i) == name.value;
-        let found = all().find(is_it);
+        let found = hinges::find(scene.labels(), name.value);
         if found.is_none() {
-            let known: Vec<String> =
-                all().map(|i| scene.name_of(i).map_or_else(|| numbers(i), str::to_owned)).collect();
+            let known: Vec<String> = scene.labels().iter().map(hinges::name).collect();
             let meant = nearest(name.value, known.iter().map(String::as_str));
             let expected = "a hinge, by the name of its body or by its numbers as 1,2";
             self.error_like(&name.place, name.key, quoted(name.value), expected, meant);
@@ -113,17 +126,37 @@ impl<'t> Reader<'t> {
         found
     }
 
-    fn late_releases(&mut self, of: &Fields<'t>, scene: &Scene) -> Vec<LateRelease> {
+    /// Late releases, but of hinges that the fault does not release at all by other keys.
+    fn late_releases(
+        &mut self,
+        of: &Fields<'t>,
+        scene: &Scene,
+        gone: [(&str, &[usize]); 2],
+    ) -> Vec<LateRelease> {
         let mut found = Vec::new();
         for inner in self.tables(of, "late_release") {
             let name = self.text(&inner, "hinge");
-            let hinge = name.and_then(|name| self.hinge(&name, scene));
+            let hinge = name.as_ref().and_then(|name| self.hinge(name, scene));
             let by = self.number(&inner, "by");
             if let Some(by) = by.as_ref().filter(|by| by.value <= 0.0) {
                 self.error(&by.place, "by", by.value.to_string(), "a number above zero");
             }
-            let (Some(hinge), Some(by)) = (hinge, by) else { continue };
-            self.require_unreleased(&inner, "hinge", scene.bodies[hinge].hinge.start.state);
+            let (Some(name), Some(hinge), Some(by)) = (name, hinge, by) else { continue };
+            self.require_once(&name, found.iter().any(|late: &LateRelease| late.hinge == hinge));
+            let of_scene = &scene.bodies[hinge].hinge;
+            self.require_unreleased(&inner, "hinge", of_scene.start.state);
+            let is_free = of_scene.start.state != HingeState::Unreleased;
+            let gone = gone.iter().find(|(_, hinges)| hinges.contains(&hinge));
+            let why = match (gone, of_scene.release) {
+                (Some((key, _)), _) => Some(format!("which {key} of the fault keeps from it")),
+                (None, Release::Angle { .. }) => Some("by another hinge's angle".to_owned()),
+                (None, Release::Never) if !is_free => Some("never".to_owned()),
+                (None, _) => None,
+            };
+            if let Some(why) = why {
+                let found = format!("the release of {}, {why}", quoted(name.value));
+                self.error(&name.place, name.key, found, "one by time, or after a lock-up");
+            }
             found.push(LateRelease { hinge, by: by.value });
         }
         found

@@ -246,6 +246,11 @@ impl Fields<'_> {
         self.table.get(name).map_or_else(|| self.place(), Spanned::span)
     }
 
+    pub fn has_empty_list(&self, name: &str) -> bool {
+        let is_empty = |value: &Spanned<DeValue<'_>>| matches!(value.get_ref(), DeValue::Array(items) if items.is_empty());
+        self.table.get(name).is_some_and(is_empty)
+    }
+
     pub fn has(&self, name: &str) -> bool {
         self.table.get(name).is_some()
     }

@@ -25,8 +25,19 @@ impl<'t> Reader<'t> {
     ) -> Option<Variable> {
         let relation = self.choice(of, "as").map(|found| relation(found.value));
         let paths = self.paths(of);
-        let slots: Vec<Slot> =
-            paths.iter().flatten().filter_map(|path| self.slot(document, path)).collect();
+        let mut slots: Vec<Slot> = Vec::new();
+        for path in paths.iter().flatten() {
+            let Some(slot) = self.slot(document, path) else { continue };
+            if slots.contains(&slot) {
+                self.error(
+                    &path.place,
+                    path.key,
+                    "a number that is there before",
+                    "each number once",
+                );
+            }
+            slots.push(slot);
+        }
         let distribution = self.distribution(of, method);
         let name = match self.text(of, "name") {
             Some(name) => name.value.to_owned(),

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicI64, Ordering};
@@ -22,6 +23,7 @@ pub(crate) struct Fake {
     pub seed: u64,
     pub study: &'static str,
     pub shard: Option<Shard>,
+    pub samples: u64,
     pub jobs: usize,
     pub resume: bool,
     pub maker: &'static str,
@@ -37,6 +39,7 @@ impl Fake {
             seed: 1,
             study: "draws = 1",
             shard: None,
+            samples: 1,
             jobs: 2,
             resume: true,
             maker: "1",
@@ -59,12 +62,13 @@ impl Fake {
             description: self.description(),
             study: self.study,
             scene: "name = \"it\"",
-            samples: 1,
+            samples: self.samples,
+            jobs: self.jobs,
             resume: self.resume,
             csv: true,
             accept_difference: self.accept_difference,
         };
-        task.run(&worker, self.jobs, watcher)
+        task.run(&worker, watcher)
     }
 
     /// Runs it to its end, interrupted after each of these numbers of questions whether it is.
@@ -94,6 +98,7 @@ impl Fake {
             trajectory_columns: state_columns(),
             results: vec!["x".to_owned()],
             complete: false,
+            tables: BTreeMap::new(),
             counts: None,
         }
     }

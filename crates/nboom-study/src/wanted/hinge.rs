@@ -1,11 +1,11 @@
 //! What became of a hinge, and what it and its segment carried.
 
 use nboom_io::{SceneFile, nearest};
-use nboom_model::HingeLabel;
 use nboom_strength::{HingeQuantity, Worst, WorstHingeLoad};
 use nboom_tables::{Column, Kind as Holds};
 
 use super::{Found, Loads, Named, Needs, What, refused};
+use crate::hinges::find;
 use crate::table::units;
 
 /// What happened to a hinge for the last time.
@@ -103,7 +103,7 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
         return Err((expected, meant.map(|name| format!("{name} of {body}"))));
     };
     let hinges = file.scene.labels();
-    let Some(hinge) = hinges.iter().position(|label| is_called(label, body)) else {
+    let Some(hinge) = find(hinges, body) else {
         let meant = nearest(body, hinges.iter().filter_map(|label| label.name.as_deref()));
         let expected = "a hinge by the name of its body, or by its numbers as `1,2`".to_owned();
         return Err((expected, meant.map(|name| format!("{word} of {name}"))));
@@ -123,17 +123,6 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
     let unit = found.unit.map(|unit| units(file).label(unit[usize::from(label.joint.slides())]));
     let body = label.name.as_deref().map(str::to_owned);
     Ok((What::Hinge(found.kind, hinge), Column { unit, body, ..column }))
-}
-
-fn is_called(label: &HingeLabel, text: &str) -> bool {
-    let [appendage, segment] = label.numbers();
-    let is_number = || {
-        let numbers = text.split_once(',');
-        numbers.is_some_and(|(a, b)| {
-            a.trim().parse() == Ok(appendage) && b.trim().parse() == Ok(segment)
-        })
-    };
-    label.name.as_deref() == Some(text) || is_number()
 }
 
 impl Kind {

@@ -29,13 +29,18 @@ pub(super) const WORDS: [&str; 3] = ["final", "largest", "smallest"];
 /// The column with this name, taken as the word says.
 pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {
     let SceneFile { scene, .. } = file;
-    let columns = Column::named(text, scene.labels(), scene.rotors.len()).map_err(|unknown| {
+    let named = |text: &str| Column::named(text, scene.labels(), scene.rotors.len());
+    let single = |columns: &[Column]| format!("{word} {}", columns[0].name(scene.labels()));
+    let columns = named(text).or_else(|_| named(text.trim())).map_err(|unknown| {
         let meant = nearest(text, unknown.known.iter().map(String::as_str));
-        (unknown.expected.to_owned(), meant.map(|name| format!("{word} {name}")))
+        let meant = meant.and_then(|name| match &named(name).ok()?[..] {
+            [_] => Some(format!("{word} {name}")),
+            columns => Some(single(columns)),
+        });
+        (unknown.expected.to_owned(), meant)
     })?;
     let [column] = columns[..] else {
-        let first = format!("{word} {}", columns[0].name(scene.labels()));
-        return Err(("a single column of states.csv".to_owned(), Some(first)));
+        return Err(("a single column of states.csv".to_owned(), Some(single(&columns))));
     };
     if (WantedTable { columns, in_degrees: false }).is_of_held_body() && !scene.base.is_held() {
         return Err(refused("columns of a main body that moves freely"));

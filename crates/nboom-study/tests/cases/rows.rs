@@ -155,7 +155,7 @@ fn what_makes_no_scene_is_rejected_and_what_cannot_be_followed_fails() {
     let mass = x_panel + scene[x_panel..].find("mass =").expect("its mass");
     let line = scene[..mass].matches('\n').count() + 1;
     let refused = "mass: found mass -1, expected a positive finite mass";
-    assert_eq!(status(&rows[0]), format!("rejected: cubesat.toml:{line}: {refused}"));
+    assert_eq!(status(&rows[0]), format!("rejected: scene.toml:{line}: {refused}"));
     assert!(status(&rows[3]).starts_with("failed: at time "), "{}", status(&rows[3]));
     for row in [&rows[0], &rows[3]] {
         assert_eq!(cell(&study, row, "final_nutation"), &Value::Empty);

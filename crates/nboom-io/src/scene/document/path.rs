@@ -30,6 +30,8 @@ fn help(nearest: &Option<String>) -> String {
 pub(super) const NO_PATH: &str =
     "keys with dots between them, numbers from 1 in brackets, and quotes around names with dots";
 pub(super) const NO_NUMBER: &str = "the path of a number that the scene says";
+pub(super) const NO_PARAMETERS: &str =
+    "a number that the scene says; it has no parameters, as none that `expanded = true` writes out";
 pub(super) const REPEATED: &str =
     "`expanded = true` in the study, for a body that the scene makes by `repeat`";
 

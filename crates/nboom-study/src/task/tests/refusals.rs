@@ -43,8 +43,9 @@ fn another_study_is_refused_with_the_line_that_differs() {
 
 #[test]
 fn a_finished_sweep_without_its_table_is_told() {
+    let table = if cfg!(feature = "parquet") { CASES_FILE } else { CASES_CSV_FILE };
     for (gone, told) in
-        [(&[CASES_FILE, CASES_CSV_FILE][..], CASES_FILE), (&[STATISTICS_FILE], STATISTICS_FILE)]
+        [(&[CASES_FILE, CASES_CSV_FILE][..], table), (&[STATISTICS_FILE], STATISTICS_FILE)]
     {
         let place = tempfile::tempdir().expect("a directory");
         Fake::of(12).finish(place.path(), &[]);
@@ -53,6 +54,28 @@ fn a_finished_sweep_without_its_table_is_told() {
         }
         let error = refused(&Fake::of(12), place.path()).to_string();
         assert!(error.contains(told) && error.contains("sweep again"), "{error}");
+    }
+}
+
+/// A table in Parquet that is gone or cut short, with that in CSV beside it, and one in CSV that is cut short.
+#[test]
+fn a_finished_sweep_whose_table_is_not_what_it_wrote_is_told() {
+    let place = tempfile::tempdir().expect("a directory");
+    Fake::of(12).finish(place.path(), &[]);
+    let paths =
+        [CASES_FILE, CASES_CSV_FILE, TRAJECTORIES_CSV_FILE].map(|name| place.path().join(name));
+    for path in paths.iter().filter(|path| path.exists()) {
+        let bytes = fs::read(path).expect("readable");
+        fs::write(path, &bytes[..bytes.len() - 1]).expect("writable");
+        let error = refused(&Fake::of(12), place.path());
+        let told = format!("{}: {} bytes found", path.display(), bytes.len() - 1);
+        assert!(error.to_string().contains(&told), "{error}");
+        fs::write(path, &bytes).expect("writable");
+    }
+    if paths[0].exists() {
+        fs::remove_file(&paths[0]).expect("it is there");
+        let error = refused(&Fake::of(12), place.path());
+        assert!(matches!(&error, StudyError::Missing { path } if *path == paths[0]), "{error}");
     }
 }
 
@@ -119,6 +142,17 @@ fn more_than_the_disk_holds_is_refused_and_leaves_nothing() {
     assert!(!directory.exists());
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn trajectories_that_memory_does_not_hold_are_refused() {
+    let place = tempfile::tempdir().expect("a directory");
+    let directory = place.path().join("sweep");
+    let long = Fake { samples: 1 << 40, ..Fake::of(2) };
+    let error = long.run(&directory, &Patient).expect_err("there is no such memory");
+    assert!(matches!(error, StudyError::Memory { jobs: 2, .. }), "{error}");
+    assert!(!directory.exists());
+}
+
 #[test]
 fn shards_that_are_not_the_whole_are_refused() {
     let place = tempfile::tempdir().expect("a directory");
@@ -168,4 +202,61 @@ fn shards_that_are_not_the_whole_are_refused() {
     assert_eq!(tables(&out), expected(&fake));
     let again = merge(&with_other, &out, true, true).expect("nothing is done");
     assert_eq!(again.end, End::WasComplete);
+}
+
+/// What is done to a file: another text, or none.
+#[test]
+fn a_study_or_scene_that_is_not_what_the_sweep_wrote_is_refused() {
+    let place = tempfile::tempdir().expect("a directory");
+    let fake = Fake::of(12);
+    let (whole, out) = (place.path().join("whole"), place.path().join("out"));
+    fake.finish(&whole, &[]);
+    let parts = shards(&fake, 2, place.path());
+    let merged = |out: &Path| merge(&parts, out, true, false);
+    for name in [crate::STUDY_FILE, crate::SWEPT_SCENE_FILE] {
+        for (directory, again) in [
+            (&whole, &(|| fake.run(&whole, &Patient)) as &dyn Fn() -> Result<Report, StudyError>),
+            (&parts[0], &|| merged(&out)),
+            (&parts[1], &|| merged(&out)),
+        ] {
+            let path = directory.join(name);
+            let text = fs::read_to_string(&path).expect("it is there");
+            let other = "other\n";
+            fs::write(&path, other).expect("writable");
+            let error = again().expect_err("it is another text");
+            let told = error.to_string();
+            for text in [&*text, other] {
+                assert!(told.contains(&nboom_io::sha256(text.as_bytes())), "{told}");
+            }
+            assert!(error.is_refusal() && told.contains(&*path.to_string_lossy()), "{told}");
+            fs::remove_file(&path).expect("it is there");
+            let error = again().expect_err("it is not there");
+            assert!(
+                matches!(&error, StudyError::Missing { path: gone } if *gone == path),
+                "{error}"
+            );
+            fs::write(&path, text).expect("writable");
+            assert!(!out.exists());
+        }
+    }
+    merged(&out).expect("all are as they were");
+    SweepDirectory::read(&out).expect("readable").expect("a sweep");
+    fs::write(out.join(crate::STUDY_FILE), "other").expect("writable");
+    SweepDirectory::read(&out).expect_err("another study");
+    merged(&out).expect_err("another study");
+}
+
+/// A sweep that was killed before it wrote its study and scene goes on; with other ones it does not.
+#[test]
+fn an_unfinished_sweep_writes_the_study_that_it_lacks() {
+    let place = tempfile::tempdir().expect("a directory");
+    let fake = Fake::of(12);
+    fake.run(place.path(), &Impatient(AtomicI64::new(5))).expect("it can be interrupted");
+    let path = place.path().join(crate::STUDY_FILE);
+    fs::write(&path, "other").expect("writable");
+    let error = refused(&fake, place.path());
+    assert!(matches!(error, StudyError::Altered { .. }), "{error}");
+    fs::remove_file(&path).expect("it is there");
+    fake.finish(place.path(), &[]);
+    assert_eq!(fs::read_to_string(&path).expect("it is there"), fake.study);
 }

@@ -1,5 +1,10 @@
 //! Studies as files: what is read, and what is told about those that are wrong.
 
+mod alone;
+mod effects;
+mod names;
+mod reasons;
+
 use std::fs;
 use std::path::Path;
 
@@ -178,11 +183,11 @@ fn what_is_wrong_is_told_with_its_line() {
         ("[\"k\", ", "[\"body_tip_mass\", ", 32, "two variables"),
         ("-0.4", "-1.0", 33, "above -1 and below 1"),
         ("hinge = \"boom\"", "hinge = \"bom\"", 37, "did you mean `boom`"),
-        ("hinge = \"boom\"", "hinge = \"tip\"", 35, "expected one by time"),
+        ("hinge = \"boom\"", "hinge = \"tip\"", 37, "expected one by time"),
         ("by = 0.5", "by = -0.5", 37, "a number above zero"),
         ("offset = 0.1", "offset = 0.1, factor = 2.0", 38, "one of value, factor, offset"),
         ("stuck = [\"1,2\"]", "stuck = [\"1,3\"]", 42, "by the name of its body or by its numbers"),
-        ("name = \"late\"", "name = \"stuck\"", 35, "each name once"),
+        ("name = \"late\"", "name = \"stuck\"", 41, "each name once"),
         ("scene = \"scene.toml\"\n", "", 1, "a text"),
         (STUDY, SCENE, 8, "nboom run runs a scene"),
         ("main_body.mass", "parameters.k", 27, "a number that `k` changes too"),

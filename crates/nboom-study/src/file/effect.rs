@@ -1,0 +1,83 @@
+//! Numbers of a study that change nothing.
+
+use nboom_io::{SceneDocument, SceneFile, Slot};
+
+use super::reader::{Fields, Reader, quoted};
+use crate::study::{Fault, Relation, RunSettings, Variable};
+use crate::wanted::Loads;
+
+/// Shares of a distribution at which a variable is tried.
+const TRIED: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
+
+/// By how much numbers are moved to see whether anything depends on them.
+const MOVES: [f64; 2] = [1.5, -1.0];
+
+/// What runs of a study are made of.
+pub(super) struct Runs<'a> {
+    pub document: &'a SceneDocument,
+    pub nominal: &'a SceneFile,
+    pub run: &'a RunSettings,
+}
+
+impl Runs<'_> {
+    /// Whether any of these numbers at these places makes another run, or if they happen to be those that are there,
+    /// whether others would.
+    fn depend_on(&self, slots: &[Slot], relation: Relation, numbers: &[f64]) -> bool {
+        let is_other = |relation: Relation, number: f64| {
+            let value = |slot| relation.applied(number, || self.document.number(slot));
+            let values: Vec<_> = slots.iter().map(|slot| (slot, value(slot))).collect();
+            self.document.scene(&values).ok().map(|file| !self.are_those_of(&file))
+        };
+        // Numbers that make no scene have an effect, which is told case by case; moved ones may only be too far.
+        numbers.iter().any(|&number| is_other(relation, number).unwrap_or(true))
+            || MOVES.iter().any(|&by| is_other(Relation::Offset, by).unwrap_or(false))
+    }
+
+    /// Whether runs of this scene are those of the scene as it stands.
+    fn are_those_of(&self, file: &SceneFile) -> bool {
+        let scene = |file: &SceneFile| match self.run.end_time {
+            Some(end_time) => file.scene.ending_at(end_time).ok(),
+            None => Some(file.scene.clone()),
+        };
+        let has_loads = Loads::of(self.nominal, self.run) > Loads::None;
+        let is_sampled_alike =
+            self.run.samples.is_some() || file.settings.sampling == self.nominal.settings.sampling;
+        scene(file) == scene(self.nominal)
+            && is_sampled_alike
+            && (!has_loads || file.structure == self.nominal.structure)
+    }
+}
+
+impl<'t> Reader<'t> {
+    /// Reports variables, and changes of faults, on which no run depends; nothing else is wrong.
+    pub fn check_effects(
+        &mut self,
+        [varied, faulty]: [&[Fields<'t>]; 2],
+        (variables, faults): (&[Variable], &[Fault]),
+        runs: &Runs<'_>,
+    ) {
+        let expected = "a number that runs depend on, which [run] does not override";
+        for (of, variable) in varied.iter().zip(variables) {
+            let Variable { slots, relation, distribution, .. } = variable;
+            let numbers = TRIED.map(|share| distribution.quantile(share));
+            if !runs.depend_on(slots, *relation, &numbers) {
+                let key = if of.has("path") { "path" } else { "paths" };
+                let found = format!("a number without effect, {}", quoted(&variable.name));
+                self.error(&of.place_of(key), key, found, expected);
+            }
+        }
+        for (of, fault) in faulty.iter().zip(faults) {
+            for (inner, change) in self.tables(of, "change").iter().zip(&fault.changes) {
+                let slots = std::slice::from_ref(&change.slot);
+                if !runs.depend_on(slots, change.relation, &[change.number]) {
+                    self.error(
+                        &inner.place_of("path"),
+                        "path",
+                        "a number without effect",
+                        expected,
+                    );
+                }
+            }
+        }
+    }
+}

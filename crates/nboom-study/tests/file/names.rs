@@ -1,0 +1,51 @@
+//! Names of hinges and columns.
+
+use nboom_study::Study;
+use std::fs;
+
+use super::effects::errors;
+use super::{SCENE, STUDY, place};
+
+/// A body may be called like the numbers of another hinge, and its name comes first.
+#[test]
+fn names_come_before_numbers() {
+    let scene = SCENE.replace("\"boom\"", "\"1,2\"").replace("\"tip\"", "\"1,1\"");
+    let study = STUDY
+        .replace("body.boom.mass", "body.1,2.mass")
+        .replace("body.tip.mass", "body.1,1.mass")
+        .replace("body_tip_mass", "body_1_1_mass")
+        .replace("lock_time of boom", "lock_time of 1,2")
+        .replace("\"final omega_z\"", "\"final beta of 1,2\"")
+        .replace("stuck = [\"1,2\"]", "stuck = [\"1,1\"]")
+        .replace("\"boom\"", "\"1,2\"");
+    let place = place(&study);
+    fs::write(place.path().join("scene.toml"), scene).expect("writable");
+    let study = Study::read(&place.path().join("study.toml")).expect("right");
+    assert_eq!(
+        (&study.faults[1].stuck[..], &study.faults[1].failed_latch[..]),
+        (&[1][..], &[0][..])
+    );
+    assert_eq!(study.faults[0].late_release[0].hinge, 0);
+    for wanted in &study.wanted {
+        assert_eq!(wanted.column().body.as_deref(), Some("1,2"), "{}", wanted.text());
+    }
+    assert_eq!(study.document.number(&study.variables[1].slots[1]), 3.0);
+}
+
+#[test]
+fn names_that_begin_or_end_with_blanks_can_be_said() {
+    let scene = SCENE.replace("\"boom\"", "\" boom \"");
+    let study = STUDY
+        .replace("body.boom.mass", "body.' boom '.mass")
+        .replace("lock_time of boom", "lock_time of  boom ")
+        .replace("final omega_z", "final beta of  boom ")
+        .replace("\"boom\"", "\" boom \"");
+    assert_eq!(errors(&scene, &study), []);
+}
+
+#[test]
+fn what_is_suggested_is_right() {
+    let wrong = STUDY.replace("final omega_z", "final omga");
+    let [(6, told)] = &errors(SCENE, &wrong)[..] else { panic!("one error") };
+    assert!(told.contains("did you mean `final omega_x`?"), "{told}");
+}

@@ -1,0 +1,76 @@
+//! Messages name what is wrong and where.
+
+use std::fs;
+
+use nboom_study::Study;
+
+use super::effects::{errors, refused};
+use super::{SCENE, STUDY, place};
+
+#[test]
+fn a_release_that_a_fault_takes_away_cannot_be_late() {
+    let late = "late_release = { hinge = \"boom\", by = 0.5 }";
+    for key in ["missed_release", "stuck"] {
+        let both = format!("{late}\n{key} = [\"boom\"]");
+        refused(SCENE, late, &both, 37, &["hinge", "`boom`", key]);
+    }
+}
+
+#[test]
+fn a_fault_with_the_name_of_another_is_told_at_its_own_name() {
+    refused(SCENE, "name = \"stuck\"", "name = \"late\"", 41, &["name", "`late`"]);
+}
+
+#[test]
+fn plans_that_are_none_say_what_was_found() {
+    let points = |path: &str| {
+        format!("[[vary]]\npath = '{path}'\nuniform = {{ from = 1, to = 2 }}\npoints = 1000000\n")
+    };
+    let grid = "scene = 'scene.toml'\nmethod = 'grid'\n".to_owned()
+        + &points("parameters.k")
+        + &points("main_body.mass");
+    let [(2, told)] = &errors(SCENE, &grid)[..] else { panic!("one error") };
+    assert!(told.contains(" method: found a grid of 1e12 points"), "{told}");
+    let body = |i: usize| {
+        format!(
+            "[[body]]\nname = 'b{i}'\nmass = 1.0\nmass_centre = [1.0, 0.0, 0.0]\ninertia = [0.1, 1.0, 1.0]\n\
+             [body.hinge]\nat = [0.0, 0.0, 0.0]\naxis = 'z'\n"
+        )
+    };
+    let scene = (1..=101).map(body).fold(SCENE.to_owned(), |scene, body| scene + "\n" + &body);
+    let mut sobol = "scene = 'scene.toml'\ndraws = 8\nmethod = 'sobol'\n".to_owned();
+    for i in 1..=101 {
+        sobol += &format!("[[vary]]\npath = 'body.b{i}.mass'\nuniform = {{ from = 1, to = 2 }}\n");
+    }
+    let [(3, told)] = &errors(&scene, &sobol)[..] else { panic!("{:#?}", errors(&scene, &sobol)) };
+    assert!(told.contains(" method: found 101 variables, expected at most 100"), "{told}");
+}
+
+#[test]
+fn a_scene_that_is_no_file_is_told_once() {
+    let wrong = STUDY.replace("\"scene.toml\"", "\"../.\"");
+    let [(1, told)] = &errors(SCENE, &wrong)[..] else { panic!("one error") };
+    assert_eq!(told.matches("found").count(), 1, "{told}");
+    assert!(told.contains("a directory or a device"), "{told}");
+}
+
+#[test]
+fn parameters_of_a_scene_that_is_written_out_are_gone() {
+    let wrong = STUDY.replace("name = \"all of it\"", "name = \"it\"\nexpanded = true");
+    let found = errors(SCENE, &wrong);
+    let is_it = |(line, told): &(usize, String)| *line == 18 && told.contains("`expanded = true`");
+    assert!(found.iter().any(is_it), "{found:#?}");
+}
+
+#[test]
+fn bytes_that_are_not_utf_8_are_told_with_their_line() {
+    let place = place(STUDY);
+    let path = place.path().join("study.toml");
+    let mut bytes = STUDY.replace("name = \"late\"", "name = \"cass").into_bytes();
+    let at = bytes.windows(4).position(|bytes| bytes == b"cass").expect("it is there") + 4;
+    bytes.splice(at..at, [0xe9, b'"']);
+    fs::write(&path, bytes).expect("writable");
+    let told = Study::read(&path).expect_err("Latin-1").to_string();
+    assert!(told.contains("study.toml:36:13: study: found the byte 0xE9"), "{told}");
+    assert!(told.contains("UTF-8"), "{told}");
+}
