@@ -92,6 +92,7 @@ pub(crate) fn bench(args: &BenchArgs, routines: &Routines) -> Result<String, Cli
         return work_precision(&file.scene, routines, args.seconds, directory);
     }
     let test_case = TestCase::new(file.scene, STATES, SEED)?;
+    test_case.check_regular()?;
     let rows = rows(&test_case, routines, args.seconds)?;
     Ok(match (args.json, args.harness) {
         (true, _) => json(&rows),

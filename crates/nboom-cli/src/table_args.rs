@@ -57,6 +57,10 @@ const LONGEST: u64 = 16 << 20;
 const REMARK: char = '#';
 
 fn times(text: &str) -> Result<Times, ChoiceError> {
+    // No file has this name, so none is told.
+    if text.trim().is_empty() {
+        return Err(ChoiceError::NotANumber);
+    }
     if !text.contains(',') && choice::finite(text) == Err(ChoiceError::NotANumber) {
         return Ok(Times::File(text.into()));
     }

@@ -183,12 +183,15 @@ fn verify_fails_above_the_tolerance() {
 }
 
 #[test]
-fn a_hinge_without_inertia_has_nothing_to_verify() {
+fn a_hinge_without_inertia_has_nothing_to_verify_or_to_time() {
     let point_on_the_axis = "HIIK=9*0.0,CNIK(1,2)=0.0";
     let deck = BOOM.replace("HIIK=1.1,3*0.0,0.05,3*0.0,1.1,CNIK(1,2)=1.0", point_on_the_axis);
-    let output = nboom_on(&deck, &["verify", "boom.nml"]);
-    assert_eq!(code(&output), 3, "{}{}", stdout(&output), stderr(&output));
-    assert!(stderr(&output).contains("nothing has inertia about hinge 1,1"), "{}", stderr(&output));
+    for args in [&["verify", "boom.nml"][..], &["bench", "boom.nml", "--seconds", "1e-3"]] {
+        let output = nboom_on(&deck, args);
+        assert_eq!(code(&output), 3, "{}{}", stdout(&output), stderr(&output));
+        let told = stderr(&output);
+        assert!(told.contains("nothing has inertia about hinge 1,1"), "{args:?}: {told}");
+    }
 }
 
 #[test]

@@ -33,8 +33,13 @@ impl<R: Real> BaseFactor<R> {
 }
 
 impl BaseFactor<f64> {
-    pub fn is_positive_definite(&self) -> bool {
+    /// Whether all pivots, angular and linear ones, are above zero and above these bounds.
+    pub fn is_above(&self, [angular, linear]: [f64; 2]) -> bool {
+        let is_above = |bound: f64, inverses: &[f64]| inverses.iter().all(|p| 1.0 / p > bound);
+        let [of_angular, of_linear] = [&self.inverse_pivots[..3], &self.inverse_pivots[3..]];
         ldl::is_positive_definite(&self.inverse_pivots)
+            && is_above(angular, of_angular)
+            && is_above(linear, of_linear)
     }
 }
 

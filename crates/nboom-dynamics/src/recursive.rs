@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use nboom_elements::{Commands, Elements};
 use nboom_model::{Joint, Mode, RotorMotion, Scene, WeldedTree};
-use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
+use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::articulated_body::{self, HingeFactor, Load};
 use crate::base::BaseFactor;
@@ -362,7 +362,19 @@ impl Recursive<f64> {
         };
         let singular = (0..self.hinges.len()).rev().find(|&j| !regular(j));
         let of_hinge = singular.map(|j| Some(self.free[j]));
-        let of_main = || self.tree.held.is_none() && !self.base.is_positive_definite();
+        let of_main = || self.tree.held.is_none() && !self.base.is_above(self.on_main());
         of_hinge.or_else(|| of_main().then_some(None))
+    }
+
+    /// What is rounding in the main link's inertia, angular and linear: of what hangs on it, that which moves freely
+    /// has been subtracted.
+    fn on_main(&self) -> [f64; 2] {
+        let trace = |inertia: Sym3<f64>| inertia.xx + inertia.yy + inertia.zz;
+        let sizes = |of: ArticulatedInertia<f64>| [trace(of.angular), trace(of.linear)];
+        let roots = (0..self.tree.links.len()).filter(|&j| self.tree.links[j].inboard.is_none());
+        let seen = |j: usize| sizes(self.articulated[j].seen_from(self.poses[j].offset));
+        roots.map(seen).fold([0.0; 2], |[a, l], [angular, linear]| {
+            [a + ROUNDING * angular, l + ROUNDING * linear]
+        })
     }
 }

@@ -1,4 +1,6 @@
-use nboom_model::{Link, Shape, Topology, WeldedTree};
+use std::fmt;
+
+use nboom_model::{Limb, Link, Shape, Topology, WeldedTree};
 use nboom_scalar::{Mat3, RigidInertia, Vec3};
 
 use crate::chain::ChainLink;
@@ -48,6 +50,32 @@ impl LinkFrame {
 pub struct Uncovered {
     /// The first link (an index of the tree) that it cannot express.
     pub link: usize,
+    /// Why not.
+    pub why: Why,
+}
+
+/// What keeps a closed form from covering a link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// An inertia turns otherwise than its body.
+    NotRigid,
+    /// A motor sets its speed.
+    Rotor,
+    /// More links hang on the main body by it.
+    Links,
+    /// It is for chains and paddles alone.
+    Shape,
+}
+
+impl fmt::Display for Why {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotRigid => write!(f, "is not rigid"),
+            Self::Rotor => write!(f, "has a rotor"),
+            Self::Links => write!(f, "has more than {} links", Limb::MOST_LINKS),
+            Self::Shape => write!(f, "is neither a chain nor a paddle"),
+        }
+    }
 }
 
 /// Departure from parallel or square axes that is taken for rounding.
@@ -65,7 +93,7 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
     for root in roots(tree) {
         let planar = planar(tree, root).ok();
         let any = planar.or_else(|| limb::appendage(tree, root));
-        appendages.push(any.ok_or(Uncovered { link: root })?);
+        appendages.push(any.ok_or(Uncovered { link: root, why: Why::Links })?);
     }
     let topology = Topology::new(appendages.iter().map(|appendage| appendage.shape.clone()));
     let (main, main_is_held) = (tree.free_main(), tree.held.is_some());
@@ -89,16 +117,16 @@ pub fn recognise(tree: &WeldedTree<f64>) -> Result<Recognised, Uncovered> {
 pub(crate) fn chains_and_paddles(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
     check(tree)?;
     let slides = tree.links.iter().position(|link| link.joint.slides());
-    slides.map_or(Ok(()), |link| Err(Uncovered { link }))?;
-    roots(tree)
-        .try_for_each(|root| planar(tree, root).map(|_| ()).map_err(|link| Uncovered { link }))
+    let not = |link| Uncovered { link, why: Why::Shape };
+    slides.map_or(Ok(()), |link| Err(not(link)))?;
+    roots(tree).try_for_each(|root| planar(tree, root).map(|_| ()).map_err(not))
 }
 
 /// Whether every link is rigid and none carries a rotor.
 fn check(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
     rigid(tree)?;
     let carries_rotor = tree.links.iter().position(|link| link.spin.is_some());
-    carries_rotor.map_or(Ok(()), |link| Err(Uncovered { link }))
+    carries_rotor.map_or(Ok(()), |link| Err(Uncovered { link, why: Why::Rotor }))
 }
 
 /// The links on the main body.
@@ -119,7 +147,8 @@ struct Appendage {
 /// # Errors
 /// The first link that is not.
 pub(crate) fn rigid(tree: &WeldedTree<f64>) -> Result<(), Uncovered> {
-    tree.turned.first().map_or(Ok(()), |&(link, _)| Err(Uncovered { link }))
+    let not = |&(link, _): &(usize, _)| Uncovered { link, why: Why::NotRigid };
+    tree.turned.first().map_or(Ok(()), |turned| Err(not(turned)))
 }
 
 /// The chain or paddle that begins with the link `root`.

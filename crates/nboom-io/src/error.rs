@@ -59,6 +59,18 @@ pub enum InputError {
         /// Where, in bytes from 0.
         offset: usize,
     },
+    /// The file is not UTF-8.
+    #[error("{}:{line}: found the byte 0x{byte:02X} at offset {offset}, expected text in UTF-8", path.display())]
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Where, in bytes from 0.
+        offset: usize,
+        /// The first byte that belongs to no character.
+        byte: u8,
+    },
     /// Everything that is wrong with a deck or a scene, in the order of its lines; reading stops at the
     /// thousandth error.
     #[error("{}", listing(.0).join("\n"))]

@@ -143,7 +143,7 @@ pub struct SceneSettings {
 /// Reads a scene from a file `NAME.toml`, a deck `NAME.nml` or a robot `NAME.urdf`. A deck, and a scene or
 /// robot that does not say its name, is named NAME, with U+FFFD for control characters, which a terminal would obey.
 ///
-/// Files of at most 16 MiB are read; bytes that are not UTF-8 may occur in comments only.
+/// Files of at most 16 MiB are read, in UTF-8; bytes that are not may occur in comments of decks only.
 ///
 /// # Errors
 /// When the file cannot be read, is neither by its name, is too long or is not text; and all errors of
@@ -176,7 +176,7 @@ pub fn read_scene_from(
     name: &str,
     options: &ReadOptions,
 ) -> Result<SceneFile, InputError> {
-    let (text, sha256) = source::read_stream(Path::new(name), reader)?;
+    let (text, sha256) = source::read_stream(Path::new(name), format, reader)?;
     let scene = parse(format, (name, &text), name, None, options)?;
     Ok(if format == Format::Nml { SceneFile { sha256, ..scene } } else { scene })
 }

@@ -46,7 +46,7 @@ pub(crate) fn read_file(path: &Path) -> Result<(Format, String, String), InputEr
     check_file(path)?;
     let format = Format::of(path);
     let format = format.ok_or_else(|| InputError::NotAScene { path: path.to_owned() })?;
-    let (text, sha256) = hashed(path, read_bytes(path, LARGEST)?)?;
+    let (text, sha256) = hashed(path, format, read_bytes(path, LARGEST)?)?;
     Ok((format, text, sha256))
 }
 
@@ -62,13 +62,25 @@ pub(crate) fn scene_name(path: &Path) -> String {
 }
 
 /// The text of a scene from any reader, and the hash of its bytes; `path` stands for it in messages.
-pub(crate) fn read_stream(path: &Path, reader: impl Read) -> Result<(String, String), InputError> {
-    hashed(path, read_limited(path, reader, LARGEST)?)
+pub(crate) fn read_stream(
+    path: &Path,
+    format: Format,
+    reader: impl Read,
+) -> Result<(String, String), InputError> {
+    hashed(path, format, read_limited(path, reader, LARGEST)?)
 }
 
-fn hashed(path: &Path, bytes: Vec<u8>) -> Result<(String, String), InputError> {
+fn hashed(path: &Path, format: Format, bytes: Vec<u8>) -> Result<(String, String), InputError> {
     let hash = sha256(&bytes);
-    Ok((decode(path, bytes)?, hash))
+    let text = match format {
+        // Decks are older than UTF-8; their comments may be in any code.
+        Format::Nml => {
+            check_text(path, &bytes)?;
+            String::from_utf8_lossy(&bytes).into_owned()
+        }
+        Format::Toml | Format::Urdf => decode(path, bytes)?,
+    };
+    Ok((text, hash))
 }
 
 /// SHA-256 in hexadecimal digits.
@@ -76,10 +88,10 @@ pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The text of a file of at most `limit` bytes; bytes that are not UTF-8 become U+FFFD.
+/// The text of a file of at most `limit` bytes.
 ///
 /// # Errors
-/// When the file cannot be read, is a directory or a device, is too long or is not text.
+/// When the file cannot be read, is a directory or a device, is too long or is not text in UTF-8.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, InputError> {
     decode(path, read_bytes(path, limit)?)
 }
@@ -144,11 +156,17 @@ fn check_length(path: &Path, length: u64, limit: u64) -> Result<(), InputError> 
 }
 
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<String, InputError> {
-    if let Some(offset) = bytes.iter().position(|&byte| byte == 0) {
-        return Err(InputError::Binary { path: path.to_owned(), offset });
-    }
-    Ok(match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => String::from_utf8_lossy(error.as_bytes()).into_owned(),
+    check_text(path, &bytes)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let (offset, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
+        let line = bytes[..offset].iter().filter(|byte| **byte == b'\n').count() + 1;
+        InputError::NotUtf8 { path: path.to_owned(), line, offset, byte: bytes[offset] }
     })
+}
+
+fn check_text(path: &Path, bytes: &[u8]) -> Result<(), InputError> {
+    match bytes.iter().position(|&byte| byte == 0) {
+        Some(offset) => Err(InputError::Binary { path: path.to_owned(), offset }),
+        None => Ok(()),
+    }
 }

@@ -44,8 +44,8 @@ mod scene;
 mod slide;
 mod surroundings;
 
+pub(crate) use body::tip_of;
 pub use body::{BodyWords, KickOff, body};
-pub(crate) use body::{inboard, tip_of};
 pub use coupling::{CouplingWords, coupling};
 pub use direction::{Axes, Direction};
 pub(crate) use drive::along as prescribed;

@@ -1,6 +1,6 @@
 use nboom_scalar::Vec3;
 
-use crate::{Gravity, InitialMotion, over_time};
+use crate::{Gravity, InitialMotion, over_time, shown};
 
 /// How the main body is held.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -89,15 +89,23 @@ impl Drive {
         let length = self.axis.norm();
         let is_unit = (length - 1.0).abs() <= SAME_DIRECTION;
         if !is_unit {
-            return Some((format!("an axis of length {length}"), "a unit vector"));
+            return Some((format!("an axis of length {}", shown(length)), "a unit vector"));
         }
-        let numbers = |point: &DrivePoint| [point.time, point.rate, point.speed];
-        let all = || self.points.iter().map(numbers);
-        let ascend = self.points.windows(2).all(|pair| pair[0].time < pair[1].time);
-        if self.points.is_empty() || !ascend || !all().flatten().all(f64::is_finite) {
-            let points: Vec<[f64; 3]> = all().collect();
-            let expected = "finite rates or speeds at ascending times, at least one";
-            return Some((format!("times, rates and speeds {points:?}"), expected));
+        let are_finite = |point: &DrivePoint| {
+            [point.time, point.rate, point.speed].iter().all(|number| number.is_finite())
+        };
+        let back = self.points.windows(2).find(|pair| pair[0].time >= pair[1].time);
+        let found = if self.points.is_empty() {
+            Some("neither rates nor speeds".to_owned())
+        } else if !self.points.iter().all(are_finite) {
+            Some("a number that is not finite".to_owned())
+        } else {
+            back.map(|pair| {
+                format!("time {} after time {}", shown(pair[1].time), shown(pair[0].time))
+            })
+        };
+        if let Some(found) = found {
+            return Some((found, "finite rates or speeds at ascending times, at least one"));
         }
         let turns = self.points.iter().any(|point| point.rate != 0.0);
         let axis = initial.attitude.normalized().to_matrix() * self.axis;

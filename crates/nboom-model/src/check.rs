@@ -1,10 +1,11 @@
 //! Finds all that keeps a description from being a scene.
 
-use nboom_scalar::Vec3;
+use nboom_scalar::{Sym3, Vec3};
 
 use crate::error::{BodyName, ModelError};
 use crate::{
-    Body, Coupling, HingeLabel, HingeState, Joint, Release, Rotor, SAME_ANGLE, SceneDescription,
+    Body, Coupling, HingeLabel, HingeState, Joint, MassDefect, Release, Rotor, SAME_ANGLE,
+    SceneDescription, shown,
 };
 
 /// Departure from a unit vector or a rotation that is taken for rounding in the input.
@@ -37,10 +38,10 @@ fn find_in_rotors(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
             error("body that is not there".to_owned(), "a body of the scene");
         }
         if !is_unit(axis.norm()) {
-            error(format!("axis of length {}", axis.norm()), "a unit vector");
+            error(format!("axis of length {}", shown(axis.norm())), "a unit vector");
         }
         if !(inertia > 0.0 && inertia.is_finite()) {
-            error(format!("inertia {inertia}"), "a positive finite inertia");
+            error(format!("inertia {}", shown(inertia)), "a positive finite inertia");
         }
         if let Some((found, expected)) = speed.defect() {
             error(found, expected);
@@ -65,6 +66,7 @@ fn find_in_couplings(
         }
         let Coupling { ratio, stiffness, rest, damping, .. } = *coupling;
         if ![ratio, stiffness, rest, damping].iter().all(|number| number.is_finite()) {
+            let [ratio, stiffness, rest, damping] = [ratio, stiffness, rest, damping].map(shown);
             let defect = format!(
                 "with ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}"
             );
@@ -85,7 +87,8 @@ fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
             points => points.iter().enumerate().find_map(|(k, &[angle, torque])| {
                 let is_finite = angle.is_finite() && torque.is_finite();
                 let ascends = k == 0 || angle > points[k - 1][0] + SAME_ANGLE;
-                (!(is_finite && ascends)).then(|| format!("point {} at {angle}, {torque}", k + 1))
+                (!(is_finite && ascends))
+                    .then(|| format!("point {} at {}, {}", k + 1, shown(angle), shown(torque)))
             }),
         };
         errors.extend(defect.map(|defect| ModelError::TablePoints { table: i + 1, defect }));
@@ -190,8 +193,18 @@ fn find_in_mass(
     if body.is_nothing() && carries() || wheel(&scene.bodies[i]) && !carries() {
         return;
     }
+    let defect =
+        if body.mass == 0.0 && body.center_of_mass.is_finite() && body.inertia != Sym3::zero() {
+            Some(match scene.bodies[i].joint {
+                Joint::Prismatic => MassDefect::WheelSlides,
+                Joint::Revolute if carries() => MassDefect::WheelCarries,
+                Joint::Revolute => MassDefect::WheelInertia,
+            })
+        } else {
+            body.defect()
+        };
     let name = BodyName::Segment(label.clone());
-    errors.extend(body.defect().map(|defect| ModelError::Mass { body: name, defect }));
+    errors.extend(defect.map(|defect| ModelError::Mass { body: name, defect }));
 }
 
 fn find_in_hinge(

@@ -28,7 +28,7 @@ pub struct SceneDraft {
 pub struct BodyDraft {
     /// What others call it; unique.
     pub name: String,
-    /// The inboard body; `None` is the main body.
+    /// The inboard body; `None` is the main body, and so are [`MAIN_BODY_NAMES`] where no body is called so.
     pub on: Option<String>,
     /// Where the hinge sits on the inboard body.
     pub mount: Mount,
@@ -221,6 +221,10 @@ fn does(joint: Joint) -> &'static str {
         Joint::Prismatic => "slides",
     }
 }
+
+/// What the main body may be called as an inboard body. The name of a body comes first, for robots have
+/// links of any name.
+pub const MAIN_BODY_NAMES: [&str; 2] = ["main_body", "main body"];
 
 /// Most bodies of a scene in words.
 pub const MOST_BODIES: usize = 10_000;

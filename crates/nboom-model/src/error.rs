@@ -1,7 +1,7 @@
 use std::fmt;
 
 use crate::mass::MassDefect;
-use crate::{ExternalKind, ExternalPart, HingeLabel};
+use crate::{ExternalKind, ExternalPart, HingeLabel, shown};
 
 /// Which body a message is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,7 +72,7 @@ pub enum ModelError {
         expected: &'static str,
     },
     /// A hinge axis is not a unit vector.
-    #[error("segment {label}: hinge axis of length {length} found, 1 expected")]
+    #[error("segment {label}: hinge axis of length {} found, 1 expected", shown(*length))]
     Axis {
         /// The hinge.
         label: HingeLabel,
@@ -81,7 +81,8 @@ pub enum ModelError {
     },
     /// A mount is not a rotation.
     #[error(
-        "segment {label}: mounting axes that depart by {defect} from a right-handed orthonormal triad found"
+        "segment {label}: mounting axes that depart by {} from a right-handed orthonormal triad found",
+        shown(*defect)
     )]
     MountRotation {
         /// The hinge.
@@ -103,7 +104,8 @@ pub enum ModelError {
     },
     /// A hinge is to be released before the lock-up that it waits for.
     #[error(
-        "segment {label}: release {delay} time units after a lock-up found, zero or more expected"
+        "segment {label}: release {} time units after a lock-up found, zero or more expected",
+        shown(*delay)
     )]
     ReleaseDelay {
         /// The hinge.
@@ -112,7 +114,7 @@ pub enum ModelError {
         delay: f64,
     },
     /// A hinge that starts held has a rate.
-    #[error("segment {label}: rate {rate} found, zero expected of a hinge that starts held")]
+    #[error("segment {label}: rate {} found, zero expected of a hinge that starts held", shown(*rate))]
     HeldRate {
         /// The hinge.
         label: HingeLabel,
@@ -120,7 +122,7 @@ pub enum ModelError {
         rate: f64,
     },
     /// The direction of gravity or the initial attitude does not have length 1.
-    #[error("{quantity} of length {length} found, 1 expected")]
+    #[error("{quantity} of length {} found, 1 expected", shown(*length))]
     NotUnit {
         /// Which vector.
         quantity: &'static str,
@@ -128,7 +130,11 @@ pub enum ModelError {
         length: f64,
     },
     /// The run ends before it starts.
-    #[error("end time {end} found, a time not before the initial time {start} expected")]
+    #[error(
+        "end time {} found, a time not before the initial time {} expected",
+        shown(*end),
+        shown(*start)
+    )]
     EndTime {
         /// Initial time.
         start: f64,

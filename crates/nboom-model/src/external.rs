@@ -1,6 +1,6 @@
 use nboom_scalar::Vec3;
 
-use crate::{ModelError, SceneDescription};
+use crate::{ModelError, SceneDescription, shown};
 
 /// A force or a torque on one body from outside, over time, eqs. (6.4) to (6.8): note 5.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,7 +134,7 @@ impl External {
         let (found, expected) = match &self.course {
             Course::Pulse { on, off } if on <= off => return None,
             Course::Pulse { on, off } => {
-                (format!("from {on} to {off}"), "an end not before its start")
+                (format!("from {} to {}", shown(*on), shown(*off)), "an end not before its start")
             }
             Course::Table(points) => {
                 (wrong_points(points)?, "two or more points of finite numbers at ascending times")
@@ -160,7 +160,8 @@ fn wrong_points(points: &[[f64; 2]]) -> Option<String> {
     points.iter().enumerate().find_map(|(k, &[time, share])| {
         let is_finite = time.is_finite() && share.is_finite();
         let ascends = k == 0 || time > points[k - 1][0];
-        (!(is_finite && ascends)).then(|| format!("point {} at {time}, {share}", k + 1))
+        (!(is_finite && ascends))
+            .then(|| format!("point {} at {}, {}", k + 1, shown(time), shown(share)))
     })
 }
 

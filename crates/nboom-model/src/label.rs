@@ -1,7 +1,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::Joint;
+use crate::{Joint, shown};
 
 /// Which hinge, as users count: appendage K and segment I of it; and the name of the body on it, if
 /// the scene gives names.
@@ -39,7 +39,7 @@ impl HingeLabel {
         };
         let rounded = format!("{value:.5e}").parse();
         // Nobody wants to read of -0.
-        format!("{}{unit}", rounded.unwrap_or(value) + 0.0)
+        format!("{}{unit}", shown(rounded.unwrap_or(value) + 0.0))
     }
 }
 

@@ -47,6 +47,7 @@ mod quantity;
 mod rotor;
 mod scene;
 mod shape;
+mod shown;
 mod skipped;
 mod structure;
 mod structure_error;
@@ -61,8 +62,8 @@ pub use column::{Column, UnknownColumn, WantedTable};
 pub use coupling::Coupling;
 pub use departures::{Departures, TurnOrder, TurnedInertia, Withheld};
 pub use draft::{
-    BodyDraft, CouplingDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat, Resolved,
-    SceneDraft,
+    BodyDraft, CouplingDraft, DraftDefect, DraftError, MAIN_BODY_NAMES, MOST_BODIES, ReleaseDraft,
+    Repeat, Resolved, SceneDraft,
 };
 pub use environment::{Gravity, InitialMotion};
 pub use error::{BodyName, ModelError};
@@ -81,6 +82,7 @@ pub use quantity::Quantity;
 pub use rotor::{Rotor, RotorMotion, RotorSpeed, Spin};
 pub use scene::*;
 pub use shape::{BodyShape, Shapes, Solid};
+pub use shown::shown;
 pub use skipped::skipped;
 pub use structure::{SLICE_TOLERANCE, SectionShape, SegmentStructure, Station, Structure, Vertex};
 pub use structure_error::{StructureDefect, StructureError, StructurePlace};

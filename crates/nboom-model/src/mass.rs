@@ -1,5 +1,7 @@
 use nboom_scalar::{RigidInertia, Sym3, Vec3};
 
+use crate::shown;
+
 /// Share of the largest principal moment by which an inertia may miss the triangle inequality.
 pub const TRIANGLE_TOLERANCE: f64 = 1e-9;
 
@@ -19,10 +21,13 @@ pub struct MassProperties {
 #[non_exhaustive]
 pub enum MassDefect {
     /// The mass is zero, negative or not finite.
-    #[error("mass {0} found, a positive finite mass expected")]
+    #[error("mass {} found, a positive finite mass expected", shown(*.0))]
     Mass(f64),
     /// A component of the mass centre is not finite.
-    #[error("mass centre ({}, {}, {}) found, finite components expected", .0.x, .0.y, .0.z)]
+    #[error(
+        "mass centre ({}) found, finite components expected",
+        .0.to_array().map(shown).join(", ")
+    )]
     CenterOfMass(Vec3<f64>),
     /// An entry of the inertia is not finite.
     #[error("inertia with an entry that is not finite found")]
@@ -38,14 +43,26 @@ pub enum MassDefect {
         distance: f64,
     },
     /// A principal moment of inertia is negative.
-    #[error("principal moment of inertia {0} found, none below zero expected")]
+    #[error("principal moment of inertia {} found, none below zero expected", shown(*.0))]
     NegativeMoment(f64),
     /// The largest principal moment exceeds the sum of the two others.
     #[error(
-        "principal moments of inertia {}, {}, {} found, the largest at most the sum of the \
-         two others expected", .0[0], .0[1], .0[2]
+        "principal moments of inertia {} found, the largest at most the sum of the two others expected",
+        .0.map(shown).join(", ")
     )]
     Triangle([f64; 3]),
+    /// A body has inertia but no mass, and slides.
+    #[error("a slide of a body with inertia but no mass found, a hinge or a mass expected")]
+    WheelSlides,
+    /// A body has inertia but no mass, and others hang on it.
+    #[error("inertia of a body without mass that carries others found, none or a mass expected")]
+    WheelCarries,
+    /// A body has inertia but no mass, and it is no wheel.
+    #[error(
+        "inertia of a body without mass that is not about its hinge axis alone found, a positive one that is, \
+         or a mass expected"
+    )]
+    WheelInertia,
 }
 
 impl MassProperties {

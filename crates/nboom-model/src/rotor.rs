@@ -1,6 +1,6 @@
 use nboom_scalar::{Mat3, Real, Sym3, Vec3};
 
-use crate::over_time;
+use crate::{over_time, shown};
 
 /// A balanced rotor in a body, a momentum wheel or the like, whose speed relative to the body a
 /// motor commands: a gyrostat. Its mass and its inertia across the axis belong to the body.
@@ -100,7 +100,7 @@ impl RotorSpeed {
     pub(crate) fn defect(&self) -> Option<(String, &'static str)> {
         match self {
             Self::Constant(speed) => {
-                (!speed.is_finite()).then(|| (format!("speed {speed}"), "a finite speed"))
+                (!speed.is_finite()).then(|| (format!("speed {}", shown(*speed)), "a finite speed"))
             }
             Self::Table(points) => {
                 let ascend = points.windows(2).all(|pair| pair[0][0] < pair[1][0]);

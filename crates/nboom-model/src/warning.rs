@@ -1,11 +1,12 @@
 mod forces;
 mod geometry;
+mod masses;
 mod releases;
 
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::{HingeLabel, Scene};
+use crate::{BodyName, HingeLabel, Scene, shown};
 
 /// Something a scene may do but its author probably does not want.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,6 +121,13 @@ pub enum ModelWarning {
         /// The lock angle \[rad\].
         lock: f64,
     },
+    /// Masses of two bodies are so unequal that many digits of the motion are lost.
+    UnequalMasses {
+        /// The lightest body that has a mass, with it.
+        least: (BodyName, f64),
+        /// The heaviest one, with its mass.
+        largest: (BodyName, f64),
+    },
     /// With all lock angles reached the outer end of a body is back at a hinge inboard of it.
     EndsAtHinge {
         /// The body's hinge.
@@ -217,6 +225,14 @@ impl fmt::Display for ModelWarning {
                  is straight",
                 hinge.coordinate(*lock)
             ),
+            Self::UnequalMasses { least: (light, least), largest: (heavy, largest) } => write!(
+                f,
+                "mass {} of {heavy} beside mass {} of {light} found: as many of the 16 digits of a motion may be \
+                 lost as the masses differ by, about {:.0}",
+                shown(*largest),
+                shown(*least),
+                (largest / least).log10()
+            ),
             Self::EndsAtHinge { hinge, at } => write!(
                 f,
                 "with all hinges locked the outer end of segment {hinge} is back at hinge {at}"
@@ -226,5 +242,6 @@ impl fmt::Display for ModelWarning {
 }
 
 pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
-    [releases::find(scene), forces::find(scene), geometry::find(scene)].concat()
+    [releases::find(scene), forces::find(scene), geometry::find(scene), masses::find(scene)]
+        .concat()
 }

@@ -271,3 +271,20 @@ fn starts_and_releases_that_are_hardly_meant() {
         ["hinge 1,1 is released at 2.0, after the end of the run at 1.0"]
     );
 }
+
+#[test]
+fn masses_that_lose_digits() {
+    let of = |main: f64, outer: f64| {
+        let mut description = (*chain(&[(Hinge::free(), 1.0), (Hinge::free(), 1.0)])).clone();
+        description.main_body.mass = main;
+        description.bodies[1].mass_properties.mass = outer;
+        Scene::new(description).expect("a scene").warnings()
+    };
+    assert_eq!(of(1.0, 0.99e9), []);
+    assert_eq!(
+        of(0.5, 1e14)[0].to_string(),
+        "mass 100000000000000 of segment 1,2 beside mass 0.5 of main body found: as many of the 16 digits of a \
+         motion may be lost as the masses differ by, about 14"
+    );
+    assert_eq!(of(1e12, 1.0).len(), 1);
+}

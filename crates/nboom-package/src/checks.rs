@@ -45,7 +45,8 @@ pub(crate) fn table_path(routine: &Routine) -> String {
     format!("tests/{}.csv", routine.request.name)
 }
 
-/// Parameters, states and what is to come out, a row for each state under one that counts them.
+/// Parameters, states, what is to come out and the least scale of deviations from it, a row for each state under
+/// one that counts them.
 pub(crate) fn table(routine: &Routine) -> String {
     let word = match routine.certified.found {
         Found::Accelerations(_) => "acceleration",
@@ -53,7 +54,7 @@ pub(crate) fn table(routine: &Routine) -> String {
         Found::InverseDynamics(_) => "force",
     };
     let mut text = String::new();
-    for (i, Tested { parameters, coordinates, expected }) in
+    for (i, Tested { parameters, coordinates, expected, least }) in
         routine.certified.tested.iter().enumerate()
     {
         let columns = [("parameter", parameters), ("state", coordinates), (word, expected)];
@@ -61,9 +62,11 @@ pub(crate) fn table(routine: &Routine) -> String {
             let names = columns
                 .iter()
                 .flat_map(|(word, row)| (0..row.len()).map(move |i| format!("{word}_{i}")));
+            let names = names.chain(["least_scale".to_owned()]);
             text += &(names.collect::<Vec<_>>().join(",") + "\n");
         }
-        let cells = columns.iter().flat_map(|(_, row)| row.iter().map(|x| format!("{x:?}")));
+        let numbers = columns.iter().flat_map(|(_, row)| row.iter()).chain([least]);
+        let cells = numbers.map(|x| format!("{x:?}"));
         text += &(cells.collect::<Vec<_>>().join(",") + "\n");
     }
     text

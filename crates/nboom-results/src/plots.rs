@@ -23,10 +23,17 @@ const START: u64 = 512;
 /// Refuses a place where figures of these names cannot be written: what is there must be of a run.
 ///
 /// # Errors
-/// [`ResultsError::Foreign`] when the folder is something else, or a file there is nobody's figure.
+/// [`ResultsError::Foreign`] when the folder is something else, or a file there is nobody's figure, and
+/// [`ResultsError::NotADirectory`] when it would be in something else.
 pub fn check_plots(directory: &Path, names: &[String]) -> Result<(), ResultsError> {
     let folder = directory.join(PLOTS_FOLDER);
-    match Kind::of(&folder).map_err(ResultsError::writing(&folder))? {
+    let failed = |error: io::Error| match (error.kind(), Kind::of(directory)) {
+        (ErrorKind::NotADirectory, Ok(found)) => {
+            ResultsError::NotADirectory { path: directory.to_owned(), found }
+        }
+        _ => ResultsError::writing(&folder)(error),
+    };
+    match Kind::of(&folder).map_err(failed)? {
         Kind::Nothing => return Ok(()),
         Kind::Directory => {}
         found => return Err(ResultsError::Foreign { path: folder, found }),
@@ -113,6 +120,18 @@ mod tests {
         assert_eq!((left, folder.join("a.svg").exists()), (2, false));
         let refused = write_plots(directory, plots.into_iter()).expect_err("it is mine");
         assert!(refused.is_refusal() && !folder.join("a.svg").exists(), "{refused}");
+    }
+
+    #[test]
+    fn a_file_in_the_place_of_the_directory_is_told_as_one() {
+        let place = tempfile::tempdir().expect("a directory");
+        let file = place.path().join("scene.toml");
+        fs::write(&file, "mine").expect("writable");
+        let refused = check_plots(&file, &[]).expect_err("it is a file");
+        let ResultsError::NotADirectory { path, found: Kind::File } = &refused else {
+            panic!("{refused}")
+        };
+        assert_eq!(path, &file);
     }
 
     #[cfg(unix)]

@@ -2,12 +2,11 @@ use std::sync::{Arc, PoisonError};
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_elements::{Commands, OwnLaws, gravity};
-use nboom_formulation::Formulation;
 use nboom_model::{Mode, Scene};
 use nboom_scalar::{Vec3, Wrench};
 use nboom_series::Series;
 
-use crate::code::closed_form::NotCovered;
+use crate::code::closed_form::without_momenta;
 use crate::code::fit::SharedRepertoire;
 use crate::code::right_side::RightSides;
 use crate::code::selection::Selection;
@@ -228,10 +227,6 @@ impl Equations {
         if variables.layout.has_momenta() {
             return Ok(entered.select_momenta(since));
         }
-        if let Some(what) = without_momenta(scene).filter(|_| options.integrates_momenta()) {
-            let formulation = Formulation::Momentum;
-            return Err(CodeError::NotCovered(NotCovered::Scene { formulation, what }));
-        }
         let mut repertoire = repertoire.lock().unwrap_or_else(PoisonError::into_inner);
         entered.select(scene, own, &mut repertoire, options, since)
     }
@@ -307,14 +302,6 @@ impl Equations {
     pub fn gravity(&self) -> Vec3<f64> {
         self.gravity
     }
-}
-
-/// What in `scene` keeps momenta from standing for rates.
-fn without_momenta(scene: &Scene) -> Option<&'static str> {
-    // The reaction of what holds it changes them.
-    let held = scene.base.is_held().then_some("a main body that is held");
-    // The momenta of rotors are not counted.
-    held.or((!scene.rotors.is_empty()).then_some("rotors"))
 }
 
 /// Makes that `entered` which is prepared for this mode of this satellite with held hinges at `beta`, one of the

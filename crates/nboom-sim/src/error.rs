@@ -52,6 +52,19 @@ pub enum SimError {
         /// The hinge; `None` is the main body.
         hinge: Option<HingeLabel>,
     },
+    /// A body has inertia where it is free to move, but in double precision none is left of it.
+    #[error(
+        "at time {}, {}: its inertia is lost in double precision beside that of the rest; masses and lengths \
+         that are less unequal, or smaller, expected",
+        moment(.time),
+        place(.hinge)
+    )]
+    LostInertia {
+        /// Time reached.
+        time: f64,
+        /// The hinge; `None` is the main body.
+        hinge: Option<HingeLabel>,
+    },
     /// The ends of a line along which a force acts are at one point.
     #[error("at time {}, hinge {hinge}: its {element} has no length, so that its force has \
              no direction", moment(.time))]

@@ -1,6 +1,7 @@
 use serde::Serialize;
 
 use crate::VerifyError;
+use crate::floor::Floor;
 use crate::reference::Referee;
 use crate::test_case::TestCase;
 
@@ -47,14 +48,27 @@ pub fn certify(
     })
 }
 
-/// The accelerations in each state, computed in double-double and rounded once: ω̇, a_O, then τ̇ in
-/// the order of the scene's hinges.
+/// What is true in a state.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// Accelerations, computed in double-double and rounded once: ω̇, a_O, then τ̇ in the order of the scene's
+    /// hinges.
+    pub accelerations: Vec<f64>,
+    /// What deviations are relative to where these, or forces, cancel to nothing.
+    pub floor: Floor,
+}
+
+/// The truth in each state.
 ///
 /// # Errors
-/// [`VerifyError::NoReference`] where a state has none.
-pub fn truth(test_case: &TestCase) -> Result<Vec<Vec<f64>>, VerifyError> {
+/// [`VerifyError::NoReference`] where a state has no accelerations.
+pub fn truth(test_case: &TestCase) -> Result<Vec<Truth>, VerifyError> {
     let mut referee = Referee::new(test_case, 1);
-    (0..test_case.states().len()).map(|i| Ok(referee.reference(i)?.truth())).collect()
+    let mut of_state = |i| {
+        let reference = referee.reference(i)?;
+        Ok(Truth { accelerations: reference.truth(), floor: reference.floor })
+    };
+    (0..test_case.states().len()).map(&mut of_state).collect()
 }
 
 /// What has to act in each state for these accelerations, computed in double-double by the recursion's mass

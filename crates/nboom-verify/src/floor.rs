@@ -17,15 +17,17 @@ const CANCELLED: f64 = 1e-3;
 /// sum of the squares of ω and of the rates of hinges that turn. Divided by inertias that is Ω² for accelerations: a body that
 /// spins at Ω has points with accelerations Ω² r even where ω̇ is 0.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Floor {
+pub struct Floor {
+    /// Of ω̇, a_O and τ̇.
     pub accelerations: f64,
+    /// Of right sides, and of forces and torques.
     pub forcing: f64,
 }
 
 impl Floor {
     /// For a state, hinges in the order of the tree's links, and the matrix of kinetic energy over
     /// (a_O, ω̇, τ̇).
-    pub fn new(tree: &WeldedTree<f64>, state: &RandomState, matrix: &[f64]) -> Self {
+    pub(crate) fn new(tree: &WeldedTree<f64>, state: &RandomState, matrix: &[f64]) -> Self {
         let RandomState { omega, tau, .. } = state;
         let turns = |(link, rate): (&Link<f64>, &f64)| match link.joint {
             Joint::Revolute => rate * rate,

@@ -50,11 +50,12 @@ mod reference;
 mod test_case;
 mod work_precision;
 
-pub use certificate::{Certificate, certify, drives, truth};
+pub use certificate::{Certificate, Truth, certify, drives, truth};
 pub use code::ComparedCode;
 pub use comparison::{Comparison, Row, compare};
 pub use dense::Dense;
 pub use error::VerifyError;
+pub use floor::Floor;
 pub use label::{Hinges, Label, Quantity};
 pub use test_case::{NotCovered, RandomState, TestCase};
 pub use work_precision::{TimedRun, WorkPrecision};

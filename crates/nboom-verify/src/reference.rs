@@ -104,7 +104,7 @@ pub(crate) struct Reference<'a> {
     test_case: &'a TestCase,
     recursion: OneState<f64>,
     exact: OneState<DoubleDouble>,
-    floor: Floor,
+    pub floor: Floor,
     /// Of the mass matrix, scaled to diagonal 1.
     pub condition: f64,
 }

@@ -120,6 +120,21 @@ impl TestCase {
         Ok(Self { scene, seed, held, states, dynamics, recognised })
     }
 
+    /// Whether there are accelerations in each state, so that code is worth timing.
+    ///
+    /// # Errors
+    /// [`VerifyError::NoReference`] with the first state in which nothing has inertia in a direction that is free.
+    pub fn check_regular(&self) -> Result<(), VerifyError> {
+        let mut recursion = self.dynamics.clone();
+        for (i, RandomState { beta, .. }) in self.states.iter().enumerate() {
+            if let Some(hinge) = recursion.singular_hinge(beta) {
+                let hinge = hinge.map(|hinge| self.scene.label(hinge));
+                return Err(VerifyError::NoReference { state: i + 1, hinge });
+            }
+        }
+        Ok(())
+    }
+
     /// For each hinge of the scene, the angle at which it is held.
     pub fn held(&self) -> &[Option<f64>] {
         &self.held

@@ -3,8 +3,8 @@
 mod support;
 
 use nboom_formulation::{Embedding, Formulation, Layout};
-use nboom_model::{Scene, Topology};
-use nboom_scalar::{Isa, Kernel, Real, Routine, Vec3};
+use nboom_model::{MassProperties, Scene, Topology};
+use nboom_scalar::{Isa, Kernel, Real, Routine, Sym3, Vec3};
 use nboom_sim::Fit;
 use nboom_verify::{ComparedCode, Label, TestCase, VerifyError, compare};
 
@@ -34,6 +34,21 @@ fn parameters_that_overflow_are_refused() {
     assert!(parameter.ends_with("of link 2 of appendage 1") && !value.is_finite(), "{parameter}");
     let message = refused.expect_err("not finite").to_string();
     assert!(message.ends_with("a finite one expected"), "{message}");
+}
+
+#[test]
+fn states_without_accelerations_are_refused() {
+    let mut description = s2_p_scene();
+    let test_case = |description| TestCase::new(Scene::new(description).expect("bodies"), 9, 1);
+    let regular = test_case(description.clone()).expect("finite");
+    assert!(regular.check_regular().is_ok());
+    // The last segment is a point on its hinge's axis.
+    description.bodies[3].mass_properties = MassProperties::new(1.0, Vec3::zero(), Sym3::zero());
+    let refused = test_case(description).expect("finite").check_regular();
+    let Err(VerifyError::NoReference { state: 1, hinge: Some(hinge) }) = refused else {
+        panic!("{refused:?}")
+    };
+    assert_eq!(hinge.to_string(), "2,2");
 }
 
 /// Assumes the first `ASSUMED` of three parameters.

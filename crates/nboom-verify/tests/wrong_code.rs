@@ -205,7 +205,8 @@ fn a_certificate_tells_right_code_from_wrong() {
 fn the_truth_is_that_of_double_double() {
     let test_case = s2_p();
     let truth = truth(&test_case).expect("accelerations");
-    let certificate = certify(&test_case, |i| truth[i].clone()).expect("accelerations");
+    let certificate =
+        certify(&test_case, |i| truth[i].accelerations.clone()).expect("accelerations");
     assert_eq!(certificate.from_double_double, 0.0);
     // The recursion in f64 has errors of its own.
     let rounding = certificate.from_recursion;

@@ -244,7 +244,7 @@ impl Code {
         let library = || match options.formulation {
             None | Some(Form::Recursive) => Ok(Self::Recursion),
             Some(Form::Closed(formulation)) => {
-                formulation.covers(recursion.tree()).map_err(|Uncovered { link }| {
+                formulation.covers(recursion.tree()).map_err(|Uncovered { link, .. }| {
                     let hinge = scene.label(recursion.tree().links[link].hinge);
                     format!("formulation {formulation} does not cover hinge {hinge}")
                 })?;

@@ -1,4 +1,4 @@
-use nboom_formulation::Formulation;
+use nboom_formulation::{Formulation, Why};
 use nboom_sections::SectionError;
 
 /// Why nothing was generated.
@@ -139,11 +139,13 @@ pub enum CodegenError {
         formulation: Formulation,
     },
     /// A scene has a body that is not rigid or carries a rotor, or an appendage of too many links.
-    #[error("scene {scene}: code is not generated for hinge {hinge} or what follows it")]
+    #[error("scene {scene}: code is not generated for what hinge {hinge} carries, which {why}")]
     NotCovered {
         /// The scene.
         scene: String,
         /// The first hinge that does not.
         hinge: String,
+        /// What keeps it out.
+        why: Why,
     },
 }

@@ -167,9 +167,9 @@ pub(crate) fn mode_with(scene: &Scene, free: &[bool]) -> Mode {
 /// The chains and paddles of a scene in which the hinges that are not `free` are held.
 pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Recognised, CodegenError> {
     let tree = held(scene, free, angle);
-    recognise(&tree).map_err(|Uncovered { link }| {
+    recognise(&tree).map_err(|Uncovered { link, why }| {
         let hinge = scene.label(tree.links[link].hinge).to_string();
-        CodegenError::NotCovered { scene: scene.name.clone(), hinge }
+        CodegenError::NotCovered { scene: scene.name.clone(), hinge, why }
     })
 }
 

@@ -181,6 +181,7 @@ fn columns_and_times_that_nobody_has_are_refused() {
         (["--times", "1,0.5"], "--times: found 0.5 after 1, expected ascending times"),
         (["--times", "1,11"], "found 11, expected a time from 0, the start, to 10, the end"),
         (["--times", "1,,2"], "a number expected"),
+        (["--times", ""], "a number expected"),
         (["--times", "bad.txt"], "bad.txt:2: found `soon`, expected a finite number"),
         (["--times", "nowhere.txt"], "nowhere.txt"),
     ] {

@@ -29,6 +29,7 @@ use values::{Sizes, Values};
 
 pub use hinges::NEVER;
 pub(crate) use model_error::phrases;
+pub(crate) use nboom_model::shown;
 pub use symbols::{Absent, Extent, Group, NumberKind, Numbering, SYMBOLS, Symbol};
 pub use values::LARGEST_COUNT;
 pub use write::{DeckDefect, DeckObstacle, WrittenDeck, write_deck};
@@ -83,15 +84,5 @@ fn assemble(name: &str, values: &Values, sizes: Sizes, report: &mut Report<'_>) 
             model_error::report(&errors, &mut builder);
             None
         }
-    }
-}
-
-/// A number as messages show it.
-pub(crate) fn shown(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || (1e-4..1e15).contains(&size) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
     }
 }

@@ -1,4 +1,4 @@
-use nboom_model::{BodyName, ExternalPart, HingeLabel, ModelError};
+use nboom_model::{BodyName, ExternalPart, HingeLabel, MassDefect, ModelError};
 
 use super::assignment::MOST_STATIONS;
 use super::builder::Builder;
@@ -9,6 +9,11 @@ pub(crate) fn report(errors: &[ModelError], builder: &mut Builder<'_, '_, '_>) {
     for error in errors {
         let (name, index) = responsible(error, builder);
         let message = match error {
+            // Slices without mass are no wheel.
+            ModelError::Mass {
+                defect: MassDefect::WheelInertia | MassDefect::WheelCarries,
+                ..
+            } if name == "DELM" => MassDefect::Mass(0.0).to_string(),
             ModelError::Mass { defect, .. } => defect.to_string(),
             other => other.to_string(),
         };

@@ -28,7 +28,7 @@ impl Reader<'_, '_> {
         let name = self.body_name(fields).unwrap_or_default();
         let mass_properties = self.mass_properties(fields);
         let mut body = BodyDraft::new(name, mass_properties, Vec3::zero(), Vec3::unit_x());
-        body.on = self.inboard(fields);
+        body.on = self.text(fields, "on").map(str::to_owned);
         let tip = self.vector(fields, "tip");
         body.tip = tip.unwrap_or_else(|| words::tip_of(&mass_properties));
         for joint in [Joint::Revolute, Joint::Prismatic] {
@@ -58,10 +58,6 @@ impl Reader<'_, '_> {
             self.error(&fields.place("name"), "name", &quoted(name), BODY_NAME);
         }
         Some(name)
-    }
-
-    fn inboard(&mut self, fields: &Fields<'_>) -> Option<String> {
-        self.text(fields, "on").and_then(words::inboard)
     }
 
     fn mount(&mut self, hinge: &Fields<'_>) -> Mount {

@@ -233,7 +233,12 @@ static BODY: TableKind = choice(
      slide.axes turns them.",
     &[
         required("name", Text, "What messages, releases and other bodies call it; unique."),
-        optional("on", Text, "Name of the inboard body; by default the main body."),
+        optional(
+            "on",
+            Text,
+            "Name of the inboard body; by default the main body, which `main_body` means too if no body is \
+             called so.",
+        ),
         required("mass", Number, "Mass of the body; 0 of a gimbal ring or a wheel."),
         required("mass_centre", Numbers(3), "Mass centre, from the hinge, body axes."),
         required("inertia", Inertia(&INERTIA), "Inertia about the mass centre, body axes."),

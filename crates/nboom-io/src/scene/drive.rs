@@ -4,6 +4,7 @@ use nboom_model::{Base, Drive};
 
 use super::catalog::BASES;
 use super::fields::{Fields, Reader};
+use crate::deck::shown;
 use crate::words;
 
 impl Reader<'_, '_> {
@@ -25,6 +26,13 @@ impl Reader<'_, '_> {
     fn drive(&mut self, table: &Fields<'_>) -> Option<Drive> {
         let axis = self.direction(table, "axis");
         let (rate, speed) = (self.angles_over_time(table, "rate"), self.rows(table, "speed"));
+        for (key, rows) in [("rate", &rate), ("speed", &speed)] {
+            if let Some(back) = rows.windows(2).find(|pair| pair[0][0] >= pair[1][0]) {
+                let found = format!("time {} after time {}", shown(back[1][0]), shown(back[0][0]));
+                self.error(&table.place(key), key, &found, "ascending times");
+                return None;
+            }
+        }
         Some(words::prescribed(axis?, &rate, &speed))
     }
 }

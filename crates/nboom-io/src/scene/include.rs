@@ -173,7 +173,10 @@ fn admitted(
     if known.len() >= MOST_FILES {
         return Err(("one more file".to_owned(), format!("at most {MOST_FILES} files")));
     }
-    let text = read_text(&canonical, LARGEST)
-        .map_err(|error| (format!("which cannot be read: {error}"), "a text file".to_owned()))?;
+    let text = read_text(&canonical, LARGEST).map_err(|error| {
+        let told = error.to_string();
+        let (found, expected) = told.split_once(", expected ").unwrap_or((&told, "a text file"));
+        (format!("which cannot be read: {found}"), expected.to_owned())
+    })?;
     Ok((canonical, text))
 }

@@ -29,9 +29,10 @@ impl Responsible<'_> {
         error: &DraftError,
     ) {
         let body = &self.bodies[error.body];
-        // No body leads to itself.
+        // No body leads to itself, and none to the copies of one by their common name.
         let others = || draft.bodies.iter().enumerate().filter(|(i, _)| *i != error.body);
         let names = || others().map(|(_, body)| body.name.as_str());
+        let meant = |name: &str| suggest::nearest(name, names()).filter(|meant| *meant != name);
         let (at, symbol, help) = match &error.defect {
             DraftDefect::NameTaken(_) => (body.place("name"), "name", None),
             DraftDefect::Inboard { name, .. } => {
@@ -44,7 +45,7 @@ impl Responsible<'_> {
                 let leads = |table: &Fields<'_>| reader.text(table, "to") == Some(name);
                 let table = coupling.into_iter().find(leads);
                 let at = table.map_or_else(|| body.at.clone(), |table| table.place("to"));
-                (at, "to", suggest::nearest(name, names()))
+                (at, "to", meant(name))
             }
             DraftDefect::TriggerJoint { waits, .. } => {
                 let key = match waits {
@@ -63,7 +64,7 @@ impl Responsible<'_> {
                     "when"
                 };
                 let at = release.map_or_else(|| body.at.clone(), |table| table.place(key));
-                (at, key, suggest::nearest(name, names()))
+                (at, key, meant(name))
             }
             _ => (body.place("repeat"), "repeat", None),
         };
@@ -105,7 +106,13 @@ impl Responsible<'_> {
                     BodyName::MainBody => outer("main_body"),
                     BodyName::Segment(label) => body(label),
                 };
-                (table, if matches!(defect, MassDefect::Mass(_)) { "mass" } else { "inertia" })
+                let key = match defect {
+                    MassDefect::Mass(_) => "mass",
+                    MassDefect::CenterOfMass(_) | MassDefect::Overflow { .. } => "mass_centre",
+                    MassDefect::WheelSlides => "slide",
+                    _ => "inertia",
+                };
+                (table, key)
             }
             ModelError::NotFinite { body: BodyName::Segment(label), quantity } => match *quantity {
                 "hinge point or outer end" => (hinge(label), "at"),
@@ -127,6 +134,10 @@ impl Responsible<'_> {
                 },
             ),
             ModelError::Trigger { label, .. } => (hinge(label), "release"),
+            ModelError::ReleaseDelay { label, .. } => {
+                let hinge = hinge(label);
+                (hinge.inner("release").unwrap_or(hinge), "by")
+            }
             ModelError::TablePoints { table, .. } => {
                 let number = scene.torque_tables.get(table - 1).map_or(0, |table| table.hinge);
                 let body = self.body(number);

@@ -110,9 +110,13 @@ impl Solver<'_> {
             let (found, expected) = unknown(name, self.known.keys().copied());
             return Err(wrong(found, expected));
         };
-        if self.under_way.iter().any(|other| other == name) || self.under_way.len() == DEEPEST {
+        if self.under_way.iter().any(|other| other == name) {
             let expected = "parameters that do not depend on each other in a circle".to_owned();
             return Err(wrong(format!("`${name}` on the way to itself"), expected));
+        }
+        if self.under_way.len() == DEEPEST {
+            let expected = format!("chains of at most {DEEPEST} parameters");
+            return Err(wrong(format!("`${name}` after {DEEPEST} others"), expected));
         }
         let value = match &entry.node.value {
             Value::Number(number) => *number,

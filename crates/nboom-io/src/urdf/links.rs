@@ -1,11 +1,11 @@
 //! The elements of a robot.
 
-use nboom_model::{Joint, MassProperties};
+use nboom_model::Joint;
 use nboom_scalar::Vec3;
 use roxmltree::{Document, Node};
 
 use super::left_out::{Kind, LeftOut};
-use super::reader::{Placement, Reader};
+use super::reader::{Inertial, Placement, Reader};
 use crate::axes::unit_vector;
 use crate::diagnostic::quoted;
 use crate::scene::suggest;
@@ -25,8 +25,8 @@ pub(super) struct Link<'d> {
     pub name: &'d str,
     /// The byte at which it begins.
     pub at: usize,
-    /// In its own frame; none where it says nothing about it.
-    pub body: Option<MassProperties>,
+    /// None where it says nothing about it.
+    pub inertial: Option<Inertial>,
 }
 
 /// What joins a link to another one.
@@ -39,6 +39,8 @@ pub(super) struct JointElement<'d> {
     pub child: &'d str,
     /// The frame of the child in that of the parent, at angle zero.
     pub placement: Placement,
+    /// The joint that it mimics, and the byte at which it says so.
+    pub mimics: Option<(&'d str, usize)>,
 }
 
 /// How a child moves.
@@ -100,7 +102,7 @@ impl<'d> Robot<'d> {
     fn read_link(&mut self, node: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
         reader.check_attributes(node);
         let (name, at) = (reader.text(node, "name"), node.range().start);
-        let body = reader.inertial(node);
+        let inertial = reader.inertial(node);
         for part in node.children().filter(Node::is_element) {
             if !part.has_tag_name("inertial") {
                 self.left_out.element(part.tag_name().name(), part.range().start);
@@ -113,7 +115,7 @@ impl<'d> Robot<'d> {
                 }
             }
         }
-        self.links.extend(name.map(|name| Link { name, at, body }));
+        self.links.extend(name.map(|name| Link { name, at, inertial }));
     }
 
     fn read_joint(&mut self, node: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
@@ -131,7 +133,11 @@ impl<'d> Robot<'d> {
         let motion = motion(node, name.unwrap_or_default(), reader);
         if let (Some(name), Some(parent), Some(child), Some(motion)) = (name, parent, child, motion)
         {
-            self.joints.push(JointElement { name, at, motion, parent, child, placement });
+            let mimic = node.children().find(|part| part.has_tag_name("mimic"));
+            let mimics =
+                mimic.and_then(|mimic| Some((mimic.attribute("joint")?, mimic.range().start)));
+            let joint = JointElement { name, at, motion, parent, child, placement, mimics };
+            self.joints.push(joint);
         }
     }
 
@@ -140,7 +146,12 @@ impl<'d> Robot<'d> {
         for part in node.children().filter(Node::is_element) {
             let (tag, at) = (part.tag_name().name(), part.range().start);
             match tag {
-                "limit" if has_limits => self.left_out.of_joint(Kind::Limits, at, name),
+                "limit" if has_limits => {
+                    // Not taken over, but told if they are none.
+                    let _: [Option<[f64; 1]>; 2] =
+                        ["lower", "upper"].map(|end| reader.numbers(part, end));
+                    self.left_out.of_joint(Kind::Limits, at, name);
+                }
                 "mimic" => self.left_out.of_joint(Kind::Mimicry, at, name),
                 "dynamics" => {
                     let friction = reader.numbers(part, "friction");

@@ -1,6 +1,7 @@
 //! Robots in URDF: text to links and joints to a scene.
 
 mod attributes;
+mod crowded;
 mod left_out;
 mod lines;
 mod links;
@@ -14,6 +15,7 @@ use crate::deck::phrases;
 use crate::diagnostic::{Position, Report};
 use crate::source::sha256;
 use crate::{Format, InputError, LegacySettings, SceneFile, SceneSettings};
+use crowded::{MOST_ATTRIBUTES, crowded};
 use lines::Lines;
 use links::Robot;
 use reader::Reader;
@@ -49,6 +51,12 @@ pub fn parse_robot(file: &str, text: &str, name: &str) -> Result<SceneFile, Inpu
 }
 
 fn read(text: &str, name: &str, report: &mut Report<'_>) -> Option<Scene> {
+    if let Some(at) = crowded(text) {
+        let found = format!("an element with more than {MOST_ATTRIBUTES} attributes");
+        let expected = "at most that many";
+        report.error(Lines::of(text).position(at), "robot", found, expected);
+        return None;
+    }
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => {

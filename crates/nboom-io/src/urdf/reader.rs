@@ -21,6 +21,13 @@ pub(super) struct Placement {
     pub rot: Mat3<f64>,
 }
 
+/// What a link says of its mass, in its own frame, and the bytes at which it does.
+pub(super) struct Inertial {
+    pub body: MassProperties,
+    pub mass_at: usize,
+    pub inertia_at: usize,
+}
+
 impl Placement {
     pub fn none() -> Self {
         Self { point: Vec3::zero(), rot: Mat3::identity() }
@@ -114,7 +121,7 @@ impl<'d> Reader<'_, 'd, '_> {
     }
 
     /// What `inertial` says of a link, in its frame.
-    pub fn inertial(&mut self, link: Node<'d, 'd>) -> Option<MassProperties> {
+    pub fn inertial(&mut self, link: Node<'d, 'd>) -> Option<Inertial> {
         let inertial = self.child(link, "inertial")?;
         let placement = self.placement(inertial);
         let mass = self.child(inertial, "mass");
@@ -125,10 +132,12 @@ impl<'d> Reader<'_, 'd, '_> {
             }
         }
         let (mass, tensor) = (mass?, tensor?);
+        let (mass_at, inertia_at) = (mass.range().start, tensor.range().start);
         let mass = self.number(mass, "value");
         let [xx, xy, xz] = ["ixx", "ixy", "ixz"].map(|name| self.number(tensor, name));
         let [yy, yz, zz] = ["iyy", "iyz", "izz"].map(|name| self.number(tensor, name));
         let inertia = Sym3 { xx, yy, zz, xy, xz, yz };
-        Some(placement.of_body(&MassProperties::new(mass, Vec3::zero(), inertia)))
+        let body = placement.of_body(&MassProperties::new(mass, Vec3::zero(), inertia));
+        Some(Inertial { body, mass_at, inertia_at })
     }
 }

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use nboom_model::{BodyDraft, Dashpot, Hinge, MassProperties, SceneDescription, SceneDraft};
+use nboom_model::{
+    BodyDraft, Dashpot, Hinge, MassDefect, MassProperties, SceneDescription, SceneDraft,
+};
 
-use super::links::{JointElement, Link, Motion, Robot};
-use super::reader::{Placement, Reader};
+use super::links::{JointElement, Motion, Robot};
+use super::reader::{Inertial, Placement, Reader};
 use crate::deck::phrases;
 use crate::diagnostic::quoted;
 use crate::scene::{BODY_NAME, folder_name, is_body_name, suggest};
@@ -60,6 +62,7 @@ struct Outboard {
 impl Outboard {
     /// Reports names that two have or none, and links that two joints carry.
     fn find(robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
+        let are_joints_right = reader.report.errors.is_empty();
         let mut numbers = BTreeMap::new();
         for (i, link) in robot.links.iter().enumerate() {
             if !is_body_name(link.name) {
@@ -75,6 +78,18 @@ impl Outboard {
             if joint_names.insert(joint.name, ()).is_some() {
                 let found = format!("a second joint {}", quoted(joint.name));
                 reader.error_at(joint.at, "joint", found, "names of their own");
+            }
+        }
+        // A joint that is wrong, and told, is none of these.
+        let joints = robot.joints.iter().filter(|_| are_joints_right);
+        for joint in joints {
+            if let Some((name, at)) =
+                joint.mimics.filter(|(name, _)| !joint_names.contains_key(name))
+            {
+                let found = format!("{} of joint {}", quoted(name), quoted(joint.name));
+                let others = joint_names.keys().copied().filter(|other| *other != joint.name);
+                let expected = known("a joint", name, others);
+                reader.error_at(at, "mimic", found, expected);
             }
         }
         let links = robot.links.len();
@@ -131,7 +146,7 @@ impl Outboard {
         self.report_circle(robot, reader);
         while let [joint] = self.joints[root][..]
             && matches!(robot.joints[joint].motion, Motion::Floats)
-            && robot.links[root].body.is_none()
+            && robot.links[root].inertial.is_none()
         {
             root = self.child[joint];
         }
@@ -181,17 +196,23 @@ fn report_unknown(
     reader: &mut Reader<'_, '_, '_>,
 ) {
     let found = format!("{} of joint {}", quoted(name), quoted(joint.name));
-    let meant = suggest::nearest(name, robot.links.iter().map(|link| link.name));
-    let expected = match meant {
-        Some(meant) => format!("a link; {}", suggest::question(meant)),
-        None => "a link".to_owned(),
-    };
+    let expected = known("a link", name, robot.links.iter().map(|link| link.name));
     reader.error_at(joint.at, tag, found, expected);
+}
+
+/// What is expected in place of an unknown name, and which name may be meant.
+fn known<'n>(what: &str, name: &str, names: impl Iterator<Item = &'n str>) -> String {
+    match suggest::nearest(name, names) {
+        Some(meant) => format!("{what}; {}", suggest::question(meant)),
+        None => what.to_owned(),
+    }
 }
 
 /// A rigid part: links that are fixed to each other, as one body in the frame of the first.
 struct Part {
     first: usize,
+    /// The links that say something of their mass.
+    links: Vec<usize>,
     joined: MassProperties,
     /// Whether another part hangs on it.
     carries: bool,
@@ -199,12 +220,14 @@ struct Part {
 
 impl Part {
     fn of(first: usize) -> Self {
-        Self { first, joined: MassProperties::nothing(), carries: false }
+        let joined = MassProperties::nothing();
+        Self { first, links: Vec::new(), joined, carries: false }
     }
 
-    fn add(&mut self, link: &Link<'_>, placement: &Placement) {
-        let Some(body) = &link.body else { return };
-        self.joined = self.joined.joined_with(&placement.of_body(body));
+    fn add(&mut self, robot: &Robot<'_>, welded: &Welded) {
+        let Some(Inertial { body, .. }) = &robot.links[welded.link].inertial else { return };
+        self.joined = self.joined.joined_with(&welded.placement.of_body(body));
+        self.links.push(welded.link);
     }
 
     /// Reports what no body is; a part on which another one hangs may be without mass.
@@ -218,11 +241,23 @@ impl Part {
             }
             return;
         }
-        if let Some(defect) = self.joined.defect() {
-            let (found, expected) = phrases(&defect.to_string());
-            let found = format!("{found} of link {}", quoted(link.name));
-            reader.error_at(link.at, "inertial", found, expected);
-        }
+        let Some(defect) = self.joined.defect() else { return };
+        let own = |&link: &usize| {
+            let link = &robot.links[link];
+            let inertial = link.inertial.as_ref()?;
+            let defect = inertial.body.defect()?;
+            let (at, tag) = match defect {
+                MassDefect::Mass(_) | MassDefect::Overflow { .. } => (inertial.mass_at, "mass"),
+                _ => (inertial.inertia_at, "inertia"),
+            };
+            Some((at, tag, link, defect))
+        };
+        // What is wrong with one of several links is wrong with all.
+        let own = self.links.iter().find_map(own);
+        let (at, tag, link, defect) = own.unwrap_or((link.at, "inertial", link, defect));
+        let (found, expected) = phrases(&defect.to_string());
+        let found = format!("{found} of link {}", quoted(link.name));
+        reader.error_at(at, tag, found, expected);
     }
 }
 
@@ -241,7 +276,7 @@ impl Parts {
     }
 
     fn add(&mut self, robot: &Robot<'_>, welded: &Welded) {
-        self.part(welded.body).add(&robot.links[welded.link], &welded.placement);
+        self.part(welded.body).add(robot, welded);
     }
 
     /// The link outboard of a joint of a welded link.

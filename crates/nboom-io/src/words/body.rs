@@ -60,20 +60,16 @@ pub fn body(name: &str) -> BodyWords {
     }
 }
 
-/// The inboard body that a name means; `None` is the main body.
-pub(crate) fn inboard(name: &str) -> Option<String> {
-    (name != "main_body" && name != "main body").then(|| name.to_owned())
-}
-
 /// The outer end of a body that does not say it, twice as far as its mass centre.
 pub(crate) fn tip_of(properties: &MassProperties) -> Vec3<f64> {
     properties.center_of_mass * 2.0
 }
 
 impl BodyWords {
-    /// Name of the inboard body; by default the main body.
+    /// Name of the inboard body; by default the main body, which `main_body` means too if no body is called
+    /// so.
     pub fn on(mut self, name: &str) -> Self {
-        self.on = inboard(name);
+        self.on = Some(name.to_owned());
         self
     }
 

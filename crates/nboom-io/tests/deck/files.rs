@@ -97,6 +97,18 @@ fn other_encodings_only_in_comments() {
 }
 
 #[test]
+fn scenes_and_robots_are_utf_8() {
+    for name in ["latin.toml", "latin.urdf"] {
+        let Err(error) = Scratch::new(name, b"# fine\nname = \"M\xC4rz\"\n").read() else {
+            panic!("{name}: an error expected");
+        };
+        assert!(matches!(error, InputError::NotUtf8 { line: 2, offset: 16, byte: 0xC4, .. }));
+        let message = ":2: found the byte 0xC4 at offset 16, expected text in UTF-8";
+        assert!(error.to_string().ends_with(message), "{error}");
+    }
+}
+
+#[test]
 fn a_hundred_megabytes_are_refused_at_once() {
     let file = Scratch::new("large.nml", b"");
     File::options()

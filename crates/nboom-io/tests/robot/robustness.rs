@@ -56,6 +56,23 @@ fn depth_and_entities_have_bounds() {
     }
 }
 
+/// The parser compares each attribute, and each namespace, with all others of the element.
+#[test]
+fn elements_have_a_bounded_number_of_attributes() {
+    let robot = |tag: &str, name: &str, count: usize| {
+        let attributes: String = (0..count).map(|i| format!(" {name}{i}=\"&gt; '\"")).collect();
+        format!("<!-- <a b=\"> -->\n<robot name=\"a\">\n<{tag}{attributes}/></robot>")
+    };
+    for name in ["a", "xmlns:a"] {
+        let told = parse_robot("a.urdf", &robot("link", name, 200_000), "a").expect_err("too many");
+        let message =
+            "a.urdf:3:1: robot: found an element with more than 1000 attributes, expected at";
+        assert!(told.to_string().starts_with(message), "{told}");
+        let told = parse_robot("a.urdf", &robot("gazebo", name, 1000), "a").expect_err("no link");
+        assert!(told.to_string().contains("no link"), "{told}");
+    }
+}
+
 /// A chain of this many links.
 fn chain(links: usize) -> String {
     let body = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" \

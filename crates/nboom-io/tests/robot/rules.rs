@@ -90,7 +90,7 @@ fn a_robot_may_float_on_a_root_without_mass() {
 
 #[test]
 fn what_is_left_out_is_named() {
-    let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"x\"/><dynamics friction=\"1\"/>\
+    let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"base arm\"/><dynamics friction=\"1\"/>\
                  <safety_controller/>";
     let file = robot(&format!(
         "<transmission/><transmission/>{}",
@@ -128,6 +128,21 @@ fn what_is_left_out_of_an_inertial_is_named() {
     let file = parse_robot("arm.urdf", &text, "file").expect("a robot");
     let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
     assert_eq!(told, ["inertai"]);
+}
+
+/// The tree of a robot is that of the scene that it is written as, whatever its links are called.
+#[test]
+fn a_link_may_have_the_name_of_the_main_body() {
+    for name in ["main_body", "main body"] {
+        let text = format!("<link name=\"{name}\">{BODY}</link>");
+        let joints = [joint("continuous", "base", name, ""), joint("continuous", name, "arm", "")];
+        let scene = robot(&format!("{text}{}", joints.concat()));
+        assert_eq!(scene.scene.bodies[1].inboard, Some(0));
+        let again = parse_scene("a.toml", &write_scene(&scene), "a", None, &ReadOptions::default());
+        let again = again.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(*again.scene, *scene.scene);
+        assert_eq!([0, 1].map(|i| again.scene.name_of(i)), [Some(name), Some("arm")]);
+    }
 }
 
 /// A scene that is made of a robot can be read, whatever the robot is called.

@@ -2,7 +2,7 @@ use nboom_io::{ReadOptions, parse_scene};
 use nboom_model::{HingeState, Release, UnitSystem};
 use nboom_scalar::{Mat3, Vec3};
 
-use super::{BUS, body, right};
+use super::{BUS, body, right, wrong};
 
 #[test]
 fn what_is_left_out_has_the_default_that_people_expect() {
@@ -149,5 +149,21 @@ fn the_names_of_unit_sets_are_those_of_the_model() {
     for units in UnitSystem::NAMED {
         let file = right(&format!("units = \"{}\"\n{BUS}", units.name()));
         assert_eq!(file.settings.units, Some(units));
+    }
+}
+
+/// What hangs on a body of that name would hang on another one.
+#[test]
+fn the_name_of_a_body_comes_before_that_of_the_main_body() {
+    for name in ["main_body", "main body"] {
+        let on = format!("on = \"{name}\"");
+        let alone = right(&format!("{BUS}{}{}", body("a", &on, ""), body("b", "on = \"a\"", "")));
+        assert_eq!(alone.scene.bodies[0].inboard, None);
+        let file = right(&format!("{BUS}{}{}", body(name, "", ""), body("b", &on, "")));
+        assert_eq!(file.scene.bodies[1].inboard, Some(0));
+        let again = right(&nboom_io::write_scene(&file));
+        assert_eq!(*again.scene, *file.scene);
+        let told = wrong(&format!("{BUS}{}", body(name, &on, "")));
+        assert!(told[0].contains("on: found inboard bodies in a circle"), "{told:?}");
     }
 }

@@ -146,3 +146,15 @@ fn what_is_wrong_with_a_coupling_is_told() {
         ),
     ]);
 }
+
+#[test]
+fn chains_of_parameters_have_a_limit_of_their_own() {
+    let chain = |length: usize| {
+        let links: String = (1..length).map(|i| format!("p{i} = \"$p{}\"\n", i + 1)).collect();
+        format!("{BUS}\n[parameters]\n{links}p{length} = 1.0\n")
+    };
+    right(&chain(100));
+    let told = wrong(&chain(101));
+    let message = "found `$p101` after 100 others, expected chains of at most 100 parameters";
+    assert!(told[0].contains(message), "{told:?}");
+}

@@ -1,6 +1,9 @@
 use std::collections::HashMap;
 
-use super::{BodyDraft, CouplingDraft, DraftDefect, DraftError, MOST_BODIES, ReleaseDraft, Repeat};
+use super::{
+    BodyDraft, CouplingDraft, DraftDefect, DraftError, MAIN_BODY_NAMES, MOST_BODIES, ReleaseDraft,
+    Repeat,
+};
 use crate::{Coupling, Release};
 
 /// A body of the scene, as the draft has it.
@@ -38,8 +41,10 @@ impl Names {
         }
         let mut outboard = vec![Vec::new(); bodies.len()];
         let mut on_main_body = Vec::new();
+        let is_main_body =
+            |on: &&String| MAIN_BODY_NAMES.contains(&on.as_str()) && !in_draft.contains_key(*on);
         for (i, body) in bodies.iter().enumerate() {
-            let Some(inboard) = &body.on else {
+            let Some(inboard) = body.on.as_ref().filter(|on| !is_main_body(on)) else {
                 on_main_body.push(i);
                 continue;
             };

@@ -118,7 +118,7 @@ fn what_has_no_code_is_refused() {
     description.rotors = vec![Rotor { body: Some(1), axis, inertia: 1e-3, speed }];
     let with_rotor = Scene::new(description).expect("the bodies are physical");
     let hinge = refused(&with_rotor, choices);
-    assert!(hinge.contains("hinge 1,2"), "{hinge}");
+    assert!(hinge.contains("what hinge 1,2 carries, which has a rotor"), "{hinge}");
 
     let report = Choices { formulation: Formulation::Report, ..choices };
     let long = generate(&satellite("long", &[60]), &report, &directory).expect_err("too long");

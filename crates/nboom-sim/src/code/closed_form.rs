@@ -41,6 +41,14 @@ pub enum NotCovered {
     },
 }
 
+/// What in `scene` keeps momenta from standing for rates.
+pub(crate) fn without_momenta(scene: &Scene) -> Option<&'static str> {
+    // The reaction of what holds it changes them.
+    let held = scene.base.is_held().then_some("a main body that is held");
+    // The momenta of rotors are not counted.
+    held.or((!scene.rotors.is_empty()).then_some("rotors"))
+}
+
 impl<R: Real> ClosedForm<R> {
     /// The closed form for the mode of `tree`.
     ///
@@ -51,7 +59,11 @@ impl<R: Real> ClosedForm<R> {
         tree: &WeldedTree<f64>,
         formulation: Formulation,
     ) -> Result<Self, NotCovered> {
-        formulation.covers(tree).map_err(|Uncovered { link }| NotCovered::Hinge {
+        if let Some(what) = without_momenta(scene).filter(|_| formulation == Formulation::Momentum)
+        {
+            return Err(NotCovered::Scene { formulation, what });
+        }
+        formulation.covers(tree).map_err(|Uncovered { link, .. }| NotCovered::Hinge {
             formulation,
             hinge: scene.label(tree.links[link].hinge),
         })?;

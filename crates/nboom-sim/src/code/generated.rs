@@ -1,6 +1,6 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
-use nboom_formulation::{Layout, Recognised, Uncovered};
-use nboom_model::{HingeLabel, Limb, Scene, WeldedTree};
+use nboom_formulation::{Layout, Recognised, Uncovered, Why};
+use nboom_model::{HingeLabel, Scene, WeldedTree};
 use nboom_scalar::{Kernel, Vec3};
 
 use crate::code::fit::{Fit, Repertoire};
@@ -31,15 +31,14 @@ struct HingeNumbers {
 #[non_exhaustive]
 pub enum NoRoutine {
     /// A body is not rigid or carries a rotor, or an appendage is too large.
-    #[error(
-        "no {}: what hinge {hinge} carries is not rigid, has a rotor, or has more than {} links",
-        routine(.form), Limb::MOST_LINKS
-    )]
+    #[error("no {}: what hinge {hinge} carries {why}", routine(.form))]
     Tree {
         /// The formulation asked for.
         form: Option<Form>,
         /// The first such hinge.
         hinge: HingeLabel,
+        /// What it is.
+        why: Why,
     },
     /// No routine is for the mode's topology, and none is for a larger one that it fits into and
     /// that is not too large for it.
@@ -92,12 +91,12 @@ pub enum Unmet {
 impl NoRoutine {
     /// Why none fits the tree of a mode of `scene`, which is not made of chains and paddles.
     pub fn of_tree(
-        Uncovered { link }: Uncovered,
+        Uncovered { link, why }: Uncovered,
         scene: &Scene,
         tree: &WeldedTree<f64>,
         form: Option<Form>,
     ) -> Self {
-        Self::Tree { form, hinge: scene.label(tree.links[link].hinge) }
+        Self::Tree { form, hinge: scene.label(tree.links[link].hinge), why }
     }
 
     /// What to do about it.

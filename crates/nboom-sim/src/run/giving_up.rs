@@ -1,7 +1,8 @@
 //! When a run is given up, and whom that is blamed on.
 
-use nboom_model::HingeLabel;
+use nboom_model::{Body, HingeLabel, Joint, MassProperties, Scene};
 use nboom_ode::StepError;
+use nboom_scalar::RigidInertia;
 
 use super::Run;
 use crate::error::SimError;
@@ -93,15 +94,15 @@ impl Run<'_> {
         without_bound.or(counts).map(|position| self.equations.scene.label(free[position]))
     }
 
-    /// Refuses a mode in which a link has no inertia about its hinge.
+    /// Refuses a mode in which a link has no inertia about its hinge, or none that double precision can hold.
     pub(super) fn check_regular(&self) -> Result<(), SimError> {
-        match self.equations.singular {
-            None => Ok(()),
-            Some(hinge) => Err(SimError::SingularMassMatrix {
-                time: self.situation.state.time,
-                hinge: hinge.map(|i| self.equations.scene.label(i)),
-            }),
+        let Some(hinge) = self.equations.singular else { return Ok(()) };
+        let (time, scene) = (self.situation.state.time, &self.equations.scene);
+        let of_hinge = hinge.map(|i| scene.label(i));
+        if has_inertia(scene, hinge) {
+            return Err(SimError::LostInertia { time, hinge: of_hinge });
         }
+        Err(SimError::SingularMassMatrix { time, hinge: of_hinge })
     }
 
     /// Refuses a mode in which a force acts along a line that moves and has no length.
@@ -141,5 +142,60 @@ impl Run<'_> {
         let hinge =
             events.last().and_then(|event| event.hinge).map(|i| self.equations.scene.label(i));
         Err(SimError::Chatter { time, hinge, events: count, within: time - since })
+    }
+}
+
+/// Whether a body alone, the main body or that of a hinge, has inertia in all directions or about its hinge.
+fn has_inertia(scene: &Scene, hinge: Option<usize>) -> bool {
+    let Some(hinge) = hinge else { return scene.main_body.principal_moments()[0] > 0.0 };
+    let Body { joint, axis, mass_properties, .. } = &scene.bodies[hinge];
+    let MassProperties { mass, center_of_mass, inertia } = *mass_properties;
+    match joint {
+        Joint::Revolute => {
+            axis.dot(RigidInertia::new(mass, center_of_mass, inertia).about_origin * *axis) > 0.0
+        }
+        Joint::Prismatic => mass > 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nboom_model::{Appendage, Hinge, Mount, SceneDescription, Segment};
+    use nboom_scalar::{Sym3, Vec3};
+
+    use super::*;
+    use crate::{Nobody, Options, Simulator};
+
+    /// What keeps a hub with a boom of this mass, so far out, from running.
+    fn refused(inertia: Sym3<f64>, mass: f64, out: f64) -> Option<SimError> {
+        let hub = MassProperties::new(100.0, Vec3::zero(), inertia);
+        let mut description = SceneDescription::at_rest("boom", hub, 0.1);
+        let boom = MassProperties::new(mass, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
+        let segments = vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }];
+        description
+            .attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y() * out), segments });
+        let scene = Scene::new(description).expect("bodies");
+        Simulator::new(&scene, Options::default()).run(&mut Nobody).err().map(|failed| failed.error)
+    }
+
+    #[test]
+    fn inertia_that_double_precision_cannot_hold_is_not_called_none() {
+        let inertia = Sym3::diagonal(40.0, 30.0, 20.0);
+        for (mass, out) in [(3.0, 2.0), (1e12, 2.0), (3.0, 1e4)] {
+            assert!(refused(inertia, mass, out).is_none(), "{mass:e}, {out:e}");
+        }
+        for (mass, out) in [(1e18, 2.0), (1e30, 2.0), (1e300, 2.0), (3.0, 1e120)] {
+            let error = refused(inertia, mass, out);
+            assert!(
+                matches!(error, Some(SimError::LostInertia { .. })),
+                "{mass:e}, {out:e}: {error:?}"
+            );
+        }
+        // A point in the hinge turns about its axis as it likes.
+        let error = refused(Sym3::zero(), 3.0, 0.0);
+        assert!(
+            matches!(error, Some(SimError::SingularMassMatrix { hinge: None, .. })),
+            "{error:?}"
+        );
     }
 }

@@ -1,10 +1,14 @@
 //! Control laws that command the speeds of rotors.
 
-use nboom_model::{Rotor, RotorSpeed, SceneDescription};
+use nboom_formulation::Formulation;
+use nboom_model::{Base, Rotor, RotorSpeed, SceneDescription};
 use nboom_scalar::Vec3;
-use nboom_sim::{Commands, Control, Nobody, Simulator, Snapshot, Summary};
+use nboom_sim::{
+    Commands, Control, Form, Nobody, Options, Path, Selection, Simulator, Snapshot, Summary,
+    simulate,
+};
 
-use crate::{HUB, Told, rotors, scene, tight};
+use crate::{HUB, Told, free, rotors, scene, tight};
 
 /// Inertia of a wheel about its axis.
 const WHEEL: f64 = 0.02;
@@ -81,6 +85,27 @@ fn a_wheel_holds_an_attitude() {
     assert!((last.rotor_speeds[0] - expected).abs() < 1e-8, "{}", last.rotor_speeds[0]);
     let energy = summary.conservation.energy;
     assert!(energy < 1e-10, "{energy:e}");
+}
+
+/// Momenta do not count the motors of rotors, nor what holds a main body: another formulation takes their place unless
+/// library code of this one is demanded.
+#[test]
+fn momenta_give_way_where_they_do_not_cover_a_scene() {
+    let with_wheel = hub(0.3, RotorSpeed::Constant(5.0));
+    let mut fixed = rotors(&[free(0.0, 0.5)], 4.0);
+    fixed.base = Base::Fixed;
+    for (description, what) in [(with_wheel, "rotors"), (fixed, "a main body that is held")] {
+        let scene = scene(description);
+        let formulation = Some(Form::Closed(Formulation::Momentum));
+        let options = Options { formulation, ..tight(4) };
+        let summary = simulate(&scene, &options, &mut Nobody).expect("it runs to its end");
+        let why = format!("formulation momentum does not cover {what}");
+        let Selection { path, formulation, reason, .. } = &summary.selections[0];
+        assert_eq!((*path, *formulation, &**reason), ("generic", "recursive", &*why));
+        let generic = Options { path: Path::Generic, ..options };
+        let refused = simulate(&scene, &generic, &mut Nobody).expect_err("not covered").error;
+        assert!(refused.to_string().contains(&why), "{refused}");
+    }
 }
 
 #[test]
