@@ -181,7 +181,8 @@ pub fn finish_sweep(
     let has_page = |case: u64| page_folder(directory, case).join(PAGE_FILE).is_file();
     let are_there =
         directory.join(PAGE_FILE).exists() && worst(&statistics).into_iter().all(has_page);
-    if !outputs.no_report && !(report.end == End::WasComplete && are_there) {
+    let has_pages = report.end == End::WasComplete && are_there;
+    if !(outputs.no_report || has_pages) {
         run_worst(&sweep, directory, routines, interrupts)?;
         write_page(&sweep, directory)?;
     }
