@@ -112,8 +112,13 @@ fn what_is_no_wheel_must_have_mass() {
     let across = refused(&|body| body.mass_properties.inertia.yy = 1e-3);
     let other_axis = refused(&|body| body.axis = Vec3::unit_y());
     let sliding = refused(&|body| body.joint = Joint::Prismatic);
-    for errors in [across, other_axis, sliding] {
-        assert!(matches!(errors[..], [ModelError::Mass { defect: MassDefect::Mass(0.0), .. }]));
+    for (errors, expected) in [
+        (across, MassDefect::WheelInertia),
+        (other_axis, MassDefect::WheelInertia),
+        (sliding, MassDefect::WheelSlides),
+    ] {
+        let [ModelError::Mass { defect, .. }] = &errors[..] else { panic!("{errors:?}") };
+        assert_eq!(*defect, expected);
     }
 }
 

@@ -164,7 +164,9 @@ mod tests {
     use nboom_scalar::{Sym3, Vec3};
 
     use super::*;
-    use crate::{Nobody, Options, Simulator};
+    use crate::options::Options;
+    use crate::run::Simulator;
+    use crate::run::record::Nobody;
 
     /// What keeps a hub with a boom of this mass, so far out, from running.
     fn refused(inertia: Sym3<f64>, mass: f64, out: f64) -> Option<SimError> {
