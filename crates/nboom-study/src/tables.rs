@@ -34,7 +34,7 @@ pub(crate) fn formats(csv: bool) -> u64 {
     u64::from(has_parquet()) + u64::from(csv || !has_parquet())
 }
 
-fn has_parquet() -> bool {
+pub(crate) fn has_parquet() -> bool {
     Format::Parquet.require().is_ok()
 }
 

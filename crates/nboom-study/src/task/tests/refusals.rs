@@ -43,7 +43,7 @@ fn another_study_is_refused_with_the_line_that_differs() {
 
 #[test]
 fn a_finished_sweep_without_its_table_is_told() {
-    let table = if cfg!(feature = "parquet") { CASES_FILE } else { CASES_CSV_FILE };
+    let table = if crate::tables::has_parquet() { CASES_FILE } else { CASES_CSV_FILE };
     for (gone, told) in
         [(&[CASES_FILE, CASES_CSV_FILE][..], table), (&[STATISTICS_FILE], STATISTICS_FILE)]
     {
