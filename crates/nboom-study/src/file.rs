@@ -302,7 +302,9 @@ impl<'t> Reader<'t> {
             if !names.insert(&result.column().name) {
                 let found =
                     format!("{}, twice or the name of a variable", quoted(&result.column().name));
-                self.error(&root.place_of("results"), "results", found, "each column once");
+                let expected =
+                    "each column once; hinges whose names are too alike by their numbers, as 1,2";
+                self.error(&root.place_of("results"), "results", found, expected);
             }
         }
         let mut names = BTreeSet::new();

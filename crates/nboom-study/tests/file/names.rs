@@ -49,3 +49,10 @@ fn what_is_suggested_is_right() {
     let [(6, told)] = &errors(SCENE, &wrong)[..] else { panic!("one error") };
     assert!(told.contains("did you mean `final omega_x`?"), "{told}");
 }
+
+#[test]
+fn results_with_one_name_are_told_how_to_be_told_apart() {
+    let study = STUDY.replace("\"final omega_z\"", "\"final omega_z\", \"final  omega_z\"");
+    let [(6, told)] = &errors(SCENE, &study)[..] else { panic!("one error") };
+    assert!(told.contains("`final_omega_z`, twice") && told.contains("by their numbers"), "{told}");
+}
