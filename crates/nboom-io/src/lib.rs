@@ -98,7 +98,7 @@ pub use scene::{
     FOLDER_NAME, Holds, Key, ReadOptions, SCENE, SceneDocument, Slot, TableKind, UnknownPath,
     all_tables, folder_name, parse_scene, schema, write_scene,
 };
-pub use source::{Format, read_text, read_utf8, sha256};
+pub use source::{Format, read_text, sha256};
 pub use urdf::parse_robot;
 
 /// What a file contains.

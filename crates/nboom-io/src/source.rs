@@ -4,8 +4,8 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
+use crate::InputError;
 use crate::scene::folder_name;
-use crate::{Diagnostic, InputError};
 
 /// The longest file of a scene that is read \[bytes\].
 pub(crate) const LARGEST: u64 = 16 << 20;
@@ -94,30 +94,6 @@ pub fn sha256(bytes: &[u8]) -> String {
 /// When the file cannot be read, is a directory or a device, is too long or is not text in UTF-8.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, InputError> {
     decode(path, read_bytes(path, limit)?)
-}
-
-/// As [`read_text`], but of a file that has to be UTF-8.
-///
-/// # Errors
-/// Those of [`read_text`], and the line with the first byte that is not UTF-8; `symbol` says what the file is.
-pub fn read_utf8(path: &Path, limit: u64, symbol: &str) -> Result<String, InputError> {
-    let error = match String::from_utf8(read_bytes(path, limit)?) {
-        Ok(text) => return decode(path, text.into_bytes()),
-        Err(error) => error,
-    };
-    let (before, rest) = error.as_bytes().split_at(error.utf8_error().valid_up_to());
-    let before = String::from_utf8_lossy(before);
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    Err(InputError::Content(vec![Diagnostic {
-        file: path.display().to_string(),
-        line: before.matches('\n').count() + 1,
-        column: line.chars().count() + 1,
-        symbol: symbol.to_owned(),
-        found: format!("the byte 0x{:02X}", rest[0]),
-        expected: "text in UTF-8".to_owned(),
-        excerpt: None,
-        help: None,
-    }]))
 }
 
 fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, InputError> {

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use nboom_io::{
     Diagnostic, FOLDER_NAME, InputError, ReadOptions, SceneDocument, SceneFile, folder_name,
-    read_utf8,
+    read_text,
 };
 use nboom_results::with_causes;
 use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code};
@@ -45,7 +45,7 @@ impl Study {
     /// # Errors
     /// As [`Self::read`].
     pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Self, InputError> {
-        let text = read_utf8(path, LONGEST, "study")?;
+        let text = read_text(path, LONGEST)?;
         let file = path.display().to_string();
         let mut reader = Reader::new(&file, &text);
         let (table, errors) = DeTable::parse_recoverable(&text);

@@ -71,6 +71,6 @@ fn bytes_that_are_not_utf_8_are_told_with_their_line() {
     bytes.splice(at..at, [0xe9, b'"']);
     fs::write(&path, bytes).expect("writable");
     let told = Study::read(&path).expect_err("Latin-1").to_string();
-    assert!(told.contains("study.toml:36:13: study: found the byte 0xE9"), "{told}");
+    assert!(told.contains("study.toml:36: found the byte 0xE9"), "{told}");
     assert!(told.contains("UTF-8"), "{told}");
 }
