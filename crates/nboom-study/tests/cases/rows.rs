@@ -133,6 +133,16 @@ fn faults_change_what_was_drawn() {
 }
 
 #[test]
+fn numbers_of_hundreds_of_digits_are_told_in_a_few() {
+    for path in ["body.x panel.mass", "body.x panel.inertia[1]", "body.x panel.mass_centre[1]"] {
+        let text = format!("[[vary]]\nname = \"it\"\npath = \"{path}\"\nvalues = [-1e308]\n");
+        let row = row(&study("digits", &example("cubesat.toml"), &text), 1);
+        assert_eq!(row.outcome, Outcome::Rejected, "{path}");
+        assert!(status(&row).len() < 200, "{path}: {}", status(&row));
+    }
+}
+
+#[test]
 fn what_makes_no_scene_is_rejected_and_what_cannot_be_followed_fails() {
     let text = r#"
         results = ["final nutation", "steps_accepted"]
