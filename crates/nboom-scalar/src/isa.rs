@@ -26,7 +26,7 @@ pub(crate) struct Avx2;
 impl Isa for Avx2 {
     const WIDEST: usize = 4;
     type One = Lanes<1>;
-    type Two = Lanes<2>;
+    type Two = crate::AvxHalf;
     type Four = crate::Avx4;
     type Eight = Lanes<8>;
 }
@@ -40,7 +40,7 @@ pub(crate) struct Avx512;
 impl Isa for Avx512 {
     const WIDEST: usize = 8;
     type One = Lanes<1>;
-    type Two = Lanes<2>;
+    type Two = crate::AvxHalf;
     type Four = crate::Avx4;
     type Eight = crate::Avx8;
 }

@@ -59,4 +59,4 @@ pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
 pub use vector::Vec3;
 #[cfg(target_arch = "x86_64")]
-pub(crate) use wide::{Avx4, Avx8};
+pub(crate) use wide::{Avx4, Avx8, AvxHalf};

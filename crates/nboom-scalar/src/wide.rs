@@ -216,6 +216,16 @@ macro_rules! wide {
 }
 
 wide!(
+    /// Two lanes in half an AVX register.
+    AvxHalf, Avx2, __m128d, 2,
+    _mm_loadu_pd, _mm_storeu_pd, _mm_set1_pd,
+    _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
+    _mm_fmadd_pd, _mm_fnmadd_pd,
+    _mm_castpd_si128, _mm_castsi128_pd, _mm_set1_epi64x,
+    _mm_and_si128, _mm_xor_si128, _mm_add_epi64, _mm_sub_epi64, _mm_slli_epi64
+);
+
+wide!(
     /// Four lanes in an AVX register.
     Avx4, Avx2, __m256d, 4,
     _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd,
@@ -254,6 +264,11 @@ mod tests {
     }
 
     #[target_feature(enable = "avx2,fma")]
+    fn in_half_avx(numbers: &[f64], out: &mut [f64]) {
+        every_operation::<AvxHalf>(numbers, out);
+    }
+
+    #[target_feature(enable = "avx2,fma")]
     fn in_avx4(numbers: &[f64], out: &mut [f64]) {
         every_operation::<Avx4>(numbers, out);
     }
@@ -270,6 +285,12 @@ mod tests {
     #[test]
     fn registers_compute_what_arrays_do() {
         let (mut expected, mut found) = ([0.0; 31], [0.0; 31]);
+        if AvxHalf::may_exist() {
+            every_operation::<Lanes<2>>(&numbers(), &mut expected);
+            // SAFETY: the features are there.
+            unsafe { in_half_avx(&numbers(), &mut found) };
+            assert_eq!(found, expected);
+        }
         if Avx4::may_exist() {
             every_operation::<Lanes<4>>(&numbers(), &mut expected);
             // SAFETY: the features are there.
