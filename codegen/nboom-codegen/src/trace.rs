@@ -8,7 +8,10 @@ mod stresses;
 
 use nboom_model::Shape;
 
-pub(crate) use rolled::{Chain, Equal, Joints, Kind, LimbSteps, Paddle, Placed, Rolled, Steps};
+pub(crate) use rolled::{
+    Among, Chain, Equal, Joints, Kind, LimbSteps, Paddle, PartSteps, Placed, Rolled, Steps,
+    TrunkSteps, own_places,
+};
 pub use routine::trace;
 pub(crate) use split::Split;
 pub(crate) use stage::{Masked, Traced};

@@ -1,4 +1,5 @@
-//! Limbs too large for a straight line: generated code, compiled and run, against the closed form and the recursion.
+//! Limbs too large for a straight line, and limbs of which equal parts go side by side: generated code, compiled and
+//! run, against the closed form and the recursion.
 
 #[path = "../../../tests/support/random_scene.rs"]
 mod random_scene;
@@ -18,8 +19,12 @@ use random_scene::Rng;
 
 nboom::routine! { Snake: Trrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr, level = exact }
 nboom::routine! { SnakeMoves: Trrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr, right_side }
-nboom::routine! { Branching: "Trpps(rprprrpprrrsrpprr(rrs)(rp)(s))(rprprrpprrrsrpprr(rrs)(rp)(s))(rprprrpprrrsrpprr(rrs)(rp)(s))", external }
+nboom::routine! { Branching: "Trppr(pprprrpprrrsrpprr(rrs)(rp)(s))(pprprrpprrrsrpprr(rrs)(rp)(s))(pprprrpprrrsrpprr(rrs)(rp)(s))", external }
 nboom::routine! { Three: 3xTrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr, external }
+nboom::routine! { Torso: "Trrr(rrsrprr)(rrsrprr)(pr)", external }
+nboom::routine! { TorsoMoves: "Trrr(rrsrprr)(rrsrprr)(pr)", right_side, external }
+nboom::routine! { Hand: "Trr(rrprr)(rrprr)(rrprr)(rrprr)", level = exact }
+nboom::routine! { Several: "Trr(rr(rs)(rs)(rs))(rr(rs)(rs)(rs))(r)_Tsr(rr)(rr)(rr)(rr)(rr)", external }
 
 const STATES: usize = 20;
 
@@ -141,8 +146,23 @@ fn equal_large_limbs_are_taken_side_by_side() {
 }
 
 #[test]
-fn a_right_side_of_a_long_limb_is_that_of_the_equations() {
-    type T = SnakeMoves;
+fn equal_parts_of_a_limb_are_taken_side_by_side() {
+    is_the_closed_form::<Torso>(false);
+    is_the_closed_form::<Several>(false);
+}
+
+#[test]
+fn equal_parts_one_after_the_other_have_the_bits_of_the_closed_form() {
+    is_the_closed_form::<Hand>(true);
+}
+
+#[test]
+fn right_sides_of_limbs_are_those_of_the_equations() {
+    is_of_the_equations::<SnakeMoves>();
+    is_of_the_equations::<TorsoMoves>();
+}
+
+fn is_of_the_equations<T: Routine>() {
     let kernel = Kernel::of::<T>();
     let dice = &mut Rng::new(7);
     for Case { recognised, .. } in cases(T::TOPOLOGY) {

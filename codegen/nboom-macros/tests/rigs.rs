@@ -1,4 +1,4 @@
-//! Code for main bodies that are held, in loops, joint by joint and as a straight line, compiled and run: against the
+//! Code for main bodies that are held, in loops, part by part, joint by joint and as a straight line, compiled and run: against the
 //! closed form for free ones, whose main body is so heavy that only the wrench that holds it moves it, and against the
 //! recursion.
 
@@ -12,6 +12,7 @@ use nboom::sim::{Method, Options, Path, Recorder, Snapshot, Summary, simulate};
 nboom::routine! { Loops: 4xS2_P_2xTrr, external, held }
 nboom::routine! { Line: Trr, held, external, level = exact }
 nboom::routine! { Joints: 2xTrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr, held, external }
+nboom::routine! { Torso: "Trrr(rrsrprr)(rrsrprr)(pr)", held, external }
 nboom::routine! { AtRest: 4xS2_P_2xTrr, held }
 nboom::routine! { InMode: 4xS2_P_2xTrr, right_side, held, external }
 
@@ -87,6 +88,7 @@ fn accelerates_as_a_heavy_one<T: Routine>() {
 fn hinges_accelerate_as_on_a_main_body_that_nothing_moves() {
     accelerates_as_a_heavy_one::<Loops>();
     accelerates_as_a_heavy_one::<Joints>();
+    accelerates_as_a_heavy_one::<Torso>();
     accelerates_as_a_heavy_one::<Line>();
 }
 

@@ -42,7 +42,9 @@ impl ClosedForm for Articulated {
             });
             let appendage = match shape {
                 Shape::Limb(limb) => {
-                    let (share, links) = limb::eliminate(number, limb, branch, omega, hinges);
+                    let at_mount = limb::of_main_body(branch, omega);
+                    let (share, links) =
+                        limb::eliminate(number, limb.links(), branch, &at_mount, hinges);
                     Appendage::Limb { limb: limb.clone(), share, links }
                 }
                 Shape::Chain(_) | Shape::Paddle => Appendage::Planar(ChainOrPaddle::eliminate(
@@ -108,7 +110,8 @@ impl<R: Real> Appendage<R> {
             Self::Planar(planar) => planar.back(number, angular, linear, tau_dot),
             Self::Limb { limb, links, .. } => {
                 let main = Twist { angular, linear };
-                tau_dot.extend(limb::back(number, limb, branch, links, main));
+                let reached = limb::back(number, limb.links(), branch, links, main);
+                tau_dot.extend(reached.into_iter().map(|(_, tau_dot)| tau_dot));
             }
         }
     }

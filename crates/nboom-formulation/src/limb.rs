@@ -12,15 +12,14 @@ mod place;
 mod stance;
 mod turn;
 
-use nboom_model::{Limb, LimbJoint};
+use nboom_model::{LimbJoint, LimbLink};
 use nboom_scalar::{Real, Sym3, Twist, Vec3, Wrench};
 
 use crate::base::AtOrigin;
 use crate::chain::Turned;
 pub(crate) use crate::limb::composite::composite;
 pub(crate) use crate::limb::inverse::inverse;
-use crate::limb::outward::outward;
-pub(crate) use crate::limb::outward::{AtMount, Motion, Moving};
+pub(crate) use crate::limb::outward::{AtMount, Motion, Moving, of_main_body, outward};
 pub(crate) use crate::limb::place::link_places;
 pub(crate) use crate::limb::stance::Stance;
 pub use crate::limb::stance::Standing;
@@ -45,33 +44,44 @@ pub(crate) struct EliminatedJoint<R> {
 /// first joint, and what its joints leave.
 pub(crate) fn eliminate<R: Real>(
     number: usize,
-    limb: &Limb,
+    links: &[LimbLink],
     branch: &Branch<R>,
-    omega: Vec3<R>,
+    at_mount: &AtMount<R>,
     hinges: &[HingeCoordinates<R>],
 ) -> (AtOrigin<R>, Vec<EliminatedLink<R>>) {
     let rates = hinges.iter().map(|hinge| [hinge.beta, hinge.tau]);
-    let links = outward(number, limb.links(), branch, omega, rates);
-    let mut seen: Vec<_> = links.iter().map(|link| of_body(&link.body)).collect();
-    let mut outboard = vec![AtOrigin::nothing(); links.len()];
+    let moving = outward(number, links, branch, at_mount, rates);
+    let standing: Vec<_> = moving.into_iter().map(|link| (link.stance, link.body)).collect();
+    let torques: Vec<R> = hinges.iter().map(|hinge| hinge.torque).collect();
+    let outboard = vec![AtOrigin::nothing(); links.len()];
+    inward(number, links, branch, &standing, &torques, outboard)
+}
+
+/// The same of links that stand so, each with its body and all that is `outboard` of it besides.
+pub(crate) fn inward<R: Real>(
+    number: usize,
+    links: &[LimbLink],
+    branch: &Branch<R>,
+    standing: &[(Stance<R>, Turned<R>)],
+    torques: &[R],
+    mut outboard: Vec<AtOrigin<R>>,
+) -> (AtOrigin<R>, Vec<EliminatedLink<R>>) {
+    let mut at_mount = AtOrigin::nothing();
     let mut eliminated = Vec::with_capacity(links.len());
-    for (i, link) in links.iter().enumerate().rev() {
+    for (i, (stance, body)) in standing.iter().enumerate().rev() {
         R::remark(|| format!("Link {number},{}, inward: its joint eliminated.", i + 1));
-        let (joint, share) =
-            EliminatedJoint::of(limb.links()[i].joint, &link.body, &seen[i], hinges[i].torque);
-        eliminated.push(EliminatedLink { stance: link.stance, joint });
-        seen[i] = link.stance.share_at_mount(&share);
-        if let Some(inboard) = limb.links()[i].inboard.map(usize::from) {
-            let carried = links[inboard].stance.share_carried(&branch.mount(i), &seen[i]);
+        let mut seen = of_body(body);
+        seen.add(&outboard[i]);
+        let (joint, share) = EliminatedJoint::of(links[i].joint, body, &seen, torques[i]);
+        eliminated.push(EliminatedLink { stance: *stance, joint });
+        at_mount = stance.share_at_mount(&share);
+        if let Some(inboard) = links[i].inboard.map(usize::from) {
+            let carried = standing[inboard].0.share_carried(&branch.mount(i), &at_mount);
             outboard[inboard].add(&carried);
-            // The part that stands next to its inboard link is the last of those outboard of it.
-            if inboard + 1 == i {
-                seen[inboard].add(&outboard[inboard]);
-            }
         }
     }
     eliminated.reverse();
-    (seen[0], eliminated)
+    (at_mount, eliminated)
 }
 
 /// What the body of a link shows at its origin.
@@ -132,29 +142,30 @@ impl<R: Real> EliminatedJoint<R> {
     }
 }
 
-/// τ̇ of all joints when ω̇ and the acceleration of the mount, appendage axes, are these.
+/// The accelerations of all links, and τ̇ of their joints, when ω̇ and the acceleration of the mount, appendage
+/// axes, are these.
 pub(crate) fn back<R: Real>(
     number: usize,
-    limb: &Limb,
+    links: &[LimbLink],
     branch: &Branch<R>,
-    links: &[EliminatedLink<R>],
+    eliminated: &[EliminatedLink<R>],
     main: Twist<R>,
-) -> Vec<R> {
-    let mut reached: Vec<Twist<R>> = Vec::with_capacity(links.len());
-    let mut tau_dot = Vec::with_capacity(links.len());
-    for (i, (link, of_limb)) in links.iter().zip(limb.links()).enumerate() {
+) -> Vec<(Twist<R>, R)> {
+    let mut reached: Vec<(Twist<R>, R)> = Vec::with_capacity(links.len());
+    for (i, (link, of_limb)) in eliminated.iter().zip(links).enumerate() {
         R::remark(|| format!("Link {number},{}, back: acceleration of its joint.", i + 1));
         let inboard = of_limb.inboard.map(usize::from);
         let at_mount = match inboard {
-            Some(inboard) => links[inboard].stance.carries(&branch.mount(i), reached[inboard]),
+            Some(inboard) => {
+                let stance = &eliminated[inboard].stance;
+                stance.carries(&branch.mount(i), reached[inboard].0)
+            }
             None => main,
         };
         let inboard = link.stance.carried_by(at_mount);
-        let (own, acceleration) = link.joint.back(of_limb.joint, inboard);
-        tau_dot.push(acceleration);
-        reached.push(own);
+        reached.push(link.joint.back(of_limb.joint, inboard));
     }
-    tau_dot
+    reached
 }
 
 impl<R: Real> EliminatedJoint<R> {

@@ -1,4 +1,4 @@
-use nboom_model::{Limb, LimbJoint, Shape, Topology, WeldedTree};
+use nboom_model::{Limb, LimbJoint, LimbLink, Shape, Topology, WeldedTree};
 use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
 use crate::chain::ChainLink;
@@ -227,13 +227,18 @@ impl<R: Real, I: Iterator<Item = R>> Reader<I> {
     }
 
     pub fn branch(&mut self, shape: &Shape) -> Branch<R> {
+        if let Shape::Limb(limb) = shape {
+            return self.limb(limb.links());
+        }
+        let branch = self.branch_without_links();
+        Branch { links: (0..shape.hinges()).map(|_| self.link()).collect(), ..branch }
+    }
+
+    /// A limb of these links.
+    pub fn limb(&mut self, links: &[LimbLink]) -> Branch<R> {
         let mut branch = self.branch_without_links();
-        let Shape::Limb(limb) = shape else {
-            branch.links = (0..shape.hinges()).map(|_| self.link()).collect();
-            return branch;
-        };
-        let mut mounts = Vec::with_capacity(shape.hinges());
-        for (i, link) in limb.links().iter().enumerate() {
+        let mut mounts = Vec::with_capacity(links.len());
+        for (i, link) in links.iter().enumerate() {
             if i > 0 {
                 mounts.push(self.mount(link.joint));
             }

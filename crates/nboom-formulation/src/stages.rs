@@ -16,6 +16,7 @@ mod forces;
 mod group;
 mod joint;
 mod limb;
+mod trunk;
 
 pub use crate::limb::Standing;
 pub use base::{base, base_in_mode, held_base, held_base_in_mode};
@@ -26,6 +27,10 @@ pub use joint::{
     limb_root, mount_back, mount_inward, mount_outward,
 };
 pub use limb::{LIMB, LIMB_HINGES, LIMB_TAU_DOT, limb_back, limb_in, of_limb};
+pub use trunk::{
+    CARRIER, CARRIER_RATES, KEPT, Trunk, part_back, part_inward, trunk_back, trunk_inward,
+    trunk_outward,
+};
 
 /// From numbers one after the other to numbers one after the other.
 pub type Run<R> = dyn Fn(&[R]) -> Vec<R>;

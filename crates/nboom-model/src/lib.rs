@@ -73,7 +73,7 @@ pub use hinge::{
 };
 pub use joint::Joint;
 pub use label::HingeLabel;
-pub use limb::{Limb, LimbJoint, LimbLink};
+pub use limb::{EqualParts, Limb, LimbJoint, LimbLink};
 pub use mass::{MassDefect, MassProperties, TRIANGLE_TOLERANCE};
 pub use material::{Material, MaterialDefect};
 pub use mode::Mode;

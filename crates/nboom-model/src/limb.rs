@@ -1,5 +1,9 @@
+mod equal_parts;
+
 use std::fmt;
 use std::sync::Arc;
+
+pub use equal_parts::EqualParts;
 
 /// The links of an appendage of any form: a tree of bodies, each on a joint about or along one axis.
 ///

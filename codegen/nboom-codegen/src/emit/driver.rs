@@ -14,6 +14,17 @@ pub(crate) struct Call {
     pub count: usize,
     /// Sizes of what the inward sweep leaves for the outward one, each once or for so many links.
     pub saved: Vec<(usize, Option<usize>)>,
+    /// Of a limb with equal parts, those.
+    pub parts: Option<Parts>,
+    /// Of equal parts, what names of their limb's functions begin with.
+    pub limb: Option<String>,
+}
+
+/// Equal parts of a limb, to be called between the sweeps of its trunk.
+pub(crate) struct Parts {
+    pub calls: Vec<Call>,
+    /// How many numbers they show the trunk.
+    pub shown: usize,
 }
 
 /// Evaluations from calls of the groups' sweeps.
@@ -47,7 +58,7 @@ impl Driver {
     /// The evaluation in packs of whatever width the processor has.
     pub fn in_packs(&self) -> TokenStream {
         let narrow = self.in_packs_of(4);
-        if self.calls.iter().all(|call| call.count < 5) {
+        if self.calls.iter().all(|call| call.most() < 5) {
             return narrow;
         }
         let wide = self.in_packs_of(8);
@@ -101,6 +112,12 @@ impl Beside {
 }
 
 impl Call {
+    /// The most equal appendages, or parts of one.
+    fn most(&self) -> usize {
+        let parts = self.parts.iter().flat_map(|parts| &parts.calls);
+        parts.map(Self::most).fold(self.count, usize::max)
+    }
+
     fn names(&self) -> (Ident, Ident) {
         (format_ident!("{}_in", self.prefix), format_ident!("{}_out", self.prefix))
     }
@@ -111,45 +128,125 @@ impl Call {
     }
 
     fn inward_singly(&self, power: Option<TokenStream>) -> TokenStream {
-        let (inward, saved) = (self.names().0, format_ident!("{}_saved", self.prefix));
+        let saved = format_ident!("{}_saved", self.prefix);
         let empty = self.empty(&quote!(R));
         let count = Literal::usize_unsuffixed(self.count);
-        let calls = repeated("a", self.count, false, |a| {
+        // Parts are added up in the closed form's order.
+        let calls = repeated("a", self.count, self.limb.is_some(), |a| {
             let a = slot(a);
-            quote!(#inward::<R, R>(k, x, #a, &mut #saved[#a], &mut seen, #power);)
+            self.inward([&quote!(R), &quote!(R)], &a, &quote!(#saved[#a]), power.as_ref())
         });
-        quote!(let mut #saved = [#empty; #count]; #calls)
+        let parts = self.parts_inward([&quote!(R), &quote!(R)], &quote!(R::zero()), |call| {
+            call.inward_singly(power.clone())
+        });
+        quote!(#parts let mut #saved = [#empty; #count]; #calls)
     }
 
     fn outward_singly(&self) -> TokenStream {
-        let (outward, saved) = (self.names().1, format_ident!("{}_saved", self.prefix));
-        repeated("a", self.count, false, |a| {
+        let saved = format_ident!("{}_saved", self.prefix);
+        let calls = repeated("a", self.count, false, |a| {
             let a = slot(a);
-            quote!(#outward::<R, R>(k, #a, &#saved[#a], main, out);)
-        })
+            self.outward([&quote!(R), &quote!(R)], &a, &quote!(#saved[#a]))
+        });
+        let parts = self.parts_outward(Self::outward_singly);
+        quote!(#calls #parts)
     }
 
     fn inward_packed(&self, most: usize, power: Option<TokenStream>) -> TokenStream {
-        let inward = self.names().0;
         let packs = self.packs(most).into_iter().map(|(a, width)| {
             let (pack, saved) = (pack(width), format_ident!("{}_saved_{a}", self.prefix));
             let (empty, a) = (self.empty(&pack), Literal::usize_unsuffixed(a));
-            quote! {
-                let mut #saved = #empty;
-                #inward::<f64, #pack>(k, x, #a, &mut #saved, &mut seen, #power);
-            }
+            let scalars = [&quote!(f64), &pack];
+            let call = self.inward(scalars, &quote!(#a), &quote!(#saved), power.as_ref());
+            quote!(let mut #saved = #empty; #call)
         });
-        quote!(#(#packs)*)
+        let parts = self.parts_inward([&quote!(f64), &pack(1)], &quote!(0.0), |call| {
+            call.inward_packed(most, power.clone())
+        });
+        quote!(#parts #(#packs)*)
     }
 
     fn outward_packed(&self, most: usize) -> TokenStream {
-        let outward = self.names().1;
         let packs = self.packs(most).into_iter().map(|(a, width)| {
             let (pack, saved) = (pack(width), format_ident!("{}_saved_{a}", self.prefix));
             let a = Literal::usize_unsuffixed(a);
-            quote!(#outward::<f64, #pack>(k, #a, &#saved, main, out);)
+            self.outward([&quote!(f64), &pack], &quote!(#a), &quote!(#saved))
         });
-        quote!(#(#packs)*)
+        let parts = self.parts_outward(|call| call.outward_packed(most));
+        quote!(#(#packs)* #parts)
+    }
+
+    /// A call of the inward sweep.
+    fn inward(
+        &self,
+        scalars: [&TokenStream; 2],
+        a: &TokenStream,
+        saved: &TokenStream,
+        power: Option<&TokenStream>,
+    ) -> TokenStream {
+        let (inward, [scalar, pack]) = (self.names().0, scalars);
+        let of_parts = self.parts.as_ref().map(|_| {
+            let [kept, shown] = between(&self.prefix, ["kept", "shown"]);
+            quote!(#kept, &#shown,)
+        });
+        let of_limb = self.limb.as_ref().map(|limb| between(limb, ["carriers", "shown"]));
+        let (carriers, sum) = match of_limb {
+            Some([carriers, shown]) => (Some(quote!(&#carriers,)), shown),
+            None => (None, format_ident!("seen")),
+        };
+        quote! {
+            #inward::<#scalar, #pack>(
+                k, x, #a, #carriers #of_parts &mut #saved, &mut #sum, #power
+            );
+        }
+    }
+
+    /// A call of the outward sweep.
+    fn outward(
+        &self,
+        [scalar, pack]: [&TokenStream; 2],
+        a: &TokenStream,
+        saved: &TokenStream,
+    ) -> TokenStream {
+        let outward = self.names().1;
+        let main = match &self.limb {
+            Some(limb) => {
+                let [carriers, carried_at] = between(limb, ["carriers", "carried_at"]);
+                quote!(&#carriers, &#carried_at)
+            }
+            None => quote!(main),
+        };
+        let bound = self.parts.as_ref().map(|_| {
+            let [carried_at] = between(&self.prefix, ["carried_at"]);
+            quote!(let #carried_at =)
+        });
+        quote!(#bound #outward::<#scalar, #pack>(k, #a, &#saved, #main, out);)
+    }
+
+    /// Outward through the trunk of a limb, and inward through its parts.
+    fn parts_inward(
+        &self,
+        [scalar, pack]: [&TokenStream; 2],
+        zero: &TokenStream,
+        inward: impl Fn(&Self) -> TokenStream,
+    ) -> Option<TokenStream> {
+        let Parts { calls, shown: size } = self.parts.as_ref()?;
+        let [carry, kept, carriers, shown] =
+            between(&self.prefix, ["carry", "kept", "carriers", "shown"]);
+        // The last ones first, as in the closed form.
+        let calls = calls.iter().rev().map(inward);
+        let size = Literal::usize_unsuffixed(*size);
+        Some(quote! {
+            let (#kept, #carriers) = #carry::<#scalar, #pack>(k, x, 0);
+            let mut #shown = [#zero; #size];
+            #(#calls)*
+        })
+    }
+
+    /// Outward through the parts of a limb.
+    fn parts_outward(&self, outward: impl Fn(&Self) -> TokenStream) -> Option<TokenStream> {
+        let calls = self.parts.as_ref()?.calls.iter().map(outward);
+        Some(quote!(#(#calls)*))
     }
 
     /// First appendage and width of each pack.
@@ -164,6 +261,11 @@ impl Call {
         }
         packs
     }
+}
+
+/// Names of what the trunk of a limb and its parts exchange.
+fn between<const N: usize>(limb: &str, names: [&str; N]) -> [Ident; N] {
+    names.map(|name| format_ident!("{limb}_{name}"))
 }
 
 /// The type of packs of a width.

@@ -29,8 +29,8 @@ pub(crate) type Hinge<'a> = (usize, Option<&'a Ident>);
 
 /// The hinges of a group of equal appendages: those of appendage `a` and those packed with it.
 ///
-/// In a state for accelerations the hinges of equal appendages stand side by side, in the variables of
-/// a right side appendage by appendage.
+/// In a state for accelerations the hinges of equal appendages stand side by side, those of equal parts of a limb part
+/// by part; in the variables of a right side all stand appendage by appendage.
 pub(crate) struct Hinges<'a> {
     pub group: &'a Equal,
     pub topology: &'a Topology,
@@ -66,6 +66,10 @@ impl Hinges<'_> {
                 let (at, links) = self.apart(RightSideLayout::tau(self.topology).start, hinge);
                 quote!(#tau_dot.scatter_apart(out, #at, #links);)
             }
+            _ if self.group.part.is_some() => {
+                let (at, links) = self.apart(Layout::OUTPUT, hinge);
+                quote!(#tau_dot.scatter_apart(out, #at, #links);)
+            }
             _ => {
                 let start = Layout::OUTPUT + self.group.hinge;
                 let at = self.place(start, [self.group.count, 1], hinge);
@@ -76,8 +80,15 @@ impl Hinges<'_> {
 
     /// β, τ or torque by `row`, which follow each other for all appendages.
     fn in_row(&self, row: usize, hinge: Hinge<'_>) -> TokenStream {
+        let first = Layout::STATE + Layout::HINGE * self.group.hinge;
+        if self.group.part.is_some() {
+            let part = Layout::HINGE * self.group.shape.hinges();
+            let at = self.place(first + row, [Layout::HINGE, part], hinge);
+            let part = Literal::usize_unsuffixed(part);
+            return quote!(P::gather_apart(x, #at, #part));
+        }
         let count = self.group.count;
-        let start = Layout::STATE + Layout::HINGE * self.group.hinge + row * count;
+        let start = first + row * count;
         let at = self.place(start, [Layout::HINGE * count, 1], hinge);
         quote!(P::gather(x, #at))
     }

@@ -13,7 +13,9 @@ use crate::emit::stage::Step;
 use crate::emit::sweeps::Sweeps;
 use crate::emit::sweeps::joints::{Tables, prepared};
 use crate::request::{Level, Output, Request};
-use crate::trace::{Chain, Equal, Joints, Kind, Paddle, Placed, Rolled, Steps};
+use crate::trace::{
+    Chain, Equal, Joints, Kind, Paddle, Placed, Rolled, Steps, TrunkSteps, own_places,
+};
 
 /// The routine's items.
 pub(crate) fn items(rolled: &Rolled, request: &Request, signature: &Signature) -> TokenStream {
@@ -81,7 +83,7 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
             let terms = [(size, i), (1, a)];
             store(step, &format_ident!("{from}"), group.count, &terms, level)
         };
-        let laws = steps.law().map(|law| {
+        let laws = steps.law().filter(|_| !matches!(steps, Steps::Trunk(_))).map(|law| {
             let hinges = group.shape.hinges();
             repeated("i", hinges, false, |i| {
                 let at = place(
@@ -94,6 +96,11 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
             })
         });
         let branch = || array("branch", Layout::BRANCH, place(group.parameter, &[(stride, a)]));
+        let whole = |steps: [&Placed; 2]| {
+            let whole = array("whole", stride, place(group.parameter, &[(stride, a)]));
+            let of_whole = steps.map(|step| store(step, "whole", None));
+            quote!(#whole #(#of_whole)*)
+        };
         let rest = match steps {
             Steps::Chain(chain) => {
                 let Chain { start, outward, inward, root, first, .. } = chain.as_ref();
@@ -117,12 +124,9 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
                 let (branch, of_branch) = (branch(), store(first, "branch", None));
                 quote!(#whole #of_whole #branch #of_branch)
             }
-            Steps::Limb(limb) => {
-                let at = place(group.parameter, &[(stride, a)]);
-                let whole = array("whole", stride, at);
-                let of_whole = [&limb.inward, &limb.back].map(|step| store(step, "whole", None));
-                quote!(#whole #(#of_whole)*)
-            }
+            Steps::Limb(of) => whole([&of.inward, &of.back]),
+            Steps::Part(of) => whole([&of.inward, &of.back]),
+            Steps::Trunk(of) => prepare_trunk(group, of, level),
             Steps::Joints(joints) => {
                 let Joints { start, root, first, .. } = joints.as_ref();
                 let of_branch = [start].into_iter().chain(root).chain([first]);
@@ -152,6 +156,31 @@ fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream {
     })
 }
 
+/// From `p` to `k` for a limb with equal parts.
+fn prepare_trunk(group: &Equal, steps: &TrunkSteps, level: Level) -> TokenStream {
+    let TrunkSteps { trunk, law, outward, inward, back, parts } = steps;
+    let laws = law.iter().flat_map(|law| {
+        trunk.numbers().iter().enumerate().map(|(n, &hinge)| {
+            let at = Literal::usize_unsuffixed(group.law + RightSideLayout::LAW * hinge);
+            let size = Literal::usize_unsuffixed(RightSideLayout::LAW);
+            let from = format_ident!("law");
+            let k = place(law.start + n * law.traced.constants(), &[]);
+            let of_law = store_at(law, &from, (k, 1), level);
+            quote!(let #from: [R; #size] = R::gather_all(p, #at, 1); #of_law)
+        })
+    });
+    let places = own_places(group, trunk).map(Literal::usize_unsuffixed);
+    let from = format_ident!("trunk");
+    let of_trunk = [outward, inward, back].map(|step| store(step, &from, 1, &[], level));
+    let parts = parts.iter().map(|(group, steps)| prepare(group, steps, level));
+    quote! {
+        #(#laws)*
+        let #from = [#(p[#places]),*];
+        #(#of_trunk)*
+        #(#parts)*
+    }
+}
+
 /// Writes the constants of a step, computed from the array `from`; they stand `count` apart.
 fn store(
     step: &Placed,
@@ -160,12 +189,23 @@ fn store(
     terms: &[(usize, Option<&Ident>)],
     level: Level,
 ) -> TokenStream {
+    let at = place(step.start, terms);
+    store_at(step, from, (at, count), level)
+}
+
+/// Writes the constants of a step from a place on, so far apart.
+fn store_at(
+    step: &Placed,
+    from: &Ident,
+    (at, apart): (TokenStream, usize),
+    level: Level,
+) -> TokenStream {
     if step.traced.constants() == 0 {
         return TokenStream::new();
     }
     let constants = Step::new(&step.traced, level).constants(from);
-    let (at, count) = (place(step.start, terms), Literal::usize_unsuffixed(count));
-    quote!(R::scatter_all(#constants, k, #at, #count);)
+    let apart = Literal::usize_unsuffixed(apart);
+    quote!(R::scatter_all(#constants, k, #at, #apart);)
 }
 
 /// The function for the main body.

@@ -1,6 +1,7 @@
 //! Functions that take one appendage, or several side by side, through the sweeps.
 
 pub(crate) mod joints;
+mod trunk;
 
 use nboom_formulation::stages::{
     AT_ORIGIN, ELIMINATED, JOINT, LIMB, OUTBOARD_SHARE, PADDLE, TURNED, of_limb,
@@ -55,13 +56,22 @@ impl<'a> Sweeps<'a> {
                 let left = joints.joints[0].inward.traced.size(JOINT);
                 vec![(left, Some(self.group.shape.hinges()))]
             }
+            Steps::Trunk(of) => vec![(of.inward.traced.size(of.trunk.of_links(LIMB)), None)],
+            Steps::Part(of) => vec![(of.inward.traced.size(of_limb(LIMB, &of.part)), None)],
         };
-        Call { prefix: self.group.prefix(), count: self.group.count, saved }
+        let (parts, limb) = match self.steps {
+            Steps::Trunk(trunk) => (Some(self.calls_of_parts(trunk)), None),
+            Steps::Part(part) => (None, Some(part.limb.clone())),
+            _ => (None, None),
+        };
+        Call { prefix: self.group.prefix(), count: self.group.count, saved, parts, limb }
     }
 
-    /// Both functions.
+    /// Both functions, and those of parts.
     pub fn functions(&self) -> TokenStream {
         let (inward, outward) = match self.steps {
+            Steps::Trunk(trunk) => return self.trunk_functions(trunk),
+            Steps::Part(part) => return self.part_functions(part),
             Steps::Chain(chain) => (self.chain_in(chain), self.chain_out(chain)),
             Steps::Paddle(paddle) => (self.paddle_in(paddle), self.paddle_out(paddle)),
             Steps::Limb(limb) => (self.limb_in(limb), self.limb_out(limb)),

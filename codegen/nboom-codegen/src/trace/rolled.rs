@@ -1,7 +1,11 @@
 //! Sweeps step by step: over links, and over equal appendages side by side.
 
+mod equal;
+#[cfg(test)]
+mod interpreted;
 mod joints;
 mod limb;
+mod trunk;
 
 use nboom_expr::{Expr, Operations};
 use nboom_formulation::stages::{
@@ -9,14 +13,15 @@ use nboom_formulation::stages::{
     REACHED, Stage, TORQUE, TURNED,
 };
 use nboom_formulation::{Layout, RightSideLayout};
-use nboom_model::{Shape, Topology};
+use nboom_model::Shape;
 
-use crate::request::{Output, Request, identifier};
+use crate::request::{Output, Request};
+use crate::trace::Traced;
+pub(crate) use crate::trace::rolled::equal::Equal;
 pub(crate) use crate::trace::rolled::joints::{Joints, Kind};
 pub(crate) use crate::trace::rolled::limb::LimbSteps;
-use crate::trace::rolled::limb::Lines;
+pub(crate) use crate::trace::rolled::trunk::{Among, PartSteps, TrunkSteps, own_places};
 use crate::trace::stage::Masks;
-use crate::trace::{OPERATION_LIMIT, STRAIGHT_LINKS, Traced};
 
 /// The steps of all sweeps of a request.
 pub(crate) struct Rolled {
@@ -32,24 +37,14 @@ pub(crate) struct Rolled {
     pub constants: usize,
 }
 
-/// Equal appendages.
-pub(crate) struct Equal {
-    pub shape: Shape,
-    pub count: usize,
-    /// Where the parameters of the first one begin.
-    pub parameter: usize,
-    /// Hinges before.
-    pub hinge: usize,
-    /// Where the laws of a right side begin.
-    pub law: usize,
-}
-
 /// The steps of an appendage.
 pub(crate) enum Steps {
     Chain(Box<Chain>),
     Paddle(Box<Paddle>),
     Limb(Box<LimbSteps>),
     Joints(Box<Joints>),
+    Trunk(Box<TrunkSteps>),
+    Part(Box<PartSteps>),
 }
 
 /// The steps of a chain, in the order in which their constants stand.
@@ -82,73 +77,6 @@ pub(crate) struct Placed {
     pub times: usize,
 }
 
-impl Equal {
-    /// How many parameters an appendage has.
-    pub fn parameters(&self) -> usize {
-        Layout::appendage(&self.shape)
-    }
-
-    /// Where the parameters of link `i` begin among those of an appendage.
-    pub fn link(&self, i: usize) -> usize {
-        Layout::BRANCH + (0..i).map(|link| Layout::link(&self.shape, link)).sum::<usize>()
-    }
-
-    /// What names of functions begin with: `s3` for chains of three links, `p` for paddles, and for limbs whose
-    /// names are long their links and the hinges before.
-    pub fn prefix(&self) -> String {
-        let links = self.shape.hinges();
-        if matches!(self.shape, Shape::Limb(_)) && links > STRAIGHT_LINKS {
-            return format!("t{links}_{}", self.hinge);
-        }
-        identifier(&Topology::new([self.shape.clone()])).to_lowercase()
-    }
-
-    /// What its shape is called in a topology.
-    pub fn shape_name(&self) -> String {
-        Topology::new([self.shape.clone()]).to_string()
-    }
-
-    /// What is assumed of every appendage: `size` numbers from `offset` on, and of every one of
-    /// `repeats` repetitions a link apart.
-    fn assumptions(
-        &self,
-        request: &Request,
-        offset: usize,
-        size: usize,
-        repeats: usize,
-    ) -> Vec<Option<f64>> {
-        let start = |appendage: usize, repeat: usize| {
-            self.parameter + appendage * self.parameters() + offset + repeat * Layout::LINK
-        };
-        self.common(request, start, size, repeats)
-    }
-
-    /// What is assumed of the law of every hinge.
-    fn of_laws(&self, request: &Request) -> Vec<Option<f64>> {
-        let hinges = self.shape.hinges();
-        let start = |appendage: usize, hinge: usize| {
-            self.law + (appendage * hinges + hinge) * RightSideLayout::LAW
-        };
-        self.common(request, start, RightSideLayout::LAW, hinges)
-    }
-
-    /// What is assumed of `size` numbers wherever they `start`, by appendage and repetition.
-    fn common(
-        &self,
-        request: &Request,
-        start: impl Fn(usize, usize) -> usize,
-        size: usize,
-        repeats: usize,
-    ) -> Vec<Option<f64>> {
-        let common = |i: usize| {
-            let at = |appendage, repeat| request.assumptions[start(appendage, repeat) + i];
-            let same = |appendage| (0..repeats).all(|repeat| at(appendage, repeat) == at(0, 0));
-            at(0, 0).filter(|_| (0..self.count).all(same))
-        };
-        (0..size).map(common).collect()
-    }
-}
-
 impl Steps {
     fn all(&self) -> Vec<&Placed> {
         match self {
@@ -159,6 +87,12 @@ impl Steps {
             Self::Paddle(of) => of.law.iter().chain([&of.inward, &of.first, &of.back]).collect(),
             Self::Limb(of) => of.law.iter().chain([&of.inward, &of.back]).collect(),
             Self::Joints(of) => of.law.iter().chain(of.all()).collect(),
+            Self::Trunk(of) => {
+                let parts = of.parts.iter().flat_map(|(_, steps)| steps.all());
+                let own = [&of.outward, &of.inward, &of.back];
+                of.law.iter().chain(own).chain(parts).collect()
+            }
+            Self::Part(of) => of.law.iter().chain([&of.inward, &of.back]).collect(),
         }
     }
 
@@ -169,6 +103,8 @@ impl Steps {
             Self::Paddle(of) => of.law.as_ref(),
             Self::Limb(of) => of.law.as_ref(),
             Self::Joints(of) => of.law.as_ref(),
+            Self::Trunk(of) => of.law.as_ref(),
+            Self::Part(of) => of.law.as_ref(),
         }
     }
 
@@ -179,6 +115,8 @@ impl Steps {
             Self::Paddle(of) => Some(&of.inward),
             Self::Limb(of) => Some(&of.inward),
             Self::Joints(of) => of.root.as_ref(),
+            Self::Trunk(of) => Some(&of.inward),
+            Self::Part(_) => None,
         };
         step.filter(|step| step.traced.writes(AT_ORIGIN))
     }
@@ -194,19 +132,13 @@ impl Rolled {
         for (shape, count) in request.topology.groups() {
             let links = shape.hinges();
             let law = RightSideLayout::law(&request.topology, hinge).start;
-            let group = Equal { shape, count, parameter, hinge, law };
+            let group = Equal { shape, count, parameter, hinge, law, part: None };
             let steps = match &group.shape {
                 Shape::Chain(_) => {
                     Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
                 }
                 Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
-                Shape::Limb(of) => match Lines::of(request, &group, of) {
-                    Some(lines) if in_lines + lines.operations() <= OPERATION_LIMIT => {
-                        in_lines += lines.operations();
-                        Steps::Limb(Box::new(lines.placed(request, &group, &mut places)))
-                    }
-                    _ => Steps::Joints(Box::new(Joints::of(request, &group, of, &mut places))),
-                },
+                Shape::Limb(of) => limb::steps(request, &group, of, &mut in_lines, &mut places),
             };
             if let Some(shows) = steps.shows() {
                 let live = shows.traced.live(AT_ORIGIN);
@@ -241,7 +173,7 @@ impl Rolled {
                     let shown = joints.mounts.iter().map(|kind| kind.inward.times * joints.shown());
                     operations.additions += shown.sum::<usize>();
                 }
-                Steps::Paddle(_) | Steps::Limb(_) => {}
+                Steps::Paddle(_) | Steps::Limb(_) | Steps::Trunk(_) | Steps::Part(_) => {}
             }
         }
         operations
@@ -256,7 +188,7 @@ impl Rolled {
     pub fn joint_operations(&self) -> usize {
         let steps = self.groups.iter().filter_map(|(_, steps)| match steps {
             Steps::Joints(joints) => Some(joints.all()),
-            Steps::Chain(_) | Steps::Paddle(_) | Steps::Limb(_) => None,
+            _ => None,
         });
         steps.flatten().map(|step| step.traced.split.evaluation().flops()).sum()
     }
@@ -307,13 +239,14 @@ fn base(request: &Request, at_origin: &[bool]) -> Traced {
 
 /// The torque about a hinge of a group, of a right side.
 fn law(request: &Request, group: &Equal, places: &mut Places) -> Option<Placed> {
-    let traced = || {
-        let law =
-            Traced::new(&group.prefix(), &stages::law(), &group.of_laws(request), &Masks::new());
-        law.passing_on(TORQUE, &[true]).passing_on(POWER, &[true])
-    };
+    let traced = || traced_law(&group.prefix(), &group.of_laws(request));
     let of_right_side = (request.output == Output::RightSide).then(traced);
     of_right_side.map(|traced| places.place(traced, group.shape.hinges() * group.count))
+}
+
+fn traced_law(prefix: &str, assumed: &[Option<f64>]) -> Traced {
+    let law = Traced::new(prefix, &stages::law(), assumed, &Masks::new());
+    law.passing_on(TORQUE, &[true]).passing_on(POWER, &[true])
 }
 
 fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) -> Chain {

@@ -83,6 +83,13 @@ impl Traced {
         &found.expect("the stage writes the group").1
     }
 
+    /// Which numbers of an input or output group are handed over.
+    pub fn mask(&self, group: Group) -> &[bool] {
+        let groups = self.inputs.iter().chain(&self.outputs);
+        let found = groups.into_iter().find(|(other, _)| *other == group);
+        &found.expect("the stage has the group").1
+    }
+
     /// How many numbers of an output group are passed on.
     pub fn size(&self, group: Group) -> usize {
         self.live(group).iter().filter(|live| **live).count()

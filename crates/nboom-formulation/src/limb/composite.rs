@@ -6,7 +6,7 @@ use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Twist, Vec3, Wrench};
 use crate::arrow::Arrow;
 use crate::base::AtOrigin;
 use crate::limb::inverse::{along_joint, forces};
-use crate::limb::outward::outward;
+use crate::limb::outward::{of_main_body, outward};
 use crate::limb::stance::Stance;
 use crate::parameters::{Branch, HingeCoordinates, Mount};
 use crate::pose::momentum;
@@ -22,7 +22,7 @@ pub(crate) fn composite<R: Real>(
     let inboard: Vec<Option<usize>> =
         links.iter().map(|link| link.inboard.map(usize::from)).collect();
     let rates = hinges.iter().map(|hinge| [hinge.beta, hinge.tau]);
-    let moving = outward(1, links, branch, omega, rates);
+    let moving = outward(1, links, branch, &of_main_body(branch, omega), rates);
     let at_rest = vec![R::zero(); links.len()];
     let (wrench, bias) = forces(1, links, branch, &moving, Twist::zero(), &at_rest);
     let mut columns = vec![Wrench::zero(); links.len()];

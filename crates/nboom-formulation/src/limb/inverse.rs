@@ -4,7 +4,7 @@ use nboom_model::{LimbJoint, LimbLink};
 use nboom_scalar::{Real, Twist, Vec3, Wrench};
 
 use crate::inverse_dynamics::HingeMotion;
-use crate::limb::outward::{Moving, outward};
+use crate::limb::outward::{Moving, of_main_body, outward};
 use crate::parameters::Branch;
 use crate::pose::momentum;
 
@@ -19,7 +19,7 @@ pub(crate) fn inverse<R: Real>(
     hinges: &[HingeMotion<R>],
 ) -> (Wrench<R>, Vec<R>) {
     let rates = hinges.iter().map(|hinge| [hinge.beta, hinge.tau]);
-    let moving = outward(number, links, branch, omega, rates);
+    let moving = outward(number, links, branch, &of_main_body(branch, omega), rates);
     let tau_dot: Vec<R> = hinges.iter().map(|hinge| hinge.tau_dot).collect();
     forces(number, links, branch, &moving, main, &tau_dot)
 }

@@ -35,39 +35,38 @@ pub(crate) struct AtMount<R> {
     pub bias: Vec3<R>,
 }
 
-/// All `links` of an appendage whose coordinates and rates are β, τ, when the main body turns at `omega`.
-pub(super) fn outward<R: Real>(
+/// All `links` of an appendage whose coordinates and rates are β, τ, when its mount moves so.
+pub(crate) fn outward<R: Real>(
     number: usize,
     links: &[LimbLink],
     branch: &Branch<R>,
-    omega: Vec3<R>,
+    of_first: &AtMount<R>,
     rates: impl Iterator<Item = [R; 2]>,
 ) -> Vec<Moving<R>> {
     let mut moving: Vec<Moving<R>> = Vec::with_capacity(links.len());
     for (i, (link, rates)) in links.iter().zip(rates).enumerate() {
         R::remark(|| format!("Link {number},{}, outward: its bias.", i + 1));
-        let at_mount = match link.inboard.map(usize::from) {
-            Some(inboard) => {
-                let Moving { stance, motion, .. } = &moving[inboard];
-                motion.at(stance, &branch.mount(i))
-            }
-            None => of_main_body(branch, omega),
-        };
+        let on_inboard = link.inboard.map(|inboard| {
+            let Moving { stance, motion, .. } = &moving[usize::from(inboard)];
+            motion.at(stance, &branch.mount(i))
+        });
+        let at_mount = on_inboard.as_ref().unwrap_or(of_first);
         let [beta, tau] = rates;
         let constants = &branch.links[i];
         moving.push(match Standing::of(links, i) {
-            Standing::Sliding => Moving::sliding(constants, &at_mount, rates),
+            Standing::Sliding => Moving::sliding(constants, at_mount, rates),
             standing => {
                 let alpha = at_mount.alpha + beta;
                 let turn = Turn::by(alpha);
-                Moving::turning(constants, &at_mount, standing.turns(turn), [alpha, tau])
+                Moving::turning(constants, at_mount, standing.turns(turn), [alpha, tau])
             }
         });
     }
     moving
 }
 
-fn of_main_body<R: Real>(branch: &Branch<R>, omega: Vec3<R>) -> AtMount<R> {
+/// The motion at the mount of an appendage on a main body that turns at `omega`.
+pub(crate) fn of_main_body<R: Real>(branch: &Branch<R>, omega: Vec3<R>) -> AtMount<R> {
     let spin = branch.rot_body_from_appendage.transpose_mul(omega);
     let bias = Spin::new(spin).bias_of_main_point(branch.point);
     AtMount { spin, alpha: R::zero(), sigma: R::zero(), bias }

@@ -1,11 +1,11 @@
 //! A whole limb as two steps.
 
-use nboom_model::{Limb, Shape};
+use nboom_model::{Limb, LimbLink};
 use nboom_scalar::{Real, Twist};
 
 use crate::articulated::first_hinge;
 use crate::limb::{self, EliminatedLink, OF_ELIMINATED_LINK, Standing};
-use crate::parameters::{Branch, HingeCoordinates, Layout, Reader};
+use crate::parameters::{HingeCoordinates, Layout, Reader};
 use crate::stages::{AT_ORIGIN, BODY, BRANCH, Group, MAIN_RATES, OMEGA, Stage, TAU_DOT};
 
 /// Where a link is mounted on its inboard link.
@@ -30,23 +30,46 @@ pub fn of_limb(group: Group, limb: &Limb) -> Group {
 }
 
 /// The parameters of a limb, as [`Layout`] has them.
-fn parameters(limb: &Limb) -> Vec<Group> {
-    let mut groups = vec![BRANCH];
-    for link in 0..limb.links().len() {
-        match Layout::mount(limb, link) {
-            0 => {}
-            Layout::WAY => groups.push(WAY.of_links(link + 1, 1)),
-            _ => groups.push(MOUNT.of_links(link + 1, 1)),
-        }
-        groups.push(LINK_BODY.of_links(link + 1, 1));
-    }
-    groups
+pub(super) fn parameters(limb: &Limb) -> Vec<Group> {
+    let links = (0..limb.links().len()).flat_map(|link| of_link(limb, link));
+    [BRANCH].into_iter().chain(links).collect()
 }
 
-type Numbers<'a, R> = Reader<std::iter::Copied<std::slice::Iter<'a, R>>>;
+/// The parameters of a link: where it is mounted, unless it is the first, and its body.
+pub(super) fn of_link(limb: &Limb, link: usize) -> impl Iterator<Item = Group> {
+    let mount = match Layout::mount(limb, link) {
+        0 => None,
+        Layout::WAY => Some(WAY),
+        _ => Some(MOUNT),
+    };
+    mount.into_iter().chain([LINK_BODY]).map(move |group| group.of_links(link + 1, 1))
+}
 
-fn branch<R: Real>(limb: &Limb, reader: &mut Numbers<'_, R>) -> Branch<R> {
-    reader.branch(&Shape::Limb(limb.clone()))
+/// β, τ and torque of each of `count` joints.
+pub(super) fn hinges<R: Real>(
+    count: usize,
+    reader: &mut Reader<impl Iterator<Item = R>>,
+) -> Vec<HingeCoordinates<R>> {
+    let hinge = |_| {
+        let [beta, tau, torque] = reader.vector().to_array();
+        HingeCoordinates { beta, tau, torque }
+    };
+    (0..count).map(hinge).collect()
+}
+
+/// What the eliminated joints of these links leave.
+pub(super) fn flat<R: Real>(links: &[LimbLink], eliminated: &[EliminatedLink<R>]) -> Vec<R> {
+    let of_link = |(i, link): (usize, &EliminatedLink<R>)| link.flat(Standing::of(links, i));
+    eliminated.iter().enumerate().flat_map(of_link).collect()
+}
+
+/// The same, read back.
+pub(super) fn eliminated<R: Real>(
+    links: &[LimbLink],
+    reader: &mut Reader<impl Iterator<Item = R>>,
+) -> Vec<EliminatedLink<R>> {
+    let of_link = |i| EliminatedLink::read(Standing::of(links, i), reader);
+    (0..links.len()).map(of_link).collect()
 }
 
 /// All joints of a limb eliminated.
@@ -59,20 +82,11 @@ pub fn limb_in<R: Real>(limb: Limb) -> Stage<R> {
         outputs: vec![AT_ORIGIN, of_limb(LIMB, &limb)],
         run: Box::new(move |numbers| {
             let mut reader = Reader(numbers.iter().copied());
-            let branch = branch(&limb, &mut reader);
-            let omega = reader.vector();
-            let hinges: Vec<_> = (0..limb.links().len())
-                .map(|_| {
-                    let [beta, tau, torque] = reader.vector().to_array();
-                    HingeCoordinates { beta, tau, torque }
-                })
-                .collect();
-            let (share, links) = limb::eliminate(1, &limb, &branch, omega, &hinges);
-            let mut found = limb::at_origin(&share, &branch).flat();
-            let flat =
-                |(i, link): (usize, &EliminatedLink<R>)| link.flat(Standing::of(limb.links(), i));
-            found.extend(links.iter().enumerate().flat_map(flat));
-            found
+            let branch = reader.limb(limb.links());
+            let at_mount = limb::of_main_body(&branch, reader.vector());
+            let hinges = hinges(limb.links().len(), &mut reader);
+            let (share, left) = limb::eliminate(1, limb.links(), &branch, &at_mount, &hinges);
+            [limb::at_origin(&share, &branch).flat(), flat(limb.links(), &left)].concat()
         }),
     }
 }
@@ -87,15 +101,14 @@ pub fn limb_back<R: Real>(limb: Limb) -> Stage<R> {
         outputs: vec![of_limb(LIMB_TAU_DOT, &limb)],
         run: Box::new(move |numbers| {
             let mut reader = Reader(numbers.iter().copied());
-            let branch = branch(&limb, &mut reader);
-            let links = 0..limb.links().len();
-            let standing = |i| Standing::of(limb.links(), i);
-            let links: Vec<_> =
-                links.map(|i| EliminatedLink::read(standing(i), &mut reader)).collect();
+            let branch = reader.limb(limb.links());
+            let left = eliminated(limb.links(), &mut reader);
             let main = Twist { angular: reader.vector(), linear: reader.vector() };
             let rot = &branch.rot_body_from_appendage;
             let (angular, linear) = first_hinge(branch.point, rot, main);
-            limb::back(1, &limb, &branch, &links, Twist { angular, linear })
+            let at_mount = Twist { angular, linear };
+            let reached = limb::back(1, limb.links(), &branch, &left, at_mount);
+            reached.into_iter().map(|(_, tau_dot)| tau_dot).collect()
         }),
     }
 }

@@ -2,88 +2,13 @@
 //! does not hand on is NaN for those that follow.
 
 use nboom_formulation::stages::{LIMB, of_limb};
-use nboom_model::{Limb, LimbJoint, LimbLink, Shape, Topology};
-use rand_xoshiro::SplitMix64;
-use rand_xoshiro::rand_core::{Rng as _, SeedableRng};
+use nboom_model::{LimbJoint, Shape, Topology};
 
 use super::*;
 use crate::request::Level;
+use crate::trace::rolled::interpreted::{Dice, taken};
 
 const LIMBS: u64 = 400;
-
-struct Dice(SplitMix64);
-
-impl Dice {
-    fn below(&mut self, count: usize) -> usize {
-        (self.0.next_u64() % count as u64) as usize
-    }
-
-    /// Between −2 and 2, at times zero or one.
-    fn number(&mut self) -> f64 {
-        match self.below(8) {
-            0 | 1 => 0.0,
-            2 => 1.0,
-            _ => self.below(1 << 30) as f64 / f64::from(1 << 28) - 2.0,
-        }
-    }
-
-    fn numbers(&mut self, count: usize) -> Vec<f64> {
-        (0..count).map(|_| self.number()).collect()
-    }
-
-    /// A tree of joints of all kinds, mostly long parts.
-    fn limb(&mut self, count: usize) -> Limb {
-        let mut links: Vec<LimbLink> = Vec::new();
-        for i in 0..count {
-            let near = 1 + self.below(3.min(i.max(1)));
-            let inboard = i.checked_sub(near);
-            let inboard = if i > 0 { Some(inboard.unwrap_or(0)) } else { None };
-            let may_be_parallel = inboard.is_some_and(|j| links[j].joint != LimbJoint::Prismatic);
-            let joint = match self.below(5) {
-                0 => LimbJoint::Prismatic,
-                1 | 2 if may_be_parallel => LimbJoint::Parallel,
-                _ => LimbJoint::Revolute,
-            };
-            let inboard = inboard.map(|j| j as u16);
-            links.push(LimbLink { inboard, joint });
-        }
-        Limb::new(&links).expect("a tree").0
-    }
-
-    /// Numbers of which every inertia about a joint, and every mass, is positive.
-    fn parameters(&mut self, group: &Equal, limb: &Limb) -> Vec<f64> {
-        let mut numbers = self.numbers(group.parameters());
-        for i in 0..limb.links().len() {
-            let body = group.link(i) + Layout::mount(limb, i);
-            numbers[body] = 1.0 + self.below(100) as f64;
-            numbers[body + 4] = 200.0 + self.below(100) as f64;
-        }
-        numbers
-    }
-}
-
-/// What a step hands on, one list for each group.
-fn taken(step: &Placed, parameters: &[f64], inputs: &[&[f64]]) -> Vec<Vec<f64>> {
-    let Traced { split, inputs: groups, outputs, .. } = &step.traced;
-    let mut numbers = parameters[..split.parameters].to_vec();
-    assert_eq!(groups.len(), inputs.len());
-    for ((group, mask), values) in groups.iter().zip(inputs) {
-        assert_eq!(values.len(), group.size(), "{}", step.traced.name);
-        numbers.extend(mask.iter().zip(*values).map(|(live, value)| match live {
-            true => *value,
-            false => f64::NAN,
-        }));
-    }
-    let mut found = split.graph.evaluate(&numbers).into_iter();
-    let handed_on = |(value, live): (f64, &bool)| {
-        assert!(*live || value == 0.0, "{}", step.traced.name);
-        if *live { value } else { f64::NAN }
-    };
-    let groups = outputs
-        .iter()
-        .map(|(group, mask)| found.by_ref().take(group.size()).zip(mask).map(handed_on).collect());
-    groups.collect()
-}
 
 /// The kind of which link `i` is.
 fn of(kinds: &[Kind], i: usize) -> &Kind {
@@ -106,11 +31,11 @@ fn by_steps(
     let mut moving: Vec<Vec<Vec<f64>>> = Vec::new();
     for i in 0..links.len() {
         let at_mount = match inboard(i) {
-            None => taken(&joints.start, p, &[omega]),
+            None => taken(&joints.start.traced, p, &[omega]),
             Some(j) => {
                 let inboard = &moving[j];
                 taken(
-                    &of(&joints.mounts, i).outward,
+                    &of(&joints.mounts, i).outward.traced,
                     of_mount(i),
                     &[&inboard[0], &inboard[1], &inboard[2]],
                 )
@@ -123,14 +48,14 @@ fn by_steps(
         });
         let (sin, cos) = alpha[i].sin_cos();
         let rates = &hinges[3 * i..3 * i + 2];
-        let step = &of(&joints.joints, i).outward;
+        let step = &of(&joints.joints, i).outward.traced;
         moving.push(taken(step, of_body(i), &[&at_mount[0], &at_mount[1], &[sin, cos], rates]));
     }
     let mut outboard = vec![vec![0.0; OUTBOARD.size()]; links.len()];
     let mut left = vec![Vec::new(); links.len()];
     let mut seen = Vec::new();
     for i in (0..links.len()).rev() {
-        let step = &of(&joints.joints, i).inward;
+        let step = &of(&joints.joints, i).inward.traced;
         let torque = &hinges[3 * i + 2..3 * i + 3];
         let inputs = [&moving[i][0][..], &moving[i][3], torque, &outboard[i]];
         let mut found = taken(step, of_body(i), &inputs);
@@ -139,10 +64,10 @@ fn by_steps(
         match inboard(i) {
             None => {
                 let root = joints.root.as_ref().expect("the main body is free");
-                seen = taken(root, p, &[&share]).remove(0);
+                seen = taken(&root.traced, p, &[&share]).remove(0);
             }
             Some(j) => {
-                let step = &of(&joints.mounts, i).inward;
+                let step = &of(&joints.mounts, i).inward.traced;
                 let carried = taken(step, of_mount(i), &[&moving[j][0], &share]).remove(0);
                 outboard[j].iter_mut().zip(carried).for_each(|(sum, part)| *sum += part);
             }
@@ -152,14 +77,14 @@ fn by_steps(
     let mut tau_dot = Vec::new();
     for i in 0..links.len() {
         let at_mount = match inboard(i) {
-            None => taken(&joints.first, p, &[main]),
+            None => taken(&joints.first.traced, p, &[main]),
             Some(j) => {
                 let inputs = [&left[j][..], &reached[j][0], &reached[j][1]];
-                taken(&of(&joints.mounts, i).back, of_mount(i), &inputs)
+                taken(&of(&joints.mounts, i).back.traced, of_mount(i), &inputs)
             }
         };
         let inputs = [&left[i][..], &at_mount[0], &at_mount[1]];
-        let mut found = taken(&of(&joints.joints, i).back, of_body(i), &inputs);
+        let mut found = taken(&of(&joints.joints, i).back.traced, of_body(i), &inputs);
         tau_dot.extend(found.remove(0));
         reached.push(found);
     }
@@ -172,7 +97,7 @@ fn by_steps(
 fn steps_compute_what_whole_limbs_do() {
     let (mut merged, mut slides, mut several) = (0, 0, 0);
     for seed in 0..LIMBS {
-        let mut dice = Dice(SplitMix64::seed_from_u64(seed));
+        let mut dice = Dice::new(seed);
         let count = 2 + dice.below(if seed % 9 == 0 { 70 } else { 12 });
         let limb = dice.limb(count);
         let topology = Topology::new([Shape::Limb(limb.clone())]);
@@ -183,6 +108,7 @@ fn steps_compute_what_whole_limbs_do() {
             parameter: Layout::MAIN,
             hinge: 0,
             law: 0,
+            part: None,
         };
         let p = dice.parameters(&group, &limb);
         let assumed = |value: &f64| match seed % 4 {
