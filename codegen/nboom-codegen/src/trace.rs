@@ -33,7 +33,7 @@ const STRAIGHT_LINKS: usize = 64;
 /// So many equal appendages fill a register, and a loop over it beats a straight line.
 const PACK: usize = 4;
 
-/// So many equal limbs do: each is longer than a chain, and both are one straight line.
+/// So many equal limbs do, or equal parts of one: each is longer than a chain, and both are one straight line.
 const PAIR: usize = 2;
 
 /// Hinges beyond which no straight line is tried: none is shorter than the limit.
@@ -69,7 +69,7 @@ impl Equations {
         }
         let side_by_side = request.topology.groups().any(|(shape, count)| match shape {
             Shape::Chain(_) | Shape::Paddle => count >= PACK,
-            Shape::Limb(_) => count >= PAIR,
+            Shape::Limb(limb) => count >= PAIR || !limb.equal_parts().is_empty(),
         });
         let straight = (request.topology.hinges() <= STRAIGHT_HINGES && !side_by_side)
             .then(straight)

@@ -36,9 +36,9 @@ pub struct Trunk {
 }
 
 impl Trunk {
-    /// The limb without its equal parts of at least `least` links each; `None` if it has none.
-    pub fn of(limb: &Limb, least: usize) -> Option<Self> {
-        let parts = limb.equal_parts(least);
+    /// The limb without its equal parts; `None` if it has none.
+    pub fn of(limb: &Limb) -> Option<Self> {
+        let parts = limb.equal_parts();
         let is_own = |link: &usize| !parts.iter().any(|parts| parts.contain(*link));
         let numbers: Vec<usize> = (0..limb.links().len()).filter(is_own).collect();
         let renumbered = |&number: &usize| {

@@ -23,10 +23,10 @@ impl EqualParts {
 }
 
 impl Limb {
-    /// Equal parts of at least `least` links each; those within them are not listed.
+    /// All equal parts but those within others.
     ///
     /// Parts that begin with a joint parallel to that of their carrier are none: their axes are the carrier's.
-    pub fn equal_parts(&self, least: usize) -> Vec<EqualParts> {
+    pub fn equal_parts(&self) -> Vec<EqualParts> {
         let sizes = self.sizes();
         let mut found: Vec<EqualParts> = Vec::new();
         let mut first = 1;
@@ -41,8 +41,8 @@ impl Limb {
             };
             let count = (first..).step_by(size).take_while(is_equal).count();
             let carrier = link.inboard.map_or(0, usize::from);
-            let may_be = link.joint != LimbJoint::Parallel && size >= least && count > 1;
-            if may_be {
+            let are_equal = link.joint != LimbJoint::Parallel && count > 1;
+            if are_equal {
                 found.push(EqualParts {
                     carrier,
                     first,
@@ -50,7 +50,7 @@ impl Limb {
                     part: Self { links: part.collect() },
                 });
             }
-            first += if may_be { count * size } else { 1 };
+            first += if are_equal { count * size } else { 1 };
         }
         found
     }
@@ -80,8 +80,8 @@ impl Limb {
 mod tests {
     use super::*;
 
-    fn parts(name: &str, least: usize) -> Vec<(usize, usize, usize, String)> {
-        let found = Limb::named(name).expect("a limb").equal_parts(least).into_iter();
+    fn parts(name: &str) -> Vec<(usize, usize, usize, String)> {
+        let found = Limb::named(name).expect("a limb").equal_parts().into_iter();
         found
             .map(|parts| (parts.carrier, parts.first, parts.count, parts.part.to_string()))
             .collect()
@@ -89,24 +89,23 @@ mod tests {
 
     #[test]
     fn parts_are_equal_whole_and_side_by_side() {
-        assert_eq!(parts("Trr(rps)(rps)(sr)", 1), [(1, 2, 2, "Trps".to_owned())]);
-        assert_eq!(parts("Tr(rr)(r)(r)(r)", 1), [(0, 3, 3, "Tr".to_owned())]);
-        assert_eq!(parts("Tr(rr)(r)(r)(r)", 2), []);
-        assert_eq!(parts("Trp(rr(s)(s))(pp)(pp)(rr)", 1), [(3, 4, 2, "Ts".to_owned())]);
-        assert_eq!(parts("Trrrp", 1), []);
+        assert_eq!(parts("Trr(rps)(rps)(sr)"), [(1, 2, 2, "Trps".to_owned())]);
+        assert_eq!(parts("Tr(rr)(r)(r)(r)"), [(0, 3, 3, "Tr".to_owned())]);
+        assert_eq!(parts("Trp(rr(s)(s))(pp)(pp)(rr)"), [(3, 4, 2, "Ts".to_owned())]);
+        assert_eq!(parts("Trrrp"), []);
     }
 
     #[test]
     fn parts_within_equal_parts_are_theirs() {
         let found = [(0, 1, 2, "Tr(rr)(rr)".to_owned())];
-        assert_eq!(parts("Tr(r(rr)(rr))(r(rr)(rr))", 1), found);
+        assert_eq!(parts("Tr(r(rr)(rr))(r(rr)(rr))"), found);
         let deep = [(1, 2, 2, "Trr".to_owned()), (0, 6, 2, "Tsr".to_owned())];
-        assert_eq!(parts("Tr(r(rr)(rr))(sr)(sr)", 1), deep);
+        assert_eq!(parts("Tr(r(rr)(rr))(sr)(sr)"), deep);
     }
 
     #[test]
     fn equal_parts_on_different_links_are_apart() {
-        assert_eq!(parts("Tr(rrr)(rrs)", 1), []);
-        assert_eq!(parts("Tr(sr)(sr)", 2), [(0, 1, 2, "Tsr".to_owned())]);
+        assert_eq!(parts("Tr(rrr)(rrs)"), []);
+        assert_eq!(parts("Tr(sr)(sr)"), [(0, 1, 2, "Tsr".to_owned())]);
     }
 }

@@ -3,7 +3,7 @@ use std::cmp::Reverse;
 use std::sync::{Arc, Mutex};
 
 use nboom_formulation::{Embedding, Forces, Formulation, Layout, Recognised};
-use nboom_model::{Shape, Topology};
+use nboom_model::{Limb, Shape, Topology};
 use nboom_scalar::Kernel;
 
 use crate::options::Options;
@@ -24,11 +24,12 @@ pub struct Fit {
 /// `benches/README.md`; only comparisons matter.
 ///
 /// Straight lines take the hinges one after the other. Loops take equal appendages side by side,
-/// as many as a register holds; so do straight lines for equal limbs.
+/// as many as a register holds; so do straight lines for equal limbs, and for equal parts of one.
 fn duration(topology: &Topology, instructions: &str) -> usize {
-    let is_limb = |shape: &Shape| matches!(shape, Shape::Limb(_));
-    let side_by_side =
-        |(shape, count): (Shape, usize)| count >= if is_limb(&shape) { 2 } else { 4 };
+    let side_by_side = |(shape, count): (Shape, usize)| match shape {
+        Shape::Limb(limb) => count >= 2 || !limb.equal_parts().is_empty(),
+        Shape::Chain(_) | Shape::Paddle => count >= 4,
+    };
     if topology.hinges() <= 16 && !topology.groups().any(side_by_side) {
         return 20 + 36 * topology.hinges();
     }
@@ -41,13 +42,24 @@ fn duration(topology: &Topology, instructions: &str) -> usize {
         let rest = count % widest;
         40 * (count / widest + rest / 4 + rest % 4 / 2 + rest % 2)
     };
+    let limbs = |limb: &Limb, count: usize| {
+        let links = limb.links().len();
+        if count > 1 {
+            return links * limb_link(count);
+        }
+        let parts = limb.equal_parts();
+        let of_parts = parts.iter().map(|of| (of.part.links().len(), of.count));
+        let trunk = of_parts.clone().fold(links, |rest, (links, count)| rest - links * count);
+        of_parts.fold(trunk * limb_link(1), |sum, (links, count)| sum + links * limb_link(count))
+    };
     let link = |count: usize| match instructions {
         "avx512" => 50 * (count / 8) + 35 * (count % 8 / 4) + 50 * (count % 4),
         "avx2" => 50 * (count / 4) + 50 * (count % 4),
         _ => 50 * count,
     };
-    let sweeps = topology.groups().map(|(shape, count)| {
-        shape.hinges() * if is_limb(&shape) { limb_link(count) } else { link(count) }
+    let sweeps = topology.groups().map(|(shape, count)| match &shape {
+        Shape::Limb(limb) => limbs(limb, count),
+        Shape::Chain(_) | Shape::Paddle => shape.hinges() * link(count),
     });
     45 + sweeps.sum::<usize>()
 }

@@ -18,9 +18,6 @@ use crate::trace::rolled::{Equal, Placed, Places, Steps, as_asked, law, traced_l
 use crate::trace::stage::Masks;
 use crate::trace::{STRAIGHT_LINKS, Traced};
 
-/// Links of which equal parts have to have as many to be taken side by side.
-const LEAST_LINKS: usize = 2;
-
 /// The steps of a limb, in the order in which their constants stand.
 pub(crate) struct TrunkSteps {
     pub trunk: Trunk,
@@ -72,7 +69,7 @@ impl TrunkLines {
     /// `None` of a limb without equal parts, of one that has equals itself, and of so many links that no lines are
     /// tried.
     pub fn of(request: &Request, group: &Equal, limb: &Limb) -> Option<Self> {
-        let trunk = Trunk::of(limb, LEAST_LINKS).filter(|_| group.count == 1)?;
+        let trunk = Trunk::of(limb).filter(|_| group.count == 1)?;
         let parts = trunk.parts().iter();
         let links = trunk.numbers().len() + parts.map(|of| of.part.links().len()).sum::<usize>();
         if links > STRAIGHT_LINKS {
