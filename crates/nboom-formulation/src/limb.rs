@@ -51,32 +51,32 @@ pub(crate) fn eliminate<R: Real>(
 ) -> (AtOrigin<R>, Vec<EliminatedLink<R>>) {
     let rates = hinges.iter().map(|hinge| [hinge.beta, hinge.tau]);
     let moving = outward(number, links, branch, at_mount, rates);
-    let standing: Vec<_> = moving.into_iter().map(|link| (link.stance, link.body)).collect();
-    let torques: Vec<R> = hinges.iter().map(|hinge| hinge.torque).collect();
+    let stands = |i: usize| (&moving[i].stance, &moving[i].body);
     let outboard = vec![AtOrigin::nothing(); links.len()];
-    inward(number, links, branch, &standing, &torques, outboard)
+    inward(number, links, branch, stands, |i| hinges[i].torque, outboard)
 }
 
 /// The same of links that stand so, each with its body and all that is `outboard` of it besides.
-pub(crate) fn inward<R: Real>(
+pub(crate) fn inward<'a, R: Real>(
     number: usize,
     links: &[LimbLink],
     branch: &Branch<R>,
-    standing: &[(Stance<R>, Turned<R>)],
-    torques: &[R],
+    stands: impl Fn(usize) -> (&'a Stance<R>, &'a Turned<R>),
+    torque: impl Fn(usize) -> R,
     mut outboard: Vec<AtOrigin<R>>,
 ) -> (AtOrigin<R>, Vec<EliminatedLink<R>>) {
     let mut at_mount = AtOrigin::nothing();
     let mut eliminated = Vec::with_capacity(links.len());
-    for (i, (stance, body)) in standing.iter().enumerate().rev() {
+    for (i, link) in links.iter().enumerate().rev() {
         R::remark(|| format!("Link {number},{}, inward: its joint eliminated.", i + 1));
+        let (stance, body) = stands(i);
         let mut seen = of_body(body);
         seen.add(&outboard[i]);
-        let (joint, share) = EliminatedJoint::of(links[i].joint, body, &seen, torques[i]);
+        let (joint, share) = EliminatedJoint::of(link.joint, body, &seen, torque(i));
         eliminated.push(EliminatedLink { stance: *stance, joint });
         at_mount = stance.share_at_mount(&share);
-        if let Some(inboard) = links[i].inboard.map(usize::from) {
-            let carried = standing[inboard].0.share_carried(&branch.mount(i), &at_mount);
+        if let Some(inboard) = link.inboard.map(usize::from) {
+            let carried = stands(inboard).0.share_carried(&branch.mount(i), &at_mount);
             outboard[inboard].add(&carried);
         }
     }

@@ -169,13 +169,24 @@ fn prepare_trunk(group: &Equal, steps: &TrunkSteps, level: Level) -> TokenStream
             quote!(let #from: [R; #size] = R::gather_all(p, #at, 1); #of_law)
         })
     });
-    let places = own_places(group, trunk).map(Literal::usize_unsuffixed);
     let from = format_ident!("trunk");
+    let places: Vec<usize> = own_places(group, trunk).collect();
+    let mut start = 0;
+    let runs = places.chunk_by(|a, b| a + 1 == *b).map(|run| {
+        let end = start + run.len();
+        let [own, own_end, first, first_end] =
+            [std::mem::replace(&mut start, end), end, run[0], run[0] + run.len()]
+                .map(Literal::usize_unsuffixed);
+        quote!(#from[#own..#own_end].copy_from_slice(&p[#first..#first_end]);)
+    });
+    let runs: TokenStream = runs.collect();
+    let size = Literal::usize_unsuffixed(places.len());
     let of_trunk = [outward, inward, back].map(|step| store(step, &from, 1, &[], level));
     let parts = parts.iter().map(|(group, steps)| prepare(group, steps, level));
     quote! {
         #(#laws)*
-        let #from = [#(p[#places]),*];
+        let mut #from = [R::zero(); #size];
+        #runs
         #(#of_trunk)*
         #(#parts)*
     }

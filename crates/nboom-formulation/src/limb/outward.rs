@@ -108,6 +108,7 @@ impl<R: Real> Moving<R> {
 
 impl<R: Real> Motion<R> {
     /// How a mount on the link moves, which stands so.
+    #[inline]
     pub fn at(&self, stance: &Stance<R>, mount: &Mount<R>) -> AtMount<R> {
         match mount {
             Mount::Parallel(way) => {

@@ -62,12 +62,14 @@ impl<R: Real> Stance<R> {
     }
 
     /// The accelerations at the link's origin when those of its mount are these and its joint has none.
+    #[inline]
     pub fn carried_by(&self, at_mount: Twist<R>) -> Twist<R> {
         self.axes_turned.twist_back(at_mount).at(self.along())
     }
 
     /// The accelerations of a mount on the link, along the axes there, when the link has these, but for
     /// its bias.
+    #[inline]
     pub fn carries(&self, mount: &Mount<R>, of_link: Twist<R>) -> Twist<R> {
         match mount {
             Mount::Parallel(way) => of_link.at(self.way(*way)),
@@ -110,11 +112,13 @@ impl<R: Real> Stance<R> {
     }
 
     /// A wrench on the link as one at its mount, along the axes there.
+    #[inline]
     pub fn wrench_at_mount(&self, wrench: Wrench<R>) -> Wrench<R> {
         self.axes_turned.wrench(wrench.seen_from(self.along()))
     }
 
     /// A wrench at a mount on the link, along the axes there, as one on the link.
+    #[inline]
     pub fn wrench_carried(&self, mount: &Mount<R>, wrench: Wrench<R>) -> Wrench<R> {
         match mount {
             Mount::Parallel(way) => wrench.seen_from(self.way(*way)),
@@ -125,6 +129,7 @@ impl<R: Real> Stance<R> {
     }
 
     /// The way from the link's joint to a parallel one, along the axes of both.
+    #[inline]
     pub fn way(&self, way: [R; 2]) -> Vec3<R> {
         self.turned.vector(Vec3::new(R::zero(), way[0], way[1]))
     }

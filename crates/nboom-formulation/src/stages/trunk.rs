@@ -150,8 +150,9 @@ pub fn trunk_inward<R: Real>(trunk: Trunk) -> Stage<R> {
             for (carrier, shown) in carriers.iter().rev() {
                 outboard[*carrier].add(shown);
             }
+            let stands = |i: usize| (&standing[i].0, &standing[i].1);
             let (share, left) =
-                limb::inward(1, &trunk.links, &branch, &standing, &torques, outboard);
+                limb::inward(1, &trunk.links, &branch, stands, |i| torques[i], outboard);
             [limb::at_origin(&share, &branch).flat(), whole::flat(&trunk.links, &left)].concat()
         }),
     }

@@ -4,7 +4,9 @@ use nboom_formulation::{Layout, RightSideLayout};
 use nboom_model::{Shape, Topology};
 
 use crate::request::{Request, identifier};
-use crate::trace::STRAIGHT_LINKS;
+
+/// Letters beyond which the name of a limb is long.
+const LONG: usize = 12;
 
 /// Equal appendages, or equal parts of a limb on one link.
 pub(crate) struct Equal {
@@ -37,9 +39,8 @@ impl Equal {
         if let Some(part) = &self.part {
             return part.clone();
         }
-        let links = self.shape.hinges();
-        if matches!(self.shape, Shape::Limb(_)) && links > STRAIGHT_LINKS {
-            return format!("t{links}_{}", self.hinge);
+        if matches!(self.shape, Shape::Limb(_)) && self.shape_name().len() > LONG {
+            return format!("t{}_{}", self.shape.hinges(), self.hinge);
         }
         identifier(&Topology::new([self.shape.clone()])).to_lowercase()
     }
