@@ -3,11 +3,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use nboom_study::Method;
 use nboom_study::Report;
 use nboom_study::statistics::{Percentile, Proportion, Summary};
-
-/// The method whose points are not drawn.
-const GRID: &str = "grid";
 
 /// The head of percentiles with bounds.
 const BOUNDED: &str = "95 %, by 95 % confidence";
@@ -43,7 +41,7 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
         counts.failed
     );
     // Points of a grid are chosen and not drawn.
-    let is_drawn = of.method != GRID;
+    let is_drawn = of.method != Method::Grid.name();
     let rows: Vec<[String; 5]> = rows(statistics, is_drawn);
     let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
     for row in &rows {

@@ -96,14 +96,14 @@ impl Steps {
         }
     }
 
-    /// The torque about a hinge, of a right side.
+    /// The torque about a hinge, of a right side; that of trunks, whose hinges do not follow each other, is theirs.
     pub fn law(&self) -> Option<&Placed> {
         match self {
             Self::Chain(of) => of.law.as_ref(),
             Self::Paddle(of) => of.law.as_ref(),
             Self::Limb(of) => of.law.as_ref(),
             Self::Joints(of) => of.law.as_ref(),
-            Self::Trunk(of) => of.law.as_ref(),
+            Self::Trunk(_) => None,
             Self::Part(of) => of.law.as_ref(),
         }
     }
