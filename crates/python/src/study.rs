@@ -7,6 +7,7 @@ use std::thread;
 use std::time::Duration;
 
 use nboom_cli::{SweepOutputs, finish_sweep, words_of_settings};
+use nboom_io::ReadOptions;
 use nboom_study::{End, Maker, Report, Shard, Sweep, SweepDirectory, Watcher};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyString};
@@ -89,8 +90,10 @@ impl Study {
 impl Study {
     /// Reads a study `NAME.toml` and its scene.
     #[staticmethod]
-    fn load(path: PathBuf) -> PyResult<Self> {
-        let study = nboom_study::Study::read(&path).map_err(of_input)?;
+    fn load(path: PathBuf, include_anywhere: bool) -> PyResult<Self> {
+        let options =
+            ReadOptions { includes_from_anywhere: include_anywhere, ..Default::default() };
+        let study = nboom_study::Study::read_with(&path, &options).map_err(of_input)?;
         Ok(Self { study: Arc::new(study) })
     }
 

@@ -120,6 +120,19 @@ def test_a_scene_that_is_deleted_is_not_missed(few, tmp_path, examples):
         nboom.study(few)
 
 
+def test_files_outside_of_the_folder_are_included_if_they_may_be(few, tmp_path, examples):
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    (tmp_path / "parts.toml").write_text("[parameters]\nspare = 1.0\n")
+    scene = (examples / "cubesat.toml").read_text()
+    (inner / "own.toml").write_text('include = ["../parts.toml"]\n' + scene)
+    few.write_text(few.read_text().replace(str(examples / "cubesat.toml"), str(inner / "own.toml")))
+    with pytest.raises(nboom.InputError, match="parts.toml"):
+        nboom.study(few)
+    study = nboom.study(few, include_anywhere=True)
+    assert nboom.sweep(study, tmp_path / "out", report=False).cases.rows == 40
+
+
 def test_studies_and_directories_that_do_not_fit_are_refused(few, many, tmp_path):
     nboom.sweep(few, tmp_path / "out", report=False)
     with pytest.raises(nboom.InputError, match="another sweep found"):

@@ -55,7 +55,7 @@ def _study(texts: tuple[str, str]) -> _nboom.Study:
             with tempfile.TemporaryDirectory() as folder:
                 for name, text in zip(("study.toml", "scene.toml"), texts, strict=True):
                     Path(folder, name).write_text(text, encoding="utf-8")
-                study = _nboom.Study.load(str(Path(folder, "study.toml")))
+                study = _nboom.Study.load(str(Path(folder, "study.toml")), False)
             _known.clear()
             _known[key] = study
         return _known[key]

@@ -116,15 +116,22 @@ class Sweep:
         return framed(self.report()) if page.exists() else None
 
 
-def study(path: str | os.PathLike[str]) -> Study:
+def study(path: str | os.PathLike[str], include_anywhere: bool = False) -> Study:
     """Reads a study ``NAME.toml`` and the scene that it varies.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    include_anywhere : bool, optional
+        Let the scene include files outside of its folder.
 
     Raises
     ------
     InputError
         With file, line, key, what was found and expected, of all that is wrong.
     """
-    return Study(_nboom.Study.load(os.fspath(path)))
+    return Study(_nboom.Study.load(os.fspath(path), include_anywhere))
 
 
 def sweep(
