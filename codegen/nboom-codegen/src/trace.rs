@@ -27,13 +27,14 @@ pub const STRAIGHT_LIMIT: usize = 2550;
 /// which is about as fast by then.
 pub const OPERATION_LIMIT: usize = 20_000;
 
-/// Links beyond which a limb is not tried as a straight line.
+/// Links beyond which a limb is not tried as straight lines, equal parts counted once.
 const STRAIGHT_LINKS: usize = 64;
 
 /// So many equal appendages fill a register, and a loop over it beats a straight line.
 const PACK: usize = 4;
 
-/// So many equal limbs do, or equal parts of one: each is longer than a chain, and both are one straight line.
+/// So many equal limbs do, or equal parts of one: each is longer than a chain, and both are one straight line. The
+/// estimate of a routine's time in nboom-sim counts on it.
 const PAIR: usize = 2;
 
 /// Hinges beyond which no straight line is tried: none is shorter than the limit.

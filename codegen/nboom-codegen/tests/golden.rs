@@ -142,6 +142,19 @@ fn small_satellites_are_straight_lines_and_large_ones_loops() {
 }
 
 #[test]
+fn equal_parts_of_a_limb_go_side_by_side_unless_the_limb_has_equals() {
+    let of = |name: &str| {
+        let topology = name.parse().expect("a topology");
+        text_of(&Request::new("Limb", topology, Level::Fast)).replace(char::is_whitespace, "")
+    };
+    let (one, two) = (of("Trr(rr)(rr)(s)"), of("2xTrr(rr)(rr)(s)"));
+    assert!(one.contains("t7_0_part1_in::<f64,I::Two") && !one.contains("t7_0_limb_in"));
+    assert!(!two.contains("_part1") && two.contains("t7_0_limb_in"));
+    let several = of("Tr(r(rr)(rr)(rr))(sr(rs)(rs))");
+    assert!(several.contains("_part2_in") && !several.contains("_part3"));
+}
+
+#[test]
 fn what_is_checked_in_is_formatted_as_rustfmt_does() {
     let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = ["s1.rs", "four_s3.rs", "snake.rs", "right_side.rs", "stresses.rs"]

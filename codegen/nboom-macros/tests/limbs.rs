@@ -24,6 +24,9 @@ nboom::routine! { Three: 3xTrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr
 nboom::routine! { Torso: "Trrr(rrsrprr)(rrsrprr)(pr)", external }
 nboom::routine! { TorsoMoves: "Trrr(rrsrprr)(rrsrprr)(pr)", right_side, external }
 nboom::routine! { Hand: "Trr(rrprr)(rrprr)(rrprr)(rrprr)", level = exact }
+nboom::routine! { OnOne: "Trr(rs)(rs)(r)(r)(r)", level = exact }
+nboom::routine! { OnSeveral: "Tr(r(rr)(rr)(rr))(sr(rs)(rs))(s)", right_side, external }
+nboom::routine! { Nine: "Trr(rs)(rs)(rs)(rs)(rs)(rs)(rs)(rs)(rs)", external }
 nboom::routine! { Several: "Trr(rr(rs)(rs)(rs))(rr(rs)(rs)(rs))(r)_Tsr(rr)(rr)(rr)(rr)(rr)", external }
 
 const STATES: usize = 20;
@@ -149,17 +152,20 @@ fn equal_large_limbs_are_taken_side_by_side() {
 fn equal_parts_of_a_limb_are_taken_side_by_side() {
     is_the_closed_form::<Torso>(false);
     is_the_closed_form::<Several>(false);
+    is_the_closed_form::<Nine>(false);
 }
 
 #[test]
 fn equal_parts_one_after_the_other_have_the_bits_of_the_closed_form() {
     is_the_closed_form::<Hand>(true);
+    is_the_closed_form::<OnOne>(true);
 }
 
 #[test]
 fn right_sides_of_limbs_are_those_of_the_equations() {
     is_of_the_equations::<SnakeMoves>();
     is_of_the_equations::<TorsoMoves>();
+    is_of_the_equations::<OnSeveral>();
 }
 
 fn is_of_the_equations<T: Routine>() {

@@ -1,6 +1,6 @@
-//! Code for main bodies that are held, in loops, part by part, joint by joint and as a straight line, compiled and run: against the
-//! closed form for free ones, whose main body is so heavy that only the wrench that holds it moves it, and against the
-//! recursion.
+//! Code for main bodies that are held, in loops, part by part, joint by joint and as a straight line, compiled and
+//! run: against the closed form for free ones, whose main body is so heavy that only the wrench that holds it moves
+//! it, and against the recursion.
 
 use nboom::formulation::{
     Coordinates, Forces, Formulation, Layout, Parameters, RightSideLayout, right_side,

@@ -27,8 +27,8 @@ pub struct CompileArgs {
           value_parser = choice::closed_form)]
     pub formulation: Formulation,
 
-    /// How freely arithmetic may be rearranged: exact keeps every rounding of the closed form, fast
-    /// fuses products and sums.
+    /// How freely arithmetic may be rearranged: exact takes operations one by one as the closed
+    /// form does, fast fuses products and sums.
     #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
     pub level: Level,
 

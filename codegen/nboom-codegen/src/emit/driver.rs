@@ -58,7 +58,7 @@ impl Driver {
     /// The evaluation in packs of whatever width the processor has.
     pub fn in_packs(&self) -> TokenStream {
         let narrow = self.in_packs_of(4);
-        if self.calls.iter().all(|call| call.most() < 5) {
+        if self.calls.iter().all(|call| call.most() < 8) {
             return narrow;
         }
         let wide = self.in_packs_of(8);
@@ -132,8 +132,7 @@ impl Call {
         let empty = self.empty(&quote!(R));
         let count = Literal::usize_unsuffixed(self.count);
         // Parts are added up in the closed form's order.
-        let calls = repeated("a", self.count, self.limb.is_some(), |a| {
-            let a = slot(a);
+        let calls = self.one_by_one(self.limb.is_some(), |a| {
             self.inward([&quote!(R), &quote!(R)], &a, &quote!(#saved[#a]), power.as_ref())
         });
         let parts = self.parts_inward([&quote!(R), &quote!(R)], &quote!(R::zero()), |call| {
@@ -142,12 +141,21 @@ impl Call {
         quote!(#parts let mut #saved = [#empty; #count]; #calls)
     }
 
+    /// Calls for one appendage after the other: two that are straight lines without a loop, which takes longer.
+    fn one_by_one(&self, inward: bool, call: impl Fn(TokenStream) -> TokenStream) -> TokenStream {
+        let are_lines = self.saved.iter().all(|(_, repeats)| repeats.is_none());
+        if !(self.count == 2 && are_lines) {
+            return repeated("a", self.count, inward, |a| call(slot(a)));
+        }
+        let [first, second] = if inward { [quote!(1), quote!(0)] } else { [quote!(0), quote!(1)] };
+        let calls = [call(first), call(second)];
+        quote!(#(#calls)*)
+    }
+
     fn outward_singly(&self) -> TokenStream {
         let saved = format_ident!("{}_saved", self.prefix);
-        let calls = repeated("a", self.count, false, |a| {
-            let a = slot(a);
-            self.outward([&quote!(R), &quote!(R)], &a, &quote!(#saved[#a]))
-        });
+        let calls = self
+            .one_by_one(false, |a| self.outward([&quote!(R), &quote!(R)], &a, &quote!(#saved[#a])));
         let parts = self.parts_outward(Self::outward_singly);
         quote!(#calls #parts)
     }

@@ -61,24 +61,20 @@ impl Hinges<'_> {
 
     /// Writes τ̇ of a hinge.
     pub fn write(&self, tau_dot: &Ident, hinge: Hinge<'_>) -> TokenStream {
-        match self.output {
-            Output::RightSide => {
-                let (at, links) = self.apart(RightSideLayout::tau(self.topology).start, hinge);
-                quote!(#tau_dot.scatter_apart(out, #at, #links);)
-            }
-            _ if self.group.part.is_some() => {
-                let (at, links) = self.apart(Layout::OUTPUT, hinge);
-                quote!(#tau_dot.scatter_apart(out, #at, #links);)
-            }
+        let start = match self.output {
+            Output::RightSide => RightSideLayout::tau(self.topology).start,
+            _ if self.group.part.is_some() => Layout::OUTPUT,
             _ => {
                 let start = Layout::OUTPUT + self.group.hinge;
                 let at = self.place(start, [self.group.count, 1], hinge);
-                quote!(#tau_dot.scatter(out, #at);)
+                return quote!(#tau_dot.scatter(out, #at););
             }
-        }
+        };
+        let (at, links) = self.apart(start, hinge);
+        quote!(#tau_dot.scatter_apart(out, #at, #links);)
     }
 
-    /// β, τ or torque by `row`, which follow each other for all appendages.
+    /// β, τ or torque by `row`, which follow each other for all appendages, and for each hinge of a part.
     fn in_row(&self, row: usize, hinge: Hinge<'_>) -> TokenStream {
         let first = Layout::STATE + Layout::HINGE * self.group.hinge;
         if self.group.part.is_some() {

@@ -89,7 +89,7 @@ impl<'a> Sweeps<'a> {
             1 => format!("the appendage {shape}"),
             _ => format!("appendage `a` of {count} {shape} and those packed with it"),
         };
-        let power = (self.request.output == Output::RightSide).then(|| quote!(power: &mut S,));
+        let power = self.power();
         let in_about = format!(" Inward through {taken}; adds to `seen`.");
         let out_about = format!(" Outward through {taken}.");
         quote! {
@@ -119,6 +119,11 @@ impl<'a> Sweeps<'a> {
                 #outward
             }
         }
+    }
+
+    /// The argument for the power, of a right side.
+    fn power(&self) -> Option<TokenStream> {
+        (self.request.output == Output::RightSide).then(|| quote!(power: &mut S,))
     }
 
     /// The constants of a step, if it has any; those of link `i` if it is a link's step.
@@ -365,15 +370,23 @@ impl<'a> Sweeps<'a> {
         let own = shows.traced.live(AT_ORIGIN);
         let all = self.at_origin.iter().zip(own).filter(|(any, _)| **any).map(|(_, own)| *own);
         let places: Vec<usize> = all.enumerate().filter(|(_, own)| *own).map(|(i, _)| i).collect();
-        let count = Literal::usize_unsuffixed(places.len());
-        if places.iter().copied().eq(0..places.len()) {
-            return quote!(for i in 0..#count { seen[i] += shares[i].sum(); });
-        }
-        let places = places.into_iter().map(Literal::usize_unsuffixed);
-        quote! {
-            let places = [#(#places),*];
-            for i in 0..#count { seen[places[i]] += shares[i].sum(); }
-        }
+        added(&format_ident!("seen"), &places)
+    }
+}
+
+/// Adds what is shown to the numbers of `sums` at these places.
+fn added(sums: &Ident, places: &[usize]) -> TokenStream {
+    let count = Literal::usize_unsuffixed(places.len());
+    let start = places.first().copied().unwrap_or_default();
+    if places.iter().copied().eq(start..start + places.len()) {
+        let i = format_ident!("i");
+        let at = place(start, &[(1, Some(&i))]);
+        return quote!(for i in 0..#count { #sums[#at] += shares[i].sum(); });
+    }
+    let places = places.iter().copied().map(Literal::usize_unsuffixed);
+    quote! {
+        let places = [#(#places),*];
+        for i in 0..#count { #sums[places[i]] += shares[i].sum(); }
     }
 }
 

@@ -13,15 +13,17 @@ use nboom_formulation::stages::{
     REACHED, Stage, TORQUE, TURNED,
 };
 use nboom_formulation::{Layout, RightSideLayout};
-use nboom_model::Shape;
+use nboom_model::{Limb, Shape};
 
 use crate::request::{Output, Request};
-use crate::trace::Traced;
 pub(crate) use crate::trace::rolled::equal::Equal;
 pub(crate) use crate::trace::rolled::joints::{Joints, Kind};
 pub(crate) use crate::trace::rolled::limb::LimbSteps;
+use crate::trace::rolled::limb::Lines;
+use crate::trace::rolled::trunk::TrunkLines;
 pub(crate) use crate::trace::rolled::trunk::{Among, PartSteps, TrunkSteps, own_places};
 use crate::trace::stage::Masks;
+use crate::trace::{OPERATION_LIMIT, Traced};
 
 /// The steps of all sweeps of a request.
 pub(crate) struct Rolled {
@@ -138,7 +140,7 @@ impl Rolled {
                     Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
                 }
                 Shape::Paddle => Steps::Paddle(Box::new(paddle(request, &group, &mut places))),
-                Shape::Limb(of) => limb::steps(request, &group, of, &mut in_lines, &mut places),
+                Shape::Limb(of) => limb(request, &group, of, &mut in_lines, &mut places),
             };
             if let Some(shows) = steps.shows() {
                 let live = shows.traced.live(AT_ORIGIN);
@@ -173,7 +175,13 @@ impl Rolled {
                     let shown = joints.mounts.iter().map(|kind| kind.inward.times * joints.shown());
                     operations.additions += shown.sum::<usize>();
                 }
-                Steps::Paddle(_) | Steps::Limb(_) | Steps::Trunk(_) | Steps::Part(_) => {}
+                Steps::Trunk(trunk) => {
+                    for (equal, part) in &trunk.parts {
+                        let Steps::Part(part) = part else { continue };
+                        operations.additions += equal.count * part.shown.places.len();
+                    }
+                }
+                Steps::Paddle(_) | Steps::Limb(_) | Steps::Part(_) => {}
             }
         }
         operations
@@ -300,6 +308,27 @@ fn paddle(request: &Request, group: &Equal, places: &mut Places) -> Paddle {
         first: places.place(first, group.count),
         back: places.place(back, group.count),
     }
+}
+
+/// The steps of a limb. What its lines take adds to the operations `in_lines`: where that is too much, and where
+/// it has too many links, it goes joint by joint.
+fn limb(
+    request: &Request,
+    group: &Equal,
+    limb: &Limb,
+    in_lines: &mut usize,
+    places: &mut Places,
+) -> Steps {
+    let room = OPERATION_LIMIT - *in_lines;
+    if let Some(lines) = TrunkLines::of(request, group, limb).filter(|of| of.operations() <= room) {
+        *in_lines += lines.operations();
+        return Steps::Trunk(Box::new(lines.placed(request, group, places)));
+    }
+    if let Some(lines) = Lines::of(request, group, limb).filter(|of| of.operations() <= room) {
+        *in_lines += lines.operations();
+        return Steps::Limb(Box::new(lines.placed(request, group, places)));
+    }
+    Steps::Joints(Box::new(Joints::of(request, group, limb, places)))
 }
 
 /// A step without what it shows at O, where a main body that is held does not ask.

@@ -31,18 +31,19 @@ pub fn of_limb(group: Group, limb: &Limb) -> Group {
 
 /// The parameters of a limb, as [`Layout`] has them.
 pub(super) fn parameters(limb: &Limb) -> Vec<Group> {
-    let links = (0..limb.links().len()).flat_map(|link| of_link(limb, link));
+    let links = (0..limb.links().len()).flat_map(|link| of_link(limb, link, link + 1));
     [BRANCH].into_iter().chain(links).collect()
 }
 
-/// The parameters of a link: where it is mounted, unless it is the first, and its body.
-pub(super) fn of_link(limb: &Limb, link: usize) -> impl Iterator<Item = Group> {
+/// The parameters of a link, which names count as `number`: where it is mounted, unless it is the first, and its
+/// body.
+pub(super) fn of_link(limb: &Limb, link: usize, number: usize) -> impl Iterator<Item = Group> {
     let mount = match Layout::mount(limb, link) {
         0 => None,
         Layout::WAY => Some(WAY),
         _ => Some(MOUNT),
     };
-    mount.into_iter().chain([LINK_BODY]).map(move |group| group.of_links(link + 1, 1))
+    mount.into_iter().chain([LINK_BODY]).map(move |group| group.of_links(number, 1))
 }
 
 /// β, τ and torque of each of `count` joints.

@@ -6,23 +6,26 @@ use nboom_scalar::{Real, Twist, Vec3, Wrench};
 use crate::articulated::first_hinge;
 use crate::base::AtOrigin;
 use crate::chain::{Spin, Turned};
-use crate::limb::{self, Motion, Moving, Stance, Standing};
+use crate::limb::{self, Motion, Moving, Stance, Standing, Turn};
 use crate::parameters::{Branch, Reader};
 use crate::stages::joint::{OUTBOARD, RATES};
 use crate::stages::limb::{self as whole, LIMB, LIMB_HINGES, LIMB_TAU_DOT, MOUNT, of_limb};
 use crate::stages::{AT_ORIGIN, BRANCH, Group, MAIN_RATES, OMEGA, Stage, TAU_DOT, TORQUE};
 
-/// What is kept of a link of the trunk on the way outward: how it stands, bias moment and force.
+/// What is kept of a link of the trunk on the way outward: its [`STANCE`](super::STANCE) and [`BIAS`](super::BIAS).
 pub const KEPT: Group = Group::new(
     "kept",
     &["sin", "cos", "bias_y", "bias_z", "travel", "nx", "ny", "nz", "fx", "fy", "fz"],
 );
-/// How a link that carries parts stands and moves.
+/// A link that carries parts: sine and cosine of its angle from the axes in which it is written, where these do not
+/// turn with it; its angular bias acceleration along its own axes; along those in which it is written their ω (`w`),
+/// and the bias acceleration of its origin (`b`); σ, its rate about ê₁.
 pub const CARRIER: Group = Group::new(
     "carrier",
-    &["sin", "cos", "bias_y", "bias_z", "travel", "wx", "wy", "wz", "sigma", "bx", "by", "bz"],
+    &["sin", "cos", "bias_y", "bias_z", "wx", "wy", "wz", "sigma", "bx", "by", "bz"],
 );
-/// Accelerations of a link that carries parts: angular ones, and those of its origin, along its axes.
+/// Accelerations of a link that carries parts, along the axes in which it is written: angular ones (`a`), and those
+/// of its origin (`l`).
 pub const CARRIER_RATES: Group = Group::new("carried_at", &["ax", "ay", "az", "lx", "ly", "lz"]);
 
 /// A limb but for equal parts that are taken side by side.
@@ -33,13 +36,15 @@ pub struct Trunk {
     numbers: Vec<usize>,
     links: Vec<LimbLink>,
     parts: Vec<EqualParts>,
+    /// The links that carry parts, as they are numbered in the limb.
+    carriers: Vec<usize>,
 }
 
 impl Trunk {
     /// The limb without its equal parts; `None` if it has none.
     pub fn of(limb: &Limb) -> Option<Self> {
         let parts = limb.equal_parts();
-        let is_own = |link: &usize| !parts.iter().any(|parts| parts.contain(*link));
+        let is_own = |link: &usize| !parts.iter().any(|parts| parts.contains(*link));
         let numbers: Vec<usize> = (0..limb.links().len()).filter(is_own).collect();
         let renumbered = |&number: &usize| {
             let LimbLink { inboard, joint } = limb.links()[number];
@@ -47,8 +52,11 @@ impl Trunk {
             LimbLink { inboard: inboard.map(|inboard| own(inboard) as u16), joint }
         };
         let links = numbers.iter().map(renumbered).collect();
+        let mut carriers: Vec<usize> = parts.iter().map(|parts| parts.carrier).collect();
+        carriers.sort_unstable();
+        carriers.dedup();
         let some = !parts.is_empty();
-        some.then(|| Self { limb: limb.clone(), numbers, links, parts })
+        some.then(|| Self { limb: limb.clone(), numbers, links, parts, carriers })
     }
 
     /// The links of the trunk, as they are numbered in the limb.
@@ -66,24 +74,30 @@ impl Trunk {
         group.of_links(1, self.links.len())
     }
 
-    /// A group of each link that carries equal parts, one for each time it does.
+    /// A group of each link that carries equal parts.
     pub fn of_carriers(&self, group: Group) -> Group {
-        group.of_links(1, self.parts.len())
+        group.of_links(1, self.carriers.len())
     }
 
-    /// How the link stands that carries the equal parts with this number.
-    pub fn carrier(&self, parts: usize) -> Standing {
-        Standing::of(self.limb.links(), self.parts[parts].carrier)
+    /// Which of these links carries parts.
+    pub fn carrier(&self, parts: &EqualParts) -> usize {
+        self.carriers.partition_point(|&carrier| carrier < parts.carrier)
     }
 
-    /// The links of the trunk that carry the equal parts, as they are numbered in the trunk.
+    /// How the link stands that carries parts. It stands as in the limb, for no part begins with a parallel joint.
+    pub fn standing_of_carrier(&self, parts: &EqualParts) -> Standing {
+        Standing::of(self.limb.links(), parts.carrier)
+    }
+
+    /// The links that carry parts, as they are numbered in the trunk.
     fn carriers(&self) -> impl Iterator<Item = usize> {
-        let own = |parts: &EqualParts| self.numbers.partition_point(|&own| own < parts.carrier);
-        self.parts.iter().map(own)
+        let own = |&carrier: &usize| self.numbers.partition_point(|&own| own < carrier);
+        self.carriers.iter().map(own)
     }
 
     fn parameters(&self) -> Vec<Group> {
-        let links = self.numbers.iter().flat_map(|&link| whole::of_link(&self.limb, link));
+        let links = self.numbers.iter().enumerate();
+        let links = links.flat_map(|(own, &link)| whole::of_link(&self.limb, link, own + 1));
         [BRANCH].into_iter().chain(links).collect()
     }
 
@@ -114,9 +128,13 @@ pub fn trunk_outward<R: Real>(trunk: Trunk) -> Stage<R> {
             });
             let carriers = trunk.carriers().flat_map(|i| {
                 let Moving { stance, motion, .. } = &moving[i];
+                let [sin, cos] = match trunk.standing(i) {
+                    Standing::Turning => [stance.turned.sin, stance.turned.cos],
+                    Standing::Sliding | Standing::WithAxes => [R::zero(); 2],
+                };
                 let (w, origin) = (motion.spin.w.to_array(), motion.origin.to_array());
-                let motion = w.into_iter().chain([motion.sigma]).chain(origin);
-                stance.flat(trunk.standing(i)).into_iter().chain(motion)
+                let stance = [sin, cos, stance.bias.y, stance.bias.z].into_iter();
+                stance.chain(w).chain([motion.sigma]).chain(origin)
             });
             kept.chain(carriers).collect()
         }),
@@ -143,12 +161,9 @@ pub fn trunk_inward<R: Real>(trunk: Trunk) -> Stage<R> {
                 })
                 .collect();
             let torques: Vec<R> = trunk.links.iter().map(|_| reader.next()).collect();
-            let carriers = trunk.carriers().map(|i| (i, AtOrigin::read(&mut reader)));
-            let carriers: Vec<(usize, AtOrigin<R>)> = carriers.collect();
             let mut outboard = vec![AtOrigin::nothing(); trunk.links.len()];
-            // The last ones first, as where the limb is eliminated as a whole.
-            for (carrier, shown) in carriers.iter().rev() {
-                outboard[*carrier].add(shown);
+            for carrier in trunk.carriers() {
+                outboard[carrier] = AtOrigin::read(&mut reader);
             }
             let stands = |i: usize| (&standing[i].0, &standing[i].1);
             let (share, left) =
@@ -198,9 +213,16 @@ fn part_on_carrier<R: Real>(
     reader: &mut Reader<impl Iterator<Item = R>>,
 ) -> (Branch<R>, Stance<R>, Motion<R>) {
     let branch = reader.limb(part.links());
-    let stance = Stance::read(carrier, reader);
+    let (turn, still) = (Turn { sin: reader.next(), cos: reader.next() }, Turn::still());
+    let stance = Stance {
+        // Nothing that it carries asks how its axes have turned, or how far it has slid.
+        axes_turned: still,
+        turned: if carrier == Standing::Turning { turn } else { still },
+        travel: R::zero(),
+        bias: Vec3::new(R::zero(), reader.next(), reader.next()),
+    };
     let (spin, sigma) = (Spin::new(reader.vector()), reader.next());
-    // Its angle is asked for by parallel joints alone.
+    // Parallel joints alone ask for its angle, and no part begins with one.
     let motion = Motion { alpha: R::zero(), sigma, spin, origin: reader.vector() };
     (branch, stance, motion)
 }

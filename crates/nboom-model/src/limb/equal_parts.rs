@@ -17,7 +17,7 @@ pub struct EqualParts {
 
 impl EqualParts {
     /// Whether a link belongs to one of them.
-    pub fn contain(&self, link: usize) -> bool {
+    pub fn contains(&self, link: usize) -> bool {
         (self.first..self.first + self.count * self.part.links().len()).contains(&link)
     }
 }

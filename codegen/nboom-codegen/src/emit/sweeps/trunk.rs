@@ -9,8 +9,7 @@ use crate::emit::comment::comment;
 use crate::emit::driver::Parts;
 use crate::emit::hinges::omega_spread;
 use crate::emit::places::place;
-use crate::emit::sweeps::{Sweeps, name};
-use crate::request::Output;
+use crate::emit::sweeps::{Sweeps, added, name};
 use crate::trace::{Among, PartSteps, Placed, TrunkSteps};
 
 impl<'a> Sweeps<'a> {
@@ -24,13 +23,8 @@ impl<'a> Sweeps<'a> {
         Parts { calls: self.parts(trunk).map(|part| part.call()).collect(), shown }
     }
 
-    /// The argument for the power, of a right side.
-    fn power(&self) -> Option<TokenStream> {
-        (self.request.output == Output::RightSide).then(|| quote!(power: &mut S,))
-    }
-
     pub(super) fn trunk_functions(&self, of: &'a TrunkSteps) -> TokenStream {
-        let TrunkSteps { trunk, law, outward, inward, back, .. } = of;
+        let TrunkSteps { trunk, outward, inward, back, .. } = of;
         let prefix = self.group.prefix();
         let [carry, in_name, out_name] =
             ["carry", "in", "out"].map(|sweep| format_ident!("{prefix}_{sweep}"));
@@ -55,7 +49,7 @@ impl<'a> Sweeps<'a> {
             |written| quote!(#written = #inward_(#k_inward kept, torques, P::spread_all(*shown));),
         );
         let names: Vec<Ident> =
-            trunk.numbers().iter().map(|i| format_ident!("tau_dot_{}", i + 1)).collect();
+            (1..=trunk.numbers().len()).map(|i| format_ident!("tau_dot_{i}")).collect();
         let writes = trunk
             .numbers()
             .iter()
@@ -70,7 +64,6 @@ impl<'a> Sweeps<'a> {
         let out_about = format!(
             " Outward through the trunk of {shape}: the accelerations of links that carry parts."
         );
-        let law_is_read = law.as_ref().map(|_| power);
         quote! {
             #[doc = #carry_about]
             #[inline(always)]
@@ -90,7 +83,7 @@ impl<'a> Sweeps<'a> {
                 shown: &[S; #shown],
                 saved: &mut [P; #left],
                 seen: &mut [S; #seen],
-                #law_is_read
+                #power
             ) {
                 #laws
                 let torques = [#(#torques),*];
@@ -121,7 +114,7 @@ impl<'a> Sweeps<'a> {
             return (None, numbers.iter().map(|&i| self.hinges().torque((i, None))).collect());
         };
         let what = comment("Torques of springs and dashpots, and their power.");
-        let names: Vec<Ident> = numbers.iter().map(|i| format_ident!("torque_{}", i + 1)).collect();
+        let names: Vec<Ident> = (1..=numbers.len()).map(|i| format_ident!("torque_{i}")).collect();
         let laws = numbers.iter().enumerate().map(|(n, &i)| {
             let (size, law_) = (law.traced.constants(), name(law));
             let constants = (size > 0).then(|| {
@@ -152,10 +145,7 @@ impl<'a> Sweeps<'a> {
         let [k_inward, k_back] = [inward, back].map(|step| self.argument(step));
         let [of_carrier, of_rates] = [(carrier, "carriers"), (carried_at, "carried_at")]
             .map(|(among, all)| picked(among, &format_ident!("{all}")));
-        let shows = shown.places.clone().enumerate().map(|(i, place)| {
-            let [i, place] = [i, place].map(literal);
-            quote!(shown[#place] += shares[#i].sum();)
-        });
+        let shows = added(&format_ident!("shown"), &shown.places);
         let names: Vec<Ident> =
             (1..=part.links().len()).map(|i| format_ident!("tau_dot_{i}")).collect();
         let writes = names.iter().enumerate().map(|(i, name)| self.hinges().write(name, (i, None)));
@@ -183,7 +173,7 @@ impl<'a> Sweeps<'a> {
                 let hinges = [#(#hinges),*];
                 let (shares, left) = #inward_(#k_inward P::spread_all(#of_carrier), hinges);
                 *saved = left;
-                #(#shows)*
+                #shows
             }
             #[doc = #out_about]
             #[inline(always)]
@@ -205,7 +195,7 @@ impl<'a> Sweeps<'a> {
 
 /// The numbers of one carrier.
 fn picked(among: &Among, all: &Ident) -> TokenStream {
-    let places = among.places.clone().map(literal);
+    let places = among.places.iter().copied().map(literal);
     quote!([#(#all[#places]),*])
 }
 

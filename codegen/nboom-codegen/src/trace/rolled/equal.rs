@@ -18,7 +18,8 @@ pub(crate) struct Equal {
     pub hinge: usize,
     /// Where the laws of a right side begin.
     pub law: usize,
-    /// Of parts of a limb, what names of functions begin with.
+    /// Of parts of a limb, what names of functions begin with. Their numbers stand part by part, as those of the
+    /// limb do, where those of equal appendages stand side by side.
     pub part: Option<String>,
 }
 

@@ -1,13 +1,12 @@
-//! A limb in two straight lines, inward and back, and the choice between this and other ways to take it.
+//! A limb in two straight lines, inward and back.
 
 use nboom_formulation::stages::{self, LIMB};
 use nboom_model::Limb;
 
 use crate::request::Request;
-use crate::trace::rolled::trunk::TrunkLines;
-use crate::trace::rolled::{Equal, Joints, Placed, Places, Steps, as_asked, law};
+use crate::trace::rolled::{Equal, Placed, Places, as_asked, law};
 use crate::trace::stage::Masks;
-use crate::trace::{OPERATION_LIMIT, STRAIGHT_LINKS, Traced};
+use crate::trace::{STRAIGHT_LINKS, Traced};
 
 /// The steps of a limb as a whole, in the order in which their constants stand.
 pub(crate) struct LimbSteps {
@@ -18,29 +17,8 @@ pub(crate) struct LimbSteps {
     pub back: Placed,
 }
 
-/// The steps of a limb. What its lines take adds to the operations `in_lines`: where that is too much, and where
-/// it has too many links, it goes joint by joint.
-pub(crate) fn steps(
-    request: &Request,
-    group: &Equal,
-    limb: &Limb,
-    in_lines: &mut usize,
-    places: &mut Places,
-) -> Steps {
-    let room = OPERATION_LIMIT - *in_lines;
-    if let Some(lines) = TrunkLines::of(request, group, limb).filter(|of| of.operations() <= room) {
-        *in_lines += lines.operations();
-        return Steps::Trunk(Box::new(lines.placed(request, group, places)));
-    }
-    if let Some(lines) = Lines::of(request, group, limb).filter(|of| of.operations() <= room) {
-        *in_lines += lines.operations();
-        return Steps::Limb(Box::new(lines.placed(request, group, places)));
-    }
-    Steps::Joints(Box::new(Joints::of(request, group, limb, places)))
-}
-
 /// Both lines of a limb, traced.
-struct Lines {
+pub(super) struct Lines {
     limb: Limb,
     inward: Traced,
     back: Traced,

@@ -4,8 +4,6 @@
 #[cfg(test)]
 mod tests;
 
-use std::ops::Range;
-
 use nboom_expr::Expr;
 use nboom_formulation::stages::{
     self, CARRIER, CARRIER_RATES, Group, KEPT, LIMB, OUTBOARD, Stage, Trunk, of_limb,
@@ -30,8 +28,8 @@ pub(crate) struct TrunkSteps {
     pub parts: Vec<(Equal, Steps)>,
 }
 
-/// The steps of equal parts, in the order in which their constants stand, and where what they exchange with the
-/// trunk stands among what all parts do.
+/// The steps of equal parts, in the order in which their constants stand, and where the numbers that they exchange
+/// with the trunk stand among those of all carriers.
 pub(crate) struct PartSteps {
     pub part: Limb,
     /// What names of functions of the limb begin with.
@@ -49,9 +47,8 @@ pub(crate) struct PartSteps {
 }
 
 /// Where the numbers of one carrier stand among those of all.
-#[derive(Default)]
 pub(crate) struct Among {
-    pub places: Range<usize>,
+    pub places: Vec<usize>,
     pub all: usize,
 }
 
@@ -83,16 +80,22 @@ impl TrunkLines {
         };
         let outward = of_trunk(&stages::trunk_outward(trunk.clone()), &Masks::new());
         let carriers = outward.live(trunk.of_carriers(CARRIER));
-        let parts = trunk.parts().iter().enumerate().map(|(n, parts)| {
+        let of_carrier = |parts: &EqualParts, group: Group, all: &[bool]| {
+            let start = trunk.carrier(parts) * group.size();
+            (group.name, all[start..start + group.size()].to_vec())
+        };
+        let mut shown = vec![false; trunk.of_carriers(OUTBOARD).size()];
+        let inward_of = |(n, parts): (usize, &EqualParts)| {
             let equal = equal(request, group, parts, n);
-            let carrier = carriers.chunks(CARRIER.size()).nth(n).unwrap_or_default();
-            let masks = Masks::from([(CARRIER.name, carrier.to_vec())]);
-            let stage = stages::part_inward(parts.part.clone(), trunk.carrier(n));
+            let masks = Masks::from([of_carrier(parts, CARRIER, carriers)]);
+            let standing = trunk.standing_of_carrier(parts);
+            let stage = stages::part_inward(parts.part.clone(), standing);
             let inward = of_part(request, &equal, &stage, &masks);
+            let of_carrier = shown[trunk.carrier(parts) * OUTBOARD.size()..].iter_mut();
+            of_carrier.zip(inward.live(OUTBOARD)).for_each(|(any, live)| *any |= live);
             (equal, inward)
-        });
-        let parts: Vec<(Equal, Traced)> = parts.collect();
-        let shown = parts.iter().flat_map(|(_, inward)| inward.live(OUTBOARD)).copied().collect();
+        };
+        let parts: Vec<(Equal, Traced)> = trunk.parts().iter().enumerate().map(inward_of).collect();
         let kept = outward.live(trunk.of_links(KEPT)).to_vec();
         let masks = Masks::from([(KEPT.name, kept), (OUTBOARD.name, shown)]);
         let trunk_inward = as_asked(stages::trunk_inward(trunk.clone()), request);
@@ -100,21 +103,18 @@ impl TrunkLines {
         let masks = Masks::from([(LIMB.name, inward.live(trunk.of_links(LIMB)).to_vec())]);
         let back = of_trunk(&stages::trunk_back(trunk.clone()), &masks);
         let rates = back.live(trunk.of_carriers(CARRIER_RATES));
-        let parts = parts.into_iter().enumerate().map(|(n, (equal, inward))| {
-            let part = &trunk.parts()[n].part;
-            let of_carrier = |group: Group, all: &[bool]| {
-                (group.name, all.chunks(group.size()).nth(n).unwrap_or_default().to_vec())
-            };
+        let back_of = |(parts, (equal, inward)): (&EqualParts, (Equal, Traced))| {
             let masks = Masks::from([
-                of_carrier(CARRIER, carriers),
-                of_carrier(CARRIER_RATES, rates),
-                (LIMB.name, inward.live(of_limb(LIMB, part)).to_vec()),
+                of_carrier(parts, CARRIER, carriers),
+                of_carrier(parts, CARRIER_RATES, rates),
+                (LIMB.name, inward.live(of_limb(LIMB, &parts.part)).to_vec()),
             ]);
-            let stage = stages::part_back(part.clone(), trunk.carrier(n));
+            let standing = trunk.standing_of_carrier(parts);
+            let stage = stages::part_back(parts.part.clone(), standing);
             let back = of_part(request, &equal, &stage, &masks);
             (equal, [inward, back])
-        });
-        let parts = parts.collect();
+        };
+        let parts = trunk.parts().iter().zip(parts).map(back_of).collect();
         Some(Self { trunk, outward, inward, back, parts })
     }
 
@@ -128,27 +128,39 @@ impl TrunkLines {
     /// The steps, with places for their constants.
     pub fn placed(self, request: &Request, group: &Equal, places: &mut Places) -> TrunkSteps {
         let Self { trunk, outward, inward, back, parts } = self;
-        let mut places_of_carriers = [
-            (&outward, trunk.of_carriers(CARRIER), CARRIER.size()),
-            (&inward, trunk.of_carriers(OUTBOARD), OUTBOARD.size()),
-            (&back, trunk.of_carriers(CARRIER_RATES), CARRIER_RATES.size()),
-        ]
-        .map(|(step, group, size)| among(step.mask(group), size).into_iter());
+        let all_carriers = outward.mask(trunk.of_carriers(CARRIER)).to_vec();
+        let all_shown = inward.mask(trunk.of_carriers(OUTBOARD)).to_vec();
+        let all_rates = back.mask(trunk.of_carriers(CARRIER_RATES)).to_vec();
         let law = law_of_trunk(request, group, &trunk, places);
         let [outward, inward, back] = [outward, inward, back].map(|line| places.place(line, 1));
         let parts = trunk.parts().iter().zip(parts).map(|(parts, (equal, lines))| {
             let law = self::law(request, &equal, places);
             let [inward, back] = lines.map(|line| places.place(line, equal.count));
-            let (part, limb) = (parts.part.clone(), group.prefix());
-            let mut next =
-                places_of_carriers.each_mut().map(|of| of.next().unwrap_or_default()).into_iter();
-            let mut next = || next.next().unwrap_or_default();
-            let (carrier, shown, carried_at) = (next(), next(), next());
-            let steps = PartSteps { part, limb, law, inward, back, carrier, shown, carried_at };
+            let at = trunk.carrier(parts);
+            let steps = PartSteps {
+                part: parts.part.clone(),
+                limb: group.prefix(),
+                law,
+                carrier: Among::new(&all_carriers, at, inward.traced.mask(CARRIER)),
+                shown: Among::new(&all_shown, at, inward.traced.live(OUTBOARD)),
+                carried_at: Among::new(&all_rates, at, back.traced.mask(CARRIER_RATES)),
+                inward,
+                back,
+            };
             (equal, Steps::Part(Box::new(steps)))
         });
         let parts = parts.collect();
         TrunkSteps { trunk, law, outward, inward, back, parts }
+    }
+}
+
+impl Among {
+    /// Those of carrier `at` that are `live`, where `all` says which of all carriers are handed over.
+    fn new(all: &[bool], at: usize, live: &[bool]) -> Self {
+        let before = |place: usize| all[..place].iter().filter(|handed| **handed).count();
+        let of_carrier = live.iter().enumerate().filter(|(_, live)| **live);
+        let places = of_carrier.map(|(i, _)| before(at * live.len() + i)).collect();
+        Self { places, all: before(all.len()) }
     }
 }
 
@@ -195,15 +207,4 @@ fn law_of_trunk(
     };
     let of_right_side = (request.output == Output::RightSide).then(traced);
     of_right_side.map(|traced| places.place(traced, numbers.len()))
-}
-
-/// Where the numbers of each chunk of `size` stand among those that are handed over.
-fn among(mask: &[bool], size: usize) -> Vec<Among> {
-    let live = |mask: &[bool]| mask.iter().filter(|live| **live).count();
-    let (mut start, all) = (0, live(mask));
-    let of_chunk = |chunk: &[bool]| {
-        let end = start + live(chunk);
-        Among { places: std::mem::replace(&mut start, end)..end, all }
-    };
-    mask.chunks(size).map(of_chunk).collect()
 }

@@ -43,21 +43,22 @@ fn by_steps(
     };
     let mut found = taken(outward, &of_trunk, &[omega, &own([0, 2])]);
     let (carriers, kept) = (found.remove(1), found.remove(0));
-    let mut shown = Vec::new();
-    let mut left = Vec::new();
-    for (n, (equal, [inward, _])) in parts.iter().enumerate() {
-        let carrier = &carriers[n * CARRIER.size()..][..CARRIER.size()];
-        let mut sum = vec![0.0; OUTBOARD.size()];
-        let mut of_parts = Vec::new();
+    let of_carrier = |n: usize, group: Group| {
+        let start = trunk.carrier(&trunk.parts()[n]) * group.size();
+        start..start + group.size()
+    };
+    let mut shown = vec![0.0; trunk.of_carriers(OUTBOARD).size()];
+    let mut left = vec![Vec::new(); parts.len()];
+    for (n, (equal, [inward, _])) in parts.iter().enumerate().rev() {
+        let carrier = &carriers[of_carrier(n, CARRIER)];
         for a in (0..equal.count).rev() {
             let (own, hinges) = of_one(equal, a, p, hinges);
             let mut found = taken(inward, own, &[carrier, hinges]);
-            of_parts.push(found.remove(1));
-            sum.iter_mut().zip(found.remove(0)).for_each(|(sum, part)| *sum += part);
+            left[n].push(found.remove(1));
+            let sums = shown[of_carrier(n, OUTBOARD)].iter_mut();
+            sums.zip(found.remove(0)).filter(|(_, part)| !part.is_nan()).for_each(|(s, p)| *s += p);
         }
-        of_parts.reverse();
-        left.push(of_parts);
-        shown.extend(sum);
+        left[n].reverse();
     }
     let mut found = taken(inward, &of_trunk, &[&kept, &own([2, 3]), &shown]);
     let (of_trunk_left, mut seen) = (found.remove(1), found.remove(0));
@@ -66,8 +67,8 @@ fn by_steps(
     let mut tau_dot = vec![f64::NAN; hinges.len() / 3];
     trunk.numbers().iter().zip(of_own).for_each(|(&i, found)| tau_dot[i] = found);
     for (n, (equal, [_, back])) in parts.iter().enumerate() {
-        let carrier = &carriers[n * CARRIER.size()..][..CARRIER.size()];
-        let rates = &rates[n * CARRIER_RATES.size()..][..CARRIER_RATES.size()];
+        let (carrier, rates) =
+            (&carriers[of_carrier(n, CARRIER)], &rates[of_carrier(n, CARRIER_RATES)]);
         let links = equal.shape.hinges();
         for a in 0..equal.count {
             let (own, _) = of_one(equal, a, p, hinges);
@@ -87,12 +88,15 @@ fn of_one<'a>(equal: &Equal, a: usize, p: &'a [f64], hinges: &'a [f64]) -> (&'a 
     (own, &hinges[3 * (equal.hinge + a * links)..][..3 * links])
 }
 
-/// Whether what hangs on each link is added up in the same order as where the limb is taken as a whole: equal parts
-/// are the last that hang on it.
+/// Whether what hangs on each link is added up in the same order as where the limb is taken as a whole: nothing else
+/// hangs behind equal parts.
 fn same_order(trunk: &Trunk, limb: &Limb) -> bool {
     trunk.parts().iter().all(|parts| {
-        let after = parts.first + parts.count * parts.part.links().len();
-        limb.links()[after..].iter().all(|link| link.inboard != Some(parts.carrier as u16))
+        let mut behind = parts.first..limb.links().len();
+        behind.all(|i| {
+            let of_parts = trunk.parts().iter().any(|parts| parts.contains(i));
+            of_parts || limb.links()[i].inboard != Some(parts.carrier as u16)
+        })
     })
 }
 
