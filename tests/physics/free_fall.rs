@@ -61,6 +61,28 @@ fn the_mass_center_falls_along_a_parabola() {
     }
 }
 
+/// A residual of energy is one of the motion inside, whoever looks on and wherever height is counted from.
+#[test]
+fn what_the_balance_of_energy_says_does_not_depend_on_who_looks_on() {
+    for seed in 0..5 {
+        let falling = scene(seed);
+        let floating = SceneDescription { gravity: None, ..falling.clone() };
+        let mut far = falling.clone();
+        far.initial.position_inertial = Vec3::new(0.0, 0.0, 6.4e6);
+        let mut fast = floating.clone();
+        fast.initial.velocity_inertial = Vec3::new(7500.0, 0.0, 0.0);
+        let residual =
+            |scene: &SceneDescription| run(scene, &options(20, 1e-4)).summary.conservation.energy;
+        let expected = residual(&floating);
+        assert!(expected > 1e-9, "seed {seed}: {expected:e}");
+        for scene in [&falling, &far, &fast] {
+            let found = residual(scene);
+            // The same motion; sums of its energies round otherwise.
+            assert!((found - expected).abs() < 1e-12, "seed {seed}: {found:e} {expected:e}");
+        }
+    }
+}
+
 #[test]
 fn gravity_changes_no_relative_motion() {
     for seed in 0..5 {

@@ -9,6 +9,7 @@ use nboom_strength::StressAnalysis;
 
 use crate::CliError;
 use crate::interrupt::Interrupt;
+use crate::terminal::say;
 
 /// The result of a reference run.
 #[derive(Clone, Debug)]
@@ -46,8 +47,45 @@ impl Certifier {
             None => Vec::new(),
         };
         kept.add_trust(scene, &trust, &peaks)?;
+        // Printed even with --quiet, since the results are not what they seem.
+        doubts(&trust, &peaks, options).iter().for_each(|doubt| say("warning", doubt));
         Ok(Certified { trust, peaks })
     }
+}
+
+/// Digits fewer than which are hardly any.
+const FEW: u32 = 3;
+
+/// How many times tighter the reference is that a certificate promises.
+const TIGHTER: f64 = 1e3;
+
+/// Why a certificate is less than it seems.
+fn doubts(trust: &Trust, peaks: &[PeakDigits], options: &Options) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if !trust.same_events {
+        doubts.push(
+            "certificate: the reference has other events, so nothing is confirmed after the first that differs"
+                .to_owned(),
+        );
+    }
+    let of_events =
+        trust.events.iter().flat_map(|event| [Some(&event.time), event.impulse.as_ref()]);
+    let of_peaks = peaks.iter().map(|peak| &peak.digits);
+    let all = of_events.flatten().chain(&trust.end).chain(of_peaks);
+    if let Some(worst) = all.min_by_key(|digits| digits.count()).filter(|of| of.count() < FEW) {
+        let (count, quantity) = (worst.count(), worst.quantity);
+        doubts.push(format!(
+            "certificate: {count} digits of {quantity} found, {FEW} or more expected"
+        ));
+    }
+    let factor = options.rtol / trust.rtol;
+    if trust.reference == Reference::TighterTolerance && factor < 0.99 * TIGHTER {
+        doubts.push(format!(
+            "certificate: the reference is {factor:.0} times tighter, not a thousand times, and may share the \
+             run's errors; --certify=double-double does not"
+        ));
+    }
+    doubts
 }
 
 impl Recorder for Certifier {

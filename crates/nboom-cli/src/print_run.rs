@@ -66,7 +66,8 @@ impl Account<'_> {
                 names.push(name);
             }
         }
-        names.join(" and ")
+        // A run that ends where it starts takes no step.
+        if names.is_empty() { "none".to_owned() } else { names.join(" and ") }
     }
 
     fn event_lines(&self) -> Vec<String> {
@@ -222,15 +223,15 @@ fn trust_line(Certified { trust, peaks }: &Certified) -> String {
     for (what, peaks) in [("peak stresses", stations), ("peak hinge loads", hinges)] {
         say(what, peaks.iter().map(|peak| peak.digits.count()).min());
     }
-    let other = if trust.same_events { "" } else { "; the reference has other events" };
     let known = known.join(", ");
+    if !trust.same_events {
+        return format!("not certified the reference has other events; digits until then: {known}");
+    }
     match trust.reference {
         Reference::TighterTolerance => {
-            format!("certified     digits against rtol {:.0e}: {known}{other}", trust.rtol)
+            format!("certified     digits against rtol {:.0e}: {known}", trust.rtol)
         }
-        Reference::DoubleDouble => {
-            format!("certified     digits against double-double: {known}{other}")
-        }
+        Reference::DoubleDouble => format!("certified     digits against double-double: {known}"),
     }
 }
 

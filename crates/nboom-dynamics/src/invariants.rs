@@ -13,6 +13,8 @@ pub struct Invariants<R> {
     pub origin_velocity: Vec3<R>,
     /// Kinetic energy, eq. (8.11), with that of rotors.
     pub kinetic_energy: R,
+    /// The part of it that is not the motion of the mass centre.
+    pub energy_about_center: R,
     /// Linear momentum P̄, the sum over the bodies, eq. (8.7).
     pub linear_momentum: Vec3<R>,
     /// Angular momentum H̄_c about the system mass centre, eq. (8.12).
@@ -85,6 +87,7 @@ impl<R: Real> Recursive<R> {
             mass_center,
             origin_velocity,
             kinetic_energy: R::constant(0.5) * (self.total_mass() * center_velocity.norm_squared()),
+            energy_about_center: R::zero(),
             linear_momentum: Vec3::zero(),
             angular_momentum: Vec3::zero(),
             linear_momentum_scale: R::zero(),
@@ -255,8 +258,14 @@ impl<R: Real> Invariants<R> {
         self.add_rotor_energy(omega.dot(spin));
     }
 
-    fn add_rotor_energy(&mut self, energy: R) {
+    #[inline(always)]
+    fn add_energy_about_center(&mut self, energy: R) {
         self.kinetic_energy += energy;
+        self.energy_about_center += energy;
+    }
+
+    fn add_rotor_energy(&mut self, energy: R) {
+        self.add_energy_about_center(energy);
         self.rotor_energy += energy;
     }
 
@@ -273,7 +282,7 @@ impl<R: Real> Invariants<R> {
         let twice_energy = relative.linear.dot(momentum) + relative.angular.dot(about_hinge);
         let inertial_momentum = momentum + center_velocity * inertia.mass;
         let about_center = about_hinge + arm.cross(momentum);
-        self.kinetic_energy += R::constant(0.5) * twice_energy;
+        self.add_energy_about_center(R::constant(0.5) * twice_energy);
         self.linear_momentum += inertial_momentum;
         self.angular_momentum += about_center;
         self.linear_momentum_scale += inertial_momentum.norm();

@@ -77,6 +77,13 @@ pub enum ModelWarning {
         /// Rate beyond which it does \[rad/T\].
         beyond: f64,
     },
+    /// The damper between two hinges pushes along with their motion instead of against it.
+    CouplingFeeds {
+        /// The hinges.
+        hinges: [HingeLabel; 2],
+        /// Its coefficient, below zero.
+        damping: f64,
+    },
     /// The torque of spring and dashpot grows with the distance from an angle and points away from it.
     SpringWithoutRest {
         /// The hinge.
@@ -171,7 +178,8 @@ impl fmt::Display for ModelWarning {
             }
             Self::StartsAtLock(hinge) => write!(
                 f,
-                "hinge {hinge} starts at its lock angle and turns: it locks only when it comes back there"
+                "hinge {hinge} starts free at its lock angle: it locks only when it comes back there; to begin \
+                 locked it says so"
             ),
             Self::ManyTurns { hinge, start } => write!(
                 f,
@@ -192,6 +200,10 @@ impl fmt::Display for ModelWarning {
                 "dashpot of hinge {hinge} feeds energy beyond a rate of {} per time unit: coefficient {value:?} of \
                  the squared rate found, which pushes one way however the hinge turns",
                 hinge.coordinate(beyond.abs().copysign(*value))
+            ),
+            Self::CouplingFeeds { hinges: [a, b], damping } => write!(
+                f,
+                "coupling of hinges {a} and {b} feeds energy: damping {damping:?} found, no negative one expected"
             ),
             Self::SpringWithoutRest { hinge, stiffness, away_from } => write!(
                 f,

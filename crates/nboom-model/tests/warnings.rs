@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom_model::{
-    Appendage, Dashpot, Hinge, HingeLabel, HingeState, KickOffSpring, MassProperties, ModelWarning,
-    Mount, Posture, Release, Scene, SceneDescription, Segment, Spring, TorqueTable,
+    Appendage, Coupling, Dashpot, Hinge, HingeLabel, HingeState, KickOffSpring, MassProperties,
+    ModelWarning, Mount, Posture, Release, Scene, SceneDescription, Segment, Spring, TorqueTable,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -16,12 +16,16 @@ fn body() -> MassProperties {
 
 /// A chain with these hinges and lengths, its first hinge one length along the body's y axis.
 fn chain(hinges: &[(Hinge, f64)]) -> Scene {
+    Scene::new(description(hinges)).expect("a scene")
+}
+
+fn description(hinges: &[(Hinge, f64)]) -> SceneDescription {
     let mut description = SceneDescription::at_rest("chain", body(), 1.0);
     let segment =
         |&(hinge, length): &(Hinge, f64)| Segment { length, mass_properties: body(), hinge };
     let segments = hinges.iter().map(segment).collect();
     description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
-    Scene::new(description).expect("a scene")
+    description
 }
 
 fn one(hinge: Hinge) -> Vec<ModelWarning> {
@@ -47,6 +51,23 @@ fn a_dashpot_that_feeds_energy_at_every_rate() {
         one(Hinge { dashpot: dashpot(0.5), ..hinge })[0].to_string(),
         "dashpot of hinge 1,1 feeds energy: a torque of 0.5 for each unit of rate, along the motion, found, one \
          against it expected"
+    );
+}
+
+#[test]
+fn a_coupling_that_feeds_energy() {
+    let coupled = |damping| {
+        let mut description = description(&[(Hinge::free(), 1.0), (Hinge::free(), 1.0)]);
+        let (hinges, is_mutual) = ([0, 1], true);
+        let coupling =
+            Coupling { hinges, ratio: 1.0, stiffness: 0.0, rest: 0.0, damping, is_mutual };
+        description.couplings.push(coupling);
+        Scene::new(description).expect("a scene").warnings()
+    };
+    assert_eq!(coupled(3.0), []);
+    assert_eq!(
+        coupled(-3.0)[0].to_string(),
+        "coupling of hinges 1,1 and 1,2 feeds energy: damping -3.0 found, no negative one expected"
     );
 }
 
@@ -262,7 +283,10 @@ fn starts_and_releases_that_are_hardly_meant() {
     );
     assert_eq!(
         told(&[(from_to(0.5, 0.5), 1.0)]),
-        ["hinge 1,1 starts at its lock angle and turns: it locks only when it comes back there"]
+        [
+            "hinge 1,1 starts free at its lock angle: it locks only when it comes back there; to begin locked it \
+           says so"
+        ]
     );
     let mut late = Hinge { release: Release::Time(2.0), ..quarter };
     late.start.state = HingeState::Unreleased;

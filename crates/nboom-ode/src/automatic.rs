@@ -11,7 +11,7 @@ const AT_ONCE: &str = "the tolerance is very tight, and code takes eight stages 
 /// The row of [`Method`]'s table.
 pub(crate) const DESCRIPTION: Description = Description {
     name: "auto",
-    about: "dopri5, dop853, gauss_lanes or radau5, by tolerance, stiffness and code",
+    about: "dopri5, dop853, gauss_lanes or radau5, by tolerance, stiffness and code; orders of the first two",
     order: |tolerance| Automatic::explicit(tolerance).order(tolerance),
     dense_order: |tolerance| Automatic::explicit(tolerance).dense_order(tolerance),
     keeps_invariants: false,

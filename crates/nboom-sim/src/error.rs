@@ -164,7 +164,8 @@ pub enum SimError {
         within: f64,
     },
     /// Events follow one another without the time getting on.
-    #[error("at time {}, {}: {events} events within {within:e} time units; a spring at its limit length may chatter", moment(.time), place(.hinge))]
+    #[error("at time {}, {}: {events} events within {within:e} time units are too many; a spring at its limit length \
+             may chatter, or max_events is too small", moment(.time), place(.hinge))]
     Chatter {
         /// Time reached.
         time: f64,

@@ -40,6 +40,19 @@ fn a_certificate_in_double_double_says_so() {
 }
 
 #[test]
+fn a_reference_that_is_hardly_tighter_is_said_to_be_even_quietly() {
+    let place = Place::new();
+    let warnings = |rtol| {
+        let args = ["run", "boom.nml", "-o", "out", "--rtol", rtol, "--certify", "--quiet"];
+        let output = place.nboom(&args);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stderr).expect("text")
+    };
+    assert!(warnings("1e-13").contains("the reference is 10 times tighter, not a thousand times"));
+    assert!(!warnings("1e-11").contains("certificate"));
+}
+
+#[test]
 fn a_certificate_tells_the_digits_and_goes_with_the_next_run() {
     let place = Place::new();
     let output = place.nboom(&["run", "boom.nml", "-o", "out", "--rtol", "1e-7", "--certify"]);

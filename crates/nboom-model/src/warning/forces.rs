@@ -1,4 +1,4 @@
-//! Finds springs and dashpots whose signs drive a hinge the wrong way.
+//! Finds springs, dashpots and couplings whose signs drive a hinge the wrong way.
 
 use nboom_scalar::{Vec3, Wrench};
 
@@ -12,7 +12,12 @@ const NO_TORQUE: f64 = 1e-9;
 pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
     let posture = Posture::at_start(scene);
     let hinges = (0..scene.bodies.len()).filter(|&i| scene.bodies[i].hinge.can_turn());
-    hinges.flat_map(|i| of_hinge(scene, &posture, i)).collect()
+    let feeds = scene.couplings.iter().filter(|coupling| coupling.is_mutual);
+    let feeds = feeds.filter(|coupling| coupling.damping < 0.0).map(|coupling| {
+        let hinges = coupling.hinges.map(|i| scene.label(i));
+        ModelWarning::CouplingFeeds { hinges, damping: coupling.damping }
+    });
+    hinges.flat_map(|i| of_hinge(scene, &posture, i)).chain(feeds).collect()
 }
 
 fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {

@@ -61,10 +61,10 @@ pub struct Scales {
     pub time: f64,
     /// Of ω.
     pub omega: f64,
-    /// Of β, in sizes of its hinge.
-    pub beta: f64,
-    /// Of τ, in sizes of its hinge per time unit.
-    pub tau: f64,
+    /// Of β of each hinge: a fast wheel is no measure of a slow boom.
+    pub beta: Vec<f64>,
+    /// Of τ of each hinge.
+    pub tau: Vec<f64>,
     /// Of the position of O.
     pub rho: f64,
     /// Of the velocity of O.
@@ -88,18 +88,21 @@ impl Scales {
             (0..scene.bodies.len()).map(|i| scene.coordinate_scale(i)).collect();
         let most = |of: &mut dyn Iterator<Item = f64>| of.fold(0.0, f64::max);
         let pairs = |values| of_hinges.iter().zip::<&Vec<f64>>(values);
-        let [beta, tau] = [&largest.beta, &largest.tau]
-            .map(|values| most(&mut pairs(values).map(|(size, value)| value / size)));
+        let tau = most(&mut pairs(&largest.tau).map(|(size, value)| value / size));
         let impulse = most(&mut pairs(&largest.impulse).map(|(size, value)| value * size));
         let time = scene.end_time - scene.initial.time;
         let rate = natural(omega.max(tau) * time, 1.0) / time;
         let length = reach(scene);
+        let of_run = |(size, largest): (&f64, &f64)| natural(*largest, *size);
+        let beta: Vec<f64> = pairs(&largest.beta).map(of_run).collect();
+        let of_rate = |(beta, largest): (&f64, &f64)| natural(*largest, beta / time);
+        let tau = beta.iter().zip(&largest.tau).map(of_rate).collect();
         let momentum = scene.total_mass() * length * length * rate;
         Self {
             time,
             omega: natural(omega, rate),
-            beta: natural(beta, 1.0),
-            tau: natural(tau, rate),
+            beta,
+            tau,
             rho: natural(rho, length),
             v: natural(v, length * rate),
             impulse: natural(impulse, momentum),

@@ -283,7 +283,9 @@ fn compare(start: f64, event: &Event, truth: &Event, scales: &Scales) -> EventTr
         let difference = (run - truth).abs() * size;
         Digits::new("impulse", difference, natural(truth.abs() * size, scales.impulse))
     });
-    let time = Digits::new("time", (event.time - truth.time).abs(), since);
+    // Both times are rounded, on average by a quarter of their spacing.
+    let rounded = 0.25 * (event.time.abs().next_up() - event.time.abs());
+    let time = Digits::new("time", (event.time - truth.time).abs().max(rounded), since);
     EventTrust { event: *event, time, impulse }
 }
 
@@ -293,10 +295,11 @@ pub fn differences(run: &Snapshot, truth: &Snapshot, scales: &Scales) -> Vec<Dig
     let vector = |quantity, run: Vec3<f64>, truth: Vec3<f64>, size| {
         of_list(quantity, &run.to_array(), &truth.to_array(), size)
     };
-    let of_hinges = |quantity, run: &[f64], truth: &[f64], size| {
-        let pairs = run.iter().zip(truth).zip(&scales.of_hinges);
-        let off = pairs.map(|((a, b), of_hinge)| (a - b).abs() / of_hinge);
-        Digits::new(quantity, off.fold(0.0, f64::max), size)
+    let of_hinges = |quantity, run: &[f64], truth: &[f64], sizes: &[f64]| {
+        let pairs = run.iter().zip(truth).zip(sizes);
+        let off = pairs.map(|((a, b), size)| Digits::new(quantity, (a - b).abs(), *size));
+        let worst = off.max_by(|a, b| a.difference.total_cmp(&b.difference));
+        worst.unwrap_or(Digits { quantity, difference: 0.0 })
     };
     // The angle between the two attitudes; half of it is the length of the difference.
     let (a, b) = (run.attitude, truth.attitude);
@@ -304,8 +307,8 @@ pub fn differences(run: &Snapshot, truth: &Snapshot, scales: &Scales) -> Vec<Dig
     vec![
         Digits::new("attitude", turned, 1.0),
         vector("omega", run.omega_body, truth.omega_body, scales.omega),
-        of_hinges("beta", &run.beta, &truth.beta, scales.beta),
-        of_hinges("tau", &run.tau, &truth.tau, scales.tau),
+        of_hinges("beta", &run.beta, &truth.beta, &scales.beta),
+        of_hinges("tau", &run.tau, &truth.tau, &scales.tau),
         vector("rho", run.position_inertial, truth.position_inertial, scales.rho),
         vector("v", run.velocity_inertial, truth.velocity_inertial, scales.v),
     ]
@@ -328,26 +331,73 @@ mod tests {
         assert_eq!(count(f64::NAN), 0);
     }
 
-    #[test]
-    fn impulses_differ_in_shares_of_their_size() {
+    fn lock_up(impulse: f64) -> Event {
         let none = Totals {
             kinetic_energy: 1.0,
             linear_momentum_inertial: Vec3::zero(),
             angular_momentum_inertial: Vec3::zero(),
         };
-        let lock_up = |impulse| Event {
+        Event {
             time: 1.0,
             kind: EventKind::LockUp,
             hinge: Some(0),
             impulse: Some(impulse),
             before: none,
             after: none,
+        }
+    }
+
+    /// The largest values of a run in which a wheel turned fast and a boom swung a little, for 100 time units.
+    fn wheel_and_boom() -> Scales {
+        let hinges = vec![1.0, 1.0];
+        Scales {
+            time: 100.0,
+            omega: 1.0,
+            beta: vec![6e5, 7e-4],
+            tau: vec![6e3, 4e-6],
+            rho: 1.0,
+            v: 1.0,
+            impulse: 1.0,
+            of_hinges: hinges,
+            force: 1.0,
+            moment: 1.0,
+        }
+    }
+
+    #[test]
+    fn each_hinge_is_measured_by_itself() {
+        let at = |beta: [f64; 2], tau: [f64; 2]| Snapshot {
+            beta: beta.to_vec(),
+            tau: tau.to_vec(),
+            ..Snapshot::empty()
         };
+        let (run, truth) = (at([6e5, 7.07e-4], [6e3, 4.04e-6]), at([6e5, 7e-4], [6e3, 4e-6]));
+        let found = differences(&run, &truth, &wheel_and_boom());
+        let of = |quantity| found.iter().find(|of| of.quantity == quantity).expect("all are there");
+        // A hundredth of the boom's own, to rounding, and not 1e-11 of the wheel's.
+        for quantity in ["beta", "tau"] {
+            let difference = of(quantity).difference;
+            assert!((difference - 0.01).abs() < 1e-12, "{quantity}: {difference:e}");
+        }
+    }
+
+    #[test]
+    fn a_clock_that_counts_from_long_ago_knows_fewer_digits() {
+        let after = |start: f64| {
+            let event = Event { time: start + 2.75, ..lock_up(1.0) };
+            compare(start, &event, &event, &wheel_and_boom()).time.count()
+        };
+        // Of 2.75, to a quarter of the spacing of f64 at the time: 2^-25 near 1e9, 2^-15 near 1e12.
+        assert_eq!([0.0, 1e9, 1e12].map(after), [16, 7, 4]);
+    }
+
+    #[test]
+    fn impulses_differ_in_shares_of_their_size() {
         let of_one = Scales {
             time: 1.0,
             omega: 1.0,
-            beta: 1.0,
-            tau: 1.0,
+            beta: vec![1.0],
+            tau: vec![1.0],
             rho: 1.0,
             v: 1.0,
             impulse: 1.0,

@@ -321,7 +321,7 @@ mod tests {
             ("S50", "S100", &["avx512", "avx2", "portable"]),
             ("4xTrrp", "4xTrrp", &["avx512", "avx2", "portable"]),
             // Nine arms of a hub are two registers with AVX-512, three with AVX2, and nine links alone.
-            ("Trr(rr)", "Trr(rr)(rr)(rr)(rr)(rr)(rr)(rr)(rr)(rr)", &["avx512", "avx2"]),
+            ("Trrrr", "Trr(rr)(rr)(rr)(rr)(rr)(rr)(rr)(rr)(rr)", &["avx512", "avx2"]),
         ] {
             for instructions in ["avx512", "avx2", "portable"] {
                 let expected = on.contains(&instructions);

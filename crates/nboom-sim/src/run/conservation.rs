@@ -12,7 +12,8 @@ pub struct Conservation {
     pub linear_momentum: Option<f64>,
     /// Angular momentum about the mass centre, relative to the sum of the bodies' own; likewise.
     pub angular_momentum: Option<f64>,
-    /// Energy, relative to the sum of the bodies' kinetic energies and potentials.
+    /// Energy, relative to the sum of the bodies' kinetic energies and potentials; where nothing but gravity moves
+    /// the mass centre, that of the motion about it.
     pub energy: f64,
 }
 

@@ -35,6 +35,9 @@ pub(crate) struct Ledger {
     angular_momentum: f64,
     /// Whether what holds the main body changes the momenta.
     held: bool,
+    /// Whether nothing but gravity moves the mass centre. Its energy is no matter of the balance then, so that
+    /// this does not depend on who looks on.
+    falls: bool,
     mass: f64,
     reach: f64,
 }
@@ -43,16 +46,17 @@ impl Ledger {
     /// At `state`, whose invariants are given.
     pub fn new(equations: &Equations, state: &State, invariants: &Invariants<f64>) -> Self {
         let start = Totals::of(state, invariants);
-        let Potential { sum: potential, .. } = potential(equations, state);
+        let falls = state.held.is_none() && equations.scene.externals.is_empty();
         Self {
             start_time: state.time,
             start,
-            start_energy: start.kinetic_energy + potential,
+            start_energy: kinetic(falls, invariants) + potential(equations, state).kept(falls),
             start_rotor_energy: invariants.rotor_energy,
             residuals: Balances::default(),
             scales: Balances::default(),
             angular_momentum: 0.0,
             held: state.held.is_some(),
+            falls,
             mass: equations.scene.total_mass(),
             reach: equations.reach,
         }
@@ -61,12 +65,12 @@ impl Ledger {
     /// Takes the potential energy of `state` out of the balance, until it is [taken
     /// up](Self::take_up) again: commands that change it do no work in an instant.
     pub fn set_aside(&mut self, equations: &Equations, state: &State) {
-        self.start_energy -= potential(equations, state).sum;
+        self.start_energy -= potential(equations, state).kept(self.falls);
     }
 
     /// Takes the potential energy of `state` into the balance.
     pub fn take_up(&mut self, equations: &Equations, state: &State) {
-        self.start_energy += potential(equations, state).sum;
+        self.start_energy += potential(equations, state).kept(self.falls);
     }
 
     /// The largest residuals so far.
@@ -125,10 +129,11 @@ impl Ledger {
         check.of(potential.beyond, "potential energy", potential.beyond.is_none())?;
         // The motors turn what they take from carriers into energy of the rotors, too.
         let motors = invariants.rotor_energy - self.start_rotor_energy + work.spin_up;
-        let energy = now.kinetic_energy + potential.sum - motors - work.dashpots - work.thrust
+        let kinetic = kinetic(self.falls, invariants);
+        let energy = kinetic + potential.kept(self.falls) - motors - work.dashpots - work.thrust
             + work.lock_ups
             - self.start_energy;
-        let energy_scale = now.kinetic_energy + potential.scale;
+        let energy_scale = kinetic + potential.scale(self.falls);
         let angular_momentum = now.angular_momentum_inertial.norm();
         self.angular_momentum = self.angular_momentum.max(angular_momentum);
         let (largest, scales) = (&mut self.residuals, &mut self.scales);
@@ -150,7 +155,7 @@ impl Ledger {
             energy: energy.abs(),
         });
         Ok(Account {
-            potential_energy: potential.sum,
+            potential_energy: potential.kept(false),
             dashpot_work: work.dashpots,
             thrust_work: work.thrust,
             motor_work: motors,
@@ -160,11 +165,18 @@ impl Ledger {
     }
 }
 
+/// The kinetic energy in the balance, without that of the mass centre if it `falls`.
+fn kinetic(falls: bool, invariants: &Invariants<f64>) -> f64 {
+    if falls { invariants.energy_about_center } else { invariants.kinetic_energy }
+}
+
 /// Potential energy of all elements.
 struct Potential {
+    /// Of springs.
     sum: f64,
-    /// Sum of the magnitudes of the parts.
+    /// Sum of the magnitudes of its parts.
     scale: f64,
+    gravity: f64,
     /// The first hinge whose springs have one that is not finite.
     beyond: Option<usize>,
 }
@@ -175,10 +187,20 @@ impl Potential {
         self.scale += part.abs();
         self.beyond = self.beyond.or(hinge.filter(|_| !part.is_finite()));
     }
+
+    /// The part in the balance, without gravity if the mass centre `falls`.
+    fn kept(&self, falls: bool) -> f64 {
+        self.sum + if falls { 0.0 } else { self.gravity }
+    }
+
+    /// The sum of the magnitudes in it.
+    fn scale(&self, falls: bool) -> f64 {
+        self.scale + if falls { 0.0 } else { self.gravity.abs() }
+    }
 }
 
 fn potential(equations: &Equations, state: &State) -> Potential {
-    let mut found = Potential { sum: 0.0, scale: 0.0, beyond: None };
+    let mut found = Potential { sum: 0.0, scale: 0.0, gravity: 0.0, beyond: None };
     let laws = equations.entered.dynamics.elements().torques();
     for (i, (law, &beta)) in laws.iter().zip(&state.beta).enumerate() {
         found.add(law.potential(beta), Some(i));
@@ -187,7 +209,7 @@ fn potential(equations: &Equations, state: &State) -> Potential {
         found.add(stored, Some(hinge));
     }
     if equations.gravity() != Vec3::zero() {
-        found.add(gravity_potential(&equations.scene, state.center.position), None);
+        found.gravity = gravity_potential(&equations.scene, state.center.position);
     }
     for line in 0..equations.entered.dynamics.elements().lines().len() {
         let [length, _] = state.line_length(&equations.entered.dynamics, line);
