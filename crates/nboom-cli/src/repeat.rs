@@ -45,13 +45,17 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
     let input = Path::new(&record.input.path);
     let original = arguments(args, record.options.clone(), input)?;
     let is_there = input != Path::new(STANDARD_INPUT);
-    let found = is_there.then(|| input_of(original).ok()).flatten();
+    let is_as_it_was = || hash_of(input).as_ref() == Some(&record.input.sha256);
+    let found = match is_there.then(|| input_of(original)) {
+        // What is given now does not fit what was read then.
+        Some(Err(error)) if is_as_it_was() => return Err(error),
+        found => found.and_then(Result::ok),
+    };
     let (again, file) = match found.filter(|(_, file)| file.sha256 == record.input.sha256) {
         Some(found) => found,
         None => {
             let scene = folder.join(SCENE_FILE);
-            let kept = read_text(&scene, LONGEST).ok().map(|text| sha256(text.as_bytes()));
-            if kept.as_ref() != Some(&record.scene.sha256) {
+            if hash_of(&scene).as_ref() != Some(&record.scene.sha256) {
                 let (path, input) = (path.clone(), record.input.path);
                 return Err(CliError::NothingToRepeat { path, input, scene });
             }
@@ -68,6 +72,11 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
     };
     let output = args.output.clone().map_or_else(|| beside(folder), Ok)?;
     Ok((RunArgs { output: Some(output), ..again }, file))
+}
+
+/// The hash of a text, if it can be read.
+fn hash_of(path: &Path) -> Option<String> {
+    read_text(path, LONGEST).ok().map(|text| sha256(text.as_bytes()))
 }
 
 /// The arguments of a run, and its scene, or that of a case of its study.

@@ -107,6 +107,10 @@ fn parameters_are_repeated_and_changed_like_options() {
     assert_same(&place, ["first", "again"]);
     nboom(&place, &["run", "first/run.json", "-o", "longer", "--set", "end=2.5"]);
     assert_eq!(place.summary("longer")["end_time"], 2.5);
+    let wrong = place.nboom(&["run", "first/run.json", "-o", "wrong", "--set", "ende=2"]);
+    let told = String::from_utf8_lossy(&wrong.stderr).into_owned();
+    assert!(code(&wrong) == 2 && told.contains("`end`"), "{told}");
+    assert!(!told.contains("is not what was read then"), "{told}");
     // Without the input the parameters are numbers in the scene as it was read.
     fs::remove_file(place.path("wing.toml")).expect("it is there");
     let told = nboom(&place, &["run", "first/run.json", "-o", "kept"]);
