@@ -159,7 +159,11 @@ impl Account<'_> {
         };
         let units = &self.run.units;
         let (force, moment) = (told(force?, units.force()), told(moment?, &units.torque()));
-        Some(format!("hinge loads   at most {force}, {moment}"))
+        let left_out = match self.run.latch_pulses {
+            Some(false) => "; without latches, which have no pulse_constant",
+            _ => "",
+        };
+        Some(format!("hinge loads   at most {force}, {moment}{left_out}"))
     }
 
     fn conservation_line(&self) -> String {

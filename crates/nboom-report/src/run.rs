@@ -163,7 +163,12 @@ impl Run {
         self.stresses.as_ref().map(|loads| &loads.motion)
     }
 
-    /// The largest loads of hinges in the whole motion, pulses of latches included.
+    /// Whether loads have the pulses of all hinges that latch, as the summary says.
+    pub fn has_latch_pulses(&self) -> bool {
+        self.summary.as_ref().is_none_or(|keys| keys["latch_pulses"] != false)
+    }
+
+    /// The largest loads of hinges in the whole motion, with the pulses of latches if it has any.
     pub fn hinge_envelope(&self) -> &[Worst] {
         &self.hinge_envelope
     }

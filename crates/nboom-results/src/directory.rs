@@ -141,6 +141,7 @@ impl RunDirectory {
         let hinges = scene.labels().to_vec();
         let headings = self.run.output.headings.clone();
         self.run.stresses = StressDescription::of(&analysis, tables.signs);
+        self.run.latch_pulses = Some(analysis.has_pulses());
         let stresses =
             StressWriter::create(self.place.partial(), hinges, analysis, tables, headings)?;
         self.stresses = Some(stresses);

@@ -29,6 +29,8 @@ pub struct RunDescription {
     pub units: UnitSystem,
     /// How stresses are found and written.
     pub stresses: Option<StressDescription>,
+    /// Whether loads have the pulses of all hinges that latch; `None` if no loads are computed.
+    pub latch_pulses: Option<bool>,
     /// After the twentieth output time, the printout has one in this many: `IAX` of a deck.
     pub print_interval: usize,
     /// What is not computed since the scene lacks it.
@@ -61,6 +63,7 @@ impl RunDescription {
             output: WantedOutput::default(),
             units,
             stresses: None,
+            latch_pulses: None,
             print_interval: 1,
             skipped: nboom_model::skipped(scene),
             warnings: Vec::new(),
@@ -109,6 +112,8 @@ pub struct SummaryFile<'a> {
     units: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     stresses: Option<StressKeys>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    latch_pulses: Option<bool>,
     complete: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
@@ -241,6 +246,7 @@ impl<'a> SummaryFile<'a> {
             samples: run.output.times.as_ref().map_or(run.samples, |times| times.count() + 1),
             units: run.units.name(),
             stresses: run.stresses.map(StressKeys::from),
+            latch_pulses: run.latch_pulses,
             complete: false,
             error: Some("the run is going on or was interrupted"),
             end_time: None,

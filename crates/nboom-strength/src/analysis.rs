@@ -30,6 +30,7 @@ pub struct StressAnalysis {
     labels: Vec<HingeLabel>,
     /// `None` without a structure.
     pulse_constants: Option<Vec<f64>>,
+    has_pulses: bool,
     /// Those of the segments, if there are stations.
     materials: Vec<Material>,
     finder: LoadFinder,
@@ -105,9 +106,11 @@ impl StressAnalysis {
         let mut gauges: Vec<Gauge> = stations.iter().enumerate().map(of_station).collect();
         gauges.extend((0..labels.len()).flat_map(|hinge| Gauge::of_hinge(hinge, &loads)));
         let records = Records::new(&gauges);
+        let latches = scene.bodies.iter().any(|body| body.hinge.lock_angle.is_some());
         Ok(Self {
             settings,
             labels,
+            has_pulses: pulse_constants.is_some() || !latches,
             pulse_constants,
             materials: Vec::new(),
             stations,
@@ -140,6 +143,11 @@ impl StressAnalysis {
     /// Whether there are stations, and so stresses.
     pub fn has_stations(&self) -> bool {
         self.stations.iter().len() > 0
+    }
+
+    /// Whether loads have the pulses of all hinges that latch; without pulse constants they have none.
+    pub fn has_pulses(&self) -> bool {
+        self.has_pulses
     }
 
     /// The stations, which find stresses.

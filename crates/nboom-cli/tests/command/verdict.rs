@@ -1,6 +1,7 @@
 //! What became of the hinges, the worst of all, and what the run was made of: in the account, and in
 //! `summary.json`.
 
+use std::fs;
 use std::process::Command;
 
 use serde_json::{Value, json};
@@ -172,4 +173,51 @@ fn options_that_act_on_nothing_are_refused_or_said() {
         let mut notes = told.lines().filter(|line| line.starts_with("note: ignored: "));
         assert_eq!(notes.any(|line| line.contains(words)), *is_said, "{options:?}: {told}");
     }
+}
+
+/// A panel that a spring opens until it latches.
+const PANEL: &str = r#"
+name = "panel"
+[run]
+end = 4.0
+[output]
+files = ["hinge_loads"]
+[main_body]
+mass = 100.0
+inertia = [9.0, 9.0, 9.0]
+[[body]]
+name = "panel"
+mass = 2.0
+mass_centre = [0.0, 0.5, 0.0]
+inertia = [0.2, 0.01, 0.2]
+[body.hinge]
+at = [0.0, 0.2, 0.0]
+axis = "x"
+start_deg = 30.0
+release = { at = 0.0 }
+latch_deg = 0.0
+spring = { stiffness = 2.0, rest_deg = 0.0 }
+"#;
+
+#[test]
+fn hinge_loads_say_whether_they_have_the_pulses_of_latches() {
+    const WITHOUT: &str = "without latches, which have no pulse_constant";
+    let place = Place::new();
+    let with = PANEL.replace("mass = 2.0", "mass = 2.0\npulse_constant = 0.001");
+    let moments = [PANEL, &with].map(|scene| {
+        place.write("panel.toml", scene);
+        let output = place.nboom(&["run", "panel.toml", "-o", "out", "--plots", "svg"]);
+        let account = stdout(&output);
+        let summary = place.summary("out");
+        let has_pulses = scene != PANEL;
+        assert_eq!(summary["latch_pulses"], json!(has_pulses), "{account}");
+        let figure =
+            fs::read_to_string(place.path("out/plots/07-hinge-loads.svg")).expect("a figure");
+        for text in [account, figure] {
+            assert_eq!(text.contains(WITHOUT), !has_pulses, "{text}");
+        }
+        summary["verdict"]["largest_hinge_moment"].as_f64().expect("a moment")
+    });
+    // The latch stops the panel, I about 0.7, in a millisecond: its moment is far above that of the spring.
+    assert!(moments[1] > 100.0 * moments[0], "{moments:?}");
 }

@@ -12,6 +12,8 @@ use crate::figure::{Curve, Figure, Panel};
 use crate::source::{Source, Wanted};
 
 const ENVELOPE: &str = "Dots: the largest of the whole motion, with the pulses of latches.";
+const WITHOUT_PULSES: &str =
+    "Dots: the largest of the whole motion, without latches, which have no pulse_constant.";
 
 pub(super) fn kick_off_forces<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     let (scene, motion) = (source.run.scene()?, source.run.motion()?);
@@ -93,7 +95,8 @@ pub(super) fn hinge_loads<'a>(source: &Source<'a>) -> Option<Figure<'a>> {
     };
     let forces = of("force", "Force", units.force.as_str());
     let panels = forces.into_iter().chain(of("moment", "Moment", units.torque.as_str())).collect();
-    Some(Figure { title: "Loads of hinges", note: ENVELOPE.to_owned(), panels })
+    let note = if source.run.has_latch_pulses() { ENVELOPE } else { WITHOUT_PULSES };
+    Some(Figure { title: "Loads of hinges", note: note.to_owned(), panels })
 }
 
 pub(super) fn stresses<'a>(source: &Source<'a>) -> Option<Figure<'a>> {

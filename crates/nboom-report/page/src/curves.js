@@ -93,7 +93,8 @@ function ofHingeLoads(run) {
       const i = curves.findIndex(({ label }) => label === hinge?.label);
       return i < 0 ? null : { label: `largest at ${hinge.label}`, x: [t], y: [magnitude], points: true, of: i };
     }).filter(Boolean);
-    const note = marks.length > 0 ? 'Dots: the largest of the whole motion, with the pulses of latches.' : '';
+    const pulses = run.summary?.latch_pulses === false ? 'without latches, which have no pulse_constant' : 'with the pulses of latches';
+    const note = marks.length > 0 ? `Dots: the largest of the whole motion, ${pulses}.` : '';
     return figure(title, unit, [...curves, ...marks], { note, peaks: hingePeaks });
   };
   return [of('force', 'Hinge forces', units.force), of('moment', 'Hinge moments', units.torque)];
