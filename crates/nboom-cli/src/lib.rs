@@ -111,7 +111,7 @@ pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
 pub use terminal::refuse;
-pub use verdict::negative_margin;
+pub use verdict::negative_margins;
 
 use terminal::{print, say};
 

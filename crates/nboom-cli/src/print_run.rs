@@ -32,7 +32,7 @@ impl Account<'_> {
         lines.extend(verdict::lines(self.scene, &self.outcome.summary.verdict));
         lines.extend(self.impulse_line());
         lines.extend(self.worst.station().map(|worst| worst_line(self.scene, worst)));
-        lines.extend(self.margin_line());
+        lines.extend(self.margin_lines());
         lines.extend(self.hinge_load_line());
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
@@ -137,16 +137,17 @@ impl Account<'_> {
         Some(format!("worst impulse {impulse} {unit} in hinge {hinge}, at {time}"))
     }
 
-    /// The smallest margin, unless the line of the largest stress tells it.
-    fn margin_line(&self) -> Option<String> {
-        let (worst, margin, limit) = self.worst.weakest()?;
-        // Stations that are loaded alike have one margin.
-        let has_it = |told: &Worst| told.margins.on_yield == Some(margin);
-        let is_told = limit == Limit::Yield && self.worst.station().is_some_and(has_it);
-        let (margin, limit, station) = (short(margin, 3), limit.name(), worst.station + 1);
-        let (segment, time) = (&worst.segment, short(worst.time, 10));
-        (!is_told).then(|| {
-            format!("least margin  {margin} to {limit} in segment {segment}, station {station}, at {time}")
+    /// The smallest margins, unless the line of the largest stress tells them.
+    fn margin_lines(&self) -> impl Iterator<Item = String> {
+        self.worst.weakest_of_each().filter_map(|(worst, margin, limit)| {
+            // Stations that are loaded alike have one margin.
+            let has_it = |told: &Worst| told.margins.on_yield == Some(margin);
+            let is_told = limit == Limit::Yield && self.worst.station().is_some_and(has_it);
+            let (margin, limit, station) = (short(margin, 3), limit.name(), worst.station + 1);
+            let (segment, time) = (&worst.segment, short(worst.time, 10));
+            (!is_told).then(|| {
+                format!("least margin  {margin} to {limit} in segment {segment}, station {station}, at {time}")
+            })
         })
     }
 

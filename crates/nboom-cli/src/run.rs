@@ -295,8 +295,7 @@ fn directory(args: &RunArgs, scene: &Scene) -> Result<PathBuf, CliError> {
 fn warn_of_poor_results(outcome: &Outcome, options: &Options, worst: &WorstLoads) {
     let poor = outcome.summary.conservation.poor(options.rtol);
     poor.for_each(|law| say("warning", &law.to_string()));
-    let negative = worst.weakest().and_then(verdict::negative_margin);
-    negative.iter().for_each(|warning| say("warning", warning));
+    verdict::negative_margins(worst).for_each(|warning| say("warning", &warning));
 }
 
 /// The page and the figures of the run, made from its files, as far as somebody wants them.

@@ -1,6 +1,7 @@
 //! The final states of the hinges, in words.
 
 use nboom_model::{HingeState, Scene};
+use nboom_results::WorstLoads;
 use nboom_sim::{HingeVerdict, Verdict};
 use nboom_strength::{Limit, Worst};
 
@@ -56,8 +57,12 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     }
 }
 
-/// The message about a part that fails.
-pub fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {
+/// Messages about parts that fail: the first to yield, and the first to break.
+pub fn negative_margins(worst: &WorstLoads) -> impl Iterator<Item = String> {
+    worst.weakest_of_each().filter_map(negative_margin)
+}
+
+fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {
     let (segment, station) = (&worst.segment, worst.station + 1);
     let limit = if limit == Limit::Yield { "" } else { " to the ultimate stress" };
     let margin = Some(margin).filter(|margin| *margin < 0.0).map(|margin| short(margin, 3))?;

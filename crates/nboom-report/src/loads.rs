@@ -153,6 +153,8 @@ pub enum Largest {
         driver: String,
         /// Margin to yielding.
         margin: Option<f64>,
+        /// Margin to breaking.
+        ultimate_margin: Option<f64>,
     },
 }
 
@@ -177,15 +179,16 @@ pub(crate) fn stress_envelope(directory: &Path) -> Result<Option<Envelope>, Gap>
     envelope(directory, ENVELOPE_FILE, |rows| {
         let [station, von_mises, driver, margin] =
             rows.places(["station", "von_mises", "driver", "margin"])?;
+        // Where no material has an ultimate stress there is no such column.
+        let ultimate_margin = rows.place("ultimate_margin").ok();
+        let given = |text: &str| Some(text).filter(|text| !text.is_empty()).map(number).transpose();
         Ok(move |fields: &Fields<'_>| {
             Ok(Largest::Station {
                 station: count(&fields[station])?,
                 von_mises: number(&fields[von_mises])?,
                 driver: fields[driver].to_owned(),
-                margin: Some(&fields[margin])
-                    .filter(|text| !text.is_empty())
-                    .map(number)
-                    .transpose()?,
+                margin: given(&fields[margin])?,
+                ultimate_margin: ultimate_margin.map_or(Ok(None), |place| given(&fields[place]))?,
             })
         })
     })

@@ -28,11 +28,16 @@ impl WorstLoads {
 
     /// The station with the smallest margin, if a strength is known, the margin, and what it is to.
     pub fn weakest(&self) -> Option<(&Worst, f64, Limit)> {
-        let known = self.stations.iter().filter_map(|worst| {
-            let (margin, limit) = worst.margins.smallest()?;
-            Some((worst, margin, limit))
-        });
-        known.min_by(|a, b| a.1.total_cmp(&b.1))
+        self.weakest_of_each().min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// As [`weakest`](Self::weakest), to each limit that is known: one that yields may also break elsewhere.
+    pub fn weakest_of_each(&self) -> impl Iterator<Item = (&Worst, f64, Limit)> {
+        Limit::ALL.into_iter().filter_map(|limit| {
+            let known = self.stations.iter();
+            let known = known.filter_map(|worst| Some((worst, worst.margins.to(limit)?, limit)));
+            known.min_by(|a, b| a.1.total_cmp(&b.1))
+        })
     }
 
     /// The hinge with the largest force or moment.
@@ -55,6 +60,8 @@ pub(crate) struct VerdictKeys {
     worst_load_at: Option<StationKeys>,
     smallest_margin: Option<f64>,
     smallest_margin_at: Option<MarginKeys>,
+    /// The smallest one to each limit.
+    smallest_margins: Vec<WeakestKeys>,
     largest_hinge_force: Option<f64>,
     largest_hinge_force_at: Option<HingeLoadKeys>,
     largest_hinge_moment: Option<f64>,
@@ -96,6 +103,19 @@ struct MarginKeys {
     limit: &'static str,
 }
 
+#[derive(Clone, Debug, Serialize)]
+struct WeakestKeys {
+    margin: f64,
+    #[serde(flatten)]
+    at: MarginKeys,
+}
+
+impl From<(&Worst, f64, Limit)> for WeakestKeys {
+    fn from(weakest: (&Worst, f64, Limit)) -> Self {
+        Self { margin: weakest.1, at: weakest.into() }
+    }
+}
+
 impl From<(&Worst, f64, Limit)> for MarginKeys {
     fn from((worst, _, limit): (&Worst, f64, Limit)) -> Self {
         Self { station: worst.into(), limit: limit.name() }
@@ -117,6 +137,7 @@ impl VerdictKeys {
             worst_load_at: most_loaded.map(StationKeys::from),
             smallest_margin: weakest.map(|(_, margin, _)| margin),
             smallest_margin_at: weakest.map(MarginKeys::from),
+            smallest_margins: worst.weakest_of_each().map(WeakestKeys::from).collect(),
             largest_hinge_force: force.map(WorstHingeLoad::magnitude),
             largest_hinge_force_at: force.map(HingeLoadKeys::from),
             largest_hinge_moment: moment.map(WorstHingeLoad::magnitude),

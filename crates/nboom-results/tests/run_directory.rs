@@ -223,6 +223,7 @@ fn a_finished_run_has_all_rows_and_every_key() {
             "worst_load_at": null,
             "smallest_margin": null,
             "smallest_margin_at": null,
+            "smallest_margins": [],
             "largest_hinge_force": null,
             "largest_hinge_force_at": null,
             "largest_hinge_moment": null,

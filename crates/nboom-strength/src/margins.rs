@@ -17,6 +17,9 @@ pub enum Limit {
 }
 
 impl Limit {
+    /// Both, as in the files.
+    pub const ALL: [Self; 2] = [Self::Yield, Self::Ultimate];
+
     /// The name in files.
     pub fn name(self) -> &'static str {
         match self {
@@ -27,10 +30,17 @@ impl Limit {
 }
 
 impl Margins {
+    /// That to this limit, if it is known.
+    pub fn to(&self, limit: Limit) -> Option<f64> {
+        match limit {
+            Limit::Yield => self.on_yield,
+            Limit::Ultimate => self.on_ultimate,
+        }
+    }
+
     /// The smaller one, and what it is to.
     pub fn smallest(&self) -> Option<(f64, Limit)> {
-        let known = [(self.on_yield, Limit::Yield), (self.on_ultimate, Limit::Ultimate)];
-        let known = known.into_iter().filter_map(|(margin, limit)| Some((margin?, limit)));
+        let known = Limit::ALL.into_iter().filter_map(|limit| Some((self.to(limit)?, limit)));
         known.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 }

@@ -134,7 +134,7 @@ impl Run {
     #[getter]
     fn troubles(&self) -> Vec<String> {
         let poor = self.summary.conservation.poor(self.prepared.options.rtol);
-        let negative = self.worst.weakest().and_then(nboom_cli::negative_margin);
+        let negative = nboom_cli::negative_margins(&self.worst);
         poor.map(|law| law.to_string()).chain(negative).collect()
     }
 

@@ -159,3 +159,30 @@ fn factors_without_a_strength_are_refused() {
     let run = place.nboom(&["run", "no-ultimate.toml", "--ultimate-factor", "1.5"]);
     refused(&run, 2, &["--ultimate-factor: no ultimate stress found"]);
 }
+
+#[test]
+fn a_part_that_breaks_is_told_though_another_margin_is_smaller() {
+    let place = Place::new();
+    // Half of what the rod bears before it breaks, a quarter of it before it yields.
+    let weak = SPINNER
+        .replace("yield_stress = 40000.0", &format!("yield_stress = {}", 0.25 * stress()))
+        .replace("ultimate_stress = 42000.0", &format!("ultimate_stress = {}", 0.5 * stress()));
+    place.write("spinner.toml", &weak);
+    let run = place.nboom(&["run", "spinner.toml", "-o", "out"]);
+    for warning in [
+        "negative margin: -0.75 in segment 2,1 (weak rod), station 1",
+        "negative margin: -0.5 to the ultimate stress in segment 2,1 (weak rod), station 1",
+    ] {
+        assert!(stderr(&run).contains(warning), "{}", stderr(&run));
+    }
+    let line = "least margin  -0.5 to ultimate in segment 2,1 (weak rod), station 1, at ";
+    assert!(stdout(&run).contains(line), "{}", stdout(&run));
+    let verdict = &place.summary("out")["verdict"];
+    for (kind, (limit, margin)) in [("yield", -0.75), ("ultimate", -0.5)].into_iter().enumerate() {
+        let told = &verdict["smallest_margins"][kind];
+        assert_near(told["margin"].as_f64(), margin);
+        assert_eq!((&told["limit"], &told["name"]), (&limit.into(), &"weak rod".into()));
+    }
+    let page = std::fs::read_to_string(place.path("out/report.html")).expect("a page");
+    assert!(page.contains("\"ultimate_margin\":-0.5"), "the page has it");
+}

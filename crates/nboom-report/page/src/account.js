@@ -57,12 +57,13 @@ export function envelopes(run) {
   const cause = (row) => (row.event === 'lock_up' ? `latch of ${label({ appendage: row.event_appendage, segment: row.event_segment })}` : 'motion');
   const stresses = [...(data.stress_envelope ?? [])].sort((a, b) => b.von_mises - a.von_mises);
   const loads = (data.hinge_envelope ?? []);
+  const margin = (share) => numeric(share === null ? '' : digits(share, 3));
   const tables = [];
   if (stresses.length > 0) {
     const rows = stresses.slice(0, MOST).map((row) => [label(row), numeric(String(row.station)), numeric(digits(row.von_mises)), row.driver,
-      cause(row), numeric(digits(row.t, 5)), numeric(row.margin === null ? '' : digits(row.margin, 3))]);
+      cause(row), numeric(digits(row.t, 5)), margin(row.margin), margin(row.ultimate_margin)]);
     tables.push(element('h3', {}, 'Largest stresses'),
-      table(['Segment', 'Station', `Von Mises [${units.stress}]`, 'Driver', 'By', `Time [${units.time}]`, 'Margin'], rows));
+      table(['Segment', 'Station', `Von Mises [${units.stress}]`, 'Driver', 'By', `Time [${units.time}]`, 'Margin to yield', 'Margin to ultimate'], rows));
   }
   if (loads.length > 0) {
     const keys = [...new Set(loads.map(({ appendage, segment }) => `${appendage}_${segment}`))];

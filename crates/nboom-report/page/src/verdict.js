@@ -41,6 +41,11 @@ function place(at, run) {
   return [given(hinge?.label ?? `${at.appendage},${at.segment}`), `${station}, t = ${digits(at.time, 4)}${event}`];
 }
 
+/** The smallest margin to each limit; runs of earlier versions have the smallest one of all. */
+function weakest({ smallest_margins: each, smallest_margin: margin, smallest_margin_at: at }) {
+  return each ?? (margin === null || margin === undefined ? [] : [{ margin, ...at }]);
+}
+
 /** Key figures: name, value, unit and where, of one run. */
 export function keyFigures(run) {
   const { summary, units } = run;
@@ -57,10 +62,7 @@ export function keyFigures(run) {
     add('Largest latch impulse', digits(verdict.largest_impulse), hinge?.slides ? `${units.force} ${units.time}` : units.angularMomentum, place(at, run));
   }
   if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, place(verdict.worst_load_at, run));
-  if (verdict.smallest_margin !== null && verdict.smallest_margin !== undefined) {
-    const at = verdict.smallest_margin_at;
-    add(`Smallest margin${at?.limit ? ` to ${at.limit}` : ''}`, digits(verdict.smallest_margin, 3), '', place(at, run));
-  }
+  for (const { margin, limit, ...at } of weakest(verdict)) add(`Smallest margin${limit ? ` to ${limit}` : ''}`, digits(margin, 3), '', place(at, run));
   if (verdict.largest_hinge_moment) add('Largest hinge moment', digits(verdict.largest_hinge_moment), units.torque, place(verdict.largest_hinge_moment_at, run));
   add(...trust(run));
   return found;
