@@ -179,6 +179,12 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// A page would take the place of a file that nboom has not made.
+    #[error("{}: found a file that nboom has not made, expected a page of its own or no file; -o names another one", path.display())]
+    OtherPage {
+        /// The file.
+        path: PathBuf,
+    },
     /// Tables cannot be written for other programs.
     #[error(transparent)]
     Tables(#[from] TablesError),
@@ -286,6 +292,7 @@ impl CliError {
             Self::Case(_) => 2,
             Self::Sweep(error) => error.exit_code(),
             Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
+            Self::OtherPage { .. } => 2,
             Self::Tables(error) if error.is_of_input() => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,

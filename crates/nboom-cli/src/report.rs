@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use nboom_report::{Run, page};
-use nboom_results::{REPORT_FILE, write_file};
+use nboom_results::{REPORT_FILE, is_page, write_file};
 
 use crate::{CliError, PlotArgs, say, sweep};
 
@@ -30,6 +30,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
     if let [directory] = &args.directories[..]
         && let Some(sweep) = sweep::finished(directory)?
     {
+        require_replaceable(&directory.join(REPORT_FILE))?;
         let page = sweep::write_page(&sweep, directory)?;
         return Ok(format!("{}\n", page.display()));
     }
@@ -48,6 +49,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
     if output.extension().is_none_or(|ending| ending != "html") {
         return Err(CliError::NoPage { path: output });
     }
+    require_replaceable(&output)?;
     let runs = runs?;
     let mut written = Vec::new();
     for (run, directory) in runs.iter().zip(&args.directories) {
@@ -56,4 +58,12 @@ pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
     write_file(&output, &page(runs))?;
     written.insert(0, output);
     Ok(written.iter().map(|path| format!("{}\n", path.display())).collect())
+}
+
+/// Refuses the place of a file that nboom has not made.
+fn require_replaceable(path: &Path) -> Result<(), CliError> {
+    if path.is_file() && !is_page(path) {
+        return Err(CliError::OtherPage { path: path.to_owned() });
+    }
+    Ok(())
 }

@@ -253,8 +253,8 @@ fn check(directory: &Path) -> Result<Option<Earlier>, ResultsError> {
     Ok(earlier)
 }
 
-/// Whether a file is the page of a run.
-fn is_page(path: &Path) -> bool {
+/// Whether a file is a page that nboom has made.
+pub fn is_page(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = fs::File::open(path).and_then(|file| file.take(PAGE_START).read_to_end(&mut start));
     read.is_ok() && String::from_utf8_lossy(&start).contains(REPORT_MARK)

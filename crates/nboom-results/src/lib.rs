@@ -53,7 +53,7 @@ mod whole;
 #[cfg(test)]
 mod fixture;
 
-pub use destination::require_named;
+pub use destination::{is_page, require_named};
 pub use directory::{Outcome, RunDirectory};
 pub use error::{ResultsError, with_causes};
 pub use euler::euler_angles;

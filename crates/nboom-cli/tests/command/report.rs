@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{BOOM, Place, code, stderr, stdout};
+use crate::{BOOM, Place, code, refused, stderr, stdout};
 
 /// A place with a deck, and a run of it with these options into `out`.
 fn run(place: &Place, args: &[&str]) {
@@ -93,4 +93,20 @@ fn a_page_is_an_html_file_and_no_input() {
     let output = place.nboom(&["report", "out", "-o", "out/states.csv"]);
     assert_eq!(code(&output), 2, "{}", stderr(&output));
     assert!(fs::read(place.path("out/states.csv")).expect("a table") == states);
+}
+
+#[test]
+fn a_page_that_nboom_has_not_made_stays() {
+    let place = Place::new();
+    run(&place, &["--no-report"]);
+    for (file, words) in [
+        ("notes.html", &["report", "out", "-o", "notes.html"][..]),
+        ("out/report.html", &["report", "out"]),
+        ("comparison.html", &["report", "out", "out"]),
+    ] {
+        place.write(file, "<p>my notes</p>");
+        refused(&place.nboom(words), 2, &[file, "a file that nboom has not made"]);
+        let kept = fs::read_to_string(place.path(file)).expect("still there");
+        assert_eq!(kept, "<p>my notes</p>");
+    }
 }
