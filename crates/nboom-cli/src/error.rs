@@ -185,6 +185,20 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// Runs that would share axes are in different units.
+    #[error(
+        "{}: found units {units}, expected {expected} as in {}; runs share axes", path.display(), first.display()
+    )]
+    OtherUnits {
+        /// The run.
+        path: PathBuf,
+        /// Its units of length, time and force.
+        units: String,
+        /// The first run.
+        first: PathBuf,
+        /// Its units.
+        expected: String,
+    },
     /// Tables cannot be written for other programs.
     #[error(transparent)]
     Tables(#[from] TablesError),
@@ -292,7 +306,7 @@ impl CliError {
             Self::Case(_) => 2,
             Self::Sweep(error) => error.exit_code(),
             Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
-            Self::OtherPage { .. } => 2,
+            Self::OtherPage { .. } | Self::OtherUnits { .. } => 2,
             Self::Tables(error) if error.is_of_input() => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,

@@ -51,6 +51,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
     }
     require_replaceable(&output)?;
     let runs = runs?;
+    require_same_units(&runs, &args.directories)?;
     let mut written = Vec::new();
     for (run, directory) in runs.iter().zip(&args.directories) {
         written.extend(args.plots.draw(run, directory)?);
@@ -66,4 +67,18 @@ fn require_replaceable(path: &Path) -> Result<(), CliError> {
         return Err(CliError::OtherPage { path: path.to_owned() });
     }
     Ok(())
+}
+
+fn require_same_units(runs: &[Run], directories: &[PathBuf]) -> Result<(), CliError> {
+    let all = || runs.iter().zip(directories);
+    let Some((first, of_first)) = all().next() else { return Ok(()) };
+    match all().find(|(run, _)| run.units() != first.units()) {
+        None => Ok(()),
+        Some((run, path)) => {
+            let label = |run: &Run| run.units().label("L, T, F");
+            let (path, first_path) = (path.clone(), of_first.clone());
+            let (units, expected) = (label(run), label(first));
+            Err(CliError::OtherUnits { path, units, first: first_path, expected })
+        }
+    }
 }

@@ -110,3 +110,14 @@ fn a_page_that_nboom_has_not_made_stays() {
         assert_eq!(kept, "<p>my notes</p>");
     }
 }
+
+#[test]
+fn runs_in_other_units_share_no_axes() {
+    let place = Place::new();
+    run(&place, &["--units", "SI"]);
+    let other = place.nboom(&["run", "boom.nml", "-o", "feet", "--quiet", "--units", "ft-lbf-s"]);
+    assert_eq!(code(&other), 0, "{}", stderr(&other));
+    let output = place.nboom(&["report", "out", "feet"]);
+    refused(&output, 2, &["feet: found units ft, s, lbf, expected m, s, N as in out"]);
+    assert!(!place.path("comparison.html").exists());
+}
