@@ -72,6 +72,14 @@ pub enum Gap {
         /// How many are shown.
         most: usize,
     },
+    /// More loads than a page shows.
+    #[error("{file} has more than {most} rows; those with the smallest loads are left out")]
+    TooManyLoads {
+        /// The file.
+        file: &'static str,
+        /// How many are shown.
+        most: usize,
+    },
     /// A file in JSON that is cut off, or is something else.
     #[error("{file} is not what a run writes: {found}")]
     Json {

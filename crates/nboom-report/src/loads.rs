@@ -158,6 +158,34 @@ pub enum Largest {
     },
 }
 
+impl Largest {
+    /// Loads are compared within a kind: forces, moments, stresses.
+    fn kind(&self) -> &str {
+        match self {
+            Self::Hinge { quantity, .. } => quantity,
+            Self::Station { .. } => "stress",
+        }
+    }
+
+    fn load(&self) -> f64 {
+        match *self {
+            Self::Hinge { magnitude, .. } => magnitude,
+            Self::Station { von_mises, .. } => von_mises,
+        }
+    }
+}
+
+/// Sorts by the share that a load is of the largest of its kind, the worst first.
+pub(crate) fn sort_by_load(rows: &mut [Worst]) {
+    let mut largest: HashMap<String, f64> = HashMap::new();
+    for Worst { what, .. } in &*rows {
+        let most = largest.entry(what.kind().to_owned()).or_default();
+        *most = most.max(what.load());
+    }
+    let share = |row: &Worst| row.what.load() / largest[row.what.kind()];
+    rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
+}
+
 /// The rows of an envelope, and what ended it early.
 pub(crate) type Envelope = (Vec<Worst>, Option<Gap>);
 

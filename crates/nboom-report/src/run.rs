@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use nboom_io::SceneFile;
 use nboom_model::{Scene, UnitSystem};
 use nboom_results::{
-    EVENTS_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE, STATES_FILE, SUMMARY_FILE, TRUST_FILE,
+    ENVELOPE_FILE, EVENTS_FILE, HINGE_ENVELOPE_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE,
+    STATES_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 use nboom_tables::{Rows, count, number};
 use serde::Serialize;
@@ -220,8 +221,10 @@ impl Run {
             *loads = found.filter(|loads| loads.motion.rows() > 0);
             gaps.extend(loads.as_mut().and_then(|loads| loads.gap.take()));
         }
-        self.hinge_envelope = worst(loads::hinge_envelope(directory), gaps);
-        self.stress_envelope = worst(loads::stress_envelope(directory), gaps);
+        let (hinges, stations) =
+            (loads::hinge_envelope(directory), loads::stress_envelope(directory));
+        self.hinge_envelope = worst(HINGE_ENVELOPE_FILE, hinges, gaps);
+        self.stress_envelope = worst(ENVELOPE_FILE, stations, gaps);
     }
 
     /// Leaves the scene out if it is not that of the motion.
@@ -307,10 +310,19 @@ fn read_events(directory: &Path, events: &mut Vec<EventKeys>) -> Result<bool, Ga
     Ok(true)
 }
 
-fn worst(read: Result<Option<Envelope>, Gap>, gaps: &mut Vec<Gap>) -> Vec<Worst> {
+/// The rows of an envelope; of very many those with the largest loads.
+fn worst(
+    file: &'static str,
+    read: Result<Option<Envelope>, Gap>,
+    gaps: &mut Vec<Gap>,
+) -> Vec<Worst> {
     let Some((mut rows, gap)) = kept(read, gaps).flatten() else { return Vec::new() };
     gaps.extend(gap);
-    rows.truncate(MOST_WORST);
+    if rows.len() > MOST_WORST {
+        loads::sort_by_load(&mut rows);
+        rows.truncate(MOST_WORST);
+        gaps.push(Gap::TooManyLoads { file, most: MOST_WORST });
+    }
     rows
 }
 

@@ -39,7 +39,7 @@ function routines({ summary, units }) {
   const more = selections.length - rows.length;
   return element('div', {}, element('h3', {}, 'Routines by mode'),
     table([`Since [${units.time}]`, 'Path', 'Formulation', 'Why', 'Evaluations'], rows),
-    more > 0 ? element('p', { class: 'note' }, `${more} more are in summary.json.`) : null);
+    rest(more, 'summary.json'));
 }
 
 function certificate({ data }) {
@@ -50,7 +50,12 @@ function certificate({ data }) {
   return element('div', {}, element('h3', {}, `Certificate by ${found.reference}`), table(['Quantity', 'Difference', 'Digits'], rows));
 }
 
-/** The largest stresses and hinge loads, worst first. */
+/** Says how many rows a table leaves out. */
+function rest(number, file) {
+  return number > 0 ? element('p', { class: 'note' }, `${number} more are in ${file}.`) : null;
+}
+
+/** The largest stresses and hinge loads, worst first; hinges by their moments. */
 export function envelopes(run) {
   const { data, units } = run;
   const label = ({ appendage, segment }) => run.hinge(appendage, segment)?.label ?? `${appendage},${segment}`;
@@ -63,16 +68,22 @@ export function envelopes(run) {
     const rows = stresses.slice(0, MOST).map((row) => [label(row), numeric(String(row.station)), numeric(digits(row.von_mises)), row.driver,
       cause(row), numeric(digits(row.t, 5)), margin(row.margin), margin(row.ultimate_margin)]);
     tables.push(element('h3', {}, 'Largest stresses'),
-      table(['Segment', 'Station', `Von Mises [${units.stress}]`, 'Driver', 'By', `Time [${units.time}]`, 'Margin to yield', 'Margin to ultimate'], rows));
+      table(['Segment', 'Station', `Von Mises [${units.stress}]`, 'Driver', 'By', `Time [${units.time}]`, 'Margin to yield', 'Margin to ultimate'], rows),
+      rest(stresses.length - rows.length, 'stress_envelope.csv'));
   }
   if (loads.length > 0) {
-    const keys = [...new Set(loads.map(({ appendage, segment }) => `${appendage}_${segment}`))];
-    const rows = keys.slice(0, MOST).map((key) => {
-      const [force, moment] = ['force', 'moment'].map((quantity) => loads.find((row) => row.quantity === quantity && `${row.appendage}_${row.segment}` === key));
-      return [label(force ?? moment), ...[force, moment].flatMap((row) => (row ? [numeric(digits(row.magnitude)), numeric(digits(row.t, 5)), cause(row)] : ['', '', '']))];
+    const hinges = new Map();
+    loads.forEach((row) => {
+      const key = `${row.appendage}_${row.segment}`;
+      hinges.set(key, { ...hinges.get(key), [row.quantity]: row });
     });
+    const size = (row) => row?.magnitude ?? 0;
+    const worst = [...hinges.values()].sort((a, b) => size(b.moment) - size(a.moment) || size(b.force) - size(a.force));
+    const rows = worst.slice(0, MOST).map(({ force, moment }) =>
+      [label(force ?? moment), ...[force, moment].flatMap((row) => (row ? [numeric(digits(row.magnitude)), numeric(digits(row.t, 5)), cause(row)] : ['', '', '']))]);
     tables.push(element('h3', {}, 'Largest hinge loads'),
-      table(['Hinge', `Force [${units.force}]`, `Time [${units.time}]`, 'By', `Moment [${units.torque}]`, `Time [${units.time}]`, 'By'], rows));
+      table(['Hinge', `Force [${units.force}]`, `Time [${units.time}]`, 'By', `Moment [${units.torque}]`, `Time [${units.time}]`, 'By'], rows),
+      rest(worst.length - rows.length, 'hinge_load_envelope.csv'));
   }
   return tables.length > 0 ? element('div', {}, tables) : null;
 }

@@ -197,6 +197,18 @@ const checks = {
     await page.done();
   },
 
+  async 'hinges with the largest moments come first'() {
+    const page = await open('1970');
+    const moments = table('1970', 'hinge_load_envelope.csv').filter(({ quantity }) => quantity === 'moment');
+    moments.sort((a, b) => b.magnitude - a.magnitude);
+    const found = await page.$$eval('h3', (titles) => {
+      const loads = titles.find((title) => title.textContent === 'Largest hinge loads').nextElementSibling;
+      return [...loads.querySelectorAll('tbody tr')].map((row) => row.firstChild.textContent);
+    });
+    assert.deepEqual(found, moments.map(({ appendage, segment }) => `segment ${appendage},${segment}`));
+    await page.done();
+  },
+
   async 'it prints'() {
     const page = await open('1970');
     assert.ok((await page.pdf({ format: 'A4' })).length > 50_000);

@@ -111,3 +111,24 @@ fn what_is_no_directory_of_a_run_is_refused() {
     let refused = Run::read(&run).map(|_| ()).expect_err("it is empty").to_string();
     assert!(refused.contains("unfinished results are in"), "{refused}");
 }
+
+#[test]
+fn of_very_many_loads_the_largest_are_shown() {
+    let place = whole();
+    let mut text =
+        "t,event,appendage,segment,event_appendage,event_segment,quantity,magnitude\n".to_owned();
+    // Loads grow along the boom, in newtons much more than in newton-metres.
+    for segment in 1..=4000 {
+        text += &format!(
+            "1.0,,1,{segment},,,force,{segment}.0\n1.0,,1,{segment},,,moment,0.{segment:04}\n"
+        );
+    }
+    fs::write(place.path().join("hinge_load_envelope.csv"), text).expect("writable");
+    let run = Run::read(place.path()).expect("a run");
+    let told: Vec<String> = run.gaps().iter().map(ToString::to_string).collect();
+    let expected = "hinge_load_envelope.csv has more than 5000 rows; those with the smallest loads are left out";
+    assert_eq!(told, [expected]);
+    let rows = run.hinge_envelope();
+    assert_eq!(rows.len(), 5000);
+    assert!(rows.iter().all(|row| row.segment > 1500), "the upper 2500 of both kinds");
+}
