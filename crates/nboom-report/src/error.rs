@@ -38,6 +38,12 @@ pub enum Gap {
         /// What is made from it.
         shows: &'static str,
     },
+    /// A file that the run has written and that is gone.
+    #[error("{file} is missing, though summary.json has it among the files of the run")]
+    Gone {
+        /// The file.
+        file: &'static str,
+    },
     /// A file that cannot be read.
     #[error("{file} cannot be read: {source}")]
     Unreadable {

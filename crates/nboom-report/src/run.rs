@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use nboom_io::SceneFile;
 use nboom_model::{Scene, UnitSystem};
 use nboom_results::{
-    ENVELOPE_FILE, EVENTS_FILE, HINGE_ENVELOPE_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE,
+    ENVELOPE_FILE, EVENTS_FILE, FILES, HINGE_ENVELOPE_FILE, INSTANTS_FILE, LEDGER_FILE, SCENE_FILE,
     STATES_FILE, SUMMARY_FILE, TRUST_FILE,
 };
 use nboom_tables::{Rows, count, number};
@@ -108,6 +108,7 @@ impl Run {
             gaps,
         };
         run.read_tables(directory);
+        run.check_files(directory);
         run.check_scene();
         Ok(run)
     }
@@ -225,6 +226,20 @@ impl Run {
             (loads::hinge_envelope(directory), loads::stress_envelope(directory));
         self.hinge_envelope = worst(HINGE_ENVELOPE_FILE, hinges, gaps);
         self.stress_envelope = worst(ENVELOPE_FILE, stations, gaps);
+    }
+
+    /// Names what a complete run has written and is gone, unless its own gap does.
+    fn check_files(&mut self, directory: &Path) {
+        let Some(summary) = self.summary.as_ref().filter(|_| self.is_complete()) else { return };
+        let listed = summary["files"].as_array().map_or(&[][..], Vec::as_slice);
+        let told = |name: &str| {
+            self.gaps.iter().any(|gap| matches!(gap, Gap::Missing { file, .. } if *file == name))
+        };
+        let gone = FILES.into_iter().filter(|name| {
+            listed.iter().any(|file| file == name) && !directory.join(name).exists() && !told(name)
+        });
+        let gone: Vec<Gap> = gone.map(|file| Gap::Gone { file }).collect();
+        self.gaps.extend(gone);
     }
 
     /// Leaves the scene out if it is not that of the motion.

@@ -132,3 +132,23 @@ fn of_very_many_loads_the_largest_are_shown() {
     assert_eq!(rows.len(), 5000);
     assert!(rows.iter().all(|row| row.segment > 1500), "the upper 2500 of both kinds");
 }
+
+#[test]
+fn files_that_the_summary_lists_and_that_are_gone_are_named() {
+    let place = whole();
+    let path = place.path().join("summary.json");
+    let text = fs::read_to_string(&path).expect("a summary");
+    let listed =
+        r#""files": ["states.csv", "stress.csv", "ledger.csv", "../elsewhere.csv"], "complete""#;
+    fs::write(&path, text.replacen("\"complete\"", listed, 1)).expect("writable");
+    for file in ["stress.csv", "ledger.csv"] {
+        fs::remove_file(place.path().join(file)).expect("it is there");
+    }
+    let run = Run::read(place.path()).expect("a run");
+    let told: Vec<String> = run.gaps().iter().map(ToString::to_string).collect();
+    let expected = [
+        "ledger.csv is missing, so there is no ledger of energy",
+        "stress.csv is missing, though summary.json has it among the files of the run",
+    ];
+    assert_eq!(told, expected);
+}
