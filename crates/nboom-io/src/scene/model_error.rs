@@ -203,8 +203,8 @@ impl Responsible<'_> {
         draft.and_then(|draft| self.bodies.get(draft)).unwrap_or(self.root).clone()
     }
 
-    /// The structure of the scene, if a body has stations. The motion follows the bodies; slices
-    /// that differ from them give a warning.
+    /// The structure of the scene, if a body has stations or all that latch have pulse constants. The motion
+    /// follows the bodies; slices that differ from them give a warning.
     pub fn structure(
         &self,
         reader: &mut Reader<'_, '_>,
@@ -214,12 +214,27 @@ impl Responsible<'_> {
         if structures.iter().all(Option::is_none) {
             return None;
         }
+        let has_stations =
+            structures.iter().flatten().any(|structure| !structure.stations.is_empty());
+        let found = "a body whose hinge latches without it";
+        let mut has_all_pulses = true;
         for (i, structure) in structures.iter().enumerate() {
-            if structure.is_none() && scene.bodies[i].hinge.lock_angle.is_some() {
-                let expected = "its pulse_constant, since stresses are wanted";
-                let (body, found) = (self.body(i), "a body whose hinge latches without it");
-                reader.error(&body.at, "pulse_constant", found, expected);
+            if structure.is_some() || scene.bodies[i].hinge.lock_angle.is_none() {
+                continue;
             }
+            has_all_pulses = false;
+            let at = &self.body(i).at;
+            if has_stations {
+                let expected = "its `pulse_constant`, since bodies of the scene have stations";
+                reader.error(at, "pulse_constant", found, expected);
+            } else {
+                let expected =
+                    "that of every body that latches; loads are without pulses of latches";
+                reader.report.warn_at(reader.sources, at, "pulse_constant", found, expected);
+            }
+        }
+        if !has_all_pulses {
+            return None;
         }
         if !reader.report.errors.is_empty() {
             return None;

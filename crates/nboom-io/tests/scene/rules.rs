@@ -167,3 +167,29 @@ fn the_name_of_a_body_comes_before_that_of_the_main_body() {
         assert!(told[0].contains("on: found inboard bodies in a circle"), "{told:?}");
     }
 }
+
+#[test]
+fn pulse_constants_of_some_matter_only_to_stations() {
+    let with = "pulse_constant = 0.1\nmaterial = \"steel\"";
+    let bodies = |station: &str| {
+        BUS.to_owned()
+            + "\n[materials.steel]\nyoungs_modulus = 1.0\n"
+            + &body("one", with, "latch_deg = 90")
+            + station
+            + &body("two", "", "latch_deg = 90")
+    };
+    let file = right(&bodies(""));
+    // A constant that nobody gave would make up pulses.
+    assert_eq!(file.structure, None);
+    let told: Vec<String> = file.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(
+        told[0].contains("pulse_constant: found a body whose hinge latches without it"),
+        "{told:?}"
+    );
+    let station = "\n[[body.station]]\nat = 0.0\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\n\
+                   inertia = [1.0, 0.1, 1.0]\nsection = { tube = { radius = 0.1, thickness = 0.001 } }\n";
+    let told = wrong(&bodies(station));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("since bodies of the scene have stations"), "{told:?}");
+}
