@@ -33,7 +33,9 @@ pub(crate) fn drawn(source: &Source<'_>, figure: &Figure<'_>) -> Option<Sheet> {
     let panels: Vec<_> = figure.panels.iter().filter(|panel| !panel.curves.is_empty()).collect();
     let curves = || panels.iter().flat_map(|panel| &panel.curves);
     let times = curves().filter_map(|curve| Some([*curve.times.first()?, *curve.times.last()?]));
-    let times: Vec<f64> = times.flatten().collect();
+    // Pulses end after the run if a hinge locks just before its end.
+    let largest = curves().filter_map(|curve| Some(curve.largest?[0]));
+    let times: Vec<f64> = times.flatten().chain(largest).collect();
     if times.is_empty() {
         return None;
     }

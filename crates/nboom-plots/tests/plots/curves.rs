@@ -148,3 +148,22 @@ fn dots_are_the_rows_of_the_envelopes() {
         assert!((dot[1] - largest[1]).abs() < panel.value.pixel(), "{dot:?}");
     }
 }
+
+#[test]
+fn the_largest_load_has_its_dot_after_the_end_of_the_run() {
+    let place = directory("late", "t,beta_1_1\n0,0\n4,0\n");
+    let loads = "t,event,appendage,segment,p_xi,p_eta,p_zeta,q_xi,q_eta,q_zeta\n\
+                 0.0,,1,1,1.0,0,0,1.0,0,0\n4.0,,1,1,1.0,0,0,1.0,0,0\n";
+    write(&place, "hinge_loads.csv", loads);
+    // The hinge locks at 3.95, and its pulse is highest at 4.05.
+    let envelope = "t,event,appendage,segment,event_appendage,event_segment,quantity,magnitude\n\
+                    4.05,lock_up,1,1,1,1,force,9.0\n4.05,lock_up,1,1,1,1,moment,9.0\n";
+    write(&place, "hinge_load_envelope.csv", envelope);
+    let text = svg(&place, "hinge-loads.svg");
+    let document = Document::parse(&text).expect("well-formed");
+    for which in [0, 1] {
+        let panel = Panel::new(&document, which);
+        let dot = panel.dot("largest, 1,1").expect("a dot");
+        assert!((dot[0] - 4.05).abs() < panel.time.pixel(), "{dot:?}");
+    }
+}
