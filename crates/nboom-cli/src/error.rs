@@ -114,10 +114,13 @@ pub enum CliError {
     Signals(#[source] std::io::Error),
     /// A run was interrupted and did not come to the end of its step in time.
     #[error(
-        "interrupted within a step; what was computed before is in the directory for unfinished \
-         results, DIR.partial, marked incomplete"
+        "interrupted within a step{}",
+        if .directory.is_some() { "" } else { "; there are no unfinished results" }
     )]
-    WithinStep,
+    WithinStep {
+        /// The directory of the results up to then, if there are any.
+        directory: Option<PathBuf>,
+    },
     /// The output of a conversion is neither a scene nor a deck by its name.
     #[error(
         "{}: found a name without a known ending, expected a scene NAME.toml or a deck NAME.nml",
@@ -317,7 +320,7 @@ impl CliError {
             } => 2,
             Self::Verify(VerifyError::NotFinite { .. }) => 2,
             Self::Simulation { .. } | Self::Verify(_) => 3,
-            Self::Certificate { .. } | Self::Signals(_) | Self::WithinStep => 3,
+            Self::Certificate { .. } | Self::Signals(_) | Self::WithinStep { .. } => 3,
             Self::Results(_) | Self::Tables(_) | Self::Stdout(_) => 3,
             #[cfg(feature = "generator")]
             Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
@@ -342,7 +345,8 @@ impl CliError {
             Self::Sections(error @ SectionFileError::Sections(_)) => {
                 error.to_string().lines().map(str::to_owned).collect()
             }
-            Self::Simulation { directory: Some(directory), .. } => {
+            Self::Simulation { directory: Some(directory), .. }
+            | Self::WithinStep { directory: Some(directory) } => {
                 let (why, kept) = (with_causes(self), directory.display());
                 vec![format!("{why}; what was computed before is in {kept}, marked incomplete")]
             }

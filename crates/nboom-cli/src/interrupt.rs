@@ -1,3 +1,4 @@
+use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -19,8 +20,8 @@ const PATIENCE: Duration = Duration::from_millis(700);
 #[derive(Clone)]
 pub struct Interrupt {
     came: Arc<dyn Fn() -> bool + Send + Sync>,
-    /// Held by work that must not be broken off.
-    shield: Arc<Mutex<()>>,
+    /// Held by work that must not be broken off; where unfinished results are.
+    shield: Arc<Mutex<Option<PathBuf>>>,
 }
 
 /// Makes an [`Interrupt`] when the work begins.
@@ -56,6 +57,12 @@ impl Interrupt {
         (self.came)()
     }
 
+    /// Says where unfinished results are, if there are any.
+    pub(crate) fn leaves(&self, unfinished: Option<&Path>) {
+        let mut held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
+        *held = unfinished.map(Path::to_owned);
+    }
+
     /// Runs work that must not be broken off.
     pub(crate) fn shielded<T>(&self, work: impl FnOnce() -> T) -> T {
         let _held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
@@ -76,14 +83,14 @@ fn noted() -> Result<Arc<AtomicBool>, CliError> {
 }
 
 /// Ends the program a while after a signal has come, unless the run is over by then.
-fn insist(came: &AtomicBool, shield: &Weak<Mutex<()>>) {
+fn insist(came: &AtomicBool, shield: &Weak<Mutex<Option<PathBuf>>>) {
     while !came.load(Ordering::Relaxed) {
         thread::sleep(LOOK);
     }
     thread::sleep(PATIENCE);
     let Some(shield) = shield.upgrade() else { return };
-    let _held = shield.lock().unwrap_or_else(PoisonError::into_inner);
-    let error = CliError::WithinStep;
+    let held = shield.lock().unwrap_or_else(PoisonError::into_inner);
+    let error = CliError::WithinStep { directory: held.clone() };
     error.lines().iter().for_each(|line| say("error", line));
     process::exit(error.exit_code().into());
 }

@@ -230,6 +230,7 @@ fn simulate_into_files(
         events_to_keep: print_run::EVENTS_SHOWN,
         witness: args.certify.map(|_| Witness::new()),
     };
+    interrupt.leaves(Some(watch.files.unfinished()));
     let result = simulate(scene, options, &mut watch);
     watch.progress.finish();
     let (summary, failed) = match result {
@@ -240,6 +241,7 @@ fn simulate_into_files(
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_loads();
     let kept = interrupt.shielded(|| watch.files.finish(&outcome));
+    interrupt.leaves(None);
     let tabled = tables::add(&args.tables.formats, &kept);
     // Printed even with --quiet, since the results are not what they seem.
     warn_of_poor_results(&outcome, options, &worst);

@@ -148,6 +148,11 @@ impl RunDirectory {
         Ok(self)
     }
 
+    /// Where the files are until they are complete.
+    pub fn unfinished(&self) -> &Path {
+        self.place.partial()
+    }
+
     /// The worst stresses and hinge loads when the run is over; nothing where none are computed.
     pub fn worst_loads(&mut self) -> WorstLoads {
         let Some(stresses) = &mut self.stresses else { return WorstLoads::default() };

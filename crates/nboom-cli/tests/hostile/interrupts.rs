@@ -128,7 +128,11 @@ fn a_long_step_is_broken_off() {
         let running = place.start(&args);
         std::thread::sleep(std::time::Duration::from_millis(wait));
         running.signal("INT");
-        running.end().refused("a long step", 3, &["interrupted", "marked incomplete"]);
+        let finished = running.end();
+        let has_some = place.path("run.partial").exists();
+        let told =
+            if has_some { "is in run.partial, marked incomplete" } else { "no unfinished results" };
+        finished.refused("a long step", 3, &["interrupted", told]);
         assert_eq!(contents(&place.path("run")), old);
         if let Some(summary) = summary(&place.path("run.partial")) {
             assert_eq!(summary["complete"], false);
