@@ -66,7 +66,8 @@ pub enum CliError {
     },
     /// An option about stresses is given for a scene without stations.
     #[error(
-        "{option}: scene {scene} has no stations, of a deck stress groups with INSTR > 0, expected"
+        "{option}: found scene {scene} without stations, expected stations, in a deck stress groups with \
+         INSTR > 0"
     )]
     NoStations {
         /// The option.

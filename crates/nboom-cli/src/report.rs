@@ -28,6 +28,7 @@ const COMPARISON: &str = "comparison.html";
 /// Makes the page of runs, and returns the text for standard output.
 pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
     if let [directory] = &args.directories[..]
+        && directory.is_dir()
         && let Some(sweep) = sweep::finished(directory)?
     {
         require_replaceable(&directory.join(REPORT_FILE))?;

@@ -78,6 +78,7 @@ fn what_is_no_run_is_refused_and_half_a_run_is_shown() {
         assert!(stderr(&output).contains(part), "{}", stderr(&output));
     }
     run(&place, &[]);
+    refused(&place.nboom(&["report", "out/states.csv"]), 2, &["no directory of a run found"]);
     let states = fs::read_to_string(place.path("out/states.csv")).expect("a table");
     place.write("out/states.csv", &states[..states.len() / 2]);
     let output = place.nboom(&["report", "out"]);

@@ -140,9 +140,9 @@ fn options_that_act_on_nothing_are_refused_or_said() {
     let place = Place::new();
     place.write("sample.nml", SAMPLE);
     let cases: &[(&str, &[&str], &[&str])] = &[
-        ("boom.nml", &["--yield-stress", "1e5"], &["--yield-stress", "no stations"]),
-        ("boom.nml", &["--amplification", "1.5"], &["--amplification", "no stations"]),
-        ("boom.nml", &["--report-signs"], &["--report-signs", "no stations"]),
+        ("boom.nml", &["--yield-stress", "1e5"], &["--yield-stress", "without stations"]),
+        ("boom.nml", &["--amplification", "1.5"], &["--amplification", "without stations"]),
+        ("boom.nml", &["--report-signs"], &["--report-signs", "without stations"]),
         ("sample.nml", &["--safety-factor", "1.5"], &["--yield-stress"]),
         ("sample.nml", &["--amplification", "7"], &["--amplification", "from 1 to 2"]),
         ("sample.nml", &["--amplification", "0.5"], &["--amplification", "from 1 to 2"]),
@@ -150,7 +150,11 @@ fn options_that_act_on_nothing_are_refused_or_said() {
         ("sample.nml", &["--no-stresses", "--amplification", "2"], &["--no-stresses"]),
         ("sample.nml", &["--no-stresses", "--report-signs"], &["--no-stresses"]),
         ("sample.nml", &["--no-stresses", "--pulses", "all-at-once"], &["--pulses"]),
-        ("boom.nml", &["--hinge-loads", "--pulses", "all-at-once"], &["--pulses", "no stations"]),
+        (
+            "boom.nml",
+            &["--hinge-loads", "--pulses", "all-at-once"],
+            &["--pulses", "without stations"],
+        ),
     ];
     for (deck, options, words) in cases {
         let output = place.nboom(&[&["run", deck][..], options].concat());

@@ -77,10 +77,13 @@ impl Reader<'_, '_> {
         if stations.is_empty() && pulse_constant.is_none() {
             return None;
         }
-        for key in ["material", "pulse_constant"] {
+        for (key, what) in [
+            ("material", "the name of its material"),
+            ("pulse_constant", "impulse over peak of its latch's pulse"),
+        ] {
             if !stations.is_empty() && !body.has(key) {
-                let expected = body.kind.key_called(key).map_or("", |key| key.about);
-                self.error(&body.at, key, "a body with stations without it", expected);
+                let expected = format!("`{key}`, {what}, since the body has stations");
+                self.error(&body.at, key, "a body without it", &expected);
             }
         }
         let material = material.unwrap_or(ANY_MATERIAL);

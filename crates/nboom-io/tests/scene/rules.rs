@@ -193,3 +193,19 @@ fn pulse_constants_of_some_matter_only_to_stations() {
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(told[0].contains("since bodies of the scene have stations"), "{told:?}");
 }
+
+#[test]
+fn a_body_with_stations_is_told_what_it_lacks() {
+    let station = "[[body.station]]\nat = 0.0\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\n\
+                   inertia = [1.0, 0.1, 1.0]\nsection = { tube = { radius = 0.1, thickness = 0.001 } }\n";
+    let told = wrong(&(BUS.to_owned() + &body("boom", "", "") + station));
+    let expected = [
+        "found a body without it, expected `material`, the name of its material, since the body has stations",
+        "found a body without it, expected `pulse_constant`, impulse over peak of its latch's pulse, since the \
+         body has stations",
+    ];
+    assert_eq!(told.len(), 2, "{told:?}");
+    for (told, expected) in told.iter().zip(expected) {
+        assert!(told.contains(expected), "{told}");
+    }
+}
