@@ -52,6 +52,9 @@ pub(crate) const UNIT_SETS: &[&str] = &["none", "SI", "ft-lbf-s", "in-lbf-s"];
 /// In what angles of a table that is asked for may be.
 pub(crate) const ANGLE_UNITS: &[&str] = &["radians", "degrees"];
 
+/// What a body may say of its slices.
+pub(crate) const SLICES: &[&str] = &["differ"];
+
 /// Files that a run writes if they are asked for.
 pub(crate) const FILES_ON_REQUEST: &[&str] = &["hinge_loads", "listing"];
 
@@ -275,6 +278,11 @@ static BODY: TableKind = choice(
             "pulse_constant",
             Number,
             "Impulse over peak of the lock-up pulse of its hinge, a time; needed with stations.",
+        ),
+        optional(
+            "slices",
+            Choice(SLICES),
+            "Says that slices need not add up to the body, as in some decks; by default they must.",
         ),
         optional(
             "station",

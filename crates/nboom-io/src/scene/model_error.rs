@@ -204,7 +204,7 @@ impl Responsible<'_> {
     }
 
     /// The structure of the scene, if a body has stations or all that latch have pulse constants. The motion
-    /// follows the bodies; slices that differ from them give a warning.
+    /// follows the bodies; slices that may differ from them give a warning where they do.
     pub fn structure(
         &self,
         reader: &mut Reader<'_, '_>,
@@ -243,9 +243,9 @@ impl Responsible<'_> {
         match Structure::with_differing_slices(scene, segments) {
             Ok((structure, differences)) => {
                 for difference in &differences {
-                    self.report_structure(reader, scene, difference, Report::Warning);
+                    self.report_structure(reader, scene, difference, Report::Difference);
                 }
-                Some(structure)
+                reader.report.errors.is_empty().then_some(structure)
             }
             Err(errors) => {
                 for error in &errors {
@@ -265,6 +265,7 @@ impl Responsible<'_> {
     ) {
         let StructureError::Segment { place, defect } = error else { return };
         let body = self.body(index_of(scene, &place.segment));
+        let may_differ = body.has("slices");
         let station = place.station.and_then(|number| body.nth("station", number));
         let (table, symbol) = match (defect, station) {
             (StructureDefect::PulseConstant(_), _) => (body, "pulse_constant"),
@@ -280,8 +281,12 @@ impl Responsible<'_> {
         let at = table.place(symbol);
         match report {
             Report::Error => reader.error(&at, symbol, &found, &expected),
-            Report::Warning => {
+            Report::Difference if may_differ => {
                 reader.report.warn_at(reader.sources, &at, symbol, &found, &expected);
+            }
+            Report::Difference => {
+                let expected = format!("{expected}, or slices = \"differ\"");
+                reader.error(&at, symbol, &found, &expected);
             }
         }
     }
@@ -289,7 +294,7 @@ impl Responsible<'_> {
 
 enum Report {
     Error,
-    Warning,
+    Difference,
 }
 
 /// The table of a body's joint.

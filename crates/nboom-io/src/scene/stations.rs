@@ -7,6 +7,7 @@ use nboom_model::{
 };
 use nboom_scalar::{Sym3, Vec3};
 
+use super::catalog::SLICES;
 use super::fields::{Fields, Reader};
 use super::suggest;
 use crate::deck::phrases;
@@ -73,6 +74,8 @@ impl Reader<'_, '_> {
             .filter_map(|station| self.station(station))
             .collect();
         let material = self.material(body, materials);
+        // What it allows is asked for when bodies and slices are compared.
+        self.choice(body, "slices", SLICES);
         let pulse_constant = self.number(body, "pulse_constant");
         if stations.is_empty() && pulse_constant.is_none() {
             return None;

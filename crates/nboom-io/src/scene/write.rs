@@ -4,12 +4,13 @@ mod lines;
 
 use nboom_model::{
     Base, Body, BodyShape, Coupling, Course, Drive, DrivePoint, ExternalAxes, ExternalKind, Hinge,
-    HingeState, Joint, MassProperties, Material, Release, RotorSpeed, Scene, SectionShape,
-    SegmentStructure, Solid, Station, Structure, UnitSystem, WantedTable,
+    HingeLabel, HingeState, Joint, MassProperties, Material, Release, RotorSpeed, Scene,
+    SectionShape, SegmentStructure, Solid, Station, Structure, StructureError, UnitSystem,
+    WantedTable,
 };
 use nboom_scalar::{Mat3, Vec3};
 
-use super::catalog::{BASES, FILES_ON_REQUEST};
+use super::catalog::{BASES, FILES_ON_REQUEST, SLICES};
 use crate::angles::in_degrees;
 use crate::words::{external_table, joint_table};
 use crate::{Sampling, SceneFile, SceneSettings};
@@ -49,10 +50,13 @@ pub fn write_scene(file: &SceneFile) -> String {
         lines.optional("yield_stress", yield_stress.map(number));
         lines.optional("ultimate_stress", ultimate_stress.map(number));
     }
+    let differing = differing(scene, structure.as_ref());
     for (i, of_body) in scene.bodies.iter().enumerate() {
         let segment = structure.as_ref().map(|structure| &structure.segments()[i]);
         body(&mut lines, scene, i, of_body);
         segment.into_iter().for_each(|segment| strength(&mut lines, segment, &materials));
+        let differs = differing.contains(&scene.label(i));
+        lines.optional("slices", differs.then(|| text(SLICES[0])));
         lines.table(&format!("body.{}", joint_table(of_body.joint)));
         joint(&mut lines, scene, i, of_body);
         couplings(&mut lines, scene, i);
@@ -334,6 +338,18 @@ fn materials(structure: Option<&Structure>) -> Vec<Material> {
         }
     }
     materials
+}
+
+/// Bodies to which their slices do not add up.
+fn differing(scene: &Scene, structure: Option<&Structure>) -> Vec<HingeLabel> {
+    let segments = structure.map(|structure| structure.segments().to_vec());
+    let checked = segments.map(|segments| Structure::with_differing_slices(scene, segments));
+    let differences = checked.and_then(Result::ok).map_or_else(Vec::new, |(_, found)| found);
+    let segment = |difference| match difference {
+        StructureError::Segment { place, .. } => Some(place.segment),
+        _ => None,
+    };
+    differences.into_iter().filter_map(segment).collect()
 }
 
 fn material_name(i: usize) -> String {

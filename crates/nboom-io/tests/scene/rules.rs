@@ -209,3 +209,32 @@ fn a_body_with_stations_is_told_what_it_lacks() {
         assert!(told.contains(expected), "{told}");
     }
 }
+
+#[test]
+fn slices_add_up_to_their_body_unless_it_says_that_they_differ() {
+    let scene = |more: &str| {
+        BUS.to_owned()
+            + "\n[materials.steel]\nyoungs_modulus = 1.0\n"
+            + &body("boom", &format!("pulse_constant = 0.1\nmaterial = \"steel\"\n{more}"), "")
+            + "[[body.station]]\nat = 0.0\nmass = 0.3\nmass_centre = [0.0, 1.0, 0.0]\n\
+               inertia = [1.0, 0.1, 1.0]\nsection = { tube = { radius = 0.1, thickness = 0.001 } }\n"
+    };
+    // The slice has a tenth of the mass: stresses would be a tenth, too.
+    let told = wrong(&scene(""));
+    assert_eq!(told.len(), 1, "{told:?}");
+    for part in
+        ["slices of mass 0.3 in all", "3 of the segment (2.7 away)", "or slices = \"differ\""]
+    {
+        assert!(told[0].contains(part), "{told:?}");
+    }
+    let file = right(&scene("slices = \"differ\""));
+    assert!(file.structure.is_some());
+    assert!(
+        file.warnings[0].to_string().contains("slices of mass 0.3 in all"),
+        "{:?}",
+        file.warnings
+    );
+    let again = right(&nboom_io::write_scene(&file));
+    assert_eq!(again.structure, file.structure);
+    assert!(wrong(&scene("slices = \"alike\""))[0].contains("one of differ"));
+}
