@@ -1,5 +1,5 @@
 //! Nanoseconds for the accelerations of a robot, its numbers built in: of one state, by code for this processor and
-//! by plain code, which takes equal legs one after the other; of each of eight states at once; and with their
+//! by plain code, which takes equal legs and arms one after the other; of each of eight states at once; and with their
 //! derivatives by the angles, rates and torques of all joints. One thread. `./run` prints a line for each, as
 //! `pinocchio.cpp` does.
 
@@ -23,6 +23,9 @@ fn main() {
     panda();
     anymal();
     go2();
+    g1();
+    talos();
+    humanoid();
 }
 
 /// A function for each robot: its crate has types of its own.
@@ -78,6 +81,9 @@ robots! {
     panda: BakedTrrrrrrrIsOIsO,
     anymal: Baked4xTrrp,
     go2: Baked4xTrrp,
+    g1: BakedTrrrIrrrrrrrOIrrrrrrrO2xTrrrrpr,
+    talos: BakedTrrIrrrrrrrrOIrrrrrrrrOIprO2xTrrrppr,
+    humanoid: BakedTrrrIrrrrrrrOIrrrrrrrO2xTrrrrpr,
 }
 
 fn states(size: usize) -> Vec<Vec<f64>> {
