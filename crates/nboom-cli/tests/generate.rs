@@ -87,7 +87,7 @@ fn what_cannot_be_generated_is_said() {
     ends(&with(&["--equations"]), 2, &["topology S2", "formulation articulated", "symmetric"]);
     ends(&with(&["--formulation", "kane"]), 2, &["symmetric, articulated, momentum expected"]);
     ends(&with(&["--level", "best"]), 2, &["exact, fast expected"]);
-    ends(&with(&["--stresses"]), 2, &["--stresses", "boom has no stations"]);
+    ends(&with(&["--stresses"]), 2, &["--stresses", "scene boom without stations"]);
     ends(&nboom(place, &["generate", "none.nml", "-o", "crate"]), 2, &["none.nml"]);
     assert!(!place.join("crate").exists());
     fs::write(place.join("file"), "").expect("writable");

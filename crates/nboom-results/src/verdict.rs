@@ -60,8 +60,10 @@ pub(crate) struct VerdictKeys {
     worst_load_at: Option<StationKeys>,
     smallest_margin: Option<f64>,
     smallest_margin_at: Option<MarginKeys>,
-    /// The smallest one to each limit.
-    smallest_margins: Vec<WeakestKeys>,
+    smallest_yield_margin: Option<f64>,
+    smallest_yield_margin_at: Option<StationKeys>,
+    smallest_ultimate_margin: Option<f64>,
+    smallest_ultimate_margin_at: Option<StationKeys>,
     largest_hinge_force: Option<f64>,
     largest_hinge_force_at: Option<HingeLoadKeys>,
     largest_hinge_moment: Option<f64>,
@@ -103,19 +105,6 @@ struct MarginKeys {
     limit: &'static str,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct WeakestKeys {
-    margin: f64,
-    #[serde(flatten)]
-    at: MarginKeys,
-}
-
-impl From<(&Worst, f64, Limit)> for WeakestKeys {
-    fn from(weakest: (&Worst, f64, Limit)) -> Self {
-        Self { margin: weakest.1, at: weakest.into() }
-    }
-}
-
 impl From<(&Worst, f64, Limit)> for MarginKeys {
     fn from((worst, _, limit): (&Worst, f64, Limit)) -> Self {
         Self { station: worst.into(), limit: limit.name() }
@@ -127,6 +116,8 @@ impl VerdictKeys {
         let hinges = labels.iter().zip(&verdict.hinges);
         let largest = verdict.largest_impulse;
         let (most_loaded, weakest) = (worst.station(), worst.weakest());
+        let [on_yield, on_ultimate] = [Limit::Yield, Limit::Ultimate]
+            .map(|limit| worst.weakest_of_each().find(|&(.., of)| of == limit));
         let [force, moment] =
             [HingeQuantity::Force, HingeQuantity::Moment].map(|quantity| worst.hinge(quantity));
         Self {
@@ -137,7 +128,10 @@ impl VerdictKeys {
             worst_load_at: most_loaded.map(StationKeys::from),
             smallest_margin: weakest.map(|(_, margin, _)| margin),
             smallest_margin_at: weakest.map(MarginKeys::from),
-            smallest_margins: worst.weakest_of_each().map(WeakestKeys::from).collect(),
+            smallest_yield_margin: on_yield.map(|(_, margin, _)| margin),
+            smallest_yield_margin_at: on_yield.map(|(at, ..)| at.into()),
+            smallest_ultimate_margin: on_ultimate.map(|(_, margin, _)| margin),
+            smallest_ultimate_margin_at: on_ultimate.map(|(at, ..)| at.into()),
             largest_hinge_force: force.map(WorstHingeLoad::magnitude),
             largest_hinge_force_at: force.map(HingeLoadKeys::from),
             largest_hinge_moment: moment.map(WorstHingeLoad::magnitude),

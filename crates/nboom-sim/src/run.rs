@@ -114,8 +114,8 @@ impl<'a> Run<'a> {
         Self {
             options,
             recorder,
+            ledger: Ledger::new(equations, state, &invariants, control.is_some()),
             sampling: control.map(Sampling::new),
-            ledger: Ledger::new(equations, state, &invariants),
             resources: Resources::of(&equations.scene, &invariants),
             invariants: Some(invariants),
             scratch,

@@ -41,10 +41,11 @@ function place(at, run) {
   return [given(hinge?.label ?? `${at.appendage},${at.segment}`), `${station}, t = ${digits(at.time, 4)}${event}`];
 }
 
-/** The smallest margin to each limit; runs of earlier versions have the smallest one of all. */
-function weakest({ smallest_margins: each, smallest_margin: margin, smallest_margin_at: at }) {
-  return each ?? (margin === null || margin === undefined ? [] : [{ margin, ...at }]);
-}
+/** The smallest margin to each limit that is known. */
+const weakest = (verdict) =>
+  ['yield', 'ultimate']
+    .map((limit) => ({ limit, margin: verdict[`smallest_${limit}_margin`], at: verdict[`smallest_${limit}_margin_at`] }))
+    .filter(({ at }) => at);
 
 /** Key figures: name, value, unit and where, of one run. */
 export function keyFigures(run) {
@@ -62,7 +63,7 @@ export function keyFigures(run) {
     add('Largest latch impulse', digits(verdict.largest_impulse), hinge?.slides ? `${units.force} ${units.time}` : units.angularMomentum, place(at, run));
   }
   if (verdict.worst_load) add('Largest stress', digits(verdict.worst_load), units.stress, place(verdict.worst_load_at, run));
-  for (const { margin, limit, ...at } of weakest(verdict)) add(`Smallest margin${limit ? ` to ${limit}` : ''}`, digits(margin, 3), '', place(at, run));
+  for (const { margin, limit, at } of weakest(verdict)) add(`Smallest margin to ${limit}`, digits(margin, 3), '', place(at, run));
   if (verdict.largest_hinge_moment) add('Largest hinge moment', digits(verdict.largest_hinge_moment), units.torque, place(verdict.largest_hinge_moment_at, run));
   add(...trust(run));
   return found;

@@ -35,7 +35,7 @@ pub(crate) struct Ledger {
     angular_momentum: f64,
     /// Whether what holds the main body changes the momenta.
     held: bool,
-    /// Whether nothing but gravity moves the mass centre. Its energy is no matter of the balance then, so that
+    /// Whether nothing but gravity can move the mass centre. Its energy is no matter of the balance then, so that
     /// this does not depend on who looks on.
     falls: bool,
     mass: f64,
@@ -43,10 +43,16 @@ pub(crate) struct Ledger {
 }
 
 impl Ledger {
-    /// At `state`, whose invariants are given.
-    pub fn new(equations: &Equations, state: &State, invariants: &Invariants<f64>) -> Self {
+    /// At `state`, whose invariants are given; a control law may push the main body.
+    pub fn new(
+        equations: &Equations,
+        state: &State,
+        invariants: &Invariants<f64>,
+        is_controlled: bool,
+    ) -> Self {
         let start = Totals::of(state, invariants);
-        let falls = state.held.is_none() && equations.scene.externals.is_empty();
+        let is_pushed = is_controlled || !equations.scene.externals.is_empty();
+        let falls = !is_pushed && state.held.is_none();
         Self {
             start_time: state.time,
             start,

@@ -61,7 +61,12 @@ pub struct SummaryColumn {
 }
 
 /// What starts the text of a result that is a margin.
-const MARGINS: [&str; 2] = ["margin of ", "verdict.smallest_margin"];
+const MARGINS: [&str; 4] = [
+    "margin of ",
+    "verdict.smallest_margin",
+    "verdict.smallest_yield_margin",
+    "verdict.smallest_ultimate_margin",
+];
 
 /// What starts that of the smallest of a run.
 const SMALLEST: &str = "smallest ";

@@ -31,7 +31,7 @@ impl Key {
 }
 
 /// All, in their order in the file; `wall_seconds` is none, since it is another one each time.
-static KEYS: [Key; 47] = [
+static KEYS: [Key; 57] = [
     count("degrees_of_freedom", "six, or none of a held main body, and one for each hinge"),
     number("generated_share", "1", "share of the evaluations by generated code"),
     number("selections[].since", "T", "when this code took over"),
@@ -67,6 +67,19 @@ static KEYS: [Key; 47] = [
     count("verdict.smallest_margin_at.segment", SEGMENT).of(Needs::Strengths),
     count("verdict.smallest_margin_at.station", STATION).of(Needs::Strengths),
     number("verdict.smallest_margin_at.time", "T", "when it was smallest").of(Needs::Strengths),
+    number("verdict.smallest_yield_margin", "1", "smallest margin to yield").of(Needs::Strengths),
+    count("verdict.smallest_yield_margin_at.appendage", APPENDAGE).of(Needs::Strengths),
+    count("verdict.smallest_yield_margin_at.segment", SEGMENT).of(Needs::Strengths),
+    count("verdict.smallest_yield_margin_at.station", STATION).of(Needs::Strengths),
+    number("verdict.smallest_yield_margin_at.time", "T", "when it was smallest")
+        .of(Needs::Strengths),
+    number("verdict.smallest_ultimate_margin", "1", "smallest margin to ultimate")
+        .of(Needs::Strengths),
+    count("verdict.smallest_ultimate_margin_at.appendage", APPENDAGE).of(Needs::Strengths),
+    count("verdict.smallest_ultimate_margin_at.segment", SEGMENT).of(Needs::Strengths),
+    count("verdict.smallest_ultimate_margin_at.station", STATION).of(Needs::Strengths),
+    number("verdict.smallest_ultimate_margin_at.time", "T", "when it was smallest")
+        .of(Needs::Strengths),
     number("verdict.largest_hinge_force", "F", "largest force of a hinge").of(Needs::HingeLoads),
     count("verdict.largest_hinge_force_at.appendage", APPENDAGE).of(Needs::HingeLoads),
     count("verdict.largest_hinge_force_at.segment", SEGMENT).of(Needs::HingeLoads),
