@@ -178,8 +178,7 @@ impl fmt::Display for ModelWarning {
             }
             Self::StartsAtLock(hinge) => write!(
                 f,
-                "hinge {hinge} starts free at its lock angle: it locks only when it comes back there; to begin \
-                 locked it says so"
+                "hinge {hinge} starts free at its lock angle: it locks only when it comes back there"
             ),
             Self::ManyTurns { hinge, start } => write!(
                 f,

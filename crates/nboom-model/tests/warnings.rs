@@ -283,10 +283,7 @@ fn starts_and_releases_that_are_hardly_meant() {
     );
     assert_eq!(
         told(&[(from_to(0.5, 0.5), 1.0)]),
-        [
-            "hinge 1,1 starts free at its lock angle: it locks only when it comes back there; to begin locked it \
-           says so"
-        ]
+        ["hinge 1,1 starts free at its lock angle: it locks only when it comes back there"]
     );
     let mut late = Hinge { release: Release::Time(2.0), ..quarter };
     late.start.state = HingeState::Unreleased;

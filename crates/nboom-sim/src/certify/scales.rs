@@ -112,3 +112,23 @@ impl Scales {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fast_hinge_is_no_measure_of_slow_ones() {
+        let path =
+            concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/scenes/s03_chain3_general.nml");
+        let scene = nboom_io::read_scene(path.as_ref()).expect("reference decks are valid").scene;
+        let span = scene.end_time - scene.initial.time;
+        let mut largest = Largest::default();
+        // A wheel, a boom that hardly moves, and rounding.
+        let (beta, tau) = (vec![6e5, 7e-4, 1e-13], vec![6e3, -4e-6, 1e-13]);
+        largest.saw(&Snapshot { beta, tau, ..Snapshot::empty() });
+        let Scales { beta, tau, .. } = Scales::of(&scene, &largest);
+        assert_eq!(beta, [6e5, 7e-4, 1.0]);
+        assert_eq!(tau, [6e3, 4e-6, 1.0 / span]);
+    }
+}

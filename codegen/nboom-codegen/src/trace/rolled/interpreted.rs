@@ -1,10 +1,11 @@
 //! For tests: limbs and numbers from a seed, and steps interpreted on them.
 
 use nboom_formulation::Layout;
-use nboom_model::{Limb, LimbJoint, LimbLink};
+use nboom_model::{Limb, LimbJoint, LimbLink, Shape, Topology};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng as _, SeedableRng};
 
+use crate::request::{Level, Request};
 use crate::trace::Traced;
 use crate::trace::rolled::Equal;
 
@@ -61,6 +62,26 @@ impl Dice {
         }
         numbers
     }
+}
+
+/// A request for a limb alone, of whose parameters nothing is assumed, zeros and ones, some or all, by the seed; the
+/// limb among its appendages, and its parameters.
+pub fn asked(seed: u64, dice: &mut Dice, limb: &Limb) -> (Request, Equal, Vec<f64>) {
+    let shape = Shape::Limb(limb.clone());
+    let topology = Topology::new([shape.clone()]);
+    let mut request = Request::new("Limb", topology, Level::Exact);
+    let parameter = Layout::MAIN;
+    let group = Equal { shape, count: 1, parameter, hinge: 0, law: 0, part: None };
+    let p = dice.parameters(&group, limb);
+    let assumed = |value: &f64| match seed % 4 {
+        0 => None,
+        1 => (*value == 0.0 || *value == 1.0).then_some(*value),
+        2 => (dice.below(2) == 0).then_some(*value),
+        _ => Some(*value),
+    };
+    let assumptions: Vec<Option<f64>> = p.iter().map(assumed).collect();
+    request.assumptions[Layout::MAIN..].copy_from_slice(&assumptions);
+    (request, group, p)
 }
 
 /// What a step hands on, one list for each group.

@@ -2,11 +2,10 @@
 //! does not hand on is NaN for those that follow.
 
 use nboom_formulation::stages::{LIMB, of_limb};
-use nboom_model::{LimbJoint, Shape, Topology};
+use nboom_model::LimbJoint;
 
 use super::*;
-use crate::request::Level;
-use crate::trace::rolled::interpreted::{Dice, taken};
+use crate::trace::rolled::interpreted::{Dice, asked, taken};
 
 const LIMBS: u64 = 400;
 
@@ -100,25 +99,7 @@ fn steps_compute_what_whole_limbs_do() {
         let mut dice = Dice::new(seed);
         let count = 2 + dice.below(if seed % 9 == 0 { 70 } else { 12 });
         let limb = dice.limb(count);
-        let topology = Topology::new([Shape::Limb(limb.clone())]);
-        let mut request = Request::new("Limb", topology, Level::Exact);
-        let group = Equal {
-            shape: Shape::Limb(limb.clone()),
-            count: 1,
-            parameter: Layout::MAIN,
-            hinge: 0,
-            law: 0,
-            part: None,
-        };
-        let p = dice.parameters(&group, &limb);
-        let assumed = |value: &f64| match seed % 4 {
-            0 => None,
-            1 => (*value == 0.0 || *value == 1.0).then_some(*value),
-            2 => (dice.below(2) == 0).then_some(*value),
-            _ => Some(*value),
-        };
-        let assumptions: Vec<Option<f64>> = p.iter().map(assumed).collect();
-        request.assumptions[Layout::MAIN..].copy_from_slice(&assumptions);
+        let (request, group, p) = asked(seed, &mut dice, &limb);
         let joints = Joints::of(&request, &group, &limb, &mut Places::default());
         let kinds = [&joints.mounts, &joints.joints];
         merged += usize::from(seed % 4 == 1 && count > 40 && kinds.iter().all(|k| k.len() < 10));

@@ -1,11 +1,10 @@
 //! Steps as they are emitted, interpreted part by part, against whole limbs on `f64`. What a step does not hand on is
 //! NaN for those that follow.
 
-use nboom_model::{LimbJoint, LimbLink, Topology};
+use nboom_model::{LimbJoint, LimbLink};
 
 use super::*;
-use crate::request::Level;
-use crate::trace::rolled::interpreted::{Dice, taken};
+use crate::trace::rolled::interpreted::{Dice, asked, taken};
 
 const LIMBS: u64 = 400;
 
@@ -36,7 +35,7 @@ fn by_steps(
     [omega, hinges, main]: [&[f64]; 3],
 ) -> (Vec<f64>, Vec<f64>) {
     let TrunkLines { trunk, outward, inward, back, parts } = lines;
-    let of_trunk: Vec<f64> = own_places(group, trunk).map(|at| p[at]).collect();
+    let of_trunk: Vec<f64> = own_places(group, trunk).map(|at| p[at - Layout::MAIN]).collect();
     let own = |numbers: [usize; 2]| -> Vec<f64> {
         let of_link = |&i: &usize| hinges[3 * i + numbers[0]..3 * i + numbers[1]].to_vec();
         trunk.numbers().iter().flat_map(of_link).collect()
@@ -84,7 +83,7 @@ fn by_steps(
 /// Parameters and hinges of one of equal parts.
 fn of_one<'a>(equal: &Equal, a: usize, p: &'a [f64], hinges: &'a [f64]) -> (&'a [f64], &'a [f64]) {
     let links = equal.shape.hinges();
-    let own = &p[equal.parameter + a * equal.parameters()..][..equal.parameters()];
+    let own = &p[equal.parameter - Layout::MAIN + a * equal.parameters()..][..equal.parameters()];
     (own, &hinges[3 * (equal.hinge + a * links)..][..3 * links])
 }
 
@@ -107,24 +106,7 @@ fn trunks_and_parts_compute_what_whole_limbs_do() {
         let mut dice = Dice::new(seed);
         let limb = limb(&mut dice);
         let count = limb.links().len();
-        let topology = Topology::new([Shape::Limb(limb.clone())]);
-        let mut request = Request::new("Limb", topology, Level::Exact);
-        let group = Equal {
-            shape: Shape::Limb(limb.clone()),
-            count: 1,
-            parameter: 0,
-            hinge: 0,
-            law: 0,
-            part: None,
-        };
-        let p = dice.parameters(&group, &limb);
-        let assumed = |value: &f64| match seed % 4 {
-            0 => None,
-            1 => (*value == 0.0 || *value == 1.0).then_some(*value),
-            2 => (dice.below(2) == 0).then_some(*value),
-            _ => Some(*value),
-        };
-        request.assumptions = p.iter().map(assumed).collect();
+        let (request, group, p) = asked(seed, &mut dice, &limb);
         let Some(lines) = TrunkLines::of(&request, &group, &limb) else {
             // All that is equal begins about an axis parallel to its carrier's.
             continue;
