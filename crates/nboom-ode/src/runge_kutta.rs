@@ -1,13 +1,14 @@
 use std::ops::Range;
 
-use crate::tableau::{DOP853, DOPRI5, Row, Tableau};
+use crate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
 
+mod estimates;
 mod first_step;
 mod lanes;
-mod stiffness;
 
+use estimates::Squares;
 pub use lanes::EightSteps;
 
 /// An explicit Runge-Kutta method with step control and dense output.
@@ -22,14 +23,17 @@ pub struct RungeKutta {
     stages: Vec<f64>,
     stride: usize,
     stage_state: Vec<f64>,
-    /// Weighted sums of stages.
+    /// Estimated errors of the step, and room for other weighted sums of stages.
     sums: [Vec<f64>; 2],
     /// Terms of dense output, variable by variable.
     dense: Vec<f64>,
     previous_error: f64,
     attempt: Attempt,
-    /// Whether the stages for dense output are those of the step.
-    has_dense_stages: bool,
+    /// Of the step, where they were found beside those of others; then its stages are elsewhere, but for the first
+    /// and the last.
+    squares: Option<Squares>,
+    /// Whether terms of dense output are those of the step.
+    has_dense: bool,
 }
 
 /// The step that is tried.
@@ -75,7 +79,8 @@ impl RungeKutta {
             dense: Vec::new(),
             previous_error: SMALL_ERROR,
             attempt: Attempt::default(),
-            has_dense_stages: false,
+            squares: None,
+            has_dense: false,
         }
     }
 
@@ -104,7 +109,7 @@ impl RungeKutta {
     /// Takes a step of this length, whatever its error.
     pub fn take(&mut self, system: &mut dyn System, step: f64) {
         let last = self.tableau.stages;
-        self.has_dense_stages = false;
+        (self.squares, self.has_dense) = (None, false);
         for stage in 1..last {
             self.evaluate_stage(system, stage, step);
         }
@@ -163,36 +168,6 @@ impl RungeKutta {
         self.window.counts.evaluations += 1;
     }
 
-    /// Estimated error of the step in units of the tolerance.
-    fn error_norm(&mut self, step: f64) -> f64 {
-        let Self { tableau, stages, sums: [errors, lowers], .. } = self;
-        sum_up(stages, tableau.error, 1.0, errors);
-        sum_up(stages, tableau.lower_error, 1.0, lowers);
-        let (mut error, mut lower) = (0.0, 0.0);
-        for i in 0..self.controlled {
-            let inverse = 1.0 / self.scale_of(i);
-            error += (self.sums[0][i] * inverse).powi(2);
-            lower += (self.sums[1][i] * inverse).powi(2);
-        }
-        let finite = self.window.end_state.iter().all(|y| y.is_finite());
-        if !finite || !(error + lower).is_finite() {
-            return f64::INFINITY;
-        }
-        let count = self.controlled.max(1) as f64;
-        if self.tableau.lower_error.is_empty() {
-            return step.abs() * (error / count).sqrt();
-        }
-        let denominator = error + 0.01 * lower;
-        if denominator <= 0.0 {
-            return 0.0;
-        }
-        step.abs() * error / (denominator * count).sqrt()
-    }
-
-    fn estimate(&self, weights: Row, i: usize) -> f64 {
-        weights.iter().map(|&(j, e)| e * self.stages[j * self.stride + i]).sum()
-    }
-
     fn scale_of(&self, i: usize) -> f64 {
         let value = self.window.state[i].abs().max(self.window.end_state[i].abs());
         self.tolerance.allowed(self.window.sizes[i], value)
@@ -204,8 +179,10 @@ impl RungeKutta {
 
     fn too_short(&self, step: f64) -> StepError {
         let time = self.window.time;
+        let last = self.tableau.stages * self.stride;
         let not_finite = |&i: &usize| {
-            (0..=self.tableau.stages).any(|stage| !self.stages[stage * self.stride + i].is_finite())
+            let found = [self.window.end_state[i], self.sums[0][i], self.stages[last + i]];
+            found.iter().any(|number| !number.is_finite())
         };
         if let Some(variable) = (0..self.size()).find(not_finite) {
             return StepError::NotFinite { time, variable };
@@ -288,11 +265,15 @@ impl Stepper for RungeKutta {
     }
 
     fn prepare_dense(&mut self, system: &mut dyn System) {
+        if self.has_dense {
+            return;
+        }
+        if self.squares.is_some() {
+            self.take(system, self.step);
+        }
         let last = self.tableau.stages;
-        if !self.has_dense_stages {
-            for stage in last + 1..self.tableau.c.len() {
-                self.evaluate_stage(system, stage, self.step);
-            }
+        for stage in last + 1..self.tableau.c.len() {
+            self.evaluate_stage(system, stage, self.step);
         }
         let (h, stride, count) = (self.step, self.stride, self.terms());
         for i in 0..self.size() {
@@ -304,8 +285,8 @@ impl Stepper for RungeKutta {
             terms[2] = 2.0 * difference - (first + end);
         }
         for (row, weights) in self.tableau.dense.iter().enumerate() {
-            sum_up(&self.stages, weights, h, &mut self.sums[0]);
-            for (terms, sum) in self.dense.chunks_exact_mut(count).zip(&self.sums[0]) {
+            sum_up(&self.stages, weights, h, &mut self.sums[1]);
+            for (terms, sum) in self.dense.chunks_exact_mut(count).zip(&self.sums[1]) {
                 terms[3 + row] = *sum;
             }
         }
@@ -375,7 +356,7 @@ impl Stepper for RungeKutta {
     }
 
     fn error_of(&self, i: usize) -> f64 {
-        self.estimate(self.tableau.error, i).abs() / self.scale_of(i)
+        self.sums[0][i].abs() / self.scale_of(i)
     }
 
     fn choice(&self) -> Choice {

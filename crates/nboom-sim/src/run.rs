@@ -233,11 +233,12 @@ impl<'a> Run<'a> {
         self.check_progress()?;
         self.check_growth()?;
         // Most steps are good, and searched for events.
-        let with_dense = self.recorder.needs_steps() || !self.situation.guards.list.is_empty();
+        let is_searched = self.recorder.needs_steps() || !self.situation.guards.list.is_empty();
         let begun = self.stepper.begin_step(self.equations, limit);
         let mut attempt = begun.map_err(|error| self.stopped(error))?;
         while let Some(length) = attempt {
-            self.take(length, with_dense).await;
+            let has_sample = self.sample_time() <= self.stepper.window().time + length;
+            self.take(length, is_searched || has_sample).await;
             let judged = self.stepper.judge(limit);
             attempt = judged.map_err(|error| self.stopped(error))?;
         }
