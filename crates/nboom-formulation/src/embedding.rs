@@ -20,7 +20,7 @@ use crate::parameters::{Layout, Parameters, write_link, write_links, write_place
 const VIRTUAL: f64 = f64::from_bits((1023 - 400) << 52);
 
 /// Which appendage of an outer topology each appendage of an inner one is.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
     outer: Topology,
     /// For each inner appendage, the outer one.
@@ -29,8 +29,8 @@ pub struct Embedding {
     hinges: Vec<usize>,
     /// For each inner hinge, its place among the outer hinges.
     places: Vec<usize>,
-    /// For each number of the outer satellite, whether nothing depends on it.
-    arbitrary: Vec<bool>,
+    /// For each number of the outer satellite on which nothing depends, what it is unless it is assumed.
+    arbitrary: Vec<Option<f64>>,
 }
 
 impl Embedding {
@@ -121,28 +121,39 @@ impl Embedding {
                 write_link(&real.unwrap_or_else(|| virtual_link(shape, place)), numbers);
             }
         }
-        let arbitrary = |&&(at, _): &&(usize, f64)| self.arbitrary.get(at) == Some(&true);
-        for &(at, value) in assumptions.iter().filter(arbitrary) {
+        self.assume(assumptions, numbers);
+    }
+
+    /// Takes to `numbers`, which were [written](Self::write_parameters) under other assumptions, these.
+    pub fn assume(&self, assumptions: &[(usize, f64)], numbers: &mut [f64]) {
+        for (number, arbitrary) in numbers.iter_mut().zip(&self.arbitrary) {
+            *number = arbitrary.unwrap_or(*number);
+        }
+        let is_arbitrary =
+            |&&(at, _): &&(usize, f64)| matches!(self.arbitrary.get(at), Some(Some(_)));
+        for &(at, value) in assumptions.iter().filter(is_arbitrary) {
             numbers[at] = value;
         }
     }
 }
 
-/// For each number of the outer satellite, whether nothing depends on it, if inner appendages are these
-/// `branches` of it.
-fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<bool> {
+/// For each number of the outer satellite on which nothing depends, if inner appendages are these `branches` of it,
+/// what it is where nothing is turned and all points coincide.
+fn arbitrary(inner: &Topology, outer: &Topology, branches: &[usize]) -> Vec<Option<f64>> {
     let mut real = vec![0; outer.shapes().len()];
     for (&branch, of_inner) in branches.iter().zip(inner.shapes()) {
         real[branch] = of_inner.hinges();
     }
-    let mut arbitrary = vec![false; Layout::MAIN];
+    let mut place = Vec::with_capacity(Layout::BRANCH);
+    write_place(&Mat3::identity(), Vec3::zero(), &mut place);
+    let mut arbitrary = vec![None; Layout::MAIN];
     for (shape, real) in outer.shapes().iter().zip(real) {
-        arbitrary.extend([real == 0; Layout::BRANCH]);
+        arbitrary.extend(place.iter().map(|&number| (real == 0).then_some(number)));
         for link in 0..shape.hinges() {
             let next_is_virtual = link + 1 >= real && shape.hinges() > real;
             let end = arbitrary.len() + Layout::link(shape, link);
-            arbitrary.resize(end - Layout::WAY, false);
-            arbitrary.resize(end, next_is_virtual);
+            arbitrary.resize(end - Layout::WAY, None);
+            arbitrary.resize(end, next_is_virtual.then_some(0.0));
         }
     }
     arbitrary

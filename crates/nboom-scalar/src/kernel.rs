@@ -103,8 +103,8 @@ impl<N: Numbers> RoutineOn<N> {
     /// Whether these parameters are finite numbers, and those that the routine assumes.
     pub fn accepts(&self, parameters: &[N]) -> bool {
         parameters.len() == self.parameters
-            && parameters.iter().all(|parameter| parameter.is_finite())
             && self.assumptions.iter().all(|&(i, value)| parameters[i] == N::splat(value))
+            && parameters.iter().all(|parameter| parameter.is_finite())
     }
 
     /// Computes the constants that depend on parameters alone.

@@ -224,14 +224,20 @@ impl Routines {
     ) -> Option<Found<'_>> {
         let of_topology = self.of(&recognised.topology);
         let Self { taking, parameters, .. } = self;
-        let accepts = |Candidate { kernel, embedding }: &&Candidate| {
-            embedding.write_parameters(&recognised.parameters, kernel.assumptions, parameters);
-            write(embedding, parameters);
-            kernel.accepts(parameters)
-        };
+        let mut written = None;
         let may_take = |candidate: &&Candidate| may_take(&candidate.kernel);
-        let candidates = &taking[of_topology].1;
-        let candidate = candidates.iter().filter(may_take).find(accepts)?;
+        let candidate = taking[of_topology].1.iter().filter(may_take).find(|candidate| {
+            let Candidate { kernel, embedding } = candidate;
+            // Routines of one topology differ in what they assume.
+            if written == Some(kernel.topology) {
+                embedding.assume(kernel.assumptions, parameters);
+            } else {
+                embedding.write_parameters(&recognised.parameters, kernel.assumptions, parameters);
+                write(embedding, parameters);
+                written = Some(kernel.topology);
+            }
+            kernel.accepts(parameters)
+        })?;
         Some(Found { candidate, parameters })
     }
 
