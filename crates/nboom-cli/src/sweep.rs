@@ -232,10 +232,16 @@ fn run_worst(
 /// The cases with the worst results of each kind, without repetition.
 fn worst(statistics: &Summary) -> Vec<u64> {
     let mut cases = Vec::new();
-    let results = || statistics.columns.iter().filter(|column| column.is_result);
+    let results = statistics.columns.iter().filter(|column| column.is_result);
+    let mut results: Vec<_> = results.map(|column| (column, column.worst())).collect();
+    // There are not pages for many results: margins come first, then latches that do not close.
+    results.sort_by_key(|(column, worst)| {
+        let is_never = worst.first().is_some_and(|worst| worst.value == f64::INFINITY);
+        (!column.is_margin(), !is_never)
+    });
     // The first of all results, before the second of any.
     for rank in 0..MOST_PAGES {
-        for extreme in results().filter_map(|column| column.worst().get(rank)) {
+        for extreme in results.iter().filter_map(|(_, worst)| worst.get(rank)) {
             if cases.len() < MOST_PAGES && !cases.contains(&extreme.case) {
                 cases.push(extreme.case);
             }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nboom_study::Method;
 use nboom_study::Report;
-use nboom_study::statistics::{Percentile, Proportion, Summary};
+use nboom_study::statistics::{Percentile, Proportion, Summary, Worse};
 
 /// The head of percentiles with bounds.
 const BOUNDED: &str = "95 %, by 95 % confidence";
@@ -66,7 +66,7 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
     text
 }
 
-/// Of each result of cases without fault its percentiles, that of the worse side with bounds if there are
+/// Of each result of cases without fault its percentiles, those of the worse side with bounds if there are
 /// any, and what drives it most.
 fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
     let head = ["", "5 %", "median", if has_bounds { BOUNDED } else { "95 %" }, "driven by"];
@@ -77,32 +77,35 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
             spread.percentiles.iter().find(|of| of.percent == percent).copied()
         };
         let [low, median, high] = PERCENTS.map(of);
-        let is_small = column.is_worst_if_small();
-        let [low, high] = [(low, is_small), (high, !is_small)]
-            .map(|(of, is_worse)| told(of, has_bounds && is_worse));
+        let has_gaps = column.spreads.first().is_some_and(|spread| spread.count < spread.cases);
+        let may_be_never = column.hinge_that_locks().is_some() && has_gaps;
+        let [low, high] = [(low, Worse::Large), (high, Worse::Small)]
+            .map(|(of, better)| told(of, has_bounds && column.worse() != better, may_be_never));
         let driver =
             column.drivers.first().filter(|driver| driver.coefficient.abs() > driver.bound);
         let driver = driver.map_or_else(String::new, |driver| {
             format!("{} {:+.2}", statistics.columns[driver.variable].label, driver.coefficient)
         });
         let unit = column.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
-        rows.push([format!("{}{unit}", column.label), low, told(median, false), high, driver]);
+        let median = told(median, false, may_be_never);
+        rows.push([format!("{}{unit}", column.label), low, median, high, driver]);
     }
     rows
 }
 
 /// A percentile, with its bounds or without.
-fn told(of: Option<Percentile>, has_bounds: bool) -> String {
-    match of {
-        Some(Percentile { value, low: Some(low), high: Some(high), .. }) if has_bounds => {
+fn told(of: Option<Percentile>, has_bounds: bool, may_be_never: bool) -> String {
+    let Some(Percentile { value, low, high, .. }) = of else { return "-".to_owned() };
+    let high = high.or_else(|| may_be_never.then_some(f64::INFINITY));
+    match (low, high) {
+        (Some(low), Some(high)) if has_bounds => {
             format!("{} ({} to {})", number(value), number(low), number(high))
         }
-        Some(Percentile { value, .. }) => number(value),
-        None => "-".to_owned(),
+        _ => number(value),
     }
 }
 
-/// Five digits.
+/// Five digits, or never.
 fn number(value: f64) -> String {
-    crate::format::short(value, 5)
+    if value == f64::INFINITY { "never".to_owned() } else { crate::format::short(value, 5) }
 }

@@ -23,7 +23,7 @@ use rank::Ranked;
 use sample::Sample;
 pub use summary::{
     Counts, Driver, Extreme, Histogram, Latch, LatchTime, Percentile, Points, Proportion, Spread,
-    Summary, SummaryColumn, Trouble,
+    Summary, SummaryColumn, Trouble, Worse,
 };
 
 /// Larger numbers count as gaps, so that squares and sums are finite.
@@ -31,9 +31,6 @@ const LARGEST: f64 = 1e150;
 
 /// Cases that did not run and are listed one by one.
 const MOST_TROUBLES: usize = 100;
-
-/// What starts the text of a result that is the time of a lock-up.
-const LOCK_TIME: &str = "lock_time of ";
 
 /// A column of a table of cases.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -132,9 +129,14 @@ impl Statistics {
         self.counts.ok += 1;
         self.groups[group].cases += 1;
         let numbers: Vec<f64> = self.places.iter().map(|i| number(cells.get(*i))).collect();
-        for (column, value) in numbers.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
-            self.groups[group].moments[column].add(*value);
-            self.extremes[column].add(Extreme { case: head.case, fault: group, value: *value });
+        for (column, value) in numbers.iter().enumerate() {
+            let extreme = Extreme { case: head.case, fault: group, value: *value };
+            if !value.is_nan() {
+                self.groups[group].moments[column].add(*value);
+                self.extremes[column].add(extreme);
+            } else if self.lock(column).is_some() {
+                self.extremes[column].add_never(extreme);
+            }
         }
         self.sample.offer(head.case, head.seed, group, &numbers);
     }
@@ -191,13 +193,21 @@ impl Statistics {
         &self.fields[self.places[column]]
     }
 
+    /// The hinge of whose lock-ups a column has the times.
+    fn lock(&self, column: usize) -> Option<&str> {
+        summary::hinge_that_locks(&self.field(column).label)
+    }
+
     fn column(&self, column: usize, drivers: Vec<Driver>) -> SummaryColumn {
         let field = self.field(column);
         let mut histogram = None;
         let spreads = self.groups.iter().enumerate().map(|(number, group)| {
-            let sorted = self.sample.sorted(column, number);
+            let mut sorted = self.sample.sorted(column, number);
             if number == 0 {
                 histogram = histogram::histogram(&sorted);
+            }
+            if self.lock(column).is_some() && !sorted.is_empty() {
+                sorted.resize(self.sample.rows_of(number).len(), f64::INFINITY);
             }
             let moments = &group.moments[column];
             Spread {
@@ -224,7 +234,7 @@ impl Statistics {
     fn latches(&self) -> Vec<Latch> {
         let bare = self.sample.rows_of(0).len();
         let latch = |column: usize| {
-            let hinge = self.field(column).label.strip_prefix(LOCK_TIME)?.to_owned();
+            let hinge = self.lock(column)?.to_owned();
             let by_end =
                 |group: &Group| confidence::proportion(group.moments[column].count(), group.cases);
             Some(Latch {

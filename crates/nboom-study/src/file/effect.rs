@@ -2,12 +2,16 @@
 
 use nboom_io::{SceneDocument, SceneFile, Slot};
 
+use super::overlap::moves;
 use super::reader::{Fields, Reader, quoted};
-use crate::study::{Fault, Relation, RunSettings, Variable};
+use crate::study::{Change, Fault, Relation, RunSettings, Variable};
 use crate::wanted::Loads;
 
 /// Shares of a distribution at which a variable is tried.
 const TRIED: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
+
+/// The share at which others are when a variable has no effect on the scene as it stands.
+const ELSEWHERE: f64 = 0.3;
 
 /// By how much numbers are moved to see whether anything depends on them.
 const MOVES: [f64; 2] = [1.5, -1.0];
@@ -28,9 +32,29 @@ impl Runs<'_> {
             let values: Vec<_> = slots.iter().map(|slot| (slot, value(slot))).collect();
             self.document.scene(&values).ok().map(|file| !self.are_those_of(&file))
         };
+        // A factor leaves zero as it is, whatever others would do to it.
+        let moved = if relation == Relation::Factor { relation } else { Relation::Offset };
         // Numbers that make no scene have an effect, which is told case by case; moved ones may only be too far.
         numbers.iter().any(|&number| is_other(relation, number).unwrap_or(true))
-            || MOVES.iter().any(|&by| is_other(Relation::Offset, by).unwrap_or(false))
+            || MOVES.iter().any(|&by| is_other(moved, by).unwrap_or(false))
+    }
+
+    /// Whether runs depend on a variable where all others have other numbers than the scene.
+    fn depend_beside_others(&self, variables: &[Variable], number: usize) -> bool {
+        let others = variables.iter().enumerate().filter(|(i, _)| *i != number);
+        let values: Vec<(&Slot, f64)> = others
+            .flat_map(|(_, Variable { slots, relation, distribution, .. })| {
+                let drawn = distribution.quantile(ELSEWHERE);
+                let value = move |slot| relation.applied(drawn, || self.document.number(slot));
+                slots.iter().map(move |slot| (slot, value(slot)))
+            })
+            .collect();
+        let document = self.document.with(&values);
+        let Ok(nominal) = document.scene(&[]) else { return false };
+        let Variable { slots, relation, distribution, .. } = &variables[number];
+        let numbers = TRIED.map(|share| distribution.quantile(share));
+        let runs = Runs { document: &document, nominal: &nominal, run: self.run };
+        runs.depend_on(slots, *relation, &numbers)
     }
 
     /// Whether runs of this scene are those of the scene as it stands.
@@ -57,10 +81,12 @@ impl<'t> Reader<'t> {
         runs: &Runs<'_>,
     ) {
         let expected = "a number that runs depend on, which [run] does not override";
-        for (of, variable) in varied.iter().zip(variables) {
+        for (number, (of, variable)) in varied.iter().zip(variables).enumerate() {
             let Variable { slots, relation, distribution, .. } = variable;
             let numbers = TRIED.map(|share| distribution.quantile(share));
-            if !runs.depend_on(slots, *relation, &numbers) {
+            if !runs.depend_on(slots, *relation, &numbers)
+                && !runs.depend_beside_others(variables, number)
+            {
                 let key = if of.has("path") { "path" } else { "paths" };
                 let found = format!("a number without effect, {}", quoted(&variable.name));
                 self.error(&of.place_of(key), key, found, expected);
@@ -68,14 +94,20 @@ impl<'t> Reader<'t> {
         }
         for (of, fault) in faulty.iter().zip(faults) {
             for (inner, change) in self.tables(of, "change").iter().zip(&fault.changes) {
-                let slots = std::slice::from_ref(&change.slot);
-                if !runs.depend_on(slots, change.relation, &[change.number]) {
-                    self.error(
-                        &inner.place_of("path"),
-                        "path",
-                        "a number without effect",
-                        expected,
-                    );
+                let Change { slot, relation, number } = change;
+                let place = inner.place_of("path");
+                let replaced = variables.iter().find(|of| moves(runs.document, slot, &of.slots));
+                if let Some(Variable { name, .. }) = replaced {
+                    let found = format!("a number that {} takes no notice of", quoted(name));
+                    let expected = "the number that is varied, or a variable that follows from it";
+                    self.error(&place, "path", found, expected);
+                } else if [(Relation::Factor, 1.0), (Relation::Offset, 0.0)]
+                    .contains(&(*relation, *number))
+                {
+                    let expected = "a change";
+                    self.error(&place, "change", "a number that stays as it is", expected);
+                } else if !runs.depend_on(std::slice::from_ref(slot), *relation, &[*number]) {
+                    self.error(&place, "path", "a number without effect", expected);
                 }
             }
         }

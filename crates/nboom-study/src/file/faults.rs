@@ -1,7 +1,7 @@
 //! What may be broken.
 
 use nboom_io::{SceneDocument, SceneFile, nearest};
-use nboom_model::{HingeState, Release, Scene, Spring};
+use nboom_model::{Hinge, HingeState, Release, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, parted, quoted};
@@ -15,6 +15,15 @@ const WAYS: [&str; 3] = ["value", "factor", "offset"];
 /// Keys of what a fault breaks.
 const BREAKS: [&str; 6] =
     ["stuck", "missed_release", "late_release", "failed_latch", "broken_spring", "change"];
+
+/// Whether a hinge is free at the start, or becomes so.
+fn can_move(hinge: &Hinge) -> bool {
+    match hinge.start.state {
+        HingeState::Free => true,
+        HingeState::Unreleased => hinge.release != Release::Never,
+        HingeState::Locked => false,
+    }
+}
 
 impl<'t> Reader<'t> {
     /// A fault of a scene.
@@ -36,6 +45,17 @@ impl<'t> Reader<'t> {
         let name = self.text(of, "name")?;
         if name.value.trim().is_empty() || name.value.contains(char::is_control) {
             self.error(&name.place, "name", quoted(name.value), "a name in one line");
+        }
+        for (key, named) in [
+            ("stuck", &stuck),
+            ("missed_release", &missed_release),
+            ("failed_latch", &failed_latch),
+            ("broken_spring", &broken_spring),
+        ] {
+            if named.iter().any(|&i| !can_move(&nominal.scene.bodies[i].hinge)) {
+                let found = "a hinge that is held or locked all the time";
+                self.error(&of.place_of(key), key, found, "hinges that move");
+            }
         }
         for &i in &missed_release {
             let start = nominal.scene.bodies[i].hinge.start.state;

@@ -29,6 +29,15 @@ pub(super) fn overlaps(document: &SceneDocument, all: &[Changed<'_>]) -> Vec<[us
     (0..all.len()).filter_map(first).collect()
 }
 
+/// Whether one of `others` follows from the number at `slot`, and is not that number.
+pub(super) fn moves(document: &SceneDocument, slot: &Slot, others: &[Slot]) -> bool {
+    let moved = moved(document, std::slice::from_ref(slot));
+    others.iter().filter(|other| *other != slot).any(|other| {
+        let there = document.number(other).to_bits();
+        moved.iter().any(|moved| moved.number(other).to_bits() != there)
+    })
+}
+
 /// The document with these numbers moved, up and down, since what follows from them may have a limit to one side.
 fn moved(document: &SceneDocument, slots: &[Slot]) -> [SceneDocument; 2] {
     [1.5, -1.0].map(|by| {

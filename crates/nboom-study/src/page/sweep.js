@@ -44,10 +44,12 @@ function digits(value, count = 4) {
   return `${String(Number(mantissa)).replace('-', '\u2212')}\u202f\u00b7\u202f10${raised.join('')}`;
 }
 
+/** A number, or the word for a lock-up that does not come. */
+const said = (value, count) => (value === null ? 'never' : digits(value, count));
 const whole = (number) => number.toLocaleString('en');
 const casesOf = (count) => `${whole(count)} ${count === 1 ? 'case' : 'cases'}`;
 const percent = (share) => `${digits(100 * share, 3)}\u202f%`;
-const interval = (low, high, said = digits) => (low === null && high === null ? 'no bounds' : `${low === null ? 'no bound' : said(low)} to ${high === null ? 'no bound' : said(high)}`);
+const interval = (low, high, told = digits) => (low === null && high === null ? 'no bounds' : `${low === null ? 'no bound' : told(low)} to ${high === null ? 'no bound' : told(high)}`);
 const titled = ({ label, unit }) => [given(label), unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null];
 
 /** A cell with a number. */
@@ -119,6 +121,7 @@ function histogram(column) {
       drawn('title', {}, `${digits(from + i * step)} to ${digits(from + (i + 1) * step)}: ${casesOf(count)}`));
   }));
   for (const { percent: which, value, low, high: upper } of spread.percentiles.filter((one) => [5, 50, 95].includes(one.percent))) {
+    if (value === null) continue;
     const [left, right] = [X(low ?? from), X(upper ?? to)];
     svg.append(drawn('rect', { class: 'band', x: left, y: top, width: Math.max(0, right - left), height: bottom - top }),
       drawn('line', { class: 'mark', x1: X(value), x2: X(value), y1: top, y2: bottom, 'stroke-dasharray': which === 50 ? null : '4 3' },
@@ -131,9 +134,9 @@ function spreadFigure(column) {
   const [spread] = column.spreads;
   const gaps = spread.cases - spread.count;
   return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), histogram(column),
-    spread.count > 0 && note([`Mean ${digits(spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number.` : '.'].join('')),
+    spread.count > 0 && note([`Mean ${digits(spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${spread.percentiles.some(({ value }) => value === null) ? ', which count as never' : ''}.` : '.'].join('')),
     spread.percentiles.length > 0
-      ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(digits(value)), numeric(interval(low, high))]))
+      ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(said(value)), numeric(interval(low, high))]))
       : null);
 }
 
@@ -278,23 +281,25 @@ function latches() {
 
 function boxFigure(column) {
   const boxes = column.spreads.map(({ percentiles, count, cases }) => ({ count, cases, of: (which) => percentiles.find(({ percent: one }) => one === which) }));
-  const there = boxes.filter(({ count, of }) => count > 0 && of(50));
+  const there = boxes.filter(({ count, of }) => count > 0 && of(5) && of(5).value !== null);
   if (there.length === 0) return null;
-  const x = roomy([Math.min(...there.map(({ of }) => of(5).value)), Math.max(...there.map(({ of }) => of(95).value))]);
+  const numbers = there.flatMap(({ of }) => [5, 25, 50, 75, 95].map((which) => of(which).value)).filter((value) => value !== null);
+  const x = roomy([Math.min(...numbers), Math.max(...numbers)]);
   const height = 30 * boxes.length;
   const { svg, X, top } = frame({ x, y: [0, 1], height: height + 34, left: 8, yText: null, about: `${column.label} by fault` });
   boxes.forEach(({ count, of }, i) => {
     if (!there.includes(boxes[i])) return;
-    const [low, from, middle, to, high] = [5, 25, 50, 75, 95].map((which) => X(of(which).value));
+    const [low, from, middle, to, high] = [5, 25, 50, 75, 95].map((which) => X(of(which).value ?? x[1]));
     const y = top + 30 * i + 14;
     svg.append(drawn('line', { class: 'whisker', x1: low, x2: high, y1: y, y2: y }),
       drawn('rect', { class: `box${i > 0 ? ' broken' : ''}`, x: from, y: y - 8, width: Math.max(1, to - from), height: 16 }),
-      drawn('line', { class: 'median', x1: middle, x2: middle, y1: y - 10, y2: y + 10 }, drawn('title', {}, `${groups[i]}: median ${digits(of(50).value)} of ${whole(count)} cases`)));
+      drawn('line', { class: 'median', x1: middle, x2: middle, y1: y - 10, y2: y + 10 }, drawn('title', {}, `${groups[i]}: median ${said(of(50).value)} of ${whole(count)} cases`)));
   });
   const [bare] = boxes;
   const rows = boxes.map(({ count, cases, of }, i) => {
-    const difference = i > 0 && of(50) && bare.of(50) ? of(50).value - bare.of(50).value : null;
-    return [given(groups[i]), numeric(digits(of(50)?.value)), numeric(i > 0 ? digits(difference, 3) : ''), numeric(`${whole(count)} of ${whole(cases)}`)];
+    const medians = [of(50)?.value, bare.of(50)?.value];
+    const difference = i > 0 && medians.every(Number.isFinite) ? medians[0] - medians[1] : null;
+    return [given(groups[i]), numeric(said(of(50)?.value)), numeric(i > 0 ? digits(difference, 3) : ''), numeric(`${whole(count)} of ${whole(cases)}`)];
   });
   return element('figure', {}, element('h3', {}, titled(column)), svg, table(['From top to bottom', 'Median', 'Difference', 'Cases'], rows));
 }
@@ -311,7 +316,7 @@ const caseButton = (number) => element('button', { type: 'button', class: 'case'
 const reportOf = (number) => facts.reports.includes(number) && `worst/case-${number}/report.html`;
 
 function worst() {
-  const end = (found) => found.map(({ case: number, fault, value }) => element('div', {}, `${digits(value, 5)} `, caseButton(number), reportOf(number) ? [' ', element('a', { href: reportOf(number) }, 'page')] : null, fault > 0 ? [' ', given(groups[fault])] : null));
+  const end = (found) => found.map(({ case: number, fault, value }) => element('div', {}, `${said(value, 5)} `, caseButton(number), reportOf(number) ? [' ', element('a', { href: reportOf(number) }, 'page')] : null, fault > 0 ? [' ', given(groups[fault])] : null));
   return results.length > 0 && section('worst', 'Extreme cases', note('Of all cases that ran, with and without fault.'),
     table(['Result', 'Smallest', 'Largest'], results.map((column) => [element('span', {}, titled(column)), element('div', {}, end(column.smallest)), element('div', {}, end(column.largest))])));
 }

@@ -18,6 +18,12 @@ impl Extremes {
         insert(&mut self.largest, found, |held| held.value >= found.value);
     }
 
+    /// Adds the case of a lock-up that does not come.
+    pub(super) fn add_never(&mut self, of: Extreme) {
+        let never = Extreme { value: f64::INFINITY, ..of };
+        insert(&mut self.largest, never, |held| held.value >= never.value);
+    }
+
     pub(super) fn smallest(&self) -> &[Extreme] {
         &self.smallest
     }

@@ -68,8 +68,23 @@ const MARGINS: [&str; 4] = [
     "verdict.smallest_ultimate_margin",
 ];
 
-/// What starts that of the smallest of a run.
+/// What starts that of the smallest of a run, and that of the largest.
 const SMALLEST: &str = "smallest ";
+const LARGEST: &str = "largest ";
+
+/// What starts that of the time of a lock-up.
+const LOCK_TIME: &str = "lock_time of ";
+
+/// On which side of their range numbers are worse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Worse {
+    /// Margins, and what is smallest in a run.
+    Small,
+    /// Numbers that are not negative, and what is largest in a run.
+    Large,
+    /// Numbers with a sign, of which size counts.
+    Both,
+}
 
 impl SummaryColumn {
     /// Whether it is a margin, which should not be negative.
@@ -77,15 +92,44 @@ impl SummaryColumn {
         MARGINS.iter().any(|start| self.label.starts_with(start))
     }
 
-    /// Whether its smallest numbers are the worst; else the largest are.
-    pub fn is_worst_if_small(&self) -> bool {
-        self.is_margin() || self.label.starts_with(SMALLEST)
+    /// The hinge of whose lock-ups these are the times. A case in which it does not lock has none, and counts as
+    /// later than all others.
+    pub fn hinge_that_locks(&self) -> Option<&str> {
+        hinge_that_locks(&self.label)
+    }
+
+    /// On which side its numbers are worse.
+    pub fn worse(&self) -> Worse {
+        let is_negative = |found: &Extreme| found.value < 0.0;
+        if self.is_margin() || self.label.starts_with(SMALLEST) {
+            Worse::Small
+        } else if self.smallest.first().is_some_and(is_negative) && !self.label.starts_with(LARGEST)
+        {
+            Worse::Both
+        } else {
+            Worse::Large
+        }
     }
 
     /// The worst numbers of all cases, worst first.
-    pub fn worst(&self) -> &[Extreme] {
-        if self.is_worst_if_small() { &self.smallest } else { &self.largest }
+    pub fn worst(&self) -> Vec<Extreme> {
+        match self.worse() {
+            Worse::Small => self.smallest.clone(),
+            Worse::Large => self.largest.clone(),
+            Worse::Both => {
+                let mut both = self.largest.clone();
+                both.extend(self.smallest.iter().filter(|found| !self.largest.contains(found)));
+                both.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
+                both.truncate(self.smallest.len());
+                both
+            }
+        }
     }
+}
+
+/// The hinge in the text of a result that is the time of its lock-up.
+pub(super) fn hinge_that_locks(label: &str) -> Option<&str> {
+    label.strip_prefix(LOCK_TIME)
 }
 
 /// How numbers spread.
@@ -95,11 +139,11 @@ pub struct Spread {
     pub cases: u64,
     /// Those of them that have a number.
     pub count: u64,
-    /// Arithmetic mean.
+    /// Arithmetic mean of these.
     pub mean: Option<f64>,
     /// Standard deviation of the population that the cases are drawn from.
     pub deviation: Option<f64>,
-    /// In ascending order; empty if there are no numbers.
+    /// In ascending order; empty if there are no numbers. Those of lock-up times are of all cases that ran.
     pub percentiles: Vec<Percentile>,
 }
 
@@ -108,11 +152,12 @@ pub struct Spread {
 pub struct Percentile {
     /// Which one \[%\].
     pub percent: f64,
-    /// Its estimate.
+    /// Its estimate; infinite, and `null` in a file, if a lock-up is never.
+    #[serde(with = "never")]
     pub value: f64,
     /// Lower end; none if there are too few cases for one.
     pub low: Option<f64>,
-    /// Upper end; none if there are too few cases for one.
+    /// Upper end; none if there are too few cases for one, or it is never.
     pub high: Option<f64>,
 }
 
@@ -145,7 +190,8 @@ pub struct Extreme {
     pub case: u64,
     /// Its group.
     pub fault: usize,
-    /// Its number.
+    /// Its number; infinite, and `null` in a file, if a lock-up is never.
+    #[serde(with = "never")]
     pub value: f64,
 }
 
@@ -205,4 +251,17 @@ pub struct Points {
     pub faults: Vec<usize>,
     /// Of each of `columns` their numbers to six digits.
     pub values: Vec<Vec<Option<f64>>>,
+}
+
+/// Times that may be never, which JSON has no number for.
+mod never {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(time: &f64, to: S) -> Result<S::Ok, S::Error> {
+        Some(*time).filter(|time| time.is_finite()).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+    }
 }

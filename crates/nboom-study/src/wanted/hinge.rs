@@ -1,6 +1,7 @@
 //! What became of a hinge, and what it and its segment carried.
 
 use nboom_io::{SceneFile, nearest};
+use nboom_model::HingeState;
 use nboom_strength::{HingeQuantity, Worst, WorstHingeLoad};
 use nboom_tables::{Column, Kind as Holds};
 
@@ -110,6 +111,10 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
     };
     if let Some(missing) = found.needs.missing(file, loads) {
         return Err(refused(missing));
+    }
+    let start = file.scene.bodies[hinge].hinge.start.state;
+    if matches!(found.kind, Kind::LockTime | Kind::Impulse) && start == HingeState::Locked {
+        return Err(refused("a hinge that is not locked from the start"));
     }
     let has_stations = || {
         let structure = file.structure.as_ref();

@@ -64,6 +64,79 @@ fn faults_that_break_nothing_or_one_thing_twice() {
 }
 
 #[test]
+fn faults_of_hinges_that_never_move() {
+    let held = SCENE.replace("release = { at = 1.0 }\n", "state = \"held\"\n");
+    let locked = SCENE
+        .replace("release = { at = 1.0 }\n", "state = \"locked\"\n")
+        .replace("start_deg = 90.0", "start_deg = 0.0");
+    for scene in [held, locked] {
+        let faults: String = ["stuck", "failed_latch", "broken_spring"]
+            .map(|key| format!("[[fault]]\nname = \"{key}\"\n{key} = [\"boom\"]\n"))
+            .concat();
+        let study = STUDY.split("[[fault]]").next().expect("text").to_owned() + &faults;
+        let found =
+            errors(&scene, &study.replace("results = [\"lock_time of boom\", ", "results = ["));
+        let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+        assert_eq!(lines, [38, 41, 44], "{found:#?}");
+        for (_, told) in found {
+            assert!(told.contains("held or locked all the time"), "{told}");
+        }
+    }
+}
+
+#[test]
+fn the_lock_up_of_a_hinge_that_is_locked_is_no_result() {
+    let locked = SCENE
+        .replace("release = { at = 1.0 }\n", "state = \"locked\"\n")
+        .replace("start_deg = 90.0", "start_deg = 0.0");
+    let study = STUDY.split("[[fault]]").next().expect("text");
+    let found = errors(&locked, study);
+    let told: Vec<_> = found.iter().filter(|(line, _)| *line == 6).collect();
+    assert!(
+        matches!(&told[..], [(_, told)] if told.contains("not locked from the start")),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn changes_of_faults_that_a_variable_undoes_or_that_are_none() {
+    let change = "{ path = \"body.tip.mass\", offset = 0.1 }";
+    let varied = "path = \"parameters.k\"";
+    // The stiffness follows from the parameter, and the variable sets it.
+    let stiffness = STUDY.replace(varied, "path = \"body.boom.hinge.spring.stiffness\"");
+    let of_parameter = "{ path = \"parameters.k\", factor = 0.5 }";
+    let found = errors(SCENE, &stiffness.replace(change, of_parameter));
+    assert!(
+        matches!(&found[..], [(38, told)] if told.contains("`k` takes no notice of")),
+        "{found:?}"
+    );
+    // What follows from a parameter that is varied may be changed, and so may the parameter itself.
+    let of_stiffness = "{ path = \"body.boom.hinge.spring.stiffness\", factor = 0.5 }";
+    for right in [of_stiffness, of_parameter] {
+        assert_eq!(errors(SCENE, &STUDY.replace(change, right)), []);
+    }
+    for neutral in ["factor = 1.0", "offset = 0.0"] {
+        let none = change.replace("offset = 0.1", neutral);
+        refused(SCENE, change, &none, 38, &["a number that stays as it is"]);
+    }
+}
+
+#[test]
+fn a_factor_of_zero_has_no_effect_unless_another_variable_moves_it() {
+    let scene = SCENE.replace("k = 2.0", "k = 2.0\namp = 0.0\ndir = 1.0");
+    let scene = scene.replace("\"$k\"", "\"$k + $amp * $dir\"");
+    let varied = "path = \"parameters.k\"\nas = \"factor\"";
+    let factor = "path = \"parameters.amp\"\nas = \"factor\"";
+    refused(&scene, varied, factor, 19, &["a number without effect"]);
+    // Only together with the amplitude has the direction an effect.
+    let spin = "path = \"main_body.mass\"\nvalues = [100.0, 110.0]";
+    let study = STUDY
+        .replace("path = \"parameters.k\"\nas = \"factor\"", "path = \"parameters.amp\"")
+        .replace(spin, "path = \"parameters.dir\"\nvalues = [-1.0, 1.0]");
+    assert_eq!(errors(&scene, &study), []);
+}
+
+#[test]
 fn variables_on_which_no_run_depends() {
     let scene = SCENE.replace("k = 2.0", "k = 2.0\nunused = 1.0\ndoubled = \"2 * $unused\"");
     let sampled = scene.replace("[parameters]", "[output]\nevery = 0.1\n\n[parameters]");

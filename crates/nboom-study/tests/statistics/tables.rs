@@ -1,6 +1,6 @@
 //! Whole tables: faults, latches, cases that did not run, tables that are too long.
 
-use nboom_study::statistics::{Extreme, Role, Statistics, Summary};
+use nboom_study::statistics::{Extreme, Role, Statistics, Summary, Worse};
 use nboom_tables::Cell;
 
 use crate::{field, uniform};
@@ -54,6 +54,48 @@ fn faults_stand_apart_and_empty_cells_are_hinges_that_never_latch() {
     let [driver] = time.drivers[..] else { panic!("one variable") };
     assert_eq!((driver.variable, driver.coefficient), (0, 1.0));
     assert_eq!(time.histogram.as_ref().expect("times").counts.iter().sum::<u64>(), 900);
+}
+
+#[test]
+fn a_latch_that_never_closes_is_later_than_all_others_and_the_worst() {
+    let found = two_by_two(1000);
+    let time = &found.columns[1];
+    let [.., late, latest] = &time.spreads[0].percentiles[..] else { panic!("seven") };
+    // A tenth never latches.
+    assert_eq!((late.value, latest.value), (f64::INFINITY, f64::INFINITY));
+    assert!(late.low.is_some_and(f64::is_finite) || late.low.is_none());
+    assert_eq!((late.high, latest.high), (None, None));
+    // Half of all cases have latched by a time at which 5/9 of those that latch have.
+    let median = time.spreads[0].percentiles[3];
+    let off = 2.0 * 4.5 * (0.25_f64 / 900.0).sqrt();
+    assert!((median.value - 2.0 * 5.0 / 9.0).abs() < off, "{median:?}");
+    assert_eq!(time.hinge_that_locks(), Some("panel +x"));
+    assert!(time.worst().iter().all(|worst| worst.value == f64::INFINITY));
+    assert_eq!(time.worst()[0].case, 2, "the first with a fault");
+}
+
+/// Statistics of a result with these numbers.
+fn of_result(label: &str, numbers: &[f64]) -> Summary {
+    let mut statistics = Statistics::new(vec![field(label, Role::Result)]);
+    numbers.iter().for_each(|&number| statistics.row(&[Cell::Number(number)]));
+    statistics.finish()
+}
+
+#[test]
+fn the_worst_of_numbers_with_a_sign_is_the_largest_in_size() {
+    let numbers = [-6.0, -1.0, 0.5, 4.0, -5.0, 2.0, -0.1];
+    for (label, expected, worse) in [
+        ("impulse of boom", [-6.0, -5.0, 4.0, 2.0, -1.0], Worse::Both),
+        ("margin of boom", [-6.0, -5.0, -1.0, -0.1, 0.5], Worse::Small),
+        ("smallest omega_x", [-6.0, -5.0, -1.0, -0.1, 0.5], Worse::Small),
+        ("largest omega_x", [4.0, 2.0, 0.5, -0.1, -1.0], Worse::Large),
+    ] {
+        let found = of_result(label, &numbers);
+        let worst = found.columns[0].worst();
+        assert_eq!(worst.iter().map(|worst| worst.value).collect::<Vec<_>>(), expected, "{label}");
+        assert_eq!(found.columns[0].worse(), worse, "{label}");
+    }
+    assert_eq!(of_result("impulse of boom", &[3.0, 1.0]).columns[0].worse(), Worse::Large);
 }
 
 #[test]
