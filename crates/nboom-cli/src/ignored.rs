@@ -79,6 +79,14 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     (!phrases.is_empty()).then(|| format!("ignored: {}", phrases.join("; ")))
 }
 
+/// What a deck says that does not reach the runs of a study, in one line: they run the scene that is made of it.
+pub(crate) fn left_out_of_studies(legacy: &LegacySettings) -> Option<String> {
+    let words = words_for_rkam(legacy);
+    let told =
+        || format!("left out: {} (a study takes no steps of rkam from a deck)", words.join(", "));
+    (!words.is_empty()).then(told)
+}
+
 /// Those that differ from their defaults.
 fn given_tolerances(args: &RunArgs) -> Vec<&'static str> {
     let defaults = Options::default();

@@ -13,11 +13,12 @@ use nboom_study::{
 };
 
 use crate::format::short;
+use crate::ignored::left_out_of_studies;
 use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
 use crate::run::run;
 use crate::scene_args::read_options;
-use crate::{Cli, CliError, Command, Routines, say, sweep_account};
+use crate::{Cli, CliError, Command, Routines, check, say, sweep_account};
 
 /// Options of `nboom sweep`.
 #[derive(Args, Debug)]
@@ -129,6 +130,7 @@ const MOST_PAGES: usize = 12;
 /// Runs all cases of a study, and returns the text for standard output.
 pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, CliError> {
     let study = Study::read_with(&args.study, &read_options(args.include_anywhere))?;
+    warn_of_the_scene(&study, args.outputs.quiet);
     let directory = args.output.clone().unwrap_or_else(|| Path::new("out").join(&study.name));
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     let sweep = Sweep {
@@ -153,6 +155,15 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
     finish_sweep(&directory, &report, &args.outputs, routines, &Interrupt::watch)
 }
 
+/// Warns of the scene as it stands, as a run of it does; cases repeat its troubles.
+fn warn_of_the_scene(study: &Study, quiet: bool) {
+    let scene = study.document.as_read().unwrap_or(&study.nominal);
+    check::warnings(scene).iter().for_each(|warning| say("warning", warning));
+    if !quiet {
+        left_out_of_studies(&scene.legacy).iter().for_each(|note| say("note", note));
+    }
+}
+
 /// Makes the page of a sweep that is complete, with runs of its worst cases, warns of its troubles, and
 /// returns its account.
 ///
@@ -173,6 +184,7 @@ pub fn finish_sweep(
         }
     }
     if report.description.shard.is_some() {
+        warn_of_poor_cases(counts);
         let told = sweep_account::of_a_shard(report, directory);
         return Ok(if outputs.quiet { String::new() } else { told });
     }
@@ -187,11 +199,20 @@ pub fn finish_sweep(
         write_page(&sweep, directory)?;
     }
     warn_of_negative_margins(&statistics);
+    warn_of_poor_cases(counts);
     if counts.ok == 0 {
         return Err(SweepError::NoneRan { directory: directory.to_owned(), counts }.into());
     }
     let told = sweep_account::text(report, &statistics, directory);
     Ok(if outputs.quiet { String::new() } else { told })
+}
+
+/// Warns also under `--quiet`, since results are not what they seem.
+fn warn_of_poor_cases(Counts { ok, poor, first_poor, .. }: Counts) {
+    if let Some(first) = first_poor {
+        let told = format!("poor conservation in {poor} of {ok} cases that ran");
+        say("warning", &format!("{told}, first in case {first}; do not trust their motion"));
+    }
 }
 
 fn warn_of_negative_margins(statistics: &Summary) {

@@ -13,7 +13,7 @@ use nboom_strength::{Settings, StrengthError, StressAnalysis};
 
 use crate::observer::Observer;
 use crate::plan::Case;
-use crate::row::{Outcome, Row, Value};
+use crate::row::{OK, Outcome, POOR, Row, Value};
 use crate::study::{Change, Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
@@ -162,8 +162,14 @@ impl From<Rejection> for Stop {
     }
 }
 
-/// The results of a case, and its trajectory.
-type Results = (Vec<Value>, Vec<Vec<f64>>);
+/// The results of a case.
+struct Results {
+    values: Vec<Value>,
+    /// Its trajectory.
+    states: Vec<Vec<f64>>,
+    /// Whether a conservation law was not kept.
+    is_poor: bool,
+}
 
 /// Runs cases of a study one after the other. What it finds for a case does not depend on those before.
 pub struct Runner<'s> {
@@ -217,7 +223,9 @@ impl<'s> Runner<'s> {
         let empty = || vec![Value::Empty; self.study.wanted.len()];
         let (results, states, outcome, status) = match self.results(lanes, case, interrupted).await
         {
-            Ok((results, states)) => (results, states, Outcome::Ok, "ok".to_owned()),
+            Ok(Results { values, states, is_poor }) => {
+                (values, states, Outcome::Ok, if is_poor { POOR } else { OK }.to_owned())
+            }
             Err(Stop::Interrupted) => return None,
             Err(Stop::Rejected(why)) => {
                 (empty(), Vec::new(), Outcome::Rejected, format!("rejected: {why}"))
@@ -263,9 +271,10 @@ impl<'s> Runner<'s> {
             SimError::Interrupted { .. } => Stop::Interrupted,
             error => Stop::Failed(in_one_line(&with_causes(&error))),
         })?;
+        let is_poor = summary.conservation.poor(prepared.options.rtol).next().is_some();
         let of_run = (&prepared.file, scene, &prepared.options);
         let values = values(&self.study.wanted, of_run, summary, &mut observer)?;
-        Ok((values, observer.states))
+        Ok(Results { values, states: observer.states, is_poor })
     }
 
     fn prepare(&self, case: &Case) -> Result<Prepared, Rejection> {

@@ -1,5 +1,12 @@
 use nboom_tables::Cell;
 
+/// The status of a case that was run.
+pub(crate) const OK: &str = "ok";
+
+/// The status of a case that was run, but did not keep a conservation law. It stands in the row because a journal has
+/// nothing else of a case.
+pub(crate) const POOR: &str = "ok, poor conservation";
+
 /// The row of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {

@@ -17,6 +17,7 @@ mod summary;
 
 use nboom_tables::Cell;
 
+use crate::row::{OK, POOR};
 use extremes::Extremes;
 use moments::Moments;
 use rank::Ranked;
@@ -58,7 +59,7 @@ pub enum Role {
     Variable,
     /// A number of the run; empty where there is none.
     Result,
-    /// `ok`, or why there is no run.
+    /// `ok`, `ok, poor conservation`, or why there is no run.
     Status,
 }
 
@@ -117,7 +118,8 @@ impl Statistics {
         let head = self.head(cells);
         let group = self.group(head.fault);
         self.counts.cases += 1;
-        if head.status != "ok" {
+        let is_poor = head.status == POOR;
+        if head.status != OK && !is_poor {
             let is_rejected = head.status.starts_with("rejected");
             *(if is_rejected { &mut self.counts.rejected } else { &mut self.counts.failed }) += 1;
             if self.troubles.len() < MOST_TROUBLES {
@@ -127,6 +129,10 @@ impl Statistics {
             return;
         }
         self.counts.ok += 1;
+        if is_poor {
+            self.counts.poor += 1;
+            self.counts.first_poor.get_or_insert(head.case);
+        }
         self.groups[group].cases += 1;
         let numbers: Vec<f64> = self.places.iter().map(|i| number(cells.get(*i))).collect();
         for (column, value) in numbers.iter().enumerate() {
@@ -166,7 +172,7 @@ impl Statistics {
     }
 
     fn head<'a>(&self, cells: &[Cell<'a>]) -> Head<'a> {
-        let mut head = Head { case: self.counts.cases + 1, seed: 0, fault: "", status: "ok" };
+        let mut head = Head { case: self.counts.cases + 1, seed: 0, fault: "", status: OK };
         let mut seed = None;
         for (field, cell) in self.fields.iter().zip(cells) {
             match (field.role, *cell) {

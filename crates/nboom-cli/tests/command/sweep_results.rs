@@ -1,7 +1,9 @@
 //! What a sweep says of its results.
 
+use std::fs;
+
 use crate::sweeps::{cases, sweep};
-use crate::{Place, code, stderr};
+use crate::{BOOM, Place, code, stderr};
 
 /// Two panels on `+x` and `-x`, from rest.
 const PANELS: &str = r#"
@@ -64,4 +66,57 @@ fn the_worst_margins_are_the_smallest() {
     }
     let is_told = stderr(&output).contains(&format!("in case {}", margins[0].1));
     assert_eq!(is_told, margins[0].0 < 0.0, "{}", stderr(&output));
+}
+
+#[test]
+fn warnings_of_the_scene_are_told_once() {
+    let place = Place::new();
+    let late = PANELS.replacen("axis = \"y\"", "axis = \"y\", release = { at = 9.0 }", 1);
+    place.write("panels.toml", &late);
+    let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
+    place.write("study.toml", &format!("scene = 'panels.toml'\ndraws = 9\n{vary}"));
+    let told = stderr(&sweep(&place, &["--quiet", "--no-report"]));
+    let expected = "released at 9.0, after the end of the run";
+    assert_eq!(told.matches(expected).count(), 1, "{told}");
+    // Of a deck also what the scene that is made of it does not say.
+    let deck = BOOM.replace("&ROCK\n", "&ROCK\n HZO=0.01,EU1=1.0E-6,\n").replace("0.25", "9.0");
+    place.write("boom.nml", &deck);
+    place.write("study.toml", &format!("scene = 'boom.nml'\ndraws = 2\n{vary}"));
+    let told = stderr(&sweep(&place, &["-o", "deck", "--no-report"]));
+    for expected in [expected, "note: left out: HZO, EU1"] {
+        assert_eq!(told.matches(expected).count(), 1, "{told}");
+    }
+}
+
+/// With such an absolute tolerance the laws of conservation are off by more than a thousandth.
+const POOR: &str = "scene = 'cubesat.toml'\ndraws = 3\nresults = ['final omega_x']\n\
+    [run]\nintegrator = 'taylor'\natol = 1e-3\n\
+    [[vary]]\npath = 'main_body.mass'\nuniform = { from = 3.0, to = 5.0 }\n";
+
+#[test]
+fn cases_whose_conservation_is_poor_are_counted_and_told() {
+    let place = Place::new();
+    place.write("cubesat.toml", include_str!("../../../../examples/cubesat.toml"));
+    place.write("study.toml", POOR);
+    let told = "warning: poor conservation in 3 of 3 cases that ran, first in case 1; do not trust";
+    let output = sweep(&place, &["-o", "whole", "--no-report", "--quiet"]);
+    assert!(stderr(&output).starts_with(told), "{}", stderr(&output));
+    for part in ["1/2", "2/2"] {
+        sweep(&place, &["-o", &part[..1], "--shard", part]);
+    }
+    let merged = place.nboom(&["merge", "1", "2", "-o", "merged", "--csv", "--no-report"]);
+    assert!(stderr(&merged).starts_with(told), "{}", stderr(&merged));
+    for directory in ["whole", "merged"] {
+        for case in cases(&place, directory) {
+            assert_eq!(case["status"], "ok, poor conservation");
+            assert!(!case["final_omega_x"].is_empty());
+        }
+        let text = fs::read_to_string(place.path(directory).join("statistics.json"));
+        let found: serde_json::Value = serde_json::from_str(&text.expect("it")).expect("JSON");
+        let counts = &found["counts"];
+        assert_eq!([&counts["ok"], &counts["poor"], &counts["first_poor"]], [3, 3, 1]);
+    }
+    place.write("study.toml", &POOR.replace("atol", "rtol"));
+    let output = sweep(&place, &["-o", "good", "--no-report"]);
+    assert_eq!(stderr(&output), "");
 }

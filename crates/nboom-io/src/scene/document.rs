@@ -50,6 +50,8 @@ pub struct SceneDocument {
     is_changed: bool,
     /// What scenes that differ in numbers have in common, once the document is known to be right.
     memory: Option<Arc<Memory>>,
+    /// The scene before it became another text.
+    as_read: Option<Arc<SceneFile>>,
 }
 
 impl SceneDocument {
@@ -78,12 +80,12 @@ impl SceneDocument {
     ) -> Result<Self, InputError> {
         if format != Format::Toml {
             let scene = crate::parse(format, (file, text), name, None, options)?;
-            let sha256 = scene.sha256.clone();
-            return Ok(Self { sha256, ..Self::converted(file, &scene)? });
+            let (sha256, document) = (scene.sha256.clone(), Self::converted(file, &scene)?);
+            return Ok(Self { sha256, as_read: Some(Arc::new(scene)), ..document });
         }
         let read = Self::parse((file, text), name, folder, options)?;
-        read.scene(&[])?;
-        Ok(read.merged().with_memory())
+        let as_read = Some(Arc::new(read.scene(&[])?));
+        Ok(Self { as_read, ..read.merged().with_memory() })
     }
 
     /// The document of the text that a scene is written as.
@@ -119,6 +121,7 @@ impl SceneDocument {
             options: options.clone(),
             is_changed: false,
             memory: None,
+            as_read: None,
         })
     }
 
@@ -149,7 +152,7 @@ impl SceneDocument {
     /// None are to be expected.
     pub fn expanded(self) -> Result<Self, InputError> {
         let expanded = Self::converted(&self.file, &self.scene(&[])?)?;
-        Ok(Self { sha256: self.sha256, ..expanded })
+        Ok(Self { sha256: self.sha256, as_read: self.as_read, ..expanded })
     }
 
     /// The document of its text that stands alone, which messages call `file`.
@@ -159,7 +162,8 @@ impl SceneDocument {
     pub fn alone(self, file: &str) -> Result<Self, InputError> {
         let read = Self::parse((file, &self.text()), &self.name, None, &ReadOptions::default())?;
         read.scene(&[])?;
-        let mut alone = Self { sha256: self.sha256, ..read }.with_memory();
+        let (sha256, as_read) = (self.sha256, self.as_read);
+        let mut alone = Self { sha256, as_read, ..read }.with_memory();
         alone.parts.included = self.parts.included;
         Ok(alone)
     }
@@ -296,6 +300,12 @@ impl SceneDocument {
     /// As [`Self::scene`].
     pub fn text_with(&self, values: &[(&Slot, f64)]) -> Result<String, InputError> {
         Ok(write_scene(&self.scene(values)?))
+    }
+
+    /// The scene as it was read, with the warnings of its file: of a deck also with what a scene in TOML does not
+    /// say. None of a document that was not read by [`Self::read`] or [`Self::of_text`].
+    pub fn as_read(&self) -> Option<&SceneFile> {
+        self.as_read.as_deref()
     }
 
     /// SHA-256 of all texts that were read, in hexadecimal digits.

@@ -35,6 +35,12 @@ pub struct Counts {
     pub rejected: u64,
     /// Those that could not be followed.
     pub failed: u64,
+    /// Those that ran without keeping a conservation law, which is why their motion is not to be trusted.
+    #[serde(default)]
+    pub poor: u64,
+    /// The first of these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_poor: Option<u64>,
 }
 
 /// Statistics of a variable or a result.

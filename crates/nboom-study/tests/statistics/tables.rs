@@ -152,6 +152,22 @@ fn cases_that_did_not_run_are_counted_and_listed_and_no_part_of_anything_else() 
 }
 
 #[test]
+fn cases_of_poor_conservation_are_counted_among_those_that_ran() {
+    let mut statistics = table();
+    for case in 1..=10 {
+        let status = if case % 4 == 0 { "ok, poor conservation" } else { "ok" };
+        let number = Cell::Number(f64::from(case));
+        let case = Cell::Integer(case.into());
+        statistics.row(&[case, case, Cell::Empty, number, number, Cell::Text(status)]);
+    }
+    let found = statistics.finish();
+    assert_eq!((found.counts.ok, found.counts.failed), (10, 0));
+    assert_eq!((found.counts.poor, found.counts.first_poor), (2, Some(4)));
+    assert_eq!(found.columns[1].spreads[0].count, 10);
+    assert!(found.troubles.is_empty());
+}
+
+#[test]
 fn statistics_are_read_back_as_they_were_written() {
     let found = two_by_two(50);
     let text = serde_json::to_string(&found).expect("numbers and texts");
