@@ -331,6 +331,16 @@ pub enum PathChoice {
     Generic,
 }
 
+impl From<PathChoice> for nboom_sim::Path {
+    fn from(choice: PathChoice) -> Self {
+        match choice {
+            PathChoice::Auto => Self::Auto,
+            PathChoice::Generated => Self::Generated,
+            PathChoice::Generic => Self::Generic,
+        }
+    }
+}
+
 fn samples_parser() -> impl TypedValueParser<Value = usize> {
     value_parser!(u32).range(1..=10_000_000).map(|n| n as usize)
 }

@@ -3,19 +3,21 @@
 
 use nboom_io::{Format, LegacySettings, SceneFile};
 use nboom_model::{Material, Structure};
-use nboom_sim::{Method, Options};
+use nboom_sim::{IdleChoice, Method, Options};
 use nboom_strength::PulseShape;
 
-use crate::{CliError, PathChoice, RunArgs, StressArgs};
+use crate::{CliError, RunArgs, StressArgs};
 
 /// Refuses options that have no effect because of other options or of the scene.
 pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliError> {
-    let taylor = args.integrator == Method::Taylor;
-    let has_path = args.path != PathChoice::Auto;
-    let code = [("--path", has_path), ("--formulation", args.formulation.is_some())];
-    if let Some((option, _)) = code.into_iter().find(|(_, given)| taylor && *given) {
-        return Err(CliError::NotWithTaylor { option });
-    }
+    let RunArgs { integrator, formulation, .. } = *args;
+    let path = args.path.into();
+    let code = Options { integrator, formulation, path, ..Options::default() };
+    code.check_choices().map_err(|idle| match idle {
+        IdleChoice::PathOfTaylor => CliError::NotWithTaylor { option: "--path" },
+        IdleChoice::FormulationOfTaylor => CliError::NotWithTaylor { option: "--formulation" },
+        IdleChoice::GeneratedRecursion => CliError::GeneratedRecursion,
+    })?;
     let stresses = &args.stresses;
     let structure = file.structure.is_some();
     let has_stresses = structure && !stresses.no_stresses;

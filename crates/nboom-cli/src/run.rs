@@ -7,9 +7,7 @@ use nboom_results::{
     Kept, Outcome, RunDescription, RunDirectory, StressDescription, StressTables, WorstLoads,
     with_causes,
 };
-use nboom_sim::{
-    Bound, Form, Method, Options, Path, RkamSettings, Tolerance, Witness, check_start, simulate,
-};
+use nboom_sim::{Bound, Method, Options, RkamSettings, Tolerance, Witness, check_start, simulate};
 use nboom_strength::StressAnalysis;
 
 use crate::certify::Certifier;
@@ -92,7 +90,7 @@ impl RunArgs {
         let warnings = warnings.chain(never_released(&file.scene, self.end_time));
         let warnings: Vec<String> = warnings.chain(self.slips.warning()).collect();
         let scene = with_end_time(file.scene, self.end_time)?;
-        let options = options(self, routines, &file.legacy)?;
+        let options = options(self, routines, &file.legacy);
         let samples = match file.settings.sampling {
             Some(Sampling::Uniform(samples)) => Some(samples),
             _ => None,
@@ -162,20 +160,8 @@ fn never_released(scene: &Scene, end_time: Option<f64>) -> Option<String> {
     ))
 }
 
-fn options(
-    args: &RunArgs,
-    routines: &Routines,
-    legacy: &LegacySettings,
-) -> Result<Options, CliError> {
+fn options(args: &RunArgs, routines: &Routines, legacy: &LegacySettings) -> Options {
     let RunArgs { integrator, rtol, atol, max_events, formulation, lanes, .. } = *args;
-    let path = match args.path {
-        PathChoice::Generated if formulation == Some(Form::Recursive) => {
-            return Err(CliError::GeneratedRecursion);
-        }
-        PathChoice::Auto => Path::Auto,
-        PathChoice::Generated => Path::Generated,
-        PathChoice::Generic => Path::Generic,
-    };
     let (kernels, batches) = (routines.for_runs, routines.right_sides_of_eight);
     let mut options = Options {
         integrator,
@@ -183,7 +169,7 @@ fn options(
         atol,
         max_step: args.max_step.unwrap_or(f64::INFINITY),
         max_events,
-        path,
+        path: args.path.into(),
         formulation,
         kernels,
         batches,
@@ -194,7 +180,7 @@ fn options(
         options.rkam = Some(rkam(legacy, options.tolerance()));
         options.max_steps = legacy.max_steps.unwrap_or(options.max_steps);
     }
-    Ok(options)
+    options
 }
 
 /// Settings of a deck for `rkam`; the tolerance replaces missing ones.

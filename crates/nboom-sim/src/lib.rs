@@ -56,7 +56,7 @@ pub use events::event::{Event, EventKind, Jump};
 pub use lanes::{Lanes, Task};
 pub use nboom_elements::{Commands, OwnLaw};
 pub use nboom_ode::{Bound, Choice, Method, RkamSettings, Tolerance};
-pub use options::{Form, OptionError, Options, Path};
+pub use options::{Form, IdleChoice, OptionError, Options, Path};
 pub use run::account::Account;
 pub use run::beforehand::check_start;
 pub use run::bodies::BodyMotion;

@@ -127,6 +127,20 @@ pub struct OptionError {
     pub expected: &'static str,
 }
 
+/// A choice of code that has no effect, or that cannot be had, because of another option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum IdleChoice {
+    /// A path with power series, which record their own code.
+    #[error("power series of the equations of motion have no other code")]
+    PathOfTaylor,
+    /// A formulation with power series.
+    #[error("power series of the equations of motion have no other code")]
+    FormulationOfTaylor,
+    /// The recursion as generated code.
+    #[error("the recursion is library code")]
+    GeneratedRecursion,
+}
+
 /// Below this a relative error is smaller than the rounding of a step.
 const SMALLEST_RTOL: f64 = 1e-14;
 
@@ -153,6 +167,20 @@ impl Options {
         wrong.map_or(Ok(()), |(_, option, value, expected)| {
             Err(OptionError { option, value, expected })
         })
+    }
+
+    /// Refuses choices of code of which one leaves nothing to another.
+    ///
+    /// # Errors
+    /// The first of them.
+    pub fn check_choices(&self) -> Result<(), IdleChoice> {
+        let is_taylor = self.integrator == Method::Taylor;
+        match (self.path, self.formulation) {
+            (Path::Generated | Path::Generic, _) if is_taylor => Err(IdleChoice::PathOfTaylor),
+            (_, Some(_)) if is_taylor => Err(IdleChoice::FormulationOfTaylor),
+            (Path::Generated, Some(Form::Recursive)) => Err(IdleChoice::GeneratedRecursion),
+            _ => Ok(()),
+        }
     }
 
     /// Also refuses a longest step with which no run over `span` time units comes to its end.

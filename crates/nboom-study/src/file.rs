@@ -16,7 +16,7 @@ use nboom_io::{
     read_text,
 };
 use nboom_results::with_causes;
-use nboom_sim::{Form, Method as Integrator, OptionError, Path as Code};
+use nboom_sim::{Form, IdleChoice, Method as Integrator, OptionError, Path as Code};
 use toml::de::DeTable;
 
 use crate::directory::SWEPT_SCENE_FILE;
@@ -246,6 +246,19 @@ impl<'t> Reader<'t> {
             if let Err(OptionError { value, expected, .. }) = alone.options().check() {
                 self.error(&of.place_of(key), key, format!("{value:e}"), expected);
             }
+        }
+        if let Err(idle) = settings.options().check_choices() {
+            let (key, other, expected) = match idle {
+                IdleChoice::PathOfTaylor => ("path", "integrator = \"taylor\"", "none"),
+                IdleChoice::FormulationOfTaylor => {
+                    ("formulation", "integrator = \"taylor\"", "none")
+                }
+                IdleChoice::GeneratedRecursion => {
+                    ("path", "formulation = \"recursive\"", "generic")
+                }
+            };
+            let found = format!("a choice of code with {other}");
+            self.error(&of.place_of(key), key, found, format!("{expected}, since {idle}"));
         }
         settings
     }

@@ -46,6 +46,23 @@ fn plans_that_are_none_say_what_was_found() {
     assert!(told.contains(" method: found 101 variables, expected at most 100"), "{told}");
 }
 
+/// As `nboom run` refuses them.
+#[test]
+fn choices_of_code_that_others_leave_nothing_to_are_refused() {
+    let integrator = "integrator = \"dop853\"";
+    for (run, words) in [
+        ("integrator = \"taylor\"\nformulation = \"report\"", ["formulation", "taylor"]),
+        ("integrator = \"taylor\"\npath = \"generated\"", ["path", "power series"]),
+        ("path = \"generated\"\nformulation = \"recursive\"", ["path", "library code"]),
+    ] {
+        let line = if words[0] == "path" && words[1] == "library code" { 11 } else { 12 };
+        refused(SCENE, integrator, run, line, &words);
+    }
+    for run in ["integrator = \"taylor\"\npath = \"auto\"", "formulation = \"recursive\""] {
+        assert_eq!(errors(SCENE, &STUDY.replace(integrator, run)), []);
+    }
+}
+
 #[test]
 fn a_scene_that_is_no_file_is_told_once() {
     let wrong = STUDY.replace("\"scene.toml\"", "\"../.\"");
