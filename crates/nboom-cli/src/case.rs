@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use nboom_io::SceneFile;
 use nboom_sim::Path as Code;
-use nboom_study::{RunSettings, Study};
+use nboom_study::{RunSettings, Study, require_as_swept};
 
 use crate::scene_args::read_options;
-use crate::{Cli, CliError, Command, RunArgs};
+use crate::{Cli, CliError, Command, RunArgs, SweepError};
 
 /// Why a case of a study cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -55,7 +55,7 @@ pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), Cl
     if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
         return Err(CaseError::NotOfAStudy { option }.into());
     }
-    let study = Study::read_with(path, &read_options(args.scene.include_anywhere))?;
+    let study = read_study(path, args.scene.include_anywhere)?;
     let cases = study.cases();
     if !(1..=cases).contains(&case) {
         return Err(CaseError::NoSuchCase { path: path.clone(), found: case, cases }.into());
@@ -71,6 +71,12 @@ pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), Cl
     let by_default = || Path::new("out").join(format!("{}-case-{case}", study.name));
     let output = again.output.clone().unwrap_or_else(by_default);
     Ok((RunArgs { output: Some(output), ..again }, file))
+}
+
+/// Reads a study; one in the directory of a sweep has to be as the sweep wrote it.
+pub(crate) fn read_study(path: &Path, include_anywhere: bool) -> Result<Study, CliError> {
+    require_as_swept(path).map_err(SweepError::Study)?;
+    Ok(Study::read_with(path, &read_options(include_anywhere))?)
 }
 
 /// The arguments with the settings of a study in place of defaults.

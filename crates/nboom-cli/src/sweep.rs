@@ -12,12 +12,12 @@ use nboom_study::{
     SweepDirectory, Watcher,
 };
 
+use crate::case::read_study;
 use crate::format::short;
 use crate::ignored::left_out_of_studies;
 use crate::interrupt::{Interrupt, Interrupts};
 use crate::progress::Cases;
 use crate::run::run;
-use crate::scene_args::read_options;
 use crate::{Cli, CliError, Command, Routines, check, say, sweep_account};
 
 /// Options of `nboom sweep`.
@@ -129,7 +129,7 @@ const MOST_PAGES: usize = 12;
 
 /// Runs all cases of a study, and returns the text for standard output.
 pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, CliError> {
-    let study = Study::read_with(&args.study, &read_options(args.include_anywhere))?;
+    let study = read_study(&args.study, args.include_anywhere)?;
     warn_of_the_scene(&study, args.outputs.quiet);
     let directory = args.output.clone().unwrap_or_else(|| Path::new("out").join(&study.name));
     let processors = || thread::available_parallelism().map_or(1, usize::from);

@@ -282,6 +282,24 @@ pub(crate) fn sources(directory: &Path, what: &Description) -> Result<[String; 2
     Ok([as_written(STUDY_FILE, &what.study)?, as_written(SWEPT_SCENE_FILE, &what.scene)?])
 }
 
+/// Refuses a study in the directory of a sweep if it, or the scene beside it, is not what the sweep wrote: what is
+/// made of it would not be what the sweep's tables are of.
+///
+/// # Errors
+/// When one of them is another one.
+pub fn require_as_swept(study: &Path) -> Result<(), StudyError> {
+    let directory = study.parent().unwrap_or(Path::new(""));
+    if study.file_name().is_none_or(|name| name != STUDY_FILE) {
+        return Ok(());
+    }
+    match description(directory) {
+        Ok(Some(what)) => sources(directory, &what).map(drop),
+        // A study may lie beside a file of that name which no sweep has written, such as a schema.
+        Ok(None) | Err(StudyError::NoSweep { .. } | StudyError::Results(_)) => Ok(()),
+        Err(error) => Err(error),
+    }
+}
+
 /// Reads a text.
 ///
 /// # Errors

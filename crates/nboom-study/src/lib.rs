@@ -41,7 +41,7 @@ pub use case::{Rejection, Runner};
 pub use description::{Description, Maker, Source};
 pub use directory::{
     CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, PAGE_FILE, STATISTICS_FILE, STUDY_FILE,
-    STUDY_JSON_FILE, SWEPT_SCENE_FILE, TRAJECTORIES_CSV_FILE, TRAJECTORIES_FILE,
+    STUDY_JSON_FILE, SWEPT_SCENE_FILE, TRAJECTORIES_CSV_FILE, TRAJECTORIES_FILE, require_as_swept,
 };
 pub use distribution::Distribution;
 pub use error::StudyError;

@@ -348,6 +348,33 @@ fn pages_of_worst_cases_that_are_gone_are_made_again() {
 }
 
 #[test]
+fn what_was_changed_in_a_sweep_is_run_by_nobody() {
+    let place = place();
+    place.write("study.toml", &STUDY.replace("draws = 40", "draws = 2"));
+    // A file of that name that no sweep has written is none of our business.
+    place.write("study.json", "{}");
+    sweep(&place, &["-o", "all", "--no-report"]);
+    let run = ["run", "all/study.toml", "--case", "1", "-o", "one", "--no-report"];
+    let swept = ["sweep", "all/study.toml", "-o", "other", "--no-report"];
+    for (name, from, to) in
+        [("scene.toml", "0.25", "0.5"), ("study.toml", "to = 60.0", "to = 61.0")]
+    {
+        let file = format!("all/{name}");
+        let written = fs::read_to_string(place.path(&file)).expect("it");
+        assert!(written.contains(from), "{written}");
+        place.write(&file, &written.replace(from, to));
+        for words in [&run[..], &swept] {
+            refused(&place.nboom(words), 2, &[&file, "SHA-256", "as the sweep wrote it"]);
+        }
+        place.write(&file, &written);
+    }
+    for words in [&run[..], &swept] {
+        let output = place.nboom(words);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+    }
+}
+
+#[test]
 fn shards_whose_study_was_changed_are_not_merged() {
     let place = place();
     for shard in ["1/2", "2/2"] {
