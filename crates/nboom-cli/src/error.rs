@@ -189,6 +189,20 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// Figures of a sweep are asked for.
+    #[error("--plots: found the sweep {}, expected runs; the page of a sweep has figures", path.display())]
+    PlotsOfSweep {
+        /// The sweep.
+        path: PathBuf,
+    },
+    /// A sweep would share a page.
+    #[error(
+        "{}: found a sweep, expected a run; sweeps cannot be compared, each has a page of its own", path.display()
+    )]
+    SweepBesideOthers {
+        /// The sweep.
+        path: PathBuf,
+    },
     /// Runs that would share axes are in different units.
     #[error(
         "{}: found units {units}, expected {expected} as in {}; runs share axes", path.display(), first.display()
@@ -311,6 +325,7 @@ impl CliError {
             Self::Sweep(error) => error.exit_code(),
             Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
             Self::OtherPage { .. } | Self::OtherUnits { .. } => 2,
+            Self::PlotsOfSweep { .. } | Self::SweepBesideOthers { .. } => 2,
             Self::Tables(error) if error.is_of_input() => 2,
             Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
             Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,

@@ -9,7 +9,8 @@ use crate::{CliError, PlotArgs, say, sweep};
 /// Options of `nboom report`.
 #[derive(Args, Debug)]
 pub struct ReportArgs {
-    /// Directories that nboom run has written; of several the page shows each run beside the others.
+    /// Directories that nboom run has written, of several the page shows each run beside the others; or one of
+    /// nboom sweep.
     #[arg(value_name = "DIR", required = true)]
     pub directories: Vec<PathBuf>,
 
@@ -25,32 +26,48 @@ pub struct ReportArgs {
 /// The page of several runs where no name is given.
 const COMPARISON: &str = "comparison.html";
 
+impl ReportArgs {
+    /// Where the page is written, over nothing but a page of ours.
+    fn page(&self) -> Result<PathBuf, CliError> {
+        let output = match (&self.output, &self.directories[..]) {
+            (Some(output), _) => output.clone(),
+            (None, [directory]) => directory.join(REPORT_FILE),
+            (None, _) => Path::new(COMPARISON).to_owned(),
+        };
+        if output.extension().is_none_or(|ending| ending != "html") {
+            return Err(CliError::NoPage { path: output });
+        }
+        require_replaceable(&output)?;
+        Ok(output)
+    }
+}
+
 /// Makes the page of runs, and returns the text for standard output.
 pub(crate) fn report(args: &ReportArgs) -> Result<String, CliError> {
     if let [directory] = &args.directories[..]
         && directory.is_dir()
         && let Some(sweep) = sweep::finished(directory)?
     {
-        require_replaceable(&directory.join(REPORT_FILE))?;
-        let page = sweep::write_page(&sweep, directory)?;
+        if args.plots.are_wanted() {
+            return Err(CliError::PlotsOfSweep { path: directory.clone() });
+        }
+        let page = args.page()?;
+        sweep::write_page(&sweep, directory, &page)?;
         return Ok(format!("{}\n", page.display()));
     }
     let several = args.directories.len() > 1;
+    for directory in args.directories.iter().filter(|_| several) {
+        if directory.is_dir() && sweep::finished(directory)?.is_some() {
+            return Err(CliError::SweepBesideOthers { path: directory.clone() });
+        }
+    }
     let read = |directory: &PathBuf| {
         let run = Run::read(directory)?;
         run.gaps().iter().for_each(|gap| say("note", &format!("{}: {gap}", directory.display())));
         Ok(if several { run.named_by(directory) } else { run })
     };
     let runs: Result<Vec<Run>, CliError> = args.directories.iter().map(read).collect();
-    let output = match (&args.output, &args.directories[..]) {
-        (Some(output), _) => output.clone(),
-        (None, [directory]) => directory.join(REPORT_FILE),
-        (None, _) => Path::new(COMPARISON).to_owned(),
-    };
-    if output.extension().is_none_or(|ending| ending != "html") {
-        return Err(CliError::NoPage { path: output });
-    }
-    require_replaceable(&output)?;
+    let output = args.page()?;
     let runs = runs?;
     require_same_units(&runs, &args.directories)?;
     let mut written = Vec::new();

@@ -196,7 +196,7 @@ pub fn finish_sweep(
     let has_pages = report.end == End::WasComplete && are_there;
     if !(outputs.no_report || has_pages) {
         run_worst(&sweep, directory, routines, interrupts)?;
-        write_page(&sweep, directory)?;
+        write_page(&sweep, directory, &directory.join(PAGE_FILE))?;
     }
     warn_of_negative_margins(&statistics);
     warn_of_poor_cases(counts);
@@ -275,11 +275,18 @@ fn page_folder(directory: &Path, case: u64) -> PathBuf {
     directory.join(WORST).join(format!("case-{case}"))
 }
 
-/// Writes the page of a sweep from its statistics; returns where it is.
-pub(crate) fn write_page(sweep: &SweepDirectory, directory: &Path) -> Result<PathBuf, CliError> {
+/// Writes the page of a sweep from its statistics; one in another folder than the sweep's has no links to pages of
+/// cases, which it would not find.
+pub(crate) fn write_page(
+    sweep: &SweepDirectory,
+    directory: &Path,
+    page: &Path,
+) -> Result<(), CliError> {
     let of = &sweep.description;
     let statistics = sweep.statistics().map_err(SweepError::Study)?;
-    let has_page = |case: &u64| page_folder(directory, *case).join(PAGE_FILE).is_file();
+    let is_beside = is_same_folder(page.parent().unwrap_or(directory), directory);
+    let has_page =
+        |case: &u64| is_beside && page_folder(directory, *case).join(PAGE_FILE).is_file();
     let facts = Facts {
         name: of.name.clone(),
         study: directory.join(STUDY_FILE).display().to_string(),
@@ -290,9 +297,12 @@ pub(crate) fn write_page(sweep: &SweepDirectory, directory: &Path) -> Result<Pat
         version: of.made_by.version.clone(),
         reports: worst(&statistics).into_iter().filter(has_page).collect(),
     };
-    let path = directory.join(PAGE_FILE);
-    write_file(&path, &nboom_study::page(&facts, &statistics))?;
-    Ok(path)
+    Ok(write_file(page, &nboom_study::page(&facts, &statistics))?)
+}
+
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    let of = |path: &Path| Path::new(".").join(path).canonicalize().ok();
+    of(one).is_some_and(|one| of(other) == Some(one))
 }
 
 /// Waits for a sweep on behalf of a terminal.

@@ -113,6 +113,33 @@ fn a_page_that_nboom_has_not_made_stays() {
 }
 
 #[test]
+fn the_page_of_a_sweep_goes_where_it_is_asked_for_and_stands_alone() {
+    let place = Place::new();
+    run(&place, &[]);
+    let vary = "[[vary]]\npath = 'initial.rate_deg[1]'\nuniform = { from = 50.0, to = 60.0 }\n";
+    place.write("study.toml", &format!("scene = 'boom.nml'\ndraws = 2\n{vary}"));
+    assert_eq!(code(&place.nboom(&["sweep", "study.toml", "-o", "all", "--quiet"])), 0);
+    fs::remove_file(place.path("all/report.html")).expect("it is there");
+    let reports = |page: &str| {
+        let page = fs::read_to_string(place.path(page)).expect("a page");
+        !page.contains("\"reports\":[]")
+    };
+    for (page, has_links) in [("page.html", false), ("all/page.html", true)] {
+        let output = place.nboom(&["report", "all", "-o", page]);
+        assert_eq!((code(&output), stdout(&output)), (0, format!("{page}\n")));
+        assert_eq!(reports(page), has_links, "pages of cases are in all/worst");
+    }
+    assert!(!place.path("all/report.html").exists());
+    refused(&place.nboom(&["report", "all", "-o", "page.txt"]), 2, &["page.txt", "NAME.html"]);
+    refused(&place.nboom(&["report", "all", "--plots", "svg"]), 2, &["--plots", "all", "sweep"]);
+    for directories in [["all", "all"], ["out", "all"], ["all", "out"]] {
+        let output = place.nboom(&[&["report"][..], &directories].concat());
+        refused(&output, 2, &["all: found a sweep", "cannot be compared"]);
+    }
+    assert!(!place.path("comparison.html").exists());
+}
+
+#[test]
 fn runs_in_other_units_share_no_axes() {
     let place = Place::new();
     run(&place, &["--units", "SI"]);
