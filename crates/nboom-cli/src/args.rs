@@ -45,7 +45,7 @@ pub enum Command {
     Sweep(SweepArgs),
     /// Put the shards of a sweep together.
     ///
-    /// DIR are the directories of all shards, each finished. The table and the page are those of a sweep in one go.
+    /// DIR are the directories of all shards, each finished. The table is that of a sweep in one go.
     #[command(after_help = examples::MERGE)]
     Merge(MergeArgs),
     /// Make the page of a run from its files, or one page that compares several runs.

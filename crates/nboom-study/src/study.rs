@@ -45,7 +45,7 @@ pub enum Method {
     Grid,
     /// Of each variable one draw in each of as many equal shares as there are draws.
     LatinHypercube,
-    /// A scrambled Sobol sequence.
+    /// A Sobol sequence with a random digital shift.
     Sobol,
     /// Independent draws.
     MonteCarlo,
