@@ -15,6 +15,9 @@ use crate::scene::{BODY_NAME, folder_name, is_body_name, suggest};
 /// When the run ends \[s\].
 const END: f64 = 10.0;
 
+/// The name of a root by which other programs know that a robot is fixed.
+const WORLD: &str = "world";
+
 /// A link, and where it is in the body that it belongs to.
 struct Welded {
     link: usize,
@@ -31,6 +34,11 @@ pub(super) fn assemble(
 ) -> Option<SceneDraft> {
     let outboard = Outboard::find(robot, reader)?;
     let root = outboard.root(robot, reader)?;
+    if robot.links[root].name == WORLD {
+        let at = reader.lines.position(robot.links[root].at);
+        let found = format!("{} as the root", quoted(WORLD));
+        reader.report.warn(at, "link", found, "none: the robot floats, unless its scene is fixed");
+    }
     let mut parts = Parts { main: Part::of(root), bodies: Vec::new() };
     let mut links = vec![Welded { link: root, body: None, placement: Placement::none() }];
     while let Some(welded) = links.pop() {

@@ -89,6 +89,16 @@ fn a_robot_may_float_on_a_root_without_mass() {
 }
 
 #[test]
+fn a_robot_that_others_would_fix_floats_with_a_warning() {
+    let text = format!("<link name=\"world\"/>{}", joint("fixed", "world", "base", ""));
+    let file = robot(&format!("{text}{}", joint("continuous", "base", "arm", "")));
+    assert_eq!(file.scene.main_body.mass, 2.0);
+    assert!(!file.scene.base.is_held());
+    let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
+    assert_eq!(told, ["`world` as the root"]);
+}
+
+#[test]
 fn what_is_left_out_is_named() {
     let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"base arm\"/><dynamics friction=\"1\"/>\
                  <safety_controller/>";
