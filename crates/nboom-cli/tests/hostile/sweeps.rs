@@ -27,7 +27,7 @@ fn place(name: &str) -> Place {
     let place = Place::new(name);
     place.write("deck.nml", REPORT_DECK);
     // The deck has warnings, which a sweep tells each time.
-    let converted = place.nboom(&["convert", "deck.nml", "-o", "deck.toml", "--quiet"]);
+    let converted = place.nboom(&["convert", "deck.nml", "-o", "deck.toml"]);
     assert_eq!(converted.code(), Some(0), "{}", converted.stderr());
     place.write("study.toml", STUDY);
     place
