@@ -156,12 +156,14 @@ impl Finished {
             assert!(!message.contains(inside), "{told}: {message}");
         }
         assert!(!message.is_empty(), "{told}");
-        // Errors, and lines of the input that they are about.
+        // Errors, what the input is warned of, and its lines that they are about.
         let is_excerpt = |line: &str| {
             line.trim_start_matches(|c: char| c == ' ' || c.is_ascii_digit()).starts_with('|')
         };
         let is_error = |line: &&str| line.starts_with("error: ");
-        assert!(message.lines().all(|l| is_error(&l) || is_excerpt(l)), "{told}: {message}");
+        let is_warning = |line: &str| line.starts_with("warning: ");
+        let is_known = |line: &str| is_error(&line) || is_warning(line) || is_excerpt(line);
+        assert!(message.lines().all(is_known), "{told}: {message}");
         let errors = message.lines().filter(is_error).count();
         assert!(errors <= 51 && message.len() < 20_000, "{told}: {message}");
         let shown = |c: char| c == '\n' || !c.is_control();
