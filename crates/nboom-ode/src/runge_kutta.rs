@@ -88,6 +88,7 @@ impl RungeKutta {
     fn begin(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.controlled = controlled;
         self.previous_error = SMALL_ERROR;
+        (self.squares, self.has_dense) = (None, false);
         self.window.start(system, t, y);
         self.stride = y.len().next_multiple_of(BLOCK);
         let terms = self.terms();

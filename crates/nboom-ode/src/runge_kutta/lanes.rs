@@ -6,7 +6,7 @@ use crate::tableau::{Row, Tableau};
 
 mod ends;
 
-use ends::{Dense, Estimates};
+use ends::{Dense, Estimates, sum_of};
 
 /// Steps of eight systems side by side, each from its own start and of its own length: an explicit method's stages,
 /// its estimates of errors and terms of dense output, one lane of a register for each system.
@@ -171,11 +171,7 @@ impl WorkOnEight for Argument<'_> {
         let (size, length) = (start.len(), R::load(lengths));
         let (start, stages, out) = (R::all(start), R::all(stages), R::all_mut(out));
         for i in 0..size {
-            let mut sum = R::zero();
-            for &(stage, weight) in weights {
-                sum = stages[stage * size + i].mul_add(R::constant(weight), sum);
-            }
-            out[i] = sum.mul_add(length, start[i]);
+            out[i] = sum_of(stages, weights, size, i).mul_add(length, start[i]);
         }
     }
 }
@@ -210,10 +206,14 @@ mod tests {
     }
 
     fn derivatives(t: &Eight, y: &[Eight], dy: &mut [Eight]) {
+        derivatives_of(LENGTHS, t, y, dy);
+    }
+
+    fn derivatives_of(lengths: [f64; 8], t: &Eight, y: &[Eight], dy: &mut [Eight]) {
         for lane in 0..8 {
             let mut found = [0.0; 2];
             let one = [y[0].0[lane], y[1].0[lane]];
-            Pendulum(LENGTHS[lane]).derivative(t.0[lane], &one, &mut found);
+            Pendulum(lengths[lane]).derivative(t.0[lane], &one, &mut found);
             (dy[0].0[lane], dy[1].0[lane]) = (found[0], found[1]);
         }
     }
@@ -286,14 +286,7 @@ mod tests {
         let mut steps = EightSteps::like(&started(3, false), false);
         steps.put(0, &started(3, false), 0.1);
         steps.repeat_first_from(1);
-        steps.take(|t, y, dy| {
-            for lane in 0..8 {
-                let mut found = [0.0; 2];
-                let one = [y[0].0[lane], y[1].0[lane]];
-                Pendulum(LENGTHS[3]).derivative(t.0[lane], &one, &mut found);
-                (dy[0].0[lane], dy[1].0[lane]) = (found[0], found[1]);
-            }
-        });
+        steps.take(|t, y, dy| derivatives_of([LENGTHS[3]; 8], t, y, dy));
         let mut system = Pendulum(LENGTHS[3]);
         let (mut alone, mut beside) = (started(3, false), started(3, false));
         alone.retake(&mut system, 0.1);

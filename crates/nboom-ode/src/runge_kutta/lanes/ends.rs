@@ -7,7 +7,12 @@ use crate::tableau::Row;
 
 /// The weighted sum of the stages of one of `size` variables.
 #[inline(always)]
-fn sum_of<R: EightNumbers>(stages: &[R], weights: Row, size: usize, variable: usize) -> R {
+pub(super) fn sum_of<R: EightNumbers>(
+    stages: &[R],
+    weights: Row,
+    size: usize,
+    variable: usize,
+) -> R {
     let add = |sum, &(stage, weight): &(usize, f64)| {
         stages[stage * size + variable].mul_add(R::constant(weight), sum)
     };
