@@ -320,3 +320,30 @@ impl Watcher for Watch {
         self.interrupt.came()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nboom_study::statistics::{Field, Role, Statistics};
+    use nboom_tables::Cell;
+
+    use super::*;
+
+    #[test]
+    fn margins_have_pages_first_and_then_latches_that_do_not_close() {
+        let result =
+            |label: String| Field { name: label.clone(), label, unit: None, role: Role::Result };
+        let forces = (1..=20).map(|i| result(format!("peak_force of {i}")));
+        let others = ["lock_time of boom", "margin of boom"].map(str::to_owned).map(result);
+        let mut statistics = Statistics::new(forces.chain(others).collect());
+        for case in 1..=20 {
+            // Each case has the largest force of one hinge.
+            let force = |i: u32| Cell::Number(f64::from(u8::from(i == case)));
+            let lock_time = if case == 15 { Cell::Empty } else { Cell::Number(1.0) };
+            let margin = Cell::Number(if case == 20 { 0.1 } else { 0.5 });
+            let cells: Vec<_> = (1..=20).map(force).chain([lock_time, margin]).collect();
+            statistics.row(&cells);
+        }
+        let found = worst(&statistics.finish());
+        assert_eq!((found.len(), &found[..3]), (MOST_PAGES, &[20, 15, 1][..]));
+    }
+}

@@ -249,6 +249,7 @@ mod tests {
         let inner_parameters = Parameters::read(&inner, numbers.clone());
         let found = Embedding::new(&inner, &outer).expect("it fits");
         let count = Layout::parameters(&outer);
+        let others: Vec<(usize, f64)> = (0..count).step_by(2).map(|i| (i, -2.0)).collect();
         let assumptions: Vec<(usize, f64)> = (0..count).map(|i| (i, -1.0)).collect();
         let taken: Vec<usize> = found
             .parameters(&inner_parameters, &assumptions)
@@ -260,5 +261,11 @@ mod tests {
         let expected = (32..34).chain(44..46).chain(46..58).chain(68..70).chain(80..82);
         assert_eq!(taken, expected.collect::<Vec<_>>());
         assert_eq!(found.parameters(&inner_parameters, &[])[..32], numbers[..32]);
+        // Nothing is left of what was assumed before.
+        let mut again = found.parameters(&inner_parameters, &assumptions);
+        for assumed in [&others[..], &[]] {
+            found.assume(assumed, &mut again);
+            assert_eq!(again, found.parameters(&inner_parameters, assumed));
+        }
     }
 }

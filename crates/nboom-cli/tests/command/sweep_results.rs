@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::sweeps::{cases, sweep};
-use crate::{BOOM, Place, code, stderr};
+use crate::{BOOM, Place, code, stderr, stdout};
 
 /// Two panels on `+x` and `-x`, from rest.
 const PANELS: &str = r#"
@@ -86,6 +86,22 @@ fn warnings_of_the_scene_are_told_once() {
     for expected in [expected, "note: left out: HZO, EU1"] {
         assert_eq!(told.matches(expected).count(), 1, "{told}");
     }
+}
+
+#[test]
+fn a_latch_that_does_not_close_in_half_of_the_cases_locks_never() {
+    let place = Place::new();
+    place.write("panels.toml", PANELS);
+    let vary = "[[vary]]\nname = 'spring'\npath = 'body[1].hinge.spring.stiffness'\nvalues = [0.5, 1e-6]\n";
+    let results = "results = ['lock_time of 1,1', 'lock_time of 2,1']\n";
+    place.write("study.toml", &format!("scene = 'panels.toml'\ndraws = 40\n{results}{vary}"));
+    let told = stdout(&sweep(&place, &["--no-report"]));
+    let row = |hinge: &str| {
+        let start = format!("lock_time of {hinge} ");
+        told.lines().find(|line| line.starts_with(&start)).expect("a row").to_owned()
+    };
+    assert!(row("1,1").contains("never"), "{told}");
+    assert!(!row("2,1").contains("never"), "{told}");
 }
 
 /// With such an absolute tolerance the laws of conservation are off by more than a thousandth.

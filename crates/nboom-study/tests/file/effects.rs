@@ -63,13 +63,17 @@ fn faults_that_break_nothing_or_one_thing_twice() {
     }
 }
 
+/// The scene with the boom locked from the start.
+fn locked() -> String {
+    SCENE
+        .replace("release = { at = 1.0 }\n", "state = \"locked\"\n")
+        .replace("start_deg = 90.0", "start_deg = 0.0")
+}
+
 #[test]
 fn faults_of_hinges_that_never_move() {
     let held = SCENE.replace("release = { at = 1.0 }\n", "state = \"held\"\n");
-    let locked = SCENE
-        .replace("release = { at = 1.0 }\n", "state = \"locked\"\n")
-        .replace("start_deg = 90.0", "start_deg = 0.0");
-    for scene in [held, locked] {
+    for scene in [held, locked()] {
         let faults: String = ["stuck", "failed_latch", "broken_spring"]
             .map(|key| format!("[[fault]]\nname = \"{key}\"\n{key} = [\"boom\"]\n"))
             .concat();
@@ -86,11 +90,8 @@ fn faults_of_hinges_that_never_move() {
 
 #[test]
 fn the_lock_up_of_a_hinge_that_is_locked_is_no_result() {
-    let locked = SCENE
-        .replace("release = { at = 1.0 }\n", "state = \"locked\"\n")
-        .replace("start_deg = 90.0", "start_deg = 0.0");
     let study = STUDY.split("[[fault]]").next().expect("text");
-    let found = errors(&locked, study);
+    let found = errors(&locked(), study);
     let told: Vec<_> = found.iter().filter(|(line, _)| *line == 6).collect();
     assert!(
         matches!(&told[..], [(_, told)] if told.contains("not locked from the start")),
