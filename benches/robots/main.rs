@@ -78,7 +78,7 @@ macro_rules! robots {
     )*};
 }
 
-// The compiler takes more than four minutes for the derivatives of a humanoid.
+// The compiler was stopped after four minutes with the derivatives of a humanoid.
 robots! {
     ur5: BakedTrrpprr, derivatives;
     panda: BakedTrrrrrrrIsOIsO, derivatives;
