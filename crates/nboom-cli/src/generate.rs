@@ -32,7 +32,8 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "LEVEL", default_value = "fast", value_parser = choice::level)]
     pub level: Level,
 
-    /// Also generate the formulation's matrix and right side: report, relative or symmetric.
+    /// Also generate the matrix and right side that the formulation solves; those of symmetric if it
+    /// solves none.
     #[arg(long)]
     pub equations: bool,
 

@@ -2,6 +2,9 @@ use nboom_codegen::{CodegenError, Level, Module, Numbers, Request, StressRequest
 use nboom_formulation::Formulation;
 use nboom_model::{Scene, Structure};
 
+use crate::PackageError;
+use crate::held::let_go;
+
 /// Which routines a crate has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choices<'a> {
@@ -11,7 +14,8 @@ pub struct Choices<'a> {
     pub numbers: Numbers,
     /// How freely arithmetic may be rearranged.
     pub level: Level,
-    /// Whether there is a routine for the formulation's matrix and right side too.
+    /// Whether there is a routine for the matrix and right side too: those of the formulation, or of
+    /// `symmetric` if it forms none.
     pub equations: bool,
     /// Whether there is a routine for the scene's inverse dynamics too.
     pub inverse_dynamics: bool,
@@ -40,6 +44,8 @@ impl Default for Choices<'_> {
 pub(crate) struct Requests {
     /// The accelerations of the scene, all hinges free.
     pub whole: Request,
+    /// The scene with its main body free, which equations and inverse dynamics are for.
+    pub free: Scene,
     /// The equations of the scene.
     pub equations: Option<Request>,
     /// The forces for given accelerations of the scene.
@@ -54,29 +60,33 @@ pub(crate) struct Requests {
 const SCALAR: &str = "crate::nboom_scalar";
 
 impl Requests {
-    pub fn new(scene: &Scene, choices: &Choices<'_>) -> Result<Self, CodegenError> {
+    pub fn new(scene: &Scene, choices: &Choices<'_>) -> Result<Self, PackageError> {
         let Choices { formulation, numbers, level, lock_states, stresses, .. } = *choices;
-        let inside = |request: Request| Request {
-            scalar_path: SCALAR.to_owned(),
-            ..request.by(formulation)
+        let inside = |request: Request| Request { scalar_path: SCALAR.to_owned(), ..request };
+        let of = |scene: &Scene| {
+            Ok::<_, CodegenError>(inside(Request::of_scene(scene, numbers, level)?))
         };
-        let whole = inside(Request::of_scene(scene, numbers, level)?);
+        let whole = of(scene)?.by(formulation);
+        let asks_for_free = choices.equations || choices.inverse_dynamics;
+        let free = if asks_for_free { let_go(scene)? } else { scene.clone() };
         let equations = choices.equations.then(|| {
-            let name = format!("{}Equations", whole.name);
-            Request { name, ..whole.clone().for_equations() }
+            let request = of(&free)?.for_equations();
+            let matrix =
+                if formulation.has_equations() { formulation } else { Formulation::Symmetric };
+            Ok::<_, CodegenError>(named(request, "Equations").by(matrix))
         });
         let inverse_dynamics = choices.inverse_dynamics.then(|| {
-            let name = format!("{}Inverse", whole.name);
-            let whole = whole.clone().by(Formulation::Articulated);
-            Request { name, ..whole.for_inverse_dynamics() }
+            let request = of(&free)?.for_inverse_dynamics();
+            Ok::<_, CodegenError>(named(request, "Inverse"))
         });
         let held = if lock_states { Request::lock_states(scene, level)? } else { Vec::new() };
-        let held = held.into_iter().map(inside).collect();
+        let held = held.into_iter().map(|request| inside(request).by(formulation)).collect();
         let stresses = stresses.map(|structure| StressRequest::of_scene(scene, structure, level));
         let stresses = stresses
             .transpose()?
             .map(|request| StressRequest { scalar_path: SCALAR.to_owned(), ..request });
-        Ok(Self { whole, equations, inverse_dynamics, held, stresses })
+        let (equations, inverse_dynamics) = (equations.transpose()?, inverse_dynamics.transpose()?);
+        Ok(Self { whole, free, equations, inverse_dynamics, held, stresses })
     }
 
     /// The file with all of them.
@@ -84,13 +94,18 @@ impl Requests {
         Module { routines: self.all(), stresses: self.stresses.iter().cloned().collect() }
     }
 
-    /// Those for the scene with all hinges free, accelerations first.
-    pub fn all_free(&self) -> impl Iterator<Item = &Request> {
-        std::iter::once(&self.whole).chain(&self.equations).chain(&self.inverse_dynamics)
+    /// Those for the scene with its main body free.
+    pub fn of_free(&self) -> impl Iterator<Item = &Request> {
+        self.equations.iter().chain(&self.inverse_dynamics)
     }
 
     /// All but stresses, in the order in which they are written.
     pub fn all(&self) -> Vec<Request> {
-        self.all_free().chain(&self.held).cloned().collect()
+        std::iter::once(&self.whole).chain(self.of_free()).chain(&self.held).cloned().collect()
     }
+}
+
+/// The request with a word after its name.
+fn named(request: Request, word: &str) -> Request {
+    Request { name: format!("{}{word}", request.name), ..request }
 }

@@ -94,7 +94,8 @@ impl Crate {
             ("src/routines.rs".to_owned(), code),
             ("tests/certificate.rs".to_owned(), checks::code(&name, &routines)),
         ]);
-        files.extend(library::files(scene, &name, requests, &recognised(scene)?));
+        let appendages = [&recognised(scene)?, &recognised(&requests.free)?];
+        files.extend(library::files(scene, &name, requests, appendages));
         files.extend(
             routines.iter().map(|routine| (checks::table_path(routine), checks::table(routine))),
         );
@@ -123,12 +124,13 @@ impl Crate {
 
 /// The routines, each certified with the hinges free or held that it is for.
 fn routines(scene: &Scene, requests: &Requests) -> Result<Vec<Routine>, PackageError> {
-    let all_free = requests.all_free().map(|request| routine(scene, request, None));
+    let whole = std::iter::once(routine(scene, &requests.whole, None));
+    let of_free = requests.of_free().map(|request| routine(&requests.free, request, None));
     let held = requests.held.iter().map(|request| {
         let free = request.free_hinges(scene)?;
         routine(scene, request, free.as_deref())
     });
-    all_free.chain(held).collect()
+    whole.chain(of_free).chain(held).collect()
 }
 
 fn routine(

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use nboom_codegen::Request;
 use nboom_formulation::{Formulation, Layout, Recognised};
-use nboom_model::Scene;
+use nboom_model::{Joint, Mode, Scene, WeldedTree};
+use nboom_scalar::Twist;
 
 use crate::choices::Requests;
 use crate::manifest::rust_name;
@@ -21,12 +22,21 @@ const EQUATIONS: &str = include_str!("../templates/equations.rs");
 /// What only a crate with inverse dynamics has.
 const INVERSE: &str = include_str!("../templates/inverse_dynamics.rs");
 
-/// Paths and texts for a scene; `name` is the crate's.
+/// What only a crate has whose main body is held: in the documentation and in the code.
+const HELD: [&str; 2] =
+    [include_str!("../templates/held.md"), include_str!("../templates/held.rs")];
+
+/// What such a crate has besides with equations or inverse dynamics.
+const LET_GO: [&str; 2] =
+    [include_str!("../templates/let_go.md"), include_str!("../templates/let_go.rs")];
+
+/// Paths and texts for a scene; `name` is the crate's. `recognised` are its appendages, and those of the
+/// scene with its main body free.
 pub(crate) fn files(
     scene: &Scene,
     name: &str,
     requests: &Requests,
-    recognised: &Recognised,
+    [recognised, free]: [&Recognised; 2],
 ) -> [(String, String); 2] {
     let of_routines = requests.all().into_iter().map(|request| request.name);
     let of_stresses = requests.stresses.iter().map(|request| request.name.clone());
@@ -42,7 +52,23 @@ pub(crate) fn files(
     let inverse = inverse.map(|request| INVERSE.replace("INVERSE", &request.name));
     let has_functions = equations.is_some() || inverse.is_some();
     let hinges = hinges(scene, recognised);
+    let held = held_main(scene);
+    let is_let_go = held.is_some() && has_functions;
+    let only_if = |is_so: bool, text: &str| if is_so { text } else { "" }.to_owned();
+    let of_held = |i: usize| only_if(held.is_some(), HELD[i]) + &only_if(is_let_go, LET_GO[i]);
+    let omega = scene.initial.omega_body.to_array();
+    let omega = if held.is_some() { omega } else { [1.0, 0.1, 0.0] };
+    let hold = "state[3..9].copy_from_slice(&holding_wrench(MAIN_BODY));\n";
+    let uses_of_held = "MAIN_BODY, holding_wrench, ";
     let values = [
+        ("HELD_IN_WORDS", of_held(0)),
+        ("HELD_IN_CODE", of_held(1)),
+        ("USES_OF_HELD", only_if(held.is_some(), uses_of_held)),
+        ("HOLD", only_if(held.is_some(), hold)),
+        ("OMEGA", format!("{omega:?}")),
+        ("MAIN_BODY", format!("{:?}", held.unwrap_or_default())),
+        ("HEAVY", format!("{:?}", WeldedTree::<f64>::heavy_main().mass)),
+        ("FREE_LIST", list(free)),
         ("SCENE", in_words(&scene.name)),
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("TOPOLOGY", requests.whole.topology.to_string()),
@@ -50,10 +76,11 @@ pub(crate) fn files(
         ("STRESSES", row_of_stresses.map_or(String::new(), |_| stresses::NUMBERS.to_owned())),
         ("PACKAGE", name.to_owned()),
         ("CRATE", rust_name(name)),
+        ("FIRST", names[0].clone()),
         ("NAMES", names.join(", ")),
         ("PARAMETER_COUNT", parameters.len().to_string()),
-        ("PARAMETER_LIST", parameters.iter().map(|p| format!("    {p:?},\n")).collect()),
-        ("USES", if has_functions { "\nuse std::sync::OnceLock;\n" } else { "" }.to_owned()),
+        ("PARAMETER_LIST", list(recognised)),
+        ("USES", only_if(has_functions, "\nuse std::sync::OnceLock;\n")),
         ("HINGE_COUNT", recognised.links.len().to_string()),
         ("HINGE_LIST", hinges),
         ("MORE_FUNCTIONS", equations.unwrap_or_default() + &inverse.unwrap_or_default()),
@@ -65,6 +92,22 @@ pub(crate) fn files(
         values.iter().fold(template.to_owned(), fill)
     };
     [("README.md".to_owned(), filled(README)), ("src/lib.rs".to_owned(), filled(CODE))]
+}
+
+/// ω̇ and a_O less gravity of a main body that is held, when the scene starts; main-body axes.
+fn held_main(scene: &Scene) -> Option<[f64; 6]> {
+    let beta = vec![0.0; scene.bodies.len()];
+    let Twist { angular, linear } = WeldedTree::new(scene, &Mode::at_start(scene), &beta).held?;
+    let ([a, b, c], [d, e, f]) = (angular.to_array(), linear.to_array());
+    Some([a, b, c, d, e, f])
+}
+
+/// A line for each parameter, with its name.
+fn list(recognised: &Recognised) -> String {
+    let line = |(i, parameter): (usize, f64)| {
+        format!("    {parameter:?}, // {}\n", Layout::name(&recognised.topology, i))
+    };
+    recognised.parameters.write().into_iter().enumerate().map(line).collect()
 }
 
 /// A scene's name as it can stand in a line of Markdown.
@@ -100,9 +143,11 @@ fn hinges(scene: &Scene, recognised: &Recognised) -> String {
     for (&link, place) in recognised.links.iter().zip(Layout::places(topology)) {
         let label = scene.label(link);
         let [angle, rate, torque] = Layout::hinge_in_state(topology, place);
+        let slides = label.joint == Joint::Prismatic;
         rows[link] = format!(
-            "    Hinge {{ appendage: {}, segment: {}, angle: {angle}, rate: {rate}, \
-             torque: {torque}, acceleration: {} }},\n",
+            "    Hinge {{ name: {:?}, appendage: {}, segment: {}, slides: {slides}, angle: {angle}, \
+             rate: {rate}, torque: {torque}, acceleration: {} }},\n",
+            label.name.as_deref().unwrap_or_default(),
             label.appendage + 1,
             label.segment + 1,
             Layout::OUTPUT + place

@@ -1,6 +1,7 @@
 //! How far the compiled code is from the truth, in plain code and in that of this processor.
 
 use std::io::{self, Write};
+use std::{panic, thread};
 
 use /*CRATE*/::nboom_scalar::InstructionSet;
 use /*CRATE*/::{Kernel, Routine};
@@ -38,8 +39,27 @@ fn evaluate(kernel: &Kernel, case: &Case) -> Vec<f64> {
     found
 }
 
-/// `off` tells how far numbers are from those expected, relative to no less than a scale.
+/// Large enough for unoptimised code of large trees, which keeps every number in a place of its own.
+const STACK: usize = 256 << 20;
+
+/// Compares on a large stack.
 fn compare<T: Routine>(
+    name: &str,
+    table: &str,
+    tolerance: f64,
+    off: fn(&[f64], &[f64], f64) -> f64,
+) {
+    thread::scope(|scope| {
+        let on_it = || compare_here::<T>(name, table, tolerance, off);
+        let thread = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, on_it);
+        if let Err(failure) = thread.expect("there is memory").join() {
+            panic::resume_unwind(failure);
+        }
+    });
+}
+
+/// `off` tells how far numbers are from those expected, relative to no less than a scale.
+fn compare_here<T: Routine>(
     name: &str,
     table: &str,
     tolerance: f64,

@@ -9,15 +9,19 @@ pub use routines::{/*NAMES*/, kernels};
 /// Where the numbers of one hinge stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hinge {
+    /// What the scene calls its body; empty if it has no name.
+    pub name: &'static str,
     /// The scene's appendage, from 1.
     pub appendage: usize,
     /// Its segment, from 1.
     pub segment: usize,
+    /// Whether it slides: all of its numbers are then along its axis, not about it.
+    pub slides: bool,
     /// Where the angle stands in a state \[rad\].
     pub angle: usize,
     /// Where the rate stands in a state.
     pub rate: usize,
-    /// Where the torque of springs and dashpots stands in a state.
+    /// Where the torque about it stands in a state, of springs, dashpots and motors.
     pub torque: usize,
     /// Where the angular acceleration stands.
     pub acceleration: usize,
@@ -32,6 +36,7 @@ pub const HINGES: [Hinge; /*HINGE_COUNT*/] = [
 pub fn parameters() -> &'static [f64] {
     &PARAMETERS
 }
-/*MORE_FUNCTIONS*/
+/*HELD_IN_CODE*//*MORE_FUNCTIONS*/
+#[rustfmt::skip]
 const PARAMETERS: [f64; /*PARAMETER_COUNT*/] = [
 /*PARAMETER_LIST*/];

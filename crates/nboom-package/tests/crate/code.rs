@@ -148,6 +148,10 @@ fn routines_are_those_asked_for() {
     };
     let usual = Choices::default();
     assert_eq!(names(usual), ["SatelliteS2"]);
+    assert_eq!(
+        names(Choices { equations: true, ..usual }),
+        ["SatelliteS2", "SatelliteS2Equations"]
+    );
     assert_eq!(names(Choices { numbers: Numbers::Baked, ..usual }), ["BakedS2"]);
     let all = Choices {
         formulation: Formulation::Symmetric,

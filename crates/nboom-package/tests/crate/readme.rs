@@ -54,8 +54,8 @@ fn a_crate_says_where_the_numbers_of_a_hinge_stand() {
     ];
     let line = |(appendage, segment, [angle, rate, torque, acceleration]): (i32, i32, [i32; 4])| {
         format!(
-            "    Hinge {{ appendage: {appendage}, segment: {segment}, angle: {angle}, rate: {rate}, \
-             torque: {torque}, acceleration: {acceleration} }},"
+            "    Hinge {{ name: \"\", appendage: {appendage}, segment: {segment}, slides: false, \
+             angle: {angle}, rate: {rate}, torque: {torque}, acceleration: {acceleration} }},"
         )
     };
     assert_eq!(found, expected.map(line));
