@@ -230,7 +230,7 @@ fn simulate_into_files(
     interrupt.leaves(None);
     let tabled = tables::add(&args.tables.formats, &kept);
     // Printed even with --quiet, since the results are not what they seem.
-    warn_of_poor_results(&outcome, options, &worst);
+    warn_of_poor_results(args.case, &outcome, options, &worst);
     // The error that stopped the run says more than one in writing the files afterwards.
     if let Some(error) = failed {
         let _ = show(args, &kept);
@@ -280,10 +280,17 @@ fn directory(args: &RunArgs, scene: &Scene) -> Result<PathBuf, CliError> {
     Ok(directory)
 }
 
-fn warn_of_poor_results(outcome: &Outcome, options: &Options, worst: &WorstLoads) {
-    let poor = outcome.summary.conservation.poor(options.rtol);
-    poor.for_each(|law| say("warning", &law.to_string()));
-    verdict::negative_margins(worst).for_each(|warning| say("warning", &warning));
+/// Warns of the run, or of the case of a study that it is: a sweep runs several for their pages.
+fn warn_of_poor_results(
+    case: Option<u64>,
+    outcome: &Outcome,
+    options: &Options,
+    worst: &WorstLoads,
+) {
+    let of_case = case.map_or(String::new(), |case| format!("case {case}: "));
+    let poor = outcome.summary.conservation.poor(options.rtol).map(|law| law.to_string());
+    let all = poor.chain(verdict::negative_margins(worst));
+    all.for_each(|warning| say("warning", &format!("{of_case}{warning}")));
 }
 
 /// The page and the figures of the run, made from its files, as far as somebody wants them.

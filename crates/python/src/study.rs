@@ -93,6 +93,7 @@ impl Study {
     fn load(path: PathBuf, include_anywhere: bool) -> PyResult<Self> {
         let options =
             ReadOptions { includes_from_anywhere: include_anywhere, ..Default::default() };
+        nboom_study::require_as_swept(&path).map_err(of_study)?;
         let study = nboom_study::Study::read_with(&path, &options).map_err(of_input)?;
         Ok(Self { study: Arc::new(study) })
     }

@@ -143,6 +143,10 @@ def test_studies_and_directories_that_do_not_fit_are_refused(few, many, tmp_path
     wrong.write_text(few.read_text().replace("draws", "drawss"))
     with pytest.raises(nboom.InputError, match=r"wrong.toml:\d+:\d+: .*did you mean `draws`"):
         nboom.study(wrong)
+    scene = tmp_path / "out" / "scene.toml"
+    scene.write_text(scene.read_text() + "\n")
+    with pytest.raises(nboom.InputError, match="scene.toml"):
+        nboom.study(tmp_path / "out" / "study.toml")
 
 
 def test_an_array_of_slurm_makes_the_same(few, tmp_path, examples):

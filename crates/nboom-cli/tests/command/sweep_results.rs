@@ -68,6 +68,24 @@ fn the_worst_margins_are_the_smallest() {
     assert_eq!(is_told, margins[0].0 < 0.0, "{}", stderr(&output));
 }
 
+/// A yield stress that no station stays below, in any case.
+#[test]
+fn warnings_of_runs_for_pages_name_their_cases() {
+    let place = Place::new();
+    let scene = include_str!("../../../../examples/solar-array.toml");
+    let weak = scene.replace("yield_stress = 2.7e8", "yield_stress = 2.7e3");
+    assert_ne!(weak, scene);
+    place.write("four.toml", &weak);
+    let study = "scene = 'four.toml'\ndraws = 4\nresults = ['verdict.smallest_margin']\n";
+    let vary = "[[vary]]\nname = 'root'\npath = 'parameters.damping'\nas = 'factor'\nuniform = { from = 0.9, to = 1.1 }\n";
+    place.write("study.toml", &format!("{study}{vary}"));
+    let output = place.nboom(&["sweep", "study.toml"]);
+    let told = stderr(&output);
+    let of_margins: Vec<_> = told.lines().filter(|line| line.contains("margin")).collect();
+    assert!(of_margins.len() > 1, "{told}");
+    assert!(of_margins.iter().all(|line| line.contains("case ")), "{told}");
+}
+
 #[test]
 fn warnings_of_the_scene_are_told_once() {
     let place = Place::new();
