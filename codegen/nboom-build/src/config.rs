@@ -122,13 +122,14 @@ impl Config {
     }
 
     /// Routines write the matrix and the right side that the formulation solves, instead of
-    /// accelerations.
+    /// accelerations. The main body of a scene is free, also where the scene holds it.
     pub fn for_equations(self) -> Self {
         Self { equations: true, ..self }
     }
 
     /// Routines are for inverse dynamics, instead of accelerations: from accelerations to the wrench on the
-    /// main body and the hinge torques.
+    /// main body and the hinge torques. The main body of a scene is free, also where the scene holds it: the wrench
+    /// is then what holds it.
     pub fn for_inverse_dynamics(self) -> Self {
         Self { inverse_dynamics: true, ..self }
     }
@@ -264,6 +265,8 @@ impl Config {
                 for path in &included {
                     println!("cargo::rerun-if-changed={}", path.display());
                 }
+                let takes_free = self.equations || self.inverse_dynamics;
+                let scene = if takes_free { scene.with_free_main_body() } else { scene };
                 let mut routines = vec![Request::of_scene(&scene, *numbers, self.level)?];
                 if self.lock_states {
                     routines.extend(Request::lock_states(&scene, self.level)?);

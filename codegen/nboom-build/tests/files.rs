@@ -107,6 +107,23 @@ fn options_reach_the_code() {
     assert!(!inverse.contains("kernels()"));
 }
 
+/// A rig's mass properties are in the wrench that holds it.
+#[test]
+fn inverse_dynamics_of_a_scene_on_a_rig_is_that_of_a_free_main_body() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let rig = folder.path().join("rig.toml");
+    let main = "name = 'rig'\nunits = 'SI'\n[run]\nend = 1.0\n[main_body]\nmass = 9.0\n\
+                inertia = [4.0, 3.0, 2.0]\nbase = 'fixed'\n";
+    let boom = "[[body]]\nname = 'boom'\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\n\
+                mass_centre = [0.0, 0.5, 0.0]\n[body.hinge]\nat = [0.0, 0.5, 0.0]\naxis = 'x'\n";
+    fs::write(&rig, main.to_owned() + boom).expect("the folder is ours");
+    let plain = written(&Config::new().scene(&rig));
+    assert!(plain.contains("main body held"), "{plain}");
+    let inverse = written(&Config::new().scene(&rig).for_inverse_dynamics());
+    assert!(inverse.contains("inverse_dynamics by formulation articulated"), "{inverse}");
+    assert!(!inverse.contains("main body held"), "{inverse}");
+}
+
 #[test]
 fn a_scene_gives_its_routines() {
     let both = Config::new().scene(SAMPLE).baked_scene(SAMPLE).with_lock_states();

@@ -130,6 +130,13 @@ fn what_a_formulation_cannot_give_is_refused() {
     let inverse = of("S2", Formulation::Report).for_inverse_dynamics();
     let (topology, formulation) = ("S2".to_owned(), Formulation::Report);
     assert_eq!(refusal(&inverse), CodegenError::NoInverse { topology, formulation });
+    let held = || of("S2", Formulation::Symmetric).with_held_main_body();
+    for request in
+        [held().for_equations(), held().by(Formulation::Articulated).for_inverse_dynamics()]
+    {
+        let (topology, output) = ("S2".to_owned(), request.output);
+        assert_eq!(refusal(&request), CodegenError::HeldMainBody { topology, output });
+    }
     for name in ["S10", "4xS5"] {
         let expected = CodegenError::Lines { topology: name.to_owned(), limit: STRAIGHT_LIMIT };
         let right_side = of(name, Formulation::Articulated).for_right_side();

@@ -19,9 +19,9 @@ pub(crate) fn expand(input: TokenStream) -> Result<TokenStream> {
     let Input { attributes, visibility, name, topology, result, request } = syn::parse2(input)?;
     let blamed = |error: &CodegenError| match error {
         CodegenError::Name(_) => name.span(),
-        CodegenError::NoEquations { .. } | CodegenError::NoInverse { .. } => {
-            result.unwrap_or(topology)
-        }
+        CodegenError::NoEquations { .. }
+        | CodegenError::NoInverse { .. }
+        | CodegenError::HeldMainBody { .. } => result.unwrap_or(topology),
         _ => topology,
     };
     let generated =

@@ -226,6 +226,17 @@ impl Scene {
         &self.departures
     }
 
+    /// The scene with a main body that moves freely; without gravity, if it was held, since only what holds a
+    /// main body makes gravity act on what hangs on it.
+    #[must_use]
+    pub fn with_free_main_body(mut self) -> Self {
+        if self.description.base.is_held() {
+            self.description.base = Base::Free;
+            self.description.gravity = None;
+        }
+        self
+    }
+
     /// What is allowed but probably not meant.
     pub fn warnings(&self) -> Vec<ModelWarning> {
         warning::find(self)

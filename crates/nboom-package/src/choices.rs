@@ -2,9 +2,6 @@ use nboom_codegen::{CodegenError, Level, Module, Numbers, Request, StressRequest
 use nboom_formulation::Formulation;
 use nboom_model::{Scene, Structure};
 
-use crate::PackageError;
-use crate::held::let_go;
-
 /// Which routines a crate has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choices<'a> {
@@ -60,15 +57,14 @@ pub(crate) struct Requests {
 const SCALAR: &str = "crate::nboom_scalar";
 
 impl Requests {
-    pub fn new(scene: &Scene, choices: &Choices<'_>) -> Result<Self, PackageError> {
+    pub fn new(scene: &Scene, choices: &Choices<'_>) -> Result<Self, CodegenError> {
         let Choices { formulation, numbers, level, lock_states, stresses, .. } = *choices;
         let inside = |request: Request| Request { scalar_path: SCALAR.to_owned(), ..request };
         let of = |scene: &Scene| {
             Ok::<_, CodegenError>(inside(Request::of_scene(scene, numbers, level)?))
         };
         let whole = of(scene)?.by(formulation);
-        let asks_for_free = choices.equations || choices.inverse_dynamics;
-        let free = if asks_for_free { let_go(scene)? } else { scene.clone() };
+        let free = scene.clone().with_free_main_body();
         let equations = choices.equations.then(|| {
             let request = of(&free)?.for_equations();
             let matrix =

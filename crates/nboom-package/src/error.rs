@@ -28,17 +28,6 @@ pub enum PackageError {
         /// What is wrong with them.
         errors: Vec<ModelError>,
     },
-    /// A main body that is held cannot be taken as one that moves.
-    #[error(
-        "scene {scene} with its main body free, as equations and inverse dynamics take it: {}",
-        errors.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; ")
-    )]
-    LetGo {
-        /// The scene.
-        scene: String,
-        /// What is wrong with it.
-        errors: Vec<ModelError>,
-    },
     /// The code is not what the recursion computes.
     #[error(
         "topology {topology}, formulation {formulation}: {quantity} deviate by {deviation:.1e}, at \

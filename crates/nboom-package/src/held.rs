@@ -1,10 +1,7 @@
-//! A scene while hinges are held, or with its main body let go, as a scene of its own.
+//! A scene while hinges are held, as a scene of its own.
 
 use nboom_codegen::held;
-use nboom_model::{
-    Base, Body, Hinge, Link, MassProperties, Member, Mount, Rotor, Scene, SceneDescription,
-    WeldedTree,
-};
+use nboom_model::{Body, Hinge, Link, MassProperties, Member, Mount, Rotor, Scene, WeldedTree};
 use nboom_scalar::RigidInertia;
 
 use crate::PackageError;
@@ -34,18 +31,6 @@ pub(crate) fn welded(scene: &Scene, free: &[bool], angle: f64) -> Result<Scene, 
     description.bodies = tree.links.iter().enumerate().map(body).collect();
     Scene::new(description)
         .map_err(|errors| PackageError::Welded { scene: scene.name.clone(), errors })
-}
-
-/// The scene with a main body that moves freely, without gravity, which accelerations of O do not count.
-///
-/// # Errors
-/// [`PackageError::LetGo`] where a main body that is held has no mass properties to move by.
-pub(crate) fn let_go(scene: &Scene) -> Result<Scene, PackageError> {
-    if !scene.base.is_held() {
-        return Ok(scene.clone());
-    }
-    let free = SceneDescription { base: Base::Free, gravity: None, ..(**scene).clone() };
-    Scene::new(free).map_err(|errors| PackageError::LetGo { scene: scene.name.clone(), errors })
 }
 
 /// The rotors of a scene as those of the links of its `tree`.

@@ -1,6 +1,8 @@
 use nboom_formulation::{Formulation, Why};
 use nboom_sections::SectionError;
 
+use crate::request::Output;
+
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -126,6 +128,17 @@ pub enum CodegenError {
         topology: String,
         /// The formulation.
         formulation: Formulation,
+    },
+    /// Equations and inverse dynamics are those of a main body that moves by its own mass properties.
+    #[error(
+        "topology {topology}: {} of a main body that is held found; ask for those of a free one, which \
+         give what holds it too", output.name()
+    )]
+    HeldMainBody {
+        /// The topology.
+        topology: String,
+        /// What was asked for.
+        output: Output,
     },
     /// The formulation takes chains and paddles alone.
     #[error(

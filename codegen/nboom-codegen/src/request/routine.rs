@@ -199,6 +199,11 @@ impl Request {
         if *output == Output::InverseDynamics && formulation != Formulation::Articulated {
             return Err(CodegenError::NoInverse { topology: of_topology(), formulation });
         }
+        let takes_free = matches!(output, Output::Equations | Output::InverseDynamics);
+        if takes_free && self.holds_main_body() {
+            let (topology, output) = (of_topology(), *output);
+            return Err(CodegenError::HeldMainBody { topology, output });
+        }
         let bad = |(number, value): (usize, &Option<f64>)| {
             value.filter(|value| !value.is_finite()).map(|value| (number, value))
         };
