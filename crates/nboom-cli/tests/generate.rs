@@ -84,7 +84,6 @@ fn what_cannot_be_generated_is_said() {
     let with = |options: &[&str]| {
         nboom(place, &[&["generate", "boom.nml", "-o", "crate"], options].concat())
     };
-    ends(&with(&["--equations"]), 2, &["topology S2", "formulation articulated", "symmetric"]);
     ends(&with(&["--formulation", "kane"]), 2, &["symmetric, articulated, momentum expected"]);
     ends(&with(&["--level", "best"]), 2, &["exact, fast expected"]);
     ends(&with(&["--stresses"]), 2, &["--stresses", "scene boom without stations"]);
