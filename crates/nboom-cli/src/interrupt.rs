@@ -57,10 +57,22 @@ impl Interrupt {
         (self.came)()
     }
 
-    /// Says where unfinished results are, if there are any.
-    pub(crate) fn leaves(&self, unfinished: Option<&Path>) {
+    /// Makes what unfinished results go into. An end that is asked for meanwhile waits, and then says where they
+    /// are.
+    pub(crate) fn making<T, E>(
+        &self,
+        make: impl FnOnce() -> Result<T, E>,
+        unfinished: impl FnOnce(&T) -> &Path,
+    ) -> Result<T, E> {
         let mut held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
-        *held = unfinished.map(Path::to_owned);
+        let made = make()?;
+        *held = Some(unfinished(&made).to_owned());
+        Ok(made)
+    }
+
+    /// Says that no unfinished results are left.
+    pub(crate) fn leaves_nothing(&self) {
+        *self.shield.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 
     /// Runs work that must not be broken off.

@@ -208,15 +208,15 @@ fn simulate_into_files(
     let started = Instant::now();
     let analysis = stresses.as_ref().map(|(analysis, _)| analysis.clone());
     let certifier = Certifier { interrupt: interrupt.clone(), analysis };
+    let files = || files(&directory, scene, run.clone(), stresses, args);
     let mut watch = Watch {
-        files: files(&directory, scene, run.clone(), stresses, args)?,
+        files: interrupt.making(files, RunDirectory::unfinished)?,
         interrupt: interrupt.clone(),
         progress: Progress::of(scene, args.quiet),
         events: Vec::new(),
         events_to_keep: print_run::EVENTS_SHOWN,
         witness: args.certify.map(|_| Witness::new()),
     };
-    interrupt.leaves(Some(watch.files.unfinished()));
     let result = simulate(scene, options, &mut watch);
     watch.progress.finish();
     let (summary, failed) = match result {
@@ -227,7 +227,7 @@ fn simulate_into_files(
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_loads();
     let kept = interrupt.shielded(|| watch.files.finish(&outcome));
-    interrupt.leaves(None);
+    interrupt.leaves_nothing();
     let tabled = tables::add(&args.tables.formats, &kept);
     // Printed even with --quiet, since the results are not what they seem.
     warn_of_poor_results(args.case, &outcome, options, &worst);
