@@ -137,6 +137,17 @@ fn held_hinges_are_held_at_other_angles_in_each_state() {
     assert_ne!(rows[0][..of_satellite], rows[1][..of_satellite]);
 }
 
+/// A matrix costs accelerations nothing.
+#[test]
+fn equations_are_symmetric_beside_articulated_accelerations() {
+    let place = written(&one_boom(), &Choices { equations: true, ..Choices::default() });
+    let found = certificate(place.path());
+    let of =
+        |i: usize| (&found["routines"][i]["output"], &found["routines"][i]["formulation"]["name"]);
+    assert_eq!(of(0), (&"accelerations".into(), &"articulated".into()));
+    assert_eq!(of(1), (&"equations".into(), &"symmetric".into()));
+}
+
 #[test]
 fn routines_are_those_asked_for() {
     let names = |choices: Choices| -> Vec<String> {
@@ -148,10 +159,6 @@ fn routines_are_those_asked_for() {
     };
     let usual = Choices::default();
     assert_eq!(names(usual), ["SatelliteS2"]);
-    assert_eq!(
-        names(Choices { equations: true, ..usual }),
-        ["SatelliteS2", "SatelliteS2Equations"]
-    );
     assert_eq!(names(Choices { numbers: Numbers::Baked, ..usual }), ["BakedS2"]);
     let all = Choices {
         formulation: Formulation::Symmetric,

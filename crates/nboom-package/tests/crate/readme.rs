@@ -60,3 +60,16 @@ fn a_crate_says_where_the_numbers_of_a_hinge_stand() {
     };
     assert_eq!(found, expected.map(line));
 }
+
+/// The two fingers of the robot slide.
+#[test]
+fn a_crate_knows_hinges_by_name_and_which_of_them_slide() {
+    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/robots/panda.urdf");
+    let file = read_scene(&robot).expect("the robot is right");
+    let place = written(&file.scene, &Choices::default());
+    let text = fs::read_to_string(place.path().join("src/lib.rs")).expect("readable");
+    let sliding = text.lines().filter(|line| line.contains("slides: true"));
+    let sliding: Vec<&str> = sliding.map(|line| line.split('"').nth(1).expect("a name")).collect();
+    assert_eq!(sliding, ["panda_leftfinger", "panda_rightfinger"]);
+    assert_eq!(text.lines().filter(|line| line.contains("slides: false")).count(), 7);
+}

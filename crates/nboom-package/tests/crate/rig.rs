@@ -2,8 +2,8 @@ use nboom_model::{Base, Gravity};
 
 use super::*;
 
-/// What the crate of a pendulum on a rig computes beside closed forms: m = 3, l = 0.9, J = 4 + m l², at
-/// (0.2, 0.5, 0) on a main body of mass 100, about x, g = 9.81 along -z.
+/// Compares what the crate of a pendulum computes with closed forms: m = 3, l = 0.9, J = 4 + m l², about x at
+/// (0.2, 0.5, 0) of a main body of mass 100, g = 9.81 along -z. Tolerances are thousands of roundings of the terms.
 const CLOSED_FORMS: &str = "
 use satellite_pendulum::{
     HINGES, Kernel, MAIN_BODY, equations, free_parameters, holding_wrench, inverse_dynamics, kernels,
@@ -15,14 +15,13 @@ const ARM: f64 = 0.9;
 const INERTIA: f64 = 4.0 + 3.0 * ARM * ARM;
 const ANGLE: f64 = 0.4;
 
-fn found(kernel: &Kernel, parameters: &[f64], main: [f64; 6], of_hinge: f64) -> Vec<f64> {
+fn found(kernel: &Kernel, parameters: &[f64], main: [f64; 6]) -> Vec<f64> {
     let mut constants = vec![0.0; kernel.constants];
     assert!(kernel.accepts(parameters));
     kernel.prepare(parameters, &mut constants);
     let mut state = vec![0.0; kernel.coordinates];
     state[3..9].copy_from_slice(&main);
     state[HINGES[0].angle] = ANGLE;
-    state[HINGES[0].torque] = of_hinge;
     let mut found = vec![0.0; kernel.outputs];
     kernel.evaluate(&constants, &state, &mut found);
     found
@@ -34,14 +33,14 @@ fn close(found: f64, expected: f64) {
 
 #[test]
 fn it_swings_by_its_weight() {
-    let found = found(&kernels()[0], parameters(), holding_wrench(MAIN_BODY), 0.0);
+    let found = found(&kernels()[0], parameters(), holding_wrench(MAIN_BODY));
     close(found[HINGES[0].acceleration], -WEIGHT * ARM * ANGLE.cos() / INERTIA);
     close(found[5], 9.81);
 }
 
 #[test]
 fn its_mount_carries_the_weight() {
-    let found = found(inverse_dynamics(), free_parameters(), MAIN_BODY, 0.0);
+    let found = found(inverse_dynamics(), free_parameters(), MAIN_BODY);
     close(found[0], WEIGHT * (0.5 + ARM * ANGLE.cos()));
     close(found[1], -WEIGHT * 0.2);
     close(found[5], WEIGHT + 100.0 * 9.81);
@@ -50,7 +49,7 @@ fn its_mount_carries_the_weight() {
 
 #[test]
 fn its_equation_of_motion_is_a_row() {
-    let all = found(equations(), free_parameters(), [0.0; 6], 0.0);
+    let all = found(equations(), free_parameters(), [0.0; 6]);
     let (row, right) = (&all[42..49], all[49 + 6]);
     close(row[6], INERTIA);
     close(row[2] * MAIN_BODY[5] - right, WEIGHT * ARM * ANGLE.cos());
