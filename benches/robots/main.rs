@@ -30,7 +30,7 @@ fn main() {
 
 /// A function for each robot: its crate has types of its own.
 macro_rules! robots {
-    ($($robot:ident: $routine:ident $(, $derivatives:ident)?;)*) => {$(
+    ($($robot:ident: $routine:ident $(, $by_dual_numbers:ident)?;)*) => {$(
         fn $robot() {
             use ::$robot::nboom_scalar::{Batch, Eight, InstructionSet, Kernel};
             use ::$robot::{$routine as Robot, Routine, parameters};
@@ -65,14 +65,22 @@ macro_rules! robots {
             });
             tell("accelerations_of_eight", stringify!($robot), times.map(|ns| ns / 8.0));
 
+            let by = BEFORE_JOINTS..Robot::COORDINATES;
+            let mut derivatives = vec![0.0; Robot::OUTPUTS * by.len()];
+            let kernel = Kernel::of::<Robot>();
+            let mut tree = ::$robot::derivatives(parameters());
+            let call = |i: usize| {
+                kernel.evaluate(&constants, black_box(&states[i]), &mut found);
+                tree.write(&states[i], &found, by.clone(), black_box(&mut derivatives));
+            };
+            tell("derivatives", stringify!($robot), time(call));
+
             $(
-                let by = BEFORE_JOINTS..Robot::COORDINATES;
-                let mut derivatives = vec![0.0; Robot::OUTPUTS * by.len()];
                 let call = |i: usize| {
                     let (x, to) = (black_box(&states[i]), black_box(&mut derivatives));
                     ::$robot::nboom_scalar::jacobian::<Robot>(&constants, x, by.clone(), &mut found, to);
                 };
-                tell(stringify!($derivatives), stringify!($robot), time(call));
+                tell(stringify!($by_dual_numbers), stringify!($robot), time(call));
             )?
         }
     )*};
@@ -80,10 +88,10 @@ macro_rules! robots {
 
 // The compiler was stopped after four minutes with the derivatives of a humanoid.
 robots! {
-    ur5: BakedTrrpprr, derivatives;
-    panda: BakedTrrrrrrrIsOIsO, derivatives;
-    anymal: Baked4xTrrp, derivatives;
-    go2: Baked4xTrrp, derivatives;
+    ur5: BakedTrrpprr, derivatives_by_dual_numbers;
+    panda: BakedTrrrrrrrIsOIsO, derivatives_by_dual_numbers;
+    anymal: Baked4xTrrp, derivatives_by_dual_numbers;
+    go2: Baked4xTrrp, derivatives_by_dual_numbers;
     g1: BakedTrrrIrrrrrrrOIrrrrrrrO2xTrrrrpr;
     talos: BakedTrrIrrrrrrrrOIrrrrrrrrOIprO2xTrrrppr;
     humanoid: BakedTrrrIrrrrrrrOIrrrrrrrO2xTrrrrpr;

@@ -7,6 +7,7 @@ mod support;
 
 mod accuracy;
 mod closed_forms;
+mod derivatives;
 mod embedding;
 mod formulations;
 mod forward_dynamics;

@@ -3,12 +3,12 @@
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::formulation::{
-    self, Coordinates, Drive, Formulation, HingeCoordinates, HingeMotion, Parameters, Recognised,
-    inverse_dynamics, recognise,
+    self, Coordinates, Drive, Formulation, HingeCoordinates, HingeMotion, Layout, Parameters,
+    Recognised, inverse_dynamics, recognise,
 };
 use nboom::io::{Format, read_scene};
 use nboom::model::{HingeState, Mode};
-use nboom::scalar::{Dual, Twist, Vec3, Wrench};
+use nboom::scalar::{Derivatives, Dual, Twist, Vec3, Wrench};
 use serde_json::Value;
 
 use crate::support::{data, data_path, numbers, relative_error};
@@ -141,6 +141,36 @@ impl InState {
     }
 }
 
+impl InState {
+    /// The same by the chain rule through inverse dynamics, for angles, rates and torques.
+    fn by_chain_rule(&self) -> [Vec<f64>; 3] {
+        let Recognised { topology, parameters, .. } = &self.recognised;
+        let solution = Formulation::Articulated.solve(topology, parameters, &self.coordinates);
+        let state = self.coordinates.write(topology);
+        let accelerations = solution.write(topology);
+        let mut found = vec![0.0; accelerations.len() * state.len()];
+        Derivatives::of(&Layout::tree(topology), &parameters.write()).write(
+            &state,
+            &accelerations,
+            0..state.len(),
+            &mut found,
+        );
+        let (n, places) = (self.order.len(), Layout::places(topology));
+        let rows: Vec<usize> =
+            (0..6).chain(places.iter().map(|place| Layout::OUTPUT + place)).collect();
+        [0, 1, 2].map(|of_hinge| {
+            let mut all = vec![0.0; (6 + n) * n];
+            for (&place, &column) in places.iter().zip(&self.order) {
+                let along = Layout::hinge_in_state(topology, place)[of_hinge];
+                for (to, row) in self.rows(MAIN).into_iter().zip(&rows) {
+                    all[to * n + column] = found[row * state.len() + along];
+                }
+            }
+            all
+        })
+    }
+}
+
 /// Rows of the main body in the data.
 const MAIN: [usize; 6] = [0, 1, 2, 3, 4, 5];
 
@@ -171,6 +201,17 @@ fn derivatives_by_angles_rates_and_torques_are_those_of_pinocchio() {
                     "{name}, {formulation}, {key}: {error:e}"
                 );
             }
+        }
+    });
+}
+
+#[test]
+fn derivatives_by_the_chain_rule_are_those_of_pinocchio() {
+    for_each_robot(|name, robot, expected| {
+        let keys = ["by_angles", "by_rates", "by_torques"];
+        for (key, found) in keys.into_iter().zip(robot.by_chain_rule()) {
+            let error = relative_error(&found, &numbers(&expected[key]), 0.0);
+            assert!(error < TOLERANCE_OF_CLOSED_FORMS, "{name}, {key}: {error:e}");
         }
     });
 }

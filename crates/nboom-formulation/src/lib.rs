@@ -25,6 +25,7 @@ mod section5;
 pub mod stages;
 pub mod symmetric;
 mod symmetry;
+mod tree;
 
 pub use base::AtOrigin;
 pub use chain::ChainLink;

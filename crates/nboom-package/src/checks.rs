@@ -9,6 +9,7 @@ use crate::manifest::rust_name;
 const COMMON: &str = include_str!("../templates/certificate.rs");
 const NUMBERS: &str = include_str!("../templates/certificate_numbers.rs");
 const EQUATIONS: &str = include_str!("../templates/certificate_equations.rs");
+const DERIVATIVES: &str = include_str!("../templates/certificate_derivatives.rs");
 const TEST: &str = include_str!("../templates/certificate_test.rs");
 
 /// `tests/certificate.rs` of the crate `name`.
@@ -17,7 +18,9 @@ pub(crate) fn code(name: &str, routines: &[Routine]) -> String {
     let parts = NUMBERS.to_owned() + if has_equations { EQUATIONS } else { "" };
     let name = rust_name(name);
     let tests: String = routines.iter().map(|routine| test(&name, routine)).collect();
-    COMMON.replace("/*CRATE*/", &name) + &parts + &tests
+    // The first routine is that for the scene's accelerations.
+    let derivatives = DERIVATIVES.replace("/*NAME*/", &routines[0].request.name);
+    (COMMON.to_owned() + &parts + &derivatives).replace("/*CRATE*/", &name) + &tests
 }
 
 /// The test of one routine.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use nboom_codegen::Request;
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::{Joint, Mode, Scene, WeldedTree};
-use nboom_scalar::Twist;
+use nboom_scalar::{TreeLink, Twist};
 
 use crate::choices::Requests;
 use crate::manifest::rust_name;
@@ -83,6 +83,7 @@ pub(crate) fn files(
         ("USES", only_if(has_functions, "\nuse std::sync::OnceLock;\n")),
         ("HINGE_COUNT", recognised.links.len().to_string()),
         ("HINGE_LIST", hinges),
+        ("TREE_LIST", tree(recognised)),
         ("MORE_FUNCTIONS", equations.unwrap_or_default() + &inverse.unwrap_or_default()),
     ];
     let filled = |template: &str| {
@@ -154,6 +155,18 @@ fn hinges(scene: &Scene, recognised: &Recognised) -> String {
         );
     }
     rows.concat()
+}
+
+/// A line for each link of the tree that derivatives loop over.
+fn tree(recognised: &Recognised) -> String {
+    let line = |link: TreeLink| {
+        let TreeLink { inboard, joint, mount, body, angle, rate, torque, acceleration } = link;
+        format!(
+            "    TreeLink {{ inboard: {inboard:?}, joint: nboom_scalar::TreeJoint::{joint:?}, mount: \
+             nboom_scalar::TreeMount::{mount:?}, body: {body}, angle: {angle}, rate: {rate}, torque: {torque}, acceleration: {acceleration} }},\n"
+        )
+    };
+    Layout::tree(&recognised.topology).into_iter().map(line).collect()
 }
 
 /// What a formulation's equations are solved for.

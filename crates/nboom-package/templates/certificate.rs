@@ -42,16 +42,10 @@ fn evaluate(kernel: &Kernel, case: &Case) -> Vec<f64> {
 /// Large enough for unoptimised code of large trees, which keeps every number in a place of its own.
 const STACK: usize = 256 << 20;
 
-/// Compares on a large stack.
-fn compare<T: Routine>(
-    name: &str,
-    table: &str,
-    tolerance: f64,
-    off: fn(&[f64], &[f64], f64) -> f64,
-) {
+/// Does what such code is called in.
+fn on_large_stack(work: impl FnOnce() + Send) {
     thread::scope(|scope| {
-        let on_it = || compare_here::<T>(name, table, tolerance, off);
-        let thread = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, on_it);
+        let thread = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
         if let Err(failure) = thread.expect("there is memory").join() {
             panic::resume_unwind(failure);
         }
@@ -59,7 +53,7 @@ fn compare<T: Routine>(
 }
 
 /// `off` tells how far numbers are from those expected, relative to no less than a scale.
-fn compare_here<T: Routine>(
+fn compare<T: Routine>(
     name: &str,
     table: &str,
     tolerance: f64,

@@ -2,5 +2,5 @@
 #[test]
 fn /*FUNCTION*/_is_as_certified() {
     let table = include_str!("/*NAME*/.csv");
-    compare::</*CRATE*/::/*NAME*/>("/*NAME*/", table, /*TOLERANCE*/, /*OFF*/);
+    on_large_stack(|| compare::</*CRATE*/::/*NAME*/>("/*NAME*/", table, /*TOLERANCE*/, /*OFF*/));
 }

@@ -3,7 +3,8 @@
 pub mod nboom_scalar;
 mod routines;
 
-pub use nboom_scalar::{Kernel, Routine};
+use nboom_scalar::TreeLink;
+pub use nboom_scalar::{Derivatives, Kernel, Routine};
 pub use routines::{/*NAMES*/, kernels};
 
 /// Where the numbers of one hinge stand.
@@ -37,6 +38,21 @@ pub fn parameters() -> &'static [f64] {
     &PARAMETERS
 }
 /*HELD_IN_CODE*//*MORE_FUNCTIONS*/
+/// Derivatives of the scene's accelerations, all hinges free, for these parameters; compiled code is not needed for
+/// them.
+///
+/// # Panics
+/// When the parameters are not as many as the scene's.
+pub fn derivatives(parameters: &[f64]) -> Derivatives {
+    assert_eq!(parameters.len(), PARAMETERS.len(), "parameters of the scene");
+    Derivatives::of(&TREE, parameters)
+}
+
+/// The hinges as a tree, appendage by appendage in the order of the topology.
+#[rustfmt::skip]
+const TREE: [TreeLink; /*HINGE_COUNT*/] = [
+/*TREE_LIST*/];
+
 #[rustfmt::skip]
 const PARAMETERS: [f64; /*PARAMETER_COUNT*/] = [
 /*PARAMETER_LIST*/];

@@ -16,6 +16,7 @@
 mod batch;
 mod code;
 mod compiled;
+mod derivatives;
 mod double_double;
 mod dual;
 mod foreign;
@@ -40,6 +41,7 @@ pub use batch::{Batch, Eight};
 pub use compiled::{
     EightNumbers, Work, WorkOnEight, in_registers, in_vector_registers, vectorised,
 };
+pub use derivatives::{Derivatives, TreeJoint, TreeLink, TreeMount};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use foreign::{ForeignError, ForeignTable};

@@ -1,3 +1,5 @@
+use std::ops::Neg;
+
 use crate::{Mat3, Real, Sym3, Vec3};
 
 /// Moment about a reference point, and force; both along the same axes.
@@ -46,6 +48,15 @@ impl<R: Real> Wrench<R> {
     pub fn subtract(&mut self, other: Self) {
         self.moment -= other.moment;
         self.force -= other.force;
+    }
+}
+
+impl<R: Real> Neg for Wrench<R> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { moment: -self.moment, force: -self.force }
     }
 }
 

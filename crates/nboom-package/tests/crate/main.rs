@@ -2,6 +2,7 @@
 //! nothing over what somebody else has written.
 
 mod code;
+mod derivatives;
 mod freshness;
 mod library;
 mod readme;
