@@ -145,8 +145,11 @@ impl WorkOnEight for Evaluation<'_> {
             let many = COLUMNS.min(by.end - first);
             let outputs = (0..MAIN).chain(links.iter().map(|link| link.acceleration));
             for (row, output) in eight.iter().zip(outputs) {
-                let start = output * by.len() + (first - by.start);
-                derivatives[start..start + many].copy_from_slice(&row.0[..many]);
+                let to = &mut derivatives[output * by.len() + (first - by.start)..][..many];
+                match <&mut [f64; COLUMNS]>::try_from(&mut *to) {
+                    Ok(to) => *to = row.0,
+                    Err(_) => to.copy_from_slice(&row.0[..many]),
+                }
             }
         }
     }
@@ -172,7 +175,7 @@ impl Columns<'_> {
     /// Sets the rows of the main body in the column of a coordinate.
     #[inline(always)]
     fn set_main(&mut self, coordinate: usize, effort: Wrench<f64>) {
-        let entries = mass_matrix::numbers(effort);
+        let entries = mass_matrix::in_order(effort);
         entries.into_iter().enumerate().for_each(|(row, entry)| self.set(row, coordinate, entry));
     }
 
@@ -204,7 +207,7 @@ impl Columns<'_> {
         }
         changes.seen_from(joint);
         let Changes { by_acceleration, by_angle, by_rate, by_turning } = changes;
-        *of_link.with_main = mass_matrix::numbers(by_acceleration);
+        *of_link.with_main = mass_matrix::in_order(by_acceleration);
         self.set_main(link.angle, -by_angle);
         self.set_main(link.rate, -by_rate);
         let of_omega = by_acceleration.moment.cross(omega) + by_turning;

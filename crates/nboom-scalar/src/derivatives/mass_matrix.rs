@@ -7,8 +7,8 @@ use super::efforts::momentum;
 use super::tree::TreeLink;
 use crate::{Real, RigidInertia, Twist, Vec3, Wrench};
 
-/// A matrix, and after [`factor`](Self::factor) Lᵀ D L of it: links are eliminated from the tips inward, the main body last,
-/// so that no entry becomes other than zero that was zero before.
+/// A matrix, and after [`factor`](Self::factor) Lᵀ D L of it, with 1 / D and −L: links are eliminated from the tips inward, the
+/// main body last, so that no entry becomes other than zero that was zero before.
 #[derive(Clone, Debug)]
 pub(super) struct MassMatrix {
     /// For each link where its row begins among `carriers` and `rows`; one more at the end.
@@ -69,7 +69,7 @@ impl MassMatrix {
             let [a, b, c, x, y, z] = one;
             Twist { angular: Vec3::new(a, b, c), linear: Vec3::new(x, y, z) }
         };
-        self.main = array::from_fn(|i| numbers(momentum(all, unit(i))));
+        self.main = array::from_fn(|i| in_order(momentum(all, unit(i))));
     }
 
     /// Factors it in its place.
@@ -83,20 +83,20 @@ impl MassMatrix {
             let inverse = 1.0 / diagonal[i];
             let of_main = with_main[i];
             for (k, &carrier) in carriers.iter().enumerate() {
-                let factor = row[k] * inverse;
-                diagonal[carrier] -= factor * row[k];
+                let factor = -row[k] * inverse;
+                diagonal[carrier] += factor * row[k];
                 let others = &mut before[starts[carrier]..starts[carrier + 1]];
                 others
                     .iter_mut()
                     .zip(&row[k + 1..])
-                    .for_each(|(entry, other)| *entry -= factor * other);
+                    .for_each(|(entry, other)| *entry += factor * other);
                 let others = &mut with_main[carrier];
-                others.iter_mut().zip(&of_main).for_each(|(entry, other)| *entry -= factor * other);
+                others.iter_mut().zip(&of_main).for_each(|(entry, other)| *entry += factor * other);
                 row[k] = factor;
             }
-            let factors = of_main.map(|entry| entry * inverse);
+            let factors = of_main.map(|entry| -entry * inverse);
             for (row, factor) in main.iter_mut().zip(factors) {
-                row.iter_mut().zip(&of_main).for_each(|(entry, other)| *entry -= factor * other);
+                row.iter_mut().zip(&of_main).for_each(|(entry, other)| *entry += factor * other);
             }
             with_main[i] = factors;
             diagonal[i] = inverse;
@@ -105,8 +105,8 @@ impl MassMatrix {
             let row = main[i];
             let inverse = 1.0 / row[i];
             for k in 0..i {
-                let factor = row[k] * inverse;
-                (0..i).for_each(|l| main[k][l] -= factor * row[l]);
+                let factor = -row[k] * inverse;
+                (0..i).for_each(|l| main[k][l] += factor * row[l]);
                 main[i][k] = factor;
             }
             main[i][i] = inverse;
@@ -117,49 +117,52 @@ impl MassMatrix {
     #[inline(always)]
     pub fn solve<R: Real>(&self, columns: &mut [R]) {
         let (of_main, of_links) = columns.split_at_mut(MAIN);
-        let mut at_main: [R; MAIN] = array::from_fn(|i| of_main[i]);
+        let of_main: &mut [R; MAIN] = of_main.try_into().expect("six rows");
+        // In registers, since each link adds to it.
+        let mut main = *of_main;
         for i in (0..of_links.len()).rev() {
             let own = of_links[i];
-            let minus = -own;
             let row = self.starts[i]..self.starts[i + 1];
             for (&factor, &carrier) in self.rows[row.clone()].iter().zip(&self.carriers[row]) {
-                of_links[carrier] = minus.mul_add(R::constant(factor), of_links[carrier]);
+                of_links[carrier] = own.mul_add(R::constant(factor), of_links[carrier]);
             }
-            for (sum, &factor) in at_main.iter_mut().zip(&self.with_main[i]) {
-                *sum = minus.mul_add(R::constant(factor), *sum);
+            for k in 0..MAIN {
+                main[k] = own.mul_add(R::constant(self.with_main[i][k]), main[k]);
             }
             of_links[i] = own * R::constant(self.diagonal[i]);
         }
         for i in (0..MAIN).rev() {
             for k in 0..i {
-                at_main[k] -= at_main[i] * R::constant(self.main[i][k]);
+                main[k] = main[i].mul_add(R::constant(self.main[i][k]), main[k]);
             }
         }
         for i in 0..MAIN {
-            at_main[i] = at_main[i] * R::constant(self.main[i][i]);
+            main[i] = main[i] * R::constant(self.main[i][i]);
             for k in 0..i {
-                at_main[i] -= at_main[k] * R::constant(self.main[i][k]);
+                main[i] = main[k].mul_add(R::constant(self.main[i][k]), main[i]);
             }
         }
-        of_main.copy_from_slice(&at_main);
-        let minus = at_main.map(|number| -number);
+        *of_main = main;
         for i in 0..of_links.len() {
-            let mut sum = of_links[i];
-            for (&number, &factor) in minus.iter().zip(&self.with_main[i]) {
-                sum = number.mul_add(R::constant(factor), sum);
+            // Two sums, so that products do not wait for each other.
+            let (mut sum, mut other) = (of_links[i], R::zero());
+            for k in 0..MAIN / 2 {
+                sum = main[k].mul_add(R::constant(self.with_main[i][k]), sum);
+                let k = k + MAIN / 2;
+                other = main[k].mul_add(R::constant(self.with_main[i][k]), other);
             }
             let row = self.starts[i]..self.starts[i + 1];
             for (&factor, &carrier) in self.rows[row.clone()].iter().zip(&self.carriers[row]) {
-                sum = (-of_links[carrier]).mul_add(R::constant(factor), sum);
+                sum = of_links[carrier].mul_add(R::constant(factor), sum);
             }
-            of_links[i] = sum;
+            of_links[i] = sum + other;
         }
     }
 }
 
 /// Moment, then force.
 #[inline(always)]
-pub(super) fn numbers(wrench: Wrench<f64>) -> [f64; MAIN] {
+pub(super) fn in_order(wrench: Wrench<f64>) -> [f64; MAIN] {
     let ([a, b, c], [x, y, z]) = (wrench.moment.to_array(), wrench.force.to_array());
     [a, b, c, x, y, z]
 }
