@@ -4,7 +4,7 @@
 //! that implements the trait. The operations of [`Vec3`], [`Mat3`] and [`Sym3`] are spelled
 //! out in one fixed order, so that the same source gives the same roundings wherever it runs.
 //!
-//! This crate knows no bodies and no units.
+//! This crate knows no scenes and no units.
 //!
 //! ```
 //! use nboom_scalar::{Mat3, Vec3};
