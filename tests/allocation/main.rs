@@ -10,12 +10,13 @@ mod runs;
 
 use counting::allocations;
 use nboom::dynamics::{Accelerations, Momenta, Motion, Recursive};
+use nboom::formulation::Layout;
 use nboom::loads::{Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom::model::{
     HingeState, Material, Mode, Scene, SectionShape, SegmentStructure, Station, Structure,
 };
 use nboom::ode::{Method, System, Tolerance};
-use nboom::scalar::{Real, Vec3};
+use nboom::scalar::{Derivatives, Real, Vec3};
 use nboom_expr::{Expr, Graph};
 use nboom_series::Series;
 
@@ -85,6 +86,19 @@ fn evaluations_allocate_nothing() {
     );
     assert!(found.tau_dot.iter().chain(&matrix).chain(&forcing).all(|x| x.is_finite()));
     assert!(lengths[0] > 0.0);
+}
+
+#[test]
+fn derivatives_allocate_nothing() {
+    let topology = "2xS3_P_Trr(p)(s)".parse().expect("a topology");
+    let parameters: Vec<f64> =
+        (0..Layout::parameters(&topology)).map(|i| 2.0 + (i as f64).sin()).collect();
+    let mut derivatives = Derivatives::of(&Layout::tree(&topology), &parameters);
+    let state = vec![0.3; Layout::coordinates(&topology)];
+    let accelerations = vec![-0.7; Layout::outputs(&topology)];
+    let mut found = vec![0.0; accelerations.len() * state.len()];
+    let write = || derivatives.write(&state, &accelerations, 0..state.len(), &mut found);
+    assert_eq!(allocations(write), 0);
 }
 
 /// A station at each hinge.
