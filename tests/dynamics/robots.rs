@@ -139,9 +139,7 @@ impl InState {
         }
         all
     }
-}
 
-impl InState {
     /// The same by the chain rule through inverse dynamics, for angles, rates and torques.
     fn by_chain_rule(&self) -> [Vec<f64>; 3] {
         let Recognised { topology, parameters, .. } = &self.recognised;

@@ -1,7 +1,6 @@
 use nboom_model::WeldedTree;
 use nboom_scalar::{Mat3, Real, RigidInertia, Vec3, Wrench};
 
-use crate::invariants::momentum;
 use crate::pose::LinkPose;
 
 /// Fills the kinetic-energy matrix B₀ of (V, ω, τ), row by row, both triangles.
@@ -29,7 +28,7 @@ pub(crate) fn mass_matrix<R: Real>(
             Some(i) => composite[i].add(moved),
             None => main.add(moved),
         }
-        let mut wrench = momentum(&composite[j], poses[j].motion(R::one()));
+        let mut wrench = composite[j].momentum(poses[j].motion(R::one()));
         let mut at = j;
         put(6 + j, 6 + j, poses[j].along(&wrench));
         while let Some(i) = tree.links[at].inboard {

@@ -79,7 +79,7 @@ impl<R: Real> Recursive<R> {
         let (mut first_moment, mut linear_momentum) = (Vec3::zero(), Vec3::zero());
         for (position, inertia, twist) in self.moving_links(motion.omega_body) {
             first_moment += inertia.first_moment + position * inertia.mass;
-            linear_momentum += momentum(inertia, twist).force;
+            linear_momentum += inertia.momentum(twist).force;
         }
         let mass_center = first_moment * inverse_mass;
         let origin_velocity = center_velocity - linear_momentum * inverse_mass;
@@ -278,7 +278,7 @@ impl<R: Real> Invariants<R> {
         relative: Twist<R>,
         center_velocity: Vec3<R>,
     ) {
-        let Wrench { moment: about_hinge, force: momentum } = momentum(inertia, relative);
+        let Wrench { moment: about_hinge, force: momentum } = inertia.momentum(relative);
         let twice_energy = relative.linear.dot(momentum) + relative.angular.dot(about_hinge);
         let inertial_momentum = momentum + center_velocity * inertia.mass;
         let about_center = about_hinge + arm.cross(momentum);
@@ -287,16 +287,5 @@ impl<R: Real> Invariants<R> {
         self.angular_momentum += about_center;
         self.linear_momentum_scale += inertial_momentum.norm();
         self.angular_momentum_scale += about_center.norm();
-    }
-}
-
-/// Angular momentum about its origin (`moment`) and linear momentum (`force`) of a body that moves
-/// as `twist`.
-#[inline(always)]
-pub(crate) fn momentum<R: Real>(inertia: &RigidInertia<R>, twist: Twist<R>) -> Wrench<R> {
-    let first_moment = inertia.first_moment;
-    Wrench {
-        moment: first_moment.cross(twist.linear) + inertia.about_origin * twist.angular,
-        force: twist.linear * inertia.mass + twist.angular.cross(first_moment),
     }
 }

@@ -1,7 +1,6 @@
 use nboom_model::Joint;
 use nboom_scalar::{Number, Real, Twist, Vec3, Wrench};
 
-use crate::invariants::momentum;
 use crate::{Motion, Recursive, composite_body};
 
 /// Momenta conjugate to the motion about the mass centre, in place of ω and τ.
@@ -104,7 +103,7 @@ impl<R: Real> Recursive<R> {
     fn carry_momenta(&mut self) {
         let Self { tree, poses, twists, wrenches, .. } = self;
         for (wrench, (pose, &twist)) in wrenches.iter_mut().zip(poses.iter().zip(&*twists)) {
-            *wrench = momentum(&pose.inertia, twist);
+            *wrench = pose.inertia.momentum(twist);
         }
         composite_body::carry_inward(tree, poses, wrenches, Wrench::zero());
     }

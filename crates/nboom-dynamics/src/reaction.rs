@@ -1,6 +1,5 @@
 use nboom_scalar::{Real, Twist, Wrench};
 
-use crate::invariants::momentum;
 use crate::{Accelerations, Motion, Recursive, articulated_body, composite_body};
 
 impl<R: Real> Recursive<R> {
@@ -22,12 +21,12 @@ impl<R: Real> Recursive<R> {
             articulated_body::bias(tree, poses, omega_body, tau, omegas, twists, wrenches);
         let of_main =
             Twist { angular: accelerations.omega_dot_body, linear: accelerations.origin_body };
-        main.add(momentum(&tree.main, of_main));
+        main.add(tree.main.momentum(of_main));
         for (j, link) in tree.links.iter().enumerate() {
             let pose = &poses[j];
             twists[j] = link.inboard.map_or(of_main, |i| twists[i]).at(pose.offset);
             twists[j].add(pose.motion(accelerations.tau_dot[j]));
-            wrenches[j].add(momentum(&pose.inertia, twists[j]));
+            wrenches[j].add(pose.inertia.momentum(twists[j]));
         }
         let mut net = composite_body::carry_inward(tree, poses, wrenches, main);
         net.subtract(self.acting_from_outside());

@@ -3,7 +3,6 @@
 use nboom_scalar::{Real, Twist, Wrench};
 
 use crate::base::AtOrigin;
-use crate::pose::power;
 
 /// Hinges and the main body coupled as an arrow,
 ///
@@ -117,7 +116,7 @@ impl<R: Real> Eliminated<R> {
         let Arrow { inboard, hinges, columns, right, .. } = &self.arrow;
         let mut rates = vec![R::zero(); right.len()];
         for i in 0..right.len() {
-            let mut left = right[i] - power(main, columns[i]);
+            let mut left = right[i] - main.power(columns[i]);
             for j in Arrow::<R>::inward(inboard, i) {
                 left -= hinges[i][j] * rates[j];
             }

@@ -78,7 +78,7 @@ pub fn momenta<R: Real>(
     velocities: &Velocities<R>,
 ) -> Momenta<R> {
     R::remark(|| "Momenta of the velocities.".to_owned());
-    let mut main = pose::momentum(&parameters.main, velocities.main);
+    let mut main = parameters.main.momentum(velocities.main);
     let mut hinges = Vec::with_capacity(beta.len());
     for appendage in appendages(topology, parameters, beta, velocities) {
         main.add(appendage.about_origin());
@@ -227,7 +227,7 @@ fn carried<R: Real>(
             Shape::Limb(limb) => pose::no_limb(limb),
         };
         motion.angular = inboard + link.axis * rate;
-        let outboard = pose::momentum(&link.inertia, motion);
+        let outboard = link.inertia.momentum(motion);
         hinges.push(Carried { axis: link.axis, motion, outboard });
         motion = motion.at(link.hinge_offset);
     }

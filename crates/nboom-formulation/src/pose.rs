@@ -1,7 +1,7 @@
 //! The links of an appendage in one state, along appendage axes.
 
 use nboom_model::{Limb, Shape};
-use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Twist, Vec3, Wrench};
+use nboom_scalar::{Mat3, Real, RigidInertia, Sym3, Vec3, Wrench};
 
 use crate::chain::ChainLink;
 use crate::parameters::{Branch, HingeCoordinates};
@@ -163,23 +163,9 @@ pub(crate) fn relative<R: Real>(shape: &Shape, absolute: &[R]) -> Vec<R> {
     (0..absolute.len()).map(difference).collect()
 }
 
-/// Momentum and angular momentum about the origin of a body whose origin moves as `motion`.
-pub(crate) fn momentum<R: Real>(body: &RigidInertia<R>, motion: Twist<R>) -> Wrench<R> {
-    let c = body.first_moment;
-    Wrench {
-        moment: body.about_origin * motion.angular + c.cross(motion.linear),
-        force: motion.linear * body.mass + motion.angular.cross(c),
-    }
-}
-
 /// A wrench along the axes whose components `rot` gives.
 pub(crate) fn rotated<R: Real>(wrench: Wrench<R>, rot: &Mat3<R>) -> Wrench<R> {
     Wrench { moment: *rot * wrench.moment, force: *rot * wrench.force }
-}
-
-/// The power of a wrench on a motion.
-pub(crate) fn power<R: Real>(motion: Twist<R>, wrench: Wrench<R>) -> R {
-    motion.angular.dot(wrench.moment) + motion.linear.dot(wrench.force)
 }
 
 /// One quantity of each hinge.

@@ -254,14 +254,13 @@ fn columns<R: Real>(
     outboard: &[RigidInertia<R>],
 ) -> Vec<Wrench<R>> {
     let e1 = Vec3::unit_x();
-    let spun = |body: &RigidInertia<R>, axis| {
-        pose::momentum(body, Twist { angular: axis, linear: Vec3::zero() })
-    };
+    let spun =
+        |body: &RigidInertia<R>, axis| body.momentum(Twist { angular: axis, linear: Vec3::zero() });
     let column = |(i, link): (usize, &Posed<R>)| {
         let mut column = spun(&link.inertia, link.axis);
         if let Some(outer) = outboard.get(i + 1) {
             let carried = Twist { angular: Vec3::zero(), linear: e1.cross(link.hinge_offset) };
-            column.add(pose::momentum(outer, carried).seen_from(link.hinge_offset));
+            column.add(outer.momentum(carried).seen_from(link.hinge_offset));
         }
         if *shape == Shape::Paddle && i == 0 {
             column.add(spun(&links[1].inertia, e1).seen_from(link.hinge_offset));

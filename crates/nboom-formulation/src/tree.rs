@@ -39,8 +39,8 @@ impl Layout {
     }
 }
 
-/// Which link of its appendage carries a link, how it moves, and where it is mounted, if not on the main body; its numbers
-/// begin at `at`.
+/// Which link of its appendage carries a link whose numbers begin at `at`, how it moves, and its mount; that of a link on
+/// the main body has no meaning.
 fn mounted(shape: &Shape, link: usize, at: usize) -> (Option<usize>, TreeJoint, TreeMount) {
     // Of a chain or paddle the way to a link stands at the end of the numbers of its inboard one.
     let way_before = TreeMount::Parallel(at - Layout::WAY);

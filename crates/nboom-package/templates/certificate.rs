@@ -30,19 +30,19 @@ fn cases(table: &str, kernel: &Kernel) -> Vec<Case> {
     table.lines().skip(1).map(case).collect()
 }
 
-fn evaluate(kernel: &Kernel, case: &Case) -> Vec<f64> {
-    assert!(kernel.accepts(&case.parameters));
+fn evaluate(kernel: &Kernel, parameters: &[f64], state: &[f64]) -> Vec<f64> {
+    assert!(kernel.accepts(parameters));
     let mut constants = vec![0.0; kernel.constants];
-    kernel.prepare(&case.parameters, &mut constants);
+    kernel.prepare(parameters, &mut constants);
     let mut found = vec![0.0; kernel.outputs];
-    kernel.evaluate(&constants, &case.state, &mut found);
+    kernel.evaluate(&constants, state, &mut found);
     found
 }
 
 /// Large enough for unoptimised code of large trees, which keeps every number in a place of its own.
 const STACK: usize = 256 << 20;
 
-/// Does what such code is called in.
+/// Does `work`, which calls such code, on a stack of that size.
 fn on_large_stack(work: impl FnOnce() + Send) {
     thread::scope(|scope| {
         let thread = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
@@ -65,7 +65,7 @@ fn compare<T: Routine>(
         assert!(!cases.is_empty());
         let mut most = 0.0_f64;
         for case in &cases {
-            let off = off(&evaluate(&kernel, case), &case.expected, case.least);
+            let off = off(&evaluate(&kernel, &case.parameters, &case.state), &case.expected, case.least);
             most = most.max(if off.is_nan() { f64::INFINITY } else { off });
         }
         // The test harness keeps what passing tests print, but not what they write.

@@ -1,8 +1,8 @@
 //! Derivatives of the accelerations of a tree of one-axis joints, by the chain rule through its inverse dynamics.
 //!
-//! Accelerations a follow from M a + h = Q, with h the bias force and Q what is handed in. At fixed accelerations the
-//! effort E = M a + h has derivatives that one sweep outward and one inward give, all of them; those of the
-//! accelerations are M⁻¹ (∂Q − ∂E). `docs/equations.md` has the equations.
+//! Accelerations a follow from M a + h = Q, with h the bias force and Q the external wrench and torques. One sweep
+//! outward and one inward give all derivatives of the effort E = M a + h at fixed accelerations; those of the
+//! accelerations are M⁻¹ (∂Q − ∂E). nboom's `docs/equations.md` has the equations, in the section on derivatives.
 
 mod efforts;
 mod mass_matrix;
@@ -13,7 +13,7 @@ use std::ops::Range;
 use crate::batch::Eight;
 use crate::{EightNumbers, RigidInertia, Vec3, WorkOnEight, Wrench, in_registers};
 
-use efforts::{Changes, Moving, power};
+use efforts::{Changes, Moving};
 use mass_matrix::MassMatrix;
 use tree::{BodyOnMount, main_body, on_mount};
 pub use tree::{TreeJoint, TreeLink, TreeMount};
@@ -31,10 +31,11 @@ const BEFORE_HINGES: usize = OMEGA + MAIN;
 const MAIN: usize = 6;
 
 /// Exact derivatives of a satellite's accelerations with respect to its state: ω, external wrench, angles, rates and
-/// torques.
+/// torques. ω̇ and a_O are along the axes of the main body, as all of a state is; units are those of the parameters.
 ///
-/// It loops over the links of any tree, so no code is generated or compiled for it, and its time grows with the links
-/// times their depth. An evaluation allocates nothing.
+/// It loops over the links of any tree, so no code is generated or compiled for it. Its time grows with the links times
+/// their depth times the numbers of the state that are asked for, and that of the mass matrix with the links times the
+/// square of their depth. An evaluation allocates nothing.
 ///
 /// ```
 /// use nboom_scalar::{Derivatives, TreeJoint, TreeLink, TreeMount};
@@ -57,7 +58,7 @@ const MAIN: usize = 6;
 /// let (state, accelerations, by_torque) = ([0.0; 12], [0.0; 7], 11..12);
 /// let mut found = [0.0; 7];
 /// derivatives.write(&state, &accelerations, by_torque, &mut found);
-/// // The torque turns the main body back by 1 and the link forward by 12/11: it takes the main body along.
+/// // The torque gives the main body −1 and the link 12/11, not 1, since O gives way. Their difference is 23/11.
 /// assert!((found[0] + 1.0).abs() < 1e-14);
 /// assert!((found[6] - 23.0 / 11.0).abs() < 1e-14);
 /// ```
@@ -68,27 +69,37 @@ pub struct Derivatives {
     bodies: Vec<BodyOnMount>,
     moving: Vec<Moving>,
     matrix: MassMatrix,
-    /// Of [`COLUMNS`] columns after the other, a row for each link and [`MAIN`] of the main body.
+    /// Right sides, [`COLUMNS`] of them side by side: [`MAIN`] rows of the main body, then one of each link.
     right: Vec<Eight>,
 }
 
 impl Derivatives {
-    /// Of a tree, the inboard links before the outboard ones, with these parameters.
+    /// Those of a tree with these parameters; inboard links stand before outboard ones.
     ///
     /// # Panics
-    /// When a link stands before the one that carries it, or has numbers beyond the parameters.
+    /// When a link stands before the one that carries it, has numbers beyond the parameters, or shares a place in
+    /// states or accelerations with another.
     pub fn of(links: &[TreeLink], parameters: &[f64]) -> Self {
         let bodies: Vec<_> = links.iter().map(|link| on_mount(link, parameters)).collect();
         let matrix = MassMatrix::of(links);
         let columns = BEFORE_HINGES + 3 * links.len();
+        let in_states = links.iter().flat_map(|link| [link.angle, link.rate, link.torque]);
+        assert!(
+            are_all(in_states, BEFORE_HINGES..columns),
+            "each number of a state is of one link"
+        );
+        let rows = links.iter().map(|link| link.acceleration);
+        assert!(are_all(rows, MAIN..MAIN + links.len()), "each acceleration is of one link");
         let right = vec![Eight::default(); columns.div_ceil(COLUMNS) * (MAIN + links.len())];
         let moving = vec![Moving::at_rest(RigidInertia::zero()); links.len()];
         let main = main_body(parameters);
         Self { links: links.to_vec(), main, bodies, moving, matrix, right }
     }
 
-    /// Writes the derivatives in a `state` where the satellite has these `accelerations`: for each acceleration a row with
-    /// one number for each of the coordinates `by`.
+    /// Writes the derivatives in a `state` where the satellite has these `accelerations`: for each acceleration, in their
+    /// order, a row with one number for each of the coordinates `by`.
+    ///
+    /// Numbers are not finite where a link and all outboard of it have no inertia about its joint.
     ///
     /// # Panics
     /// When a slice does not have the length that the tree asks for, or `by` is beyond the state.
@@ -106,6 +117,13 @@ impl Derivatives {
         assert_eq!(derivatives.len(), accelerations.len() * by.len(), "room for each derivative");
         in_registers(Evaluation { of: self, state, accelerations, by, derivatives });
     }
+}
+
+/// Whether places are all of these, each once.
+fn are_all(places: impl Iterator<Item = usize>, all: Range<usize>) -> bool {
+    let mut places: Vec<usize> = places.collect();
+    places.sort_unstable();
+    places.into_iter().eq(all)
 }
 
 /// One evaluation.
@@ -179,8 +197,8 @@ impl Columns<'_> {
         entries.into_iter().enumerate().for_each(|(row, entry)| self.set(row, coordinate, entry));
     }
 
-    /// Of link `i`, of which all that is outboard is known: its row of the mass matrix, its columns at the bodies that carry
-    /// it, and its row in columns of these.
+    /// Sets the row of link `i` of the mass matrix, and the right sides in its columns and in its row, when all that is
+    /// outboard has been added.
     #[inline(always)]
     fn of_link(
         &mut self,
@@ -193,17 +211,17 @@ impl Columns<'_> {
         let (link, own, row) = (&links[i], &moving[i], MAIN + i);
         let mut changes = own.changes();
         let of_link = matrix.row(i);
-        *of_link.diagonal = power(own.axis, changes.by_acceleration);
+        *of_link.diagonal = own.axis.power(changes.by_acceleration);
         self.set_in_column(row, link, own, &changes);
         let mut joint = own.joint;
         for (&carrier, entry) in of_link.carriers.iter().zip(of_link.entries) {
             let moved = &moving[carrier];
             changes.seen_from(joint - moved.joint);
             joint = moved.joint;
-            *entry = power(moved.axis, changes.by_acceleration);
+            *entry = moved.axis.power(changes.by_acceleration);
             self.set_in_column(row, &links[carrier], moved, &changes);
-            self.set(MAIN + carrier, link.angle, -power(moved.axis, changes.by_angle));
-            self.set(MAIN + carrier, link.rate, -power(moved.axis, changes.by_rate));
+            self.set(MAIN + carrier, link.angle, -moved.axis.power(changes.by_angle));
+            self.set(MAIN + carrier, link.rate, -moved.axis.power(changes.by_rate));
         }
         changes.seen_from(joint);
         let Changes { by_acceleration, by_angle, by_rate, by_turning } = changes;
@@ -215,18 +233,18 @@ impl Columns<'_> {
         self.set(row, link.torque, 1.0);
     }
 
-    /// How the effort of the joint of `row` changes with angle and rate of one that carries it, or with its own.
+    /// Sets how the effort of a joint, that of `row`, changes with angle and rate of one that carries it, or with its own.
     #[inline(always)]
     fn set_in_column(&mut self, row: usize, link: &TreeLink, moved: &Moving, of: &Changes) {
         let Moving { axis, carried, carried_twice, .. } = moved;
         let (inertial, turning) = (of.by_acceleration, of.by_turning);
-        let of_angle = power(*carried_twice, inertial) + turning.dot(carried.angular);
-        let of_rate = 2.0 * power(*carried, inertial) + turning.dot(axis.angular);
+        let of_angle = carried_twice.power(inertial) + turning.dot(carried.angular);
+        let of_rate = 2.0 * carried.power(inertial) + turning.dot(axis.angular);
         self.set(row, link.angle, -of_angle);
         self.set(row, link.rate, -of_rate);
     }
 
-    /// Of the main body with all that it carries.
+    /// Sets the columns by ω in the rows of the main body, and those by the external wrench.
     #[inline(always)]
     fn of_main(&mut self, main: &Moving) {
         let along = [Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z()];

@@ -83,6 +83,12 @@ impl<R: Real> Twist<R> {
         self.linear += other.linear;
     }
 
+    /// The power of a wrench about the same point.
+    #[inline(always)]
+    pub fn power(self, wrench: Wrench<R>) -> R {
+        self.angular.dot(wrench.moment) + self.linear.dot(wrench.force)
+    }
+
     /// The rate of a point at `offset` of the same body.
     #[inline(always)]
     pub fn at(self, offset: Vec3<R>) -> Self {
@@ -159,6 +165,17 @@ impl<R: Real> RigidInertia<R> {
         self.mass += other.mass;
         self.first_moment += other.first_moment;
         self.about_origin += other.about_origin;
+    }
+
+    /// Angular momentum about the origin (`moment`) and momentum (`force`) of a body whose origin moves so; for
+    /// accelerations, the wrench that they take at no rates.
+    #[inline(always)]
+    pub fn momentum(&self, motion: Twist<R>) -> Wrench<R> {
+        let c = self.first_moment;
+        Wrench {
+            moment: self.about_origin * motion.angular + c.cross(motion.linear),
+            force: motion.linear * self.mass + motion.angular.cross(c),
+        }
     }
 
     /// Rate of change of momentum, and of angular momentum about the origin, of a body that

@@ -9,7 +9,6 @@ use crate::limb::inverse::{along_joint, forces};
 use crate::limb::outward::{of_main_body, outward};
 use crate::limb::stance::Stance;
 use crate::parameters::{Branch, HingeCoordinates, Mount};
-use crate::pose::momentum;
 
 /// The arrow over τ about O, along the axes of the first joint.
 pub(crate) fn composite<R: Real>(
@@ -29,7 +28,7 @@ pub(crate) fn composite<R: Real>(
     let mut rows = vec![Vec::new(); links.len()];
     let mut bodies: Vec<RigidInertia<R>> = moving.iter().map(|link| link.body.rigid()).collect();
     for i in (0..links.len()).rev() {
-        let mut column = momentum(&bodies[i], unit(links[i].joint));
+        let mut column = bodies[i].momentum(unit(links[i].joint));
         rows[i] = vec![R::zero(); i + 1];
         rows[i][i] = along_joint(links[i].joint, column);
         let mut at = i;

@@ -6,7 +6,6 @@ use nboom_scalar::{Real, Twist, Vec3, Wrench};
 use crate::inverse_dynamics::HingeMotion;
 use crate::limb::outward::{Moving, of_main_body, outward};
 use crate::parameters::Branch;
-use crate::pose::momentum;
 
 /// The wrench at the first joint, along its axes, and the generalised forces of all joints, when the main
 /// body turns at `omega` and the axes of the first joint have the accelerations `main` there.
@@ -48,7 +47,7 @@ pub(super) fn forces<R: Real>(
             LimbJoint::Prismatic => own.linear.x += tau_dot[i],
             LimbJoint::Revolute | LimbJoint::Parallel => own.angular.x += tau_dot[i],
         }
-        let mut wrench = momentum(&at.body.rigid(), own);
+        let mut wrench = at.body.rigid().momentum(own);
         wrench.add(at.body.wrench());
         reached.push(own);
         wrenches.push(wrench);

@@ -7,7 +7,7 @@ use crate::arrow::Arrow;
 use crate::base::AtOrigin;
 use crate::limb;
 use crate::parameters::{Branch, HingeCoordinates};
-use crate::pose::{self, Posed, each, momentum, power};
+use crate::pose::{self, Posed, each};
 
 /// The arrow about O over the rates that [`pose::absolute`] gives, of a limb over τ.
 pub(super) fn arrow<R: Real>(
@@ -252,8 +252,8 @@ fn paddle<R: Real>(links: &[Posed<R>], w: Vec3<R>, sigma: [R; 2], torque: &[R]) 
     composite.add(arm.inertia);
 
     let about = |axis| Twist { angular: axis, linear: Vec3::zero() };
-    let first = momentum(&composite, about(arm.axis));
-    let second = momentum(&paddle.inertia, about(paddle.axis));
+    let first = composite.momentum(about(arm.axis));
+    let second = paddle.inertia.momentum(about(paddle.axis));
     let at_arm = second.seen_from(arm.hinge_offset);
     let right =
         [torque[0] - arm.axis.dot(wrench.moment), torque[1] - paddle.axis.dot(outer.moment)];
@@ -261,7 +261,7 @@ fn paddle<R: Real>(links: &[Posed<R>], w: Vec3<R>, sigma: [R; 2], torque: &[R]) 
         inboard: inboard(2),
         hinges: vec![
             vec![arm.axis.dot(first.moment)],
-            vec![arm.axis.dot(at_arm.moment), power(about(paddle.axis), second)],
+            vec![arm.axis.dot(at_arm.moment), about(paddle.axis).power(second)],
         ],
         columns: vec![first.seen_from(arm.hinge), at_arm.seen_from(arm.hinge)],
         right: right.to_vec(),

@@ -7,7 +7,6 @@ use nboom_scalar::{ArticulatedInertia, Mat3, Real, RigidInertia, Twist, Vec3, Wr
 use crate::arrow::Arrow;
 use crate::base::AtOrigin;
 use crate::parameters::{Coordinates, HingeCoordinates, Solution};
-use crate::pose::{momentum, power};
 
 /// Accelerations of any tree; hinges are in the order of its links, in `coordinates` and in
 /// the solution.
@@ -73,8 +72,8 @@ impl<R: Real> Moving<R> {
     /// The rate of change of the momentum of a body about O that moves with the link, and of the
     /// rotors in it, if it has some.
     fn bias_wrench(&self, body: &RigidInertia<R>, spin: Option<Spin<R>>) -> Wrench<R> {
-        let (v, h) = (self.velocity, momentum(body, self.velocity));
-        let mut wrench = momentum(body, self.bias);
+        let (v, h) = (self.velocity, body.momentum(self.velocity));
+        let mut wrench = body.momentum(self.bias);
         if let Some(spin) = spin {
             wrench.moment += spin.rotated(&self.rot).moment(v.angular);
         }
@@ -100,9 +99,9 @@ fn arrow<R: Real>(tree: &WeldedTree<R>, coordinates: &Coordinates<R>) -> Arrow<R
     let moving = outward(tree, *omega, hinges);
     let mut base = AtOrigin::of_main_body(&tree.main, *omega, external);
     let shares = inward(tree, &moving, &mut base);
-    let column = |(at, share): (&Moving<R>, &Share<R>)| momentum(&share.body, at.axis);
+    let column = |(at, share): (&Moving<R>, &Share<R>)| share.body.momentum(at.axis);
     let columns: Vec<Wrench<R>> = moving.iter().zip(&shares).map(column).collect();
-    let right = |j: usize| hinges[j].torque - power(moving[j].axis, shares[j].bias);
+    let right = |j: usize| hinges[j].torque - moving[j].axis.power(shares[j].bias);
     Arrow {
         inboard: tree.links.iter().map(|link| link.inboard).collect(),
         hinges: (0..moving.len()).map(|j| row(tree, &moving, j, columns[j])).collect(),
@@ -161,7 +160,7 @@ fn inward<R: Real>(
 fn row<R: Real>(tree: &WeldedTree<R>, moving: &[Moving<R>], j: usize, column: Wrench<R>) -> Vec<R> {
     let mut row = vec![R::zero(); j + 1];
     for i in std::iter::successors(Some(j), |&i| tree.links[i].inboard) {
-        row[i] = power(moving[i].axis, column);
+        row[i] = moving[i].axis.power(column);
     }
     row
 }

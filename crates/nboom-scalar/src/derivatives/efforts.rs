@@ -4,7 +4,7 @@
 use super::tree::{BodyOnMount, TreeJoint, TreeLink};
 use crate::{Mat3, RigidInertia, Sym3, Twist, Vec3, Wrench};
 
-/// A body in motion with all that is outboard of it.
+/// A body in motion, and sums over it and all that is outboard of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moving {
     rot: Mat3<f64>,
@@ -18,13 +18,13 @@ pub(super) struct Moving {
     pub carried: Twist<f64>,
     /// Ψ̈ = A × S + V × Ψ̇, with A and V of what carries the link.
     pub carried_twice: Twist<f64>,
-    /// Of the body and what is outboard, as are the following.
+    /// Of the body and all that is outboard, as are the fields below.
     pub inertia: RigidInertia<f64>,
-    /// The symmetric part of how the moment depends on the angular rate.
-    spread: Sym3<f64>,
+    /// Y, the symmetric part of the angular block of 2 B, where B is the Coriolis matrix.
+    coriolis: Sym3<f64>,
     /// Angular and linear momentum.
     momentum: Wrench<f64>,
-    /// What makes it move so.
+    /// F, the wrench that the motion takes.
     effort: Wrench<f64>,
 }
 
@@ -33,9 +33,9 @@ pub(super) struct Moving {
 pub(super) struct Changes {
     /// I S, the effort for an acceleration of one.
     pub by_acceleration: Wrench<f64>,
-    /// ∂F by the angle, F of any body inboard of the joint.
+    /// How the effort of any body inboard of the joint changes with the angle.
     pub by_angle: Wrench<f64>,
-    /// ∂F by the rate.
+    /// The same with the rate.
     pub by_rate: Wrench<f64>,
     /// How the joint's own effort changes with the velocity of what carries the link, beyond inertia: it depends on the
     /// angular part alone.
@@ -43,7 +43,7 @@ pub(super) struct Changes {
 }
 
 impl Changes {
-    /// The efforts about a point from which the old one is seen at `way`.
+    /// Moves the efforts to a reference point from which the old one is seen at `way`.
     #[inline(always)]
     pub fn seen_from(&mut self, way: Vec3<f64>) {
         for effort in [&mut self.by_acceleration, &mut self.by_angle, &mut self.by_rate] {
@@ -53,7 +53,7 @@ impl Changes {
 }
 
 impl Moving {
-    /// A main body that nothing moves.
+    /// A body at rest, nothing outboard.
     pub fn at_rest(inertia: RigidInertia<f64>) -> Self {
         let zero = Twist::zero();
         Self {
@@ -65,28 +65,27 @@ impl Moving {
             carried: zero,
             carried_twice: zero,
             inertia,
-            spread: Sym3::zero(),
+            coriolis: Sym3::zero(),
             momentum: Wrench::zero(),
             effort: Wrench::zero(),
         }
     }
 
-    /// Takes `inertia` in this motion for its own, nothing outboard.
+    /// Begins the sums with the body itself in its motion.
     #[inline(always)]
     fn move_body(&mut self, inertia: RigidInertia<f64>) {
         let Twist { angular: w, linear: v } = self.velocity;
-        let RigidInertia { mass, first_moment: c, about_origin: j } = inertia;
-        let momentum = momentum(&inertia, self.velocity);
-        // ω × J − J ω×, and what the velocity of O adds.
+        let RigidInertia { first_moment: c, about_origin: j, .. } = inertia;
+        let momentum = inertia.momentum(self.velocity);
+        // ω × J − J ω×, and what the velocity of the reference point adds.
         let turned = Mat3::skew(w) * j.to_matrix();
         let along = 2.0 * c.dot(v);
         let both = turned + turned.transpose();
-        self.inertia = RigidInertia { mass, first_moment: c, about_origin: j };
-        self.spread = Sym3::upper_of(&both)
-            + Sym3::diagonal(along, along, along)
-            + Sym3::outer_twice(c, v) * -1.0;
+        self.inertia = inertia;
+        self.coriolis =
+            Sym3::upper_of(&both) + Sym3::diagonal(along, along, along) - Sym3::outer_twice(c, v);
         self.momentum = momentum;
-        self.effort = self::momentum(&inertia, self.acceleration);
+        self.effort = inertia.momentum(self.acceleration);
         self.effort.add(cross_wrench(self.velocity, momentum));
     }
 
@@ -97,18 +96,18 @@ impl Moving {
         let p = outboard.momentum.force;
         let along = 2.0 * way.dot(p);
         self.inertia.add(outboard.inertia.seen_from(way));
-        self.spread += outboard.spread + Sym3::diagonal(along, along, along);
-        self.spread += Sym3::outer_twice(p, way) * -1.0;
+        let shift = Sym3::diagonal(along, along, along) - Sym3::outer_twice(p, way);
+        self.coriolis += outboard.coriolis + shift;
         self.momentum.add(outboard.momentum.seen_from(way));
         self.effort.add(outboard.effort.seen_from(way));
     }
 
-    /// 2 B Ψ: how the effort changes with a velocity of `angular` at O, beyond inertia.
+    /// 2 B Ψ, which depends on the angular part of the motion Ψ alone.
     #[inline(always)]
     fn of_velocity(&self, angular: Vec3<f64>) -> Wrench<f64> {
         let Wrench { moment: l, force: p } = self.momentum;
         let force = angular.cross(p);
-        Wrench { moment: self.spread * angular - l.cross(angular), force: force + force }
+        Wrench { moment: self.coriolis * angular - l.cross(angular), force: force + force }
     }
 
     /// How efforts change with the joint.
@@ -117,16 +116,16 @@ impl Moving {
         let Twist { angular: s, linear: l } = self.axis;
         let Wrench { moment: angular_momentum, force: p } = self.momentum;
         let mut by_angle = cross_wrench(self.axis, self.effort);
-        by_angle.add(momentum(&self.inertia, self.carried_twice));
+        by_angle.add(self.inertia.momentum(self.carried_twice));
         by_angle.add(self.of_velocity(self.carried.angular));
-        let mut by_rate = momentum(&self.inertia, twice(self.carried));
+        let mut by_rate = self.inertia.momentum(times(self.carried, 2.0));
         by_rate.add(self.of_velocity(s));
         let by_force = p.cross(l);
         Changes {
-            by_acceleration: momentum(&self.inertia, self.axis),
+            by_acceleration: self.inertia.momentum(self.axis),
             by_angle,
             by_rate,
-            by_turning: self.spread * s + angular_momentum.cross(s) + (by_force + by_force),
+            by_turning: self.coriolis * s + angular_momentum.cross(s) + (by_force + by_force),
         }
     }
 
@@ -134,13 +133,13 @@ impl Moving {
     #[inline(always)]
     pub fn by_omega(&self, along: Vec3<f64>) -> Wrench<f64> {
         let angular = self.velocity.angular.cross(along);
-        let mut by_omega = momentum(&self.inertia, Twist { angular, linear: Vec3::zero() });
+        let mut by_omega = self.inertia.momentum(Twist { angular, linear: Vec3::zero() });
         by_omega.add(self.of_velocity(along));
         by_omega
     }
 }
 
-/// Moves the main body and the links.
+/// Sets how main body and links move, and begins their sums.
 #[inline(always)]
 pub(super) fn outward(
     links: &[TreeLink],
@@ -199,16 +198,17 @@ pub(super) fn outward(
     }
 }
 
-/// Adds up what is outboard of each link and of the main body; `tell` hears of a link when all of that is known.
+/// Adds up what is outboard of each link and of the main body; `visit` is called for each link once all of that
+/// is known.
 #[inline(always)]
 pub(super) fn inward(
     links: &[TreeLink],
     main: &mut Moving,
     moving: &mut [Moving],
-    mut tell: impl FnMut(&[Moving], usize),
+    mut visit: impl FnMut(&[Moving], usize),
 ) {
     for (i, link) in links.iter().enumerate().rev() {
-        tell(moving, i);
+        visit(moving, i);
         let (before, outboard) = moving.split_at_mut(i);
         link.inboard.map_or(&mut *main, |inboard| &mut before[inboard]).add(&outboard[0]);
     }
@@ -226,16 +226,6 @@ fn turned(axes: &Mat3<f64>, (sin, cos): (f64, f64)) -> Mat3<f64> {
 fn turned_about_second(axes: &Mat3<f64>, (sin, cos): (f64, f64)) -> Mat3<f64> {
     let row = |Vec3 { x, y, z }| Vec3::new(x * cos - z * sin, y, x * sin + z * cos);
     Mat3 { rows: axes.rows.map(row) }
-}
-
-/// I V.
-#[inline(always)]
-pub(super) fn momentum(body: &RigidInertia<f64>, motion: Twist<f64>) -> Wrench<f64> {
-    let (c, Twist { angular, linear }) = (body.first_moment, motion);
-    Wrench {
-        moment: body.about_origin * angular + c.cross(linear),
-        force: linear * body.mass + angular.cross(c),
-    }
 }
 
 /// V × S of motions.
@@ -259,15 +249,4 @@ fn cross_wrench(by: Twist<f64>, of: Wrench<f64>) -> Wrench<f64> {
 #[inline(always)]
 fn times(motion: Twist<f64>, by: f64) -> Twist<f64> {
     Twist { angular: motion.angular * by, linear: motion.linear * by }
-}
-
-#[inline(always)]
-fn twice(motion: Twist<f64>) -> Twist<f64> {
-    times(motion, 2.0)
-}
-
-/// The power of a wrench in a motion.
-#[inline(always)]
-pub(super) fn power(motion: Twist<f64>, wrench: Wrench<f64>) -> f64 {
-    motion.angular.dot(wrench.moment) + motion.linear.dot(wrench.force)
 }

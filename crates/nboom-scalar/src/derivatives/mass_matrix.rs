@@ -1,14 +1,14 @@
-//! The mass matrix of a tree, of which rows of a link meet columns of those that carry it and of no others.
+//! The mass matrix of a tree. The row of a link has entries with itself, with the links that carry it and with the main
+//! body; the others are zero.
 
 use std::array;
 
 use super::MAIN;
-use super::efforts::momentum;
 use super::tree::TreeLink;
 use crate::{Real, RigidInertia, Twist, Vec3, Wrench};
 
 /// A matrix, and after [`factor`](Self::factor) Lᵀ D L of it, with 1 / D and −L: links are eliminated from the tips inward, the
-/// main body last, so that no entry becomes other than zero that was zero before.
+/// main body last, so that zeros stay zero.
 #[derive(Clone, Debug)]
 pub(super) struct MassMatrix {
     /// For each link where its row begins among `carriers` and `rows`; one more at the end.
@@ -32,7 +32,10 @@ pub(super) struct Row<'a> {
 }
 
 impl MassMatrix {
-    /// Of a tree.
+    /// Of a tree, all entries zero.
+    ///
+    /// # Panics
+    /// When a link stands before the one that carries it.
     pub fn of(links: &[TreeLink]) -> Self {
         let (mut starts, mut carriers) = (vec![0], Vec::<usize>::new());
         for (i, link) in links.iter().enumerate() {
@@ -69,7 +72,7 @@ impl MassMatrix {
             let [a, b, c, x, y, z] = one;
             Twist { angular: Vec3::new(a, b, c), linear: Vec3::new(x, y, z) }
         };
-        self.main = array::from_fn(|i| in_order(momentum(all, unit(i))));
+        self.main = array::from_fn(|i| in_order(all.momentum(unit(i))));
     }
 
     /// Factors it in its place.

@@ -9,7 +9,8 @@ pub struct TreeLink {
     pub joint: TreeJoint,
     /// Where its joint is.
     pub mount: TreeMount,
-    /// Where its mass, first moment and moments about its joint begin among the parameters.
+    /// Where its ten numbers begin among the parameters: mass, first moment, moments J_xx, J_yy, J_zz and products J_xy,
+    /// J_xz, J_yz about its joint, along its own axes.
     pub body: usize,
     /// Where its angle or travel stands in a state.
     pub angle: usize,
