@@ -163,7 +163,8 @@ fn tree(recognised: &Recognised) -> String {
         let TreeLink { inboard, joint, mount, body, angle, rate, torque, acceleration } = link;
         format!(
             "    TreeLink {{ inboard: {inboard:?}, joint: nboom_scalar::TreeJoint::{joint:?}, mount: \
-             nboom_scalar::TreeMount::{mount:?}, body: {body}, angle: {angle}, rate: {rate}, torque: {torque}, acceleration: {acceleration} }},\n"
+             nboom_scalar::TreeMount::{mount:?}, body: {body}, angle: {angle}, rate: {rate}, torque: \
+             {torque}, acceleration: {acceleration} }},\n"
         )
     };
     Layout::tree(&recognised.topology).into_iter().map(line).collect()

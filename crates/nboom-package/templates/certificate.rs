@@ -65,7 +65,8 @@ fn compare<T: Routine>(
         assert!(!cases.is_empty());
         let mut most = 0.0_f64;
         for case in &cases {
-            let off = off(&evaluate(&kernel, &case.parameters, &case.state), &case.expected, case.least);
+            let found = evaluate(&kernel, &case.parameters, &case.state);
+            let off = off(&found, &case.expected, case.least);
             most = most.max(if off.is_nan() { f64::INFINITY } else { off });
         }
         // The test harness keeps what passing tests print, but not what they write.

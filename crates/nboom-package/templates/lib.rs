@@ -38,8 +38,8 @@ pub fn parameters() -> &'static [f64] {
     &PARAMETERS
 }
 /*HELD_IN_CODE*//*MORE_FUNCTIONS*/
-/// Derivatives of the scene's accelerations, all hinges free, for these parameters. They loop over the hinges and use no
-/// routine.
+/// Derivatives of the scene's accelerations, all hinges free, for these parameters. They loop over the
+/// hinges and use no routine.
 ///
 /// # Panics
 /// When the parameters are not as many as the scene's.

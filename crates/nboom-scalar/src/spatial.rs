@@ -1,4 +1,4 @@
-use std::ops::Neg;
+use std::ops::{Mul, Neg};
 
 use crate::{Mat3, Real, Sym3, Vec3};
 
@@ -83,6 +83,24 @@ impl<R: Real> Twist<R> {
         self.linear += other.linear;
     }
 
+    /// How a motion at the same point changes that is carried along by this one, `self` × `carried`.
+    #[inline(always)]
+    pub fn cross(self, carried: Self) -> Self {
+        Self {
+            angular: self.angular.cross(carried.angular),
+            linear: self.angular.cross(carried.linear) + self.linear.cross(carried.angular),
+        }
+    }
+
+    /// How a wrench or momentum about the same point changes that is carried along, `self` ×\* `carried`.
+    #[inline(always)]
+    pub fn cross_wrench(self, carried: Wrench<R>) -> Wrench<R> {
+        Wrench {
+            moment: self.angular.cross(carried.moment) + self.linear.cross(carried.force),
+            force: self.angular.cross(carried.force),
+        }
+    }
+
     /// The power of a wrench about the same point.
     #[inline(always)]
     pub fn power(self, wrench: Wrench<R>) -> R {
@@ -93,6 +111,15 @@ impl<R: Real> Twist<R> {
     #[inline(always)]
     pub fn at(self, offset: Vec3<R>) -> Self {
         Self { angular: self.angular, linear: self.linear + self.angular.cross(offset) }
+    }
+}
+
+impl<R: Real> Mul<R> for Twist<R> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: R) -> Self {
+        Self { angular: self.angular * factor, linear: self.linear * factor }
     }
 }
 

@@ -55,11 +55,8 @@ impl<R: Real> Moving<R> {
         let along = at_zero * link.axis;
         let hinge_point = point + link.joint.travel(along, hinge.beta);
         let axis = link.joint.motion(along, R::one()).at(-hinge_point);
-        let (own, carried) = (scaled(axis, hinge.tau), self.velocity);
-        let turned = Twist {
-            angular: carried.angular.cross(own.angular),
-            linear: carried.angular.cross(own.linear) + carried.linear.cross(own.angular),
-        };
+        let (own, carried) = (axis * hinge.tau, self.velocity);
+        let turned = carried.cross(own);
         Self {
             rot: at_zero * link.joint.turn(link.axis, hinge.beta),
             hinge: hinge_point,
@@ -77,20 +74,13 @@ impl<R: Real> Moving<R> {
         if let Some(spin) = spin {
             wrench.moment += spin.rotated(&self.rot).moment(v.angular);
         }
-        wrench.add(Wrench {
-            moment: v.angular.cross(h.moment) + v.linear.cross(h.force),
-            force: v.angular.cross(h.force),
-        });
+        wrench.add(v.cross_wrench(h));
         wrench
     }
 }
 
 fn sum<R: Real>(a: Twist<R>, b: Twist<R>) -> Twist<R> {
     Twist { angular: a.angular + b.angular, linear: a.linear + b.linear }
-}
-
-fn scaled<R: Real>(a: Twist<R>, factor: R) -> Twist<R> {
-    Twist { angular: a.angular * factor, linear: a.linear * factor }
 }
 
 /// The arrow of the whole tree, which has the main link as its base.

@@ -86,7 +86,7 @@ impl Moving {
             Sym3::upper_of(&both) + Sym3::diagonal(along, along, along) - Sym3::outer_twice(c, v);
         self.momentum = momentum;
         self.effort = inertia.momentum(self.acceleration);
-        self.effort.add(cross_wrench(self.velocity, momentum));
+        self.effort.add(self.velocity.cross_wrench(momentum));
     }
 
     /// Adds what is outboard.
@@ -115,10 +115,10 @@ impl Moving {
     pub fn changes(&self) -> Changes {
         let Twist { angular: s, linear: l } = self.axis;
         let Wrench { moment: angular_momentum, force: p } = self.momentum;
-        let mut by_angle = cross_wrench(self.axis, self.effort);
+        let mut by_angle = self.axis.cross_wrench(self.effort);
         by_angle.add(self.inertia.momentum(self.carried_twice));
         by_angle.add(self.of_velocity(self.carried.angular));
-        let mut by_rate = self.inertia.momentum(times(self.carried, 2.0));
+        let mut by_rate = self.inertia.momentum(self.carried * 2.0);
         by_rate.add(self.of_velocity(s));
         let by_force = p.cross(l);
         Changes {
@@ -177,12 +177,12 @@ pub(super) fn outward(
         }
         let joint = carrier.joint + way;
         let (mut velocity, mut motion) = (carrier.velocity.at(way), carrier.acceleration.at(way));
-        let carried = cross_twist(velocity, axis);
-        let mut carried_twice = cross_twist(motion, axis);
-        carried_twice.add(cross_twist(velocity, carried));
-        velocity.add(times(axis, rate));
-        motion.add(times(axis, acceleration));
-        motion.add(times(carried, rate));
+        let carried = velocity.cross(axis);
+        let mut carried_twice = motion.cross(axis);
+        carried_twice.add(velocity.cross(carried));
+        velocity.add(axis * rate);
+        motion.add(axis * acceleration);
+        motion.add(carried * rate);
         let moved = &mut moving[i];
         *moved = Moving {
             rot,
@@ -226,27 +226,4 @@ fn turned(axes: &Mat3<f64>, (sin, cos): (f64, f64)) -> Mat3<f64> {
 fn turned_about_second(axes: &Mat3<f64>, (sin, cos): (f64, f64)) -> Mat3<f64> {
     let row = |Vec3 { x, y, z }| Vec3::new(x * cos - z * sin, y, x * sin + z * cos);
     Mat3 { rows: axes.rows.map(row) }
-}
-
-/// V × S of motions.
-#[inline(always)]
-fn cross_twist(by: Twist<f64>, of: Twist<f64>) -> Twist<f64> {
-    Twist {
-        angular: by.angular.cross(of.angular),
-        linear: by.angular.cross(of.linear) + by.linear.cross(of.angular),
-    }
-}
-
-/// V ×* h of a wrench or momentum.
-#[inline(always)]
-fn cross_wrench(by: Twist<f64>, of: Wrench<f64>) -> Wrench<f64> {
-    Wrench {
-        moment: by.angular.cross(of.moment) + by.linear.cross(of.force),
-        force: by.angular.cross(of.force),
-    }
-}
-
-#[inline(always)]
-fn times(motion: Twist<f64>, by: f64) -> Twist<f64> {
-    Twist { angular: motion.angular * by, linear: motion.linear * by }
 }
