@@ -20,7 +20,7 @@ const RECORD: &str = "json";
 const REPEATED: &str = "-repeated";
 
 /// Options that concern only where a scene is read.
-const OF_THE_INPUT: [&str; 4] = ["set", "format", "include-anywhere", "case"];
+const OF_THE_INPUT: [&str; 5] = ["set", "format", "include-anywhere", "fixed-base", "case"];
 
 /// Whether a run is asked to repeat another.
 pub(crate) fn is_record(path: &Path) -> bool {

@@ -28,6 +28,10 @@ pub struct SceneArgs {
     /// Let the scene include files outside of its folder.
     #[arg(long)]
     pub include_anywhere: bool,
+
+    /// Fix the main body of a robot to the ground; a scene says so itself.
+    #[arg(long)]
+    pub fixed_base: bool,
 }
 
 /// The argument for standard input.
@@ -45,7 +49,8 @@ impl SceneArgs {
     /// When it cannot be read or is wrong, and when only one of `-` and `--format` is there.
     pub(crate) fn read(&self) -> Result<SceneFile, CliError> {
         let set = self.set.clone();
-        let options = ReadOptions { set, ..read_options(self.include_anywhere) };
+        let fixed_base = self.fixed_base;
+        let options = ReadOptions { set, fixed_base, ..read_options(self.include_anywhere) };
         match (self.scene == Path::new(STANDARD_INPUT), self.format) {
             (false, None) => Ok(read_scene_with(&self.scene, &options)?),
             (true, Some(format)) => {

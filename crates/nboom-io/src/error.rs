@@ -43,6 +43,14 @@ pub enum InputError {
         /// The deck or the robot.
         file: String,
     },
+    /// A main body is to be fixed that no robot has.
+    #[error(
+        "{file}: --fixed-base found, which only a robot in URDF can take; a scene says base = \"fixed\" itself"
+    )]
+    NoRobot {
+        /// The scene or the deck.
+        file: String,
+    },
     /// The file is too long.
     #[error("{}: found more than {limit} bytes, expected at most that many", path.display())]
     TooLarge {

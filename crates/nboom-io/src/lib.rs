@@ -83,7 +83,7 @@ pub mod words;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use nboom_model::{Scene, Structure, UnitSystem, WantedTable};
+use nboom_model::{Base, Scene, Structure, UnitSystem, WantedTable};
 
 pub use deck::{
     Absent, DeckDefect, DeckObstacle, Extent, Group, LARGEST_COUNT, NEVER, NumberKind, Numbering,
@@ -152,10 +152,10 @@ pub fn read_scene(path: &Path) -> Result<SceneFile, InputError> {
     read_scene_with(path, &ReadOptions::default())
 }
 
-/// As [`read_scene`]; decks and robots have no parameters.
+/// As [`read_scene`]; decks and robots have no parameters, and only the base of a robot can be fixed.
 ///
 /// # Errors
-/// Those of [`read_scene`], and parameters that the scene does not have.
+/// Those of [`read_scene`], parameters that the scene does not have, and a fixed base of what is no robot.
 pub fn read_scene_with(path: &Path, options: &ReadOptions) -> Result<SceneFile, InputError> {
     let (format, text, sha256) = source::read_file(path)?;
     let name = source::scene_name(path);
@@ -184,8 +184,8 @@ pub fn read_scene_from(
 /// Reads the text of a scene, a deck or a robot. Files that a scene includes lie in `folder`.
 ///
 /// # Errors
-/// Those of [`parse_scene`], [`parse_deck`] and [`parse_robot`], and parameters that are given for one of the
-/// two latter.
+/// Those of [`parse_scene`], [`parse_deck`] and [`parse_robot`], parameters that are given for one of the two latter, and
+/// a fixed base of one of the two former.
 pub fn parse(
     format: Format,
     (file, text): (&str, &str),
@@ -194,11 +194,17 @@ pub fn parse(
     options: &ReadOptions,
 ) -> Result<SceneFile, InputError> {
     match format {
+        Format::Toml | Format::Nml if options.fixed_base => {
+            Err(InputError::NoRobot { file: file.to_owned() })
+        }
         Format::Toml => parse_scene(file, text, name, folder, options),
         Format::Nml | Format::Urdf if !options.set.is_empty() => {
             Err(InputError::NoParameters { file: file.to_owned() })
         }
         Format::Nml => parse_deck(file, text, name),
-        Format::Urdf => parse_robot(file, text, name),
+        Format::Urdf => {
+            let base = if options.fixed_base { Base::Fixed } else { Base::Free };
+            parse_robot(file, text, name, base)
+        }
     }
 }

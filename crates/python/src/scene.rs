@@ -72,8 +72,13 @@ impl Scene {
 impl Scene {
     /// Reads a scene `NAME.toml`, a deck `NAME.nml` or a robot `NAME.urdf`.
     #[staticmethod]
-    fn load(path: PathBuf, set: Vec<(String, f64)>, include_anywhere: bool) -> PyResult<Self> {
-        let options = ReadOptions { set, includes_from_anywhere: include_anywhere };
+    fn load(
+        path: PathBuf,
+        set: Vec<(String, f64)>,
+        include_anywhere: bool,
+        fixed_base: bool,
+    ) -> PyResult<Self> {
+        let options = ReadOptions { set, includes_from_anywhere: include_anywhere, fixed_base };
         let file = nboom_io::read_scene_with(&path, &options).map_err(of_input)?;
         let scene = Self::of(file);
         if Format::of(&path) == Some(Format::Toml) {

@@ -53,13 +53,15 @@ pub use schema::schema;
 pub(crate) use sources::{Place, Sources};
 pub use write::write_scene;
 
-/// How a scene in TOML is read.
+/// How a scene is read.
 #[derive(Clone, Debug, Default)]
 pub struct ReadOptions {
     /// Parameters that take the place of the scene's own values.
     pub set: Vec<(String, f64)>,
     /// Whether included files may lie outside of the scene's folder.
     pub includes_from_anywhere: bool,
+    /// Whether the main body of a robot is fixed to the ground.
+    pub fixed_base: bool,
 }
 
 /// Reads the text of a scene in TOML. [`SCENE`] has its tables and keys.

@@ -8,7 +8,7 @@ mod links;
 mod reader;
 mod tree;
 
-use nboom_model::{Scene, UnitSystem};
+use nboom_model::{Base, Scene, UnitSystem};
 use roxmltree::{Document, Error as XmlError};
 
 use crate::deck::phrases;
@@ -23,16 +23,21 @@ use reader::Reader;
 /// Reads the text of a robot in URDF, the format of ROS.
 ///
 /// `file` is the file's name for messages; the scene is called `name` where the robot has no name. The root
-/// link is the main body, which floats. Joints that turn become hinges, each named like its link; links are
+/// link is the main body, which this base holds. Joints that turn become hinges, each named like its link; links are
 /// welded to those that they are fixed to. Everything starts at rest with all angles zero, and the run ends
 /// after ten seconds. Damping is taken over; what is not, limits and friction for instance, is named in the
 /// warnings.
 ///
 /// # Errors
 /// [`InputError::Content`] with everything that is wrong, in the order of the lines.
-pub fn parse_robot(file: &str, text: &str, name: &str) -> Result<SceneFile, InputError> {
+pub fn parse_robot(
+    file: &str,
+    text: &str,
+    name: &str,
+    base: Base,
+) -> Result<SceneFile, InputError> {
     let mut report = Report::new(file);
-    let scene = read(text, name, &mut report);
+    let scene = read(text, (name, base), &mut report);
     report.sort();
     report.add_excerpts(text);
     match scene {
@@ -50,7 +55,7 @@ pub fn parse_robot(file: &str, text: &str, name: &str) -> Result<SceneFile, Inpu
     }
 }
 
-fn read(text: &str, name: &str, report: &mut Report<'_>) -> Option<Scene> {
+fn read(text: &str, (name, base): (&str, Base), report: &mut Report<'_>) -> Option<Scene> {
     if let Some(at) = crowded(text) {
         let found = format!("an element with more than {MOST_ATTRIBUTES} attributes");
         let expected = "at most that many";
@@ -67,7 +72,7 @@ fn read(text: &str, name: &str, report: &mut Report<'_>) -> Option<Scene> {
     let lines = Lines::of(text);
     let mut reader = Reader { lines: &lines, report };
     let robot = Robot::read(&document, &mut reader)?;
-    let draft = tree::assemble(&robot, name, &mut reader)?;
+    let draft = tree::assemble(&robot, (name, base), &mut reader)?;
     let resolved = match draft.resolve() {
         Ok(resolved) => resolved,
         Err(errors) => {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nboom_model::{
-    BodyDraft, Dashpot, Hinge, MassDefect, MassProperties, SceneDescription, SceneDraft,
+    Base, BodyDraft, Dashpot, Hinge, MassDefect, MassProperties, SceneDescription, SceneDraft,
 };
 
 use super::links::{JointElement, Motion, Robot};
@@ -29,15 +29,16 @@ struct Welded {
 /// Puts the links together. All that is wrong with them is reported; half of a tree is none.
 pub(super) fn assemble(
     robot: &Robot<'_>,
-    name: &str,
+    (name, base): (&str, Base),
     reader: &mut Reader<'_, '_, '_>,
 ) -> Option<SceneDraft> {
     let outboard = Outboard::find(robot, reader)?;
     let root = outboard.root(robot, reader)?;
-    if robot.links[root].name == WORLD {
+    if robot.links[root].name == WORLD && base == Base::Free {
         let at = reader.lines.position(robot.links[root].at);
         let found = format!("{} as the root", quoted(WORLD));
-        reader.report.warn(at, "link", found, "none: the robot floats, unless its scene is fixed");
+        let expected = "none of a robot that floats, as this one does; --fixed-base fixes it";
+        reader.report.warn(at, "link", found, expected);
     }
     let mut parts = Parts { main: Part::of(root), bodies: Vec::new() };
     let mut links = vec![Welded { link: root, body: None, placement: Placement::none() }];
@@ -52,7 +53,8 @@ pub(super) fn assemble(
         return None;
     }
     let name = folder_name(robot.name.unwrap_or(name));
-    let scene = SceneDescription::at_rest(&name, parts.main.joined, END);
+    let at_rest = SceneDescription::at_rest(&name, parts.main.joined, END);
+    let scene = SceneDescription { base, ..at_rest };
     Some(SceneDraft { scene, bodies: parts.bodies.into_iter().map(|(draft, _)| draft).collect() })
 }
 

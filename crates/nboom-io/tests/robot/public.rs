@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use nboom_io::parse_robot;
+use nboom_model::Base;
 
 #[test]
 fn public_robots_are_read() {
@@ -15,7 +16,7 @@ fn public_robots_are_read() {
     assert!(robots.len() >= 8);
     for path in robots {
         let text = fs::read_to_string(&path).expect("readable");
-        let read = parse_robot("robot.urdf", &text, "robot");
+        let read = parse_robot("robot.urdf", &text, "robot", Base::Free);
         assert!(read.is_ok(), "{}: {}", path.display(), read.unwrap_err());
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use nboom_io::{InputError, parse_robot};
+use nboom_model::Base;
 use proptest::prelude::*;
 
 use super::support::{edited, edits};
@@ -35,7 +36,7 @@ proptest! {
     #[test]
     fn edited_robots_are_read_or_refused(edits in edits(WORDS.len())) {
         let text = edited(UR5, &edits, &WORDS);
-        if let Err(error) = parse_robot("ur5.urdf", &text, "ur5") {
+        if let Err(error) = parse_robot("ur5.urdf", &text, "ur5", Base::Free) {
             prop_assert!(matches!(error, InputError::Content(_)));
             prop_assert!(!error.to_string().is_empty());
         }
@@ -52,7 +53,10 @@ fn depth_and_entities_have_bounds() {
     }
     entities.push_str("]><robot name=\"&a11;\"/>");
     for text in [deep, entities] {
-        assert!(matches!(parse_robot("a.urdf", &text, "a"), Err(InputError::Content(_))));
+        assert!(matches!(
+            parse_robot("a.urdf", &text, "a", Base::Free),
+            Err(InputError::Content(_))
+        ));
     }
 }
 
@@ -64,11 +68,13 @@ fn elements_have_a_bounded_number_of_attributes() {
         format!("<!-- <a b=\"> -->\n<robot name=\"a\">\n<{tag}{attributes}/></robot>")
     };
     for name in ["a", "xmlns:a"] {
-        let told = parse_robot("a.urdf", &robot("link", name, 200_000), "a").expect_err("too many");
+        let told = parse_robot("a.urdf", &robot("link", name, 200_000), "a", Base::Free)
+            .expect_err("too many");
         let message =
             "a.urdf:3:1: robot: found an element with more than 1000 attributes, expected at";
         assert!(told.to_string().starts_with(message), "{told}");
-        let told = parse_robot("a.urdf", &robot("gazebo", name, 1000), "a").expect_err("no link");
+        let told = parse_robot("a.urdf", &robot("gazebo", name, 1000), "a", Base::Free)
+            .expect_err("no link");
         assert!(told.to_string().contains("no link"), "{told}");
     }
 }
@@ -93,7 +99,7 @@ fn chain(links: usize) -> String {
 
 #[test]
 fn long_chains_are_read_up_to_the_most_bodies_of_a_scene() {
-    let read = |links| parse_robot("chain.urdf", &chain(links), "chain");
+    let read = |links| parse_robot("chain.urdf", &chain(links), "chain", Base::Free);
     assert_eq!(read(5001).expect("a robot").scene.bodies.len(), 5000);
     assert!(matches!(read(20_000), Err(InputError::Content(_))));
 }

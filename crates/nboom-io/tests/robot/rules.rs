@@ -2,7 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nboom_io::{ReadOptions, SceneFile, parse_robot, parse_scene, write_scene};
+use nboom_io::{Format, ReadOptions, SceneFile, parse, parse_robot, parse_scene, write_scene};
+use nboom_model::Base;
 use nboom_scalar::{Sym3, Vec3};
 
 const BODY: &str = "<inertial><origin xyz=\"0.5 0 0\"/><mass value=\"2\"/>\
@@ -13,7 +14,7 @@ fn robot(parts: &str) -> SceneFile {
         "<robot name=\"arm\"><link name=\"base\">{BODY}</link><link name=\"arm\">{BODY}</link>{parts}\
          </robot>"
     );
-    parse_robot("arm.urdf", &text, "file").expect("a robot")
+    parse_robot("arm.urdf", &text, "file", Base::Free).expect("a robot")
 }
 
 /// A joint from one link to the other.
@@ -99,6 +100,25 @@ fn a_robot_that_others_would_fix_floats_with_a_warning() {
 }
 
 #[test]
+fn a_base_is_fixed_of_robots_alone() {
+    let joint = joint("fixed", "world", "base", "");
+    let text = format!(
+        "<robot name=\"arm\"><link name=\"world\"/><link name=\"base\">{BODY}</link>{joint}</robot>"
+    );
+    let options = ReadOptions { fixed_base: true, ..ReadOptions::default() };
+    let read = |format, text: &str| parse(format, ("arm", text), "arm", None, &options);
+    let fixed = read(Format::Urdf, &text).expect("a robot");
+    assert_eq!(fixed.scene.base, Base::Fixed);
+    assert!(fixed.warnings.is_empty());
+    let scene = write_scene(&fixed);
+    assert!(scene.contains("base = \"fixed\""));
+    for (format, text) in [(Format::Toml, scene.as_str()), (Format::Nml, "&DIM\n&END\n")] {
+        let told = read(format, text).expect_err("no robot").to_string();
+        assert!(told.starts_with("arm: --fixed-base found, which only a robot"), "{told}");
+    }
+}
+
+#[test]
 fn what_is_left_out_is_named() {
     let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"base arm\"/><dynamics friction=\"1\"/>\
                  <safety_controller/>";
@@ -135,7 +155,7 @@ fn attributes_of_other_programs_are_no_errors() {
 fn what_is_left_out_of_an_inertial_is_named() {
     let body = BODY.replace("</inertial>", "<inertai/></inertial>");
     let text = format!("<robot name=\"arm\"><link name=\"base\">{body}</link></robot>");
-    let file = parse_robot("arm.urdf", &text, "file").expect("a robot");
+    let file = parse_robot("arm.urdf", &text, "file", Base::Free).expect("a robot");
     let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
     assert_eq!(told, ["inertai"]);
 }
@@ -162,7 +182,7 @@ fn a_robot_has_the_name_of_a_folder() {
     let cut = "\u{e9}".repeat(100);
     for (name, expected) in [("a/b:c", "a_b_c"), ("..", "_."), (&long, &cut)] {
         let text = format!("<robot name=\"{name}\"><link name=\"base\">{BODY}</link></robot>");
-        let file = parse_robot("arm.urdf", &text, "file").expect("a robot");
+        let file = parse_robot("arm.urdf", &text, "file", Base::Free).expect("a robot");
         assert_eq!(file.scene.name, expected);
         let options = ReadOptions::default();
         let again = parse_scene("arm.toml", &write_scene(&file), "arm", None, &options);

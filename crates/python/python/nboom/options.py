@@ -30,6 +30,7 @@ _NOT_HERE = {
     "set": "nboom.load(path, parameters={...})",
     "format": "nboom.parse(text, format=...)",
     "include_anywhere": "nboom.load(path, include_anywhere=True)",
+    "fixed_base": "nboom.load(path, fixed_base=True)",
     "case": "nboom.study(path)",
     "quiet": "the warnings module",
     "help": "help(nboom)",

@@ -261,6 +261,7 @@ def load(
     path: str | os.PathLike[str],
     parameters: Mapping[str, float] | None = None,
     include_anywhere: bool = False,
+    fixed_base: bool = False,
 ) -> Scene:
     """Reads a scene ``NAME.toml``, a legacy deck ``NAME.nml`` or a robot ``NAME.urdf``.
 
@@ -272,6 +273,8 @@ def load(
         Values for parameters of the scene.
     include_anywhere : bool, optional
         Let the scene include files outside of its folder.
+    fixed_base : bool, optional
+        Fix the main body of a robot to the ground.
 
     Raises
     ------
@@ -279,7 +282,7 @@ def load(
         With file, line, key, what was found and expected, of all that is wrong.
     """
     values = [(name, float(value)) for name, value in (parameters or {}).items()]
-    return Scene(_nboom.Scene.load(os.fspath(path), values, include_anywhere))
+    return Scene(_nboom.Scene.load(os.fspath(path), values, include_anywhere, fixed_base))
 
 
 def parse(
