@@ -31,7 +31,8 @@ pub struct SweepArgs {
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
 
-    /// Go on with a sweep that was not finished; in a directory without one, start.
+    /// Go on with a sweep that was not finished, or that has fewer draws by monte_carlo or sobol; in a directory
+    /// without one, start.
     #[arg(long)]
     pub resume: bool,
 
@@ -255,10 +256,15 @@ fn worst(statistics: &Summary) -> Vec<u64> {
     let mut cases = Vec::new();
     let results = statistics.columns.iter().filter(|column| column.is_result);
     let mut results: Vec<_> = results.map(|column| (column, column.worst())).collect();
-    // There are not pages for many results: margins come first, then latches that do not close.
+    // There are not pages for many results: those with a broken requirement come first, then margins, then latches
+    // that do not close.
+    let is_broken = |label: &str| {
+        let requirements = &mut statistics.requirements.iter();
+        requirements.any(|of| of.requirement.result == label && of.first_broken.is_some())
+    };
     results.sort_by_key(|(column, worst)| {
         let is_never = worst.first().is_some_and(|worst| worst.value == f64::INFINITY);
-        (!column.is_margin(), !is_never)
+        (!is_broken(&column.label), !column.is_margin(), !is_never)
     });
     // The first of all results, before the second of any.
     for rank in 0..MOST_PAGES {
@@ -334,7 +340,7 @@ mod tests {
             |label: String| Field { name: label.clone(), label, unit: None, role: Role::Result };
         let forces = (1..=20).map(|i| result(format!("peak_force of {i}")));
         let others = ["lock_time of boom", "margin of boom"].map(str::to_owned).map(result);
-        let mut statistics = Statistics::new(forces.chain(others).collect());
+        let mut statistics = Statistics::new(forces.chain(others).collect(), &[]);
         for case in 1..=20 {
             // Each case has the largest force of one hinge.
             let force = |i: u32| Cell::Number(f64::from(u8::from(i == case)));

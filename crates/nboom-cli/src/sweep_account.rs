@@ -53,14 +53,23 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
         fault => format!(" with {}", statistics.faults[fault - 1]),
     };
     text.push('\n');
-    for latch in &statistics.latches {
-        for (fault, latched) in latch.by_end.iter().enumerate().filter(|(_, of)| of.of > 0) {
-            let Proportion { count, of, low, high } = *latched;
+    let mut shares = |what: &str, groups: &[Proportion]| {
+        for (fault, share) in groups.iter().enumerate().filter(|(_, of)| of.of > 0) {
+            let Proportion { count, of, low, high } = *share;
             let cases = if counts.ok == counts.cases { "cases" } else { "cases that ran" };
             let bounds = if is_drawn { format!(": {low:.4} to {high:.4}") } else { String::new() };
-            let (hinge, group) = (&latch.hinge, group(fault));
-            let _ = writeln!(text, "{hinge} latches in {count} of {of} {cases}{group}{bounds}");
+            let group = group(fault);
+            let _ = writeln!(text, "{what} in {count} of {of} {cases}{group}{bounds}");
         }
+    };
+    for latch in &statistics.latches {
+        shares(&format!("{} latches", latch.hinge), &latch.by_end);
+    }
+    for of in &statistics.requirements {
+        shares(&format!("{} is met", of.requirement), &of.met);
+    }
+    if statistics.requirements.len() > 1 {
+        shares("all requirements are met", &statistics.meet_all);
     }
     let _ = writeln!(text, "files  {}", directory.display());
     text

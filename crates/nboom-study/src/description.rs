@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Shard;
 use crate::frame::Columns;
+use crate::requirement::Requirement;
 use crate::statistics::{Counts, Field, Role};
 
 /// The form of a sweep's directory.
@@ -19,7 +20,7 @@ const VERSION: u32 = 1;
 const MOST_CASES: u64 = 1 << 53;
 
 /// What a sweep is.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Description {
     /// The form of the directory.
     pub version: u32,
@@ -32,6 +33,9 @@ pub struct Description {
     pub also_made_by: Vec<Maker>,
     /// The study, the file `study.toml` beside this one.
     pub study: Source,
+    /// The study as it would be with any number of draws.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub study_but_draws: Option<Source>,
     /// The scene with all that it includes, the file `scene.toml` beside this one.
     pub scene: Source,
     /// The seed of everything random.
@@ -52,6 +56,9 @@ pub struct Description {
     pub trajectory_columns: Vec<Column>,
     /// What is wanted of each run, as the study says it.
     pub results: Vec<String>,
+    /// Bounds that some of these should keep.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub requirements: Vec<Requirement>,
     /// Whether all cases are done.
     pub complete: bool,
     /// How long the files of its tables are \[bytes\]; a shard has none.
@@ -170,6 +177,14 @@ impl Description {
 
     /// What is different about another, but for the programs and whether it is complete, in words.
     pub(crate) fn differences(&self, now: &Self) -> Vec<String> {
+        self.compared(now).map(|(what, then, now)| told(what, &then, &now)).collect()
+    }
+
+    /// Likewise: what it is, this one's and the other's.
+    pub(crate) fn compared(
+        &self,
+        now: &Self,
+    ) -> impl Iterator<Item = (&'static str, String, String)> + use<> {
         let of = |is: &Self| {
             let shard = is.shard.map_or("all".to_owned(), |shard| shard.to_string());
             let names = |columns: &[Column]| {
@@ -190,7 +205,7 @@ impl Description {
             ]
         };
         let pairs = of(self).into_iter().zip(of(now)).filter(|(then, now)| then != now);
-        pairs.map(|((what, then), (_, now))| told(what, &then, &now)).collect()
+        pairs.map(|((what, then), (_, now))| (what, then, now))
     }
 
     /// The programs that did not compute any of this, in words.

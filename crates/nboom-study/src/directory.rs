@@ -68,6 +68,8 @@ pub(crate) enum State {
     Complete(Description),
     /// It is to be begun or continued.
     Open(Description),
+    /// There is one with fewer draws that it continues.
+    Fewer(Description),
 }
 
 impl Place {
@@ -108,6 +110,10 @@ impl Place {
             found => {
                 found?;
             }
+        }
+        if now.continues(then) {
+            require_made_here(&self.path, then, now, accept_difference)?;
+            return Ok(State::Fewer(then.clone()));
         }
         require_same(&self.path, then, now, accept_difference)?;
         Ok(if then.complete {
@@ -172,12 +178,12 @@ impl Place {
         self.write(STUDY_JSON_FILE, &what.text())
     }
 
-    /// Removes the journal of a complete sweep, if it is there.
+    /// Removes a file of this name, if it is there.
     ///
     /// # Errors
     /// When it cannot be removed.
-    pub fn remove_journal(&self) -> Result<(), StudyError> {
-        let path = self.file(JOURNAL_FILE);
+    pub fn remove(&self, name: &str) -> Result<(), StudyError> {
+        let path = self.file(name);
         match fs::remove_file(&path) {
             Err(error) if error.kind() != ErrorKind::NotFound => {
                 Err(StudyError::writing(&path)(error))

@@ -82,6 +82,17 @@ pub enum StudyError {
         /// Cases in all.
         cases: u64,
     },
+    /// The directory has the same sweep with fewer draws.
+    #[error(
+        "{}: a sweep with {draws} draws of this study found; --resume runs the others",
+        directory.display()
+    )]
+    FewerDraws {
+        /// The directory.
+        directory: PathBuf,
+        /// Its draws.
+        draws: u64,
+    },
     /// The directory has another sweep.
     #[error("{}: another sweep found: {}", directory.display(), differences.join("; "))]
     Different {

@@ -5,6 +5,7 @@ mod faults;
 mod keys;
 mod overlap;
 mod reader;
+mod requirements;
 mod vary;
 
 use std::collections::BTreeSet;
@@ -144,6 +145,7 @@ impl<'t> Reader<'t> {
         };
         let faults: Vec<_> = tables.iter().filter_map(&mut fault).collect();
         let wanted = self.wanted(root, &nominal, &run);
+        let requirements = self.requirements(root, &wanted);
         self.check_columns(root, &variables, &faults, &wanted);
         if variables.is_empty() && tables.is_empty() {
             self.error(&root.place(), "vary", "nothing that varies", "a table vary or fault");
@@ -184,6 +186,7 @@ impl<'t> Reader<'t> {
             correlations,
             faults,
             wanted,
+            requirements,
             run,
             trajectories,
             plan,

@@ -109,11 +109,22 @@ impl Batch {
         assert_eq!(cells[0], Cell::Integer(case), "a row begins with the number of its case");
         let is_whole = |state: &Vec<f64>| state.len() + 1 == columns.states.len();
         assert!(row.states.iter().all(is_whole), "a state has a number for each column");
-        line(&mut self.rows, cells.into_iter());
+        let mut states = Vec::new();
         for state in &row.states {
             let numbers = columns.states[1..].iter().zip(state);
             let numbers = numbers.map(|(column, value)| number(column.kind, *value));
-            line(&mut self.states, std::iter::once(Cell::Integer(case)).chain(numbers));
+            line(&mut states, std::iter::once(Cell::Integer(case)).chain(numbers));
+        }
+        self.push_cells(&cells, states);
+    }
+
+    /// Adds the next case by the cells of its row and the lines of its states.
+    pub fn push_cells(&mut self, cells: &[Cell<'_>], states: Vec<u8>) {
+        line(&mut self.rows, cells.iter().copied());
+        if self.states.is_empty() {
+            self.states = states;
+        } else {
+            self.states.extend(states);
         }
         self.cases += 1;
     }
@@ -148,7 +159,7 @@ fn number(kind: Kind, value: f64) -> Cell<'static> {
 }
 
 /// Writes a row in CSV.
-fn line<'a>(out: &mut Vec<u8>, cells: impl Iterator<Item = Cell<'a>>) {
+pub(crate) fn line<'a>(out: &mut Vec<u8>, cells: impl Iterator<Item = Cell<'a>>) {
     for (i, cell) in cells.enumerate() {
         let comma = if i == 0 { "" } else { "," };
         write!(out, "{comma}{cell}").expect("memory takes all");

@@ -41,6 +41,10 @@ pub fn merge(
     let what = match place.state(&whole, accept_difference)? {
         State::Complete(what) => return settle(&place, what, csv),
         State::Open(what) => what,
+        State::Fewer(then) => {
+            let (directory, differences) = (directory.to_owned(), then.differences(&whole));
+            return Err(StudyError::Different { directory, differences });
+        }
     };
     let journals: Result<Vec<Journal>, _> = parts.iter().map(whole_journal).collect();
     let journals = journals?;

@@ -5,6 +5,7 @@
 //! of a random share of draws, chosen by their seeds: every second draw of a grid or of a Sobol sequence would
 //! be no fair share. All statistics are of cases that ran, those of faults apart from those without.
 
+mod compliance;
 mod confidence;
 mod extremes;
 mod histogram;
@@ -17,14 +18,16 @@ mod summary;
 
 use nboom_tables::Cell;
 
+use crate::Requirement;
 use crate::row::{OK, POOR};
+use compliance::{Met, Required};
 use extremes::Extremes;
 use moments::Moments;
 use rank::Ranked;
 use sample::Sample;
 pub use summary::{
-    Counts, Driver, Extreme, Histogram, Latch, LatchTime, Percentile, Points, Proportion, Spread,
-    Summary, SummaryColumn, Trouble, Worse,
+    Compliance, Counts, Driver, Extreme, Histogram, Latch, LatchTime, Percentile, Points,
+    Proportion, Spread, Summary, SummaryColumn, Trouble, Worse,
 };
 
 /// Larger numbers count as gaps, so that squares and sums are finite.
@@ -75,6 +78,7 @@ pub struct Statistics {
     groups: Vec<Group>,
     /// Of each variable and result.
     extremes: Vec<Extremes>,
+    required: Vec<Required>,
     sample: Sample,
 }
 
@@ -86,6 +90,7 @@ struct Group {
     cases: u64,
     /// Of each variable and result.
     moments: Vec<Moments>,
+    met: Met,
 }
 
 /// What a row says beside its numbers.
@@ -97,17 +102,27 @@ struct Head<'a> {
 }
 
 impl Statistics {
-    /// Statistics of no rows yet, of a table with these columns.
-    pub fn new(fields: Vec<Field>) -> Self {
+    /// Statistics of no rows yet, of a table with these columns, of whose results this is required.
+    pub fn new(fields: Vec<Field>, requirements: &[Requirement]) -> Self {
         let is_number = |field: &Field| matches!(field.role, Role::Variable | Role::Result);
         let places: Vec<usize> = (0..fields.len()).filter(|i| is_number(&fields[*i])).collect();
         let columns = places.len();
+        let required = |requirement: &Requirement| {
+            let is_of = |&place: &usize| {
+                let Field { role, label, .. } = &fields[place];
+                *role == Role::Result && *label == requirement.result
+            };
+            let column = places.iter().position(is_of)?;
+            Some(Required { requirement: requirement.clone(), column, first_broken: None })
+        };
+        let required: Vec<_> = requirements.iter().filter_map(required).collect();
         Self {
             fields,
             places,
             counts: Counts::default(),
             troubles: Vec::new(),
-            groups: vec![Group::new("", columns)],
+            groups: vec![Group::new("", columns, required.len())],
+            required,
             extremes: vec![Extremes::default(); columns],
             sample: Sample::new(columns),
         }
@@ -144,6 +159,7 @@ impl Statistics {
                 self.extremes[column].add_never(extreme);
             }
         }
+        self.groups[group].met.add(head.case, &numbers, &mut self.required);
         self.sample.offer(head.case, head.seed, group, &numbers);
     }
 
@@ -162,6 +178,8 @@ impl Statistics {
         Summary {
             columns: columns.collect(),
             latches: self.latches(),
+            requirements: self.compliance(),
+            meet_all: self.meet_all(),
             counts: self.counts,
             held: self.sample.len() as u64,
             share: self.sample.share(),
@@ -190,7 +208,7 @@ impl Statistics {
     /// The number of the fault's group, which is made if it is new.
     fn group(&mut self, fault: &str) -> usize {
         self.groups.iter().position(|group| group.fault == fault).unwrap_or_else(|| {
-            self.groups.push(Group::new(fault, self.places.len()));
+            self.groups.push(Group::new(fault, self.places.len(), self.required.len()));
             self.groups.len() - 1
         })
     }
@@ -230,6 +248,7 @@ impl Statistics {
             label: field.label.clone(),
             unit: field.unit.clone(),
             is_result: field.role == Role::Result,
+            worse_by_requirement: self.worse_by_requirement(column),
             histogram,
             drivers,
             smallest: self.extremes[column].smallest().to_vec(),
@@ -252,11 +271,27 @@ impl Statistics {
         };
         (0..self.places.len()).filter_map(latch).collect()
     }
+
+    fn worse_by_requirement(&self, column: usize) -> Option<Worse> {
+        self.required.iter().find(|of| of.column == column)?.worse()
+    }
+
+    fn compliance(&self) -> Vec<Compliance> {
+        let groups = || self.groups.iter().map(|group| (&group.met, group.cases));
+        let of = |(number, required): (usize, &Required)| required.compliance(number, groups());
+        self.required.iter().enumerate().map(of).collect()
+    }
+
+    fn meet_all(&self) -> Vec<Proportion> {
+        let groups = self.groups.iter().filter(|_| !self.required.is_empty());
+        groups.map(|group| group.met.all(group.cases)).collect()
+    }
 }
 
 impl Group {
-    fn new(fault: &str, columns: usize) -> Self {
-        Self { fault: fault.to_owned(), cases: 0, moments: vec![Moments::default(); columns] }
+    fn new(fault: &str, columns: usize, requirements: usize) -> Self {
+        let moments = vec![Moments::default(); columns];
+        Self { fault: fault.to_owned(), cases: 0, moments, met: Met::new(requirements) }
     }
 }
 

@@ -3,6 +3,7 @@ use nboom_sim::{Form, Options, Path};
 
 use crate::distribution::Distribution;
 use crate::plan::Plan;
+use crate::requirement::Requirement;
 use crate::wanted::Wanted;
 
 /// What is varied in a scene, how, and what is wanted of each run; checked.
@@ -30,6 +31,8 @@ pub struct Study {
     pub faults: Vec<Fault>,
     /// What stands in the table of each run.
     pub wanted: Vec<Wanted>,
+    /// Bounds that some of these should keep.
+    pub requirements: Vec<Requirement>,
     /// How each case is run.
     pub run: RunSettings,
     /// Whether tables of states of all cases are wanted.

@@ -85,6 +85,7 @@ impl Sweep<'_> {
             made_by: Maker::current(),
             also_made_by: Vec::new(),
             study: Source::of(text),
+            study_but_draws: Some(Source::of(&with(text, "draws", &0.into()))),
             scene: Source::of(scene),
             seed: study.seed,
             method: study.method.name().to_owned(),
@@ -94,6 +95,7 @@ impl Sweep<'_> {
             columns: columns(study),
             trajectory_columns: states.unwrap_or_default(),
             results: study.wanted.iter().map(|wanted| wanted.text().to_owned()).collect(),
+            requirements: study.requirements.clone(),
             complete: false,
             tables: BTreeMap::new(),
             counts: None,
@@ -104,15 +106,16 @@ impl Sweep<'_> {
 impl Study {
     /// Its text as it stands beside its scene, `scene.toml`, in a sweep's directory.
     pub fn beside_its_scene(&self) -> String {
-        let text = &self.text;
-        let (keys, _) = DeTable::parse_recoverable(text);
-        match keys.get_ref().get("scene").map(Spanned::span) {
-            Some(place) => {
-                let name = toml::Value::from(SWEPT_SCENE_FILE).to_string();
-                [&text[..place.start], &name, &text[place.end..]].concat()
-            }
-            None => text.clone(),
-        }
+        with(&self.text, "scene", &SWEPT_SCENE_FILE.into())
+    }
+}
+
+/// A text in TOML with another value of a key of its root, if it has that key.
+fn with(text: &str, key: &str, value: &toml::Value) -> String {
+    let (keys, _) = DeTable::parse_recoverable(text);
+    match keys.get_ref().get(key).map(Spanned::span) {
+        Some(place) => [&text[..place.start], &value.to_string(), &text[place.end..]].concat(),
+        None => text.to_owned(),
     }
 }
 

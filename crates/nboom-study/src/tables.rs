@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use nboom_results::make_file;
 use nboom_tables::{Column, Format, TableWriter, read_table};
@@ -43,7 +43,7 @@ pub(crate) fn has_parquet() -> bool {
 /// # Errors
 /// When a journal cannot be read or has other rows.
 pub(crate) fn statistics(what: &Description, journals: &[Journal]) -> Result<Summary, StudyError> {
-    let mut statistics = Statistics::new(what.fields());
+    let mut statistics = Statistics::new(what.fields(), &what.requirements);
     for journal in journals {
         journal.each(Part::Case, &what.columns, |cells| {
             statistics.row(cells);
@@ -118,6 +118,12 @@ pub(crate) fn require(place: &Place, tables: &BTreeMap<String, u64>) -> Result<(
         }
     }
     Ok(())
+}
+
+/// The file of a finished sweep with a table of this part, which this build can read.
+pub(crate) fn path(place: &Place, part: Part) -> PathBuf {
+    let [parquet, csv] = TWINS[usize::from(part == Part::States)].map(|name| place.file(name));
+    if has_parquet() && parquet.exists() { parquet } else { csv }
 }
 
 /// How long a file is \[bytes\], if it is there.

@@ -8,7 +8,7 @@ use crate::directory::{self, JOURNAL_FILE, Place, STATISTICS_FILE, State};
 use crate::journal::Journal;
 use crate::tables;
 use crate::workers::{Crew, Worker};
-use crate::{StudyError, Watcher, space};
+use crate::{StudyError, Watcher, growth, space};
 
 /// A sweep to be made.
 pub(crate) struct Task<'a> {
@@ -133,6 +133,16 @@ impl Task<'_> {
                 return Ok(Begin::Complete(settle(&place, what, self.csv)?.into()));
             }
             State::Open(what) => what,
+            State::Fewer(then) if self.resume => {
+                let Description { cases, .. } = self.description;
+                // What is there is written once more.
+                space::require(self.directory, self.bytes(&self.description, cases), cases)?;
+                growth::continued(&place, then, &self.description)?
+            }
+            State::Fewer(then) => {
+                let (directory, draws) = (self.directory.to_owned(), then.draws);
+                return Err(StudyError::FewerDraws { directory, draws });
+            }
         };
         let journal = directory::journal(self.directory, &what)?;
         let (before, cases) = (journal.done(), what.share());
@@ -203,7 +213,7 @@ pub(crate) fn settle(
             what.tables = tables::lengths(place)?;
             place.describe(&what)?;
         }
-        place.remove_journal()?;
+        place.remove(JOURNAL_FILE)?;
     } else {
         place.require([JOURNAL_FILE])?;
     }

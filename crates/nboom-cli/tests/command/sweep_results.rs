@@ -106,6 +106,49 @@ fn warnings_of_the_scene_are_told_once() {
     }
 }
 
+/// A stiffer spring closes the latch sooner, so a bound on the time is one on the spring.
+#[test]
+fn requirements_are_counted_and_cases_that_break_them_have_pages() {
+    let place = Place::new();
+    place.write("panels.toml", PANELS);
+    let study = "scene = 'panels.toml'\ndraws = 20\nresults = ['lock_time of 1,1', 'final omega_x', 'impulse of 1,1']\n\
+                 [[vary]]\nname = 'k'\npath = 'body.panel +x.hinge.spring.stiffness'\nuniform = { from = 0.3, to = 0.9 }\n\
+                 [[requirement]]\nresult = 'lock_time of 1,1'\nat_most = TIME\n\
+                 [[requirement]]\nresult = 'impulse of 1,1'\nat_least = -1e9\nat_most = 1e9\n";
+    place.write("study.toml", &study.replace("TIME", "99.0"));
+    sweep(&place, &["--no-report"]);
+    let mut times: Vec<(f64, String)> = cases(&place, "out/study")
+        .iter()
+        .map(|case| (case["lock_time_of_1_1"].parse().expect("a time"), case["case"].clone()))
+        .collect();
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    assert!(times[0].0 < times[19].0);
+    place.write("study.toml", &study.replace("TIME", &times[13].0.to_string()));
+    let output = place.nboom(&["sweep", "study.toml", "--csv", "-o", "bounded"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    // Wilson's interval of 14 of 20.
+    let line = format!(
+        "lock_time of 1,1 at most {} is met in 14 of 20 cases: 0.4810 to 0.8545",
+        times[13].0
+    );
+    let told = stdout(&output);
+    assert!(told.lines().any(|told| told == line), "{line}\n{told}");
+    assert!(
+        told.contains("all requirements are met in 14 of 20 cases: 0.4810 to 0.8545"),
+        "{told}"
+    );
+    assert!(
+        told.contains(
+            "impulse of 1,1 at least -1000000000 and at most 1000000000 is met in 20 of 20"
+        ),
+        "{told}"
+    );
+    for (_, case) in &times[16..] {
+        let page = place.path("bounded/worst").join(format!("case-{case}/report.html"));
+        assert!(page.is_file(), "the latest are the worst, also case {case}");
+    }
+}
+
 #[test]
 fn a_latch_that_does_not_close_in_half_of_the_cases_locks_never() {
     let place = Place::new();

@@ -287,6 +287,23 @@ fn an_unfinished_sweep_is_not_overwritten() {
 }
 
 #[test]
+fn a_finished_sweep_gets_more_draws() {
+    let place = place();
+    place.write("study.toml", &STUDY.replacen("draws = 40", "draws = 9", 1));
+    sweep(&place, &["-o", "grown"]);
+    place.write("study.toml", &STUDY.replacen("draws = 40", "draws = 14", 1));
+    refused(&place.nboom(&["sweep", "study.toml", "-o", "grown"]), 2, &["9 draws", "--resume"]);
+    sweep(&place, &["-o", "grown", "--resume"]);
+    sweep(&place, &["-o", "alone"]);
+    for name in ["cases.csv", "study.json", "study.toml", "statistics.json"] {
+        let [grown, alone] = ["grown", "alone"]
+            .map(|of| fs::read_to_string(place.path(of).join(name)).expect("written"));
+        assert_eq!(grown, alone, "{name}");
+    }
+    assert_eq!(cases(&place, "grown").len(), 3 * 14);
+}
+
+#[test]
 fn the_schema_of_studies_is_one() {
     let place = Place::new();
     let output = place.nboom(&["schema", "study"]);

@@ -68,6 +68,22 @@ const checks = {
     await page.done();
   },
 
+  async 'each requirement has a row for each fault, and its bound stands in a histogram that reaches it'(path) {
+    const page = await open(path);
+    const { columns, requirements, faults } = page.data.summary;
+    const groups = faults.length + 1;
+    assert.equal(await page.locator('#requirements tbody tr').count(), groups * (requirements.length + (requirements.length > 1 ? 1 : 0)));
+    for (const { result, at_least: least, at_most: most, met, first_broken: first } of requirements) {
+      const row = page.locator('#requirements tbody tr').filter({ hasText: result }).first();
+      assert.match(await row.textContent(), new RegExp(`${met[0].count} of ${met[0].of}`));
+      assert.equal(await row.locator('.case').count(), first ? 1 : 0);
+      const { from, to } = columns.find(({ label }) => label === result).histogram;
+      const inside = [least, most].filter((bound) => bound !== undefined && bound > from && bound < to).length;
+      assert.ok(await page.locator(`[data-column="${columns.findIndex(({ label }) => label === result)}"] line.limit`).count() >= inside);
+    }
+    await page.done();
+  },
+
   async 'a case is chosen by keys, with the command that repeats it'(path) {
     const page = await open(path);
     const button = page.locator('#worst .case').last();

@@ -87,6 +87,7 @@ pub(super) const STUDY: Table = Table {
         key("vary", Holds::Tables(&VARY), "numbers that vary"),
         key("correlation", Holds::Tables(&CORRELATION), "variables that vary together"),
         key("fault", Holds::Tables(&FAULT), "what may be broken"),
+        key("requirement", Holds::Tables(&REQUIREMENT), "bounds that results should keep"),
     ],
 };
 
@@ -192,6 +193,15 @@ pub(super) const CHANGE: Table = Table {
         key("value", Holds::Number, "takes the place of the number that is there"),
         key("factor", Holds::Number, "multiplies it"),
         key("offset", Holds::Number, "is added to it"),
+    ],
+};
+
+pub(super) const REQUIREMENT: Table = Table {
+    about: "bounds that a result should keep",
+    keys: &[
+        required("result", Holds::Text, "the result, one of those in the table"),
+        key("at_least", Holds::Number, "the smallest number that meets it"),
+        key("at_most", Holds::Number, "the largest number that meets it"),
     ],
 };
 

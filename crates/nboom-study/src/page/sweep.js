@@ -120,6 +120,11 @@ function histogram(column) {
     return drawn('rect', { class: 'bar', x: left, y: Y(count), width: Math.max(0.5, right - left - 0.6), height: bottom - Y(count) },
       drawn('title', {}, `${digits(from + i * step)} to ${digits(from + (i + 1) * step)}: ${casesOf(count)}`));
   }));
+  const required = column.is_result ? summary.requirements.find(({ result }) => result === column.label) : undefined;
+  for (const [words, bound] of [['at least', required?.at_least], ['at most', required?.at_most]]) {
+    if (bound === undefined || bound < x[0] || bound > x[1]) continue;
+    svg.append(drawn('line', { class: 'limit', x1: X(bound), x2: X(bound), y1: top, y2: bottom }, drawn('title', {}, `required: ${words} ${digits(bound, 6)}`)));
+  }
   for (const { percent: which, value, low, high: upper } of spread.percentiles.filter((one) => [5, 50, 95].includes(one.percent))) {
     if (value === null) continue;
     const [left, right] = [X(low ?? from), X(upper ?? to)];
@@ -280,6 +285,17 @@ function latches() {
     summary.faults.length > 0 ? table(['Hinge', 'Fault', 'Latched', 'Share', '95 % confidence'], rows) : null);
 }
 
+function requirements() {
+  const bounds = ({ at_least: least, at_most: most }) => [least === undefined ? null : `at least ${digits(least, 6)}`, most === undefined ? null : `at most ${digits(most, 6)}`].filter(Boolean).join(' and ');
+  const row = (what, i, { count, of, low, high }, first) => [what, given(groups[i]), numeric(of > 0 ? `${whole(count)} of ${whole(of)}` : '\u2013'),
+    numeric(of > 0 ? percent(count / of) : '\u2013'), numeric(of > 0 ? interval(low, high, percent) : '\u2013'), first];
+  const rows = summary.requirements.flatMap((one) => one.met.map((met, i) => row([given(one.result), ` ${bounds(one)}`], i, met, i === 0 && one.first_broken ? caseButton(one.first_broken) : '')));
+  const all = summary.requirements.length > 1 ? summary.meet_all.map((met, i) => row('all of them', i, met, '')) : [];
+  return rows.length > 0 && section('requirements', 'Requirements',
+    note('The share of cases that ran which meet a requirement, with Wilson\u2019s interval of 95 % confidence. A case without the number does not meet it.'),
+    table(['Requirement', 'Fault', 'Met', 'Share', '95 % confidence', 'First that breaks it'], [...rows, ...all]));
+}
+
 function boxFigure(column) {
   const boxes = column.spreads.map(({ percentiles, count, cases }) => ({ count, cases, of: (which) => percentiles.find(({ percent: one }) => one === which) }));
   const there = boxes.filter(({ count, of }) => count > 0 && of(5) && of(5).value !== null);
@@ -357,7 +373,7 @@ function pick(number) {
 
 document.title = visible(facts.name);
 const bare = summary.faults.length > 0 ? ' without fault' : '';
-document.body.append(...[header(), account(), spreadSection('results', `Results${bare}`, results), drivers(), scatter(), latches(), faults(), worst(), troubles(),
+document.body.append(...[header(), account(), requirements(), spreadSection('results', `Results${bare}`, results), drivers(), scatter(), latches(), faults(), worst(), troubles(),
   spreadSection('variables', 'What was drawn', columns.filter((column) => !column.is_result)), commandBar()].filter(Boolean));
 pick(results.find(({ largest }) => largest.length > 0)?.largest[0].case ?? 1);
 addEventListener('keydown', ({ key, target, ctrlKey, metaKey, altKey }) => {

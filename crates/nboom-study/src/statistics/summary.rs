@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::Requirement;
+
 /// Statistics of a table of cases. Where cases are grouped by fault, group 0 has no fault, and group `i` has
 /// the fault `faults[i - 1]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +20,12 @@ pub struct Summary {
     pub columns: Vec<SummaryColumn>,
     /// Hinges whose lock-up times are among the results.
     pub latches: Vec<Latch>,
+    /// What is required of results, and what came of it.
+    #[serde(default)]
+    pub requirements: Vec<Compliance>,
+    /// Of each group how many cases meet all requirements; empty without any.
+    #[serde(default)]
+    pub meet_all: Vec<Proportion>,
     /// The first cases that did not run.
     pub troubles: Vec<Trouble>,
     /// Some cases one by one.
@@ -54,6 +62,9 @@ pub struct SummaryColumn {
     pub unit: Option<String>,
     /// Whether it is a result; else it is a variable.
     pub is_result: bool,
+    /// On which side its numbers are worse by what is required of it, if that is one bound.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worse_by_requirement: Option<Worse>,
     /// Of each group how its numbers spread.
     pub spreads: Vec<Spread>,
     /// Of cases without fault; none if there are no numbers.
@@ -82,7 +93,8 @@ const LARGEST: &str = "largest ";
 const LOCK_TIME: &str = "lock_time of ";
 
 /// On which side of their range numbers are worse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Worse {
     /// Margins, and what is smallest in a run.
     Small,
@@ -107,7 +119,9 @@ impl SummaryColumn {
     /// On which side its numbers are worse.
     pub fn worse(&self) -> Worse {
         let is_negative = |found: &Extreme| found.value < 0.0;
-        if self.is_margin() || self.label.starts_with(SMALLEST) {
+        if let Some(side) = self.worse_by_requirement {
+            side
+        } else if self.is_margin() || self.label.starts_with(SMALLEST) {
             Worse::Small
         } else if self.smallest.first().is_some_and(is_negative) && !self.label.starts_with(LARGEST)
         {
@@ -222,6 +236,19 @@ pub struct LatchTime {
     /// How many.
     #[serde(flatten)]
     pub latched: Proportion,
+}
+
+/// What is required of a result, and which cases meet it. A case without the number does not.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Compliance {
+    /// What is required.
+    #[serde(flatten)]
+    pub requirement: Requirement,
+    /// Of each group how many cases meet it.
+    pub met: Vec<Proportion>,
+    /// The first case that does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_broken: Option<u64>,
 }
 
 /// A share of cases with its interval of 95 % confidence by Wilson.

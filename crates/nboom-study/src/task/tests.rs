@@ -9,10 +9,11 @@ use proptest::prelude::*;
 use super::*;
 use crate::description::{Maker, Source};
 use crate::{
-    CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, Outcome, Row, STUDY_JSON_FILE, Shard, SweepDirectory,
-    TRAJECTORIES_CSV_FILE, Value, merge,
+    CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, Method, Outcome, Row, STUDY_JSON_FILE, Shard,
+    SweepDirectory, TRAJECTORIES_CSV_FILE, Value, merge,
 };
 
+mod growth;
 mod refusals;
 mod restarts;
 
@@ -22,6 +23,7 @@ pub(crate) struct Fake {
     pub cases: u64,
     pub seed: u64,
     pub study: &'static str,
+    pub method: Method,
     pub shard: Option<Shard>,
     pub samples: u64,
     pub jobs: usize,
@@ -38,6 +40,7 @@ impl Fake {
             cases,
             seed: 1,
             study: "draws = 1",
+            method: Method::MonteCarlo,
             shard: None,
             samples: 1,
             jobs: 2,
@@ -88,15 +91,17 @@ impl Fake {
             made_by: Maker { version: self.maker.to_owned(), ..Maker::current() },
             also_made_by: Vec::new(),
             study: source(self.study),
+            study_but_draws: Some(source("draws = 0")),
             scene: source("name = \"it\""),
             seed: self.seed,
-            method: "monte_carlo".to_owned(),
+            method: self.method.name().to_owned(),
             draws: self.cases,
             cases: self.cases,
             shard: self.shard,
             columns: columns(),
             trajectory_columns: state_columns(),
             results: vec!["x".to_owned()],
+            requirements: Vec::new(),
             complete: false,
             tables: BTreeMap::new(),
             counts: None,

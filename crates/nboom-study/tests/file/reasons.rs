@@ -22,6 +22,45 @@ fn a_fault_with_the_name_of_another_is_told_at_its_own_name() {
 }
 
 #[test]
+fn requirements_are_of_results_in_the_table_and_have_bounds() {
+    let study = |requirement: &str| format!("{STUDY}\n[[requirement]]\n{requirement}\n");
+    let first = STUDY.lines().count() + 2;
+    let boom = "result = 'lock_time of boom'\n";
+    for (requirement, line, words) in [
+        ("at_most = 1.0", first, ["result", "nothing"]),
+        (
+            "result = 'lock_time of bom'\nat_most = 1.0",
+            first + 1,
+            ["result", "`lock_time of boom`"],
+        ),
+        ("result = 'final omega_x'\nat_most = 1.0", first + 1, ["result", "`final omega_x`"]),
+        (boom, first, ["requirement", "no bound"]),
+        (&format!("{boom}at_least = 3.0\nat_most = 2.0"), first + 3, ["at_most", "from 3 on"]),
+        (&format!("{boom}at_most = nan"), first + 2, ["at_most", "a number"]),
+        (&format!("{boom}below = 1.0"), first, ["below", "at_least"]),
+        (
+            &format!("{boom}at_least = 1.0\n[[requirement]]\n{boom}at_most = 2.0"),
+            first + 4,
+            ["result", "a requirement before"],
+        ),
+    ] {
+        let found = errors(SCENE, &study(requirement));
+        let (at, told) = &found[0];
+        assert_eq!(*at, line, "{requirement}: {found:#?}");
+        assert!(
+            words.iter().all(|word| found.iter().any(|(_, told)| told.contains(word))),
+            "{told}"
+        );
+    }
+    let place =
+        place(&study(&format!("result = ' lock_time of boom '\nat_most = 2.5\nat_least = 1")));
+    let read = Study::read(&place.path().join("study.toml")).expect("a study");
+    let [requirement] = &read.requirements[..] else { panic!("one requirement") };
+    assert_eq!((requirement.at_least, requirement.at_most), (Some(1.0), Some(2.5)));
+    assert_eq!(requirement.to_string(), "lock_time of boom at least 1 and at most 2.5");
+}
+
+#[test]
 fn plans_that_are_none_say_what_was_found() {
     let points = |path: &str| {
         format!("[[vary]]\npath = '{path}'\nuniform = {{ from = 1, to = 2 }}\npoints = 1000000\n")

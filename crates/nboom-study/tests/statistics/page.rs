@@ -1,7 +1,7 @@
 //! The page of a sweep as text; a browser opens it elsewhere.
 
 use nboom_study::statistics::{Field, Role, Statistics, Summary};
-use nboom_study::{Facts, page};
+use nboom_study::{Facts, Requirement, page};
 use nboom_tables::Cell;
 
 use crate::{field, uniform};
@@ -28,7 +28,14 @@ fn summary(columns: usize, rows: usize, name: &str) -> Summary {
     let status = field("status", Role::Status);
     let fields: Vec<Field> =
         (0..columns).map(column).chain([field("fault", Role::Fault), status]).collect();
-    let mut statistics = Statistics::new(fields);
+    let results = fields.iter().filter(|field| field.role == Role::Result);
+    let required = results.map(|Field { label, .. }| Requirement {
+        result: label.clone(),
+        at_least: Some(0.1),
+        at_most: None,
+    });
+    let required: Vec<_> = required.collect();
+    let mut statistics = Statistics::new(fields, &required);
     let mut random = uniform(5);
     for row in 0..rows {
         let numbers = random.by_ref().take(columns).map(Cell::Number);

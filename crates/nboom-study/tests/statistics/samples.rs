@@ -15,7 +15,7 @@ fn normal(share: f64) -> f64 {
 fn of_rows(rows: impl Iterator<Item = [f64; 3]>) -> Summary {
     let roles = [("a", Role::Variable), ("b", Role::Variable), ("c", Role::Result)];
     let mut statistics =
-        Statistics::new(roles.into_iter().map(|(name, role)| field(name, role)).collect());
+        Statistics::new(roles.into_iter().map(|(name, role)| field(name, role)).collect(), &[]);
     rows.for_each(|row| statistics.row(&row.map(Cell::Number)));
     statistics.finish()
 }

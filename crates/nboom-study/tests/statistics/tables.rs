@@ -1,26 +1,38 @@
 //! Whole tables: faults, latches, cases that did not run, tables that are too long.
 
+use nboom_study::Requirement;
 use nboom_study::statistics::{Extreme, Role, Statistics, Summary, Worse};
 use nboom_tables::Cell;
 
 use crate::{field, uniform};
 
-fn table() -> Statistics {
-    let lock_time = "lock_time of panel +x";
-    Statistics::new(vec![
+const LOCK_TIME: &str = "lock_time of panel +x";
+
+fn table(required: &[Requirement]) -> Statistics {
+    let fields = vec![
         field("case", Role::Case),
         field("seed", Role::Seed),
         field("fault", Role::Fault),
         field("spring", Role::Variable),
-        field(lock_time, Role::Result),
+        field(LOCK_TIME, Role::Result),
         field("status", Role::Status),
-    ])
+    ];
+    Statistics::new(fields, required)
+}
+
+fn required(result: &str, at_least: Option<f64>, at_most: Option<f64>) -> Requirement {
+    Requirement { result: result.to_owned(), at_least, at_most }
 }
 
 /// A table of draws, each without fault and with a fault in which the hinge never latches; without it the hinge
 /// latches at twice the variable, but in every tenth draw not at all.
 fn two_by_two(draws: u64) -> Summary {
-    let mut statistics = table();
+    two_by_two_with(draws, &[])
+}
+
+/// The same, of which this is required.
+fn two_by_two_with(draws: u64, requirements: &[Requirement]) -> Summary {
+    let mut statistics = table(requirements);
     for (draw, spring) in (0..draws).zip(uniform(11)) {
         let head = |case: u64| [Cell::Integer(case as i64), Cell::Integer(draw as i64 + 77)];
         let time = if draw % 10 == 9 { Cell::Empty } else { Cell::Number(2.0 * spring) };
@@ -74,8 +86,8 @@ fn a_latch_that_never_closes_is_later_than_all_others_and_the_worst() {
 }
 
 /// Statistics of a result with these numbers.
-fn of_result(label: &str, numbers: &[f64]) -> Summary {
-    let mut statistics = Statistics::new(vec![field(label, Role::Result)]);
+fn of_result(label: &str, numbers: &[f64], required: &[Requirement]) -> Summary {
+    let mut statistics = Statistics::new(vec![field(label, Role::Result)], required);
     numbers.iter().for_each(|&number| statistics.row(&[Cell::Number(number)]));
     statistics.finish()
 }
@@ -89,12 +101,70 @@ fn the_worst_of_numbers_with_a_sign_is_the_largest_in_size() {
         ("smallest omega_x", [-6.0, -5.0, -1.0, -0.1, 0.5], Worse::Small),
         ("largest omega_x", [4.0, 2.0, 0.5, -0.1, -1.0], Worse::Large),
     ] {
-        let found = of_result(label, &numbers);
+        let found = of_result(label, &numbers, &[]);
         let worst = found.columns[0].worst();
         assert_eq!(worst.iter().map(|worst| worst.value).collect::<Vec<_>>(), expected, "{label}");
         assert_eq!(found.columns[0].worse(), worse, "{label}");
     }
-    assert_eq!(of_result("impulse of boom", &[3.0, 1.0]).columns[0].worse(), Worse::Large);
+    assert_eq!(of_result("impulse of boom", &[3.0, 1.0], &[]).columns[0].worse(), Worse::Large);
+}
+
+#[test]
+fn bounds_are_met_up_to_themselves_and_by_no_case_without_a_number() {
+    let numbers = [-6.0, -1.0, 0.5, 4.0, f64::NAN, 2.0, 1e160];
+    for (at_least, at_most, count, first, worse) in [
+        (Some(-1.0), None, 4, Some(1), Worse::Small),
+        (None, Some(2.0), 4, Some(4), Worse::Large),
+        (Some(-1.0), Some(2.0), 3, Some(1), Worse::Both),
+        (Some(-6.0), Some(4.0), 5, Some(5), Worse::Both),
+    ] {
+        let required = [required("impulse of boom", at_least, at_most)];
+        let found = of_result("impulse of boom", &numbers, &required);
+        let [compliance] = &found.requirements[..] else { panic!("one requirement") };
+        assert_eq!(compliance.requirement, required[0]);
+        let [met] = compliance.met[..] else { panic!("no faults") };
+        assert_eq!((met.count, met.of, compliance.first_broken), (count, 7, first));
+        assert_eq!(found.columns[0].worse(), worse);
+        assert_eq!(found.meet_all, compliance.met);
+    }
+    assert!(of_result("impulse of boom", &numbers, &[]).meet_all.is_empty());
+}
+
+#[test]
+fn requirements_are_met_by_fault_and_all_together_by_cases_that_meet_each() {
+    let both = [
+        required(LOCK_TIME, None, Some(1.5)),
+        required("spring", Some(0.2), None),
+        required("lock_time of another", Some(0.0), None),
+    ];
+    let found = two_by_two_with(1000, &both);
+    // A variable is not a result, and the third has no column.
+    let [late] = &found.requirements[..] else { panic!("one of a result") };
+    let numbers: Vec<f64> = uniform(11).take(1000).collect();
+    let latches = |draw: usize| draw % 10 != 9 && 2.0 * numbers[draw] <= 1.5;
+    let expected = (0..1000).filter(|draw| latches(*draw)).count() as u64;
+    let counts: Vec<_> = late.met.iter().map(|met| (met.count, met.of)).collect();
+    assert_eq!(counts, [(expected, 1000), (0, 1000)]);
+    assert!(
+        late.met[0].low < expected as f64 / 1000.0 && late.met[0].high > expected as f64 / 1000.0
+    );
+    assert_eq!(late.first_broken, Some(if latches(0) { 2 } else { 1 }));
+    assert_eq!(found.meet_all, late.met);
+    let text = serde_json::to_string(&found).expect("numbers and texts");
+    assert_eq!(serde_json::from_str::<Summary>(&text).expect("the same"), found);
+
+    let mut two = Statistics::new(
+        vec![field("a", Role::Result), field("b", Role::Result)],
+        &[required("a", Some(0.0), None), required("b", None, Some(0.0))],
+    );
+    for [a, b] in [[1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [2.0, -2.0]] {
+        two.row(&[Cell::Number(a), Cell::Number(b)]);
+    }
+    let two = two.finish();
+    let counts: Vec<_> =
+        two.requirements.iter().map(|of| (of.met[0].count, of.first_broken)).collect();
+    assert_eq!(counts, [(3, Some(3)), (3, Some(2))]);
+    assert_eq!((two.meet_all[0].count, two.meet_all[0].of), (2, 5));
 }
 
 #[test]
@@ -126,7 +196,7 @@ fn a_long_table_has_counts_and_extremes_of_all_rows_and_percentiles_of_a_share()
 
 #[test]
 fn cases_that_did_not_run_are_counted_and_listed_and_no_part_of_anything_else() {
-    let mut statistics = table();
+    let mut statistics = table(&[]);
     for case in 1..=300 {
         let status = match case % 3 {
             0 => "ok",
@@ -152,7 +222,7 @@ fn cases_that_did_not_run_are_counted_and_listed_and_no_part_of_anything_else() 
 
 #[test]
 fn cases_of_poor_conservation_are_counted_among_those_that_ran() {
-    let mut statistics = table();
+    let mut statistics = table(&[]);
     for case in 1..=10 {
         let status = if case % 4 == 0 { "ok, poor conservation" } else { "ok" };
         let number = Cell::Number(f64::from(case));

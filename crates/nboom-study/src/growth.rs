@@ -1,0 +1,149 @@
+//! More draws for a sweep: the cases that it has are the first of more.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use nboom_tables::{Cell, Column, TablesError, read_table};
+
+use crate::directory::{JOURNAL_FILE, Place, STUDY_FILE};
+use crate::frame::{Batch, line};
+use crate::journal::{Journal, Part};
+use crate::{Description, Method, StudyError, tables};
+
+/// Methods whose first draws are the same, however many there are.
+const GROWING: [Method; 2] = [Method::MonteCarlo, Method::Sobol];
+
+/// How long the rows of a frame are, but for those of its last case \[bytes\].
+const FRAME: usize = 1 << 20;
+
+/// Rows of trajectories that wait for their cases.
+const WAITING: usize = 4096;
+
+impl Description {
+    /// Whether this is another sweep with more draws, so that all of the other one's cases are its first ones.
+    pub(crate) fn continues(&self, then: &Self) -> bool {
+        let is_of_draws = |what: &str| ["study", "draws", "cases"].contains(&what);
+        GROWING.iter().any(|method| method.name() == self.method)
+            && self.draws > then.draws
+            && self.shard.is_none()
+            && self.study_but_draws.is_some()
+            && self.study_but_draws == then.study_but_draws
+            && then.compared(self).all(|(what, _, _)| is_of_draws(what))
+    }
+}
+
+/// Leaves the directory of a sweep as if `now`, which continues it, had been begun there and had come as far.
+///
+/// Whenever it is killed, what is there is one of the two sweeps, and can be continued.
+///
+/// # Errors
+/// When a table of a finished sweep is not what it wrote, and when a file cannot be read or written.
+pub(crate) fn continued(
+    place: &Place,
+    then: Description,
+    now: &Description,
+) -> Result<Description, StudyError> {
+    let open =
+        Description { complete: false, tables: BTreeMap::new(), counts: None, ..then.clone() };
+    if then.complete {
+        tables::require(place, &then.tables)?;
+        // One that is there is of a process that was killed here.
+        place.remove(JOURNAL_FILE)?;
+        write_journal(place, &then)?;
+        place.describe(&open)?;
+    }
+    // Beside a description of more draws it would be another study.
+    place.remove(STUDY_FILE)?;
+    let Description { study, draws, cases, .. } = now.clone();
+    Ok(Description { study, draws, cases, ..open.also_by(now) })
+}
+
+/// Writes a journal of all cases from the tables of a finished sweep.
+fn write_journal(place: &Place, what: &Description) -> Result<(), StudyError> {
+    let columns = what.columns_of_tables();
+    let mut journal = Journal::read(&place.file(JOURNAL_FILE), what.range())?;
+    let mut journal = journal.writer()?;
+    thread::scope(|scope| {
+        let (send, receive) = sync_channel(WAITING);
+        let of_states = (!columns.states.is_empty()).then(|| {
+            let path = tables::path(place, Part::States);
+            scope.spawn(move || send_states(&path, columns.states, &send))
+        });
+        let mut states = States { waiting: None, receive };
+        let mut batch = Batch::from_case(1);
+        let path = tables::path(place, Part::Case);
+        read_table(&path, columns.cases, |cells| -> Result<(), StudyError> {
+            batch.push_cells(cells, states.of_case(number(cells)));
+            if batch.bytes() >= FRAME {
+                journal.append(&batch.frame(), batch.range())?;
+                batch = Batch::from_case(batch.range().end() + 1);
+            }
+            Ok(())
+        })?;
+        if batch.cases > 0 {
+            journal.append(&batch.frame(), batch.range())?;
+        }
+        match of_states.map(|thread| thread.join().expect("it does not panic")) {
+            Some(Err(Unsent::Unreadable(error))) => Err(error.into()),
+            _ => Ok(()),
+        }
+    })
+}
+
+/// The number of the case of a row.
+fn number(cells: &[Cell<'_>]) -> u64 {
+    match cells.first() {
+        Some(Cell::Integer(case)) => case.cast_unsigned(),
+        _ => 0,
+    }
+}
+
+/// Why not all rows of trajectories were sent.
+enum Unsent {
+    Unreadable(TablesError),
+    /// Nobody waits for them.
+    Unwanted,
+}
+
+impl From<TablesError> for Unsent {
+    fn from(error: TablesError) -> Self {
+        Self::Unreadable(error)
+    }
+}
+
+/// Sends the rows of a table of trajectories as lines, each with its case.
+fn send_states(
+    path: &Path,
+    columns: &[Column],
+    to: &SyncSender<(u64, Vec<u8>)>,
+) -> Result<(), Unsent> {
+    read_table(path, columns, |cells| {
+        let mut text = Vec::new();
+        line(&mut text, cells.iter().copied());
+        to.send((number(cells), text)).map_err(|_| Unsent::Unwanted)
+    })
+}
+
+/// Rows of trajectories in order of cases.
+struct States {
+    /// The first of a case that has not come yet.
+    waiting: Option<(u64, Vec<u8>)>,
+    receive: Receiver<(u64, Vec<u8>)>,
+}
+
+impl States {
+    /// The rows of a case, which comes after all that were asked for.
+    fn of_case(&mut self, case: u64) -> Vec<u8> {
+        let mut rows = Vec::new();
+        while let Some((of, row)) = self.waiting.take().or_else(|| self.receive.recv().ok()) {
+            if of > case {
+                self.waiting = Some((of, row));
+                break;
+            }
+            rows.extend(row);
+        }
+        rows
+    }
+}

@@ -1,0 +1,104 @@
+use super::*;
+use crate::STUDY_FILE;
+
+/// The same sweep with this many cases, by a study that says so.
+fn grown(fake: &Fake, cases: u64) -> Fake {
+    Fake { cases, study: "draws = 2", ..fake.clone() }
+}
+
+/// All files of a sweep, by name.
+fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(directory).expect("readable").map(|entry| entry.expect("readable"));
+    let file = |entry: fs::DirEntry| {
+        let content = fs::read(entry.path()).expect("readable");
+        (entry.file_name().to_string_lossy().into_owned(), content)
+    };
+    entries.map(file).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn more_draws_end_with_the_bytes_of_one_sweep(
+        cases in 0_u64..60,
+        more in 1_u64..60,
+        is_finished in any::<bool>(),
+        patience in 0_i64..40,
+        interruptions in proptest::collection::vec(0_i64..40, 0..4),
+    ) {
+        let place = tempfile::tempdir().expect("a directory");
+        let [directory, alone] = ["grown", "alone"].map(|name| place.path().join(name));
+        let few = Fake { jobs: 1, ..Fake::of(cases) };
+        let done = if is_finished {
+            few.finish(&directory, &[]).done
+        } else {
+            few.run(&directory, &Impatient(AtomicI64::new(patience))).expect("it can be interrupted").done
+        };
+        let many = grown(&few, cases + more);
+        let refused = Fake { resume: false, ..many.clone() }.run(&directory, &Patient);
+        let refused = refused.expect_err("it is not asked to go on").to_string();
+        prop_assert!(refused.contains("--resume"), "{refused}");
+        let report = many.finish(&directory, &interruptions);
+        if interruptions.is_empty() {
+            prop_assert_eq!(report.computed, cases + more - done);
+        }
+        prop_assert_eq!(tables(&directory), expected(&many));
+        many.finish(&alone, &[]);
+        prop_assert_eq!(files(&directory), files(&alone));
+    }
+}
+
+#[test]
+fn a_kill_leaves_one_sweep_or_the_other() {
+    let place = tempfile::tempdir().expect("a directory");
+    let directory = place.path();
+    let few = Fake { jobs: 1, ..Fake::of(30) };
+    let many = grown(&few, 50);
+    // Half of the journal is there.
+    few.finish(directory, &[]);
+    fs::write(directory.join(JOURNAL_FILE), "batch 1 30 7").expect("writable");
+    let report = many.finish(directory, &[]);
+    assert_eq!((report.computed, tables(directory)), (20, expected(&many)));
+    // The journal is there, the sweep is open again, and has no study.
+    let more = grown(&few, 60);
+    fs::remove_dir_all(directory).expect("it is there");
+    few.finish(directory, &[]);
+    let place = Place::take(directory).expect("nobody holds it");
+    let then = place.found.clone().expect("a sweep");
+    crate::growth::continued(&place, then, &more.description()).expect("readable");
+    drop(place);
+    assert!(!directory.join(STUDY_FILE).exists());
+    for fake in [few.clone(), more] {
+        let copy = tempfile::tempdir().expect("a directory");
+        for (name, content) in files(directory) {
+            fs::write(copy.path().join(name), content).expect("writable");
+        }
+        let report = fake.finish(copy.path(), &[]);
+        assert_eq!((report.computed, tables(copy.path())), (fake.cases - 30, expected(&fake)));
+    }
+}
+
+#[test]
+fn other_sweeps_are_not_continued() {
+    let place = tempfile::tempdir().expect("a directory");
+    let few = Fake::of(10);
+    let refused = |now: Fake, words: &str| {
+        let told = now.run(place.path(), &Patient).expect_err("another sweep").to_string();
+        assert!(told.contains(words), "{told}");
+    };
+    let latin = Fake { method: Method::LatinHypercube, ..few.clone() };
+    latin.finish(place.path(), &[]);
+    refused(grown(&latin, 20), "draws 10 then, 20 now");
+    fs::remove_dir_all(place.path()).expect("it is there");
+    few.finish(place.path(), &[]);
+    refused(Fake { seed: 2, ..grown(&few, 20) }, "seed 1 then, 2 now");
+    refused(grown(&few, 5), "draws 10 then, 5 now");
+    refused(Fake { shard: Some("1/2".parse().expect("a shard")), ..grown(&few, 20) }, "shard");
+    refused(Fake { maker: "2", ..grown(&few, 20) }, "--accept-difference");
+    let altered = place.path().join(CASES_FILE);
+    let altered = if altered.exists() { altered } else { place.path().join(CASES_CSV_FILE) };
+    fs::write(&altered, "cut").expect("writable");
+    refused(grown(&few, 20), "3 bytes found");
+    assert_eq!(fs::read(&altered).expect("readable"), b"cut");
+}
