@@ -8,7 +8,7 @@ use nboom_io::SceneFile;
 use nboom_sim::Path as Code;
 use nboom_study::{RunSettings, Study, require_as_swept};
 
-use crate::scene_args::read_options;
+use crate::scene_args::{SceneArgs, read_options};
 use crate::{Cli, CliError, Command, RunArgs, SweepError};
 
 /// Why a case of a study cannot be run.
@@ -51,7 +51,9 @@ pub enum CaseError {
 /// When the study is wrong or has no such case, and when its numbers make no scene.
 pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), CliError> {
     let path = &args.scene.scene;
-    let given = [("--set", !args.scene.set.is_empty()), ("--format", args.scene.format.is_some())];
+    let SceneArgs { set, format, fixed_base, .. } = &args.scene;
+    let given =
+        [("--set", !set.is_empty()), ("--format", format.is_some()), ("--fixed-base", *fixed_base)];
     if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
         return Err(CaseError::NotOfAStudy { option }.into());
     }

@@ -219,7 +219,7 @@ fn warn_of_poor_cases(Counts { ok, poor, first_poor, .. }: Counts) {
 fn warn_of_negative_margins(statistics: &Summary) {
     for column in statistics.columns.iter().filter(|column| column.is_result && column.is_margin())
     {
-        if let Some(worst) = column.worst().first().filter(|worst| worst.value < 0.0) {
+        if let Some(worst) = column.smallest.first().filter(|worst| worst.value < 0.0) {
             let (label, value, case) = (&column.label, short(worst.value, 3), worst.case);
             say("warning", &format!("{label}: negative, down to {value} in case {case}"));
         }
@@ -251,20 +251,22 @@ fn run_worst(
     Ok(())
 }
 
-/// The cases with the worst results of each kind, without repetition.
+/// The first case that breaks each requirement, and those with the worst results of each kind, without repetition.
 fn worst(statistics: &Summary) -> Vec<u64> {
-    let mut cases = Vec::new();
+    let broken =
+        statistics.requirements.iter().filter_map(|of| of.first_broken.iter().flatten().min());
+    let mut cases: Vec<u64> = Vec::new();
+    for case in broken.take(MOST_PAGES) {
+        if !cases.contains(case) {
+            cases.push(*case);
+        }
+    }
     let results = statistics.columns.iter().filter(|column| column.is_result);
     let mut results: Vec<_> = results.map(|column| (column, column.worst())).collect();
-    // There are not pages for many results: those with a broken requirement come first, then margins, then latches
-    // that do not close.
-    let is_broken = |label: &str| {
-        let requirements = &mut statistics.requirements.iter();
-        requirements.any(|of| of.requirement.result == label && of.first_broken.is_some())
-    };
+    // There are not pages for many results: margins come first, then latches that do not close.
     results.sort_by_key(|(column, worst)| {
         let is_never = worst.first().is_some_and(|worst| worst.value == f64::INFINITY);
-        (!is_broken(&column.label), !column.is_margin(), !is_never)
+        (!column.is_margin(), !is_never)
     });
     // The first of all results, before the second of any.
     for rank in 0..MOST_PAGES {

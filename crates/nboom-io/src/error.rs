@@ -45,7 +45,7 @@ pub enum InputError {
     },
     /// A main body is to be fixed that no robot has.
     #[error(
-        "{file}: --fixed-base found, which only a robot in URDF can take; a scene says base = \"fixed\" itself"
+        "{file}: --fixed-base found, which only a robot in URDF can take; in a scene base = \"fixed\" says so"
     )]
     NoRobot {
         /// The scene or the deck.

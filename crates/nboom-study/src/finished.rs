@@ -2,12 +2,11 @@ use std::path::{Path, PathBuf};
 
 use nboom_tables::{Cell, read_table};
 
-use crate::StudyError;
 use crate::description::Description;
-use crate::directory::{
-    self, CASES_CSV_FILE, CASES_FILE, STATISTICS_FILE, STUDY_FILE, SWEPT_SCENE_FILE,
-};
+use crate::directory::{self, STATISTICS_FILE, STUDY_FILE, SWEPT_SCENE_FILE};
+use crate::journal::Part;
 use crate::statistics::Summary;
+use crate::{StudyError, tables};
 
 /// The directory of a finished sweep.
 #[derive(Clone, Debug)]
@@ -56,9 +55,7 @@ impl SweepDirectory {
         &self,
         take: impl FnMut(&[Cell<'_>]) -> Result<(), StudyError>,
     ) -> Result<(), StudyError> {
-        let csv = self.path.join(CASES_CSV_FILE);
-        let path = if csv.exists() { csv } else { self.path.join(CASES_FILE) };
-        read_table(&path, &self.description.columns, take)
+        read_table(&tables::path(&self.path, Part::Case), &self.description.columns, take)
     }
 
     /// The text of the study.

@@ -1,5 +1,6 @@
 //! More draws for a sweep: the cases that it has are the first of more.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -7,7 +8,7 @@ use std::thread;
 
 use nboom_tables::{Cell, Column, TablesError, read_table};
 
-use crate::directory::{JOURNAL_FILE, Place, STUDY_FILE};
+use crate::directory::{JOURNAL_FILE, PAGE_FILE, Place, STATISTICS_FILE, STUDY_FILE};
 use crate::frame::{Batch, line};
 use crate::journal::{Journal, Part};
 use crate::{Description, Method, StudyError, tables};
@@ -19,7 +20,7 @@ const GROWING: [Method; 2] = [Method::MonteCarlo, Method::Sobol];
 const FRAME: usize = 1 << 20;
 
 /// Rows of trajectories that wait for their cases.
-const WAITING: usize = 4096;
+const WAITING: usize = 64;
 
 impl Description {
     /// Whether this is another sweep with more draws, so that all of the other one's cases are its first ones.
@@ -54,8 +55,11 @@ pub(crate) fn continued(
         write_journal(place, &then)?;
         place.describe(&open)?;
     }
-    // Beside a description of more draws it would be another study.
-    place.remove(STUDY_FILE)?;
+    // Those of fewer draws; beside a description of more draws the study would be another one.
+    let tables = tables::TWINS.as_flattened().iter().copied();
+    tables
+        .chain([STATISTICS_FILE, PAGE_FILE, STUDY_FILE])
+        .try_for_each(|name| place.remove(name))?;
     let Description { study, draws, cases, .. } = now.clone();
     Ok(Description { study, draws, cases, ..open.also_by(now) })
 }
@@ -68,14 +72,24 @@ fn write_journal(place: &Place, what: &Description) -> Result<(), StudyError> {
     thread::scope(|scope| {
         let (send, receive) = sync_channel(WAITING);
         let of_states = (!columns.states.is_empty()).then(|| {
-            let path = tables::path(place, Part::States);
+            let path = tables::path(place.path(), Part::States);
             scope.spawn(move || send_states(&path, columns.states, &send))
         });
         let mut states = States { waiting: None, receive };
         let mut batch = Batch::from_case(1);
-        let path = tables::path(place, Part::Case);
+        let path = tables::path(place.path(), Part::Case);
+        let altered = |found: String, expected: &str| {
+            let (path, expected) = (path.clone(), expected.to_owned());
+            StudyError::Altered { path, found, expected }
+        };
         read_table(&path, columns.cases, |cells| -> Result<(), StudyError> {
-            batch.push_cells(cells, states.of_case(number(cells)));
+            let (case, due) = (number(cells), batch.first + batch.cases);
+            if case != due {
+                return Err(altered(format!("case {case}"), &format!("case {due}")));
+            }
+            let states = states.of_case(case);
+            let states = states.ok_or_else(|| altered(format!("case {case}"), OTHER_STATES))?;
+            batch.push_cells(cells, states);
             if batch.bytes() >= FRAME {
                 journal.append(&batch.frame(), batch.range())?;
                 batch = Batch::from_case(batch.range().end() + 1);
@@ -85,12 +99,22 @@ fn write_journal(place: &Place, what: &Description) -> Result<(), StudyError> {
         if batch.cases > 0 {
             journal.append(&batch.frame(), batch.range())?;
         }
+        let (done, is_all) = (batch.first + batch.cases - 1, states.next().is_none());
+        // Nobody takes what is left.
+        drop(states);
         match of_states.map(|thread| thread.join().expect("it does not panic")) {
             Some(Err(Unsent::Unreadable(error))) => Err(error.into()),
+            _ if done != what.cases => {
+                Err(altered(format!("{done} cases"), &format!("{} cases", what.cases)))
+            }
+            _ if !is_all => Err(altered(format!("{done} cases"), OTHER_STATES)),
             _ => Ok(()),
         }
     })
 }
+
+/// What a table of cases is not that a table of trajectories is beside.
+const OTHER_STATES: &str = "the cases of the table of trajectories";
 
 /// The number of the case of a row.
 fn number(cells: &[Cell<'_>]) -> u64 {
@@ -134,16 +158,24 @@ struct States {
 }
 
 impl States {
-    /// The rows of a case, which comes after all that were asked for.
-    fn of_case(&mut self, case: u64) -> Vec<u8> {
+    /// The rows of a case, which comes after all that were asked for; none if there are rows of an earlier one.
+    fn of_case(&mut self, case: u64) -> Option<Vec<u8>> {
         let mut rows = Vec::new();
-        while let Some((of, row)) = self.waiting.take().or_else(|| self.receive.recv().ok()) {
-            if of > case {
-                self.waiting = Some((of, row));
-                break;
+        while let Some((of, row)) = self.next() {
+            match of.cmp(&case) {
+                Ordering::Less => return None,
+                Ordering::Equal => rows.extend(row),
+                Ordering::Greater => {
+                    self.waiting = Some((of, row));
+                    break;
+                }
             }
-            rows.extend(row);
         }
-        rows
+        Some(rows)
+    }
+
+    /// The next row with its case, if there is one.
+    fn next(&mut self) -> Option<(u64, Vec<u8>)> {
+        self.waiting.take().or_else(|| self.receive.recv().ok())
     }
 }

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 pub struct Requirement {
     /// The result, by its text.
     pub result: String,
-    /// The smallest number that meets it.
+    /// The smallest number that meets it, in the unit of the result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
-    /// The largest number that meets it.
+    /// The largest number that meets it, in the unit of the result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
 }

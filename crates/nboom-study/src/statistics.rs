@@ -103,6 +103,7 @@ struct Head<'a> {
 
 impl Statistics {
     /// Statistics of no rows yet, of a table with these columns, of whose results this is required.
+    /// Requirements of results that the table does not have are left out.
     pub fn new(fields: Vec<Field>, requirements: &[Requirement]) -> Self {
         let is_number = |field: &Field| matches!(field.role, Role::Variable | Role::Result);
         let places: Vec<usize> = (0..fields.len()).filter(|i| is_number(&fields[*i])).collect();
@@ -113,7 +114,7 @@ impl Statistics {
                 *role == Role::Result && *label == requirement.result
             };
             let column = places.iter().position(is_of)?;
-            Some(Required { requirement: requirement.clone(), column, first_broken: None })
+            Some(Required { requirement: requirement.clone(), column })
         };
         let required: Vec<_> = requirements.iter().filter_map(required).collect();
         Self {
@@ -159,7 +160,7 @@ impl Statistics {
                 self.extremes[column].add_never(extreme);
             }
         }
-        self.groups[group].met.add(head.case, &numbers, &mut self.required);
+        self.groups[group].met.add(head.case, &numbers, &self.required);
         self.sample.offer(head.case, head.seed, group, &numbers);
     }
 

@@ -17,7 +17,7 @@ use crate::statistics::{Statistics, Summary};
 use crate::{Description, StudyError};
 
 /// Tables in Parquet and in CSV, of cases and of trajectories.
-const TWINS: [[&str; 2]; 2] =
+pub(crate) const TWINS: [[&str; 2]; 2] =
     [[CASES_FILE, CASES_CSV_FILE], [TRAJECTORIES_FILE, TRAJECTORIES_CSV_FILE]];
 
 /// A table in one format.
@@ -120,10 +120,12 @@ pub(crate) fn require(place: &Place, tables: &BTreeMap<String, u64>) -> Result<(
     Ok(())
 }
 
-/// The file of a finished sweep with a table of this part, which this build can read.
-pub(crate) fn path(place: &Place, part: Part) -> PathBuf {
-    let [parquet, csv] = TWINS[usize::from(part == Part::States)].map(|name| place.file(name));
-    if has_parquet() && parquet.exists() { parquet } else { csv }
+/// The file in the directory of a finished sweep with a table of this part; one that this build can read, if it is
+/// there.
+pub(crate) fn path(directory: &Path, part: Part) -> PathBuf {
+    let [parquet, csv] = TWINS[usize::from(part == Part::States)].map(|name| directory.join(name));
+    let is_readable = has_parquet() || !csv.exists();
+    if parquet.exists() && is_readable { parquet } else { csv }
 }
 
 /// How long a file is \[bytes\], if it is there.

@@ -134,9 +134,7 @@ impl Task<'_> {
             }
             State::Open(what) => what,
             State::Fewer(then) if self.resume => {
-                let Description { cases, .. } = self.description;
-                // What is there is written once more.
-                space::require(self.directory, self.bytes(&self.description, cases), cases)?;
+                self.require_growth(&then)?;
                 growth::continued(&place, then, &self.description)?
             }
             State::Fewer(then) => {
@@ -158,6 +156,18 @@ impl Task<'_> {
         place.begin(&what, self.study, self.scene)?;
         let begun = Begun { place, what, journal, before, texts, csv: self.csv };
         Ok(Begin::Open(begun.into()))
+    }
+
+    /// # Errors
+    /// When memory or the disk is too small for the draws that come to those of a sweep.
+    fn require_growth(&self, then: &Description) -> Result<(), StudyError> {
+        let Description { cases, .. } = self.description;
+        let columns = self.description.columns_of_tables();
+        let (more, jobs) = (cases - then.cases, self.jobs as u64);
+        space::require_memory(&columns, self.samples, more, jobs)?;
+        // The cases of a finished sweep are written once more.
+        let missing = if then.complete { cases } else { more };
+        space::require(self.directory, self.bytes(&self.description, missing), cases)
     }
 
     /// About how much is still to be written, if so many cases are missing.

@@ -172,8 +172,9 @@ impl Study {
     }
 
     /// Begins a sweep whose cases run elsewhere.
-    fn gather(&self, options: &SweepOptions) -> PyResult<Gathering> {
-        let gathering = self.sweep(options, 1, None).gather().map_err(of_study)?;
+    fn gather(&self, py: Python<'_>, options: &SweepOptions) -> PyResult<Gathering> {
+        let sweep = self.sweep(options, 1, None);
+        let gathering = py.detach(|| sweep.gather()).map_err(of_study)?;
         Ok(Gathering::of(gathering, options.directory.clone()))
     }
 

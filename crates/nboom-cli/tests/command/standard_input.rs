@@ -74,6 +74,22 @@ fn what_is_wrong_in_standard_input_is_told_by_its_place() {
 }
 
 #[test]
+fn the_base_of_a_robot_can_be_fixed() {
+    let place = Place::new();
+    let robot = include_str!("../../../../tests/data/robots/ur5.urdf");
+    for (fixed, is_fixed) in [(&["--fixed-base"][..], true), (&[], false)] {
+        let read = &["-", "--format", "urdf"][..];
+        let checked = fed(&place, robot, &[&["check"], read, fixed].concat());
+        assert_eq!(stdout(&checked).contains("fixed to the ground"), is_fixed);
+        assert_eq!(stderr(&checked).contains("`world` as the root"), !is_fixed);
+        let output = fed(&place, robot, &[&["run"], read, fixed, &["-o", "out"]].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let again = place.nboom(&["check", "out/scene.toml"]);
+        assert_eq!(stdout(&again).contains("fixed to the ground"), is_fixed);
+    }
+}
+
+#[test]
 fn a_format_goes_with_standard_input_alone() {
     let place = Place::new();
     for (words, told) in [
@@ -82,6 +98,7 @@ fn a_format_goes_with_standard_input_alone() {
         (&["check", "-", "--format", "urdf"], "stdin:2:2: robot: found text that is no XML"),
         (&["check", "-", "--format", "usd"], "unknown name, toml, nml, urdf expected"),
         (&["run", "boom.nml", "--format", "nml"], "expected - for standard input"),
+        (&["check", "-", "--format", "nml", "--fixed-base"], "stdin: --fixed-base found"),
     ] {
         let output = fed(&place, BOOM, words);
         assert_eq!(code(&output), 2, "{words:?}");

@@ -291,7 +291,12 @@ fn a_finished_sweep_gets_more_draws() {
     let place = place();
     place.write("study.toml", &STUDY.replacen("draws = 40", "draws = 9", 1));
     sweep(&place, &["-o", "grown"]);
-    place.write("study.toml", &STUDY.replacen("draws = 40", "draws = 14", 1));
+    let more = STUDY.replacen("draws = 40", "draws = 14", 1);
+    // Another change on a later line is what is told.
+    place.write("study.toml", &more.replacen("rtol = 1e-8", "rtol = 1e-7", 1));
+    let other = place.nboom(&["sweep", "study.toml", "-o", "grown", "--resume"]);
+    refused(&other, 2, &["another text of the study", "`rtol = 1e-8` then, `rtol = 1e-7` now"]);
+    place.write("study.toml", &more);
     refused(&place.nboom(&["sweep", "study.toml", "-o", "grown"]), 2, &["9 draws", "--resume"]);
     sweep(&place, &["-o", "grown", "--resume"]);
     sweep(&place, &["-o", "alone"]);

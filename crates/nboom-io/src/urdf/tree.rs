@@ -37,7 +37,7 @@ pub(super) fn assemble(
     if robot.links[root].name == WORLD && base == Base::Free {
         let at = reader.lines.position(robot.links[root].at);
         let found = format!("{} as the root", quoted(WORLD));
-        let expected = "none of a robot that floats, as this one does; --fixed-base fixes it";
+        let expected = "another name: the robot floats, unless --fixed-base is given";
         reader.report.warn(at, "link", found, expected);
     }
     let mut parts = Parts { main: Part::of(root), bodies: Vec::new() };

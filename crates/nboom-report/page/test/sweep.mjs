@@ -73,7 +73,7 @@ const checks = {
     const { columns, requirements, faults } = page.data.summary;
     const groups = faults.length + 1;
     assert.equal(await page.locator('#requirements tbody tr').count(), groups * (requirements.length + (requirements.length > 1 ? 1 : 0)));
-    for (const { result, at_least: least, at_most: most, met, first_broken: first } of requirements) {
+    for (const { result, at_least: least, at_most: most, met, first_broken: [first] } of requirements) {
       const row = page.locator('#requirements tbody tr').filter({ hasText: result }).first();
       assert.match(await row.textContent(), new RegExp(`${met[0].count} of ${met[0].of}`));
       assert.equal(await row.locator('.case').count(), first ? 1 : 0);

@@ -28,7 +28,7 @@ impl<'t> Reader<'t> {
             let text = result.value.trim();
             if !wanted.iter().any(|wanted| wanted.text() == text) {
                 let meant = nearest(text, wanted.iter().map(Wanted::text));
-                let expected = "a result in the table of cases, which the list `results` has";
+                let expected = "a result in the table of cases";
                 self.error_like(&result.place, "result", quoted(text), expected, meant);
             }
             if all.iter().any(|other| other.result == text) {

@@ -289,7 +289,7 @@ function requirements() {
   const bounds = ({ at_least: least, at_most: most }) => [least === undefined ? null : `at least ${digits(least, 6)}`, most === undefined ? null : `at most ${digits(most, 6)}`].filter(Boolean).join(' and ');
   const row = (what, i, { count, of, low, high }, first) => [what, given(groups[i]), numeric(of > 0 ? `${whole(count)} of ${whole(of)}` : '\u2013'),
     numeric(of > 0 ? percent(count / of) : '\u2013'), numeric(of > 0 ? interval(low, high, percent) : '\u2013'), first];
-  const rows = summary.requirements.flatMap((one) => one.met.map((met, i) => row([given(one.result), ` ${bounds(one)}`], i, met, i === 0 && one.first_broken ? caseButton(one.first_broken) : '')));
+  const rows = summary.requirements.flatMap((one) => one.met.map((met, i) => row([given(one.result), ` ${bounds(one)}`], i, met, one.first_broken[i] ? caseButton(one.first_broken[i]) : '')));
   const all = summary.requirements.length > 1 ? summary.meet_all.map((met, i) => row('all of them', i, met, '')) : [];
   return rows.length > 0 && section('requirements', 'Requirements',
     note('The share of cases that ran which meet a requirement, with Wilson\u2019s interval of 95 % confidence. A case without the number does not meet it.'),

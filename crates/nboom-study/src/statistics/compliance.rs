@@ -7,30 +7,28 @@ use super::{Proportion, Requirement};
 /// Cases of one group that meet requirements.
 #[derive(Clone, Debug)]
 pub(super) struct Met {
-    /// Each of them.
-    each: Vec<u64>,
+    /// Of each of them how many do, and the first that does not.
+    each: Vec<(u64, Option<u64>)>,
     /// All of them.
     all: u64,
 }
 
-/// A requirement, and the first case that does not meet it.
+/// A requirement of a column.
 #[derive(Clone, Debug)]
 pub(super) struct Required {
     pub requirement: Requirement,
-    /// Of which column.
     pub column: usize,
-    pub first_broken: Option<u64>,
 }
 
 impl Met {
     pub fn new(requirements: usize) -> Self {
-        Self { each: vec![0; requirements], all: 0 }
+        Self { each: vec![(0, None); requirements], all: 0 }
     }
 
     /// Takes a case with these numbers.
-    pub fn add(&mut self, case: u64, numbers: &[f64], required: &mut [Required]) {
+    pub fn add(&mut self, case: u64, numbers: &[f64], required: &[Required]) {
         let mut meets_all = true;
-        for (met, Required { requirement, column, first_broken }) in
+        for ((met, first_broken), Required { requirement, column }) in
             self.each.iter_mut().zip(required)
         {
             if requirement.is_met(numbers[*column]) {
@@ -54,16 +52,16 @@ impl Required {
     pub fn compliance<'a>(
         &self,
         number: usize,
-        groups: impl Iterator<Item = (&'a Met, u64)>,
+        groups: impl Iterator<Item = (&'a Met, u64)> + Clone,
     ) -> Compliance {
         Compliance {
             requirement: self.requirement.clone(),
-            met: groups.map(|(met, cases)| proportion(met.each[number], cases)).collect(),
-            first_broken: self.first_broken,
+            met: groups.clone().map(|(met, cases)| proportion(met.each[number].0, cases)).collect(),
+            first_broken: groups.map(|(met, _)| met.each[number].1).collect(),
         }
     }
 
-    /// On which side its bound is, if there is one.
+    /// On which side of it numbers are worse, if it has one bound.
     pub fn worse(&self) -> Option<Worse> {
         match (self.requirement.at_least, self.requirement.at_most) {
             (Some(_), None) => Some(Worse::Small),

@@ -246,9 +246,8 @@ pub struct Compliance {
     pub requirement: Requirement,
     /// Of each group how many cases meet it.
     pub met: Vec<Proportion>,
-    /// The first case that does not.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub first_broken: Option<u64>,
+    /// Of each group the first case that does not.
+    pub first_broken: Vec<Option<u64>>,
 }
 
 /// A share of cases with its interval of 95 % confidence by Wilson.

@@ -28,6 +28,7 @@ pub(crate) struct Fake {
     pub samples: u64,
     pub jobs: usize,
     pub resume: bool,
+    pub csv: bool,
     pub maker: &'static str,
     pub accept_difference: bool,
     /// A case that panics.
@@ -45,6 +46,7 @@ impl Fake {
             samples: 1,
             jobs: 2,
             resume: true,
+            csv: true,
             maker: "1",
             accept_difference: false,
             broken: 0,
@@ -68,7 +70,7 @@ impl Fake {
             samples: self.samples,
             jobs: self.jobs,
             resume: self.resume,
-            csv: true,
+            csv: self.csv,
             accept_difference: self.accept_difference,
         };
         task.run(&worker, watcher)

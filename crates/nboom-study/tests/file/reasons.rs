@@ -52,8 +52,7 @@ fn requirements_are_of_results_in_the_table_and_have_bounds() {
             "{told}"
         );
     }
-    let place =
-        place(&study(&format!("result = ' lock_time of boom '\nat_most = 2.5\nat_least = 1")));
+    let place = place(&study("result = ' lock_time of boom '\nat_most = 2.5\nat_least = 1"));
     let read = Study::read(&place.path().join("study.toml")).expect("a study");
     let [requirement] = &read.requirements[..] else { panic!("one requirement") };
     assert_eq!((requirement.at_least, requirement.at_most), (Some(1.0), Some(2.5)));

@@ -131,6 +131,7 @@ mod of_parquet {
     use std::fs::File;
 
     use nboom_tables::{Cell, Column, Kind, TableWriter};
+    use parquet::basic::{Compression, Encoding, Type};
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field;
 
@@ -153,6 +154,20 @@ mod of_parquet {
         };
         let found = rows(&place, "states.parquet").into_iter().map(bits);
         assert!(found.eq(numbers().take(MANY).map(f64::to_bits)));
+    }
+
+    #[test]
+    fn numbers_are_packed_byte_by_byte() {
+        let place = long();
+        write(&place, Format::Parquet).expect("it is built");
+        let file = File::open(place.path("states.parquet")).expect("it is there");
+        let file = SerializedFileReader::new(file).expect("a file of Parquet");
+        for column in file.metadata().row_group(0).columns() {
+            assert_eq!(column.compression(), Compression::SNAPPY);
+            if column.column_type() == Type::DOUBLE {
+                assert!(column.encodings().any(|one| one == Encoding::BYTE_STREAM_SPLIT));
+            }
+        }
     }
 
     #[test]

@@ -164,7 +164,8 @@ def sweep(
     shard : (i, n), optional
         Run the i-th of n parts, from 1; :func:`merge` puts parts together. The directory then has no tables.
     resume : bool
-        Go on with a sweep that was not finished; in a directory without one, start.
+        Go on with a sweep that was not finished, or that has fewer draws by Monte Carlo or Sobol; in a directory
+        without one, start.
     csv : bool
         Write tables in CSV too.
     accept_difference : bool

@@ -1,5 +1,4 @@
 use super::*;
-use crate::STUDY_FILE;
 
 /// The same sweep with this many cases, by a study that says so.
 fn grown(fake: &Fake, cases: u64) -> Fake {
@@ -49,6 +48,60 @@ proptest! {
     }
 }
 
+/// Tables in CSV that are not asked for any more would be those of fewer draws.
+#[test]
+fn what_is_not_asked_for_any_more_is_gone() {
+    let place = tempfile::tempdir().expect("a directory");
+    let [directory, alone] = ["grown", "alone"].map(|name| place.path().join(name));
+    let few = Fake::of(20);
+    few.finish(&directory, &[]);
+    let many = Fake { csv: false, ..grown(&few, 50) };
+    many.finish(&directory, &[]);
+    many.finish(&alone, &[]);
+    assert_eq!(files(&directory), files(&alone));
+}
+
+#[test]
+fn a_refusal_for_want_of_room_leaves_the_finished_sweep() {
+    let place = tempfile::tempdir().expect("a directory");
+    let few = Fake::of(20);
+    few.finish(place.path(), &[]);
+    let before = files(place.path());
+    let large = Fake { samples: 1 << 50, ..grown(&few, 50) };
+    let error = large.run(place.path(), &Patient).expect_err("there is no room");
+    assert!(error.is_refusal(), "{error}");
+    assert_eq!(files(place.path()), before);
+}
+
+#[test]
+fn tables_of_other_cases_are_refused() {
+    let few = Fake::of(20);
+    for name in [CASES_CSV_FILE, TRAJECTORIES_CSV_FILE] {
+        let place = tempfile::tempdir().expect("a directory");
+        let directory = place.path();
+        few.finish(directory, &[]);
+        let sweep = SweepDirectory::read(directory).expect("readable").expect("a sweep");
+        let mut what = sweep.description;
+        for (parquet, csv) in
+            [(CASES_FILE, CASES_CSV_FILE), (crate::TRAJECTORIES_FILE, TRAJECTORIES_CSV_FILE)]
+        {
+            if what.tables.remove(parquet).is_some() {
+                fs::remove_file(directory.join(parquet)).expect("it is there");
+            }
+            assert!(what.tables.contains_key(csv));
+        }
+        fs::write(directory.join(STUDY_JSON_FILE), what.text()).expect("writable");
+        // A row comes later than it should.
+        let path = directory.join(name);
+        let text = fs::read_to_string(&path).expect("readable");
+        let row = text.lines().nth(2).expect("a row").to_owned() + "\n";
+        fs::write(&path, text.replacen(&row, "", 1) + &row).expect("writable");
+        let error = grown(&few, 30).run(directory, &Patient).expect_err("it is damaged");
+        assert!(matches!(&error, StudyError::Altered { .. }), "{error}");
+        assert!(path.exists(), "nothing is removed");
+    }
+}
+
 #[test]
 fn a_kill_leaves_one_sweep_or_the_other() {
     let place = tempfile::tempdir().expect("a directory");
@@ -68,7 +121,8 @@ fn a_kill_leaves_one_sweep_or_the_other() {
     let then = place.found.clone().expect("a sweep");
     crate::growth::continued(&place, then, &more.description()).expect("readable");
     drop(place);
-    assert!(!directory.join(STUDY_FILE).exists());
+    assert_eq!(names(directory), [JOURNAL_FILE, "scene.toml", STUDY_JSON_FILE]);
+    assert!(!directory.join(CASES_FILE).exists());
     for fake in [few.clone(), more] {
         let copy = tempfile::tempdir().expect("a directory");
         for (name, content) in files(directory) {
