@@ -3,6 +3,7 @@
 mod certificate;
 mod formats;
 mod help;
+mod more_draws;
 mod outputs;
 mod pictures;
 mod plots;
