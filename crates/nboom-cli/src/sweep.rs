@@ -331,18 +331,25 @@ impl Watcher for Watch {
 
 #[cfg(test)]
 mod tests {
+    use nboom_study::Requirement;
     use nboom_study::statistics::{Field, Role, Statistics};
     use nboom_tables::Cell;
 
     use super::*;
 
     #[test]
-    fn margins_have_pages_first_and_then_latches_that_do_not_close() {
+    fn broken_requirements_have_pages_first_then_margins_then_latches_that_do_not_close() {
         let result =
             |label: String| Field { name: label.clone(), label, unit: None, role: Role::Result };
         let forces = (1..=20).map(|i| result(format!("peak_force of {i}")));
         let others = ["lock_time of boom", "margin of boom"].map(str::to_owned).map(result);
-        let mut statistics = Statistics::new(forces.chain(others).collect(), &[]);
+        // Broken by one case, whose force is as large as that of all others.
+        let required = Requirement {
+            result: "peak_force of 17".to_owned(),
+            at_least: None,
+            at_most: Some(0.5),
+        };
+        let mut statistics = Statistics::new(forces.chain(others).collect(), &[required]);
         for case in 1..=20 {
             // Each case has the largest force of one hinge.
             let force = |i: u32| Cell::Number(f64::from(u8::from(i == case)));
@@ -352,6 +359,6 @@ mod tests {
             statistics.row(&cells);
         }
         let found = worst(&statistics.finish());
-        assert_eq!((found.len(), &found[..3]), (MOST_PAGES, &[20, 15, 1][..]));
+        assert_eq!((found.len(), &found[..4]), (MOST_PAGES, &[17, 20, 15, 1][..]));
     }
 }

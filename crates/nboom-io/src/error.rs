@@ -43,7 +43,7 @@ pub enum InputError {
         /// The deck or the robot.
         file: String,
     },
-    /// A main body is to be fixed that no robot has.
+    /// The base of what is no robot is to be fixed.
     #[error(
         "{file}: --fixed-base found, which only a robot in URDF can take; in a scene base = \"fixed\" says so"
     )]

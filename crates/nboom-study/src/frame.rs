@@ -122,6 +122,7 @@ impl Batch {
     pub fn push_cells(&mut self, cells: &[Cell<'_>], states: Vec<u8>) {
         line(&mut self.rows, cells.iter().copied());
         if self.states.is_empty() {
+            // A trajectory may be too long to be held twice.
             self.states = states;
         } else {
             self.states.extend(states);
@@ -155,6 +156,14 @@ fn number(kind: Kind, value: f64) -> Cell<'static> {
         _ if !value.is_finite() => Cell::Empty,
         Kind::Integer => Cell::Integer(value as i64),
         Kind::Number | Kind::Text => Cell::Number(value),
+    }
+}
+
+/// The number of the case of a row, in either table; 0 if it has none.
+pub(crate) fn case_of(cells: &[Cell<'_>]) -> u64 {
+    match cells.first() {
+        Some(Cell::Integer(case)) => case.cast_unsigned(),
+        _ => 0,
     }
 }
 

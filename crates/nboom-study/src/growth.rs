@@ -6,10 +6,10 @@ use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
-use nboom_tables::{Cell, Column, TablesError, read_table};
+use nboom_tables::{Column, TablesError, read_table};
 
 use crate::directory::{JOURNAL_FILE, PAGE_FILE, Place, STATISTICS_FILE, STUDY_FILE};
-use crate::frame::{Batch, line};
+use crate::frame::{Batch, case_of, line};
 use crate::journal::{Journal, Part};
 use crate::{Description, Method, StudyError, tables};
 
@@ -83,7 +83,7 @@ fn write_journal(place: &Place, what: &Description) -> Result<(), StudyError> {
             StudyError::Altered { path, found, expected }
         };
         read_table(&path, columns.cases, |cells| -> Result<(), StudyError> {
-            let (case, due) = (number(cells), batch.first + batch.cases);
+            let (case, due) = (case_of(cells), batch.first + batch.cases);
             if case != due {
                 return Err(altered(format!("case {case}"), &format!("case {due}")));
             }
@@ -116,14 +116,6 @@ fn write_journal(place: &Place, what: &Description) -> Result<(), StudyError> {
 /// What a table of cases is not that a table of trajectories is beside.
 const OTHER_STATES: &str = "the cases of the table of trajectories";
 
-/// The number of the case of a row.
-fn number(cells: &[Cell<'_>]) -> u64 {
-    match cells.first() {
-        Some(Cell::Integer(case)) => case.cast_unsigned(),
-        _ => 0,
-    }
-}
-
 /// Why not all rows of trajectories were sent.
 enum Unsent {
     Unreadable(TablesError),
@@ -146,7 +138,7 @@ fn send_states(
     read_table(path, columns, |cells| {
         let mut text = Vec::new();
         line(&mut text, cells.iter().copied());
-        to.send((number(cells), text)).map_err(|_| Unsent::Unwanted)
+        to.send((case_of(cells), text)).map_err(|_| Unsent::Unwanted)
     })
 }
 

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use nboom_tables::{Cell, Column, CsvRows};
 
 use crate::StudyError;
-use crate::frame::{Head, LONGEST_HEAD};
+use crate::frame::{Head, LONGEST_HEAD, case_of};
 
 /// How much of a file is read at once \[bytes\].
 const BUFFER: usize = 1 << 16;
@@ -207,10 +207,7 @@ impl Journal {
         let mut rows = CsvRows::new(rows, columns);
         let mut next = frame.first;
         while let Some(cells) = rows.next_row().map_err(&wrong)? {
-            let case = match cells[0] {
-                Cell::Integer(case) => case.cast_unsigned(),
-                _ => 0,
-            };
+            let case = case_of(&cells);
             let is_in_order = match part {
                 Part::Case => case == next && case <= frame.last,
                 Part::States => (next..=frame.last).contains(&case),

@@ -105,7 +105,7 @@ fn properties(columns: &[Column], texts: &[(&str, &str)]) -> WriterProperties {
         // Numbers of a motion hardly ever come twice.
         .set_dictionary_enabled(false)
         .set_compression(Compression::SNAPPY);
-    // Signs and exponents of neighbours are alike: byte by byte they are shorter by half.
+    // Signs and exponents of neighbours are alike: byte by byte they pack better.
     let numbers = columns.iter().filter(|column| column.kind == Kind::Number);
     let by_bytes = numbers.fold(properties, |properties, column| {
         let path = ColumnPath::new(vec![column.name.clone()]);
