@@ -46,8 +46,7 @@ impl<N: Numbers> Code<N> {
             coordinates: T::COORDINATES,
             outputs: T::OUTPUTS,
         };
-        let evaluate = compiled::<N::Forms<T>>(instructions)?;
-        Some(Self { sizes, prepare: prepare::<N, T>, evaluate })
+        Some(Self { sizes, prepare: T::prepare_behind::<N>, evaluate: T::compiled(instructions)? })
     }
 
     /// # Panics
@@ -76,99 +75,100 @@ impl<N: Numbers> Code<N> {
     }
 }
 
-/// # Safety
-/// Behind the pointers are the routine's parameters, and room for its constants.
-unsafe extern "C" fn prepare<N: Numbers, T: Routine>(parameters: *const N, constants: *mut N) {
-    // SAFETY: as the caller vouches.
-    let parameters = unsafe { from_raw_parts(parameters, T::PARAMETERS) };
-    // SAFETY: as the caller vouches.
-    let constants = unsafe { from_raw_parts_mut(constants, T::CONSTANTS) };
-    N::prepare::<T>(parameters, constants);
+/// The functions of a routine, for callers that have pointers.
+///
+/// A compiler takes the methods of a type together with its module, and modules side by side. Functions
+/// outside a trait it would take all together with this module: those of a hundred routines on one core.
+trait Functions: Routine + Sized {
+    /// The evaluation in code for an instruction set, if this processor has it.
+    fn compiled<N: Numbers>(instructions: InstructionSet) -> Option<Evaluate<N>> {
+        if instructions > InstructionSet::of_this_processor() {
+            return None;
+        }
+        match instructions {
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => Some(Self::on_avx512),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => Some(Self::on_avx2),
+            _ => Some(Self::portable),
+        }
+    }
+
+    /// # Safety
+    /// Behind the pointers are the routine's parameters, and room for its constants.
+    unsafe extern "C" fn prepare_behind<N: Numbers>(parameters: *const N, constants: *mut N) {
+        // SAFETY: as the caller vouches.
+        let parameters = unsafe { from_raw_parts(parameters, Self::PARAMETERS) };
+        // SAFETY: as the caller vouches.
+        let constants = unsafe { from_raw_parts_mut(constants, Self::CONSTANTS) };
+        N::prepare::<Self>(parameters, constants);
+    }
+
+    /// # Safety
+    /// As of [`behind`](Self::behind), and the processor has [`InstructionSet::Avx512`].
+    #[cfg(target_arch = "x86_64")]
+    unsafe extern "C" fn on_avx512<N: Numbers>(k: *const N, x: *const N, out: *mut N) {
+        // SAFETY: as the caller vouches.
+        let (k, x, out) = unsafe { Self::behind(k, x, out) };
+        // SAFETY: as the caller vouches.
+        unsafe { Self::in_avx512(k, x, out) };
+    }
+
+    /// Slices as arguments tell the compiler that what is written is not what is read. Compiled for the
+    /// features as well, the function with pointers would take this one in, and on AVX2 a right side of
+    /// eight states then takes twice the time.
+    ///
+    /// # Safety
+    /// The processor has [`InstructionSet::Avx512`].
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    unsafe fn in_avx512<N: Numbers>(k: &[N], x: &[N], out: &mut [N]) {
+        // SAFETY: this function is compiled for the features, and called only where they are there.
+        unsafe { N::Forms::<Self>::avx512(k, x, out) };
+    }
+
+    /// # Safety
+    /// As of [`behind`](Self::behind), and the processor has [`InstructionSet::Avx2`].
+    #[cfg(target_arch = "x86_64")]
+    unsafe extern "C" fn on_avx2<N: Numbers>(k: *const N, x: *const N, out: *mut N) {
+        // SAFETY: as the caller vouches.
+        let (k, x, out) = unsafe { Self::behind(k, x, out) };
+        // SAFETY: as the caller vouches.
+        unsafe { Self::in_avx2(k, x, out) };
+    }
+
+    /// # Safety
+    /// The processor has [`InstructionSet::Avx2`].
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn in_avx2<N: Numbers>(k: &[N], x: &[N], out: &mut [N]) {
+        // SAFETY: this function is compiled for the features, and called only where they are there.
+        unsafe { N::Forms::<Self>::avx2(k, x, out) };
+    }
+
+    /// # Safety
+    /// As of [`behind`](Self::behind).
+    unsafe extern "C" fn portable<N: Numbers>(k: *const N, x: *const N, out: *mut N) {
+        // SAFETY: as the caller vouches.
+        let (k, x, out) = unsafe { Self::behind(k, x, out) };
+        N::Forms::<Self>::portable(k, x, out);
+    }
+
+    /// # Safety
+    /// Behind the pointers are the routine's constants, its coordinates, and room for its outputs that
+    /// nobody else uses.
+    #[inline(always)]
+    unsafe fn behind<'a, N: Numbers>(k: *const N, x: *const N, out: *mut N) -> Behind<'a, N> {
+        // SAFETY: as the caller vouches.
+        let k = unsafe { from_raw_parts(k, Self::CONSTANTS) };
+        // SAFETY: as the caller vouches.
+        let x = unsafe { from_raw_parts(x, Self::COORDINATES) };
+        // SAFETY: as the caller vouches.
+        (k, x, unsafe { from_raw_parts_mut(out, Self::OUTPUTS) })
+    }
 }
 
-/// The evaluation in code for an instruction set, if this processor has it.
-fn compiled<C: Compiled>(instructions: InstructionSet) -> Option<Evaluate<C::Number>> {
-    if instructions > InstructionSet::of_this_processor() {
-        return None;
-    }
-    match instructions {
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => Some(on_avx512::<C>),
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => Some(on_avx2::<C>),
-        _ => Some(portable::<C>),
-    }
-}
+impl<T: Routine> Functions for T {}
 
 /// Constants, coordinates and outputs behind pointers.
 type Behind<'a, N> = (&'a [N], &'a [N], &'a mut [N]);
-
-/// # Safety
-/// Behind the pointers are the routine's constants, its coordinates, and room for its outputs that
-/// nobody else uses.
-#[inline(always)]
-unsafe fn behind<'a, C: Compiled>(
-    k: *const C::Number,
-    x: *const C::Number,
-    out: *mut C::Number,
-) -> Behind<'a, C::Number> {
-    // SAFETY: as the caller vouches.
-    let k = unsafe { from_raw_parts(k, C::Routine::CONSTANTS) };
-    // SAFETY: as the caller vouches.
-    let x = unsafe { from_raw_parts(x, C::Routine::COORDINATES) };
-    // SAFETY: as the caller vouches.
-    (k, x, unsafe { from_raw_parts_mut(out, C::Routine::OUTPUTS) })
-}
-
-/// # Safety
-/// As of [`behind`], and the processor has [`InstructionSet::Avx512`].
-#[cfg(target_arch = "x86_64")]
-unsafe extern "C" fn on_avx512<C: Compiled>(
-    k: *const C::Number,
-    x: *const C::Number,
-    out: *mut C::Number,
-) {
-    // Slices as arguments tell the compiler that what is written is not what is read. Compiled for
-    // the features as well, the outer function would take the inner one in, and on AVX2 a right side
-    // of eight states then takes twice the time.
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-        // SAFETY: this function is compiled for the features, and called only where they are there.
-        unsafe { C::avx512(k, x, out) };
-    }
-    // SAFETY: as the caller vouches.
-    let (k, x, out) = unsafe { behind::<C>(k, x, out) };
-    // SAFETY: as the caller vouches.
-    unsafe { inlined::<C>(k, x, out) };
-}
-
-/// # Safety
-/// As of [`behind`], and the processor has [`InstructionSet::Avx2`].
-#[cfg(target_arch = "x86_64")]
-unsafe extern "C" fn on_avx2<C: Compiled>(
-    k: *const C::Number,
-    x: *const C::Number,
-    out: *mut C::Number,
-) {
-    #[target_feature(enable = "avx2,fma")]
-    fn inlined<C: Compiled>(k: &[C::Number], x: &[C::Number], out: &mut [C::Number]) {
-        // SAFETY: this function is compiled for the features, and called only where they are there.
-        unsafe { C::avx2(k, x, out) };
-    }
-    // SAFETY: as the caller vouches.
-    let (k, x, out) = unsafe { behind::<C>(k, x, out) };
-    // SAFETY: as the caller vouches.
-    unsafe { inlined::<C>(k, x, out) };
-}
-
-/// # Safety
-/// As of [`behind`].
-unsafe extern "C" fn portable<C: Compiled>(
-    k: *const C::Number,
-    x: *const C::Number,
-    out: *mut C::Number,
-) {
-    // SAFETY: as the caller vouches.
-    let (k, x, out) = unsafe { behind::<C>(k, x, out) };
-    C::portable(k, x, out);
-}

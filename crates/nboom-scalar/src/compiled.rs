@@ -32,6 +32,15 @@ pub trait Compiled {
     fn portable(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
 }
 
+/// The form of one state for any processor, which stands once in the code, with the routine's module.
+trait Portable: Routine {
+    fn portable(k: &[f64], x: &[f64], out: &mut [f64]) {
+        Self::evaluate::<f64>(k, x, out);
+    }
+}
+
+impl<T: Routine> Portable for T {}
+
 /// A routine on one state.
 #[derive(Debug)]
 pub struct OneState<T>(PhantomData<T>);
@@ -52,8 +61,9 @@ impl<T: Routine> Compiled for OneState<T> {
         T::evaluate_packed::<crate::Avx2>(k, x, out);
     }
 
+    #[inline(always)]
     fn portable(k: &[f64], x: &[f64], out: &mut [f64]) {
-        T::evaluate::<f64>(k, x, out);
+        T::portable(k, x, out);
     }
 }
 
@@ -75,13 +85,13 @@ impl<T: Routine> Compiled for EightStates<T> {
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     unsafe fn avx2(k: &[Eight], x: &[Eight], out: &mut [Eight]) {
-        use crate::{Avx4, Pair};
-        T::evaluate::<Pair<Avx4>>(as_registers(k), as_registers(x), as_registers_mut(out));
+        use crate::TwoAvx4;
+        T::evaluate::<TwoAvx4>(as_registers(k), as_registers(x), as_registers_mut(out));
     }
 
     fn portable(k: &[Eight], x: &[Eight], out: &mut [Eight]) {
         // Code for all eight would be eight times as long.
-        one_by_one([k, x], out, |[k, x], out| T::evaluate::<f64>(k, x, out));
+        one_by_one([k, x], out, |[k, x], out| T::portable(k, x, out));
     }
 }
 
@@ -141,7 +151,7 @@ pub fn in_vector_registers<W: WorkOnEight>(work: W) -> Result<W::Output, W> {
         InstructionSet::Avx2 => {
             #[target_feature(enable = "avx2,fma")]
             fn inlined<W: WorkOnEight>(work: W) -> W::Output {
-                work.carry_out::<crate::Pair<crate::Avx4>>()
+                work.carry_out::<crate::TwoAvx4>()
             }
             // SAFETY: the processor has the features.
             return Ok(unsafe { inlined(work) });
@@ -186,7 +196,7 @@ pub unsafe trait EightNumbers: Real + Send + Sync {
 unsafe impl EightNumbers for PortableEight {}
 #[cfg(target_arch = "x86_64")]
 // SAFETY: as above.
-unsafe impl EightNumbers for crate::Pair<crate::Avx4> {}
+unsafe impl EightNumbers for crate::TwoAvx4 {}
 #[cfg(target_arch = "x86_64")]
 // SAFETY: as above.
 unsafe impl EightNumbers for crate::Avx8 {}
@@ -230,7 +240,7 @@ mod tests {
 
     #[target_feature(enable = "avx2,fma")]
     fn in_two_registers(work: Sums<'_>) -> Eight {
-        work.carry_out::<crate::Pair<crate::Avx4>>()
+        work.carry_out::<crate::TwoAvx4>()
     }
 
     #[test]

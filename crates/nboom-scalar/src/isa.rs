@@ -25,7 +25,7 @@ pub(crate) struct Avx2;
 #[cfg(target_arch = "x86_64")]
 impl Isa for Avx2 {
     const WIDEST: usize = 4;
-    type One = Lanes<1>;
+    type One = crate::Fused;
     type Two = crate::AvxHalf;
     type Four = crate::Avx4;
     type Eight = Lanes<8>;
@@ -39,7 +39,7 @@ pub(crate) struct Avx512;
 #[cfg(target_arch = "x86_64")]
 impl Isa for Avx512 {
     const WIDEST: usize = 8;
-    type One = Lanes<1>;
+    type One = crate::Fused;
     type Two = crate::AvxHalf;
     type Four = crate::Avx4;
     type Eight = crate::Avx8;

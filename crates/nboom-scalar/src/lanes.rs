@@ -6,9 +6,9 @@ use crate::sine::sin_cos;
 /// Several numbers that go through the same operations side by side.
 ///
 /// Products and sums are fused ([`Real::mul_add`]), and sines come from a polynomial. Both pay
-/// only in code compiled for a processor that fuses them; `Lanes<1>` is the single number for
-/// such code. Operations of all lanes are written as loops of fixed length, which the compiler
-/// turns into vector instructions of the widest kind it may use.
+/// only in code compiled for a processor that fuses them. Operations of all lanes are written as
+/// loops of fixed length, which the compiler turns into vector instructions of the widest kind it
+/// may use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct Lanes<const N: usize>(pub [f64; N]);

@@ -20,6 +20,8 @@ mod derivatives;
 mod double_double;
 mod dual;
 mod foreign;
+#[cfg(target_arch = "x86_64")]
+mod fused;
 mod instructions;
 mod isa;
 mod jacobian;
@@ -33,6 +35,8 @@ mod routine;
 mod sine;
 mod spatial;
 mod symmetric;
+#[cfg(target_arch = "x86_64")]
+mod two_registers;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod wide;
@@ -45,6 +49,8 @@ pub use derivatives::{Derivatives, TreeJoint, TreeLink, TreeMount};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use foreign::{ForeignError, ForeignTable};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use fused::Fused;
 pub use instructions::InstructionSet;
 pub use isa::Isa;
 #[cfg(target_arch = "x86_64")]
@@ -59,6 +65,8 @@ pub use real::{Number, Real};
 pub use routine::{CONTRACT, Routine, assumed};
 pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use two_registers::TwoAvx4;
 pub use vector::Vec3;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use wide::{Avx4, Avx8, AvxHalf};

@@ -4,8 +4,7 @@ use crate::Real;
 
 /// Two scalars that go through the same operations side by side, each rounding as it would alone.
 ///
-/// Two registers make a pack of twice the width, and pairs of pairs of `f64` hold several states
-/// where there are no registers to use.
+/// Pairs of pairs of `f64` hold several states where there are no registers to use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Pair<R>(pub R, pub R);
@@ -87,18 +86,20 @@ impl<R: Real> SubAssign for Pair<R> {
     }
 }
 
+/// Every operation once.
+#[cfg(test)]
+#[inline(always)]
+pub(crate) fn every_operation<R: Real>(a: R, b: R) -> R {
+    let (s, o) = (a * b).sin_cos();
+    let mut sum = (a + s / b) * o;
+    sum += (a * a).sqrt();
+    sum -= -b.mul_add(R::constant(0.7), a);
+    sum - a
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Every operation once.
-    fn every_operation<R: Real>(a: R, b: R) -> R {
-        let (s, o) = (a * b).sin_cos();
-        let mut sum = (a + s / b) * o;
-        sum += (a * a).sqrt();
-        sum -= -b.mul_add(R::constant(0.7), a);
-        sum - a
-    }
 
     #[test]
     fn halves_are_what_each_would_be_alone() {

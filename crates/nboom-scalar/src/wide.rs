@@ -26,7 +26,7 @@ macro_rules! wide {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         #[repr(transparent)]
-        pub(crate) struct $name($register);
+        pub(crate) struct $name(pub(crate) $register);
 
         impl $name {
             /// Whether the feature is there.
