@@ -3,6 +3,8 @@
 mod certificate;
 mod formats;
 mod help;
+#[path = "../../../../tests/support/json_schema.rs"]
+mod json_schema;
 mod more_draws;
 mod outputs;
 mod pictures;

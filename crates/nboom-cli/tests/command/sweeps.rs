@@ -6,6 +6,7 @@ use std::path::Path;
 
 use nboom_scalar::InstructionSet;
 
+use crate::json_schema::JsonSchema;
 use crate::{Place, code, refused, rows, stderr, stdout};
 
 /// Springs of the boom that differ, and two faults.
@@ -290,10 +291,10 @@ fn an_unfinished_sweep_is_not_overwritten() {
 fn the_schema_of_studies_is_one() {
     let place = Place::new();
     let output = place.nboom(&["schema", "study"]);
-    let schema: serde_json::Value = serde_json::from_str(&stdout(&output)).expect("JSON");
-    assert!(jsonschema::is_valid(&schema, &toml::from_str(STUDY).expect("TOML")));
+    let schema = JsonSchema::new(&serde_json::from_str(&stdout(&output)).expect("JSON"));
+    assert_eq!(schema.take(&toml::from_str(STUDY).expect("TOML")), Ok(()));
     let wrong = STUDY.replace("draws", "drawz");
-    assert!(!jsonschema::is_valid(&schema, &toml::from_str(&wrong).expect("TOML")));
+    assert!(schema.take(&toml::from_str(&wrong).expect("TOML")).is_err());
 }
 
 /// What the scene includes lies elsewhere; the directory then repeats by itself.
