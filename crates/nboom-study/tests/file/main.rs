@@ -7,7 +7,6 @@ mod reasons;
 mod schema;
 
 use std::fs;
-use std::path::Path;
 
 use nboom_io::InputError;
 use nboom_study::{Distribution, LateRelease, Method, Relation, Study};
