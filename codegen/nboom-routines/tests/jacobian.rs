@@ -4,7 +4,7 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{Layout, Recognised, recognise};
 use nboom_model::{Body, Hinge, Joint, MassProperties, Mount, Scene, SceneDescription};
-use nboom_routines::{General2Trr, GeneralTrrr};
+use nboom_routines::{General2Trr, GeneralTrrr, PrincipalS2P};
 use nboom_scalar::{Dual, Mat3, Routine, Sym3, Vec3, jacobian};
 
 use support::{Rng, parameters, state};
@@ -124,22 +124,21 @@ fn derivatives_of_limbs_are_those_of_the_recursion() {
 
 #[test]
 fn any_coordinates_are_asked_for() {
-    type T = General2Trr;
     let dice = &mut Rng::new(11);
-    let topology = T::TOPOLOGY.parse().expect("a topology");
-    let (mut k, x) = (vec![0.0; T::CONSTANTS], state(&topology, true, dice));
-    T::prepare(&parameters(&topology, T::ASSUMPTIONS, dice), &mut k);
+    let topology = PrincipalS2P::TOPOLOGY.parse().expect("a topology");
+    let (mut k, x) = (vec![0.0; PrincipalS2P::CONSTANTS], state(&topology, true, dice));
+    PrincipalS2P::prepare(&parameters(&topology, PrincipalS2P::ASSUMPTIONS, dice), &mut k);
     let ask = |by: std::ops::Range<usize>| {
-        let mut found = vec![0.0; T::OUTPUTS];
-        let mut derivatives = vec![0.0; T::OUTPUTS * by.len()];
-        jacobian::<T>(&k, &x, by, &mut found, &mut derivatives);
+        let mut found = vec![0.0; PrincipalS2P::OUTPUTS];
+        let mut derivatives = vec![0.0; PrincipalS2P::OUTPUTS * by.len()];
+        jacobian::<PrincipalS2P>(&k, &x, by, &mut found, &mut derivatives);
         (found, derivatives)
     };
-    let (values, all) = ask(0..T::COORDINATES);
+    let (values, all) = ask(0..PrincipalS2P::COORDINATES);
     for by in [0..0, 3..4, 5..14, 20..21] {
         let (found, derivatives) = ask(by.clone());
         assert_eq!(found, values);
-        let of = |row: usize| &all[row * T::COORDINATES..][by.clone()];
+        let of = |row: usize| &all[row * PrincipalS2P::COORDINATES..][by.clone()];
         let expected: Vec<f64> = (0..values.len()).flat_map(|row| of(row).to_vec()).collect();
         assert_eq!(derivatives, expected);
     }

@@ -6,7 +6,7 @@ use nboom_formulation::{
     Coordinates, Equations, Formulation, Layout, Parameters, assumptions_in_a_word,
 };
 use nboom_model::Topology;
-use nboom_scalar::{Batch, Eight, Kernel, Routine};
+use nboom_scalar::{Batch, Eight, InstructionSet, Kernel, Routine};
 
 use support::{Rng, parameters, state};
 
@@ -113,20 +113,24 @@ fn lanes_hold_independent_states() {
     let closed_form = ClosedForm::of::<T>();
     let topology = &closed_form.topology;
     let mut numbers = Rng::new(7);
-    let parameters = parameters(topology, T::ASSUMPTIONS, &mut numbers);
-    let states: Vec<Vec<f64>> = (0..8).map(|_| state(topology, false, &mut numbers)).collect();
-    let eight = |values: &dyn Fn(usize) -> f64| Eight(std::array::from_fn(values));
-    let p: Vec<Eight> = parameters.iter().map(|&value| Eight::splat(value)).collect();
-    let x: Vec<Eight> = (0..T::COORDINATES).map(|i| eight(&|lane| states[lane][i])).collect();
-    let (mut k, mut out) =
-        (vec![Eight::default(); T::CONSTANTS], vec![Eight::default(); T::OUTPUTS]);
-    let batch = Batch::of::<T>();
-    batch.prepare(&p, &mut k);
-    batch.evaluate(&k, &x, &mut out);
-    for (lane, state) in states.iter().enumerate() {
-        for (found, expected) in out.iter().zip(closed_form.evaluate(&parameters, state)) {
-            // Sines, products and sums round in other ways.
-            assert!((found.0[lane] - expected).abs() < 1e-11 * (1.0 + expected.abs()));
+    let mut eight = |draw: &dyn Fn(&mut Rng) -> Vec<f64>| [(); 8].map(|()| draw(&mut numbers));
+    let satellites = eight(&|numbers| parameters(topology, T::ASSUMPTIONS, numbers));
+    let states = eight(&|numbers| state(topology, false, numbers));
+    let together = |all: &[Vec<f64>; 8]| -> Vec<Eight> {
+        (0..all[0].len()).map(|i| Eight(std::array::from_fn(|lane| all[lane][i]))).collect()
+    };
+    let (p, x) = (together(&satellites), together(&states));
+    let zero = Eight::default();
+    for set in [InstructionSet::Portable, InstructionSet::Avx2, InstructionSet::Avx512] {
+        let Some(batch) = Batch::with::<T>(set) else { continue };
+        let (mut k, mut out) = (vec![zero; T::CONSTANTS], vec![zero; T::OUTPUTS]);
+        batch.prepare(&p, &mut k);
+        batch.evaluate(&k, &x, &mut out);
+        for (lane, (satellite, state)) in satellites.iter().zip(&states).enumerate() {
+            for (found, expected) in out.iter().zip(closed_form.evaluate(satellite, state)) {
+                // Sines, products and sums round in other ways.
+                assert!((found.0[lane] - expected).abs() < 1e-11 * (1.0 + expected.abs()));
+            }
         }
     }
 }

@@ -77,8 +77,8 @@ impl<N: Numbers> Code<N> {
 
 /// The functions of a routine, for callers that have pointers.
 ///
-/// A compiler takes the methods of a type together with its module, and modules side by side. Functions
-/// outside a trait it would take all together with this module: those of a hundred routines on one core.
+/// rustc compiles a method with the module of its type, and modules side by side. Free functions of all
+/// routines, a hundred of them, it would compile with this module, on one core.
 trait Functions: Routine + Sized {
     /// The evaluation in code for an instruction set, if this processor has it.
     fn compiled<N: Numbers>(instructions: InstructionSet) -> Option<Evaluate<N>> {
@@ -111,19 +111,21 @@ trait Functions: Routine + Sized {
         // SAFETY: as the caller vouches.
         let (k, x, out) = unsafe { Self::behind(k, x, out) };
         // SAFETY: as the caller vouches.
-        unsafe { Self::in_avx512(k, x, out) };
+        unsafe { Self::slices_on_avx512(k, x, out) };
     }
 
-    /// Slices as arguments tell the compiler that what is written is not what is read. Compiled for the
-    /// features as well, the function with pointers would take this one in, and on AVX2 a right side of
-    /// eight states then takes twice the time.
+    // Slices as arguments tell the compiler that what is written is not what is read. Compiled for the
+    // features as well, the function with pointers would take the one with slices in, and on AVX2 a right
+    // side of eight states then takes twice the time.
+
+    /// The evaluation on slices, in code for AVX-512.
     ///
     /// # Safety
     /// The processor has [`InstructionSet::Avx512`].
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-    unsafe fn in_avx512<N: Numbers>(k: &[N], x: &[N], out: &mut [N]) {
-        // SAFETY: this function is compiled for the features, and called only where they are there.
+    unsafe fn slices_on_avx512<N: Numbers>(k: &[N], x: &[N], out: &mut [N]) {
+        // SAFETY: as the caller vouches.
         unsafe { N::Forms::<Self>::avx512(k, x, out) };
     }
 
@@ -134,15 +136,17 @@ trait Functions: Routine + Sized {
         // SAFETY: as the caller vouches.
         let (k, x, out) = unsafe { Self::behind(k, x, out) };
         // SAFETY: as the caller vouches.
-        unsafe { Self::in_avx2(k, x, out) };
+        unsafe { Self::slices_on_avx2(k, x, out) };
     }
 
+    /// The evaluation on slices, in code for AVX2.
+    ///
     /// # Safety
     /// The processor has [`InstructionSet::Avx2`].
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn in_avx2<N: Numbers>(k: &[N], x: &[N], out: &mut [N]) {
-        // SAFETY: this function is compiled for the features, and called only where they are there.
+    unsafe fn slices_on_avx2<N: Numbers>(k: &[N], x: &[N], out: &mut [N]) {
+        // SAFETY: as the caller vouches.
         unsafe { N::Forms::<Self>::avx2(k, x, out) };
     }
 

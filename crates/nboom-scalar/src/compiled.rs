@@ -11,9 +11,6 @@ pub trait Compiled {
     /// What slices are made of.
     type Number;
 
-    /// The routine, which tells how long slices are.
-    type Routine: Routine;
-
     /// The form for AVX-512.
     ///
     /// # Safety
@@ -32,9 +29,10 @@ pub trait Compiled {
     fn portable(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
 }
 
-/// The form of one state for any processor, which stands once in the code, with the routine's module.
+/// The form of one state for any processor, so that both forms below call one function.
 trait Portable: Routine {
-    fn portable(k: &[f64], x: &[f64], out: &mut [f64]) {
+    #[inline(never)]
+    fn portable_on_one(k: &[f64], x: &[f64], out: &mut [f64]) {
         Self::evaluate::<f64>(k, x, out);
     }
 }
@@ -47,7 +45,6 @@ pub struct OneState<T>(PhantomData<T>);
 
 impl<T: Routine> Compiled for OneState<T> {
     type Number = f64;
-    type Routine = T;
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
@@ -63,7 +60,7 @@ impl<T: Routine> Compiled for OneState<T> {
 
     #[inline(always)]
     fn portable(k: &[f64], x: &[f64], out: &mut [f64]) {
-        T::portable(k, x, out);
+        T::portable_on_one(k, x, out);
     }
 }
 
@@ -73,7 +70,6 @@ pub struct EightStates<T>(PhantomData<T>);
 
 impl<T: Routine> Compiled for EightStates<T> {
     type Number = Eight;
-    type Routine = T;
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
@@ -91,7 +87,7 @@ impl<T: Routine> Compiled for EightStates<T> {
 
     fn portable(k: &[Eight], x: &[Eight], out: &mut [Eight]) {
         // Code for all eight would be eight times as long.
-        one_by_one([k, x], out, |[k, x], out| T::portable(k, x, out));
+        one_by_one([k, x], out, |[k, x], out| T::portable_on_one(k, x, out));
     }
 }
 
@@ -191,14 +187,13 @@ pub unsafe trait EightNumbers: Real + Send + Sync {
     }
 }
 
-// SAFETY: arrays of eight in all but name; pairs are `repr(C)`, registers of one field
-// `repr(transparent)`.
+// SAFETY: pairs of pairs of pairs of numbers, all `repr(C)`.
 unsafe impl EightNumbers for PortableEight {}
 #[cfg(target_arch = "x86_64")]
-// SAFETY: as above.
+// SAFETY: two registers of four numbers, `repr(C)` and without room between them.
 unsafe impl EightNumbers for crate::TwoAvx4 {}
 #[cfg(target_arch = "x86_64")]
-// SAFETY: as above.
+// SAFETY: one register of eight numbers, `repr(transparent)`.
 unsafe impl EightNumbers for crate::Avx8 {}
 
 /// Reads numbers as scalars in registers.

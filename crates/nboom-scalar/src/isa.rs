@@ -1,4 +1,4 @@
-use crate::{Lanes, Pack};
+use crate::Pack;
 
 /// The packs that a kind of processor takes side by side.
 ///
@@ -28,7 +28,7 @@ impl Isa for Avx2 {
     type One = crate::Fused;
     type Two = crate::AvxHalf;
     type Four = crate::Avx4;
-    type Eight = Lanes<8>;
+    type Eight = crate::Lanes<8>;
 }
 
 /// AVX-512.

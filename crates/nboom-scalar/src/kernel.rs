@@ -5,7 +5,7 @@ use crate::{InstructionSet, Routine};
 /// What a routine runs on: a number of one state, or of several side by side.
 pub trait Numbers: Copy + PartialEq {
     /// The routine in its forms.
-    type Forms<T: Routine>: Compiled<Number = Self, Routine = T>;
+    type Forms<T: Routine>: Compiled<Number = Self>;
 
     /// One number in every state.
     fn splat(value: f64) -> Self;

@@ -35,8 +35,6 @@ mod routine;
 mod sine;
 mod spatial;
 mod symmetric;
-#[cfg(target_arch = "x86_64")]
-mod two_registers;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod wide;
@@ -59,14 +57,12 @@ pub use jacobian::jacobian;
 pub use kernel::{Kernel, Numbers, RoutineOn};
 pub use lanes::{Lanes, Pack};
 pub use matrix::Mat3;
-pub use pair::Pair;
+pub(crate) use pair::Pair;
 pub use quaternion::Quaternion;
 pub use real::{Number, Real};
 pub use routine::{CONTRACT, Routine, assumed};
 pub use spatial::{ArticulatedInertia, RigidInertia, Twist, Wrench};
 pub use symmetric::Sym3;
-#[cfg(target_arch = "x86_64")]
-pub(crate) use two_registers::TwoAvx4;
 pub use vector::Vec3;
 #[cfg(target_arch = "x86_64")]
-pub(crate) use wide::{Avx4, Avx8, AvxHalf};
+pub(crate) use wide::{Avx4, Avx8, AvxHalf, TwoAvx4};

@@ -7,7 +7,7 @@ use crate::Real;
 /// Pairs of pairs of `f64` hold several states where there are no registers to use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct Pair<R>(pub R, pub R);
+pub(crate) struct Pair<R>(pub(crate) R, pub(crate) R);
 
 impl<R: Real> Real for Pair<R> {
     #[inline(always)]

@@ -4,9 +4,10 @@
 //! code; held in registers from the start, the same source runs four to six times faster.
 //!
 //! The intrinsics need a processor feature. Whoever has a value may use them: all values come from
-//! `constant` and `gather`, or from other values. Code that names these types is in functions of
-//! [`Compiled`](crate::compiled::Compiled) that are unsafe to call where the feature is not there;
-//! builds with assertions establish it once more.
+//! `constant`, from `gather`, from memory by `as_registers`, or from other values. Code that makes the
+//! first one runs only after the processor was asked, in
+//! [`Compiled`](crate::compiled::Compiled) and [`in_vector_registers`](crate::in_vector_registers);
+//! builds with assertions ask once more.
 #![allow(unsafe_code, reason = "vector intrinsics; see above")]
 
 use std::arch::x86_64::*;
@@ -14,6 +15,10 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use crate::sine::{COSINE, HALF_PI, SINE, TO_INTEGER, TWO_OVER_PI};
 use crate::{InstructionSet, Pack, Real};
+
+pub(crate) use two_registers::TwoAvx4;
+
+mod two_registers;
 
 macro_rules! wide {
     (
@@ -26,7 +31,7 @@ macro_rules! wide {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         #[repr(transparent)]
-        pub(crate) struct $name(pub(crate) $register);
+        pub(crate) struct $name($register);
 
         impl $name {
             /// Whether the feature is there.

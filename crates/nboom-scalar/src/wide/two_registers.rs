@@ -3,12 +3,12 @@
 //! It computes what a [`Pair`](crate::Pair) of registers does. But a pair reaches the intrinsics through
 //! the operations of its halves, and a routine is thousands of operations: a compiler takes a quarter
 //! less time where each is two intrinsics to begin with.
-#![allow(unsafe_code, reason = "vector intrinsics, as in wide.rs")]
 
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use crate::{Avx4, Real};
+use super::Avx4;
+use crate::Real;
 
 /// Two AVX registers that go through the same operations, each rounding as it would alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
