@@ -86,20 +86,18 @@ impl<R: Real> SubAssign for Pair<R> {
     }
 }
 
-/// Every operation once.
-#[cfg(test)]
-#[inline(always)]
-pub(crate) fn every_operation<R: Real>(a: R, b: R) -> R {
-    let (s, o) = (a * b).sin_cos();
-    let mut sum = (a + s / b) * o;
-    sum += (a * a).sqrt();
-    sum -= -b.mul_add(R::constant(0.7), a);
-    sum - a
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Every operation once.
+    fn every_operation<R: Real>(a: R, b: R) -> R {
+        let (s, o) = (a * b).sin_cos();
+        let mut sum = (a + s / b) * o;
+        sum += (a * a).sqrt();
+        sum -= -b.mul_add(R::constant(0.7), a);
+        sum - a
+    }
 
     #[test]
     fn halves_are_what_each_would_be_alone() {

@@ -96,8 +96,17 @@ impl SubAssign for TwoAvx4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pair::every_operation;
     use crate::{InstructionSet, Pack};
+
+    /// Every operation once.
+    #[inline(always)]
+    fn every_operation<R: Real>(a: R, b: R) -> R {
+        let (s, o) = (a * b).sin_cos();
+        let mut sum = (a + s / b) * o;
+        sum += (a * a).sqrt();
+        sum -= -b.mul_add(R::constant(0.7), a);
+        sum - a
+    }
 
     #[target_feature(enable = "avx2,fma")]
     fn halves_are_registers(numbers: &[f64]) {
