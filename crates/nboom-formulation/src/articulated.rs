@@ -12,6 +12,16 @@ use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
 use crate::recognise::{Uncovered, recognise};
 
+/// Accelerations of a satellite by this formulation: [`Formulation::solve`](crate::Formulation::solve), in programs
+/// that compile no other.
+pub fn solve<R: Real>(
+    topology: &Topology,
+    parameters: &Parameters<R>,
+    coordinates: &Coordinates<R>,
+) -> Solution<R> {
+    Articulated::solve(topology, parameters, coordinates)
+}
+
 /// The row of [`Formulation`](crate::Formulation)'s table.
 pub(crate) struct Articulated;
 

@@ -48,7 +48,7 @@ impl Numbers for Eight {
     }
 
     fn prepare<T: Routine>(parameters: &[Self], constants: &mut [Self]) {
-        one_by_one([parameters], constants, |[parameters], out| T::prepare::<f64>(parameters, out));
+        one_by_one([parameters], constants, |[parameters], out| T::prepare_for_one(parameters, out));
     }
 }
 

@@ -29,8 +29,13 @@ pub trait Compiled {
     fn portable(k: &[Self::Number], x: &[Self::Number], out: &mut [Self::Number]);
 }
 
-/// The form of one state for any processor, so that both forms below call one function.
-trait Portable: Routine {
+/// What is done state by state on any processor, so that it is compiled once for [`OneState`] and [`EightStates`].
+pub(crate) trait Portable: Routine {
+    #[inline(never)]
+    fn prepare_for_one(parameters: &[f64], constants: &mut [f64]) {
+        Self::prepare::<f64>(parameters, constants);
+    }
+
     #[inline(never)]
     fn portable_on_one(k: &[f64], x: &[f64], out: &mut [f64]) {
         Self::evaluate::<f64>(k, x, out);

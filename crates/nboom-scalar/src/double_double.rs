@@ -150,9 +150,11 @@ impl From<f64> for DoubleDouble {
     }
 }
 
+// Sums, products and quotients are calls: a call takes less time than what it does, and the recursion with all
+// of them inlined takes compilers long.
 impl Add for DoubleDouble {
     type Output = Self;
-    #[inline]
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         let (high, of_high) = two_sum(self.high, other.high);
         let (low, of_low) = two_sum(self.low, other.low);
@@ -171,7 +173,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
-    #[inline]
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         let (high, rest) = two_product(self.high, other.high);
         // Not fused, so that factors may be exchanged.
@@ -182,7 +184,7 @@ impl Mul for DoubleDouble {
 
 impl Div for DoubleDouble {
     type Output = Self;
-    #[inline]
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         let quotient = self.high / other.high;
         let (high, rest) = two_product(other.high, quotient);

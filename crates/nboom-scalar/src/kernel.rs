@@ -29,7 +29,7 @@ impl Numbers for f64 {
     }
 
     fn prepare<T: Routine>(parameters: &[Self], constants: &mut [Self]) {
-        T::prepare(parameters, constants);
+        T::prepare_for_one(parameters, constants);
     }
 }
 

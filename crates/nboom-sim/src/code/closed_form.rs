@@ -1,6 +1,7 @@
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{
-    Coordinates, Formulation, HingeCoordinates, Parameters, Uncovered, recognise, symmetric,
+    Coordinates, Formulation, HingeCoordinates, Parameters, Solution, Uncovered, articulated,
+    recognise, symmetric,
 };
 use nboom_model::{HingeLabel, Scene, Topology, WeldedTree};
 use nboom_scalar::{Real, Vec3, Wrench};
@@ -90,12 +91,31 @@ impl<R: Real> ClosedForm<R> {
         self.formulation
     }
 
-    /// Accelerations of the mode it was fitted to: ω̇, a_O without gravity, τ̇.
-    pub fn accelerations(
+    /// As [`accelerations`](ClosedForm::accelerations), of a form fitted as [`Formulation::Articulated`]; no other
+    /// is compiled for its scalar.
+    pub fn articulated_accelerations(
         &mut self,
         dynamics: &mut Recursive<R>,
         motion: &Motion<'_, R>,
         out: &mut Accelerations<R>,
+    ) {
+        self.accelerations_by(dynamics, motion, out, |recognised, _, x| {
+            let (topology, parameters) = recognised.expect("articulated fits what is recognised");
+            articulated::solve(topology, parameters, x)
+        });
+    }
+
+    /// Writes the accelerations that `solve` finds for what was recognised, or else for the tree.
+    fn accelerations_by(
+        &mut self,
+        dynamics: &mut Recursive<R>,
+        motion: &Motion<'_, R>,
+        out: &mut Accelerations<R>,
+        solve: impl FnOnce(
+            Option<&(Topology, Parameters<R>)>,
+            &WeldedTree<R>,
+            &Coordinates<R>,
+        ) -> Solution<R>,
     ) {
         dynamics.hinge_forces(motion, &mut self.torques);
         let x = &mut self.coordinates;
@@ -105,14 +125,27 @@ impl<R: Real> ClosedForm<R> {
             let (beta, tau, torque) = (motion.beta[j], motion.tau[j], self.torques[j]);
             *hinge = HingeCoordinates { beta, tau, torque };
         }
-        let found = match &self.recognised {
-            Some((topology, parameters)) => self.formulation.solve(topology, parameters, x),
-            None => symmetric::solve_tree(dynamics.tree(), x),
-        };
+        let found = solve(self.recognised.as_ref(), dynamics.tree(), x);
         out.omega_dot_body = found.main.angular;
         out.origin_body = found.main.linear;
         for (&tau_dot, &j) in found.tau_dot.iter().zip(&self.links) {
             out.tau_dot[j] = tau_dot;
         }
+    }
+}
+
+impl ClosedForm<f64> {
+    /// Accelerations of the mode it was fitted to: ω̇, a_O without gravity, τ̇.
+    pub fn accelerations(
+        &mut self,
+        dynamics: &mut Recursive<f64>,
+        motion: &Motion<'_, f64>,
+        out: &mut Accelerations<f64>,
+    ) {
+        let formulation = self.formulation;
+        self.accelerations_by(dynamics, motion, out, |recognised, tree, x| match recognised {
+            Some((topology, parameters)) => formulation.solve(topology, parameters, x),
+            None => symmetric::solve_tree(tree, x),
+        });
     }
 }

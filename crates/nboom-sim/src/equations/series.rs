@@ -33,12 +33,14 @@ pub(crate) fn graph(
         let at_start = Expr::constant(origin.time);
         dynamics.spin_from(at_start, origin.rotors.iter().map(RotorMotion::of_constant));
         let tree = WeldedTree::new(scene, mode, &origin.beta);
-        let form = ClosedForm::fit(scene, &tree, Formulation::Articulated);
+        let mut form = ClosedForm::fit(scene, &tree, Formulation::Articulated).ok();
         let velocity = Vec3::constant(origin.carried().velocity);
         let carried = velocity + carrying_acceleration(scene, mode) * (t - at_start);
-        rates(scene, *layout, &mut dynamics, y, (t, carried), |dynamics, motion, out| match form {
-            Ok(mut form) => form.accelerations(dynamics, motion, out),
-            Err(_) => dynamics.accelerations(motion, out),
+        rates(scene, *layout, &mut dynamics, y, (t, carried), &mut |dynamics, motion, out| {
+            match &mut form {
+                Some(form) => form.articulated_accelerations(dynamics, motion, out),
+                None => by_recursion(dynamics, motion, out),
+            }
         })
     })
 }
@@ -64,10 +66,20 @@ pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) ->
         );
         let at_start = Vec3::new(v[0], v[1], v[2]);
         let carried = at_start + carrying_acceleration(scene, mode) * since;
-        rates(scene, layout, &mut dynamics, y, (v[3] + since, carried), |dynamics, motion, out| {
-            dynamics.accelerations(motion, out);
-        })
+        rates(scene, layout, &mut dynamics, y, (v[3] + since, carried), &mut by_recursion)
     })
+}
+
+/// Records accelerations. Not inlined: the recursion on what is recorded takes compilers long, and runs once a mode.
+type RecordAccelerations<'a> =
+    dyn FnMut(&mut Recursive<Expr>, &Motion<'_, Expr>, &mut Accelerations<Expr>) + 'a;
+
+fn by_recursion(
+    dynamics: &mut Recursive<Expr>,
+    motion: &Motion<'_, Expr>,
+    out: &mut Accelerations<Expr>,
+) {
+    dynamics.accelerations(motion, out);
 }
 
 /// The rates of the variables `y` at a time, at which what is carried has a velocity, where
@@ -78,7 +90,7 @@ fn rates(
     dynamics: &mut Recursive<Expr>,
     y: &[Expr],
     at: (Expr, Vec3<Expr>),
-    accelerate: impl FnOnce(&mut Recursive<Expr>, &Motion<'_, Expr>, &mut Accelerations<Expr>),
+    accelerate: &mut RecordAccelerations<'_>,
 ) -> Vec<Expr> {
     let mut rates = vec![Expr::zero(); layout.len()];
     Rates::new(scene, layout).write(dynamics, accelerate, at, y, &mut rates);
