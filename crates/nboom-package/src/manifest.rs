@@ -53,13 +53,14 @@ pub(crate) fn of_shared(name: &str, crates: &str) -> String {
     )
 }
 
-/// How the manifest of what is built ends: generated code uses a crate, and is compiled for speed.
+/// How the manifest of what is built ends. Generated code uses a crate, and is compiled on all cores; each crate of
+/// others is optimised once, as a whole.
 fn end(crates: &str) -> String {
     format!(
         "nboom-scalar = {{ path = \"{crates}/nboom-scalar\" }}\n\
          \n\
-         [profile.release]\n\
-         lto = \"thin\"\n\
+         [profile.release.package.\"*\"]\n\
+         codegen-units = 1\n\
          \n\
          [workspace]\n"
     )

@@ -1,6 +1,6 @@
 use std::cell::RefCell;
 
-use crate::compiled::EightStates;
+use crate::compiled::{EightStates, Portable};
 use crate::kernel::Numbers;
 use crate::{Pair, Routine, RoutineOn};
 
@@ -48,7 +48,9 @@ impl Numbers for Eight {
     }
 
     fn prepare<T: Routine>(parameters: &[Self], constants: &mut [Self]) {
-        one_by_one([parameters], constants, |[parameters], out| T::prepare_for_one(parameters, out));
+        one_by_one([parameters], constants, |[parameters], out| {
+            T::prepare_for_one(parameters, out)
+        });
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::code::Code;
-use crate::compiled::{Compiled, OneState};
+use crate::compiled::{Compiled, OneState, Portable};
 use crate::{InstructionSet, Routine};
 
 /// What a routine runs on: a number of one state, or of several side by side.
