@@ -59,7 +59,7 @@ pub enum Command {
     ///
     /// Parquet has a file for each table, with nulls where a field is empty; HDF5 is one file, run.h5, with a
     /// group for each table, a dataset for each column, and NaN there. Both have units and meanings of all
-    /// columns, and the summary. Numbers keep all their bits. A build has a format only if its feature was on.
+    /// columns, and the summary. Numbers keep all their bits.
     #[command(after_help = examples::TABLES)]
     Tables(TablesArgs),
     /// Read and validate a scene, and say what it contains.

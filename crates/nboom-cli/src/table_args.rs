@@ -35,8 +35,8 @@ pub struct TableArgs {
     #[arg(long)]
     pub units_in_headers: bool,
 
-    /// Also write all tables for other programs: parquet, hdf5 or both with a comma between them, if this
-    /// build has the feature of that name.
+    /// Also write all tables for other programs: parquet, hdf5 or both with a comma between them; programs of
+    /// nboom compile have neither.
     #[arg(id = "tables", long, value_name = "FORMATS", value_delimiter = ',', value_parser = choice::table_format)]
     pub formats: Vec<Format>,
 }

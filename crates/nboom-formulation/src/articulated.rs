@@ -12,8 +12,8 @@ use crate::paddle::{self, ArmRates, Paddle};
 use crate::parameters::{Branch, Coordinates, HingeCoordinates, Parameters, Solution};
 use crate::recognise::{Uncovered, recognise};
 
-/// Accelerations of a satellite by this formulation: [`Formulation::solve`](crate::Formulation::solve), in programs
-/// that compile no other.
+/// Accelerations of a satellite by this formulation: [`Formulation::solve`](crate::Formulation::solve), for programs
+/// that need no other compiled.
 pub fn solve<R: Real>(
     topology: &Topology,
     parameters: &Parameters<R>,

@@ -53,8 +53,8 @@ pub(crate) fn of_shared(name: &str, crates: &str) -> String {
     )
 }
 
-/// How the manifest of what is built ends. Generated code uses a crate, and is compiled on all cores; each crate of
-/// others is optimised once, as a whole.
+/// How the manifest of what is built ends. Generated code uses a crate. It is compiled on all cores; every other crate
+/// is optimised once, as a whole.
 fn end(crates: &str) -> String {
     format!(
         "nboom-scalar = {{ path = \"{crates}/nboom-scalar\" }}\n\

@@ -150,8 +150,8 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-// Sums, products and quotients are calls: a call takes less time than what it does, and the recursion with all
-// of them inlined takes compilers long.
+// Not inlined: a call costs little beside the arithmetic, and the recursion with all of it inlined takes long to
+// compile.
 impl Add for DoubleDouble {
     type Output = Self;
     #[inline(never)]

@@ -10,8 +10,8 @@ use crate::{Format, RowsError};
 pub enum TablesError {
     /// The program is built without this format.
     #[error(
-        "{name}: found a build of nboom without this format, expected one with the feature {name}; in a clone \
-         it is made by `cargo install --locked --path crates/nboom-cli --features {name}`",
+        "{name}: found a program without this format, expected nboom itself, with the feature {name}; its \
+         `nboom tables` makes it of a run in CSV",
         name = .0.name()
     )]
     NotBuilt(Format),

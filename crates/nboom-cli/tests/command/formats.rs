@@ -1,4 +1,4 @@
-//! Formats of tables that nobody has. What formats have in them is tested with the crate that writes them.
+//! Formats of tables that do not exist. One that a program was built without is refused in `docs/how-to/compile.md`.
 
 use crate::{Place, refused};
 

@@ -91,14 +91,15 @@ impl<R: Real> ClosedForm<R> {
         self.formulation
     }
 
-    /// As [`accelerations`](ClosedForm::accelerations), of a form fitted as [`Formulation::Articulated`]; no other
-    /// is compiled for its scalar.
+    /// As [`accelerations`](ClosedForm::accelerations), of a form fitted as [`Formulation::Articulated`], so that no
+    /// other is compiled over `R`.
     pub fn articulated_accelerations(
         &mut self,
         dynamics: &mut Recursive<R>,
         motion: &Motion<'_, R>,
         out: &mut Accelerations<R>,
     ) {
+        debug_assert_eq!(self.formulation, Formulation::Articulated);
         self.accelerations_by(dynamics, motion, out, |recognised, _, x| {
             let (topology, parameters) = recognised.expect("articulated fits what is recognised");
             articulated::solve(topology, parameters, x)

@@ -70,10 +70,12 @@ pub(crate) fn exact_graph(scene: &Scene, mode: &Mode, layout: VariableLayout) ->
     })
 }
 
-/// Records accelerations. Not inlined: the recursion on what is recorded takes compilers long, and runs once a mode.
+/// Records accelerations. It is `dyn`, so that all around it is compiled once: over `Expr` that takes long, and it
+/// runs once a mode.
 type RecordAccelerations<'a> =
     dyn FnMut(&mut Recursive<Expr>, &Motion<'_, Expr>, &mut Accelerations<Expr>) + 'a;
 
+#[inline(never)]
 fn by_recursion(
     dynamics: &mut Recursive<Expr>,
     motion: &Motion<'_, Expr>,
