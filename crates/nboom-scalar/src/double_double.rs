@@ -150,11 +150,9 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-// Not inlined: a call costs little beside the arithmetic, and the recursion with all of it inlined takes long to
-// compile.
 impl Add for DoubleDouble {
     type Output = Self;
-    #[inline(never)]
+    #[inline]
     fn add(self, other: Self) -> Self {
         let (high, of_high) = two_sum(self.high, other.high);
         let (low, of_low) = two_sum(self.low, other.low);
@@ -173,7 +171,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
-    #[inline(never)]
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let (high, rest) = two_product(self.high, other.high);
         // Not fused, so that factors may be exchanged.
@@ -184,7 +182,7 @@ impl Mul for DoubleDouble {
 
 impl Div for DoubleDouble {
     type Output = Self;
-    #[inline(never)]
+    #[inline]
     fn div(self, other: Self) -> Self {
         let quotient = self.high / other.high;
         let (high, rest) = two_product(other.high, quotient);
