@@ -41,6 +41,14 @@ pub struct GenerateArgs {
     #[arg(long)]
     pub inverse_dynamics: bool,
 
+    /// Also generate the right side of the scene's differential equations, with its springs, dampers and thrusters.
+    #[arg(long)]
+    pub right_side: bool,
+
+    /// Routines take a wrench on the main body also where nothing acts on it from outside.
+    #[arg(long)]
+    pub external_wrench: bool,
+
     /// Also generate states with held hinges: all topologies with up to 10 hinges; with more, those
     /// in which all appendages are held in step; at most 32.
     #[arg(long)]
@@ -59,7 +67,8 @@ pub struct GenerateArgs {
 /// output.
 pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     let file = check::scene(&args.scene)?;
-    let GenerateArgs { formulation, level, equations, inverse_dynamics, lock_states, .. } = *args;
+    let GenerateArgs { formulation, level, equations, inverse_dynamics, .. } = *args;
+    let GenerateArgs { right_side, external_wrench, lock_states, .. } = *args;
     let stresses = match (args.stresses, &file.structure) {
         (true, None) => {
             let scene = file.scene.name.clone();
@@ -68,8 +77,17 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
         (asked, structure) => structure.as_ref().filter(|_| asked),
     };
     let numbers = if args.baked { Numbers::Baked } else { Numbers::RunTime };
-    let choices =
-        Choices { formulation, numbers, level, equations, inverse_dynamics, lock_states, stresses };
+    let choices = Choices {
+        formulation,
+        numbers,
+        level,
+        equations,
+        inverse_dynamics,
+        right_side,
+        external_wrench,
+        lock_states,
+        stresses,
+    };
     let (scene, directory) = (&file.scene, &args.output);
     let written = if args.check {
         is_current(scene, &choices, directory)?;

@@ -1,3 +1,5 @@
+use std::fmt;
+
 use nboom_elements::{Elements, HingeLaw, KickOffLaw};
 use nboom_model::{Shape, Topology, WeldedTree};
 use nboom_scalar::{Mat3, Real, Vec3, Wrench};
@@ -31,6 +33,43 @@ pub struct LinkLine<R> {
     pub main_body_point: Vec3<R>,
     /// The force by the line's length.
     pub law: KickOffLaw<R>,
+}
+
+/// What acts on a satellite that a right side has no place for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPlace {
+    /// A coupling of a free hinge.
+    Coupling,
+    /// A rotor.
+    Rotor,
+    /// Something from outside that acts on a hinged link, or is not constant along main-body axes.
+    External,
+    /// More lines on one link than [`RightSideLayout::LINES_OF_LINK`].
+    Lines,
+    /// A line that does not transmit all of its moment.
+    Withheld,
+}
+
+impl fmt::Display for NoPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Coupling => write!(f, "a coupling of hinges"),
+            Self::Rotor => write!(f, "a rotor"),
+            Self::External => {
+                write!(
+                    f,
+                    "a force or torque that is not constant on the main body and along its axes"
+                )
+            }
+            Self::Lines => {
+                let most = RightSideLayout::LINES_OF_LINK;
+                write!(f, "more than {most} kick-off springs on bodies that move as one")
+            }
+            Self::Withheld => {
+                write!(f, "a kick-off spring that does not turn all hinges inboard of it")
+            }
+        }
+    }
 }
 
 /// The length of a line that does not push, 2⁴⁰⁰: no hinge angle makes it zero, and its square is a
@@ -191,18 +230,22 @@ fn push<R: Real>(
 impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
-    /// `None` where a right side has no place for them: where a free hinge is coupled, where there are
-    /// rotors, where more lines push one link than [`RightSideLayout::LINES_OF_LINK`], where a line does
-    /// not transmit all of its moment, and where something from outside acts on a hinged link or is not
-    /// constant along main-body axes.
+    /// # Errors
+    /// What a right side has no place for.
     pub fn of(
         elements: &Elements<f64>,
         tree: &WeldedTree<f64>,
         recognised: &Recognised,
-    ) -> Option<Self> {
-        let is_pushed = elements.pushes_vary() || elements.on_links().next().is_some();
-        if elements.withholds() || elements.couples() || tree.has_rotors() || is_pushed {
-            return None;
+    ) -> Result<Self, NoPlace> {
+        for (is_so, what) in [
+            (elements.withholds(), NoPlace::Withheld),
+            (elements.couples(), NoPlace::Coupling),
+            (tree.has_rotors(), NoPlace::Rotor),
+            (elements.pushes_vary() || elements.on_links().next().is_some(), NoPlace::External),
+        ] {
+            if is_so {
+                return Err(what);
+            }
         }
         let mut forces = Self::none(recognised.links.len());
         for (law, &link) in forces.laws.iter_mut().zip(&recognised.links) {
@@ -212,15 +255,16 @@ impl Forces<f64> {
             forces.external = external;
         }
         for (link, line) in elements.pushing() {
-            let hinge = recognised.links.iter().position(|&other| other == link)?;
+            let of_link = |&other: &usize| other == link;
+            let hinge = recognised.links.iter().position(of_link).expect("every link has a hinge");
             let is_empty = |&place: &usize| forces.lines[place] == LinkLine::absent();
-            let place = forces.places(hinge).find(is_empty)?;
+            let place = forces.places(hinge).find(is_empty).ok_or(NoPlace::Lines)?;
             forces.lines[place] = LinkLine {
                 point: recognised.frames[hinge].point(line.point),
                 main_body_point: line.main_body_point,
                 law: *line.law(),
             };
         }
-        Some(forces)
+        Ok(forces)
     }
 }

@@ -30,7 +30,7 @@ mod tree;
 pub use base::AtOrigin;
 pub use chain::ChainLink;
 pub use embedding::Embedding;
-pub use forces::{Forces, LinkLine};
+pub use forces::{Forces, LinkLine, NoPlace};
 pub use formulation::Formulation;
 pub use inverse_dynamics::{Drive, HingeMotion, Motion, inverse_dynamics};
 pub use parameters::{Branch, Coordinates, HingeCoordinates, Layout, Mount, Parameters, Solution};

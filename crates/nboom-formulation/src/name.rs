@@ -1,6 +1,7 @@
 use nboom_model::{Shape, Topology};
 
 use crate::parameters::Layout;
+use crate::right_side::RightSideLayout;
 
 /// The numbers of a rigid body, about its origin, then the way from a link to the next hinge.
 const OF_LINK: [&str; Layout::LINK] = [
@@ -53,6 +54,27 @@ const OF_MOUNT: [&str; Layout::BRANCH] = [
     "z from the inboard joint",
 ];
 
+/// The numbers of the torque about a hinge.
+const OF_LAW: [&str; RightSideLayout::LAW] = ["q1", "q2", "A3", "A2", "A1", "A0", "beta0"];
+
+/// The external wrench.
+const OF_WRENCH: [&str; RightSideLayout::EXTERNAL] =
+    ["moment x", "moment y", "moment z", "force x", "force y", "force z"];
+
+/// The numbers of a line that pushes a link.
+const OF_LINE: [&str; RightSideLayout::LINE] = [
+    "x of the end on the link",
+    "y of the end on the link",
+    "z of the end on the link",
+    "x of the end on the main body",
+    "y of the end on the main body",
+    "z of the end on the main body",
+    "a0",
+    "a1",
+    "a2",
+    "a3",
+];
+
 /// What the numbers of a link are.
 fn of_link(shape: &Shape, link: usize) -> Vec<&'static str> {
     let Shape::Limb(limb) = shape else { return OF_LINK.to_vec() };
@@ -93,10 +115,70 @@ impl Layout {
     }
 }
 
+impl RightSideLayout {
+    /// What parameter `number` of a topology is, counted from 0, in the words of [`Layout::name`].
+    ///
+    /// # Panics
+    /// When the topology has no such parameter.
+    pub fn name(topology: &Topology, number: usize) -> String {
+        let (laws, external) = (Self::law(topology, 0).start, Self::external(topology));
+        if number < laws {
+            return Layout::name(topology, number);
+        }
+        if external.contains(&number) {
+            return format!("external {}", OF_WRENCH[number - external.start]);
+        }
+        let link = |hinge: usize| {
+            let shapes = topology.shapes().iter().enumerate();
+            let links = shapes.flat_map(|(i, shape)| (1..=shape.hinges()).map(move |j| (i + 1, j)));
+            let (appendage, link) = links.clone().nth(hinge % topology.hinges()).expect("a hinge");
+            format!("link {link} of appendage {appendage}")
+        };
+        if number < external.start {
+            let at = number - laws;
+            return format!("{} of the hinge of {}", OF_LAW[at % Self::LAW], link(at / Self::LAW));
+        }
+        assert!(number < Self::parameters(topology), "parameter {number} of {topology}");
+        let (place, at) =
+            ((number - external.end) / Self::LINE, (number - external.end) % Self::LINE);
+        let which = if place < topology.hinges() { "" } else { "second " };
+        format!("{} of the {which}line that pushes {}", OF_LINE[at], link(place))
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use nboom_elements::{HingeLaw, KickOffLaw};
+
     use super::*;
-    use crate::Parameters;
+    use crate::{Forces, Parameters};
+
+    #[test]
+    fn names_of_forces_are_those_of_the_numbers_that_are_written() {
+        let topology: Topology = "S2_P".parse().expect("a topology");
+        let first = RightSideLayout::law(&topology, 0).start;
+        let mut forces = Forces::none(4);
+        forces.laws[3] = HingeLaw::of_numbers([0.0, 0.0, 0.0, 0.0, 5.0, 0.0, 0.0]);
+        forces.external.force.y = 1.0;
+        forces.lines[1].main_body_point.z = 2.0;
+        forces.lines[4 + 2].law = KickOffLaw::of_numbers([0.0, 3.0, 0.0, 0.0]);
+        let (written, nothing) = (forces.write(), Forces::none(4).write());
+        let differ = (0..written.len()).filter(|&i| written[i] != nothing[i]);
+        let names = differ.map(|i| RightSideLayout::name(&topology, first + i));
+        assert_eq!(
+            names.collect::<Vec<_>>(),
+            [
+                "A1 of the hinge of link 2 of appendage 2",
+                "external force y",
+                "z of the end on the main body of the line that pushes link 2 of appendage 1",
+                "a1 of the second line that pushes link 1 of appendage 2",
+            ]
+        );
+        let last = RightSideLayout::parameters(&topology) - 1;
+        let name = RightSideLayout::name(&topology, last);
+        assert_eq!(name, "a3 of the second line that pushes link 2 of appendage 2");
+        assert_eq!(RightSideLayout::name(&topology, 0), "mass of the main body");
+    }
 
     #[test]
     fn names_are_those_of_the_numbers_that_are_written() {

@@ -114,7 +114,7 @@ impl OfFormulation {
                 ..nothing
             },
             Found::Equations(residual) => Self { residual: Some(*residual), ..nothing },
-            Found::InverseDynamics(found) => {
+            Found::InverseDynamics(found) | Found::RightSide(found) => {
                 Self { deviation_from_double_double: Some(*found), ..nothing }
             }
         }

@@ -4,11 +4,14 @@
 use nboom_codegen::{Output, Request, trace};
 use nboom_expr::Graph;
 use nboom_formulation::{Formulation, Layout, Recognised};
-use nboom_model::{Scene, Shape};
+use nboom_model::{External, Scene, SceneDescription, Shape};
+use nboom_scalar::Vec3;
 use nboom_verify::{Certificate, TestCase, Truth, certify, drives, truth};
 
 use crate::PackageError;
 use crate::held::welded;
+
+mod right_side;
 
 /// The largest deviation of a formulation, relative and in terms of what condition magnifies.
 pub const TOLERANCE: f64 = 1e-11;
@@ -49,6 +52,8 @@ pub(crate) enum Found {
     Equations(f64),
     /// The largest deviation of forces, relative to the largest of them or to their natural size.
     InverseDynamics(f64),
+    /// The largest deviation of rates of change, relative to the largest of their kind or to its natural size.
+    RightSide(f64),
 }
 
 /// A state with what a routine gives there.
@@ -57,7 +62,8 @@ pub(crate) struct Tested {
     pub parameters: Vec<f64>,
     /// The state as routines take it.
     pub coordinates: Vec<f64>,
-    /// ω̇, a_O and τ̇ as routines give them, or what causes them, or what solves the formulation's equations.
+    /// ω̇, a_O and τ̇ as routines give them, or what causes them, or what solves the formulation's equations; or rates
+    /// of change, and after them what the power is relative to.
     pub expected: Vec<f64>,
     /// What deviations are relative to where all of this cancels to nothing.
     pub least: f64,
@@ -74,20 +80,28 @@ impl Certified {
         request: &Request,
         free: Option<&[bool]>,
     ) -> Result<Self, PackageError> {
-        let (test_cases, tested) = match free {
-            None => (vec![TestCase::new(scene.clone(), FREE[0], SEED)?], FREE[1]),
-            Some(free) => (held(scene, free)?, HELD[1]),
+        let scene = if request.external { pushed(scene) } else { scene.clone() };
+        let (mut test_cases, tested) = match free {
+            None => (vec![TestCase::new(scene, FREE[0], SEED)?], FREE[1]),
+            Some(free) => (held(&scene, free)?, HELD[1]),
         };
+        if request.output == Output::RightSide {
+            test_cases = test_cases.into_iter().map(TestCase::with_lines_pushing).collect();
+        }
         let graph = trace(request);
         let found = match request.output {
             Output::Accelerations => {
                 Found::Accelerations(accelerations(&graph, request, &test_cases)?)
             }
-            Output::Equations => Found::Equations(equations(&graph, request, &test_cases)?),
-            Output::InverseDynamics => {
-                Found::InverseDynamics(inverse_dynamics(&graph, request, &test_cases)?)
+            Output::Equations => {
+                Found::Equations(deviation(&graph, request, &test_cases, residual)?)
             }
-            Output::RightSide => unreachable!("crates have no right sides"),
+            Output::InverseDynamics => {
+                Found::InverseDynamics(deviation(&graph, request, &test_cases, of_largest)?)
+            }
+            Output::RightSide => {
+                Found::RightSide(deviation(&graph, request, &test_cases, right_side::deviation)?)
+            }
         };
         let mut cases = Vec::new();
         for test_case in &test_cases {
@@ -107,6 +121,7 @@ impl Certified {
             }
             Found::Equations(residual) => ("equations", *residual),
             Found::InverseDynamics(deviation) => ("inverse dynamics", *deviation),
+            Found::RightSide(deviation) => ("rates of change", *deviation),
         };
         if deviation <= TOLERANCE {
             return Ok(());
@@ -124,9 +139,23 @@ impl Certified {
                 let magnified = (found.condition / HARMLESS_CONDITION).max(1.0);
                 magnified * ROUNDING.max(4.0 * found.from_double_double)
             }
-            Found::Equations(found) | Found::InverseDynamics(found) => ROUNDING.max(4.0 * found),
+            Found::Equations(found) | Found::InverseDynamics(found) | Found::RightSide(found) => {
+                ROUNDING.max(4.0 * found)
+            }
         }
     }
+}
+
+/// The scene with something that acts on its main body, so that a wrench is compared.
+fn pushed(scene: &Scene) -> Scene {
+    if !scene.externals.is_empty() || scene.base.is_held() {
+        return scene.clone();
+    }
+    let force = Vec3::new(1.0, -0.7, 0.4) * scene.main_body.mass.max(f64::MIN_POSITIVE);
+    let point = Vec3::new(0.3, 0.2, -0.5);
+    let thrust = External::thrust(force, point, [0.0, f64::INFINITY]);
+    let description = SceneDescription { externals: vec![thrust], ..(**scene).clone() };
+    Scene::new(description).expect("a force leaves a scene valid")
 }
 
 /// The scene in states with held hinges, one random state of each.
@@ -168,51 +197,42 @@ fn accelerations(
     Ok(most.expect("there is a test case"))
 }
 
-/// The largest residual in any of the test cases' states.
-fn equations(
+/// The largest deviation in any of the test cases' states, each by `off` from what is found, what is expected and the
+/// least scale.
+fn deviation(
     graph: &Graph,
     request: &Request,
     test_cases: &[TestCase],
+    off: fn(&[f64], &[f64], f64) -> f64,
 ) -> Result<f64, PackageError> {
     let mut most = 0.0_f64;
     for test_case in test_cases {
         for Tested { parameters, coordinates, expected, least } in tested(test_case, request)? {
             let found = graph.evaluate(&[parameters, coordinates].concat());
-            most = most.max(residual(&found, &expected, least));
+            most = most.max(off(&found, &expected, least));
         }
     }
     Ok(most)
 }
 
-/// The largest deviation in any of the test cases' states.
-fn inverse_dynamics(
-    graph: &Graph,
-    request: &Request,
-    test_cases: &[TestCase],
-) -> Result<f64, PackageError> {
-    let mut most = 0.0_f64;
-    for test_case in test_cases {
-        for Tested { parameters, coordinates, expected, least } in tested(test_case, request)? {
-            let found = graph.evaluate(&[parameters, coordinates].concat());
-            let scale = expected.iter().fold(least, |most, e| most.max(e.abs()));
-            for (found, expected) in found.iter().zip(&expected) {
-                let off = (found - expected).abs() / scale;
-                most = most.max(if off.is_nan() { f64::INFINITY } else { off });
-            }
-        }
-    }
-    Ok(most)
+/// The largest deviation relative to the largest number, or to `least`; infinite where one is no number.
+fn of_largest(found: &[f64], expected: &[f64], least: f64) -> f64 {
+    let scale = expected.iter().fold(least, |most, e| most.max(e.abs()));
+    let off = found.iter().zip(expected).map(|(found, expected)| (found - expected).abs() / scale);
+    off.fold(0.0, |most, off| if off.is_nan() { f64::INFINITY } else { most.max(off) })
 }
 
 /// All states of a test case with what is to come out.
 fn tested(test_case: &TestCase, request: &Request) -> Result<Vec<Tested>, PackageError> {
     let (recognised, truth) = (recognised(test_case), truth(test_case)?);
     let inputs = inputs(test_case, request);
-    if request.output == Output::InverseDynamics {
-        return motions(recognised, test_case, inputs, truth);
+    match request.output {
+        Output::InverseDynamics => return motions(recognised, test_case, inputs, truth),
+        Output::RightSide => return Ok(right_side::tested(test_case, request, &truth)),
+        Output::Accelerations | Output::Equations => {}
     }
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Truth)| {
-        let Truth { accelerations, floor } = truth;
+        let Truth { accelerations, floor, .. } = truth;
         let (expected, least) = match request.output {
             Output::Equations => {
                 (unknowns(request.formulation, recognised, &accelerations), floor.forcing)
@@ -313,88 +333,4 @@ fn residual(found: &[f64], unknowns: &[f64], least: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use nboom_codegen::{Level, Numbers};
-    use nboom_model::{
-        Appendage, Body, Hinge, Joint, MassProperties, Mount, SceneDescription, Segment,
-    };
-    use nboom_scalar::{Sym3, Vec3};
-
-    use super::*;
-
-    fn one_boom() -> Scene {
-        let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
-        let boom = MassProperties::new(3.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
-        let segments = vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }];
-        let mut description = SceneDescription::at_rest("one boom", hub, 1.0);
-        description.attach(&Appendage::Regular { mount: Mount::at(Vec3::unit_y()), segments });
-        Scene::new(description).expect("the bodies are physical")
-    }
-
-    /// Bodies without a preferred axis across z, each on the one before by a hinge about z.
-    fn alike(inertia: [f64; 3], links: usize) -> Scene {
-        let [x, y, z] = inertia;
-        let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(x, y, z));
-        let mut description = SceneDescription::at_rest("alike", hub, 1.0);
-        let body = |i: usize| Body {
-            inboard: i.checked_sub(1),
-            mount: Mount::at(Vec3::zero()),
-            joint: Joint::Revolute,
-            axis: Vec3::unit_z(),
-            mass_properties: MassProperties::new(3.0, Vec3::zero(), Sym3::diagonal(2.0, 2.0, 1.0)),
-            tip: Vec3::zero(),
-            hinge: Hinge::free(),
-        };
-        description.bodies = (0..links).map(body).collect();
-        Scene::new(description).expect("the bodies are physical")
-    }
-
-    /// What is certified of code with the scene's numbers in it, one of them off by this share.
-    fn with_number_off(
-        scene: &Scene,
-        output: Output,
-        (number, share): (usize, f64),
-    ) -> Result<Certified, PackageError> {
-        let request = Request::of_scene(scene, Numbers::Baked, Level::Exact);
-        let request = request.expect("code is generated for it");
-        let mut request = match output {
-            Output::InverseDynamics => request.for_inverse_dynamics(),
-            _ => Request { output, ..request.by(Formulation::Symmetric) },
-        };
-        let number = request.assumptions[number].as_mut().expect("it is built in");
-        *number *= 1.0 + share;
-        Certified::new(scene, &request, None)
-    }
-
-    /// Asserts that code is certified which is right, and none that is off by a share of a number.
-    fn is_found(scene: &Scene, number: usize) {
-        for output in [Output::Accelerations, Output::Equations, Output::InverseDynamics] {
-            let right = with_number_off(scene, output, (number, 0.0));
-            let right = right.unwrap_or_else(|error| panic!("{output:?}: {error}"));
-            assert!(right.tolerance() < TOLERANCE);
-            for share in [2e-9, 1e-3] {
-                let wrong = with_number_off(scene, output, (number, share)).err();
-                let Some(PackageError::Deviation { deviation, tolerance, .. }) = wrong else {
-                    panic!("{output:?}, {share:e}: certified, or {wrong:?}")
-                };
-                assert!(deviation > tolerance, "{output:?}: {deviation:e}");
-            }
-        }
-    }
-
-    #[test]
-    fn code_that_computes_something_else_is_not_certified() {
-        // The mass of the boom, which is a thirtieth of the whole.
-        is_found(&one_boom(), Layout::MAIN + Layout::BRANCH);
-    }
-
-    /// What is zero in every motion is rounding, and rounding is not compared with itself.
-    #[test]
-    fn code_of_spheres_and_tops_is_certified_and_only_if_it_is_right() {
-        let (sphere, top) = ([30.0; 3], [30.0, 30.0, 20.0]);
-        for (inertia, links) in [(sphere, 0), (top, 0), (sphere, 2), (top, 2)] {
-            // The main body's inertia about x.
-            is_found(&alike(inertia, links), 4);
-        }
-    }
-}
+mod tests;

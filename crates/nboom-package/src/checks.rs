@@ -9,13 +9,20 @@ use crate::manifest::rust_name;
 const COMMON: &str = include_str!("../templates/certificate.rs");
 const NUMBERS: &str = include_str!("../templates/certificate_numbers.rs");
 const EQUATIONS: &str = include_str!("../templates/certificate_equations.rs");
+const RIGHT_SIDE: &str = include_str!("../templates/certificate_right_side.rs");
 const DERIVATIVES: &str = include_str!("../templates/certificate_derivatives.rs");
 const TEST: &str = include_str!("../templates/certificate_test.rs");
 
 /// `tests/certificate.rs` of the crate `name`.
 pub(crate) fn code(name: &str, routines: &[Routine]) -> String {
-    let has_equations = routines.iter().any(|r| r.request.output == Output::Equations);
-    let parts = NUMBERS.to_owned() + if has_equations { EQUATIONS } else { "" };
+    let has = |output: Output| routines.iter().any(|routine| routine.request.output == output);
+    let only_if = |is_so: bool, text: &'static str| if is_so { text } else { "" };
+    let parts = [
+        NUMBERS,
+        only_if(has(Output::Equations), EQUATIONS),
+        only_if(has(Output::RightSide), RIGHT_SIDE),
+    ];
+    let parts = parts.concat();
     let name = rust_name(name);
     let tests: String = routines.iter().map(|routine| test(&name, routine)).collect();
     // The first routine is that for the scene's accelerations.
@@ -30,6 +37,7 @@ fn test(of_crate: &str, routine: &Routine) -> String {
     let off = match routine.certified.found {
         Found::Accelerations(_) | Found::InverseDynamics(_) => "off_numbers",
         Found::Equations(_) => "off_equations",
+        Found::RightSide(_) => "off_rates",
     };
     let values = [
         ("FUNCTION", function.as_str()),
@@ -55,6 +63,7 @@ pub(crate) fn table(routine: &Routine) -> String {
         Found::Accelerations(_) => "acceleration",
         Found::Equations(_) => "unknown",
         Found::InverseDynamics(_) => "force",
+        Found::RightSide(_) => "rate",
     };
     let mut text = String::new();
     for (i, Tested { parameters, coordinates, expected, least }) in

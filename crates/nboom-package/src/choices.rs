@@ -16,6 +16,10 @@ pub struct Choices<'a> {
     pub equations: bool,
     /// Whether there is a routine for the scene's inverse dynamics too.
     pub inverse_dynamics: bool,
+    /// Whether there is a routine for the right side of the scene's differential equations too.
+    pub right_side: bool,
+    /// Whether routines take a wrench on the main body also where nothing acts on it from outside.
+    pub external_wrench: bool,
     /// Whether there are routines for the topologies that the scene comes through while hinges
     /// are held.
     pub lock_states: bool,
@@ -31,6 +35,8 @@ impl Default for Choices<'_> {
             level: Level::Fast,
             equations: false,
             inverse_dynamics: false,
+            right_side: false,
+            external_wrench: false,
             lock_states: false,
             stresses: None,
         }
@@ -47,6 +53,8 @@ pub(crate) struct Requests {
     pub equations: Option<Request>,
     /// The forces for given accelerations of the scene.
     pub inverse_dynamics: Option<Request>,
+    /// The right side of the scene's differential equations.
+    pub right_side: Option<Request>,
     /// Accelerations while hinges are held.
     pub held: Vec<Request>,
     /// Loads and stresses.
@@ -59,7 +67,10 @@ const SCALAR: &str = "crate::nboom_scalar";
 impl Requests {
     pub fn new(scene: &Scene, choices: &Choices<'_>) -> Result<Self, CodegenError> {
         let Choices { formulation, numbers, level, lock_states, stresses, .. } = *choices;
-        let inside = |request: Request| Request { scalar_path: SCALAR.to_owned(), ..request };
+        let inside = |request: Request| {
+            let request = Request { scalar_path: SCALAR.to_owned(), ..request };
+            if choices.external_wrench { request.with_external_wrench() } else { request }
+        };
         let of = |scene: &Scene| {
             Ok::<_, CodegenError>(inside(Request::of_scene(scene, numbers, level)?))
         };
@@ -75,6 +86,12 @@ impl Requests {
             let request = of(&free)?.for_inverse_dynamics();
             Ok::<_, CodegenError>(named(request, "Inverse"))
         });
+        let right_side = choices.right_side.then(|| {
+            let request = Request { on_eight_states: false, ..whole.right_side_of(scene)? };
+            let name = format!("{}RightSide", whole.name);
+            Ok::<_, CodegenError>(Request { name, ..request })
+        });
+        let right_side = right_side.transpose()?;
         let held = if lock_states { Request::lock_states(scene, level)? } else { Vec::new() };
         let held = held.into_iter().map(|request| inside(request).by(formulation)).collect();
         let stresses = stresses.map(|structure| StressRequest::of_scene(scene, structure, level));
@@ -82,7 +99,7 @@ impl Requests {
             .transpose()?
             .map(|request| StressRequest { scalar_path: SCALAR.to_owned(), ..request });
         let (equations, inverse_dynamics) = (equations.transpose()?, inverse_dynamics.transpose()?);
-        Ok(Self { whole, free, equations, inverse_dynamics, held, stresses })
+        Ok(Self { whole, free, equations, inverse_dynamics, right_side, held, stresses })
     }
 
     /// The file with all of them.
@@ -97,7 +114,8 @@ impl Requests {
 
     /// All but stresses, in the order in which they are written.
     pub fn all(&self) -> Vec<Request> {
-        std::iter::once(&self.whole).chain(self.of_free()).chain(&self.held).cloned().collect()
+        let all_free = std::iter::once(&self.whole).chain(self.of_free()).chain(&self.right_side);
+        all_free.chain(&self.held).cloned().collect()
     }
 }
 

@@ -95,7 +95,7 @@ impl Crate {
             ("tests/certificate.rs".to_owned(), checks::code(&name, &routines)),
         ]);
         let appendages = [&recognised(scene)?, &recognised(&requests.free)?];
-        files.extend(library::files(scene, &name, requests, appendages));
+        files.extend(library::files(scene, &name, requests, appendages)?);
         files.extend(
             routines.iter().map(|routine| (checks::table_path(routine), checks::table(routine))),
         );
@@ -126,11 +126,12 @@ impl Crate {
 fn routines(scene: &Scene, requests: &Requests) -> Result<Vec<Routine>, PackageError> {
     let whole = std::iter::once(routine(scene, &requests.whole, None));
     let of_free = requests.of_free().map(|request| routine(&requests.free, request, None));
+    let right_side = requests.right_side.iter().map(|request| routine(scene, request, None));
     let held = requests.held.iter().map(|request| {
         let free = request.free_hinges(scene)?;
         routine(scene, request, free.as_deref())
     });
-    whole.chain(of_free).chain(held).collect()
+    whole.chain(of_free).chain(right_side).chain(held).collect()
 }
 
 fn routine(

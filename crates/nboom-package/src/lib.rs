@@ -25,6 +25,7 @@ mod load;
 mod manifest;
 mod package;
 mod program;
+mod right_side;
 mod shared;
 mod sources;
 mod stresses;

@@ -9,7 +9,7 @@ use nboom_scalar::{TreeLink, Twist};
 
 use crate::choices::Requests;
 use crate::manifest::rust_name;
-use crate::stresses;
+use crate::{PackageError, right_side, stresses};
 
 /// What the crate is, which is its documentation too.
 const README: &str = include_str!("../templates/README.md");
@@ -37,7 +37,7 @@ pub(crate) fn files(
     name: &str,
     requests: &Requests,
     [recognised, free]: [&Recognised; 2],
-) -> [(String, String); 2] {
+) -> Result<[(String, String); 2], PackageError> {
     let of_routines = requests.all().into_iter().map(|request| request.name);
     let of_stresses = requests.stresses.iter().map(|request| request.name.clone());
     let names: Vec<String> = of_routines.chain(of_stresses).collect();
@@ -50,10 +50,13 @@ pub(crate) fn files(
     });
     let inverse = requests.inverse_dynamics.as_ref();
     let inverse = inverse.map(|request| INVERSE.replace("INVERSE", &request.name));
-    let has_functions = equations.is_some() || inverse.is_some();
+    let right_side = requests.right_side.as_ref();
+    let right_side = right_side.map(|request| right_side::texts(scene, recognised, request));
+    let [side_in_words, side_in_code] = right_side.transpose()?.unwrap_or_default();
+    let of_free = equations.is_some() || inverse.is_some();
     let hinges = hinges(scene, recognised);
     let held = held_main(scene);
-    let is_let_go = held.is_some() && has_functions;
+    let is_let_go = held.is_some() && of_free;
     let only_if = |is_so: bool, text: &str| if is_so { text } else { "" }.to_owned();
     let of_held = |i: usize| only_if(held.is_some(), HELD[i]) + &only_if(is_let_go, LET_GO[i]);
     let omega = scene.initial.omega_body.to_array();
@@ -61,6 +64,8 @@ pub(crate) fn files(
     let hold = "state[3..9].copy_from_slice(&holding_wrench(MAIN_BODY));\n";
     let uses_of_held = "MAIN_BODY, holding_wrench, ";
     let values = [
+        ("RIGHT_SIDE_IN_WORDS", side_in_words),
+        ("RIGHT_SIDE_IN_CODE", side_in_code),
         ("HELD_IN_WORDS", of_held(0)),
         ("HELD_IN_CODE", of_held(1)),
         ("USES_OF_HELD", only_if(held.is_some(), uses_of_held)),
@@ -80,7 +85,7 @@ pub(crate) fn files(
         ("NAMES", names.join(", ")),
         ("PARAMETER_COUNT", parameters.len().to_string()),
         ("PARAMETER_LIST", list(recognised)),
-        ("USES", only_if(has_functions, "\nuse std::sync::OnceLock;\n")),
+        ("USES", only_if(of_free || requests.right_side.is_some(), "\nuse std::sync::OnceLock;\n")),
         ("HINGE_COUNT", recognised.links.len().to_string()),
         ("HINGE_LIST", hinges),
         ("TREE_LIST", tree(recognised)),
@@ -92,7 +97,7 @@ pub(crate) fn files(
         };
         values.iter().fold(template.to_owned(), fill)
     };
-    [("README.md".to_owned(), filled(README)), ("src/lib.rs".to_owned(), filled(CODE))]
+    Ok([("README.md".to_owned(), filled(README)), ("src/lib.rs".to_owned(), filled(CODE))])
 }
 
 /// ω̇ and a_O less gravity of a main body that is held, when the scene starts; main-body axes.

@@ -37,7 +37,7 @@ pub const HINGES: [Hinge; /*HINGE_COUNT*/] = [
 pub fn parameters() -> &'static [f64] {
     &PARAMETERS
 }
-/*HELD_IN_CODE*//*MORE_FUNCTIONS*/
+/*HELD_IN_CODE*//*MORE_FUNCTIONS*//*RIGHT_SIDE_IN_CODE*/
 /// Derivatives of the scene's accelerations, all hinges free, for these parameters. They loop over the
 /// hinges and use no routine.
 ///

@@ -54,6 +54,8 @@ pub struct Truth {
     /// Accelerations, computed in double-double and rounded once: ω̇, a_O, then τ̇ in the order of the scene's
     /// hinges.
     pub accelerations: Vec<f64>,
+    /// Power of the parts of the hinge torques that depend on rates.
+    pub rate_power: f64,
     /// What deviations are relative to where these, or forces, cancel to nothing.
     pub floor: Floor,
 }
@@ -66,7 +68,8 @@ pub fn truth(test_case: &TestCase) -> Result<Vec<Truth>, VerifyError> {
     let mut referee = Referee::new(test_case, 1);
     let mut of_state = |i| {
         let reference = referee.reference(i)?;
-        Ok(Truth { accelerations: reference.truth(), floor: reference.floor })
+        let (accelerations, rate_power) = (reference.truth(), reference.rate_power());
+        Ok(Truth { accelerations, rate_power, floor: reference.floor })
     };
     (0..test_case.states().len()).map(&mut of_state).collect()
 }

@@ -71,6 +71,8 @@ struct OneState<R> {
     equations: Equations<R>,
     /// What acts, in the order of the equations: force, moment, hinge torques.
     acting: Vec<R>,
+    /// Power of the parts of the hinge torques that depend on rates.
+    rate_power: R,
 }
 
 impl<R: Real> OneState<R> {
@@ -87,7 +89,9 @@ impl<R: Real> OneState<R> {
         let mut acting = [force.to_array(), moment.to_array()].concat();
         acting.resize(size, R::zero());
         dynamics.hinge_forces(&motion, &mut acting[6..]);
-        Self { accelerations: accelerations(dynamics, &motion), equations, acting }
+        let elements = dynamics.elements();
+        let rate_power = elements.rate_power(dynamics.free_hinges(), [&beta, &tau]);
+        Self { accelerations: accelerations(dynamics, &motion), equations, acting, rate_power }
     }
 }
 
@@ -119,6 +123,11 @@ impl Reference<'_> {
     /// The accelerations in double-double, rounded once.
     pub fn truth(&self) -> Vec<f64> {
         rounded(&self.exact.accelerations)
+    }
+
+    /// Power of the parts of the hinge torques that depend on rates, in double-double, rounded once.
+    pub fn rate_power(&self) -> f64 {
+        self.exact.rate_power.to_f64()
     }
 
     /// What has to act for these accelerations, in double-double, rounded once: moment, force, hinge torques;

@@ -1,6 +1,7 @@
 use nboom_dynamics::{Motion, Recursive};
 use nboom_formulation::{
-    Coordinates, Embedding, Formulation, HingeCoordinates, Layout, Recognised, Uncovered, recognise,
+    Coordinates, Embedding, Forces, Formulation, HingeCoordinates, Layout, NoPlace, Recognised,
+    Uncovered, recognise,
 };
 use nboom_model::{HingeState, Mode, Scene, Topology, WeldedTree};
 use nboom_scalar::{Kernel, Real, Vec3};
@@ -50,14 +51,15 @@ pub struct NotCovered {
     pub why: String,
 }
 
-/// A scene with its thrust on and no force along a line, all hinges free or some held,
-/// and random states of it.
+/// A scene with its thrust on, all hinges free or some held, and random states of it. No force acts along a
+/// line, but with [`with_lines_pushing`](Self::with_lines_pushing).
 #[derive(Clone, Debug)]
 pub struct TestCase {
     scene: Scene,
     seed: u64,
     /// For each hinge of the scene, the angle at which it is held.
     held: Vec<Option<f64>>,
+    lines_push: bool,
     states: Vec<RandomState>,
     dynamics: Recursive<f64>,
     recognised: Result<Recognised, Uncovered>,
@@ -112,12 +114,18 @@ impl TestCase {
         let free = (0..held.len()).filter(|&i| held[i].is_none());
         let sizes: Vec<f64> = free.map(|i| scene.coordinate_scale(i)).collect();
         let states = (0..states).map(|_| RandomState::random(dice, &sizes, rate)).collect();
-        let dynamics = recursive(&scene, &held);
+        let dynamics = recursive(&scene, &held, false);
         let recognised = recognise(dynamics.tree());
         if let Ok(recognised) = &recognised {
             require_finite(recognised)?;
         }
-        Ok(Self { scene, seed, held, states, dynamics, recognised })
+        Ok(Self { scene, seed, held, lines_push: false, states, dynamics, recognised })
+    }
+
+    /// The same with all kick-off springs pushing, whatever their lengths.
+    pub fn with_lines_pushing(self) -> Self {
+        let dynamics = recursive(&self.scene, &self.held, true);
+        Self { lines_push: true, dynamics, ..self }
     }
 
     /// Whether there are accelerations in each state, so that code is worth timing.
@@ -162,7 +170,16 @@ impl TestCase {
 
     /// The recursion on any scalar, in the test case's mode.
     pub(crate) fn recursive<R: Real>(&self) -> Recursive<R> {
-        recursive(&self.scene, &self.held)
+        recursive(&self.scene, &self.held, self.lines_push)
+    }
+
+    /// What acts, as right sides take it; `None` where the scene has no topology.
+    ///
+    /// # Errors
+    /// What right sides have no place for.
+    pub fn forces(&self) -> Option<Result<Forces<f64>, NoPlace>> {
+        let recognised = self.recognised()?;
+        Some(Forces::of(self.dynamics.elements(), self.dynamics.tree(), recognised))
     }
 
     /// The states as closed forms take them, hinges in the order of [`Self::links`].
@@ -329,16 +346,20 @@ fn with_sizes(fit: Fit, outputs: impl Fn(&Topology) -> usize) -> Result<Fit, Ver
     })
 }
 
-fn recursive<R: Real>(scene: &Scene, held: &[Option<f64>]) -> Recursive<R> {
+fn recursive<R: Real>(scene: &Scene, held: &[Option<f64>], lines_push: bool) -> Recursive<R> {
     let state = |angle: &Option<f64>| match angle {
         Some(_) => HingeState::Locked,
         None => HingeState::Free,
     };
-    let mode = Mode {
+    let mut mode = Mode {
         hinges: held.iter().map(state).collect(),
         externals: vec![1; scene.externals.len()],
         ..Mode::at_start(scene)
     };
+    if lines_push {
+        let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
+        mode.pieces[..lines].fill(0);
+    }
     let beta: Vec<R> = held.iter().map(|angle| R::constant(angle.unwrap_or(0.0))).collect();
     let mut dynamics = Recursive::new(scene);
     dynamics.set_mode(&mode, &beta);

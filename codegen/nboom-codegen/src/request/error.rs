@@ -1,4 +1,4 @@
-use nboom_formulation::{Formulation, Why};
+use nboom_formulation::{Formulation, NoPlace, Why};
 use nboom_sections::SectionError;
 
 use crate::request::Output;
@@ -150,6 +150,14 @@ pub enum CodegenError {
         topology: String,
         /// The formulation.
         formulation: Formulation,
+    },
+    /// Something acts on a scene that a right side has no place for.
+    #[error("scene {scene}: {what} found, for which a right side has no place")]
+    NoPlace {
+        /// The scene.
+        scene: String,
+        /// What acts.
+        what: NoPlace,
     },
     /// A scene has a body that is not rigid or carries a rotor, or an appendage of too many links.
     #[error("scene {scene}: code is not generated for what hinge {hinge} carries, which {why}")]

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use nboom_elements::Elements;
-use nboom_formulation::{Forces, Layout, RightSideLayout, recognise};
+use nboom_formulation::{Forces, Layout, NoPlace, RightSideLayout, recognise};
 use nboom_model::{Mode, Scene, Topology};
 
-use crate::request::Request;
-use crate::request::scene::{ANGLES, combinations, held, mode_with};
+use crate::request::scene::{ANGLES, combinations, held, mode_with, welded};
+use crate::request::{CodegenError, Request};
 
 /// What acts in the modes of a topology, numbers of [`Forces`]; `None` where a right side has no place
 /// for what acts in one of them.
@@ -41,6 +41,25 @@ impl Request {
             }
         }
         requests
+    }
+
+    /// The right side beside this request for the accelerations of a scene with all hinges free, which takes lines
+    /// where kick-off springs push. Of hinge laws it assumes what the request assumes of bodies: nothing, zeros or all.
+    /// The numbers of lines are handed in, so that it is also for springs that have let go.
+    ///
+    /// # Errors
+    /// When a body is not rigid, carries a rotor or is one of too many, and when something acts on the scene that a
+    /// right side has no place for.
+    pub fn right_side_of(&self, scene: &Scene) -> Result<Self, CodegenError> {
+        let all_free = vec![true; scene.bodies.len()];
+        // Refuses what is not recognised.
+        welded(scene, &all_free, ANGLES[0])?;
+        let acting = acting(scene, &all_free, ANGLES[0], true);
+        let (_, cases) = acting.expect("the scene is recognised");
+        let no_place = |what| CodegenError::NoPlace { scene: scene.name.clone(), what };
+        let cases = cases.map_err(no_place)?;
+        let places = self.places_that_push(&cases);
+        Ok(self.right_side(&cases).with_lines_at(&places))
     }
 
     fn is_baked(&self) -> bool {
@@ -81,12 +100,7 @@ impl Request {
     /// Lines push, with numbers at run time, so that the code is for modes in which some have let go, too;
     /// where there is none, that is built in. `None` where none pushes.
     fn pushed(&self, cases: &[Vec<f64>]) -> Option<Self> {
-        let (topology, start) = (&self.topology, Layout::parameters(&self.topology));
-        let pushes = |&place: &usize| {
-            let mut numbers = RightSideLayout::coefficients(topology, place);
-            numbers.any(|at| cases.iter().any(|case| case[at - start] != 0.0))
-        };
-        let places: Vec<usize> = (0..RightSideLayout::lines(topology)).filter(pushes).collect();
+        let places = self.places_that_push(cases);
         if places.is_empty() {
             return None;
         }
@@ -95,37 +109,64 @@ impl Request {
             // States with held hinges that have no code of their own run in this one.
             return Some(Self { name, ..self.clone() }.for_right_side().with_lines(1));
         }
-        let mut request = Self { name, ..self.right_side(cases) };
-        for &place in &places {
-            request.assumptions[RightSideLayout::line(topology, place)].fill(None);
+        Some(Self { name, ..self.right_side(cases) }.with_lines_at(&places))
+    }
+
+    /// The places of the lines that push in one of the `cases`.
+    fn places_that_push(&self, cases: &[Vec<f64>]) -> Vec<usize> {
+        let (topology, start) = (&self.topology, Layout::parameters(&self.topology));
+        let pushes = |&place: &usize| {
+            let mut numbers = RightSideLayout::coefficients(topology, place);
+            numbers.any(|at| cases.iter().any(|case| case[at - start] != 0.0))
+        };
+        (0..RightSideLayout::lines(topology)).filter(pushes).collect()
+    }
+
+    /// The numbers of the lines at these places are handed in.
+    fn with_lines_at(mut self, places: &[usize]) -> Self {
+        for &place in places {
+            self.assumptions[RightSideLayout::line(&self.topology, place)].fill(None);
         }
-        Some(request)
+        self
     }
 }
 
 /// Notes what acts on a scene in which the hinges that are not `free` are held at angles around `angle`,
 /// and lines push or do not, on every piece of torque tables.
 fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bool) {
+    let Some((topology, found)) = acting(scene, free, angle, pushing) else { return };
+    let known = cases.entry(topology).or_insert_with(|| Some(Vec::new()));
+    match (known.as_mut(), found) {
+        (Some(all), Ok(forces)) => all.extend(forces),
+        // Other modes of the topology may have fewer lines.
+        _ if pushing => {}
+        _ => *known = None,
+    }
+}
+
+/// What [`note`] notes, with the topology; `None` where the scene has none.
+fn acting(
+    scene: &Scene,
+    free: &[bool],
+    angle: f64,
+    pushing: bool,
+) -> Option<(Topology, Result<Vec<Vec<f64>>, NoPlace>)> {
     let externals = vec![0; scene.externals.len()];
     let mut mode = Mode { externals, ..mode_with(scene, free) };
     let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
     mode.pieces[..lines].fill(usize::from(!pushing));
     let tree = held(scene, free, angle);
-    let Ok(recognised) = recognise(&tree) else { return };
+    let recognised = recognise(&tree).ok()?;
     let last = scene.torque_tables.iter().map(|table| table.points.len()).max().unwrap_or(0);
-    for piece in 0..=last {
+    let on_piece = |piece: usize| {
         for (of_table, table) in mode.pieces[lines..].iter_mut().zip(&scene.torque_tables) {
             *of_table = piece.min(table.points.len());
         }
-        let forces = Forces::of(&Elements::new(scene, &mode, &tree), &tree, &recognised);
-        let known = cases.entry(recognised.topology.clone()).or_insert_with(|| Some(Vec::new()));
-        match (known.as_mut(), forces) {
-            (Some(all), Some(forces)) => all.push(forces.write()),
-            // Other modes of the topology may have fewer lines.
-            _ if pushing => {}
-            _ => *known = None,
-        }
-    }
+        let elements = Elements::new(scene, &mode, &tree);
+        Forces::of(&elements, &tree, &recognised).map(|forces| forces.write())
+    };
+    let found = (0..=last).map(on_piece).collect();
+    Some((recognised.topology, found))
 }
 
 #[cfg(test)]

@@ -67,6 +67,35 @@ fn a_crate_with_stresses_passes_its_tests_and_fails_them_when_they_are_wrong() {
     assert!(said.contains("loads_and_stresses_are_those_of_the_equations ... FAILED"), "{said}");
 }
 
+/// Nothing acts on the scene from outside.
+#[test]
+fn a_wrench_is_taken_and_compared_where_it_is_asked_for() {
+    let mut description = (*one_boom()).clone();
+    description.externals.clear();
+    let scene = Scene::new(description).expect("the bodies are physical");
+    let wrench_of = |external_wrench: bool| {
+        let choices = Choices { right_side: true, external_wrench, ..Choices::default() };
+        let place = written(&scene, &choices);
+        let table =
+            fs::read_to_string(place.path().join("tests/SatelliteS1.csv")).expect("a table");
+        let mut rows = table.lines();
+        let names: Vec<&str> = rows.next().expect("names").split(',').collect();
+        let first: Vec<&str> = rows.next().expect("a state").split(',').collect();
+        let at = |name: &str| names.iter().position(|other| *other == name).expect("a column");
+        let force: f64 = first[at("state_6")].parse().expect("a number");
+        (place, force)
+    };
+    let (without, force) = wrench_of(false);
+    assert_eq!(force, 0.0);
+    let phrases =
+        |place: &TempDir| certificate(place.path())["routines"][1]["assumptions"].to_string();
+    assert!(phrases(&without).contains("no external wrench"));
+    let (with, force) = wrench_of(true);
+    assert_eq!(force, 100.0);
+    assert!(!phrases(&with).contains("no external wrench"));
+    cargo_test(with.path()).unwrap_or_else(|said| panic!("{said}"));
+}
+
 #[test]
 fn two_crates_are_in_one_program() {
     let place = place();

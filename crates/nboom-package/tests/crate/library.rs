@@ -19,12 +19,17 @@ impl Recorder for Last {
     fn sample(&mut self, snapshot: &Snapshot) -> std::io::Result<()> {
         let rates = snapshot.omega_body;
         let angles = snapshot.beta.iter().chain(&snapshot.tau).copied();
-        self.0 = [rates.x, rates.y, rates.z].into_iter().chain(angles).collect();
+        let attitude = snapshot.attitude;
+        let [x, y, z] = attitude.vector.to_array();
+        self.0 = [attitude.scalar, x, y, z, rates.x, rates.y, rates.z]
+            .into_iter()
+            .chain(angles)
+            .collect();
         Ok(())
     }
 }
 
-fn run(scene: &Scene, options: &Options) -> (Vec<f64>, Summary) {
+pub(super) fn run(scene: &Scene, options: &Options) -> (Vec<f64>, Summary) {
     let mut last = Last::default();
     let options = Options { rtol: 1e-12, atol: 1e-14, ..*options };
     let summary = simulate(scene, &options, &mut last).expect("the run comes to its end");
@@ -55,7 +60,7 @@ fn a_scene_runs_by_the_routines_of_its_library() {
     assert_eq!(summary.code().path, "generated");
     let (expected, summary) = run(&scene, &Options { path: Code::Generic, ..Options::default() });
     assert_eq!(summary.code().path, "generic");
-    assert_eq!(found.len(), 3 + 2 * 3);
+    assert_eq!(found.len(), 7 + 2 * 3);
     for (found, expected) in found.iter().zip(&expected) {
         let off = (found - expected).abs();
         assert!(off <= AGREEMENT * expected.abs(), "{found} {expected}");

@@ -7,6 +7,7 @@ mod freshness;
 mod library;
 mod readme;
 mod rig;
+mod right_side;
 
 use std::collections::BTreeMap;
 use std::fs;

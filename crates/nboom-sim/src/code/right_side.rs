@@ -43,7 +43,7 @@ impl RightSides {
         repertoire: &mut Repertoire,
         batches: &[Batch],
     ) -> Option<Self> {
-        let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised)?;
+        let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised).ok()?;
         let fit = repertoire.right_side(recognised, &forces)?;
         let batch = batches.iter().find(|batch| batch.is_of_same_routine(&fit.kernel)).copied();
         let of_one = RightSide::new(fit.kernel, &fit);
@@ -61,7 +61,7 @@ impl RightSides {
     ) -> bool {
         let forces = Forces::of(dynamics.elements(), dynamics.tree(), recognised);
         let is_same = forces
-            .is_some_and(|forces| repertoire.renew_right_side(&mut self.fit, recognised, &forces));
+            .is_ok_and(|forces| repertoire.renew_right_side(&mut self.fit, recognised, &forces));
         if is_same {
             self.prepare(dynamics.tree(), recognised);
         }

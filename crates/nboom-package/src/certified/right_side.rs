@@ -1,0 +1,95 @@
+//! Right sides against the truth.
+
+use nboom_codegen::Request;
+use nboom_formulation::{Coordinates, Forces, Layout, Recognised, RightSideLayout};
+use nboom_scalar::{Quaternion, Vec3};
+use nboom_verify::{TestCase, Truth};
+
+use super::{Tested, above_zero, of_largest, recognised};
+
+/// All states of a test case, each at another attitude, with their rates of change.
+pub(super) fn tested(test_case: &TestCase, request: &Request, truth: &[Truth]) -> Vec<Tested> {
+    let recognised = recognised(test_case);
+    // Requests are refused before when something has no place.
+    let forces = test_case.forces().and_then(Result::ok).expect("there is a request for the scene");
+    let mut parameters = [recognised.parameters.write(), forces.write()].concat();
+    // Welding and taking moments about the mass centre has rounded.
+    for (parameter, assumed) in parameters.iter_mut().zip(&request.assumptions) {
+        *parameter = assumed.unwrap_or(*parameter);
+    }
+    let states = test_case.coordinates().zip(truth).enumerate();
+    let case = |(i, (state, truth)): (usize, (Coordinates<f64>, &Truth))| {
+        let attitude = attitude(i);
+        let of_hinges =
+            |of: usize| state.hinges.iter().map(move |hinge| [hinge.beta, hinge.tau][of]);
+        let omega = state.omega.to_array();
+        let coordinates = numbers(attitude).into_iter().chain(omega);
+        Tested {
+            parameters: parameters.clone(),
+            coordinates: coordinates.chain(of_hinges(0)).chain(of_hinges(1)).collect(),
+            expected: expected(
+                recognised,
+                &forces,
+                attitude.rate(state.omega),
+                of_hinges(1),
+                truth,
+            ),
+            least: above_zero(truth.floor.accelerations),
+        }
+    };
+    states.map(case).collect()
+}
+
+/// Some attitude; its norm does not matter.
+fn attitude(state: usize) -> Quaternion<f64> {
+    let number = |i: usize| (1.7 * i as f64 + 0.9 * state as f64 + 0.3).sin();
+    Quaternion { scalar: number(0), vector: Vec3::new(number(1), number(2), number(3)) }
+}
+
+fn numbers(quaternion: Quaternion<f64>) -> [f64; 4] {
+    let [x, y, z] = quaternion.vector.to_array();
+    [quaternion.scalar, x, y, z]
+}
+
+/// Rates of change and power, and what the power is relative to: the magnitudes of what is added up.
+fn expected(
+    recognised: &Recognised,
+    forces: &Forces<f64>,
+    rate: Quaternion<f64>,
+    tau: impl Iterator<Item = f64> + Clone,
+    truth: &Truth,
+) -> Vec<f64> {
+    let Truth { accelerations, rate_power, .. } = truth;
+    let mut all = [&numbers(rate), &accelerations[..3]].concat();
+    all.extend(tau.clone());
+    all.extend(recognised.links.iter().map(|link| accelerations[Layout::OUTPUT + link]));
+    let powers = forces.laws.iter().zip(tau).map(|(law, tau)| {
+        let [linear, quadratic] = [law.numbers()[1], law.numbers()[0] * tau];
+        (linear.abs() + quadratic.abs()) * tau * tau
+    });
+    all.extend([*rate_power, powers.sum()]);
+    all
+}
+
+/// The largest deviation, each relative to the largest number of its kind: rates of the attitude, accelerations, rates of the
+/// hinges, power.
+pub(super) fn deviation(found: &[f64], expected: &[f64], least: f64) -> f64 {
+    let (expected, scale) = expected.split_at(expected.len() - 1);
+    let hinges = (found.len() - RightSideLayout::STATE) / 2;
+    let [beta, tau] = [0, hinges].map(|at| RightSideLayout::STATE + at);
+    let power = tau + hinges;
+    let of = |numbers: &[f64], ranges: &[std::ops::Range<usize>]| -> Vec<f64> {
+        ranges.iter().flat_map(|range| numbers[range.clone()].iter().copied()).collect()
+    };
+    let tiny = f64::MIN_POSITIVE;
+    let kinds = [
+        (vec![RightSideLayout::ATTITUDE], tiny),
+        (vec![RightSideLayout::OMEGA, tau..power], least),
+        (vec![beta..tau], tiny),
+        (vec![power..power + 1], scale[0].max(tiny)),
+    ];
+    let off = |(ranges, least): (Vec<std::ops::Range<usize>>, f64)| {
+        of_largest(&of(found, &ranges), &of(expected, &ranges), least)
+    };
+    kinds.into_iter().map(off).fold(0.0, f64::max)
+}
