@@ -6,7 +6,9 @@ use nboom_results::with_causes;
 use nboom_sim::{Nobody, Options, simulate};
 
 use crate::ignored::ignored;
-use crate::{CheckArgs, CliError, Routines, SceneArgs, output, picture, print_scene, say};
+use crate::{
+    CheckArgs, CliError, Routines, SceneArgs, output, picture, print_scene, print_structure, say,
+};
 
 /// Reads a scene and returns what it contains for standard output.
 pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {
@@ -22,13 +24,14 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     let generated = "";
     let ignored = ignored(&file, None).map_or_else(String::new, |line| line + "\n");
     let (text, code) = (print_scene::text(scene), code_at_start(scene, routines));
+    let stresses = print_structure::text(&file)?;
     if let Some(path) = &args.picture {
         let units = file.settings.units.clone().unwrap_or_default();
         let picture = picture::svg(scene, &units);
         let picture = picture.ok_or_else(|| CliError::NoPicture { path: path.clone() })?;
         output::write(path, &args.scene.scene, &picture)?;
     }
-    Ok(format!("{text}{ignored}{generated}{code}\n"))
+    Ok(format!("{text}{stresses}{ignored}{generated}{code}\n"))
 }
 
 /// Reads a scene, checks all that a run would refuse, and prints its warnings. Every command begins

@@ -47,6 +47,7 @@ mod picture;
 mod plots;
 mod print_run;
 mod print_scene;
+mod print_structure;
 mod progress;
 mod record;
 mod reference;

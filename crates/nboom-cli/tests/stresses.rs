@@ -41,6 +41,26 @@ fn number(cell: &str) -> f64 {
 }
 
 #[test]
+fn a_check_says_where_stresses_are_computed() {
+    let place = tempfile::tempdir().expect("a directory");
+    fs::write(place.path().join("deck.nml"), deck()).expect("writable");
+    let check = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
+        let output = command.current_dir(place.path()).args(["check", "deck.nml"]).output();
+        String::from_utf8(output.expect("the binary starts").stdout).expect("text")
+    };
+    let said = check();
+    for words in
+        ["stresses: at 7 stations of 4 segments", "segment 1,1: at ", "material: Young's modulus"]
+    {
+        assert!(said.contains(words), "no {words:?} in {said}");
+    }
+    fs::write(place.path().join("deck.nml"), deck().replace("INSTR=3", "INSTR=0"))
+        .expect("writable");
+    assert!(check().contains("stresses: none"), "{}", check());
+}
+
+#[test]
 fn stresses_come_at_every_third_output_and_at_every_lock_up() {
     let (output, place) = run(&deck(), &["--samples", "30"]);
     assert_eq!(output.status.code(), Some(0));

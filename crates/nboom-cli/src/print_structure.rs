@@ -1,0 +1,65 @@
+//! What the stresses of a scene are computed for.
+
+use nboom_io::SceneFile;
+use nboom_model::{Material, SectionShape, SegmentStructure, Station, Structure};
+use nboom_strength::{Settings, StrengthError, StressAnalysis};
+
+use crate::format::{count, short};
+
+/// Stations, sections and materials, for people to read; numbers to six digits.
+///
+/// # Errors
+/// What a run would refuse.
+pub(crate) fn text(file: &SceneFile) -> Result<String, StrengthError> {
+    let Some(structure) = file.structure.as_ref().filter(|structure| structure.has_stations())
+    else {
+        return Ok("stresses: none, the scene has no stations\n".to_owned());
+    };
+    StressAnalysis::new(&file.scene, structure, Settings::default())?;
+    let mut lines = vec![heading(structure)];
+    for (segment, label) in structure.segments().iter().zip(file.scene.labels()) {
+        if !segment.stations.is_empty() {
+            lines.push(format!("  segment {label}: {}", stations(segment)));
+            lines.push(format!("    {}", material(&segment.material)));
+            let pulse = short(segment.pulse_constant, 6);
+            lines.push(format!("    lock-up pulses: impulse over peak {pulse}"));
+        }
+    }
+    Ok(lines.join("\n") + "\n")
+}
+
+fn heading(structure: &Structure) -> String {
+    let counts = structure.segments().iter().map(|segment| segment.stations.len());
+    let segments = counts.clone().filter(|&stations| stations > 0).count();
+    let stations = count(counts.sum(), "station", "stations");
+    format!("stresses: at {stations} of {}", count(segments, "segment", "segments"))
+}
+
+/// Where they are and what sections they have, equal ones once.
+fn stations(segment: &SegmentStructure) -> String {
+    let at = |station: &Station| short(station.distance_from_hinge, 6);
+    let places: Vec<String> = segment.stations.iter().map(at).collect();
+    let mut shapes: Vec<String> = segment.stations.iter().map(|one| shape(&one.section)).collect();
+    shapes.dedup();
+    format!("at {} from the hinge; {}", places.join(", "), shapes.join(", "))
+}
+
+fn shape(section: &SectionShape) -> String {
+    match section {
+        SectionShape::Tube { radius, thickness } => {
+            format!("tube of radius {}, wall {}", short(*radius, 6), short(*thickness, 6))
+        }
+        SectionShape::Polygon(vertices) => format!("polygon of {} walls", vertices.len()),
+    }
+}
+
+fn material(material: &Material) -> String {
+    let Material { youngs_modulus, poissons_ratio, yield_stress, ultimate_stress } = *material;
+    let [modulus, ratio] = [youngs_modulus, poissons_ratio].map(|number| short(number, 6));
+    let strength = |word: &str, stress: Option<f64>| match stress {
+        Some(stress) => format!("{word} at {}", short(stress, 6)),
+        None => format!("{word} at no known stress"),
+    };
+    let (yields, breaks) = (strength("yields", yield_stress), strength("breaks", ultimate_stress));
+    format!("material: Young's modulus {modulus}, Poisson's ratio {ratio}, {yields}, {breaks}")
+}
