@@ -86,8 +86,12 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
             spread.percentiles.iter().find(|of| of.percent == percent).copied()
         };
         let [low, median, high] = PERCENTS.map(of);
-        let has_gaps = column.spreads.first().is_some_and(|spread| spread.count < spread.cases);
-        let may_be_never = column.hinge_that_locks().is_some() && has_gaps;
+        let gaps = column.spreads.first().filter(|spread| spread.count < spread.cases);
+        let may_be_never = column.hinge_that_locks().is_some() && gaps.is_some();
+        let left_out = gaps.filter(|_| !may_be_never);
+        let left_out = left_out.map_or_else(String::new, |spread| {
+            format!(", {} of {} cases", spread.count, spread.cases)
+        });
         let [low, high] = [(low, Worse::Large), (high, Worse::Small)]
             .map(|(of, better)| told(of, has_bounds && column.worse() != better, may_be_never));
         let driver =
@@ -97,7 +101,7 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
         });
         let unit = column.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
         let median = told(median, false, may_be_never);
-        rows.push([format!("{}{unit}", column.label), low, median, high, driver]);
+        rows.push([format!("{}{unit}{left_out}", column.label), low, median, high, driver]);
     }
     rows
 }

@@ -5,14 +5,12 @@ fn off_rates(found: &[f64], expected: &[f64], least: f64) -> f64 {
     let hinges = (found.len() - 7) / 2;
     let (beta, tau, power) = (7, 7 + hinges, 7 + 2 * hinges);
     let of_power = expected[power + 1].max(f64::MIN_POSITIVE);
-    let off = |parts: &[std::ops::Range<usize>], least: f64| {
-        let of = |numbers: &[f64]| -> Vec<f64> {
-            parts.iter().flat_map(|part| numbers[part.clone()].to_vec()).collect()
-        };
+    let off = |places: Vec<usize>, least: f64| {
+        let of = |numbers: &[f64]| -> Vec<f64> { places.iter().map(|&at| numbers[at]).collect() };
         off_numbers(&of(found), &of(expected), least)
     };
-    off(&[0..4], f64::MIN_POSITIVE)
-        .max(off(&[4..7, tau..power], least))
-        .max(off(&[beta..tau], f64::MIN_POSITIVE))
-        .max(off(&[power..power + 1], of_power))
+    off((0..4).collect(), f64::MIN_POSITIVE)
+        .max(off((4..7).chain(tau..power).collect(), least))
+        .max(off((beta..tau).collect(), f64::MIN_POSITIVE))
+        .max(off(vec![power], of_power))
 }

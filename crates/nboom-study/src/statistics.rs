@@ -169,7 +169,13 @@ impl Statistics {
         let variables: Vec<usize> =
             (0..self.places.len()).filter(|i| self.field(*i).role == Role::Variable).collect();
         let bare = self.sample.rows_of(0);
-        let ranked = |column: usize| Ranked::new(self.sample.column(column), &bare);
+        let ranked = |column: usize| {
+            let values = self.sample.column(column);
+            match self.lock(column) {
+                Some(_) => Ranked::with_none_last(values, &bare),
+                None => Ranked::new(values, &bare),
+            }
+        };
         let causes: Vec<_> = variables.iter().map(|column| (*column, ranked(*column))).collect();
         let columns = (0..self.places.len()).map(|column| {
             let is_result = self.field(column).role == Role::Result;

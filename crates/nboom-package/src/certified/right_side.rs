@@ -78,18 +78,13 @@ pub(super) fn deviation(found: &[f64], expected: &[f64], least: f64) -> f64 {
     let hinges = (found.len() - RightSideLayout::STATE) / 2;
     let [beta, tau] = [0, hinges].map(|at| RightSideLayout::STATE + at);
     let power = tau + hinges;
-    let of = |numbers: &[f64], ranges: &[std::ops::Range<usize>]| -> Vec<f64> {
-        ranges.iter().flat_map(|range| numbers[range.clone()].iter().copied()).collect()
+    let off = |places: Vec<usize>, least: f64| {
+        let of = |numbers: &[f64]| -> Vec<f64> { places.iter().map(|&at| numbers[at]).collect() };
+        of_largest(&of(found), &of(expected), least)
     };
     let tiny = f64::MIN_POSITIVE;
-    let kinds = [
-        (vec![RightSideLayout::ATTITUDE], tiny),
-        (vec![RightSideLayout::OMEGA, tau..power], least),
-        (vec![beta..tau], tiny),
-        (vec![power..power + 1], scale[0].max(tiny)),
-    ];
-    let off = |(ranges, least): (Vec<std::ops::Range<usize>>, f64)| {
-        of_largest(&of(found, &ranges), &of(expected, &ranges), least)
-    };
-    kinds.into_iter().map(off).fold(0.0, f64::max)
+    off(RightSideLayout::ATTITUDE.collect(), tiny)
+        .max(off(RightSideLayout::OMEGA.chain(tau..power).collect(), least))
+        .max(off((beta..tau).collect(), tiny))
+        .max(off(vec![power], scale[0].max(tiny)))
 }

@@ -135,11 +135,14 @@ function histogram(column) {
   return svg;
 }
 
+// A latch that does not close is later than all others.
+const isLockTime = (column) => column.label.startsWith('lock_time of ');
+
 function spreadFigure(column) {
   const [spread] = column.spreads;
   const gaps = spread.cases - spread.count;
   return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), histogram(column),
-    spread.count > 0 && note([`Mean ${digits(spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${spread.percentiles.some(({ value }) => value === null) ? ', which count as never' : ''}.` : '.'].join('')),
+    spread.count > 0 && note([`Mean ${digits(spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${isLockTime(column) ? ', which count as never' : ''}.` : '.'].join('')),
     spread.percentiles.length > 0
       ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(said(value)), numeric(interval(low, high))]))
       : null);
@@ -190,9 +193,12 @@ function driverFigure(column) {
     return [element('span', { class: isWeak ? 'name weak' : 'name' }, given(columns[driver.variable].label)), bar(driver), numeric(driver.coefficient.toFixed(2).replace('-', '\u2212'))];
   });
   const others = column.drivers.length - found.length;
+  const [spread] = column.spreads;
+  const leavesOut = spread.count < spread.cases && !isLockTime(column);
   return element('figure', { class: 'drivers' }, element('h3', {}, titled(column)),
     rows.length > 0 ? table(['Variable', 'Rank correlation', ''], rows) : note('It is the same in all cases, or there are too few.'),
-    others > 0 ? note(`${others} more ${others === 1 ? 'is' : 'are'} weaker.`) : null);
+    others > 0 ? note(`${others} more ${others === 1 ? 'is' : 'are'} weaker.`) : null,
+    leavesOut ? note(`Of the ${casesOf(spread.count)} that have such a number.`) : null);
 }
 
 function drivers() {

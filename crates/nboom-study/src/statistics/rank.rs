@@ -1,5 +1,7 @@
 //! Spearman's rank correlation.
 
+use std::borrow::Cow;
+
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::Driver;
@@ -8,7 +10,7 @@ use super::confidence::TAIL;
 /// Numbers in ascending order.
 #[derive(Clone, Debug)]
 pub(super) struct Ranked<'a> {
-    values: &'a [f64],
+    values: Cow<'a, [f64]>,
     /// Rows that have a number, by their numbers.
     order: Vec<u32>,
 }
@@ -16,6 +18,16 @@ pub(super) struct Ranked<'a> {
 impl<'a> Ranked<'a> {
     /// The numbers of these rows; NaN is none.
     pub(super) fn new(values: &'a [f64], rows: &[u32]) -> Self {
+        Self::of(Cow::Borrowed(values), rows)
+    }
+
+    /// The numbers of these rows; NaN comes after all others.
+    pub(super) fn with_none_last(values: &[f64], rows: &[u32]) -> Self {
+        let last = |value: &f64| if value.is_nan() { f64::INFINITY } else { *value };
+        Self::of(values.iter().map(last).collect(), rows)
+    }
+
+    fn of(values: Cow<'a, [f64]>, rows: &[u32]) -> Self {
         let value = |row: &u32| values[*row as usize];
         let mut order: Vec<u32> = rows.iter().copied().filter(|row| !value(row).is_nan()).collect();
         order.sort_by(|a, b| value(a).total_cmp(&value(b)));

@@ -64,7 +64,9 @@ fn faults_stand_apart_and_empty_cells_are_hinges_that_never_latch() {
     let time = &found.columns[1];
     assert_eq!((time.spreads[0].count, time.spreads[1].count), (900, 0));
     let [driver] = time.drivers[..] else { panic!("one variable") };
-    assert_eq!((driver.variable, driver.coefficient), (0, 1.0));
+    // Nine in ten rise with the variable, the others are tied above them whatever it is: 0.8104.
+    assert_eq!(driver.variable, 0);
+    assert!((driver.coefficient - 0.8104).abs() < 0.06, "{driver:?}");
     assert_eq!(time.histogram.as_ref().expect("times").counts.iter().sum::<u64>(), 900);
 }
 
@@ -83,6 +85,21 @@ fn a_latch_that_never_closes_is_later_than_all_others_and_the_worst() {
     assert_eq!(time.hinge_that_locks(), Some("panel +x"));
     assert!(time.worst().iter().all(|worst| worst.value == f64::INFINITY));
     assert_eq!(time.worst()[0].case, 2, "the first with a fault");
+}
+
+#[test]
+fn what_keeps_a_latch_from_closing_drives_when_it_closes() {
+    let mut statistics = table(&[]);
+    for (draw, spring) in (0..500).zip(uniform(3)) {
+        // Weak springs never close it; the others do at a time that has nothing to do with them.
+        let time = Cell::Number(f64::from((draw * 37) % 500));
+        let time = if spring < 0.5 { Cell::Empty } else { time };
+        let case = Cell::Integer(draw.into());
+        statistics.row(&[case, case, Cell::Empty, Cell::Number(spring), time, Cell::Text("ok")]);
+    }
+    let found = statistics.finish();
+    let [driver] = found.columns[1].drivers[..] else { panic!("one variable") };
+    assert!(driver.coefficient < -0.7, "{driver:?}");
 }
 
 /// Statistics of a result with these numbers.
