@@ -90,7 +90,13 @@ impl Scene {
 
     /// Reads a text in TOML, a deck (`nml`) or a robot (`urdf`).
     #[staticmethod]
-    fn parse(text: &str, name: &str, format: &str, folder: Option<PathBuf>) -> PyResult<Self> {
+    fn parse(
+        text: &str,
+        name: &str,
+        format: &str,
+        folder: Option<PathBuf>,
+        fixed_base: bool,
+    ) -> PyResult<Self> {
         let format = match format {
             "toml" => Format::Toml,
             "nml" => Format::Nml,
@@ -101,7 +107,8 @@ impl Scene {
                 )));
             }
         };
-        let (folder, options) = (folder.as_deref(), ReadOptions::default());
+        let (folder, options) =
+            (folder.as_deref(), ReadOptions { fixed_base, ..ReadOptions::default() });
         let file = parse(format, (name, text), name, folder, &options).map_err(of_input)?;
         let scene = Self::of(file);
         if format == Format::Toml {

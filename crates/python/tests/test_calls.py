@@ -98,6 +98,7 @@ def test_a_robot_from_a_file_runs_and_survives_pickling():
     assert [hinge.body for hinge in robot.hinges] == ["ring", "antenna", "arm", "wrist inner", "wrist outer", "hand"]
     assert 'base = "fixed"' not in robot.text
     assert 'base = "fixed"' in nboom.load(ROBOT, fixed_base=True).text
+    assert 'base = "fixed"' in nboom.parse(ROBOT.read_text(), format="urdf", fixed_base=True).text
     again = pickle.loads(pickle.dumps(robot))
     for scene in (again, copy.deepcopy(robot)):
         assert np.asarray(scene.run(samples=5).states).tobytes() == np.asarray(robot.run(samples=5).states).tobytes()

@@ -48,6 +48,7 @@ pub(super) fn assemble(
             links.extend(parts.carry(robot, &welded, joint, outboard.child[joint], reader));
         }
     }
+    parts.main.carries = base.is_held() && !parts.bodies.is_empty();
     parts.check(robot, reader);
     if !reader.report.errors.is_empty() {
         return None;
@@ -224,7 +225,7 @@ struct Part {
     /// The links that say something of their mass.
     links: Vec<usize>,
     joined: MassProperties,
-    /// Whether another part hangs on it.
+    /// Whether another part hangs on it, and the ground holds it if it is the root.
     carries: bool,
 }
 

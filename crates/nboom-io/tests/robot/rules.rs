@@ -119,6 +119,27 @@ fn a_base_is_fixed_of_robots_alone() {
 }
 
 #[test]
+fn a_root_that_is_fixed_needs_no_mass() {
+    let text = format!(
+        "<robot name=\"arm\"><link name=\"world\"/><link name=\"arm\">{BODY}</link>{}</robot>",
+        joint("continuous", "world", "arm", "")
+    );
+    let read = |format, text: &str, fixed_base| {
+        let options = ReadOptions { fixed_base, ..ReadOptions::default() };
+        parse(format, ("arm", text), "arm", None, &options)
+    };
+    let fixed = read(Format::Urdf, &text, true).expect("a robot");
+    assert_eq!(fixed.scene.main_body.mass, 0.0);
+    let again = read(Format::Toml, &write_scene(&fixed), false).expect("a scene");
+    assert_eq!(again.scene, fixed.scene);
+    let floats = read(Format::Urdf, &text, false).expect_err("no mass").to_string();
+    assert!(floats.contains("link `world` without mass"), "{floats}");
+    let alone = "<robot name=\"arm\"><link name=\"world\"/></robot>";
+    let nothing = read(Format::Urdf, alone, true).expect_err("no mass").to_string();
+    assert!(nothing.contains("link `world` without mass"), "{nothing}");
+}
+
+#[test]
 fn what_is_left_out_is_named() {
     let parts = "<limit lower=\"-1\" upper=\"1\"/><mimic joint=\"base arm\"/><dynamics friction=\"1\"/>\
                  <safety_controller/>";

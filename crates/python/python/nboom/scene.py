@@ -290,12 +290,14 @@ def parse(
     name: str = "scene",
     format: str = "toml",
     folder: str | os.PathLike[str] | None = None,
+    fixed_base: bool = False,
 ) -> Scene:
     """Reads the text of a scene, of a deck (``format="nml"``) or of a robot (``"urdf"``).
 
-    ``folder`` is where files lie that the scene includes.
+    ``folder`` is where files lie that the scene includes. ``fixed_base`` fixes the main body of a robot to the ground.
     """
-    return Scene(_nboom.Scene.parse(text, name, format, None if folder is None else os.fspath(folder)))
+    where = None if folder is None else os.fspath(folder)
+    return Scene(_nboom.Scene.parse(text, name, format, where, fixed_base))
 
 
 def scene(name: str = "scene", **tables: Any) -> Scene:
