@@ -53,8 +53,9 @@ impl<'a> Referee<'a> {
         let singular = self.recursion.singular_hinge(&state.beta);
         let recursion = OneState::of(&mut self.recursion, state);
         let exact = OneState::of(&mut self.exact, state);
-        let condition = condition(&recursion.equations.matrix);
-        let floor = Floor::new(self.test_case.tree(), state, &recursion.equations.matrix);
+        let tree = self.test_case.tree();
+        let condition = condition(&recursion.equations.matrix, tree.held.is_some());
+        let floor = Floor::new(tree, state, &recursion.equations.matrix);
         let reference = Reference { test_case: self.test_case, recursion, exact, floor, condition };
         if singular.is_some() || !reference.is_good() {
             let hinge = singular.flatten().map(|hinge| self.test_case.scene().label(hinge));
@@ -109,7 +110,7 @@ pub(crate) struct Reference<'a> {
     recursion: OneState<f64>,
     exact: OneState<DoubleDouble>,
     pub floor: Floor,
-    /// Of the mass matrix, scaled to diagonal 1.
+    /// Of the mass matrix of what moves freely, scaled to diagonal 1.
     pub condition: f64,
 }
 
@@ -181,11 +182,12 @@ impl Reference<'_> {
         self.off_equations(Formulation::Symmetric, &own)
     }
 
-    /// √(Mᵢᵢ Mⱼⱼ) of each entry of the matrix of kinetic energy, in the order of closed forms.
+    /// √(Mᵢᵢ Mⱼⱼ) of each entry of the matrix of kinetic energy, in the order of closed forms; above zero, also where
+    /// a main body that is held has no mass.
     fn scale(&self) -> Vec<f64> {
         let order = order(self.test_case);
         let matrix = &self.recursion.equations.matrix;
-        let root = |&i: &usize| matrix[i * order.len() + i].sqrt();
+        let root = |&i: &usize| matrix[i * order.len() + i].max(f64::MIN_POSITIVE).sqrt();
         let roots: Vec<f64> = order.iter().map(root).collect();
         roots.iter().flat_map(|of_row| roots.iter().map(move |root| of_row * root)).collect()
     }

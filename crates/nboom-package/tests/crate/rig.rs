@@ -75,3 +75,18 @@ fn a_crate_of_a_rig_swings_by_its_weight_and_knows_what_its_mount_carries() {
         cargo_test(place.path()).unwrap_or_else(|said| panic!("{said}"));
     }
 }
+
+/// A pendulum on the ground: nothing is known of its main body.
+#[test]
+fn a_crate_of_a_rig_needs_no_mass_of_its_main_body() {
+    let boom = MassProperties::new(3.0, Vec3::unit_y() * 0.9, Sym3::diagonal(4.0, 0.1, 4.0));
+    let segment = Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() };
+    let mut description = SceneDescription::at_rest("ground", MassProperties::nothing(), 10.0);
+    description.base = Base::Fixed;
+    description
+        .attach(&Appendage::Regular { mount: Mount::at(Vec3::zero()), segments: vec![segment; 2] });
+    let scene = Scene::new(description).expect("the bodies are physical");
+    let place = written(&scene, &Choices { right_side: true, ..Choices::default() });
+    let said = cargo_test(place.path()).unwrap_or_else(|said| panic!("{said}"));
+    assert!(said.contains("SatelliteS2RightSide, portable code"), "{said}");
+}
