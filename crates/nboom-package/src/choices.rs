@@ -75,6 +75,10 @@ impl Requests {
             Ok::<_, CodegenError>(inside(Request::of_scene(scene, numbers, level)?))
         };
         let whole = of(scene)?.by(formulation);
+        let takes_free = choices.equations || choices.inverse_dynamics;
+        if takes_free && scene.main_body.mass == 0.0 {
+            return Err(CodegenError::NoMass { scene: scene.name.clone() });
+        }
         let free = scene.clone().with_free_main_body();
         let equations = choices.equations.then(|| {
             let request = of(&free)?.for_equations();

@@ -140,6 +140,15 @@ pub enum CodegenError {
         /// What was asked for.
         output: Output,
     },
+    /// Equations and inverse dynamics take the mass of a main body that is held, and it has none.
+    #[error(
+        "scene {scene}: main body without mass found; equations and inverse dynamics are those with it free, a mass \
+         expected"
+    )]
+    NoMass {
+        /// The scene.
+        scene: String,
+    },
     /// The formulation takes chains and paddles alone.
     #[error(
         "topology {topology}: of limbs, formulation {formulation} has none; articulated or symmetric \

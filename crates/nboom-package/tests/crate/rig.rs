@@ -89,4 +89,12 @@ fn a_crate_of_a_rig_needs_no_mass_of_its_main_body() {
     let place = written(&scene, &Choices { right_side: true, ..Choices::default() });
     let said = cargo_test(place.path()).unwrap_or_else(|said| panic!("{said}"));
     assert!(said.contains("SatelliteS2RightSide, portable code"), "{said}");
+
+    for choices in [
+        Choices { equations: true, ..Choices::default() },
+        Choices { inverse_dynamics: true, external_wrench: true, ..Choices::default() },
+    ] {
+        let refused = generate(&scene, &choices, &place.path().join("other")).expect_err("no mass");
+        assert!(refused.to_string().contains("main body without mass found"), "{refused}");
+    }
 }
