@@ -17,12 +17,16 @@ pub(crate) fn text(file: &SceneFile) -> Result<String, StrengthError> {
     };
     StressAnalysis::new(&file.scene, structure, Settings::default())?;
     let mut lines = vec![heading(structure)];
-    for (segment, label) in structure.segments().iter().zip(file.scene.labels()) {
-        if !segment.stations.is_empty() {
-            lines.push(format!("  segment {label}: {}", stations(segment)));
-            lines.push(format!("    {}", material(&segment.material)));
+    let bodies = file.scene.labels().iter().zip(&file.scene.bodies);
+    for (segment, (label, body)) in structure.segments().iter().zip(bodies) {
+        if segment.stations.is_empty() {
+            continue;
+        }
+        lines.push(format!("  segment {label}: {}", stations(segment)));
+        lines.push(format!("    {}", material(&segment.material)));
+        if body.hinge.lock_angle.is_some() {
             let pulse = short(segment.pulse_constant, 6);
-            lines.push(format!("    lock-up pulses: impulse over peak {pulse}"));
+            lines.push(format!("    lock-up pulse: impulse over peak {pulse}"));
         }
     }
     Ok(lines.join("\n") + "\n")
@@ -35,13 +39,15 @@ fn heading(structure: &Structure) -> String {
     format!("stresses: at {stations} of {}", count(segments, "segment", "segments"))
 }
 
-/// Where they are and what sections they have, equal ones once.
+/// How far they are from the hinge and what sections they have, neighbours with the same one together.
 fn stations(segment: &SegmentStructure) -> String {
     let at = |station: &Station| short(station.distance_from_hinge, 6);
-    let places: Vec<String> = segment.stations.iter().map(at).collect();
-    let mut shapes: Vec<String> = segment.stations.iter().map(|one| shape(&one.section)).collect();
-    shapes.dedup();
-    format!("at {} from the hinge; {}", places.join(", "), shapes.join(", "))
+    let of_shape = |alike: &[Station]| {
+        let places: Vec<String> = alike.iter().map(at).collect();
+        format!("at {}: {}", places.join(", "), shape(&alike[0].section))
+    };
+    let alike = segment.stations.chunk_by(|a, b| a.section == b.section);
+    alike.map(of_shape).collect::<Vec<_>>().join("; ")
 }
 
 fn shape(section: &SectionShape) -> String {

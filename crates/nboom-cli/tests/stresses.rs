@@ -47,7 +47,9 @@ fn a_check_says_where_stresses_are_computed() {
     let check = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_nboom"));
         let output = command.current_dir(place.path()).args(["check", "deck.nml"]).output();
-        String::from_utf8(output.expect("the binary starts").stdout).expect("text")
+        let output = output.expect("the binary starts");
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).expect("text")
     };
     let said = check();
     for words in

@@ -1,4 +1,4 @@
-use nboom_scalar::Vec3;
+use nboom_scalar::{Vec3, Wrench};
 
 use crate::{ModelError, SceneDescription, shown};
 
@@ -111,6 +111,15 @@ impl External {
             axes: ExternalAxes::Body,
             point,
             course: Course::Pulse { on, off },
+        }
+    }
+
+    /// Moment and force where its course is 1, about its body's origin, along the axes in which it is given if they are
+    /// the body's.
+    pub fn wrench(&self) -> Wrench<f64> {
+        match self.kind {
+            ExternalKind::Force => Wrench::of_force(self.point, self.amount),
+            ExternalKind::Torque => Wrench { moment: self.amount, force: Vec3::zero() },
         }
     }
 

@@ -45,6 +45,13 @@ impl Mode {
         }
     }
 
+    /// The mode with all kick-off springs pushing, whatever their lengths, or none of them.
+    pub fn with_kick_offs(mut self, scene: &Scene, push: bool) -> Self {
+        let springs = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
+        self.pieces[..springs].fill(usize::from(!push));
+        self
+    }
+
     /// Whether hinge `i` turns.
     pub fn is_free(&self, i: usize) -> bool {
         self.hinges[i] == HingeState::Free

@@ -114,9 +114,14 @@ impl OfFormulation {
                 ..nothing
             },
             Found::Equations(residual) => Self { residual: Some(*residual), ..nothing },
-            Found::InverseDynamics(found) | Found::RightSide(found) => {
+            Found::InverseDynamics(found) => {
                 Self { deviation_from_double_double: Some(*found), ..nothing }
             }
+            Found::RightSide { deviation, condition } => Self {
+                deviation_from_double_double: Some(*deviation),
+                condition: Some(*condition),
+                ..nothing
+            },
         }
     }
 }

@@ -52,8 +52,13 @@ pub(crate) enum Found {
     Equations(f64),
     /// The largest deviation of forces, relative to the largest of them or to their natural size.
     InverseDynamics(f64),
-    /// The largest deviation of rates of change, relative to the largest of their kind or to its natural size.
-    RightSide(f64),
+    /// Of rates of change, relative to the largest of their kind or to its natural size.
+    RightSide {
+        /// The largest deviation; those of accelerations in terms of what condition magnifies.
+        deviation: f64,
+        /// The largest condition of the mass matrix, scaled to diagonal 1.
+        condition: f64,
+    },
 }
 
 /// A state with what a routine gives there.
@@ -67,6 +72,8 @@ pub(crate) struct Tested {
     pub expected: Vec<f64>,
     /// What deviations are relative to where all of this cancels to nothing.
     pub least: f64,
+    /// Of the mass matrix, scaled to diagonal 1.
+    pub condition: f64,
 }
 
 impl Certified {
@@ -94,13 +101,22 @@ impl Certified {
                 Found::Accelerations(accelerations(&graph, request, &test_cases)?)
             }
             Output::Equations => {
-                Found::Equations(deviation(&graph, request, &test_cases, residual)?)
+                Found::Equations(deviation(&graph, request, &test_cases, |found, tested| {
+                    residual(found, &tested.expected, tested.least)
+                })?)
             }
             Output::InverseDynamics => {
-                Found::InverseDynamics(deviation(&graph, request, &test_cases, of_largest)?)
+                Found::InverseDynamics(deviation(&graph, request, &test_cases, |found, tested| {
+                    of_largest(found, &tested.expected, tested.least)
+                })?)
             }
             Output::RightSide => {
-                Found::RightSide(deviation(&graph, request, &test_cases, right_side::deviation)?)
+                let mut condition = 1.0_f64;
+                let deviation = deviation(&graph, request, &test_cases, |found, tested| {
+                    condition = condition.max(tested.condition);
+                    right_side::deviation(found, tested)
+                })?;
+                Found::RightSide { deviation, condition }
             }
         };
         let mut cases = Vec::new();
@@ -121,7 +137,7 @@ impl Certified {
             }
             Found::Equations(residual) => ("equations", *residual),
             Found::InverseDynamics(deviation) => ("inverse dynamics", *deviation),
-            Found::RightSide(deviation) => ("rates of change", *deviation),
+            Found::RightSide { deviation, .. } => ("rates of change", *deviation),
         };
         if deviation <= TOLERANCE {
             return Ok(());
@@ -136,14 +152,19 @@ impl Certified {
     pub fn tolerance(&self) -> f64 {
         match &self.found {
             Found::Accelerations(found) => {
-                let magnified = (found.condition / HARMLESS_CONDITION).max(1.0);
-                magnified * ROUNDING.max(4.0 * found.from_double_double)
+                allowance(found.condition) * ROUNDING.max(4.0 * found.from_double_double)
             }
-            Found::Equations(found) | Found::InverseDynamics(found) | Found::RightSide(found) => {
-                ROUNDING.max(4.0 * found)
+            Found::RightSide { deviation, condition } => {
+                allowance(*condition) * ROUNDING.max(4.0 * deviation)
             }
+            Found::Equations(found) | Found::InverseDynamics(found) => ROUNDING.max(4.0 * found),
         }
     }
+}
+
+/// How many times as large deviations of accelerations may be.
+fn allowance(condition: f64) -> f64 {
+    (condition / HARMLESS_CONDITION).max(1.0)
 }
 
 /// The scene with something that acts on its main body, so that a wrench is compared.
@@ -151,7 +172,7 @@ fn pushed(scene: &Scene) -> Scene {
     if !scene.externals.is_empty() || scene.base.is_held() {
         return scene.clone();
     }
-    let force = Vec3::new(1.0, -0.7, 0.4) * scene.main_body.mass.max(f64::MIN_POSITIVE);
+    let force = Vec3::new(1.0, -0.7, 0.4) * scene.main_body.mass;
     let point = Vec3::new(0.3, 0.2, -0.5);
     let thrust = External::thrust(force, point, [0.0, f64::INFINITY]);
     let description = SceneDescription { externals: vec![thrust], ..(**scene).clone() };
@@ -197,19 +218,18 @@ fn accelerations(
     Ok(most.expect("there is a test case"))
 }
 
-/// The largest deviation in any of the test cases' states, each by `off` from what is found, what is expected and the
-/// least scale.
+/// The largest deviation in any of the test cases' states, `off` of what is found there.
 fn deviation(
     graph: &Graph,
     request: &Request,
     test_cases: &[TestCase],
-    off: fn(&[f64], &[f64], f64) -> f64,
+    mut off: impl FnMut(&[f64], &Tested) -> f64,
 ) -> Result<f64, PackageError> {
     let mut most = 0.0_f64;
     for test_case in test_cases {
-        for Tested { parameters, coordinates, expected, least } in tested(test_case, request)? {
-            let found = graph.evaluate(&[parameters, coordinates].concat());
-            most = most.max(off(&found, &expected, least));
+        for tested in tested(test_case, request)? {
+            let inputs = [&tested.parameters[..], &tested.coordinates].concat();
+            most = most.max(off(&graph.evaluate(&inputs), &tested));
         }
     }
     Ok(most)
@@ -228,18 +248,18 @@ fn tested(test_case: &TestCase, request: &Request) -> Result<Vec<Tested>, Packag
     let inputs = inputs(test_case, request);
     match request.output {
         Output::InverseDynamics => return motions(recognised, test_case, inputs, truth),
-        Output::RightSide => return Ok(right_side::tested(test_case, request, &truth)),
+        Output::RightSide => return right_side::tested(test_case, request, &truth),
         Output::Accelerations | Output::Equations => {}
     }
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Truth)| {
-        let Truth { accelerations, floor, .. } = truth;
+        let Truth { accelerations, floor, condition, .. } = truth;
         let (expected, least) = match request.output {
             Output::Equations => {
                 (unknowns(request.formulation, recognised, &accelerations), floor.forcing)
             }
             _ => (in_routine(recognised, &accelerations), floor.accelerations),
         };
-        Tested { parameters, coordinates, expected, least: above_zero(least) }
+        Tested { parameters, coordinates, expected, least: above_zero(least), condition }
     };
     Ok(inputs.into_iter().zip(truth).map(case).collect())
 }
@@ -267,7 +287,8 @@ fn motions(
         }
         let expected = in_routine(recognised, &drives[i]);
         let least = above_zero(truth[i].floor.forcing);
-        cases.push(Tested { parameters, coordinates, expected, least });
+        let condition = truth[i].condition;
+        cases.push(Tested { parameters, coordinates, expected, least, condition });
     }
     Ok(cases)
 }

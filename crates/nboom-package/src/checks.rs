@@ -37,7 +37,7 @@ fn test(of_crate: &str, routine: &Routine) -> String {
     let off = match routine.certified.found {
         Found::Accelerations(_) | Found::InverseDynamics(_) => "off_numbers",
         Found::Equations(_) => "off_equations",
-        Found::RightSide(_) => "off_rates",
+        Found::RightSide { .. } => "off_rates",
     };
     let values = [
         ("FUNCTION", function.as_str()),
@@ -63,10 +63,10 @@ pub(crate) fn table(routine: &Routine) -> String {
         Found::Accelerations(_) => "acceleration",
         Found::Equations(_) => "unknown",
         Found::InverseDynamics(_) => "force",
-        Found::RightSide(_) => "rate",
+        Found::RightSide { .. } => "rate",
     };
     let mut text = String::new();
-    for (i, Tested { parameters, coordinates, expected, least }) in
+    for (i, Tested { parameters, coordinates, expected, least, .. }) in
         routine.certified.tested.iter().enumerate()
     {
         let columns = [("parameter", parameters), ("state", coordinates), (word, expected)];

@@ -103,7 +103,9 @@ pub(crate) fn files(
 /// ω̇ and a_O less gravity of a main body that is held, when the scene starts; main-body axes.
 fn held_main(scene: &Scene) -> Option<[f64; 6]> {
     let beta = vec![0.0; scene.bodies.len()];
-    let Twist { angular, linear } = WeldedTree::new(scene, &Mode::at_start(scene), &beta).held?;
+    let drive = scene.base.piece_at(scene.initial.time);
+    let mode = Mode { drive, ..Mode::at_start(scene) };
+    let Twist { angular, linear } = WeldedTree::new(scene, &mode, &beta).held?;
     let ([a, b, c], [d, e, f]) = (angular.to_array(), linear.to_array());
     Some([a, b, c, d, e, f])
 }

@@ -22,6 +22,8 @@ pub(crate) fn of_library(name: &str) -> String {
          [lints.clippy]\n\
          # Equations read best with the field's one-letter names and with indices that name bodies.\n\
          many_single_char_names = \"allow\"\n\
+         # A scene's number is no constant of mathematics, also where it is near one.\n\
+         approx_constant = \"allow\"\n\
          needless_range_loop = \"allow\"\n",
         package(name)
     )

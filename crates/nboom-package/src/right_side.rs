@@ -1,8 +1,8 @@
 //! The right side of a scene's differential equations in a crate of routines.
 
-use nboom_codegen::Request;
-use nboom_formulation::{Recognised, RightSideLayout};
-use nboom_model::{Course, External, ExternalKind, Scene};
+use nboom_codegen::{CodegenError, Request};
+use nboom_formulation::{Forces, Recognised, RightSideLayout};
+use nboom_model::{Course, External, Mode, Scene, WeldedTree};
 use nboom_scalar::Wrench;
 use nboom_verify::TestCase;
 
@@ -13,6 +13,9 @@ const TEXTS: [&str; 2] =
     [include_str!("../templates/right_side.md"), include_str!("../templates/right_side.rs")];
 
 /// What the documentation and the code have of the `request` for the scene, whose appendages are `recognised`.
+///
+/// # Errors
+/// What a right side has no place for.
 pub(crate) fn texts(
     scene: &Scene,
     recognised: &Recognised,
@@ -25,15 +28,19 @@ pub(crate) fn texts(
     let lines: String =
         lines.map(|(number, name)| format!("    {number:?}, // {name}\n")).collect();
     let start = start(scene, recognised);
-    let thrusts: Vec<String> = thrusts(scene).map(thrust).collect();
+    let thrusts: Vec<String> = thrusts(scene).filter_map(thrust).collect();
+    let holdings: Vec<String> = holdings(scene).map(holding).collect();
     let values = [
         ("RIGHT_SIDE", request.name.clone()),
+        ("START_TIME", literal(scene.initial.time)),
         ("START_COUNT", start.len().to_string()),
         ("START", format!("{start:?}")),
-        ("VARIABLE_LIST", variables(recognised)),
+        ("VARIABLE_LIST", variables(scene, recognised)),
         ("WRENCH", format!("{:?}", RightSideLayout::external(topology))),
         ("THRUST_COUNT", thrusts.len().to_string()),
         ("THRUST_LIST", thrusts.concat()),
+        ("HOLDING_COUNT", holdings.len().to_string()),
+        ("HOLDING_LIST", holdings.concat()),
         ("SIDE_PARAMETER_COUNT", parameters.len().to_string()),
         ("SIDE_PARAMETER_LIST", lines),
     ];
@@ -42,16 +49,28 @@ pub(crate) fn texts(
     Ok(TEXTS.map(|text| values.iter().fold(text.to_owned(), fill)))
 }
 
-/// The numbers of the scene at its start, all kick-off springs pushing.
+/// What acts in a test case.
+///
+/// # Errors
+/// What a right side has no place for.
+pub(crate) fn forces(test_case: &TestCase) -> Result<Forces<f64>, PackageError> {
+    let scene = || test_case.scene().name.clone();
+    let no_place = |what| CodegenError::NoPlace { scene: scene(), what }.into();
+    test_case
+        .forces()
+        .expect("requests are refused before when there is no topology")
+        .map_err(no_place)
+}
+
+/// The numbers of the scene at its start, but that all kick-off springs push.
 fn parameters(scene: &Scene, recognised: &Recognised) -> Result<Vec<f64>, PackageError> {
-    let test_case = TestCase::new(scene.clone(), 0, 0)?.with_lines_pushing();
-    // Requests are refused before when something has no place.
-    let mut forces = test_case.forces().and_then(Result::ok).expect("there is a request");
-    if !scene.base.is_held() {
-        forces.external = Wrench::zero();
-        let now = scene.initial.time;
-        let act = |external: &&External| external.course.acts(external.course.piece_at(now));
-        thrusts(scene).filter(act).for_each(|external| forces.external.add(wrench(external)));
+    let mut forces = forces(&TestCase::new(scene.clone(), 0, 0)?.with_lines_pushing())?;
+    let now = scene.initial.time;
+    forces.external = Wrench::zero();
+    let acts = |external: &&External| external.course.acts(external.course.piece_at(now));
+    thrusts(scene).filter(acts).for_each(|external| forces.external.add(external.wrench()));
+    if let Some((_, wrench)) = holdings(scene).take_while(|(from, _)| *from <= now).last() {
+        forces.external = wrench;
     }
     Ok([recognised.parameters.write(), forces.write()].concat())
 }
@@ -61,26 +80,41 @@ fn thrusts(scene: &Scene) -> impl Iterator<Item = &External> {
     scene.externals.iter().filter(|_| !scene.base.is_held())
 }
 
-/// Moment and force about O, main-body axes.
-fn wrench(External { kind, amount, point, .. }: &External) -> Wrench<f64> {
-    match kind {
-        ExternalKind::Force => Wrench::of_force(*point, *amount),
-        ExternalKind::Torque => Wrench { moment: *amount, ..Wrench::zero() },
-    }
+/// A pulse; a right side has no place for others.
+fn thrust(external: &External) -> Option<String> {
+    let Course::Pulse { on, off } = external.course else { return None };
+    let (on, off) = (literal(on), literal(off));
+    Some(format!("    Thrust {{ on: {on}, off: {off}, wrench: {:?} }},\n", six(external.wrench())))
 }
 
-fn thrust(external: &External) -> String {
-    let Course::Pulse { on, off } = external.course else {
-        unreachable!("a right side has no place for others");
-    };
-    let number = |time: f64| match time {
+/// The wrench that holds a main body from each time on, earlier ones first.
+fn holdings(scene: &Scene) -> impl Iterator<Item = (f64, Wrench<f64>)> {
+    let beta = vec![0.0; scene.bodies.len()];
+    let mut from = scene.base.is_held().then_some(f64::NEG_INFINITY);
+    (0..).map_while(move |drive| {
+        let since = from?;
+        from = scene.base.end_of(drive);
+        let mode = Mode { drive, ..Mode::at_start(scene) };
+        Some((since, WeldedTree::new(scene, &mode, &beta).holding_wrench()?))
+    })
+}
+
+fn holding((from, wrench): (f64, Wrench<f64>)) -> String {
+    format!("    Holding {{ from: {}, wrench: {:?} }},\n", literal(from), six(wrench))
+}
+
+/// Moment, then force.
+fn six(Wrench { moment, force }: Wrench<f64>) -> Vec<f64> {
+    [moment.to_array(), force.to_array()].concat()
+}
+
+/// A time as code has it.
+fn literal(time: f64) -> String {
+    match time {
         f64::INFINITY => "f64::INFINITY".to_owned(),
         f64::NEG_INFINITY => "f64::NEG_INFINITY".to_owned(),
         _ => format!("{time:?}"),
-    };
-    let Wrench { moment, force } = wrench(external);
-    let numbers = [moment.to_array(), force.to_array()].concat();
-    format!("    Thrust {{ on: {}, off: {}, wrench: {numbers:?} }},\n", number(on), number(off))
+    }
 }
 
 /// Attitude, ω, angles and rates where the scene starts, hinges in the topology's order.
@@ -96,7 +130,7 @@ fn start(scene: &Scene, recognised: &Recognised) -> Vec<f64> {
 }
 
 /// A line for each hinge in the order of the scene.
-fn variables(recognised: &Recognised) -> String {
+fn variables(scene: &Scene, recognised: &Recognised) -> String {
     let topology = &recognised.topology;
     let mut rows = vec![String::new(); recognised.links.len()];
     for (hinge, &link) in recognised.links.iter().enumerate() {
@@ -105,8 +139,10 @@ fn variables(recognised: &Recognised) -> String {
         let law = RightSideLayout::law(topology, hinge).start;
         // Each body is a link, so that no link has a second line.
         let kick_off = RightSideLayout::coefficients(topology, hinge).start;
+        let limit = scene.bodies[link].hinge.kick_off.map(|spring| spring.limit_length);
         rows[link] = format!(
-            "    Variables {{ angle: {angle}, rate: {rate}, law: {law}, kick_off: {kick_off} }},\n"
+            "    Variables {{ angle: {angle}, rate: {rate}, law: {law}, kick_off: {kick_off}, \
+             kick_off_limit: {limit:?} }},\n"
         );
     }
     rows.concat()

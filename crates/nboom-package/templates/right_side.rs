@@ -1,26 +1,29 @@
 
 /// The routine for the right side of the scene's differential equations, all hinges free: from attitude, ω, angles and rates
-/// to their rates of change, and the power of the parts of the hinge torques that depend on rates.
+/// of hinges to their rates of change, and the power of the parts of the hinge torques that depend on rates.
 pub fn right_side() -> &'static Kernel {
     static KERNEL: OnceLock<Kernel> = OnceLock::new();
     KERNEL.get_or_init(Kernel::of::</*RIGHT_SIDE*/>)
 }
 
-/// The scene's own numbers at its start, as `right_side()` takes them; all kick-off springs push.
+/// The scene's own numbers at its start, as `right_side()` takes them, but that all kick-off springs push.
 pub fn right_side_parameters() -> &'static [f64] {
     &RIGHT_SIDE_PARAMETERS
 }
+
+/// When the scene starts.
+pub const START_TIME: f64 = /*START_TIME*/;
 
 /// Where the scene starts, as `right_side()` takes it.
 #[rustfmt::skip]
 pub const START: [f64; /*START_COUNT*/] = /*START*/;
 
 /// Where the numbers of one hinge stand for `right_side()`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variables {
-    /// Where the angle stands in the variables \[rad\].
+    /// Where the angle stands in the variables \[rad\]; of a hinge that slides its travel.
     pub angle: usize,
-    /// Where the rate stands there.
+    /// Where the rate stands there; of a hinge that slides its speed.
     pub rate: usize,
     /// Where q₁, q₂, A₃, A₂, A₁, A₀, β₀ stand in the parameters. The torque about the hinge is
     /// (q₁τ + q₂)τ + ((A₃s + A₂)s + A₁)s + A₀ with s = β − β₀.
@@ -28,6 +31,8 @@ pub struct Variables {
     /// Where a₀, a₁, a₂, a₃ stand there: the force of the kick-off spring of the hinge's body by powers of its length,
     /// zero where nothing pushes.
     pub kick_off: usize,
+    /// The length from which on that spring does not push; none if the body has none.
+    pub kick_off_limit: Option<f64>,
 }
 
 /// Those of the hinges of the scene, in the order of [`HINGES`].
@@ -53,6 +58,20 @@ pub struct Thrust {
 #[rustfmt::skip]
 pub const THRUSTS: [Thrust; /*THRUST_COUNT*/] = [
 /*THRUST_LIST*/];
+
+/// The wrench that holds a main body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Holding {
+    /// From this time on, until that of the next.
+    pub from: f64,
+    /// Moment and force, main-body axes; large, for what stands for a main body that is held is heavy.
+    pub wrench: [f64; 6],
+}
+
+/// Those of the scene, earlier ones first; none where its main body is free.
+#[rustfmt::skip]
+pub const HOLDINGS: [Holding; /*HOLDING_COUNT*/] = [
+/*HOLDING_LIST*/];
 
 #[rustfmt::skip]
 const RIGHT_SIDE_PARAMETERS: [f64; /*SIDE_PARAMETER_COUNT*/] = [

@@ -56,6 +56,8 @@ pub struct Truth {
     pub accelerations: Vec<f64>,
     /// Power of the parts of the hinge torques that depend on rates.
     pub rate_power: f64,
+    /// Of the mass matrix of what moves freely, scaled to diagonal 1.
+    pub condition: f64,
     /// What deviations are relative to where these, or forces, cancel to nothing.
     pub floor: Floor,
 }
@@ -69,7 +71,8 @@ pub fn truth(test_case: &TestCase) -> Result<Vec<Truth>, VerifyError> {
     let mut of_state = |i| {
         let reference = referee.reference(i)?;
         let (accelerations, rate_power) = (reference.truth(), reference.rate_power());
-        Ok(Truth { accelerations, rate_power, floor: reference.floor })
+        let (condition, floor) = (reference.condition, reference.floor);
+        Ok(Truth { accelerations, rate_power, condition, floor })
     };
     (0..test_case.states().len()).map(&mut of_state).collect()
 }

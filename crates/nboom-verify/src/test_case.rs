@@ -52,7 +52,7 @@ pub struct NotCovered {
 }
 
 /// A scene with its thrust on, all hinges free or some held, and random states of it. No force acts along a
-/// line, but with [`with_lines_pushing`](Self::with_lines_pushing).
+/// line, except with [`with_lines_pushing`](Self::with_lines_pushing).
 #[derive(Clone, Debug)]
 pub struct TestCase {
     scene: Scene,
@@ -351,15 +351,11 @@ fn recursive<R: Real>(scene: &Scene, held: &[Option<f64>], lines_push: bool) -> 
         Some(_) => HingeState::Locked,
         None => HingeState::Free,
     };
-    let mut mode = Mode {
+    let mode = Mode {
         hinges: held.iter().map(state).collect(),
         externals: vec![1; scene.externals.len()],
-        ..Mode::at_start(scene)
+        ..Mode::at_start(scene).with_kick_offs(scene, lines_push)
     };
-    if lines_push {
-        let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
-        mode.pieces[..lines].fill(0);
-    }
     let beta: Vec<R> = held.iter().map(|angle| R::constant(angle.unwrap_or(0.0))).collect();
     let mut dynamics = Recursive::new(scene);
     dynamics.set_mode(&mode, &beta);

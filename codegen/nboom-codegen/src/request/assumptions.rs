@@ -23,9 +23,41 @@ fn phrases(request: &Request) -> Vec<String> {
         phrases.push(format!("all {fixed} parameters"));
         return phrases;
     }
+    let mut said = vec![false; assumptions.len()];
+    let bodies = Layout::parameters(topology);
+    if assumptions[..bodies].iter().all(Option::is_some) {
+        said[..bodies].fill(true);
+        phrases.push(format!("all {bodies} numbers of the bodies"));
+    } else {
+        of_bodies(request, &mut said, &mut phrases);
+    }
+    if request.output == Output::RightSide {
+        let external = RightSideLayout::external(topology);
+        if !request.external {
+            external.clone().for_each(|at| said[at] = true);
+        }
+        let lines = RightSideLayout::lines(topology);
+        let never_pushes = |&place: &usize| {
+            let coefficients = RightSideLayout::coefficients(topology, place);
+            assumptions[coefficients].iter().all(|assumed| *assumed == Some(0.0))
+        };
+        let absent: Vec<usize> = (0..lines).filter(never_pushes).collect();
+        absent.iter().for_each(|&place| said[RightSideLayout::line(topology, place)].fill(true));
+        match absent.len() {
+            0 => {}
+            count if count == lines => phrases.push("no force along a line".to_owned()),
+            count => phrases.push(format!("no force along {count} of {lines} lines")),
+        }
+    }
+    phrases.extend(rest(request, &said));
+    phrases
+}
+
+/// What is assumed of mass properties and places.
+fn of_bodies(request: &Request, said: &mut [bool], phrases: &mut Vec<String>) {
+    let Request { topology, assumptions, .. } = request;
     let zero = |at: usize| assumptions[at] == Some(0.0);
     let all_zero = |first: usize, places: &[usize]| places.iter().all(|at| zero(first + at));
-    let mut said = vec![false; assumptions.len()];
     let mut say = |firsts: &[usize], places: &[usize], phrase: String| {
         let all = firsts.iter().flat_map(|first| places.iter().map(move |at| first + at));
         all.for_each(|at| said[at] = true);
@@ -58,18 +90,6 @@ fn phrases(request: &Request) -> Vec<String> {
             say(&found, places, format!("{phrase} of {count} of {of} links"));
         }
     }
-    if request.output == Output::RightSide {
-        let external = RightSideLayout::external(topology);
-        if !request.external {
-            external.clone().for_each(|at| said[at] = true);
-        }
-        if !request.has_lines() && topology.hinges() > 0 {
-            (external.end..assumptions.len()).for_each(|at| said[at] = true);
-            phrases.push("no force along a line".to_owned());
-        }
-    }
-    phrases.extend(rest(request, &said));
-    phrases
 }
 
 /// What no phrase says: each number by its name, owners with the same ones together.

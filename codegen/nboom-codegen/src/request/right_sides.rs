@@ -45,7 +45,7 @@ impl Request {
 
     /// The right side beside this request for the accelerations of a scene with all hinges free, which takes lines
     /// where kick-off springs push. Of hinge laws it assumes what the request assumes of bodies: nothing, zeros or all.
-    /// The numbers of lines are handed in, so that it is also for springs that have let go.
+    /// What a line is, is handed in, so that it is also for springs that have let go.
     ///
     /// # Errors
     /// When a body is not rigid, carries a rotor or is one of too many, and when something acts on the scene that a
@@ -54,7 +54,7 @@ impl Request {
         let all_free = vec![true; scene.bodies.len()];
         // Refuses what is not recognised.
         welded(scene, &all_free, ANGLES[0])?;
-        let acting = acting(scene, &all_free, ANGLES[0], true);
+        let acting = acting(scene, &all_free, ANGLES[0], (true, 1));
         let (_, cases) = acting.expect("the scene is recognised");
         let no_place = |what| CodegenError::NoPlace { scene: scene.name.clone(), what };
         let cases = cases.map_err(no_place)?;
@@ -134,7 +134,7 @@ impl Request {
 /// Notes what acts on a scene in which the hinges that are not `free` are held at angles around `angle`,
 /// and lines push or do not, on every piece of torque tables.
 fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bool) {
-    let Some((topology, found)) = acting(scene, free, angle, pushing) else { return };
+    let Some((topology, found)) = acting(scene, free, angle, (pushing, 0)) else { return };
     let known = cases.entry(topology).or_insert_with(|| Some(Vec::new()));
     match (known.as_mut(), found) {
         (Some(all), Ok(forces)) => all.extend(forces),
@@ -144,17 +144,18 @@ fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bo
     }
 }
 
-/// What [`note`] notes, with the topology; `None` where the scene has none.
+/// What [`note`] notes, with the topology, while all that acts from outside is in this piece of its course; `None`
+/// where the scene has no topology.
 fn acting(
     scene: &Scene,
     free: &[bool],
     angle: f64,
-    pushing: bool,
+    (pushing, piece_outside): (bool, usize),
 ) -> Option<(Topology, Result<Vec<Vec<f64>>, NoPlace>)> {
-    let externals = vec![0; scene.externals.len()];
-    let mut mode = Mode { externals, ..mode_with(scene, free) };
     let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
-    mode.pieces[..lines].fill(usize::from(!pushing));
+    let externals = vec![piece_outside; scene.externals.len()];
+    let mode = Mode { externals, ..mode_with(scene, free) };
+    let mut mode = mode.with_kick_offs(scene, pushing);
     let tree = held(scene, free, angle);
     let recognised = recognise(&tree).ok()?;
     let last = scene.torque_tables.iter().map(|table| table.points.len()).max().unwrap_or(0);

@@ -5,13 +5,20 @@ use nboom_formulation::{Coordinates, Forces, Layout, Recognised, RightSideLayout
 use nboom_scalar::{Quaternion, Vec3};
 use nboom_verify::{TestCase, Truth};
 
-use super::{Tested, above_zero, of_largest, recognised};
+use super::{Tested, above_zero, allowance, of_largest, recognised};
+use crate::PackageError;
+use crate::right_side::forces;
 
 /// All states of a test case, each at another attitude, with their rates of change.
-pub(super) fn tested(test_case: &TestCase, request: &Request, truth: &[Truth]) -> Vec<Tested> {
-    let recognised = recognised(test_case);
-    // Requests are refused before when something has no place.
-    let forces = test_case.forces().and_then(Result::ok).expect("there is a request for the scene");
+///
+/// # Errors
+/// What a right side has no place for.
+pub(super) fn tested(
+    test_case: &TestCase,
+    request: &Request,
+    truth: &[Truth],
+) -> Result<Vec<Tested>, PackageError> {
+    let (recognised, forces) = (recognised(test_case), forces(test_case)?);
     let mut parameters = [recognised.parameters.write(), forces.write()].concat();
     // Welding and taking moments about the mass centre has rounded.
     for (parameter, assumed) in parameters.iter_mut().zip(&request.assumptions) {
@@ -35,9 +42,10 @@ pub(super) fn tested(test_case: &TestCase, request: &Request, truth: &[Truth]) -
                 truth,
             ),
             least: above_zero(truth.floor.accelerations),
+            condition: truth.condition,
         }
     };
-    states.map(case).collect()
+    Ok(states.map(case).collect())
 }
 
 /// Some attitude; its norm does not matter.
@@ -71,10 +79,11 @@ fn expected(
     all
 }
 
-/// The largest deviation, each relative to the largest number of its kind: rates of the attitude, accelerations, rates of the
-/// hinges, power.
-pub(super) fn deviation(found: &[f64], expected: &[f64], least: f64) -> f64 {
-    let (expected, scale) = expected.split_at(expected.len() - 1);
+/// The largest deviation, each relative to the largest number of its kind: rates of the attitude, accelerations in terms of what
+/// condition magnifies, rates of the hinges, power.
+pub(super) fn deviation(found: &[f64], tested: &Tested) -> f64 {
+    let Tested { least, condition, .. } = *tested;
+    let (expected, scale) = tested.expected.split_at(tested.expected.len() - 1);
     let hinges = (found.len() - RightSideLayout::STATE) / 2;
     let [beta, tau] = [0, hinges].map(|at| RightSideLayout::STATE + at);
     let power = tau + hinges;
@@ -83,8 +92,9 @@ pub(super) fn deviation(found: &[f64], expected: &[f64], least: f64) -> f64 {
         of_largest(&of(found), &of(expected), least)
     };
     let tiny = f64::MIN_POSITIVE;
+    let accelerations = off(RightSideLayout::OMEGA.chain(tau..power).collect(), least);
     off(RightSideLayout::ATTITUDE.collect(), tiny)
-        .max(off(RightSideLayout::OMEGA.chain(tau..power).collect(), least))
+        .max(accelerations / allowance(condition))
         .max(off((beta..tau).collect(), tiny))
         .max(off(vec![power], scale[0].max(tiny)))
 }

@@ -18,8 +18,8 @@ use nboom_codegen::{CodegenError, OPERATION_LIMIT};
 use nboom_formulation::{Formulation, Layout};
 use nboom_io::read_scene;
 use nboom_model::{
-    Appendage, External, Hinge, MassProperties, Mount, Rotor, RotorSpeed, Scene, SceneDescription,
-    Segment, Spring, Topology,
+    Appendage, External, Hinge, KickOffSpring, MassProperties, Mount, Rotor, RotorSpeed, Scene,
+    SceneDescription, Segment, Spring, Topology,
 };
 use nboom_package::{
     Choices, Numbers, PackageError, Standing, TOLERANCE, Written, generate, is_current,

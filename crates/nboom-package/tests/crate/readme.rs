@@ -39,6 +39,26 @@ fn parameters_of(phrase: &str) -> usize {
     }
 }
 
+/// Rows stay short, though some of a right side's numbers are handed in.
+#[test]
+fn a_right_side_with_built_in_numbers_says_so_in_a_word() {
+    let mut description = (*satellite("sprung", &[2])).clone();
+    description.bodies[1].hinge.kick_off = Some(KickOffSpring {
+        main_body_point: Vec3::zero(),
+        body_point: Vec3::unit_y(),
+        coefficients: [1.0, 0.0, 0.0, 0.0],
+        limit_length: 9.0,
+    });
+    let scene = Scene::new(description).expect("the bodies are physical");
+    let choices = Choices { numbers: Numbers::Baked, right_side: true, ..Choices::default() };
+    let place = written(&scene, &choices);
+    let all = certificate(place.path())["routines"][1]["assumptions"].to_string();
+    for phrase in ["numbers of the bodies", "no force along 3 of 4 lines", "A₁ = -0.7"] {
+        assert!(all.contains(phrase), "no {phrase:?} in {all}");
+    }
+    assert!(all.len() < 200, "{all}");
+}
+
 #[test]
 fn a_crate_says_where_the_numbers_of_a_hinge_stand() {
     let place = written(&satellite("mixed", &[1, 2, 2]), &Choices::default());

@@ -1,4 +1,9 @@
-use nboom_model::{Base, Coupling, Dashpot, KickOffSpring, TorqueTable};
+use std::f64::consts::FRAC_PI_2;
+
+use nboom_model::{
+    Base, Coupling, Course, Dashpot, Drive, DrivePoint, ExternalAxes, ExternalKind, Gravity,
+    TorqueTable,
+};
 use nboom_sim::Options;
 
 use super::library::run;
@@ -8,13 +13,19 @@ use super::*;
 /// S2_S1, hinges stand in another order than in the scene.
 fn sprung() -> Scene {
     let mut description = (*satellite("sprung", &[1, 2])).clone();
-    description.end_time = 1.5;
+    description.initial.time = 0.25;
+    description.end_time = 1.75;
+    let (kind, course) = (ExternalKind::Torque, Course::ALWAYS);
+    let torque = External { kind, course, ..description.externals[0].clone() };
+    description.externals.push(torque);
     for (i, body) in description.bodies.iter_mut().enumerate() {
         let dashpot = Dashpot { rate_linear: -0.4, rate_quadratic: 0.02, ..Dashpot::default() };
         body.hinge.dashpot = dashpot;
         body.hinge.start.angle = 0.3 + 0.2 * i as f64;
         body.hinge.start.rate = 0.1;
     }
+    // Clippy takes it for a constant.
+    description.bodies[2].hinge.start.angle = FRAC_PI_2;
     description.bodies[1].hinge.kick_off = Some(KickOffSpring {
         main_body_point: Vec3::new(0.2, 0.3, 0.0),
         body_point: Vec3::unit_y() * 0.8,
@@ -29,9 +40,11 @@ fn sprung() -> Scene {
 /// Integrates with the crate alone, and compares the end with that of a run: 3000 steps of the classical Runge-Kutta
 /// method, whose error is 1e-12 or so.
 const PROGRAM: &str = r#"
-use satellite_sprung::{HINGES, START, THRUSTS, VARIABLES, WRENCH, right_side, right_side_parameters};
+use satellite_sprung::{
+    HINGES, HOLDINGS, START, START_TIME, THRUSTS, VARIABLES, WRENCH, right_side, right_side_parameters,
+};
 
-const END: f64 = 1.5;
+const END: f64 = 1.75;
 const STEPS: usize = 3000;
 
 const EXPECTED: &[f64] = &EXPECTED_NUMBERS;
@@ -41,9 +54,9 @@ fn it_ends_where_the_simulation_ends() {
     let kernel = right_side();
     let mut parameters = right_side_parameters().to_vec();
     let mut constants = vec![0.0; kernel.constants];
-    let (mut y, step) = (START.to_vec(), END / STEPS as f64);
+    let (mut y, step) = (START.to_vec(), (END - START_TIME) / STEPS as f64);
     for i in 0..STEPS {
-        let middle = (i as f64 + 0.5) * step;
+        let middle = START_TIME + (i as f64 + 0.5) * step;
         let wrench = &mut parameters[WRENCH];
         wrench.fill(0.0);
         for thrust in THRUSTS.iter().filter(|thrust| (thrust.on..thrust.off).contains(&middle)) {
@@ -65,7 +78,9 @@ fn it_ends_where_the_simulation_ends() {
             y[i] += step / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
         }
     }
-    assert_eq!(HINGES.len(), VARIABLES.len());
+    assert!(HINGES.len() == VARIABLES.len() && HOLDINGS.is_empty());
+    let limits = VARIABLES.map(|variables| variables.kick_off_limit);
+    assert_eq!(limits, [None, Some(100.0), None]);
     let hinges = VARIABLES.iter().map(|v| y[v.angle]).chain(VARIABLES.iter().map(|v| y[v.rate]));
     let found: Vec<f64> = y[..7].iter().copied().chain(hinges).collect();
     assert_eq!(found.len(), EXPECTED.len());
@@ -112,36 +127,87 @@ fn is_wrong_when_a_sign_is(place: &Path, name: &str) {
     assert!(said.contains(&failed), "{said}");
 }
 
-/// The wrench that holds it is among the parameters.
+/// A pendulum on a main body that turns faster and faster: m = 3, l = 0.9, J = 4 + m l² about x at the origin, g = 9.81
+/// along -x, ω̇ = 0.2 about x after the first second.
+const PENDULUM: &str = r#"
+use satellite_rig::{HOLDINGS, START, VARIABLES, WRENCH, right_side, right_side_parameters};
+
+#[test]
+fn it_swings_as_its_main_body_turns() {
+    let kernel = right_side();
+    let mut parameters = right_side_parameters().to_vec();
+    let mut rates = |from: usize| {
+        parameters[WRENCH].copy_from_slice(&HOLDINGS[from].wrench);
+        assert!(kernel.accepts(&parameters));
+        let mut constants = vec![0.0; kernel.constants];
+        kernel.prepare(&parameters, &mut constants);
+        let mut rates = vec![0.0; kernel.outputs];
+        kernel.evaluate(&constants, &START, &mut rates);
+        [rates[4], rates[VARIABLES[0].rate]]
+    };
+    assert_eq!(HOLDINGS.map(|holding| holding.from), [f64::NEG_INFINITY, 1.0, 3.0]);
+    assert_eq!(right_side_parameters()[WRENCH], HOLDINGS[1].wrench);
+    for (found, expected) in [(rates(0), [0.0, 0.0]), (rates(1), [0.2, -0.2]), (rates(2), [0.0, 0.0])] {
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+        }
+    }
+}
+"#;
+
+/// What holds it as the scene starts is among the parameters, and what does later is told.
 #[test]
 fn a_right_side_of_a_rig_holds_its_main_body() {
     let mut description = (*satellite("rig", &[1])).clone();
-    description.base = Base::Fixed;
+    let point = |time, rate| DrivePoint { time, rate, speed: 0.0 };
+    let points = vec![point(1.0, 0.5), point(3.0, 0.9)];
+    description.base = Base::Driven(Drive { axis: Vec3::unit_x(), points });
     description.externals.clear();
-    description.initial.omega_body = Vec3::zero();
+    description.gravity = Some(Gravity { acceleration: 9.81, up: Vec3::unit_x() });
+    description.bodies[0].hinge.spring = Spring::default();
+    description.bodies[0].mount = Mount::at(Vec3::zero());
+    description.initial.time = 1.5;
+    description.initial.omega_body = Vec3::unit_x() * 0.6;
     let scene = Scene::new(description).expect("the bodies are physical");
     let place = written(&scene, &Choices { right_side: true, ..Choices::default() });
+    fs::write(place.path().join("tests/pendulum.rs"), PENDULUM).expect("writable");
     let said = cargo_test(place.path()).unwrap_or_else(|said| panic!("{said}"));
-    assert!(said.contains("SatelliteS1RightSide, portable code"), "{said}");
+    for line in ["SatelliteS1RightSide, portable code", "it_swings_as_its_main_body_turns ... ok"] {
+        assert!(said.contains(line), "{said}");
+    }
 }
 
 #[test]
 fn what_a_right_side_has_no_place_for_is_refused() {
-    let scene = satellite("coupled", &[2]);
-    let mut description = (*scene).clone();
-    description.couplings = vec![Coupling {
+    let place = place();
+    let directory = place.path().join("crate");
+    let refused = |name: &str, change: &dyn Fn(&mut SceneDescription)| {
+        let mut description = (*satellite(name, &[2])).clone();
+        change(&mut description);
+        let scene = Scene::new(description).expect("the bodies are physical");
+        for numbers in [Numbers::RunTime, Numbers::Baked] {
+            let choices = Choices { numbers, right_side: true, ..Choices::default() };
+            let refused = generate(&scene, &choices, &directory).expect_err("no place");
+            let expected = format!("scene {name}: ");
+            assert!(refused.to_string().starts_with(&expected), "{refused}");
+            assert!(
+                refused.to_string().ends_with("for which a right side has no place"),
+                "{refused}"
+            );
+        }
+    };
+    let coupling = Coupling {
         hinges: [0, 1],
         ratio: -1.0,
         stiffness: 30.0,
         rest: 0.0,
         damping: 0.1,
         is_mutual: true,
-    }];
-    let coupled = Scene::new(description).expect("the bodies are physical");
-    let place = place();
-    let directory = place.path().join("crate");
-    let choices = Choices { right_side: true, ..Choices::default() };
-    let refused = generate(&coupled, &choices, &directory).expect_err("no place").to_string();
-    assert!(refused.contains("scene coupled: a coupling of hinges found"), "{refused}");
+    };
+    refused("coupled", &|scene| scene.couplings = vec![coupling]);
+    refused("on a boom", &|scene| scene.externals[0].body = Some(1));
+    refused("inertial", &|scene| scene.externals[0].axes = ExternalAxes::Inertial);
+    let table = Course::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]);
+    refused("table", &|scene| scene.externals[0].course = table.clone());
     assert!(!directory.exists());
 }
