@@ -144,6 +144,9 @@ fn note(cases: &mut Cases, scene: &Scene, free: &[bool], angle: f64, pushing: bo
     }
 }
 
+/// What acts in each of some modes, numbers of [`Forces`]; or what a right side has no place for.
+type Acting = Result<Vec<Vec<f64>>, NoPlace>;
+
 /// What [`note`] notes, with the topology, while all that acts from outside is in this piece of its course; `None`
 /// where the scene has no topology.
 fn acting(
@@ -151,7 +154,7 @@ fn acting(
     free: &[bool],
     angle: f64,
     (pushing, piece_outside): (bool, usize),
-) -> Option<(Topology, Result<Vec<Vec<f64>>, NoPlace>)> {
+) -> Option<(Topology, Acting)> {
     let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
     let externals = vec![piece_outside; scene.externals.len()];
     let mode = Mode { externals, ..mode_with(scene, free) };
