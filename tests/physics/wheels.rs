@@ -4,8 +4,8 @@
 use nboom::dynamics::{Accelerations, Motion, Recursive};
 use nboom::loads::{Loads, SceneMotion, VelocityChange};
 use nboom::model::{
-    Body, Hinge, HingeState, Joint, MassDefect, MassProperties, ModelError, Mount, Rotor, Scene,
-    SceneDescription,
+    Base, Body, Hinge, HingeState, Joint, MassDefect, MassProperties, ModelError, Mount, Rotor,
+    Scene, SceneDescription,
 };
 use nboom::scalar::{Sym3, Vec3};
 use nboom::sim::Form;
@@ -120,6 +120,21 @@ fn what_is_no_wheel_must_have_mass() {
         let [ModelError::Mass { defect, .. }] = &errors[..] else { panic!("{errors:?}") };
         assert_eq!(*defect, expected);
     }
+}
+
+/// Held or not, something has to have mass.
+#[test]
+fn a_wheel_alone_on_a_ground_without_mass_is_refused() {
+    let mut scene = top(3.0, 5.0, Vec3::zero());
+    scene.base = Base::Fixed;
+    scene.main_body = MassProperties::nothing();
+    scene.bodies = vec![wheel(0.2, 0.0)];
+    let errors = Scene::new(scene.clone()).expect_err("no mass");
+    let [ModelError::Mass { defect, .. }] = &errors[..] else { panic!("{errors:?}") };
+    assert_eq!(*defect, MassDefect::Mass(0.0));
+    scene.bodies[0].mass_properties.mass = 1.0;
+    scene.bodies[0].mass_properties.inertia = Sym3::diagonal(1.0, 1.0, 1.0);
+    Scene::new(scene).expect("what it carries has mass");
 }
 
 fn random_rotors(bodies: usize, seed: u64) -> Vec<Rotor> {

@@ -1,7 +1,9 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-use nboom_codegen::{Level, Module, Numbers, Output, Request, Standing, StressRequest};
+use nboom_codegen::{
+    CodegenError, Level, Module, Numbers, Output, Request, Standing, StressRequest,
+};
 use nboom_formulation::{Formulation, Symmetry};
 use nboom_io::{SceneFile, read_scene};
 
@@ -266,6 +268,9 @@ impl Config {
                     println!("cargo::rerun-if-changed={}", path.display());
                 }
                 let takes_free = self.equations || self.inverse_dynamics;
+                if takes_free && scene.main_body.mass == 0.0 {
+                    return Err(CodegenError::NoMass { scene: scene.name.clone() }.into());
+                }
                 let scene = if takes_free { scene.with_free_main_body() } else { scene };
                 let mut routines = vec![Request::of_scene(&scene, *numbers, self.level)?];
                 if self.lock_states {

@@ -122,6 +122,16 @@ fn inverse_dynamics_of_a_scene_on_a_rig_is_that_of_a_free_main_body() {
     let inverse = written(&Config::new().scene(&rig).for_inverse_dynamics());
     assert!(inverse.contains("inverse_dynamics by formulation articulated"), "{inverse}");
     assert!(!inverse.contains("main body held"), "{inverse}");
+
+    let nothing =
+        main.replace("mass = 9.0", "mass = 0.0").replace("[4.0, 3.0, 2.0]", "[0.0, 0.0, 0.0]");
+    fs::write(&rig, nothing + boom).expect("the folder is ours");
+    assert!(written(&Config::new().scene(&rig)).contains("main body held"));
+    let (_folder, path) = place();
+    for config in [Config::new().for_inverse_dynamics(), Config::new().for_equations()] {
+        let refused = message(config.scene(&rig).write_to(&path));
+        assert!(refused.contains("NoMass"), "{refused}");
+    }
 }
 
 #[test]

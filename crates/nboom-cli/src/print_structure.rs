@@ -13,7 +13,7 @@ use crate::format::{count, short};
 pub(crate) fn text(file: &SceneFile) -> Result<String, StrengthError> {
     let Some(structure) = file.structure.as_ref().filter(|structure| structure.has_stations())
     else {
-        return Ok("stresses: none, the scene has no stations\n".to_owned());
+        return Ok("stresses: none; the scene has no stations\n".to_owned());
     };
     StressAnalysis::new(&file.scene, structure, Settings::default())?;
     let mut lines = vec![heading(structure)];
@@ -64,7 +64,7 @@ fn material(material: &Material) -> String {
     let [modulus, ratio] = [youngs_modulus, poissons_ratio].map(|number| short(number, 6));
     let strength = |word: &str, stress: Option<f64>| match stress {
         Some(stress) => format!("{word} at {}", short(stress, 6)),
-        None => format!("{word} at no known stress"),
+        None => format!("{word} at an unknown stress"),
     };
     let (yields, breaks) = (strength("yields", yield_stress), strength("breaks", ultimate_stress));
     format!("material: Young's modulus {modulus}, Poisson's ratio {ratio}, {yields}, {breaks}")

@@ -13,9 +13,9 @@ const UNIT_TOLERANCE: f64 = 1e-9;
 
 pub(crate) fn find(scene: &SceneDescription, labels: &[HingeLabel]) -> Vec<ModelError> {
     let mut errors = Vec::new();
-    // A main body that is held moves as prescribed, whatever its mass; what it carries has some.
-    let is_ground =
-        scene.base.is_held() && scene.main_body.is_nothing() && !scene.bodies.is_empty();
+    // A main body that is held moves as prescribed, whatever its mass, but without any mass there is no mass centre.
+    let carries_mass = scene.bodies.iter().any(|body| body.mass_properties.mass > 0.0);
+    let is_ground = scene.base.is_held() && scene.main_body.is_nothing() && carries_mass;
     if let Some(defect) = scene.main_body.defect().filter(|_| !is_ground) {
         errors.push(ModelError::Mass { body: BodyName::MainBody, defect });
     }

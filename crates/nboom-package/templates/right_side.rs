@@ -6,7 +6,7 @@ pub fn right_side() -> &'static Kernel {
     KERNEL.get_or_init(Kernel::of::</*RIGHT_SIDE*/>)
 }
 
-/// The scene's own numbers at its start, as `right_side()` takes them, but that all kick-off springs push.
+/// The scene's own numbers at its start, as `right_side()` takes them; all kick-off springs push.
 pub fn right_side_parameters() -> &'static [f64] {
     &RIGHT_SIDE_PARAMETERS
 }
@@ -31,7 +31,7 @@ pub struct Variables {
     /// Where a₀, a₁, a₂, a₃ stand there: the force of the kick-off spring of the hinge's body by powers of its length,
     /// zero where nothing pushes.
     pub kick_off: usize,
-    /// The length from which on that spring does not push; none if the body has none.
+    /// The spring does not push when it is longer than this; `None` where the body has no spring.
     pub kick_off_limit: Option<f64>,
 }
 
@@ -56,7 +56,7 @@ pub struct Thrust {
 
 /// Those of the scene.
 #[rustfmt::skip]
-pub const THRUSTS: [Thrust; /*THRUST_COUNT*/] = [
+pub static THRUSTS: [Thrust; /*THRUST_COUNT*/] = [
 /*THRUST_LIST*/];
 
 /// The wrench that holds a main body.
@@ -64,15 +64,15 @@ pub const THRUSTS: [Thrust; /*THRUST_COUNT*/] = [
 pub struct Holding {
     /// From this time on, until that of the next.
     pub from: f64,
-    /// Moment and force, main-body axes; large, for what stands for a main body that is held is heavy.
+    /// Moment and force about O, main-body axes. They are large, since a heavy body stands for one that is held.
     pub wrench: [f64; 6],
 }
 
 /// Those of the scene, earlier ones first; none where its main body is free.
 #[rustfmt::skip]
-pub const HOLDINGS: [Holding; /*HOLDING_COUNT*/] = [
+pub static HOLDINGS: [Holding; /*HOLDING_COUNT*/] = [
 /*HOLDING_LIST*/];
 
 #[rustfmt::skip]
-const RIGHT_SIDE_PARAMETERS: [f64; /*SIDE_PARAMETER_COUNT*/] = [
+static RIGHT_SIDE_PARAMETERS: [f64; /*SIDE_PARAMETER_COUNT*/] = [
 /*SIDE_PARAMETER_LIST*/];
