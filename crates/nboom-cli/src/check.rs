@@ -23,8 +23,8 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
     #[cfg(not(feature = "generator"))]
     let generated = "";
     let ignored = ignored(&file, None).map_or_else(String::new, |line| line + "\n");
-    let (text, code) = (print_scene::text(scene), code_at_start(scene, routines));
-    let stresses = print_structure::text(&file)?;
+    let (text, stresses) = (print_scene::text(scene), print_structure::text(&file));
+    let code = code_at_start(scene, routines);
     if let Some(path) = &args.picture {
         let units = file.settings.units.clone().unwrap_or_default();
         let picture = picture::svg(scene, &units);

@@ -1,4 +1,4 @@
-use nboom_scalar::{Vec3, Wrench};
+use nboom_scalar::{Real, Vec3, Wrench};
 
 use crate::{ModelError, SceneDescription, shown};
 
@@ -38,6 +38,15 @@ impl ExternalKind {
         match self {
             Self::Force => "thrust",
             Self::Torque => "torque",
+        }
+    }
+
+    /// Its moment about the point from which `point`, where it acts, is seen, and its force; all along the same axes.
+    #[inline(always)]
+    pub fn wrench<R: Real>(self, point: Vec3<R>, amount: Vec3<R>) -> Wrench<R> {
+        match self {
+            Self::Force => Wrench::of_force(point, amount),
+            Self::Torque => Wrench { moment: amount, force: Vec3::zero() },
         }
     }
 }
@@ -111,15 +120,6 @@ impl External {
             axes: ExternalAxes::Body,
             point,
             course: Course::Pulse { on, off },
-        }
-    }
-
-    /// Moment and force where its course is 1, about its body's origin, along the axes in which it is given if they are
-    /// the body's.
-    pub fn wrench(&self) -> Wrench<f64> {
-        match self.kind {
-            ExternalKind::Force => Wrench::of_force(self.point, self.amount),
-            ExternalKind::Torque => Wrench { moment: self.amount, force: Vec3::zero() },
         }
     }
 

@@ -62,13 +62,13 @@ pub(crate) fn forces(test_case: &TestCase) -> Result<Forces<f64>, PackageError> 
         .map_err(no_place)
 }
 
-/// The numbers of the scene at its start, but that all kick-off springs push.
+/// The numbers of the scene at its start; all kick-off springs push.
 fn parameters(scene: &Scene, recognised: &Recognised) -> Result<Vec<f64>, PackageError> {
     let mut forces = forces(&TestCase::new(scene.clone(), 0, 0)?.with_lines_pushing())?;
     let now = scene.initial.time;
     forces.external = Wrench::zero();
     let acts = |external: &&External| external.course.acts(external.course.piece_at(now));
-    thrusts(scene).filter(acts).for_each(|external| forces.external.add(external.wrench()));
+    thrusts(scene).filter(acts).for_each(|external| forces.external.add(wrench(external)));
     if let Some((_, wrench)) = holdings(scene).take_while(|(from, _)| *from <= now).last() {
         forces.external = wrench;
     }
@@ -80,11 +80,16 @@ fn thrusts(scene: &Scene) -> impl Iterator<Item = &External> {
     scene.externals.iter().filter(|_| !scene.base.is_held())
 }
 
+/// Moment and force about O, main-body axes.
+fn wrench(External { kind, point, amount, .. }: &External) -> Wrench<f64> {
+    kind.wrench(*point, *amount)
+}
+
 /// A pulse; a right side has no place for others.
 fn thrust(external: &External) -> Option<String> {
     let Course::Pulse { on, off } = external.course else { return None };
     let (on, off) = (literal(on), literal(off));
-    Some(format!("    Thrust {{ on: {on}, off: {off}, wrench: {:?} }},\n", six(external.wrench())))
+    Some(format!("    Thrust {{ on: {on}, off: {off}, wrench: {:?} }},\n", six(wrench(external))))
 }
 
 /// The wrench that holds a main body from each time on, earlier ones first.

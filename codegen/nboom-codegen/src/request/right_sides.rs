@@ -155,15 +155,16 @@ fn acting(
     angle: f64,
     (pushing, piece_outside): (bool, usize),
 ) -> Option<(Topology, Acting)> {
-    let lines = scene.bodies.iter().filter(|body| body.hinge.kick_off.is_some()).count();
     let externals = vec![piece_outside; scene.externals.len()];
     let mode = Mode { externals, ..mode_with(scene, free) };
     let mut mode = mode.with_kick_offs(scene, pushing);
     let tree = held(scene, free, angle);
     let recognised = recognise(&tree).ok()?;
+    // Lines come first.
+    let first_table = mode.pieces.len() - scene.torque_tables.len();
     let last = scene.torque_tables.iter().map(|table| table.points.len()).max().unwrap_or(0);
     let on_piece = |piece: usize| {
-        for (of_table, table) in mode.pieces[lines..].iter_mut().zip(&scene.torque_tables) {
+        for (of_table, table) in mode.pieces[first_table..].iter_mut().zip(&scene.torque_tables) {
             *of_table = piece.min(table.points.len());
         }
         let elements = Elements::new(scene, &mode, &tree);

@@ -154,7 +154,7 @@ fn a_latch_that_does_not_close_in_half_of_the_cases_locks_never() {
     let place = Place::new();
     place.write("panels.toml", PANELS);
     let vary = "[[vary]]\nname = 'spring'\npath = 'body[1].hinge.spring.stiffness'\nvalues = [0.5, 1e-6]\n";
-    let results = "results = ['lock_time of 1,1', 'lock_time of 2,1']\n";
+    let results = "results = ['lock_time of 1,1', 'lock_time of 2,1', 'impulse of 1,1']\n";
     place.write("study.toml", &format!("scene = 'panels.toml'\ndraws = 40\n{results}{vary}"));
     let told = stdout(&sweep(&place, &["--no-report"]));
     let row = |hinge: &str| {
@@ -163,6 +163,11 @@ fn a_latch_that_does_not_close_in_half_of_the_cases_locks_never() {
     };
     assert!(row("1,1").contains("never"), "{told}");
     assert!(!row("2,1").contains("never"), "{told}");
+    // An impulse that never comes is no number, and is told to be none.
+    let line = |start: &str| told.lines().find(|line| line.starts_with(start)).expect("a line");
+    let latched = line("1,1 latches in ").split(' ').nth(3).expect("a count");
+    assert!(line("impulse of 1,1").contains(&format!(", {latched} of 40 cases  ")), "{told}");
+    assert!(!row("1,1").contains("of 40 cases"), "{told}");
 }
 
 /// With such an absolute tolerance the laws of conservation are off by more than a thousandth.

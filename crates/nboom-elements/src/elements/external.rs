@@ -124,10 +124,7 @@ impl<R: Real> Push<R> {
     #[inline(always)]
     pub fn wrench(&self, rot: Option<&Mat3<R>>) -> Wrench<R> {
         let (arm, acting) = self.at(rot);
-        match self.kind {
-            ExternalKind::Force => Wrench::of_force(arm, acting),
-            ExternalKind::Torque => Wrench { moment: acting, force: Vec3::zero() },
-        }
+        self.kind.wrench(arm, acting)
     }
 
     /// Its power when its link's hinge (O on the main link) moves as `twist`, and its moment about `point`, which is

@@ -64,7 +64,8 @@ fn faults_stand_apart_and_empty_cells_are_hinges_that_never_latch() {
     let time = &found.columns[1];
     assert_eq!((time.spreads[0].count, time.spreads[1].count), (900, 0));
     let [driver] = time.drivers[..] else { panic!("one variable") };
-    // Nine in ten rise with the variable, the others are tied above them whatever it is: 0.8104.
+    // Nine in ten rise with the variable, the others are tied above them whatever it is: 0.8104, of 1000 draws to 0.02
+    // or so, of which three are allowed.
     assert_eq!(driver.variable, 0);
     assert!((driver.coefficient - 0.8104).abs() < 0.06, "{driver:?}");
     assert_eq!(time.histogram.as_ref().expect("times").counts.iter().sum::<u64>(), 900);
@@ -99,7 +100,8 @@ fn what_keeps_a_latch_from_closing_drives_when_it_closes() {
     }
     let found = statistics.finish();
     let [driver] = found.columns[1].drivers[..] else { panic!("one variable") };
-    assert!(driver.coefficient < -0.7, "{driver:?}");
+    // Of ranks from 0 to 1 the covariance is -1/16, the variances are 1/12 and 7/96: -0.8018, as closely as above.
+    assert!((driver.coefficient + 0.8018).abs() < 0.06, "{driver:?}");
 }
 
 /// Statistics of a result with these numbers.
