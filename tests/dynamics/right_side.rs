@@ -2,11 +2,12 @@
 //! composes of force elements, recursion and attitude.
 
 use nboom::dynamics::{Accelerations, Motion, Recursive};
+use nboom::elements::CouplingLaw;
 use nboom::formulation::{
     Embedding, Forces, Formulation, HingeCoordinates, LinkLine, NoPlace, Parameters, Recognised,
     RightSideLayout, right_side,
 };
-use nboom::model::{KickOffSpring, Scene, Topology, TorqueTable};
+use nboom::model::{Coupling, KickOffSpring, Scene, SceneDescription, Topology, TorqueTable};
 use nboom::scalar::Quaternion;
 
 use crate::limbs::tree;
@@ -46,6 +47,7 @@ fn pushed(seed: u64) -> Moment {
             description.torque_tables.push(TorqueTable { hinge, points });
         }
     }
+    couple(&mut description, dice);
     let scene = Scene::new(description).expect("random bodies are physical");
     let mut mode = all_acting(&scene, of_seed.mode.hinges);
     mode.externals.clone_from(&of_seed.mode.externals);
@@ -56,14 +58,45 @@ fn pushed(seed: u64) -> Moment {
     Moment { scene, mode, ..of_seed }
 }
 
+/// Couples some hinges with the one inboard of them, a few with any other.
+fn couple(description: &mut SceneDescription, dice: &mut Rng) {
+    if dice.chance(0.5) {
+        return;
+    }
+    for hinge in 0..description.bodies.len() {
+        let other = match description.bodies[hinge].inboard {
+            Some(inboard) if dice.chance(0.95) => inboard,
+            _ if dice.chance(0.1) => dice.below(description.bodies.len()),
+            _ => continue,
+        };
+        if other != hinge && dice.chance(0.6) {
+            description.couplings.push(Coupling {
+                hinges: if dice.chance(0.5) { [hinge, other] } else { [other, hinge] },
+                ratio: dice.between(-2.0, 2.0),
+                stiffness: dice.between(0.5, 3.0),
+                rest: dice.between(-1.0, 1.0),
+                damping: if dice.chance(0.5) { dice.between(0.0, 1.0) } else { 0.0 },
+                is_mutual: dice.chance(0.98),
+            });
+        }
+    }
+}
+
 /// A tree with limbs, some of whose links lines push.
 fn pushed_tree(seed: u64) -> Moment {
-    let mut moment = moment_of(tree(seed), seed, 0.2);
     let dice = &mut Rng::new(seed ^ 0x11fe);
+    let mut description = (*tree(seed)).clone();
+    couple(&mut description, dice);
+    let tree = Scene::new(description).expect("random bodies are physical");
+    let mut moment = moment_of(tree, seed, 0.2);
     for piece in &mut moment.mode.pieces {
         *piece = usize::from(dice.chance(0.3));
     }
     moment
+}
+
+fn is_there(coupling: &CouplingLaw<f64>) -> bool {
+    coupling.numbers()[2] != 0.0
 }
 
 /// A satellite in a mode and a state, hinges in the order of its topology.
@@ -128,17 +161,21 @@ impl Pushed {
 
 #[test]
 fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
-    let (mut lines, mut of_two, mut too_many) = (0, 0, 0);
+    let (mut lines, mut of_two, mut too_many, mut coupled, mut apart) = (0, 0, 0, 0, 0);
     for seed in 0..RANDOM_SATELLITES {
         let pushed = Pushed::random(seed);
         let pushing = pushed.dynamics.elements().pushing().count();
         let forces = match &pushed.forces {
             Ok(forces) => forces,
-            Err(why) => {
-                assert_eq!(*why, NoPlace::Lines, "seed {seed}");
+            Err(NoPlace::Lines) => {
                 too_many += 1;
                 continue;
             }
+            Err(NoPlace::Coupling) => {
+                apart += 1;
+                continue;
+            }
+            Err(why) => panic!("seed {seed}: {why}"),
         };
         let Recognised { topology, parameters, .. } = &pushed.recognised;
         let second = &forces.lines[topology.hinges()..];
@@ -148,9 +185,14 @@ fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
         let error = relative_error(&found, &expected, 1.0);
         assert!(error < ROUNDING, "seed {seed}, {topology}: {error:e}");
         lines += pushing;
+        coupled += forces.couplings.iter().filter(|law| is_there(law)).count();
     }
-    let told = format!("{lines} lines, {of_two} modes with two on one link, {too_many} with more");
+    let told = format!(
+        "{lines} lines, {of_two} modes with two on one link, {too_many} with more, {coupled} couplings, \
+         {apart} modes with others"
+    );
     assert!(lines > 1000 && of_two > 50 && too_many > 0, "{told}");
+    assert!(coupled > 500 && apart > 10, "{told}");
 }
 
 #[test]
@@ -179,7 +221,10 @@ fn all_formulations_give_the_right_side_that_a_run_composes() {
 fn numbers_that_are_written_are_read_back_and_stand_where_the_layout_says() {
     let pushed = (0..).map(Pushed::random).find(|pushed| {
         let pushing = pushed.dynamics.elements().pushing().count();
-        pushed.forces.is_ok() && pushing > 1 && pushed.dynamics.elements().external().is_some()
+        let couples = |forces: &Forces<f64>| forces.couplings.iter().any(is_there);
+        pushed.forces.as_ref().is_ok_and(couples)
+            && pushing > 1
+            && pushed.dynamics.elements().external().is_some()
     });
     let pushed = pushed.expect("there are infinitely many");
     let forces = pushed.forces.expect("it was looked for");
@@ -197,6 +242,11 @@ fn numbers_that_are_written_are_read_back_and_stand_where_the_layout_says() {
     for (place, LinkLine { point, law, .. }) in forces.lines.iter().enumerate() {
         assert_eq!(all[RightSideLayout::line(topology, place)][..3], point.to_array());
         assert_eq!(all[RightSideLayout::coefficients(topology, place)], law.numbers());
+    }
+    for (hinge, law) in forces.couplings.iter().enumerate() {
+        assert_eq!(all[RightSideLayout::coupling(topology, hinge)], law.numbers());
+        let strength = RightSideLayout::strength(topology, hinge).map(|at| all[at]);
+        assert_eq!(strength, [2, 4].map(|at| law.numbers()[at]));
     }
 }
 

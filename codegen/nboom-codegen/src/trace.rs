@@ -61,11 +61,11 @@ impl Equations {
             check_length(request, &straight)?;
             return Ok(Self::Straight(straight));
         }
-        if request.has_lines() {
+        if request.has_lines() || request.has_couplings() {
             let few = request.topology.hinges() <= STRAIGHT_HINGES;
             let straight = few.then(straight).filter(is_short);
             let (topology, limit) = (request.topology.to_string(), STRAIGHT_LIMIT);
-            let straight = straight.ok_or(CodegenError::Lines { topology, limit })?;
+            let straight = straight.ok_or(CodegenError::StraightAlone { topology, limit })?;
             return Ok(Self::Straight(straight));
         }
         let side_by_side = request.topology.groups().any(|(shape, count)| match shape {

@@ -58,6 +58,7 @@ fn right_side() -> Request {
         .with_external_wrench()
         .for_right_side()
         .with_lines(2)
+        .with_couplings()
 }
 
 /// A boom of a tube and a triangle on a hub, with a kick-off spring.

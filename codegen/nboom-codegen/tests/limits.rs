@@ -138,10 +138,12 @@ fn what_a_formulation_cannot_give_is_refused() {
         assert_eq!(refusal(&request), CodegenError::HeldMainBody { topology, output });
     }
     for name in ["S10", "4xS5"] {
-        let expected = CodegenError::Lines { topology: name.to_owned(), limit: STRAIGHT_LIMIT };
+        let expected =
+            CodegenError::StraightAlone { topology: name.to_owned(), limit: STRAIGHT_LIMIT };
         let right_side = of(name, Formulation::Articulated).for_right_side();
         assert!(source(&right_side).is_ok());
-        assert_eq!(refusal(&right_side.with_lines(2)), expected);
+        assert_eq!(refusal(&right_side.clone().with_lines(2)), expected);
+        assert_eq!(refusal(&right_side.with_couplings()), expected);
     }
     let long = refusal(&of("S101", Formulation::Symmetric));
     assert!(matches!(long, CodegenError::TooLarge { links: 101, .. }), "{long}");

@@ -25,7 +25,9 @@ macro_rules! for_each_exact_routine {
         $check::<exact::StraightM>();
         $check::<exact::StraightS1P>();
         $check::<exact::PushedS2P>();
+        $check::<exact::PushedLimb>();
         $check::<exact::PushedS3>();
+        $check::<exact::CoupledS3>();
     };
 }
 
@@ -37,7 +39,7 @@ struct Case {
 }
 
 impl Case {
-    /// One that has what is assumed; lines push some of its links where nothing is assumed of them.
+    /// One that has what is assumed; lines push some of its links, and hinges are coupled, where nothing is assumed of them.
     fn random(topology: &str, assumptions: &[(usize, f64)], numbers: &mut Rng) -> Self {
         let topology: Topology = topology.parse().expect("a topology's name");
         let mut parameters = support::parameters(&topology, &[], numbers);
@@ -47,11 +49,15 @@ impl Case {
             line.point = nboom_scalar::Vec3::new(0.3, 0.5, -0.2);
             line.main_body_point = nboom_scalar::Vec3::new(numbers.between(-1.0, 1.0), 0.2, 0.1);
         }
-        let of_lines = RightSideLayout::external(&topology).end;
+        let of_lines = RightSideLayout::line(&topology, 0).start;
         parameters.resize_with(of_lines, || numbers.between(-1.0, 1.0));
+        for coupling in &mut forces.couplings {
+            let law = [(); RightSideLayout::COUPLING].map(|()| numbers.between(-1.0, 1.0));
+            *coupling = nboom_elements::CouplingLaw::of_numbers(law);
+        }
         let all = forces.write();
-        let start = all.len() - RightSideLayout::LINE * RightSideLayout::lines(&topology);
-        parameters.extend(&all[start..]);
+        let count = RightSideLayout::parameters(&topology) - of_lines;
+        parameters.extend(&all[all.len() - count..]);
         assumptions.iter().for_each(|&(i, value)| parameters[i] = value);
         let count = RightSideLayout::coordinates(&topology);
         let y = (0..count).map(|_| numbers.between(-2.0, 2.0)).collect();
@@ -216,7 +222,7 @@ fn a_link_that_no_line_pushes_is_not_divided_by() {
         let of_lines = RightSideLayout::external(&case.topology).end;
         let absent = Forces::none(hinges).write();
         case.parameters.truncate(of_lines);
-        let count = RightSideLayout::LINE * RightSideLayout::lines(&case.topology);
+        let count = RightSideLayout::parameters(&case.topology) - of_lines;
         case.parameters.extend(&absent[absent.len() - count..]);
         let expected = case.expected(kernel.formulation);
         assert!(expected.iter().all(|number| number.is_finite()));

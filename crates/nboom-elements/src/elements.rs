@@ -17,7 +17,7 @@ mod torque_table;
 mod withheld;
 
 pub use commands::{Commands, Reach};
-use coupling::CouplingLaw;
+pub use coupling::{Coupled, CoupledEnd, CouplingLaw};
 pub use external::Push;
 pub use gravity::{gravity, gravity_potential};
 pub use hinge_law::HingeLaw;
@@ -73,7 +73,7 @@ pub(crate) fn switched(
 #[derive(Clone, Debug)]
 pub struct Elements<R> {
     torques: Vec<HingeTorque<R>>,
-    couplings: Vec<CouplingLaw<R>>,
+    couplings: Vec<Coupled<R>>,
     lines: Vec<Line<R>>,
     withheld: Vec<WithheldMoment<R>>,
     pushes: Vec<Push<R>>,
@@ -105,7 +105,7 @@ impl<R: Real> Elements<R> {
     pub fn set(&mut self, scene: &Scene, mode: &Mode, tree: &WeldedTree<R>) {
         HingeTorque::write_all(scene, mode, &mut self.torques);
         self.couplings.clear();
-        self.couplings.extend(CouplingLaw::all(scene, tree));
+        self.couplings.extend(Coupled::all(scene, tree));
         self.lines.clear();
         self.lines.extend(Line::all(scene, mode, tree));
         self.withheld.clear();
@@ -230,9 +230,9 @@ impl<R: Real> Elements<R> {
         }
     }
 
-    /// Whether a coupling acts on a free hinge.
-    pub fn couples(&self) -> bool {
-        self.couplings.iter().any(CouplingLaw::acts)
+    /// The couplings that act on a free hinge.
+    pub fn coupled(&self) -> impl Iterator<Item = &Coupled<R>> {
+        self.couplings.iter().filter(|coupling| coupling.acts())
     }
 
     /// Potential energy of each coupling at β of all hinges, with its first hinge.
@@ -272,7 +272,7 @@ impl Elements<f64> {
     /// Whether some torque about the hinges `free` does work that no potential accounts for.
     pub fn has_rate_power(&self, free: &[usize]) -> bool {
         free.iter().any(|&hinge| self.torques[hinge].depends_on_rate())
-            || self.couplings.iter().any(CouplingLaw::has_power)
+            || self.couplings.iter().any(Coupled::has_power)
     }
 }
 

@@ -1,6 +1,6 @@
 use std::fmt;
 
-use nboom_elements::{Elements, HingeLaw, KickOffLaw};
+use nboom_elements::{Coupled, CoupledEnd, CouplingLaw, Elements, HingeLaw, KickOffLaw};
 use nboom_model::{Shape, Topology, WeldedTree};
 use nboom_scalar::{Mat3, Real, Vec3, Wrench};
 
@@ -21,6 +21,8 @@ pub struct Forces<R> {
     /// The lines that push the hinges' links, at the places of [`RightSideLayout::lines`]; empty
     /// where nothing pushes any.
     pub lines: Vec<LinkLine<R>>,
+    /// The coupling of each hinge with the one inboard of it, this hinge first; empty where there is none.
+    pub couplings: Vec<CouplingLaw<R>>,
 }
 
 /// A force along the line between a point of a link and one of the main body.
@@ -38,7 +40,8 @@ pub struct LinkLine<R> {
 /// What acts on a satellite that a right side has no place for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoPlace {
-    /// A coupling of a free hinge.
+    /// A coupling that acts on one hinge alone, couples hinges of which neither is next inboard of the other, or
+    /// is not the only one of its hinges.
     Coupling,
     /// A rotor.
     Rotor,
@@ -53,7 +56,10 @@ pub enum NoPlace {
 impl fmt::Display for NoPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Coupling => write!(f, "a coupling of hinges"),
+            Self::Coupling => {
+                let what = "acts on one hinge alone, or on hinges that do not follow each other";
+                write!(f, "a coupling that {what}, or beside another one")
+            }
             Self::Rotor => write!(f, "a rotor"),
             Self::External => {
                 write!(
@@ -101,6 +107,7 @@ impl<R: Real> Forces<R> {
             laws: vec![HingeLaw::of_numbers([R::zero(); RightSideLayout::LAW]); hinges],
             external: Wrench::zero(),
             lines: vec![LinkLine::absent(); RightSideLayout::LINES_OF_LINK * hinges],
+            couplings: vec![uncoupled(); hinges],
         }
     }
 
@@ -122,11 +129,14 @@ impl<R: Real> Forces<R> {
         let external = Wrench { moment: reader.vector(), force: reader.vector() };
         let places = 0..RightSideLayout::LINES_OF_LINK * hinges;
         let lines = places.map(|_| LinkLine::read(&mut reader)).collect();
-        Self { laws, external, lines }
+        let mut coupling = || CouplingLaw::of_numbers(std::array::from_fn(|_| reader.next()));
+        let couplings = (0..hinges).map(|_| coupling()).collect();
+        Self { laws, external, lines, couplings }
     }
 
     /// The numbers in the order of [`RightSideLayout`]: q₁, q₂, A₃, A₂, A₁, A₀, β₀ of each hinge; external
-    /// moment and force; of each line its end on the link, that on the main body, and a₀ to a₃.
+    /// moment and force; of each line its end on the link, that on the main body, and a₀ to a₃; ρ₁, ρ₂, k, θ, c of each
+    /// coupling.
     pub fn write(&self) -> Vec<R> {
         let mut numbers = Vec::new();
         self.write_at(self.laws.len(), Some, &mut numbers);
@@ -162,13 +172,22 @@ impl<R: Real> Forces<R> {
                 numbers.extend(line.law.numbers());
             }
         }
+        for hinge in 0..hinges {
+            let coupling = inner(hinge).and_then(|inner| self.couplings.get(inner).copied());
+            numbers.extend(coupling.unwrap_or_else(uncoupled).numbers());
+        }
     }
 }
 
+/// The law of a coupling that does nothing.
+fn uncoupled<R: Real>() -> CouplingLaw<R> {
+    CouplingLaw::of_numbers([R::zero(); RightSideLayout::COUPLING])
+}
+
 impl<R: Real> Forces<R> {
-    /// Generalised forces conjugate to the hinges' angles: torques about hinges, and forces along
-    /// lines, each of which turns all hinges inboard of its link; eqs. (6.1) and (6.17), corrected:
-    /// note 5.
+    /// Generalised forces conjugate to the hinges' angles: torques about hinges, those of couplings, and
+    /// forces along lines, each of which turns all hinges inboard of its link; eqs. (6.1) and (6.17),
+    /// corrected: note 5.
     pub fn torques(
         &self,
         topology: &Topology,
@@ -179,6 +198,13 @@ impl<R: Real> Forces<R> {
         let hinges = self.laws.iter().zip(beta.iter().zip(tau));
         let mut torques: Vec<R> =
             hinges.map(|(law, (&beta, &tau))| law.torque(beta, tau)).collect();
+        for (own, inboard, coupling) in self.coupled(topology) {
+            R::remark(|| format!("Hinge {}: its coupling with hinge {}.", own + 1, inboard + 1));
+            let both = |all: &[R]| [all[own], all[inboard]];
+            let [of_own, of_inboard] = coupling.torques(both(beta), both(tau));
+            torques[own] += of_own;
+            torques[inboard] += of_inboard;
+        }
         let mut first = 0;
         let appendages = topology.shapes().iter().zip(&parameters.branches);
         for (number, (shape, branch)) in appendages.enumerate() {
@@ -195,13 +221,23 @@ impl<R: Real> Forces<R> {
         torques
     }
 
-    /// Power of the parts of the torques that depend on rates, summed up appendage by appendage.
+    /// The couplings, each with its hinge and the one inboard of that.
+    fn coupled(&self, topology: &Topology) -> Vec<(usize, usize, CouplingLaw<R>)> {
+        let inboard = topology.inboard_hinges().into_iter().zip(&self.couplings).enumerate();
+        inboard.filter_map(|(own, (inboard, law))| Some((own, inboard?, *law))).collect()
+    }
+
+    /// Power of the parts of the torques that depend on rates, summed up appendage by appendage, then of couplings.
     pub fn rate_power(&self, topology: &Topology, tau: &[R]) -> R {
         let mut of_hinges = self.laws.iter().zip(tau).map(|(law, &tau)| law.rate_torque(tau) * tau);
         let sum = |sum: R, power: R| sum + power;
         let mut of_appendage =
             |shape: &Shape| of_hinges.by_ref().take(shape.hinges()).fold(R::zero(), sum);
-        topology.shapes().iter().map(&mut of_appendage).fold(R::zero(), sum)
+        let of_laws = topology.shapes().iter().map(&mut of_appendage).fold(R::zero(), sum);
+        let of_coupling = |(own, inboard, law): (usize, usize, CouplingLaw<R>)| {
+            law.rate_power([tau[own], tau[inboard]])
+        };
+        self.coupled(topology).into_iter().map(of_coupling).fold(of_laws, sum)
     }
 }
 
@@ -239,7 +275,6 @@ impl Forces<f64> {
     ) -> Result<Self, NoPlace> {
         for (is_so, what) in [
             (elements.withholds(), NoPlace::Withheld),
-            (elements.couples(), NoPlace::Coupling),
             (tree.has_rotors(), NoPlace::Rotor),
             (elements.pushes_vary() || elements.on_links().next().is_some(), NoPlace::External),
         ] {
@@ -265,6 +300,43 @@ impl Forces<f64> {
                 law: *line.law(),
             };
         }
+        for coupled in elements.coupled() {
+            forces.couple(coupled, recognised)?;
+        }
         Ok(forces)
+    }
+
+    /// Adds a coupling; beside a hinge that is held it is a part of the other one's law.
+    fn couple(&mut self, coupled: &Coupled<f64>, recognised: &Recognised) -> Result<(), NoPlace> {
+        if !coupled.is_mutual {
+            return Err(NoPlace::Coupling);
+        }
+        let of = |link| recognised.links.iter().position(|&of| of == link).expect("a link's hinge");
+        let law = coupled.law;
+        let [first, second] = match coupled.ends {
+            [CoupledEnd::Free(first), CoupledEnd::Free(second)] => [first, second].map(of),
+            [CoupledEnd::Free(own), CoupledEnd::Held(angle)] => {
+                self.laws[of(own)].add_linear(law.beside_held(angle));
+                return Ok(());
+            }
+            [CoupledEnd::Held(angle), CoupledEnd::Free(own)] => {
+                self.laws[of(own)].add_linear(law.reversed().beside_held(angle));
+                return Ok(());
+            }
+            [CoupledEnd::Held(_), CoupledEnd::Held(_)] => return Ok(()),
+        };
+        let inboard = recognised.topology.inboard_hinges();
+        let (own, law) = if inboard[first] == Some(second) {
+            (first, law)
+        } else if inboard[second] == Some(first) {
+            (second, law.reversed())
+        } else {
+            return Err(NoPlace::Coupling);
+        };
+        if self.couplings[own] != uncoupled() {
+            return Err(NoPlace::Coupling);
+        }
+        self.couplings[own] = law;
+        Ok(())
     }
 }

@@ -75,6 +75,10 @@ const OF_LINE: [&str; RightSideLayout::LINE] = [
     "a3",
 ];
 
+/// The numbers of the coupling of a hinge with the one inboard of it.
+const OF_COUPLING: [&str; RightSideLayout::COUPLING] =
+    ["own weight", "inboard hinge's weight", "stiffness", "rest", "damping"];
+
 /// What the numbers of a link are.
 fn of_link(shape: &Shape, link: usize) -> Vec<&'static str> {
     let Shape::Limb(limb) = shape else { return OF_LINK.to_vec() };
@@ -139,6 +143,13 @@ impl RightSideLayout {
             return format!("{} of the hinge of {}", OF_LAW[at % Self::LAW], link(at / Self::LAW));
         }
         assert!(number < Self::parameters(topology), "parameter {number} of {topology}");
+        let couplings = Self::coupling(topology, 0).start;
+        if number >= couplings {
+            let (hinge, at) =
+                ((number - couplings) / Self::COUPLING, (number - couplings) % Self::COUPLING);
+            let (what, link) = (OF_COUPLING[at], link(hinge));
+            return format!("{what} of the coupling of the hinge of {link} with the inboard one");
+        }
         let (place, at) =
             ((number - external.end) / Self::LINE, (number - external.end) % Self::LINE);
         let which = if place < topology.hinges() { "" } else { "second " };
@@ -148,7 +159,7 @@ impl RightSideLayout {
 
 #[cfg(test)]
 mod tests {
-    use nboom_elements::{HingeLaw, KickOffLaw};
+    use nboom_elements::{CouplingLaw, HingeLaw, KickOffLaw};
 
     use super::*;
     use crate::{Forces, Parameters};
@@ -162,6 +173,7 @@ mod tests {
         forces.external.force.y = 1.0;
         forces.lines[1].main_body_point.z = 2.0;
         forces.lines[4 + 2].law = KickOffLaw::of_numbers([0.0, 3.0, 0.0, 0.0]);
+        forces.couplings[1] = CouplingLaw::of_numbers([0.0, 0.0, 0.0, 4.0, 0.0]);
         let (written, nothing) = (forces.write(), Forces::none(4).write());
         let differ = (0..written.len()).filter(|&i| written[i] != nothing[i]);
         let names = differ.map(|i| RightSideLayout::name(&topology, first + i));
@@ -172,11 +184,15 @@ mod tests {
                 "external force y",
                 "z of the end on the main body of the line that pushes link 2 of appendage 1",
                 "a1 of the second line that pushes link 1 of appendage 2",
+                "rest of the coupling of the hinge of link 2 of appendage 1 with the inboard one",
             ]
         );
         let last = RightSideLayout::parameters(&topology) - 1;
         let name = RightSideLayout::name(&topology, last);
-        assert_eq!(name, "a3 of the second line that pushes link 2 of appendage 2");
+        assert_eq!(
+            name,
+            "damping of the coupling of the hinge of link 2 of appendage 2 with the inboard one"
+        );
         assert_eq!(RightSideLayout::name(&topology, 0), "mass of the main body");
     }
 

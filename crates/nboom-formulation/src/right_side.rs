@@ -13,7 +13,7 @@ use crate::parameters::{Coordinates, HingeCoordinates, Layout, Parameters, Solut
 /// Where the numbers of a right side stand: parameters of the satellite and of what acts on it, variables
 /// y, and ẏ. Hinges are in the topology's order, appendage by appendage.
 ///
-/// Parameters are those of [`Layout`], then those of [`Forces`](crate::Forces). y is the attitude χ, K̄
+/// Parameters are those of [`Layout`], then those of [`Forces`]. y is the attitude χ, K̄
 /// (a quaternion that turns main-body components into inertial ones, of any norm), ω along main-body
 /// axes, β of each hinge, τ of each hinge. ẏ has the same order, and after it follows the power of the
 /// parts of the hinge torques that depend on rates.
@@ -34,6 +34,9 @@ impl RightSideLayout {
     pub const LINE: usize = 10;
     /// Lines that may push one link: kick-off springs of bodies that are held together push as one link.
     pub const LINES_OF_LINK: usize = 2;
+
+    /// Numbers of the coupling of a hinge with the one inboard of it: ρ₁, ρ₂, k, θ, c.
+    pub const COUPLING: usize = 5;
 
     /// How many numbers y has.
     pub fn coordinates(topology: &Topology) -> usize {
@@ -63,7 +66,7 @@ impl RightSideLayout {
 
     /// How many numbers parameters take.
     pub fn parameters(topology: &Topology) -> usize {
-        Self::external(topology).end + Self::LINE * Self::lines(topology)
+        Self::coupling(topology, topology.hinges()).start
     }
 
     /// How many places for lines there are: first one for each hinge's link, then one more for each.
@@ -93,6 +96,18 @@ impl RightSideLayout {
     pub fn coefficients(topology: &Topology, place: usize) -> Range<usize> {
         let Range { end, .. } = Self::line(topology, place);
         end - 4..end
+    }
+
+    /// Where the coupling of a hinge with the one inboard of it stands among the parameters.
+    pub fn coupling(topology: &Topology, hinge: usize) -> Range<usize> {
+        let start = Self::line(topology, Self::lines(topology)).start + Self::COUPLING * hinge;
+        start..start + Self::COUPLING
+    }
+
+    /// Where that coupling's stiffness k and damping c stand; they are zero where there is none.
+    pub fn strength(topology: &Topology, hinge: usize) -> [usize; 2] {
+        let Range { start, .. } = Self::coupling(topology, hinge);
+        [start + 2, start + 4]
     }
 }
 

@@ -23,6 +23,14 @@ impl Shape {
             Self::Limb(limb) => limb.links().len(),
         }
     }
+
+    /// The link that carries the hinge of a link; none where the main body does.
+    pub fn inboard(&self, link: usize) -> Option<usize> {
+        match self {
+            Self::Chain(_) | Self::Paddle => link.checked_sub(1),
+            Self::Limb(limb) => limb.links()[link].inboard.map(usize::from),
+        }
+    }
 }
 
 /// The appendages of a satellite by shape alone: what a routine is generated for.
@@ -58,6 +66,17 @@ impl Topology {
     /// Hinges of all appendages.
     pub fn hinges(&self) -> usize {
         self.shapes.iter().map(|shape| shape.hinges()).sum()
+    }
+
+    /// For each hinge the one inboard of it in the same appendage; none where the main body carries it.
+    pub fn inboard_hinges(&self) -> Vec<Option<usize>> {
+        let mut all = Vec::with_capacity(self.hinges());
+        for shape in &self.shapes {
+            let first = all.len();
+            let inboard = |link| shape.inboard(link).map(|inboard| first + inboard);
+            all.extend((0..shape.hinges()).map(inboard));
+        }
+        all
     }
 
     /// Whether an appendage is neither a chain nor a paddle.

@@ -137,6 +137,7 @@ fn start(scene: &Scene, recognised: &Recognised) -> Vec<f64> {
 /// A line for each hinge in the order of the scene.
 fn variables(scene: &Scene, recognised: &Recognised) -> String {
     let topology = &recognised.topology;
+    let inboard = topology.inboard_hinges();
     let mut rows = vec![String::new(); recognised.links.len()];
     for (hinge, &link) in recognised.links.iter().enumerate() {
         let [angle, rate] =
@@ -145,9 +146,10 @@ fn variables(scene: &Scene, recognised: &Recognised) -> String {
         // Each body is a link, so that no link has a second line.
         let kick_off = RightSideLayout::coefficients(topology, hinge).start;
         let limit = scene.bodies[link].hinge.kick_off.map(|spring| spring.limit_length);
+        let coupling = inboard[hinge].map(|_| RightSideLayout::coupling(topology, hinge).start);
         rows[link] = format!(
             "    Variables {{ angle: {angle}, rate: {rate}, law: {law}, kick_off: {kick_off}, \
-             kick_off_limit: {limit:?} }},\n"
+             kick_off_limit: {limit:?}, coupling: {coupling:?} }},\n"
         );
     }
     rows.concat()

@@ -33,6 +33,10 @@ pub struct Variables {
     pub kick_off: usize,
     /// The spring does not push when it is longer than this; `None` where the body has no spring.
     pub kick_off_limit: Option<f64>,
+    /// Where ρ₁, ρ₂, k, θ, c stand there: the coupling of the hinge with the one inboard of it, at angle β₂, pulls with
+    /// T = −k(ρ₁β + ρ₂β₂ − θ) − c(ρ₁τ + ρ₂τ₂); the torque about the hinge is ρ₁T, that about the inboard one ρ₂T.
+    /// Where the scene couples no such hinges, the routine takes zeros for k and c alone. `None` for a hinge on the main body.
+    pub coupling: Option<usize>,
 }
 
 /// Those of the hinges of the scene, in the order of [`HINGES`].

@@ -2,7 +2,7 @@ use crate::{Isa, Real};
 
 /// Version of what generated code and its callers agree on; code for another one does not
 /// compile.
-pub const CONTRACT: u32 = 4;
+pub const CONTRACT: u32 = 5;
 
 /// What generated code implements: accelerations of one topology by one formulation, the
 /// equations that the formulation solves for them, what causes given accelerations, the right side of the differential equations of a

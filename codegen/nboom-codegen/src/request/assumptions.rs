@@ -36,21 +36,47 @@ fn phrases(request: &Request) -> Vec<String> {
         if !request.external {
             external.clone().for_each(|at| said[at] = true);
         }
-        let lines = RightSideLayout::lines(topology);
-        let never_pushes = |&place: &usize| {
-            let coefficients = RightSideLayout::coefficients(topology, place);
-            assumptions[coefficients].iter().all(|assumed| *assumed == Some(0.0))
-        };
-        let absent: Vec<usize> = (0..lines).filter(never_pushes).collect();
-        absent.iter().for_each(|&place| said[RightSideLayout::line(topology, place)].fill(true));
-        match absent.len() {
-            0 => {}
-            count if count == lines => phrases.push("no force along a line".to_owned()),
-            count => phrases.push(format!("no force along {count} of {lines} lines")),
-        }
+        of_lines(request, &mut said, &mut phrases);
+        of_couplings(request, &mut said, &mut phrases);
     }
     phrases.extend(rest(request, &said));
     phrases
+}
+
+/// Which lines are assumed not to push.
+fn of_lines(request: &Request, said: &mut [bool], phrases: &mut Vec<String>) {
+    let Request { topology, assumptions, .. } = request;
+    let lines = RightSideLayout::lines(topology);
+    let never_pushes = |&place: &usize| {
+        let mut coefficients = RightSideLayout::coefficients(topology, place);
+        coefficients.all(|at| assumptions[at] == Some(0.0))
+    };
+    let absent: Vec<usize> = (0..lines).filter(never_pushes).collect();
+    absent.iter().for_each(|&place| said[RightSideLayout::line(topology, place)].fill(true));
+    match absent.len() {
+        0 => {}
+        count if count == lines => phrases.push("no force along a line".to_owned()),
+        count => phrases.push(format!("no force along {count} of {lines} lines")),
+    }
+}
+
+/// Which hinges are assumed not to be coupled with the one inboard of them, of those that have one.
+fn of_couplings(request: &Request, said: &mut [bool], phrases: &mut Vec<String>) {
+    let Request { topology, assumptions, .. } = request;
+    let inboard = topology.inboard_hinges();
+    let uncoupled = |&hinge: &usize| {
+        let mut strength = RightSideLayout::strength(topology, hinge).into_iter();
+        strength.all(|at| assumptions[at] == Some(0.0))
+    };
+    let absent: Vec<usize> = (0..inboard.len()).filter(uncoupled).collect();
+    absent.iter().for_each(|&hinge| said[RightSideLayout::coupling(topology, hinge)].fill(true));
+    let count = absent.iter().filter(|&&hinge| inboard[hinge].is_some()).count();
+    let pairs = inboard.iter().flatten().count();
+    match count {
+        0 => {}
+        _ if count == pairs => phrases.push("no coupling of hinges".to_owned()),
+        _ => phrases.push(format!("no coupling of {count} of {pairs} pairs of hinges")),
+    }
 }
 
 /// What is assumed of mass properties and places.
@@ -170,7 +196,7 @@ fn owners_of_forces(topology: &Topology) -> Vec<(String, &'static [&'static str]
         };
     let external = ("the external wrench".to_owned(), &WRENCH[..]);
     let lines = [of("line", &LINE), of("second line", &LINE)].concat();
-    [of("hinge", &LAW), vec![external], lines].concat()
+    [of("hinge", &LAW), vec![external], lines, of("coupling", &COUPLING)].concat()
 }
 
 /// Torque about a hinge.
@@ -180,6 +206,8 @@ const WRENCH: [&str; RightSideLayout::EXTERNAL] = ["M_x", "M_y", "M_z", "F_x", "
 /// Ends of a line on the link and on the main body, force by powers of its length.
 const LINE: [&str; RightSideLayout::LINE] =
     ["p_ξ", "p_η", "p_ζ", "o_x", "o_y", "o_z", "a₀", "a₁", "a₂", "a₃"];
+/// Weights of the hinge and of the one inboard of it, stiffness, rest, damping.
+const COUPLING: [&str; RightSideLayout::COUPLING] = ["ρ₁", "ρ₂", "k", "θ", "c"];
 
 /// Mass, first moment and inertia about O.
 const MAIN: [&str; Layout::MAIN] =
@@ -257,11 +285,23 @@ mod tests {
         assert!(found.contains(&"next hinge on the η axis of 3 of 4 links".to_owned()));
         assert_eq!(found[found.len() - 2..], rest);
         let mut right_side = general.clone().for_right_side();
-        let expected = ["no external wrench on the main body", "no force along a line"];
+        let expected = [
+            "no external wrench on the main body",
+            "no force along a line",
+            "no coupling of hinges",
+        ];
         assert_eq!(phrases(&right_side), expected);
         right_side.assumptions[RightSideLayout::law(&topology, 1).start] = Some(0.0);
-        assert_eq!(phrases(&right_side)[2..], ["q₁ = 0 of hinge 1,2"]);
-        assert_eq!(phrases(&right_side.with_lines(2))[1..], ["q₁ = 0 of hinge 1,2"]);
+        assert_eq!(phrases(&right_side)[3..], ["q₁ = 0 of hinge 1,2"]);
+        let coupling = RightSideLayout::coupling(&topology, 1);
+        right_side.assumptions[coupling.clone()].fill(None);
+        right_side.assumptions[coupling.start + 3] = Some(0.0);
+        let of_coupling = [
+            "no coupling of 1 of 2 pairs of hinges",
+            "q₁ = 0 of hinge 1,2",
+            "θ = 0 of coupling 1,2",
+        ];
+        assert_eq!(phrases(&right_side.with_lines(2))[1..], of_coupling);
         let parameters = vec![2.0; general.assumptions.len()];
         assert_eq!(phrases(&general.baked(&parameters))[1..], ["all 82 parameters"]);
     }

@@ -69,12 +69,12 @@ pub enum CodegenError {
         /// The most that is emitted.
         limit: usize,
     },
-    /// Lines push links of a satellite whose code is loops.
+    /// Lines push links, or hinges are coupled, of a satellite whose code is loops.
     #[error(
-        "topology {topology}: the evaluation with lines that push links takes more than {limit} \
-         operations; only without lines it is emitted as loops"
+        "topology {topology}: the evaluation with lines that push links or coupled hinges takes more \
+         than {limit} operations; only without them it is emitted as loops"
     )]
-    Lines {
+    StraightAlone {
         /// The topology.
         topology: String,
         /// The most operations that are emitted.

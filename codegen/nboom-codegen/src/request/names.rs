@@ -2,7 +2,8 @@
 
 use nboom_formulation::Layout;
 use nboom_formulation::stages::{
-    ATTITUDE, ATTITUDE_RATE, BRANCH, EXTERNAL, LAW, LINE, LINK, MAIN, MAIN_RATES, OMEGA, POWER,
+    ATTITUDE, ATTITUDE_RATE, BRANCH, COUPLING, EXTERNAL, LAW, LINE, LINK, MAIN, MAIN_RATES, OMEGA,
+    POWER,
 };
 use nboom_loads::MotionSize;
 use nboom_model::{Shape, Topology};
@@ -95,6 +96,7 @@ impl Names {
         parameters.extend(hinges.iter().flat_map(|hinge| of_owner(LINE.numbers, hinge)));
         let second = |hinge: &String| of_owner(LINE.numbers, &format!("{hinge}_second"));
         parameters.extend(hinges.iter().flat_map(second));
+        parameters.extend(hinges.iter().flat_map(|hinge| of_owner(COUPLING.numbers, hinge)));
         let mut coordinates = owned(&[ATTITUDE.numbers, OMEGA.numbers]);
         coordinates.extend(of_hinges("beta").chain(of_hinges("tau")));
         let mut outputs = owned(&[ATTITUDE_RATE.numbers, &MAIN_RATES.numbers[..3]]);

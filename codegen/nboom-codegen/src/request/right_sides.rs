@@ -82,17 +82,33 @@ impl Request {
         let mut request = Self { name, on_eight_states, ..self.clone() }.for_right_side();
         let of_laws = RightSideLayout::external(&self.topology).start;
         let start = Layout::parameters(&self.topology);
-        for (i, assumed) in request.assumptions[start..of_laws].iter_mut().enumerate() {
-            let value = cases[0][i];
-            let same = cases.iter().all(|case| case[i] == value);
+        let known = |at: usize| {
+            let value = cases[0][at - start];
+            let same = cases.iter().all(|case| case[at - start] == value);
             let simple = !self.is_general() && value == 0.0;
-            *assumed = (same && (self.is_baked() || simple)).then_some(value + 0.0);
+            (same && (self.is_baked() || simple)).then_some(value + 0.0)
+        };
+        for at in start..of_laws {
+            request.assumptions[at] = known(at);
         }
         if self.is_baked() {
             let of_lines = RightSideLayout::external(&self.topology).end;
             for (i, assumed) in request.assumptions[of_lines..].iter_mut().enumerate() {
                 *assumed = Some(cases[0][of_lines - start + i]);
             }
+        }
+        let acts = |hinge: &usize| {
+            let strength = RightSideLayout::strength(&self.topology, *hinge);
+            cases.iter().any(|case| strength.iter().any(|at| case[at - start] != 0.0))
+        };
+        let coupled: Vec<usize> = (0..self.topology.hinges()).filter(acts).collect();
+        if self.is_general() && !coupled.is_empty() {
+            // States with held hinges that have no code of their own run in this one.
+            return request.with_couplings();
+        }
+        for hinge in coupled {
+            let numbers = RightSideLayout::coupling(&self.topology, hinge);
+            numbers.for_each(|at| request.assumptions[at] = known(at));
         }
         request
     }
@@ -104,12 +120,12 @@ impl Request {
         if places.is_empty() {
             return None;
         }
-        let name = format!("Pushed{}", self.name);
+        let pushed = Self { name: format!("Pushed{}", self.name), ..self.right_side(cases) };
         if self.is_general() {
-            // States with held hinges that have no code of their own run in this one.
-            return Some(Self { name, ..self.clone() }.for_right_side().with_lines(1));
+            // As for couplings.
+            return Some(Self { on_eight_states: self.on_eight_states, ..pushed }.with_lines(1));
         }
-        Some(Self { name, ..self.right_side(cases) }.with_lines_at(&places))
+        Some(pushed.with_lines_at(&places))
     }
 
     /// The places of the lines that push in one of the `cases`.
@@ -178,7 +194,8 @@ fn acting(
 mod tests {
     use nboom_formulation::Formulation;
     use nboom_model::{
-        Base, Body, Hinge, Joint, MassProperties, Mount, SceneDescription, Spring, TorqueTable,
+        Base, Body, Coupling, Hinge, Joint, MassProperties, Mount, SceneDescription, Spring,
+        TorqueTable,
     };
     use nboom_scalar::{Sym3, Vec3};
 
@@ -244,6 +261,58 @@ mod tests {
                 Numbers::RunTime => [zero, zero, zero, zero, None, None, zero],
             };
             assert_eq!(of_hinge(0), spring, "{numbers:?}");
+        }
+    }
+
+    /// The boom with one segment more, whose hinge is coupled with the one inboard of it.
+    fn coupled() -> Scene {
+        let mut description = (*scene()).clone();
+        description.bodies.push(Body { inboard: Some(1), ..description.bodies[1] });
+        description.couplings.push(Coupling {
+            hinges: [1, 2],
+            ratio: -2.0,
+            stiffness: 3.0,
+            rest: 0.0,
+            damping: 0.5,
+            is_mutual: true,
+        });
+        Scene::new(description).expect("a valid scene")
+    }
+
+    #[test]
+    fn couplings_are_assumed_as_laws_are() {
+        let scene = coupled();
+        let (zero, none) = (Some(0.0), [None, None, Some(0.0), None, Some(0.0)]);
+        for (numbers, of_none, of_coupling) in [
+            (Numbers::RunTime, none, [None, None, None, zero, None]),
+            (Numbers::Baked, [zero; 5], [Some(2.0), Some(1.0), Some(3.0), zero, Some(0.5)]),
+        ] {
+            let accelerations = Request::of_scene(&scene, numbers, Level::Fast).expect("a boom");
+            let found = Request::right_sides(&scene, &[accelerations]);
+            let [right_side] = &found[..] else { panic!("one right side: no line pushes") };
+            let of_hinge = |hinge| {
+                let coupling = RightSideLayout::coupling(&right_side.topology, hinge);
+                right_side.assumptions[coupling].to_vec()
+            };
+            assert_eq!([0, 1].map(of_hinge), [of_none; 2], "{numbers:?}");
+            assert_eq!(of_hinge(2), of_coupling, "{numbers:?}");
+        }
+    }
+
+    /// With the first hinge held, the coupling is that of the second hinge.
+    #[test]
+    fn what_takes_states_with_held_hinges_takes_their_couplings() {
+        let scene = coupled();
+        let requests = Request::of_simulator(&scene, Formulation::Articulated, Level::Fast);
+        let requests = requests.expect("a boom");
+        let general: Vec<_> = requests.into_iter().filter(Request::is_general).collect();
+        let right_sides = Request::right_sides(&scene, &general);
+        assert!(!right_sides.is_empty());
+        for request in right_sides {
+            for hinge in 0..request.topology.hinges() {
+                let strength = RightSideLayout::strength(&request.topology, hinge);
+                assert_eq!(strength.map(|at| request.assumptions[at]), [None; 2]);
+            }
         }
     }
 }

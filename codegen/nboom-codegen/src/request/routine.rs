@@ -102,7 +102,7 @@ impl Request {
 
     /// Code for the right side of the differential equations of a mode, in the order of
     /// [`RightSideLayout`]. Hinge laws are handed in, and so is an external wrench if accelerations
-    /// take one; lines are assumed not to push.
+    /// take one; lines are assumed not to push, and hinges not to be coupled.
     pub fn for_right_side(mut self) -> Self {
         self.output = Output::RightSide;
         let topology = &self.topology;
@@ -113,6 +113,10 @@ impl Request {
         }
         for place in 0..RightSideLayout::lines(topology) {
             self.assumptions[RightSideLayout::coefficients(topology, place)].fill(Some(0.0));
+        }
+        for hinge in 0..topology.hinges() {
+            let strength = RightSideLayout::strength(topology, hinge);
+            strength.into_iter().for_each(|at| self.assumptions[at] = Some(0.0));
         }
         self
     }
@@ -132,13 +136,32 @@ impl Request {
         self
     }
 
+    /// Code for a right side each of whose hinges may be coupled with the one inboard of it.
+    pub fn with_couplings(mut self) -> Self {
+        for hinge in 0..self.topology.hinges() {
+            let strength = RightSideLayout::strength(&self.topology, hinge);
+            strength.into_iter().for_each(|at| self.assumptions[at] = None);
+        }
+        self
+    }
+
     /// Whether a line may push a link.
     pub(crate) fn has_lines(&self) -> bool {
         let pushes = |place| {
-            let coefficients = RightSideLayout::coefficients(&self.topology, place);
-            self.assumptions[coefficients].iter().any(|assumed| *assumed != Some(0.0))
+            let mut coefficients = RightSideLayout::coefficients(&self.topology, place);
+            coefficients.any(|at| self.assumptions[at] != Some(0.0))
         };
         self.output == Output::RightSide && (0..RightSideLayout::lines(&self.topology)).any(pushes)
+    }
+
+    /// Whether a hinge may be coupled with the one inboard of it.
+    pub(crate) fn has_couplings(&self) -> bool {
+        let inboard = || self.topology.inboard_hinges().into_iter().enumerate();
+        let is_coupled = |(hinge, inboard): (usize, Option<usize>)| {
+            let mut strength = RightSideLayout::strength(&self.topology, hinge).into_iter();
+            inboard.is_some() && strength.any(|at| self.assumptions[at] != Some(0.0))
+        };
+        self.output == Output::RightSide && inboard().any(is_coupled)
     }
 
     /// Whether it assumes that the main body is held.

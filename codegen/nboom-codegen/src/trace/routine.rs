@@ -45,6 +45,9 @@ pub fn trace(request: &Request) -> Graph {
                 if !request.has_lines() {
                     forces.lines.clear();
                 }
+                if !request.has_couplings() {
+                    forces.couplings.clear();
+                }
                 right_side(*formulation, topology, &satellite, &forces, state)
             }
         }

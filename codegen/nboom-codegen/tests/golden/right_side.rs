@@ -6,7 +6,7 @@
 #[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
 pub mod routine_right_side_s1 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
-    const _: () = assert!(::nboom_scalar::CONTRACT == 4, "generate this routine again");
+    const _: () = assert!(::nboom_scalar::CONTRACT == 5, "generate this routine again");
     pub struct RightSideS1;
     impl Routine for RightSideS1 {
         const RESULT: &'static str = "right_side";
@@ -14,12 +14,12 @@ pub mod routine_right_side_s1 {
         const FORMULATION: &'static str = "articulated";
         const ASSUMPTIONS: &'static [(usize, f64)] = &[];
         const EXTERNAL: bool = true;
-        const PARAMETERS: usize = 67;
+        const PARAMETERS: usize = 72;
         const CONSTANTS: usize = 74;
         const COORDINATES: usize = 9;
         const OUTPUTS: usize = 10;
         fn prepare<R: Real>(p: &[R], k: &mut [R]) {
-            let p: &[R; 67] = p.try_into().expect("one value for each parameter");
+            let p: &[R; 72] = p.try_into().expect("one value for each parameter");
             let k: &mut [R; 74] = k.try_into().expect("room for each constant");
             k[0..32].copy_from_slice(&p[0..32]);
             k[32..45].copy_from_slice(&p[34..47]);

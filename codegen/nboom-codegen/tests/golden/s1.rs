@@ -6,7 +6,7 @@
 #[allow(clippy::all, clippy::pedantic, missing_docs, unused)]
 pub mod routine_s1 {
     use ::nboom_scalar::{Isa, Pack, Real, Routine};
-    const _: () = assert!(::nboom_scalar::CONTRACT == 4, "generate this routine again");
+    const _: () = assert!(::nboom_scalar::CONTRACT == 5, "generate this routine again");
     pub struct S1;
     impl Routine for S1 {
         const RESULT: &'static str = "accelerations";

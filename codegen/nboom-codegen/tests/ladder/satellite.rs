@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nboom_elements::{HingeLaw, KickOffLaw};
+use nboom_elements::{CouplingLaw, HingeLaw, KickOffLaw};
 use nboom_formulation::{Forces, Layout, LinkLine, Recognised, RightSideLayout, recognise};
 use nboom_model::{
     Appendage, Body, Hinge, HingeState, Joint, MassProperties, Mode, Mount, Scene,
@@ -41,11 +41,13 @@ impl Satellite {
         self.parameters[..Layout::MAIN] == Layout::held_main()
     }
 
-    /// Whether a line pushes a link, or something is assumed of the forces.
+    /// Whether a line pushes a link, hinges are coupled, or something is assumed of the forces.
     pub fn pushed_or_known(&self) -> bool {
         let hinges = self.topology.hinges();
         let forces = Forces::read(hinges, self.forces.iter().copied());
-        forces.lines != Forces::none(hinges).lines
+        let none = Forces::none(hinges);
+        forces.lines != none.lines
+            || forces.couplings != none.couplings
             || self.force_assumptions.iter().any(Option::is_some)
     }
 
@@ -238,8 +240,8 @@ fn state(dice: &mut Rng, topology: &Topology, external: bool) -> Vec<f64> {
     state
 }
 
-/// Hinge laws, an external wrench and lines that push some links; of them nothing, that no line pushes,
-/// some numbers or all are assumed.
+/// Hinge laws, an external wrench, lines that push some links and couplings of some hinges; of them nothing, that no
+/// line pushes and no hinge is coupled, some numbers or all are assumed.
 fn forces(dice: &mut Rng, topology: &Topology, external: bool) -> (Vec<f64>, Vec<Option<f64>>) {
     let mut forces = Forces::none(topology.hinges());
     for law in &mut forces.laws {
@@ -255,6 +257,12 @@ fn forces(dice: &mut Rng, topology: &Topology, external: bool) -> (Vec<f64>, Vec
         }
         let law = KickOffLaw::new([(); 4].map(|()| dice.between(-1.0, 1.0)));
         *line = LinkLine { point: dice.vector(1.0), main_body_point: dice.vector(1.0), law };
+    }
+    for coupling in &mut forces.couplings {
+        if kind != 1 && dice.chance(0.3) {
+            let law = [(); RightSideLayout::COUPLING].map(|()| dice.between(-1.0, 1.0));
+            *coupling = CouplingLaw::of_numbers(law);
+        }
     }
     let numbers = forces.write();
     let assumptions = match kind {

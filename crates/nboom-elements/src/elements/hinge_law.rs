@@ -60,6 +60,13 @@ impl<R: Real> HingeLaw<R> {
         Self { a0: self.a0 + torque, ..self }
     }
 
+    /// Adds a constant torque, and torques that are so many times β and τ.
+    pub fn add_linear(&mut self, [constant, of_angle, of_rate]: [R; 3]) {
+        self.q2 += of_rate;
+        self.a1 += of_angle;
+        self.a0 += constant + of_angle * self.from;
+    }
+
     /// q₁, q₂, A₃, A₂, A₁, A₀, β₀.
     pub fn numbers(&self) -> [R; 7] {
         [self.q1, self.q2, self.a3, self.a2, self.a1, self.a0, self.from]
@@ -156,6 +163,10 @@ mod tests {
                 c0 * s + c1 * s.powi(2) / 2.0 + c2 * s.powi(3) / 3.0 + c3 * s.powi(4) / 4.0;
             let lost = spring.potential(beta) - spring.potential(from) - integral;
             assert!((both.potential(beta) - lost).abs() < 1e-11);
+            let mut all = both;
+            all.add_linear([0.5, -0.6, 0.9]);
+            let added = all.torque(beta, tau) - both.torque(beta, tau);
+            assert!((added - (0.5 - 0.6 * beta + 0.9 * tau)).abs() < 1e-12);
         }
         assert_eq!(HingeLaw::of_numbers(both.numbers()), both);
     }

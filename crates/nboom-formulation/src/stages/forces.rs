@@ -16,6 +16,9 @@ pub const LAW: Group = Group::new("law", &["q1", "q2", "a3", "a2", "a1", "a0", "
 /// Parameters of the line that pushes a link: its ends, and its force by powers of its length.
 pub const LINE: Group =
     Group::new("line", &["px", "py", "pz", "ox", "oy", "oz", "f0", "f1", "f2", "f3"]);
+/// Parameters of the coupling of a hinge with the one inboard of it.
+pub const COUPLING: Group =
+    Group::new("coupling", &["own_weight", "inboard_weight", "stiffness", "rest", "damping"]);
 /// β of a hinge.
 pub const BETA: Group = Group::new("beta", &["beta"]);
 /// Power of the part of a hinge's torque that depends on its rate.

@@ -71,11 +71,18 @@ fn expected(
     let mut all = [&numbers(rate), &accelerations[..3]].concat();
     all.extend(tau.clone());
     all.extend(recognised.links.iter().map(|link| accelerations[Layout::OUTPUT + link]));
-    let powers = forces.laws.iter().zip(tau).map(|(law, tau)| {
+    let powers = forces.laws.iter().zip(tau.clone()).map(|(law, tau)| {
         let [linear, quadratic] = [law.numbers()[1], law.numbers()[0] * tau];
         (linear.abs() + quadratic.abs()) * tau * tau
     });
-    all.extend([*rate_power, powers.sum()]);
+    let tau: Vec<f64> = tau.collect();
+    let couplings = forces.couplings.iter().zip(recognised.topology.inboard_hinges());
+    let of_couplings = couplings.zip(&tau).filter_map(|((law, inboard), own)| {
+        let [own_weight, inboard_weight, .., damping] = law.numbers();
+        let rate = (own_weight * own).abs() + (inboard_weight * tau[inboard?]).abs();
+        Some(damping.abs() * rate * rate)
+    });
+    all.extend([*rate_power, powers.sum::<f64>() + of_couplings.sum::<f64>()]);
     all
 }
 

@@ -34,6 +34,15 @@ fn sprung() -> Scene {
     });
     let points = vec![[-10.0, 3.0], [0.0, 1.0], [10.0, -2.0]];
     description.torque_tables = vec![TorqueTable { hinge: 0, points }];
+    let coupling = Coupling {
+        hinges: [1, 2],
+        ratio: -1.5,
+        stiffness: 3.0,
+        rest: 0.2,
+        damping: 0.3,
+        is_mutual: true,
+    };
+    description.couplings.push(coupling);
     Scene::new(description).expect("the bodies are physical")
 }
 
@@ -185,7 +194,7 @@ fn what_a_right_side_has_no_place_for_is_refused() {
     let place = place();
     let directory = place.path().join("crate");
     let refused = |name: &str, change: &dyn Fn(&mut SceneDescription)| {
-        let mut description = (*satellite(name, &[2])).clone();
+        let mut description = (*satellite(name, &[3])).clone();
         change(&mut description);
         let scene = Scene::new(description).expect("the bodies are physical");
         for numbers in [Numbers::RunTime, Numbers::Baked] {
@@ -207,7 +216,11 @@ fn what_a_right_side_has_no_place_for_is_refused() {
         damping: 0.1,
         is_mutual: true,
     };
-    refused("coupled", &|scene| scene.couplings = vec![coupling]);
+    refused("one alone", &|scene| {
+        scene.couplings = vec![Coupling { is_mutual: false, ..coupling }];
+    });
+    refused("apart", &|scene| scene.couplings = vec![Coupling { hinges: [2, 0], ..coupling }]);
+    refused("doubled", &|scene| scene.couplings = vec![coupling; 2]);
     let rotor =
         Rotor { body: None, axis: Vec3::unit_x(), inertia: 1.0, speed: RotorSpeed::Constant(2.0) };
     refused("spun", &|scene| scene.rotors = vec![rotor.clone()]);
