@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use nboom_io::SceneFile;
 use nboom_sim::Path as Code;
+use nboom_strength::Settings;
 use nboom_study::{RunSettings, Study, require_as_swept};
 
 use crate::scene_args::{SceneArgs, read_options};
@@ -69,7 +70,7 @@ pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), Cl
     })?;
     let of_inputs = format!("{}{}", nboom_io::sha256(study.text.as_bytes()), file.sha256);
     let file = SceneFile { sha256: nboom_io::sha256(of_inputs.as_bytes()), ..file };
-    let again = with_settings(args, &study.run);
+    let again = with_settings(args, &study.run)?;
     let by_default = || Path::new("out").join(format!("{}-case-{case}", study.name));
     let output = again.output.clone().unwrap_or_else(by_default);
     Ok((RunArgs { output: Some(output), ..again }, file))
@@ -82,9 +83,26 @@ pub(crate) fn read_study(path: &Path, include_anywhere: bool) -> Result<Study, C
 }
 
 /// The arguments with the settings of a study in place of defaults.
-fn with_settings(args: &RunArgs, settings: &RunSettings) -> RunArgs {
-    let of_study = arguments(args, words_of_settings(settings)).given;
-    arguments(args, of_study.changed_by(&args.given).words())
+///
+/// # Errors
+/// When an option acts on stresses that the study leaves out.
+fn with_settings(args: &RunArgs, settings: &RunSettings) -> Result<RunArgs, CliError> {
+    let stresses = &args.stresses;
+    let on_stresses = [
+        ("--yield-stress", stresses.yield_stress.is_some()),
+        ("--report-signs", stresses.report_signs),
+    ];
+    if let Some((option, _)) =
+        on_stresses.into_iter().find(|(_, given)| *given && !settings.stresses)
+    {
+        return Err(CliError::NoStresses { option });
+    }
+    let mut settings = settings.clone();
+    if stresses.no_stresses {
+        settings.strength = Settings::default();
+    }
+    let of_study = arguments(args, words_of_settings(&settings)).given;
+    Ok(arguments(args, of_study.changed_by(&args.given).words()))
 }
 
 /// The arguments of a run of the study of `args` with these options.
@@ -106,6 +124,8 @@ pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
         Code::Generated => "generated",
         Code::Generic => "generic",
     });
+    let (strength, usual) = (&settings.strength, Settings::default());
+    let other = |factor: f64, usual: f64| (factor != usual).then(|| factor.to_string());
     let options = [
         ("rtol", settings.rtol.map(|rtol| rtol.to_string())),
         ("atol", settings.atol.map(|atol| atol.to_string())),
@@ -116,6 +136,11 @@ pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
         ("max-events", settings.max_events.map(|events| events.to_string())),
         ("samples", settings.samples.map(|samples| samples.to_string())),
         ("end-time", settings.end_time.map(|time| time.to_string())),
+        ("yield-stress", strength.yield_stress.map(|stress| stress.to_string())),
+        ("safety-factor", other(strength.safety_factor, usual.safety_factor)),
+        ("ultimate-factor", other(strength.ultimate_factor, usual.ultimate_factor)),
+        ("amplification", other(strength.amplification, usual.amplification)),
+        ("pulses", (strength.pulses != usual.pulses).then(|| strength.pulses.name().to_owned())),
     ];
     let given = options.into_iter().filter_map(|(name, word)| Some(format!("--{name}={}", word?)));
     let flags = [("--no-stresses", !stresses), ("--hinge-loads", hinge_loads), ("--lanes", lanes)];

@@ -2,11 +2,10 @@
 //! reported as ignored.
 
 use nboom_io::{Format, LegacySettings, SceneFile};
-use nboom_model::{Material, Structure};
 use nboom_sim::{IdleChoice, Method, Options};
-use nboom_strength::PulseShape;
+use nboom_strength::{ActsOn, Idle, Judged, PulseShape};
 
-use crate::{CliError, RunArgs, StressArgs};
+use crate::{CliError, RunArgs};
 
 /// Refuses options that have no effect because of other options or of the scene.
 pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliError> {
@@ -19,39 +18,35 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
         IdleChoice::GeneratedRecursion => CliError::GeneratedRecursion,
     })?;
     let stresses = &args.stresses;
-    let structure = file.structure.is_some();
-    let has_stresses = structure && !stresses.no_stresses;
-    let has_pulses =
-        has_stresses || structure && (stresses.hinge_loads || file.settings.hinge_loads);
-    let needed = [
-        ("--yield-stress", stresses.yield_stress.is_some(), has_stresses),
-        ("--safety-factor", stresses.safety_factor.is_some(), has_stresses),
-        ("--ultimate-factor", stresses.ultimate_factor.is_some(), has_stresses),
-        ("--report-signs", stresses.report_signs, has_stresses),
-        ("--amplification", stresses.amplification.is_some(), has_pulses),
-        ("--pulses", stresses.pulses != PulseShape::default(), has_pulses),
-    ];
-    match needed.into_iter().find(|(_, given, needed)| *given && !needed) {
-        Some((option, ..)) if structure => Err(CliError::NoStresses { option }),
-        Some((option, ..)) => Err(CliError::NoStations { option, scene: file.scene.name.clone() }),
-        None => refuse_idle_factors(stresses, file.structure.as_ref()),
-    }
-}
-
-/// Refuses factors on stresses that are compared with nothing.
-fn refuse_idle_factors(args: &StressArgs, structure: Option<&Structure>) -> Result<(), CliError> {
-    let any = |of: fn(&Material) -> Option<f64>| {
-        let materials = structure.iter().flat_map(|structure| structure.materials());
-        materials.into_iter().any(|material| of(material).is_some())
+    let judged = Judged {
+        structure: file.structure.as_ref(),
+        stresses: !stresses.no_stresses,
+        hinge_loads: stresses.hinge_loads || file.settings.hinge_loads,
+        has_yield_stress: stresses.yield_stress.is_some(),
     };
-    let (yields, breaks) = (any(|m| m.yield_stress), any(|m| m.ultimate_stress));
     let given = [
-        ("--safety-factor", args.safety_factor, yields || args.yield_stress.is_some(), "yield"),
-        ("--ultimate-factor", args.ultimate_factor, breaks, "ultimate"),
+        ("--yield-stress", stresses.yield_stress.is_some(), ActsOn::Stresses),
+        ("--safety-factor", stresses.safety_factor.is_some(), ActsOn::YieldMargins),
+        ("--ultimate-factor", stresses.ultimate_factor.is_some(), ActsOn::UltimateMargins),
+        ("--report-signs", stresses.report_signs, ActsOn::Stresses),
+        ("--amplification", stresses.amplification.is_some(), ActsOn::Pulses),
+        ("--pulses", stresses.pulses != PulseShape::default(), ActsOn::Pulses),
     ];
-    match given.into_iter().find(|(_, factor, is_known, _)| factor.is_some() && !is_known) {
-        Some((option, _, _, strength)) => Err(CliError::NoStrength { option, strength }),
+    let idle = |(option, is_given, acts_on): (&'static str, bool, ActsOn)| {
+        is_given.then(|| judged.idle(acts_on)).flatten().map(|why| (option, why))
+    };
+    match given.into_iter().find_map(idle) {
         None => Ok(()),
+        Some((option, Idle::NoStresses)) => Err(CliError::NoStresses { option }),
+        Some((option, Idle::NoStations)) => {
+            Err(CliError::NoStations { option, scene: file.scene.name.clone() })
+        }
+        Some((option, Idle::NoYieldStress)) => {
+            Err(CliError::NoStrength { option, strength: "yield" })
+        }
+        Some((option, Idle::NoUltimateStress)) => {
+            Err(CliError::NoStrength { option, strength: "ultimate" })
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use nboom_scalar::{Batch, Kernel};
 use nboom_sim::{
     Lanes, Options, OutputTimes, Path, Repertoire, SharedRepertoire, SimError, Simulator, Summary,
 };
-use nboom_strength::{Settings, StrengthError, StressAnalysis};
+use nboom_strength::{StrengthError, StressAnalysis};
 
 use crate::observer::Observer;
 use crate::plan::Case;
@@ -115,7 +115,7 @@ impl RunSettings {
         file: &SceneFile,
         kernels: &[Kernel],
     ) -> Result<Option<StressAnalysis>, StrengthError> {
-        let (SceneFile { scene, structure, .. }, settings) = (file, Settings::default());
+        let (SceneFile { scene, structure, .. }, settings) = (file, self.strength);
         match structure {
             Some(structure) if self.stresses => {
                 let analysis = StressAnalysis::new(scene, structure, settings)?;

@@ -6,6 +6,7 @@ mod keys;
 mod overlap;
 mod reader;
 mod requirements;
+mod run;
 mod vary;
 
 use std::collections::BTreeSet;
@@ -17,7 +18,6 @@ use nboom_io::{
     read_text,
 };
 use nboom_results::with_causes;
-use nboom_sim::{Form, IdleChoice, Method as Integrator, OptionError, Path as Code};
 use toml::de::DeTable;
 
 use crate::directory::SWEPT_SCENE_FILE;
@@ -27,7 +27,7 @@ use crate::wanted::{Loads, UnknownResult, Wanted};
 use effect::Runs;
 use keys::STUDY;
 pub use keys::schema;
-use reader::{Fields, Reader, parted, quoted};
+use reader::{Fields, Reader, quoted};
 
 /// The longest study that is read \[bytes\].
 const LONGEST: u64 = 16 << 20;
@@ -100,7 +100,8 @@ impl<'t> Reader<'t> {
         });
         let draws = self.draws(root, method);
         let trajectories = self.flag(root, "trajectories").unwrap_or(false);
-        let run = self.run_settings(root);
+        let of_run = self.table(root, "run");
+        let run = self.run_settings(of_run.as_ref());
         let expanded = self.flag(root, "expanded").unwrap_or(false);
         let Some(scene) = self.text(root, "scene") else { return Ok(None) };
         let read = || -> Result<_, InputError> {
@@ -127,7 +128,7 @@ impl<'t> Reader<'t> {
                 return Ok(None);
             }
         };
-        self.check_end(root, &run, &nominal);
+        self.check_run(of_run.as_ref(), &run, &nominal);
         let varied = self.tables(root, "vary");
         let variables: Vec<_> = varied
             .iter()
@@ -215,64 +216,6 @@ impl<'t> Reader<'t> {
             self.error(&root.place(), "draws", "nothing", expected);
         }
         draws.unwrap_or(1)
-    }
-
-    fn run_settings(&mut self, root: &Fields<'t>) -> RunSettings {
-        let usual = RunSettings { stresses: true, lanes: true, ..RunSettings::default() };
-        let Some(of) = self.table(root, "run") else { return usual };
-        let number = |reader: &mut Self, key| reader.number(&of, key).map(|found| found.value);
-        let code = self.choice(&of, "path").map(|found| match found.value {
-            "generated" => Code::Generated,
-            "generic" => Code::Generic,
-            _ => Code::Auto,
-        });
-        let settings = RunSettings {
-            rtol: number(self, "rtol"),
-            atol: number(self, "atol"),
-            integrator: self.choice(&of, "integrator").and_then(|of| Integrator::named(of.value)),
-            formulation: self.choice(&of, "formulation").and_then(|of| Form::named(of.value)),
-            path: code,
-            max_step: number(self, "max_step"),
-            max_events: self.whole(&of, "max_events").map(|found| found.value as usize),
-            samples: self.whole(&of, "samples").map(|found| found.value as usize),
-            end_time: number(self, "end_time"),
-            stresses: self.flag(&of, "stresses").unwrap_or(true),
-            hinge_loads: self.flag(&of, "hinge_loads").unwrap_or(false),
-            lanes: self.flag(&of, "lanes").unwrap_or(true),
-        };
-        let RunSettings { rtol, atol, max_step, .. } = settings;
-        for (key, alone) in [
-            ("rtol", RunSettings { rtol, ..usual.clone() }),
-            ("atol", RunSettings { atol, ..usual.clone() }),
-            ("max_step", RunSettings { max_step, ..usual.clone() }),
-        ] {
-            if let Err(OptionError { value, expected, .. }) = alone.options().check() {
-                self.error(&of.place_of(key), key, format!("{value:e}"), expected);
-            }
-        }
-        if let Err(idle) = settings.options().check_choices() {
-            let (key, other, expected) = match idle {
-                IdleChoice::PathOfTaylor => ("path", "integrator = \"taylor\"", "none"),
-                IdleChoice::FormulationOfTaylor => {
-                    ("formulation", "integrator = \"taylor\"", "none")
-                }
-                IdleChoice::GeneratedRecursion => {
-                    ("path", "formulation = \"recursive\"", "generic")
-                }
-            };
-            let found = format!("a choice of code with {other}");
-            self.error(&of.place_of(key), key, found, format!("{expected}, since {idle}"));
-        }
-        settings
-    }
-
-    fn check_end(&mut self, root: &Fields<'t>, run: &RunSettings, nominal: &SceneFile) {
-        let Some(end_time) = run.end_time else { return };
-        if let Err(errors) = nominal.scene.ending_at(end_time) {
-            let text = errors.first().map_or_else(String::new, ToString::to_string);
-            let (found, expected) = parted(&text, "a time after the start");
-            self.error(&root.place_of("run"), "end_time", found, expected);
-        }
     }
 
     fn wanted(&mut self, root: &Fields<'t>, nominal: &SceneFile, run: &RunSettings) -> Vec<Wanted> {

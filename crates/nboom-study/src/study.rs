@@ -166,6 +166,8 @@ pub struct RunSettings {
     pub stresses: bool,
     /// Whether loads of hinges are computed for any scene.
     pub hinge_loads: bool,
+    /// How stresses are judged.
+    pub strength: nboom_strength::Settings,
     /// Whether runs take their explicit steps side by side.
     pub lanes: bool,
 }

@@ -6,7 +6,7 @@ mod seek;
 mod summary;
 
 use nboom_io::SceneFile;
-use nboom_model::{HingeLabel, Material};
+use nboom_model::{HingeLabel, Material, Structure};
 use nboom_results::{SummaryFile, WorstLoads};
 use nboom_sim::Summary;
 use nboom_tables::Column;
@@ -44,6 +44,8 @@ pub enum Loads {
     Hinges,
     /// Those of hinges and stations, and so stresses.
     Stations,
+    /// The same, and margins, since some strength is known.
+    Margins,
 }
 
 /// A text that names no result of a run.
@@ -84,7 +86,10 @@ impl Loads {
     /// Those that a run of a scene computes with these settings.
     pub fn of(file: &SceneFile, run: &RunSettings) -> Self {
         match &file.structure {
-            Some(structure) if run.stresses && structure.has_stations() => Self::Stations,
+            Some(structure) if run.stresses && structure.has_stations() => {
+                let is_known = run.strength.yield_stress.is_some() || has_strengths(structure);
+                if is_known { Self::Margins } else { Self::Stations }
+            }
             Some(_) if run.stresses => Self::Hinges,
             _ if run.hinge_loads || file.settings.hinge_loads => Self::Hinges,
             _ => Self::None,
@@ -99,19 +104,18 @@ impl Needs {
             Self::Nothing => return None,
             Self::FreeBody => (!file.scene.base.is_held(), "a main body that moves freely"),
             Self::HingeLoads => (loads > Loads::None, "a run with loads of hinges"),
-            Self::Stresses => (loads == Loads::Stations, "a run with stresses"),
-            Self::Strengths => {
-                let known = loads == Loads::Stations && has_strengths(file);
-                (known, "a run with stresses, of a material with a yield or ultimate stress")
-            }
+            Self::Stresses => (loads >= Loads::Stations, "a run with stresses"),
+            Self::Strengths => (
+                loads == Loads::Margins,
+                "a run with stresses, of a material with a yield or ultimate stress or with `yield_stress`",
+            ),
         };
         (!is_there).then_some(missing)
     }
 }
 
-fn has_strengths(file: &SceneFile) -> bool {
-    let mut materials = file.structure.iter().flat_map(|structure| structure.materials());
-    materials.any(|Material { yield_stress, ultimate_stress, .. }| {
+fn has_strengths(structure: &Structure) -> bool {
+    structure.materials().any(|Material { yield_stress, ultimate_stress, .. }| {
         yield_stress.or(*ultimate_stress).is_some()
     })
 }

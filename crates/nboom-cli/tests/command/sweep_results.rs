@@ -86,6 +86,36 @@ fn warnings_of_runs_for_pages_name_their_cases() {
     assert!(of_margins.iter().all(|line| line.contains("case ")), "{told}");
 }
 
+/// A case alone is judged by the factors of its study, too.
+#[test]
+fn a_case_has_the_margins_that_it_had_in_the_sweep() {
+    let place = Place::new();
+    place.write("four.toml", include_str!("../../../../examples/solar-array.toml"));
+    let study = "scene = 'four.toml'\ndraws = 1\nresults = ['verdict.smallest_margin']\n\
+                 [run]\nsafety_factor = 1.4\namplification = 1.7\npulses = 'all-at-once'\nyield_stress = 2e8\n";
+    let vary = "[[vary]]\nname = 'root'\npath = 'parameters.damping'\nas = 'factor'\nuniform = { from = 0.9, to = 1.1 }\n";
+    place.write("study.toml", &format!("{study}{vary}"));
+    sweep(&place, &["--no-report"]);
+    let margin = cases(&place, "out/study")[0]["verdict_smallest_margin"].clone();
+    let output = place.nboom(&["run", "study.toml", "--case", "1", "-o", "alone", "--quiet"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let summary = fs::read_to_string(place.path("alone/summary.json")).expect("a summary");
+    let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+    let alone = summary["verdict"]["smallest_margin"].as_f64().expect("a margin");
+    assert_eq!(alone, margin.parse::<f64>().expect("a margin"));
+    // Without stresses they act on nothing, and the study does not ask the user to leave them out.
+    let bare = ["run", "study.toml", "--case", "1", "-o", "bare", "--quiet", "--no-stresses"];
+    let output = place.nboom(&bare);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    place.write(
+        "study.toml",
+        &format!("scene = 'four.toml'\ndraws = 1\n[run]\nstresses = false\n{vary}"),
+    );
+    let output = place.nboom(&["run", "study.toml", "--case", "1", "--yield-stress", "1e8"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("--yield-stress with --no-stresses"), "{}", stderr(&output));
+}
+
 #[test]
 fn warnings_of_the_scene_are_told_once() {
     let place = Place::new();

@@ -1,6 +1,7 @@
 //! Numbers of a study that change nothing.
 
 use nboom_io::{SceneDocument, SceneFile, Slot};
+use nboom_model::SegmentStructure;
 
 use super::overlap::moves;
 use super::reader::{Fields, Reader, quoted};
@@ -57,6 +58,15 @@ impl Runs<'_> {
         runs.depend_on(slots, *relation, &numbers)
     }
 
+    /// What stresses depend on; a yield stress of the runs takes the place of those of materials.
+    fn judged(&self, file: &SceneFile) -> Option<Vec<SegmentStructure>> {
+        let mut segments = file.structure.as_ref()?.segments().to_vec();
+        if self.run.strength.yield_stress.is_some() {
+            segments.iter_mut().for_each(|segment| segment.material.yield_stress = None);
+        }
+        Some(segments)
+    }
+
     /// Whether runs of this scene are those of the scene as it stands.
     fn are_those_of(&self, file: &SceneFile) -> bool {
         let scene = |file: &SceneFile| match self.run.end_time {
@@ -68,7 +78,7 @@ impl Runs<'_> {
             self.run.samples.is_some() || file.settings.sampling == self.nominal.settings.sampling;
         scene(file) == scene(self.nominal)
             && is_sampled_alike
-            && (!has_loads || file.structure == self.nominal.structure)
+            && (!has_loads || self.judged(file) == self.judged(self.nominal))
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a study may say: one list, for the reader, its messages and the schema.
 
 use nboom_sim::{Form, Method as Integrator};
+use nboom_strength::PulseShape;
 use serde_json::{Map, Value, json};
 
 /// A table of a study.
@@ -63,6 +64,10 @@ fn codes() -> Vec<&'static str> {
     vec!["auto", "generated", "generic"]
 }
 
+fn pulses() -> Vec<&'static str> {
+    PulseShape::ALL.map(PulseShape::name).into()
+}
+
 const fn key(name: &'static str, holds: Holds, about: &'static str) -> Key {
     Key { name, holds, about, is_required: false }
 }
@@ -105,6 +110,11 @@ pub(super) const RUN: Table = Table {
         key("end_time", Holds::Number, "end of the runs, instead of the scene's"),
         key("stresses", Holds::Flag, "whether stresses are computed if the scene asks for them"),
         key("hinge_loads", Holds::Flag, "whether loads of hinges are computed for any scene"),
+        key("yield_stress", Holds::Number, "stress at which all parts yield, for margins"),
+        key("safety_factor", Holds::Number, "factor on stresses in margins to yielding"),
+        key("ultimate_factor", Holds::Number, "factor on stresses in margins to breaking"),
+        key("amplification", Holds::Number, "peak of a response over that of a lock-up pulse"),
+        key("pulses", Holds::OneOf(pulses), "how pulses of latches that act together add up"),
         key(
             "lanes",
             Holds::Flag,

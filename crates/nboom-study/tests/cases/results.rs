@@ -161,3 +161,33 @@ fn margins_are_those_of_the_strengths_of_materials() {
     let results = &row.cells[row.cells.len() - 3..row.cells.len() - 1];
     assert_eq!(results, [Value::Number(margin), Value::Number(margin)]);
 }
+
+/// 270 MPa are the yield stress of the example's one material.
+#[test]
+fn margins_are_judged_as_the_study_says() {
+    let scene = std::fs::read_to_string(example("solar-array.toml")).expect("an example");
+    assert!(scene.matches("yield_stress").count() == 1 && scene.contains("yield_stress = 2.7e8"));
+    let path = super::folder("judged").join("scene.toml");
+    std::fs::write(&path, &scene).expect("writable");
+    let margin = |run: &str| {
+        let text = format!("results = [\"verdict.smallest_margin\"]\n{run}");
+        let study = study("judged", "scene.toml", &text);
+        number(&study, &complete(row(&study, 1)), "verdict_smallest_margin")
+    };
+    let plain = margin("");
+    for (run, share) in [
+        ("[run]\nsafety_factor = 1.5", 1.0 / 1.5),
+        ("[run]\nyield_stress = 1e8", 1e8 / 2.7e8),
+        ("[run]\nyield_stress = 1e8\nsafety_factor = 1.5", 1e8 / 2.7e8 / 1.5),
+    ] {
+        let expected = share * (plain + 1.0) - 1.0;
+        assert!((margin(run) - expected).abs() < 1e-14, "{run}: {} {expected}", margin(run));
+    }
+    // A strength that the scene does not have.
+    let bare = scene.replace("yield_stress = 2.7e8", "");
+    std::fs::write(&path, bare).expect("writable");
+    assert_eq!(margin("[run]\nyield_stress = 2.7e8"), plain);
+    std::fs::write(&path, scene).expect("writable");
+    // Peaks of latches are taller.
+    assert!(margin("[run]\namplification = 1.7") < plain);
+}

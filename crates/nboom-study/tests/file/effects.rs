@@ -170,3 +170,19 @@ fn variables_on_which_no_run_depends() {
         assert_eq!(errors(&sampled, &study.replace(path, path_now)), []);
     }
 }
+
+/// A yield stress of the runs takes the place of those of materials.
+#[test]
+fn strengths_of_materials_beside_one_of_the_runs() {
+    let scene = include_str!("../../../../examples/solar-array.toml");
+    let study = |run: &str| {
+        format!(
+            "scene = 'scene.toml'\ndraws = 2\n{run}[[vary]]\nname = 'strength'\n\
+             path = 'materials.aluminium.yield_stress'\nuniform = {{ from = 1e8, to = 2e8 }}\n"
+        )
+    };
+    assert_eq!(errors(scene, &study("")), []);
+    let found = errors(scene, &study("[run]\nyield_stress = 1e8\n"));
+    let [(7, told)] = &found[..] else { panic!("{found:#?}") };
+    assert!(told.contains("without effect"), "{told}");
+}

@@ -1,0 +1,84 @@
+use std::fmt;
+
+use nboom_model::{Material, Structure};
+
+/// What a number of [`Settings`](crate::Settings) acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActsOn {
+    /// Stresses.
+    Stresses,
+    /// Pulses of latches.
+    Pulses,
+    /// Margins to yielding.
+    YieldMargins,
+    /// Margins to breaking.
+    UltimateMargins,
+}
+
+/// Why a number of [`Settings`](crate::Settings) acts on nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Idle {
+    /// The scene has no stations.
+    NoStations,
+    /// Stresses are left out of the run.
+    NoStresses,
+    /// No yield stress is known.
+    NoYieldStress,
+    /// No ultimate stress is known.
+    NoUltimateStress,
+}
+
+impl fmt::Display for Idle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoStations => "the scene has no stations",
+            Self::NoStresses => "stresses are not computed",
+            Self::NoYieldStress => "no material has a yield stress",
+            Self::NoUltimateStress => "no material has an ultimate stress",
+        })
+    }
+}
+
+/// The loads that a run finds, and what they are judged by.
+#[derive(Clone, Copy, Debug)]
+pub struct Judged<'a> {
+    /// Of the scene: its stations, and the constants of its latches' pulses.
+    pub structure: Option<&'a Structure>,
+    /// Whether stresses are computed where there are stations.
+    pub stresses: bool,
+    /// Whether loads of hinges are.
+    pub hinge_loads: bool,
+    /// Whether a yield stress takes the place of those of materials.
+    pub has_yield_stress: bool,
+}
+
+impl Judged<'_> {
+    /// Why a number that acts on this has no effect, if it has none.
+    pub fn idle(&self, number: ActsOn) -> Option<Idle> {
+        let Some(structure) = self.structure else { return Some(Idle::NoStations) };
+        let any = |of: fn(&Material) -> Option<f64>| {
+            structure.materials().any(|material| of(material).is_some())
+        };
+        if number == ActsOn::Pulses {
+            let has_pulses = self.stresses || self.hinge_loads;
+            return (!has_pulses).then_some(Idle::NoStresses);
+        }
+        if !structure.has_stations() {
+            return Some(Idle::NoStations);
+        }
+        if !self.stresses {
+            return Some(Idle::NoStresses);
+        }
+        match number {
+            ActsOn::Stresses | ActsOn::Pulses => None,
+            ActsOn::YieldMargins => {
+                let is_known = self.has_yield_stress || any(|material| material.yield_stress);
+                (!is_known).then_some(Idle::NoYieldStress)
+            }
+            ActsOn::UltimateMargins => {
+                let is_known = any(|material| material.ultimate_stress);
+                (!is_known).then_some(Idle::NoUltimateStress)
+            }
+        }
+    }
+}
