@@ -146,7 +146,7 @@ fn exact_right_sides() -> Vec<Request> {
     let satellite =
         |name: &str, of: &str| Request::new(name, topology(of), Level::Exact).for_right_side();
     vec![
-        satellite("RolledS3", "4xS3").with_external_wrench(),
+        satellite("RolledS3", "4xS3").with_external_wrench().with_rotors(),
         satellite("RolledP", "5xP").with_external_wrench(),
         satellite("RolledS30", "S30"),
         satellite("RolledMixed", "2xS4_S2_S1_2xP"),
@@ -157,7 +157,7 @@ fn exact_right_sides() -> Vec<Request> {
         satellite("PackedLimbs", "5xTr(rp)(s)_S2").with_external_wrench(),
         satellite("PushedLimb", "Trs").with_lines(1).with_couplings(),
         satellite("PushedS3", "S3").with_lines(1).by(Formulation::Relative),
-        satellite("CoupledS3", "S3").with_couplings(),
+        satellite("CoupledS3", "S3").with_couplings().with_rotors(),
     ]
 }
 

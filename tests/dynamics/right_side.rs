@@ -7,8 +7,10 @@ use nboom::formulation::{
     Embedding, Forces, Formulation, HingeCoordinates, LinkLine, NoPlace, Parameters, Recognised,
     RightSideLayout, right_side,
 };
-use nboom::model::{Coupling, KickOffSpring, Scene, SceneDescription, Topology, TorqueTable};
-use nboom::scalar::Quaternion;
+use nboom::model::{
+    Coupling, KickOffSpring, Rotor, RotorSpeed, Scene, SceneDescription, Topology, TorqueTable,
+};
+use nboom::scalar::{Quaternion, Vec3};
 
 use crate::limbs::tree;
 use crate::random_scene::{Moment, Rng, all_acting, moment_of};
@@ -48,6 +50,9 @@ fn pushed(seed: u64) -> Moment {
         }
     }
     couple(&mut description, dice);
+    if dice.chance(0.3) {
+        description.rotors = wheels(dice, &description);
+    }
     let scene = Scene::new(description).expect("random bodies are physical");
     let mut mode = all_acting(&scene, of_seed.mode.hinges);
     mode.externals.clone_from(&of_seed.mode.externals);
@@ -80,6 +85,23 @@ fn couple(description: &mut SceneDescription, dice: &mut Rng) {
             });
         }
     }
+}
+
+/// Rotors at constant speed in the main body, seldom one that a hinged body carries or that changes its speed.
+fn wheels(dice: &mut Rng, description: &SceneDescription) -> Vec<Rotor> {
+    let mut wheel = |body, speed| Rotor {
+        body,
+        axis: dice.direction(),
+        inertia: dice.between(0.01, 0.2),
+        speed,
+    };
+    let mut wheels =
+        vec![wheel(None, RotorSpeed::Constant(25.0)), wheel(None, RotorSpeed::Constant(-40.0))];
+    if dice.chance(0.1) {
+        wheels[1].body = (!description.bodies.is_empty()).then_some(0);
+        wheels[0].speed = RotorSpeed::Table(vec![[-1.0, 3.0], [1.0, 9.0]]);
+    }
+    wheels
 }
 
 /// A tree with limbs, some of whose links lines push.
@@ -162,6 +184,7 @@ impl Pushed {
 #[test]
 fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
     let (mut lines, mut of_two, mut too_many, mut coupled, mut apart) = (0, 0, 0, 0, 0);
+    let (mut spun, mut spun_up) = (0, 0);
     for seed in 0..RANDOM_SATELLITES {
         let pushed = Pushed::random(seed);
         let pushing = pushed.dynamics.elements().pushing().count();
@@ -175,6 +198,10 @@ fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
                 apart += 1;
                 continue;
             }
+            Err(NoPlace::Rotor) => {
+                spun_up += 1;
+                continue;
+            }
             Err(why) => panic!("seed {seed}: {why}"),
         };
         let Recognised { topology, parameters, .. } = &pushed.recognised;
@@ -186,6 +213,7 @@ fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
         assert!(error < ROUNDING, "seed {seed}, {topology}: {error:e}");
         lines += pushing;
         coupled += forces.couplings.iter().filter(|law| is_there(law)).count();
+        spun += usize::from(forces.spin != Vec3::zero());
     }
     let told = format!(
         "{lines} lines, {of_two} modes with two on one link, {too_many} with more, {coupled} couplings, \
@@ -193,6 +221,7 @@ fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
     );
     assert!(lines > 1000 && of_two > 50 && too_many > 0, "{told}");
     assert!(coupled > 500 && apart > 10, "{told}");
+    assert!(spun > 100 && spun_up > 10, "{spun} modes with rotors, {spun_up} with others");
 }
 
 #[test]
@@ -235,6 +264,7 @@ fn numbers_that_are_written_are_read_back_and_stand_where_the_layout_says() {
     assert_eq!(Forces::read(topology.hinges(), all[start..].iter().copied()), forces);
     let external = &all[RightSideLayout::external(topology)];
     assert_eq!(external[..3], forces.external.moment.to_array());
+    assert_eq!(all[RightSideLayout::spin(topology)], forces.spin.to_array());
     for hinge in 0..topology.hinges() {
         assert_eq!(all[RightSideLayout::law(topology, hinge)], forces.laws[hinge].numbers());
     }

@@ -59,6 +59,7 @@ fn right_side() -> Request {
         .for_right_side()
         .with_lines(2)
         .with_couplings()
+        .with_rotors()
 }
 
 /// A boom of a tube and a triangle on a hub, with a kick-off spring.

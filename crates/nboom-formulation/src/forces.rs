@@ -18,6 +18,8 @@ pub struct Forces<R> {
     pub laws: Vec<HingeLaw<R>>,
     /// External wrench about O, main-body axes.
     pub external: Wrench<R>,
+    /// h̄: angular momentum of rotors on the main body relative to it, main-body axes; it is constant.
+    pub spin: Vec3<R>,
     /// The lines that push the hinges' links, at the places of [`RightSideLayout::lines`]; empty
     /// where nothing pushes any.
     pub lines: Vec<LinkLine<R>>,
@@ -43,7 +45,7 @@ pub enum NoPlace {
     /// A coupling that acts on one hinge alone, couples hinges of which neither is next inboard of the other, or
     /// is not the only one of its hinges.
     Coupling,
-    /// A rotor.
+    /// A rotor on a hinged link, or one that changes its speed.
     Rotor,
     /// Something from outside that acts on a hinged link, or is not constant along main-body axes.
     External,
@@ -60,7 +62,7 @@ impl fmt::Display for NoPlace {
                 let what = "acts on one hinge alone, or on hinges that do not follow each other";
                 write!(f, "a coupling that {what}, or beside another one")
             }
-            Self::Rotor => write!(f, "a rotor"),
+            Self::Rotor => write!(f, "a rotor on a hinged body, or one that changes its speed"),
             Self::External => {
                 write!(
                     f,
@@ -106,6 +108,7 @@ impl<R: Real> Forces<R> {
         Self {
             laws: vec![HingeLaw::of_numbers([R::zero(); RightSideLayout::LAW]); hinges],
             external: Wrench::zero(),
+            spin: Vec3::zero(),
             lines: vec![LinkLine::absent(); RightSideLayout::LINES_OF_LINK * hinges],
             couplings: vec![uncoupled(); hinges],
         }
@@ -127,15 +130,16 @@ impl<R: Real> Forces<R> {
         let mut law = || HingeLaw::of_numbers(std::array::from_fn(|_| reader.next()));
         let laws = (0..hinges).map(|_| law()).collect();
         let external = Wrench { moment: reader.vector(), force: reader.vector() };
+        let spin = reader.vector();
         let places = 0..RightSideLayout::LINES_OF_LINK * hinges;
         let lines = places.map(|_| LinkLine::read(&mut reader)).collect();
         let mut coupling = || CouplingLaw::of_numbers(std::array::from_fn(|_| reader.next()));
         let couplings = (0..hinges).map(|_| coupling()).collect();
-        Self { laws, external, lines, couplings }
+        Self { laws, external, spin, lines, couplings }
     }
 
     /// The numbers in the order of [`RightSideLayout`]: q₁, q₂, A₃, A₂, A₁, A₀, β₀ of each hinge; external
-    /// moment and force; of each line its end on the link, that on the main body, and a₀ to a₃; ρ₁, ρ₂, k, θ, c of each
+    /// moment and force; h̄; of each line its end on the link, that on the main body, and a₀ to a₃; ρ₁, ρ₂, k, θ, c of each
     /// coupling.
     pub fn write(&self) -> Vec<R> {
         let mut numbers = Vec::new();
@@ -163,6 +167,7 @@ impl<R: Real> Forces<R> {
         }
         numbers.extend(self.external.moment.to_array());
         numbers.extend(self.external.force.to_array());
+        numbers.extend(self.spin.to_array());
         for number in 0..RightSideLayout::LINES_OF_LINK {
             for hinge in 0..hinges {
                 let place = inner(hinge).map(|inner| self.laws.len() * number + inner);
@@ -227,6 +232,12 @@ impl<R: Real> Forces<R> {
         inboard.filter_map(|(own, (inboard, law))| Some((own, inboard?, *law))).collect()
     }
 
+    /// All that acts on the main body at the rate `omega`, about O, main-body axes: the external wrench, and −ω̄ × h̄, what
+    /// it takes to carry rotors along.
+    pub fn on_main_body(&self, omega: Vec3<R>) -> Wrench<R> {
+        Wrench { moment: self.external.moment - omega.cross(self.spin), ..self.external }
+    }
+
     /// Power of the parts of the torques that depend on rates, summed up appendage by appendage, then of couplings.
     pub fn rate_power(&self, topology: &Topology, tau: &[R]) -> R {
         let mut of_hinges = self.laws.iter().zip(tau).map(|(law, &tau)| law.rate_torque(tau) * tau);
@@ -263,6 +274,11 @@ fn push<R: Real>(
     }
 }
 
+/// Whether there are rotors that are not on the main body, or change their speed.
+fn has_other_rotors(tree: &WeldedTree<f64>) -> bool {
+    tree.rotors.iter().any(|rotor| rotor.link.is_some() || rotor.motion.acceleration != 0.0)
+}
+
 impl Forces<f64> {
     /// Those of `elements`, which act on `tree`, whose chains and paddles were `recognised`.
     ///
@@ -275,7 +291,7 @@ impl Forces<f64> {
     ) -> Result<Self, NoPlace> {
         for (is_so, what) in [
             (elements.withholds(), NoPlace::Withheld),
-            (tree.has_rotors(), NoPlace::Rotor),
+            (has_other_rotors(tree), NoPlace::Rotor),
             (elements.pushes_vary() || elements.on_links().next().is_some(), NoPlace::External),
         ] {
             if is_so {
@@ -288,6 +304,9 @@ impl Forces<f64> {
         }
         if let Some(external) = tree.holding_wrench().or_else(|| elements.external()) {
             forces.external = external;
+        }
+        if let (Some(spin), None) = (tree.main_spin, tree.held) {
+            forces.spin = spin.momentum;
         }
         for (link, line) in elements.pushing() {
             let of_link = |&other: &usize| other == link;

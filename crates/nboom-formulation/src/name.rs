@@ -61,6 +61,9 @@ const OF_LAW: [&str; RightSideLayout::LAW] = ["q1", "q2", "A3", "A2", "A1", "A0"
 const OF_WRENCH: [&str; RightSideLayout::EXTERNAL] =
     ["moment x", "moment y", "moment z", "force x", "force y", "force z"];
 
+/// Angular momentum of rotors.
+const OF_SPIN: [&str; RightSideLayout::SPIN] = ["x", "y", "z"];
+
 /// The numbers of a line that pushes a link.
 const OF_LINE: [&str; RightSideLayout::LINE] = [
     "x of the end on the link",
@@ -132,6 +135,10 @@ impl RightSideLayout {
         if external.contains(&number) {
             return format!("external {}", OF_WRENCH[number - external.start]);
         }
+        let spin = Self::spin(topology);
+        if spin.contains(&number) {
+            return format!("angular momentum {} of rotors", OF_SPIN[number - spin.start]);
+        }
         let link = |hinge: usize| {
             let shapes = topology.shapes().iter().enumerate();
             let links = shapes.flat_map(|(i, shape)| (1..=shape.hinges()).map(move |j| (i + 1, j)));
@@ -150,8 +157,7 @@ impl RightSideLayout {
             let (what, link) = (OF_COUPLING[at], link(hinge));
             return format!("{what} of the coupling of the hinge of {link} with the inboard one");
         }
-        let (place, at) =
-            ((number - external.end) / Self::LINE, (number - external.end) % Self::LINE);
+        let (place, at) = ((number - spin.end) / Self::LINE, (number - spin.end) % Self::LINE);
         let which = if place < topology.hinges() { "" } else { "second " };
         format!("{} of the {which}line that pushes {}", OF_LINE[at], link(place))
     }
@@ -171,6 +177,7 @@ mod tests {
         let mut forces = Forces::none(4);
         forces.laws[3] = HingeLaw::of_numbers([0.0, 0.0, 0.0, 0.0, 5.0, 0.0, 0.0]);
         forces.external.force.y = 1.0;
+        forces.spin.z = 6.0;
         forces.lines[1].main_body_point.z = 2.0;
         forces.lines[4 + 2].law = KickOffLaw::of_numbers([0.0, 3.0, 0.0, 0.0]);
         forces.couplings[1] = CouplingLaw::of_numbers([0.0, 0.0, 0.0, 4.0, 0.0]);
@@ -182,6 +189,7 @@ mod tests {
             [
                 "A1 of the hinge of link 2 of appendage 2",
                 "external force y",
+                "angular momentum z of rotors",
                 "z of the end on the main body of the line that pushes link 2 of appendage 1",
                 "a1 of the second line that pushes link 1 of appendage 2",
                 "rest of the coupling of the hinge of link 2 of appendage 1 with the inboard one",

@@ -30,6 +30,8 @@ impl RightSideLayout {
     pub const LAW: usize = 7;
     /// Numbers of the external wrench about O, main-body axes: moment, force.
     pub const EXTERNAL: usize = 6;
+    /// Numbers of the rotors on the main body: h̄, their angular momentum relative to it, main-body axes.
+    pub const SPIN: usize = 3;
     /// Numbers of a line: its end on the link, that on the main body, a₀ to a₃.
     pub const LINE: usize = 10;
     /// Lines that may push one link: kick-off springs of bodies that are held together push as one link.
@@ -86,9 +88,15 @@ impl RightSideLayout {
         start..start + Self::EXTERNAL
     }
 
+    /// Where the angular momentum of the rotors on the main body stands among the parameters.
+    pub fn spin(topology: &Topology) -> Range<usize> {
+        let start = Self::external(topology).end;
+        start..start + Self::SPIN
+    }
+
     /// Where the line at a place stands among the parameters.
     pub fn line(topology: &Topology, place: usize) -> Range<usize> {
-        let start = Self::external(topology).end + Self::LINE * place;
+        let start = Self::spin(topology).end + Self::LINE * place;
         start..start + Self::LINE
     }
 
@@ -132,7 +140,7 @@ pub fn right_side<R: Real>(
     let hinges = beta.iter().zip(tau).zip(torques);
     let hinges =
         hinges.map(|((&beta, &tau), torque)| HingeCoordinates { beta, tau, torque }).collect();
-    let coordinates = Coordinates { omega, external: forces.external, hinges };
+    let coordinates = Coordinates { omega, external: forces.on_main_body(omega), hinges };
     let Solution { main, tau_dot } = formulation.solve(topology, parameters, &coordinates);
     let mut rates = vec![rate.scalar];
     rates.extend(rate.vector.to_array());

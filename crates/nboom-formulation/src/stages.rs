@@ -78,6 +78,8 @@ pub const W: Group = Group::new("w", &["wx", "wy", "wz"]);
 /// External moment and force on the main body.
 pub const EXTERNAL: Group =
     Group::new("external", &["moment_x", "moment_y", "moment_z", "force_x", "force_y", "force_z"]);
+/// Angular momentum of rotors on the main body relative to it.
+pub const SPIN: Group = Group::new("spin", &["spin_x", "spin_y", "spin_z"]);
 /// Parameters of an appendage before its links: its rotation by rows and its first hinge.
 pub const BRANCH: Group = Group::new(
     "branch",

@@ -37,6 +37,7 @@ pub(crate) fn texts(
         ("START", format!("{start:?}")),
         ("VARIABLE_LIST", variables(scene, recognised)),
         ("WRENCH", format!("{:?}", RightSideLayout::external(topology))),
+        ("SPIN", format!("{:?}", RightSideLayout::spin(topology))),
         ("THRUST_COUNT", thrusts.len().to_string()),
         ("THRUST_LIST", thrusts.concat()),
         ("HOLDING_COUNT", holdings.len().to_string()),

@@ -47,6 +47,9 @@ pub const VARIABLES: [Variables; /*HINGE_COUNT*/] = [
 /// Where moment and force on the main body about O stand in the parameters of `right_side()`, main-body axes.
 pub const WRENCH: std::ops::Range<usize> = /*WRENCH*/;
 
+/// Where the angular momentum of the rotors on the main body, relative to it, stands there, main-body axes; it is constant.
+pub const SPIN: std::ops::Range<usize> = /*SPIN*/;
+
 /// A force or torque on the main body from outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {

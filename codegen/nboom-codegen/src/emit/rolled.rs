@@ -59,13 +59,14 @@ fn beside(request: &Request) -> Option<Beside> {
     })
 }
 
-/// Binds the parameters of the main body, and of a right side the external wrench.
+/// Binds the parameters of the main body, and of a right side the external wrench and the momentum of rotors.
 fn main_parameters(request: &Request) -> TokenStream {
     if request.output != Output::RightSide {
         return quote!(let main: [R; 10] = R::gather_all(p, 0, 1););
     }
     let external = RightSideLayout::external(&request.topology);
-    let places = (0..Layout::MAIN).chain(external).map(Literal::usize_unsuffixed);
+    let acting = external.start..RightSideLayout::spin(&request.topology).end;
+    let places = (0..Layout::MAIN).chain(acting).map(Literal::usize_unsuffixed);
     quote!(let main = [#(p[#places]),*];)
 }
 

@@ -36,6 +36,11 @@ fn phrases(request: &Request) -> Vec<String> {
         if !request.external {
             external.clone().for_each(|at| said[at] = true);
         }
+        let spin = RightSideLayout::spin(topology);
+        if assumptions[spin.clone()].iter().all(|assumed| *assumed == Some(0.0)) {
+            said[spin].fill(true);
+            phrases.push("no rotor that turns".to_owned());
+        }
         of_lines(request, &mut said, &mut phrases);
         of_couplings(request, &mut said, &mut phrases);
     }
@@ -195,8 +200,9 @@ fn owners_of_forces(topology: &Topology) -> Vec<(String, &'static [&'static str]
             hinges.iter().map(|hinge| (format!("{what} {hinge}"), names)).collect()
         };
     let external = ("the external wrench".to_owned(), &WRENCH[..]);
+    let spin = ("the rotors".to_owned(), &SPIN[..]);
     let lines = [of("line", &LINE), of("second line", &LINE)].concat();
-    [of("hinge", &LAW), vec![external], lines, of("coupling", &COUPLING)].concat()
+    [of("hinge", &LAW), vec![external, spin], lines, of("coupling", &COUPLING)].concat()
 }
 
 /// Torque about a hinge.
@@ -206,6 +212,8 @@ const WRENCH: [&str; RightSideLayout::EXTERNAL] = ["M_x", "M_y", "M_z", "F_x", "
 /// Ends of a line on the link and on the main body, force by powers of its length.
 const LINE: [&str; RightSideLayout::LINE] =
     ["p_ξ", "p_η", "p_ζ", "o_x", "o_y", "o_z", "a₀", "a₁", "a₂", "a₃"];
+/// Angular momentum.
+const SPIN: [&str; RightSideLayout::SPIN] = ["h_x", "h_y", "h_z"];
 /// Weights of the hinge and of the one inboard of it, stiffness, rest, damping.
 const COUPLING: [&str; RightSideLayout::COUPLING] = ["ρ₁", "ρ₂", "k", "θ", "c"];
 
@@ -287,12 +295,13 @@ mod tests {
         let mut right_side = general.clone().for_right_side();
         let expected = [
             "no external wrench on the main body",
+            "no rotor that turns",
             "no force along a line",
             "no coupling of hinges",
         ];
         assert_eq!(phrases(&right_side), expected);
         right_side.assumptions[RightSideLayout::law(&topology, 1).start] = Some(0.0);
-        assert_eq!(phrases(&right_side)[3..], ["q₁ = 0 of hinge 1,2"]);
+        assert_eq!(phrases(&right_side)[4..], ["q₁ = 0 of hinge 1,2"]);
         let coupling = RightSideLayout::coupling(&topology, 1);
         right_side.assumptions[coupling.clone()].fill(None);
         right_side.assumptions[coupling.start + 3] = Some(0.0);
@@ -301,6 +310,7 @@ mod tests {
             "q₁ = 0 of hinge 1,2",
             "θ = 0 of coupling 1,2",
         ];
+        let right_side = right_side.with_rotors();
         assert_eq!(phrases(&right_side.with_lines(2))[1..], of_coupling);
         let parameters = vec![2.0; general.assumptions.len()];
         assert_eq!(phrases(&general.baked(&parameters))[1..], ["all 82 parameters"]);

@@ -3,7 +3,7 @@
 use nboom_formulation::Layout;
 use nboom_formulation::stages::{
     ATTITUDE, ATTITUDE_RATE, BRANCH, COUPLING, EXTERNAL, LAW, LINE, LINK, MAIN, MAIN_RATES, OMEGA,
-    POWER,
+    POWER, SPIN,
 };
 use nboom_loads::MotionSize;
 use nboom_model::{Shape, Topology};
@@ -92,7 +92,7 @@ impl Names {
         let of_hinges =
             |name: &'static str| hinges.iter().map(move |hinge| format!("{name}_{hinge}"));
         parameters.extend(hinges.iter().flat_map(|hinge| of_owner(LAW.numbers, hinge)));
-        parameters.extend(owned(&[EXTERNAL.numbers]));
+        parameters.extend(owned(&[EXTERNAL.numbers, SPIN.numbers]));
         parameters.extend(hinges.iter().flat_map(|hinge| of_owner(LINE.numbers, hinge)));
         let second = |hinge: &String| of_owner(LINE.numbers, &format!("{hinge}_second"));
         parameters.extend(hinges.iter().flat_map(second));

@@ -97,6 +97,10 @@ impl Request {
                 *assumed = Some(cases[0][of_lines - start + i]);
             }
         }
+        let spin = RightSideLayout::spin(&self.topology);
+        if spin.clone().any(|at| cases.iter().any(|case| case[at - start] != 0.0)) {
+            spin.for_each(|at| request.assumptions[at] = known(at));
+        }
         let acts = |hinge: &usize| {
             let strength = RightSideLayout::strength(&self.topology, *hinge);
             cases.iter().any(|case| strength.iter().any(|at| case[at - start] != 0.0))

@@ -102,7 +102,7 @@ impl Request {
 
     /// Code for the right side of the differential equations of a mode, in the order of
     /// [`RightSideLayout`]. Hinge laws are handed in, and so is an external wrench if accelerations
-    /// take one; lines are assumed not to push, and hinges not to be coupled.
+    /// take one; lines are assumed not to push, hinges not to be coupled, and rotors to rest.
     pub fn for_right_side(mut self) -> Self {
         self.output = Output::RightSide;
         let topology = &self.topology;
@@ -114,6 +114,7 @@ impl Request {
         for place in 0..RightSideLayout::lines(topology) {
             self.assumptions[RightSideLayout::coefficients(topology, place)].fill(Some(0.0));
         }
+        self.assumptions[RightSideLayout::spin(topology)].fill(Some(0.0));
         for hinge in 0..topology.hinges() {
             let strength = RightSideLayout::strength(topology, hinge);
             strength.into_iter().for_each(|at| self.assumptions[at] = Some(0.0));
@@ -133,6 +134,12 @@ impl Request {
         for place in 0..of_link * self.topology.hinges() {
             self.assumptions[RightSideLayout::coefficients(&self.topology, place)].fill(None);
         }
+        self
+    }
+
+    /// Code for a right side whose main body may carry rotors.
+    pub fn with_rotors(mut self) -> Self {
+        self.assumptions[RightSideLayout::spin(&self.topology)].fill(None);
         self
     }
 

@@ -112,13 +112,14 @@ impl Request {
         Ok(requests)
     }
 
-    /// The request for the main body of a scene, on which something acts from outside or nothing, and which may be
-    /// held.
+    /// The request for the main body of a scene, on which something acts from outside or nothing, or rotors that it
+    /// carries along, and which may be held.
     fn on(self, scene: &Scene) -> Self {
         if scene.base.is_held() {
             return self.with_held_main_body().with_external_wrench();
         }
-        if scene.externals.is_empty() { self } else { self.with_external_wrench() }
+        let is_alone = scene.externals.is_empty() && scene.rotors.is_empty();
+        if is_alone { self } else { self.with_external_wrench() }
     }
 
     /// Which hinges are free in the first of a scene's lock states that has the request's

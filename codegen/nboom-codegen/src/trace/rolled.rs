@@ -232,7 +232,8 @@ fn base(request: &Request, at_origin: &[bool]) -> Traced {
     let in_mode = request.output == Output::RightSide;
     if in_mode {
         let external = RightSideLayout::external(&request.topology);
-        assumptions.extend(&request.assumptions[external]);
+        let spin = RightSideLayout::spin(&request.topology);
+        assumptions.extend(&request.assumptions[external.start..spin.end]);
     }
     let stage = match (request.holds_main_body(), in_mode) {
         (true, true) => stages::held_base_in_mode(),

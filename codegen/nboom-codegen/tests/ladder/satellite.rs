@@ -41,12 +41,13 @@ impl Satellite {
         self.parameters[..Layout::MAIN] == Layout::held_main()
     }
 
-    /// Whether a line pushes a link, hinges are coupled, or something is assumed of the forces.
+    /// Whether a line pushes a link, hinges are coupled, rotors turn, or something is assumed of the forces.
     pub fn pushed_or_known(&self) -> bool {
         let hinges = self.topology.hinges();
         let forces = Forces::read(hinges, self.forces.iter().copied());
         let none = Forces::none(hinges);
         forces.lines != none.lines
+            || forces.spin != none.spin
             || forces.couplings != none.couplings
             || self.force_assumptions.iter().any(Option::is_some)
     }
@@ -240,8 +241,8 @@ fn state(dice: &mut Rng, topology: &Topology, external: bool) -> Vec<f64> {
     state
 }
 
-/// Hinge laws, an external wrench, lines that push some links and couplings of some hinges; of them nothing, that no
-/// line pushes and no hinge is coupled, some numbers or all are assumed.
+/// Hinge laws, an external wrench, rotors, lines that push some links and couplings of some hinges; of them nothing, that
+/// no line pushes, no hinge is coupled and no rotor turns, some numbers or all are assumed.
 fn forces(dice: &mut Rng, topology: &Topology, external: bool) -> (Vec<f64>, Vec<Option<f64>>) {
     let mut forces = Forces::none(topology.hinges());
     for law in &mut forces.laws {
@@ -257,6 +258,9 @@ fn forces(dice: &mut Rng, topology: &Topology, external: bool) -> (Vec<f64>, Vec
         }
         let law = KickOffLaw::new([(); 4].map(|()| dice.between(-1.0, 1.0)));
         *line = LinkLine { point: dice.vector(1.0), main_body_point: dice.vector(1.0), law };
+    }
+    if kind != 1 && dice.chance(0.5) {
+        forces.spin = dice.vector(1.0);
     }
     for coupling in &mut forces.couplings {
         if kind != 1 && dice.chance(0.3) {

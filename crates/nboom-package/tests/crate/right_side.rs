@@ -43,6 +43,9 @@ fn sprung() -> Scene {
         is_mutual: true,
     };
     description.couplings.push(coupling);
+    let axis = Vec3::new(0.6, 0.0, 0.8);
+    let speed = RotorSpeed::Constant(60.0);
+    description.rotors.push(Rotor { body: None, axis, inertia: 0.5, speed });
     Scene::new(description).expect("the bodies are physical")
 }
 
@@ -223,7 +226,10 @@ fn what_a_right_side_has_no_place_for_is_refused() {
     refused("doubled", &|scene| scene.couplings = vec![coupling; 2]);
     let rotor =
         Rotor { body: None, axis: Vec3::unit_x(), inertia: 1.0, speed: RotorSpeed::Constant(2.0) };
-    refused("spun", &|scene| scene.rotors = vec![rotor.clone()]);
+    let speed = RotorSpeed::Table(vec![[0.0, 1.0], [2.0, 3.0]]);
+    refused("spun up", &|scene| {
+        scene.rotors = vec![Rotor { speed: speed.clone(), ..rotor.clone() }]
+    });
     refused("on a boom", &|scene| scene.externals[0].body = Some(1));
     refused("inertial", &|scene| scene.externals[0].axes = ExternalAxes::Inertial);
     let table = Course::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]);

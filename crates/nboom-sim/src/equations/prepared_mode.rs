@@ -112,6 +112,11 @@ impl PreparedMode {
     /// Makes the rotors go on from `state`.
     pub fn spin_from(&mut self, state: &State) {
         if !state.rotors.is_empty() {
+            let known = self.dynamics.tree().rotors.iter().map(|rotor| rotor.motion);
+            // Their momentum is built into right sides.
+            if self.right_sides.is_some() && !known.eq(state.rotors.iter().copied()) {
+                self.is_fitted = false;
+            }
             self.dynamics.spin_from(state.time, state.rotors.iter().copied());
             if let Some(jacobian) = &mut self.jacobian {
                 jacobian.spin_from(state);
