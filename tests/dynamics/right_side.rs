@@ -51,7 +51,7 @@ fn pushed(seed: u64) -> Moment {
     }
     couple(&mut description, dice);
     if dice.chance(0.3) {
-        description.rotors = wheels(dice, &description);
+        description.rotors = wheels(dice);
     }
     let scene = Scene::new(description).expect("random bodies are physical");
     let mut mode = all_acting(&scene, of_seed.mode.hinges);
@@ -87,18 +87,16 @@ fn couple(description: &mut SceneDescription, dice: &mut Rng) {
     }
 }
 
-/// Rotors at constant speed in the main body, seldom one that a hinged body carries or that changes its speed.
-fn wheels(dice: &mut Rng, description: &SceneDescription) -> Vec<Rotor> {
-    let mut wheel = |body, speed| Rotor {
-        body,
+/// Rotors in the main body at constant speed, seldom one that changes it.
+fn wheels(dice: &mut Rng) -> Vec<Rotor> {
+    let mut wheel = |speed| Rotor {
+        body: None,
         axis: dice.direction(),
         inertia: dice.between(0.01, 0.2),
-        speed,
+        speed: RotorSpeed::Constant(speed),
     };
-    let mut wheels =
-        vec![wheel(None, RotorSpeed::Constant(25.0)), wheel(None, RotorSpeed::Constant(-40.0))];
+    let mut wheels = vec![wheel(25.0), wheel(-40.0)];
     if dice.chance(0.1) {
-        wheels[1].body = (!description.bodies.is_empty()).then_some(0);
         wheels[0].speed = RotorSpeed::Table(vec![[-1.0, 3.0], [1.0, 9.0]]);
     }
     wheels

@@ -113,17 +113,17 @@ fn runs_take_right_sides_where_there_are_some() {
     }
 }
 
-/// By its constants the stock's right side of a rigid body under a thrust, on eight states; but nothing
-/// changes.
+/// By its constants the stock's right side of a rigid body without rotors under a thrust, on eight states; but
+/// nothing changes.
 struct Still;
 
 impl Routine for Still {
     const RESULT: &'static str = "right_side";
     const TOPOLOGY: &'static str = "M";
     const FORMULATION: &'static str = "articulated";
-    const ASSUMPTIONS: &'static [(usize, f64)] = &[];
+    const ASSUMPTIONS: &'static [(usize, f64)] = &[(16, 0.0), (17, 0.0), (18, 0.0)];
     const EXTERNAL: bool = true;
-    const PARAMETERS: usize = 16;
+    const PARAMETERS: usize = 19;
     const CONSTANTS: usize = 24;
     const COORDINATES: usize = 7;
     const OUTPUTS: usize = 8;
