@@ -50,13 +50,9 @@ fn phrases(request: &Request) -> Vec<String> {
 
 /// Which lines are assumed not to push.
 fn of_lines(request: &Request, said: &mut [bool], phrases: &mut Vec<String>) {
-    let Request { topology, assumptions, .. } = request;
+    let topology = &request.topology;
     let lines = RightSideLayout::lines(topology);
-    let never_pushes = |&place: &usize| {
-        let mut coefficients = RightSideLayout::coefficients(topology, place);
-        coefficients.all(|at| assumptions[at] == Some(0.0))
-    };
-    let absent: Vec<usize> = (0..lines).filter(never_pushes).collect();
+    let absent: Vec<usize> = (0..lines).filter(|&place| !request.may_push(place)).collect();
     absent.iter().for_each(|&place| said[RightSideLayout::line(topology, place)].fill(true));
     match absent.len() {
         0 => {}
@@ -67,13 +63,10 @@ fn of_lines(request: &Request, said: &mut [bool], phrases: &mut Vec<String>) {
 
 /// Which hinges are assumed not to be coupled with the one inboard of them, of those that have one.
 fn of_couplings(request: &Request, said: &mut [bool], phrases: &mut Vec<String>) {
-    let Request { topology, assumptions, .. } = request;
+    let topology = &request.topology;
     let inboard = topology.inboard_hinges();
-    let uncoupled = |&hinge: &usize| {
-        let mut strength = RightSideLayout::strength(topology, hinge).into_iter();
-        strength.all(|at| assumptions[at] == Some(0.0))
-    };
-    let absent: Vec<usize> = (0..inboard.len()).filter(uncoupled).collect();
+    let absent: Vec<usize> =
+        (0..inboard.len()).filter(|&hinge| !request.may_couple(hinge)).collect();
     absent.iter().for_each(|&hinge| said[RightSideLayout::coupling(topology, hinge)].fill(true));
     let count = absent.iter().filter(|&&hinge| inboard[hinge].is_some()).count();
     let pairs = inboard.iter().flatten().count();

@@ -154,21 +154,28 @@ impl Request {
 
     /// Whether a line may push a link.
     pub(crate) fn has_lines(&self) -> bool {
-        let pushes = |place| {
-            let mut coefficients = RightSideLayout::coefficients(&self.topology, place);
-            coefficients.any(|at| self.assumptions[at] != Some(0.0))
-        };
-        self.output == Output::RightSide && (0..RightSideLayout::lines(&self.topology)).any(pushes)
+        let mut places = 0..RightSideLayout::lines(&self.topology);
+        self.output == Output::RightSide && places.any(|place| self.may_push(place))
+    }
+
+    /// Whether the line at a place of a right side may push.
+    pub(crate) fn may_push(&self, place: usize) -> bool {
+        let mut coefficients = RightSideLayout::coefficients(&self.topology, place);
+        coefficients.any(|at| self.assumptions[at] != Some(0.0))
     }
 
     /// Whether a hinge may be coupled with the one inboard of it.
     pub(crate) fn has_couplings(&self) -> bool {
-        let inboard = || self.topology.inboard_hinges().into_iter().enumerate();
-        let is_coupled = |(hinge, inboard): (usize, Option<usize>)| {
-            let mut strength = RightSideLayout::strength(&self.topology, hinge).into_iter();
-            inboard.is_some() && strength.any(|at| self.assumptions[at] != Some(0.0))
-        };
-        self.output == Output::RightSide && inboard().any(is_coupled)
+        let is_coupled =
+            |(hinge, inboard): (usize, Option<usize>)| inboard.is_some() && self.may_couple(hinge);
+        let mut hinges = self.topology.inboard_hinges().into_iter().enumerate();
+        self.output == Output::RightSide && hinges.any(is_coupled)
+    }
+
+    /// Whether a right side may have a coupling at the place of this hinge.
+    pub(crate) fn may_couple(&self, hinge: usize) -> bool {
+        let mut strength = RightSideLayout::strength(&self.topology, hinge).into_iter();
+        strength.any(|at| self.assumptions[at] != Some(0.0))
     }
 
     /// Whether it assumes that the main body is held.

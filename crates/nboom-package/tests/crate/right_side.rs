@@ -9,7 +9,17 @@ use nboom_sim::Options;
 use super::library::run;
 use super::*;
 
-/// Springs, dashpots, a torque table and a kick-off spring that pushes to the end; a thruster fires on the way. In the topology,
+/// Between the last two of three hinges.
+const CABLE: Coupling = Coupling {
+    hinges: [1, 2],
+    ratio: -1.5,
+    stiffness: 3.0,
+    rest: 0.2,
+    damping: 0.3,
+    is_mutual: true,
+};
+
+/// Springs, dashpots, a cable, a wheel, a torque table and a kick-off spring that pushes to the end; a thruster fires on the way. In the topology,
 /// S2_S1, hinges stand in another order than in the scene.
 fn sprung() -> Scene {
     let mut description = (*satellite("sprung", &[1, 2])).clone();
@@ -34,15 +44,7 @@ fn sprung() -> Scene {
     });
     let points = vec![[-10.0, 3.0], [0.0, 1.0], [10.0, -2.0]];
     description.torque_tables = vec![TorqueTable { hinge: 0, points }];
-    let coupling = Coupling {
-        hinges: [1, 2],
-        ratio: -1.5,
-        stiffness: 3.0,
-        rest: 0.2,
-        damping: 0.3,
-        is_mutual: true,
-    };
-    description.couplings.push(coupling);
+    description.couplings.push(CABLE);
     let axis = Vec3::new(0.6, 0.0, 0.8);
     let speed = RotorSpeed::Constant(60.0);
     description.rotors.push(Rotor { body: None, axis, inertia: 0.5, speed });
@@ -211,19 +213,11 @@ fn what_a_right_side_has_no_place_for_is_refused() {
             );
         }
     };
-    let coupling = Coupling {
-        hinges: [0, 1],
-        ratio: -1.0,
-        stiffness: 30.0,
-        rest: 0.0,
-        damping: 0.1,
-        is_mutual: true,
-    };
     refused("one alone", &|scene| {
-        scene.couplings = vec![Coupling { is_mutual: false, ..coupling }];
+        scene.couplings = vec![Coupling { is_mutual: false, ..CABLE }];
     });
-    refused("apart", &|scene| scene.couplings = vec![Coupling { hinges: [2, 0], ..coupling }]);
-    refused("doubled", &|scene| scene.couplings = vec![coupling; 2]);
+    refused("apart", &|scene| scene.couplings = vec![Coupling { hinges: [2, 0], ..CABLE }]);
+    refused("doubled", &|scene| scene.couplings = vec![CABLE; 2]);
     let rotor =
         Rotor { body: None, axis: Vec3::unit_x(), inertia: 1.0, speed: RotorSpeed::Constant(2.0) };
     let speed = RotorSpeed::Table(vec![[0.0, 1.0], [2.0, 3.0]]);
