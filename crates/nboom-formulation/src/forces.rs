@@ -232,8 +232,8 @@ impl<R: Real> Forces<R> {
         inboard.filter_map(|(own, (inboard, law))| Some((own, inboard?, *law))).collect()
     }
 
-    /// All that acts on the main body at the rate `omega`, about O, main-body axes: the external wrench, and −ω̄ × h̄, what
-    /// it takes to carry rotors along.
+    /// All that acts on the main body at the rate `omega`, about O, main-body axes: the external wrench, and the moment
+    /// −ω̄ × h̄ of rotors that are carried along, which are not in the report.
     pub fn on_main_body(&self, omega: Vec3<R>) -> Wrench<R> {
         Wrench { moment: self.external.moment - omega.cross(self.spin), ..self.external }
     }
