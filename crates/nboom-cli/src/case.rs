@@ -70,7 +70,7 @@ pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), Cl
     })?;
     let of_inputs = format!("{}{}", nboom_io::sha256(study.text.as_bytes()), file.sha256);
     let file = SceneFile { sha256: nboom_io::sha256(of_inputs.as_bytes()), ..file };
-    let again = with_settings(args, &study.run)?;
+    let again = with_settings(args, &study.run, file.settings.hinge_loads)?;
     let by_default = || Path::new("out").join(format!("{}-case-{case}", study.name));
     let output = again.output.clone().unwrap_or_else(by_default);
     Ok((RunArgs { output: Some(output), ..again }, file))
@@ -82,11 +82,15 @@ pub(crate) fn read_study(path: &Path, include_anywhere: bool) -> Result<Study, C
     Ok(Study::read_with(path, &read_options(include_anywhere))?)
 }
 
-/// The arguments with the settings of a study in place of defaults.
+/// The arguments with the settings of a study in place of defaults; its scene may ask for `hinge_loads`.
 ///
 /// # Errors
 /// When an option acts on stresses that the study leaves out.
-fn with_settings(args: &RunArgs, settings: &RunSettings) -> Result<RunArgs, CliError> {
+fn with_settings(
+    args: &RunArgs,
+    settings: &RunSettings,
+    hinge_loads: bool,
+) -> Result<RunArgs, CliError> {
     let stresses = &args.stresses;
     let on_stresses = [
         ("--yield-stress", stresses.yield_stress.is_some()),
@@ -99,7 +103,11 @@ fn with_settings(args: &RunArgs, settings: &RunSettings) -> Result<RunArgs, CliE
     }
     let mut settings = settings.clone();
     if stresses.no_stresses {
-        settings.strength = Settings::default();
+        let Settings { amplification, pulses, .. } = settings.strength;
+        let has_pulses = hinge_loads || settings.hinge_loads || stresses.hinge_loads;
+        let usual = Settings::default();
+        settings.strength =
+            if has_pulses { Settings { amplification, pulses, ..usual } } else { usual };
     }
     let of_study = arguments(args, words_of_settings(&settings)).given;
     Ok(arguments(args, of_study.changed_by(&args.given).words()))

@@ -107,6 +107,17 @@ fn a_case_has_the_margins_that_it_had_in_the_sweep() {
     let bare = ["run", "study.toml", "--case", "1", "-o", "bare", "--quiet", "--no-stresses"];
     let output = place.nboom(&bare);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
+    // Loads of hinges take what acts on pulses.
+    let of_hinges = study.replace("[run]\n", "[run]\nhinge_loads = true\n");
+    place.write("study.toml", &format!("{of_hinges}{vary}"));
+    let output = place.nboom(&bare.map(|word| if word == "bare" { "hinges" } else { word }));
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let record = fs::read_to_string(place.path("hinges/run.json")).expect("a record");
+    let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
+    let options = &record["options"];
+    assert_eq!(options["amplification"], "1.7");
+    assert_eq!(options["pulses"], "all-at-once");
+    assert_eq!(options["safety-factor"], serde_json::Value::Null);
     place.write(
         "study.toml",
         &format!("scene = 'four.toml'\ndraws = 1\n[run]\nstresses = false\n{vary}"),
