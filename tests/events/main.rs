@@ -20,6 +20,7 @@ mod interrupts;
 mod kick_off;
 mod limits;
 mod lock_ups;
+mod misses;
 mod output;
 mod random_rotors;
 mod random_trees;

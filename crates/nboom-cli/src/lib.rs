@@ -112,7 +112,7 @@ pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
 pub use terminal::refuse;
-pub use verdict::negative_margins;
+pub use verdict::troubles;
 
 use terminal::{print, say};
 

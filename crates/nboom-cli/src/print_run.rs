@@ -324,6 +324,7 @@ mod tests {
                     state: HingeState::Locked,
                     since: Some(0.25),
                     angle: 0.0,
+                    miss: None,
                 }],
                 largest_impulse: Some(LockUpImpulse { hinge: 0, time: 0.25, impulse: -0.125 }),
             },

@@ -19,7 +19,7 @@ use crate::repeat::{is_record, repeated};
 use crate::watch::Watch;
 use crate::{
     CliError, PathChoice, Routines, RunArgs, case, check, print_run, say, table_args, tables,
-    verdict,
+    troubles,
 };
 
 /// Simulates a scene, writes its files and returns the text for standard output.
@@ -230,7 +230,7 @@ fn simulate_into_files(
     interrupt.leaves_nothing();
     let tabled = tables::add(&args.tables.formats, &kept);
     // Printed even with --quiet, since the results are not what they seem.
-    warn_of_poor_results(args.case, &outcome, options, &worst);
+    warn_of_poor_results(scene, args.case, &outcome, options, &worst);
     // The error that stopped the run says more than one in writing the files afterwards.
     if let Some(error) = failed {
         let _ = show(args, &kept);
@@ -282,15 +282,16 @@ fn directory(args: &RunArgs, scene: &Scene) -> Result<PathBuf, CliError> {
 
 /// Warns of the run, or of the case of a study that it is: a sweep runs several for their pages.
 fn warn_of_poor_results(
+    scene: &Scene,
     case: Option<u64>,
     outcome: &Outcome,
     options: &Options,
     worst: &WorstLoads,
 ) {
     let of_case = case.map_or(String::new(), |case| format!("case {case}: "));
-    let poor = outcome.summary.conservation.poor(options.rtol).map(|law| law.to_string());
-    let all = poor.chain(verdict::negative_margins(worst));
-    all.for_each(|warning| say("warning", &format!("{of_case}{warning}")));
+    for warning in troubles(scene, &outcome.summary, options.rtol, worst) {
+        say("warning", &format!("{of_case}{warning}"));
+    }
 }
 
 /// The page and the figures of the run, made from its files, as far as somebody wants them.

@@ -2,10 +2,13 @@
 
 use nboom_model::{HingeState, Scene};
 use nboom_results::WorstLoads;
-use nboom_sim::{HingeVerdict, Verdict};
+use nboom_sim::{HingeVerdict, Miss, Summary, Verdict};
 use nboom_strength::{Limit, Worst};
 
 use crate::format::short;
+
+/// Errors of a run that is not unstable are below so many times its tolerance.
+const ERRORS: f64 = 1e3;
 
 /// Hinges beyond these are only counted.
 const SHOWN: usize = 12;
@@ -51,15 +54,36 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     let state = if hinge.state == HingeState::Free { "free" } else { "unreleased" };
     let label = scene.label(i);
     let place = label.coordinate(hinge.angle);
-    match scene.bodies[i].hinge.lock_angle {
-        Some(lock) => format!("{label} {state} at {place}, locks at {}", label.coordinate(lock)),
-        None => format!("{label} {state} at {place}, has no lock"),
+    let Some(lock) = scene.bodies[i].hinge.lock_angle else {
+        return format!("{label} {state} at {place}, has no lock");
+    };
+    let told = format!("{label} {state} at {place}, locks at {}", label.coordinate(lock));
+    match hinge.miss.filter(|miss| miss.by < (lock - hinge.angle).abs()) {
+        Some(Miss { by, time }) => {
+            format!("{told}, nearest at {}: {} away", short(time, 6), label.coordinate(by))
+        }
+        None => told,
     }
 }
 
-/// Messages about parts that fail: the first to yield, and the first to break.
-pub fn negative_margins(worst: &WorstLoads) -> impl Iterator<Item = String> {
-    worst.weakest_of_each().filter_map(negative_margin)
+/// Why the results of a run at this tolerance are not to be trusted, or not to be liked: laws that do not hold, latches that
+/// errors of the run may have kept open, and parts that fail.
+pub fn troubles(scene: &Scene, summary: &Summary, rtol: f64, worst: &WorstLoads) -> Vec<String> {
+    let poor = summary.conservation.poor(rtol).map(|law| law.to_string());
+    let hinges = summary.verdict.hinges.iter().enumerate();
+    let open = hinges.filter_map(|(i, hinge)| narrow_miss(scene, i, hinge.miss?, rtol));
+    let negative = worst.weakest_of_each().filter_map(negative_margin);
+    poor.chain(open).chain(negative).collect()
+}
+
+fn narrow_miss(scene: &Scene, i: usize, Miss { by, time }: Miss, rtol: f64) -> Option<String> {
+    (by <= ERRORS * rtol * scene.coordinate_scale(i)).then(|| {
+        let (label, by, time) = (scene.label(i), short(by, 2), short(time, 6));
+        format!(
+            "hinge {label} is {by} from its lock angle at {time} and does not lock: errors of the run may \
+             decide that"
+        )
+    })
 }
 
 fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {

@@ -1,11 +1,11 @@
 /// Highest degree of a polynomial.
 pub(crate) const HIGHEST: usize = 24;
 
-/// Degree of the polynomials through given values.
-const DEGREE: usize = 7;
-
 /// Width below which an interval counts as a point, in parts of the whole.
 const RESOLUTION: f64 = 1e-14;
+
+/// Width below which a polynomial is flat about an extreme, in parts of the whole.
+const FLAT: f64 = 1e-8;
 
 /// A polynomial on [0, 1] by its Bernstein coefficients, between whose extremes it lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,6 +117,32 @@ impl Bernstein {
         self.minus(level).leaves_side(side)
     }
 
+    /// Where on [0, `end`] the polynomial is nearest to `level`, on the side of it that has the sign `side`, and
+    /// its distance there, negative beyond. Between its values the place is found to 1e-8 of the way, at which an
+    /// extreme is flat to rounding.
+    pub fn nearest(&self, level: f64, side: f64, end: f64) -> (f64, f64) {
+        let mut above = if end == 1.0 { *self } else { self.until(end) }.minus(level);
+        above.coefficients.iter_mut().for_each(|c| *c *= side);
+        let (first, last) = (above.coefficients[0], above.coefficients[above.degree]);
+        let mut least = if last < first { (1.0, last) } else { (0.0, first) };
+        above.find_less(0.0, 1.0, &mut least);
+        (least.0 * end, least.1)
+    }
+
+    /// Takes the place of the least value into `least`, if it is less than what is there. This is the part of a
+    /// polynomial on [`from`, `to`], whose values at these are there already.
+    fn find_less(&self, from: f64, to: f64, least: &mut (f64, f64)) {
+        if to - from < FLAT || self.coefficients().iter().all(|&c| c >= least.1) {
+            return;
+        }
+        let (middle, (left, right)) = (0.5 * (from + to), self.halves());
+        if right.coefficients[0] < least.1 {
+            *least = (middle, right.coefficients[0]);
+        }
+        left.find_less(from, middle, least);
+        right.find_less(middle, to, least);
+    }
+
     fn first_negative(&self, from: f64, to: f64) -> Option<f64> {
         let c = self.coefficients();
         if c.iter().all(|&c| c >= 0.0) {
@@ -178,6 +204,18 @@ impl Bernstein {
             }
         }
         (row[0], slope)
+    }
+
+    /// The part of the polynomial on [0, `end`], as one on [0, 1] (de Casteljau).
+    fn until(&self, end: f64) -> Self {
+        let mut part = *self;
+        for level in 1..=self.degree {
+            for j in (level..=self.degree).rev() {
+                part.coefficients[j] =
+                    (1.0 - end) * part.coefficients[j - 1] + end * part.coefficients[j];
+            }
+        }
+        part
     }
 
     /// The polynomial on the left and right half of its interval (de Casteljau).
@@ -244,78 +282,10 @@ const fn binomial(n: usize, k: usize) -> f64 {
     value
 }
 
-/// The polynomial of degree 7 through values at eight fixed points of [0, 1].
-#[derive(Clone, Debug)]
-pub struct Interpolation {
-    from_values: [[f64; DEGREE + 1]; DEGREE + 1],
-}
-
-impl Interpolation {
-    /// How many values are needed.
-    pub const POINTS: usize = DEGREE + 1;
-
-    /// Prepares the interpolation.
-    pub fn new() -> Self {
-        let basis = std::array::from_fn(|i| basis_at(Self::point(i)));
-        Self { from_values: inverse(basis) }
-    }
-
-    /// Where value `i` belongs: Chebyshev points with both ends.
-    pub fn point(i: usize) -> f64 {
-        0.5 - 0.5 * (std::f64::consts::PI * i as f64 / DEGREE as f64).cos()
-    }
-
-    /// The polynomial with these values at the points.
-    pub fn through(&self, values: &[f64; DEGREE + 1]) -> Bernstein {
-        let dot = |row: &[f64; DEGREE + 1]| row.iter().zip(values).map(|(a, v)| a * v).sum();
-        let coefficients: [f64; DEGREE + 1] = std::array::from_fn(|j| dot(&self.from_values[j]));
-        Bernstein::new(&coefficients)
-    }
-}
-
-impl Default for Interpolation {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-fn basis_at(x: f64) -> [f64; DEGREE + 1] {
-    let mut values = [0.0; DEGREE + 1];
-    values[0] = 1.0;
-    for degree in 1..=DEGREE {
-        for j in (0..=degree).rev() {
-            let from_left = if j > 0 { values[j - 1] * x } else { 0.0 };
-            values[j] = values[j] * (1.0 - x) + from_left;
-        }
-    }
-    values
-}
-
-/// Gauss-Jordan; the basis at distinct points is regular and totally positive, so pivots in
-/// order are safe.
-fn inverse(mut m: [[f64; DEGREE + 1]; DEGREE + 1]) -> [[f64; DEGREE + 1]; DEGREE + 1] {
-    let mut inverse = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
-    for p in 0..=DEGREE {
-        let pivot = m[p][p];
-        for j in 0..=DEGREE {
-            m[p][j] /= pivot;
-            inverse[p][j] /= pivot;
-        }
-        let (pivot_row, inverse_row) = (m[p], inverse[p]);
-        for i in (0..=DEGREE).filter(|&i| i != p) {
-            let factor = m[i][p];
-            for j in 0..=DEGREE {
-                m[i][j] -= factor * pivot_row[j];
-                inverse[i][j] -= factor * inverse_row[j];
-            }
-        }
-    }
-    inverse
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Interpolation;
 
     fn through(f: impl Fn(f64) -> f64) -> Bernstein {
         let values = std::array::from_fn(|i| f(Interpolation::point(i)));
@@ -349,6 +319,32 @@ mod tests {
             // Coefficients of degree 7 bound these to within a sixth.
             assert!(found < 1.2 * expected, "{found} {expected}");
             assert!((0..=20).all(|i| (p.at(f64::from(i) / 20.0) - start).abs() <= found + 1e-14));
+        }
+    }
+
+    #[test]
+    fn the_nearest_place_of_a_part_is_found() {
+        // 4 x (1 − x) rises to 1 in the middle; cubes turn back twice.
+        let hill = through(|x| 4.0 * x * (1.0 - x));
+        let waves = through(|x| (x - 0.2) * (x - 0.5) * (x - 0.9));
+        let turns = [0.0_f64, 1.0].map(|k| {
+            let (mean, root) = (1.6 / 3.0, (1.6_f64.powi(2) - 3.0 * 0.73).sqrt() / 3.0);
+            mean + (2.0 * k - 1.0) * root
+        });
+        let wave = |x: f64| (x - 0.2) * (x - 0.5) * (x - 0.9);
+        for (p, level, side, end, place, distance) in [
+            (hill, 2.0, -1.0, 1.0, 0.5, 1.0),
+            (hill, 2.0, -1.0, 0.25, 0.25, 1.25),
+            (hill, 2.0, -1.0, 0.75, 0.5, 1.0),
+            (hill, -1.0, 1.0, 1.0, 0.0, 1.0),
+            (hill, -1.0, 1.0, 0.75, 0.0, 1.0),
+            (waves, 1.0, -1.0, 0.8, turns[0], 1.0 - wave(turns[0])),
+            (waves, -1.0, 1.0, 1.0, 0.0, 1.0 + wave(0.0)),
+            (waves, 1.0, -1.0, 1.0, 1.0, 1.0 - wave(1.0)),
+        ] {
+            let (found, nearest) = p.nearest(level, side, end);
+            assert!((found - place).abs() < 2e-8, "{found} {place}");
+            assert!((nearest - distance).abs() < 1e-14, "{nearest} {distance}");
         }
     }
 

@@ -78,6 +78,9 @@ struct HingeKeys {
     state: i8,
     time: Option<f64>,
     angle: f64,
+    /// How near it came to its lock angle without locking, and when.
+    miss: Option<f64>,
+    miss_time: Option<f64>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -147,6 +150,8 @@ impl HingeKeys {
             state: hinge.state.code(),
             time: hinge.since,
             angle: hinge.angle,
+            miss: hinge.miss.map(|miss| miss.by),
+            miss_time: hinge.miss.map(|miss| miss.time),
         }
     }
 }

@@ -115,7 +115,12 @@ fn outcome(error: Option<&str>) -> Outcome {
             selection(5.0, "generated", "articulated", "routine"),
         ],
         verdict: Verdict {
-            hinges: vec![HingeVerdict { state: HingeState::Locked, since: Some(5.0), angle: 0.25 }],
+            hinges: vec![HingeVerdict {
+                state: HingeState::Locked,
+                since: Some(5.0),
+                angle: 0.25,
+                miss: None,
+            }],
             largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
         },
     };

@@ -17,6 +17,7 @@ use crate::options::Options;
 use crate::run::ledger::Ledger;
 use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
+use crate::run::verdict::Miss;
 
 pub(crate) mod account;
 pub(crate) mod beforehand;
@@ -218,6 +219,7 @@ impl<'a> Run<'a> {
                 self.locate(kind, fraction * full, full).await;
             }
             self.sample_within(full, self.stepper.window().end_time)?;
+            self.note_misses(full);
             self.tell_step(full)?;
             self.accept();
             let Situation { state, guards, .. } = &mut *self.situation;
@@ -302,6 +304,17 @@ impl<'a> Run<'a> {
             last_correction = correction.abs();
             // Dense output may put a zero just before the step's end that lies just after it.
             step = (step + correction).clamp(0.0, 1.01 * full);
+        }
+    }
+
+    /// Notes how near hinges have come to their lock angles in the step just taken, whose dense output is over a
+    /// step of length `full`.
+    fn note_misses(&mut self, full: f64) {
+        let Self { situation, equations, stepper, summary, .. } = self;
+        let (start, length) = (stepper.window().time, stepper.window().length());
+        for (hinge, [fraction, by]) in situation.guards.nearest(equations, length / full) {
+            let time = start + fraction * full;
+            summary.verdict.note_distance(hinge, Miss { by, time });
         }
     }
 

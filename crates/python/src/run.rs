@@ -133,9 +133,8 @@ impl Run {
     /// Why the results are not to be trusted, if so.
     #[getter]
     fn troubles(&self) -> Vec<String> {
-        let poor = self.summary.conservation.poor(self.prepared.options.rtol);
-        let negative = nboom_cli::negative_margins(&self.worst);
-        poor.map(|law| law.to_string()).chain(negative).collect()
+        let Self { prepared, summary, worst, .. } = self;
+        nboom_cli::troubles(&prepared.scene, summary, prepared.options.rtol, worst)
     }
 
     /// Whether the run has come to its end.

@@ -65,7 +65,11 @@ fn a_run_in_which_nothing_locks_says_how_far_hinges_came() {
     let states = table(&place, "states.csv");
     let angle = number(&states.last().expect("rows")[14]);
     let verdict = &place.summary("out")["verdict"];
-    let hinge = json!({"appendage": 1, "segment": 1, "state": 0, "time": 0.25, "angle": angle});
+    // It is on its way, and so nearest to its lock at zero at the end.
+    let hinge = json!({
+        "appendage": 1, "segment": 1, "state": 0, "time": 0.25, "angle": angle,
+        "miss": angle, "miss_time": 0.5,
+    });
     assert_eq!(verdict["hinges"], json!([hinge]));
     for key in ["largest_impulse", "worst_load", "smallest_margin"] {
         assert_eq!(verdict[key], Value::Null, "{key}");
@@ -80,6 +84,38 @@ fn a_run_in_which_nothing_locks_says_how_far_hinges_came() {
     let output = place.nboom(&["run", "boom.nml", "-o", "out", "--end-time", "0.1"]);
     assert!(stdout(&output).contains("none locked   1,1 unreleased at 80 deg"), "{output:?}");
     assert_eq!(place.summary("out")["verdict"]["hinges"][0]["time"], Value::Null);
+}
+
+/// A boom on a spring that swings from 1 rad through 0 to -1 rad and back, twice; its main body is held.
+fn swinging(lock_angle: f64) -> String {
+    format!(
+        "name = \"swing\"\n[run]\nend = 12.0\n\
+         [main_body]\nmass = 10.0\ninertia = [1.0, 1.0, 1.0]\nheld = {{}}\n\
+         [[body]]\nname = \"boom\"\nmass = 1.0\nmass_centre = [1.0, 0.0, 0.0]\ninertia = [0.1, 1.0, 1.0]\n\
+         [body.hinge]\nat = [0.0, 0.0, 0.0]\naxis = \"z\"\nstart_rad = 1.0\nlatch_rad = {lock_angle}\n\
+         spring = {{ stiffness = 2.0 }}\n"
+    )
+}
+
+#[test]
+fn a_latch_that_errors_of_the_run_may_have_kept_open_is_told() {
+    let place = Place::new();
+    // The moment of inertia about the hinge is 2, so β = cos t.
+    for (gap, told, warned) in
+        [(0.1, "nearest at 3.14159: 5.72958 deg away", false), (1e-8, "nearest at 3.14159", true)]
+    {
+        place.write("swing.toml", &swinging(-1.0 - gap));
+        let output = place.nboom(&["run", "swing.toml", "-o", "out"]);
+        assert_eq!(code(&output), 0, "{output:?}");
+        assert!(stdout(&output).contains(told), "{output:?}");
+        let warning =
+            "warning: hinge 1,1 (boom) is 1e-8 from its lock angle at 3.14159 and does not lock";
+        assert_eq!(stderr(&output).contains(warning), warned, "{output:?}");
+        let hinge = &place.summary("out")["verdict"]["hinges"][0];
+        let [miss, time] =
+            ["miss", "miss_time"].map(|key| hinge[key].as_f64().expect("it is free"));
+        assert!((miss - gap).abs() < 1e-9 && (time - std::f64::consts::PI).abs() < 1e-4, "{hinge}");
+    }
 }
 
 #[test]

@@ -246,6 +246,29 @@ impl Guards {
         first
     }
 
+    /// The hinges that wait for their lock angles, where each is nearest to it in the beginning of the step that was
+    /// [searched](Self::first_change), as a fraction of that step up to `end`, and its distance there. Those that
+    /// became free at their lock angles are left out.
+    pub fn nearest(
+        &self,
+        equations: &Equations,
+        end: f64,
+    ) -> impl Iterator<Item = (usize, [f64; 2])> {
+        let free = equations.entered.dynamics.free_hinges();
+        let bodies = &equations.scene.bodies;
+        self.list.iter().filter_map(move |guard| match (guard.kind, guard.side) {
+            (GuardKind::Lock { hinge, angle }, Side::Known(sign))
+                if bodies[hinge].hinge.start.angle != angle =>
+            {
+                let position = free.binary_search(&hinge).ok()?;
+                let angles = self.angles.0[position].as_ref()?;
+                let (fraction, distance) = angles.nearest(angle, sign, end);
+                Some((hinge, [fraction, distance.max(0.0)]))
+            }
+            _ => None,
+        })
+    }
+
     /// Notes on which side of zero each guard that had been leaving it is at `state`.
     pub fn settle<R: Number>(&mut self, dynamics: &Recursive<R>, state: &State<R>) {
         for guard in &mut self.list {

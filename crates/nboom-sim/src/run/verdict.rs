@@ -20,6 +20,18 @@ pub struct HingeVerdict {
     pub since: Option<f64>,
     /// β when the run ended \[rad\].
     pub angle: f64,
+    /// By how much it has missed its lock angle so far; `None` unless it is free, has a lock angle, and became free
+    /// elsewhere.
+    pub miss: Option<Miss>,
+}
+
+/// Where a free hinge was nearest to its lock angle, which it has not reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Miss {
+    /// Its distance from the lock angle \[rad\]; of a slide that of the travel.
+    pub by: f64,
+    /// When.
+    pub time: f64,
 }
 
 /// The impulse of a lock-up.
@@ -36,8 +48,12 @@ pub struct LockUpImpulse {
 impl Verdict {
     /// Begins anew, before anything has happened to as many hinges.
     pub(crate) fn begin(&mut self, hinges: &[HingeState], beta: &[f64]) {
-        let hinge =
-            |(&state, &angle): (&HingeState, &f64)| HingeVerdict { state, since: None, angle };
+        let hinge = |(&state, &angle): (&HingeState, &f64)| HingeVerdict {
+            state,
+            since: None,
+            angle,
+            miss: None,
+        };
         self.hinges.clear();
         self.hinges.extend(hinges.iter().zip(beta).map(hinge));
         self.largest_impulse = None;
@@ -47,7 +63,7 @@ impl Verdict {
     pub(crate) fn note(&mut self, scene: &Scene, event: &Event) {
         let Some(hinge) = event.hinge else { return };
         if matches!(event.kind, EventKind::LockUp | EventKind::Release) {
-            self.hinges[hinge].since = Some(event.time);
+            (self.hinges[hinge].since, self.hinges[hinge].miss) = (Some(event.time), None);
         }
         let Some(impulse) = event.impulse else { return };
         // A stroke makes what it is beside a torque of a force.
@@ -55,6 +71,14 @@ impl Verdict {
         let is_larger = |of: LockUpImpulse| size(hinge, impulse) > size(of.hinge, of.impulse);
         if self.largest_impulse.is_none_or(is_larger) {
             self.largest_impulse = Some(LockUpImpulse { hinge, time: event.time, impulse });
+        }
+    }
+
+    /// Notes that a free hinge was at such a distance from its lock angle.
+    pub(crate) fn note_distance(&mut self, hinge: usize, here: Miss) {
+        let nearest = &mut self.hinges[hinge].miss;
+        if nearest.is_none_or(|known| here.by < known.by) {
+            *nearest = Some(here);
         }
     }
 

@@ -1,7 +1,7 @@
 //! What became of a hinge, and what it and its segment carried.
 
 use nboom_io::{SceneFile, nearest};
-use nboom_model::HingeState;
+use nboom_model::{Hinge, HingeState};
 use nboom_strength::{HingeQuantity, Worst, WorstHingeLoad};
 use nboom_tables::{Column, Kind as Holds};
 
@@ -27,6 +27,7 @@ pub(super) enum Kind {
     ReleaseTime,
     Impulse,
     State,
+    Miss,
     PeakForce,
     PeakMoment,
     PeakStress,
@@ -54,7 +55,7 @@ const fn of(
 
 const TIME: Option<[&str; 2]> = Some(["T"; 2]);
 
-static ALL: [Description; 8] = [
+static ALL: [Description; 9] = [
     of(Kind::LockTime, "lock_time", TIME, Needs::Nothing, "when it locked for the last time"),
     of(Kind::ReleaseTime, "release_time", TIME, Needs::Nothing, "when it was released"),
     of(
@@ -65,6 +66,13 @@ static ALL: [Description; 8] = [
         "impulsive torque of its last lock-up on the outboard side, of a slide the impulsive force",
     ),
     of(Kind::State, "state", None, Needs::Nothing, "at the end: -1 unreleased, 0 free, 1 locked"),
+    of(
+        Kind::Miss,
+        "miss",
+        Some(["rad", "L"]),
+        Needs::Nothing,
+        "how near it came to its lock angle without locking; zero if it is locked",
+    ),
     of(
         Kind::PeakForce,
         "peak_force",
@@ -112,9 +120,13 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
     if let Some(missing) = found.needs.missing(file, loads) {
         return Err(refused(missing));
     }
-    let start = file.scene.bodies[hinge].hinge.start.state;
-    if matches!(found.kind, Kind::LockTime | Kind::Impulse) && start == HingeState::Locked {
+    let Hinge { start, lock_angle, .. } = file.scene.bodies[hinge].hinge;
+    let of_latch = matches!(found.kind, Kind::LockTime | Kind::Impulse | Kind::Miss);
+    if of_latch && start.state == HingeState::Locked {
         return Err(refused("a hinge that is not locked from the start"));
+    }
+    if found.kind == Kind::Miss && lock_angle.is_none() {
+        return Err(refused("a hinge that has a lock angle"));
     }
     let has_stations = || {
         let structure = file.structure.as_ref();
@@ -140,6 +152,10 @@ impl Kind {
             Self::ReleaseTime => release,
             Self::Impulse => impulse,
             Self::State => Some(verdict.state.code().into()),
+            Self::Miss => match verdict.state {
+                HingeState::Locked => Some(0.0),
+                _ => verdict.miss.map(|miss| miss.by),
+            },
             Self::PeakForce => found.peak(hinge, HingeQuantity::Force),
             Self::PeakMoment => found.peak(hinge, HingeQuantity::Moment),
             Self::PeakStress => {

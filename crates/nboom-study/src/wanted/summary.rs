@@ -31,7 +31,7 @@ impl Key {
 }
 
 /// All, in their order in the file; `wall_seconds` is none, since it is another one each time.
-static KEYS: [Key; 57] = [
+static KEYS: [Key; 59] = [
     count("degrees_of_freedom", "six, or none of a held main body, and one for each hinge"),
     number("generated_share", "1", "share of the evaluations by generated code"),
     number("selections[].since", "T", "when this code took over"),
@@ -52,6 +52,8 @@ static KEYS: [Key; 57] = [
     count("verdict.hinges[].state", "at the end: -1 unreleased, 0 free, 1 locked"),
     number("verdict.hinges[].time", "T", "when it was released or locked for the last time"),
     number(ANGLE, "rad", "angle or travel at the end"),
+    number(MISS, "rad", "how near it came to its lock angle without locking"),
+    number("verdict.hinges[].miss_time", "T", "when it was nearest to its lock angle"),
     number("verdict.largest_impulse", "F L T", "magnitude of the largest impulse of a lock-up"),
     count("verdict.largest_impulse_at.appendage", APPENDAGE),
     count("verdict.largest_impulse_at.segment", SEGMENT),
@@ -101,6 +103,7 @@ const SEGMENT: &str = "segment of the hinge, from 1";
 const STATION: &str = "station of the segment, from 1";
 const LOAD_TIME: &str = "when the load was largest";
 const ANGLE: &str = "verdict.hinges[].angle";
+const MISS: &str = "verdict.hinges[].miss";
 /// Followed by a name.
 const PARAMETER: &str = "parameters.";
 
@@ -129,7 +132,8 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
         return Err(refused(missing));
     }
     let slides = label.flatten().is_some_and(|label| label.joint.slides());
-    let unit = key.unit.map(|unit| if slides && pattern == ANGLE { "L" } else { unit });
+    let unit =
+        key.unit.map(|unit| if slides && [ANGLE, MISS].contains(&&*pattern) { "L" } else { unit });
     let kind = if unit.is_some() { Kind::Number } else { Kind::Integer };
     let pointer = match number {
         Some(number) => pattern.replace("[]", &format!(".{number}")),

@@ -33,7 +33,7 @@ fn results_of_the_motion_are_those_of_a_run_of_its_own() {
             "state of x panel 2", "final omega_z", "largest tau of x panel 1",
             "smallest tau_1_1", "final nutation", "largest state of y panel 1",
             "verdict.hinges[3].angle", "steps_accepted", "conservation.energy", "samples",
-            "parameters.stiffness"]
+            "parameters.stiffness", "miss of x panel 1"]
         [[vary]]
         name = "spring"
         path = "parameters.stiffness"
@@ -63,6 +63,35 @@ fn results_of_the_motion_are_those_of_a_run_of_its_own() {
     assert_eq!(number("steps_accepted"), summary.steps_accepted as f64);
     assert_eq!(number("conservation_energy"), summary.conservation.energy);
     assert_eq!((number("samples"), number("parameters_stiffness")), (500.0, 0.031));
+    assert_eq!(number("miss_of_x_panel_1"), 0.0);
+}
+
+#[test]
+fn a_hinge_that_turns_back_has_a_miss() {
+    // Against its spring the boom comes to rest at the angle at which the spring has all of its energy.
+    let scene = example("boom.toml");
+    let study = study(
+        "miss",
+        &scene,
+        r#"results = ["miss of 1,1", "verdict.hinges[1].miss", "verdict.hinges[1].miss_time", "state of 1,1"]
+        [[vary]]
+        name = "lock"
+        path = "body.boom.hinge.latch_deg"
+        values = [-200.0, 0.0]"#,
+    );
+    let row = complete(row(&study, 1));
+    let slot = study.document.slot("body.boom.hinge.latch_deg").expect("a number");
+    let file = study.document.scene(&[(&slot, -200.0)]).expect("right");
+    let (witness, summary, _, _) = witness::run(&file, Options::default());
+    let number = |column: &str| number(&study, &row, column);
+    let nearest = largest(&witness, |s| -s.beta[0]);
+    let miss = summary.verdict.hinges[0].miss.expect("it does not lock");
+    assert_eq!(number("state_of_1_1"), 0.0);
+    assert_eq!([number("miss_of_1_1"), number("verdict_hinges_1_miss")], [miss.by; 2]);
+    assert_eq!(number("verdict_hinges_1_miss_time"), miss.time);
+    // Of 500 output times the nearest is as near as the motion is flat.
+    let lock = 200.0_f64.to_radians();
+    assert!((miss.by - (lock - nearest)).abs() < 1e-3 && miss.by <= lock - nearest, "{miss:?}");
 }
 
 #[test]
