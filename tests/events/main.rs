@@ -26,4 +26,5 @@ mod random_rotors;
 mod random_trees;
 mod releases;
 mod runaways;
+mod steps;
 mod thrust;

@@ -120,3 +120,35 @@ fn every_integrator_says_so() {
         assert!((found.time - FRAC_PI_2).abs() < 1e-3, "{}: {found:?}", integrator.name());
     }
 }
+
+/// A spring that rests at the lock angle takes a hinge there past it unless it is overdamped: then only errors do.
+#[test]
+fn errors_decide_about_a_hinge_that_comes_to_rest_at_its_lock_angle() {
+    for (damping, is_doubtful) in
+        [(0.0, false), (0.5, false), (0.9, false), (2.0, true), (5.0, true)]
+    {
+        let swing = oscillating(free(1.0, 0.0), 1.0, 0.0);
+        let scene = scene(&[locking_at(growing(swing, -damping), 0.0)], 400.0);
+        for rtol in [1e-6, 1e-9] {
+            let options = Options { samples: 1, rtol, atol: 1e-3 * rtol, ..Options::default() };
+            let (_, summary) = run(&scene, &options);
+            let doubts: Vec<_> = summary.verdict.doubts(&scene, rtol).collect();
+            assert_eq!(doubts.len(), usize::from(is_doubtful), "{damping}, {rtol:e}: {doubts:?}");
+            let rate = summary.verdict.hinges[0].closing_rate;
+            assert!(is_doubtful || rate.is_some_and(|rate| rate < -1e-3), "{damping}: {rate:?}");
+        }
+    }
+}
+
+#[test]
+fn errors_decide_about_a_hinge_that_turns_back_just_before_its_lock_angle() {
+    for (gap, rtol, is_doubtful) in
+        [(1e-8, 1e-9, true), (1e-8, 1e-12, false), (1e-4, 1e-6, true), (1e-2, 1e-6, false)]
+    {
+        let scene = scene(&[locking_at(swinging(), 1.0 + gap)], 3.0);
+        let options = Options { samples: 1, rtol, atol: 1e-3 * rtol, ..Options::default() };
+        let (_, summary) = run(&scene, &options);
+        let doubts: Vec<_> = summary.verdict.doubts(&scene, rtol).collect();
+        assert_eq!(doubts.len(), usize::from(is_doubtful), "{gap:e}, {rtol:e}: {doubts:?}");
+    }
+}

@@ -1,12 +1,17 @@
 //! Motions that are fed without end are given up by what they gain, with hinge and cause, long before
 //! their steps are used up; others go on to the end. Counts of steps, not clocks, say when.
 
-use nboom::model::{Dashpot, Hinge, HingeLabel, Scene, Spring};
-use nboom::sim::{Feeds, Options, SimError, Summary};
+use std::cell::Cell;
+
+use nboom::model::{
+    Coupling, Dashpot, Hinge, HingeLabel, Rotor, RotorSpeed, Scene, SceneDescription, Spring,
+};
+use nboom::scalar::Vec3;
+use nboom::sim::{Event, Feeds, Options, Recorder, SimError, Snapshot, Summary, simulate};
 
 use crate::collect::{run, try_run};
 use crate::random_scene::conservative;
-use crate::rotors::{free, growing, oscillating, scene};
+use crate::rotors::{description, free, growing, oscillating, scene};
 
 const FIRST: HingeLabel = HingeLabel::new(0, 0);
 const SECOND: HingeLabel = HingeLabel::new(1, 0);
@@ -95,4 +100,64 @@ fn a_growing_motion_with_an_end_is_followed() {
     assert!(growth > 1e7, "{growth:e}");
     let off = (found.last().tau[0] / end.exp() - 1.0).abs();
     assert!(off < summary.steps_accepted as f64 * 1e-9, "{off:e}");
+}
+
+/// Two booms at rest beside each other that only a coupling moves.
+fn coupled(coupling: Coupling) -> SceneDescription {
+    let mut scene = description(&[free(0.1, 0.0), free(0.0, 0.0)], 1e4);
+    scene.couplings = vec![coupling];
+    scene
+}
+
+/// What a coupling feeds is not blamed on the springs and dashpots of its hinges.
+#[test]
+fn a_coupling_of_the_wrong_sign() {
+    let coupling = Coupling {
+        hinges: [0, 1],
+        ratio: 1.0,
+        stiffness: 2.0,
+        rest: 0.0,
+        damping: 0.0,
+        is_mutual: true,
+    };
+    for wrong in [Coupling { damping: -0.5, ..coupling }, Coupling { stiffness: -2.0, ..coupling }]
+    {
+        let scene = Scene::new(coupled(wrong.clone())).expect("rotors are bodies");
+        let (hinge, feeds, _) = given_up(&scene);
+        assert_eq!((hinge, feeds), (FIRST, Feeds::Coupling), "{wrong:?}");
+    }
+}
+
+/// A motor gives a rotor a thousand times the energy of all that moved before, and then the satellite turns on for long:
+/// this is no motion that runs away.
+#[test]
+fn a_rotor_that_spins_up_does_not_run_away() {
+    for body in [None, Some(0)] {
+        let mut scene = description(&[oscillating(free(1e-3, 0.0), 3.0, 0.0)], 3e5);
+        let speed = RotorSpeed::Table(vec![[0.0, 0.0], [5.0, 600.0]]);
+        scene.rotors = vec![Rotor { body, axis: Vec3::unit_x(), inertia: 0.05, speed }];
+        let scene = Scene::new(scene).expect("rotors are bodies");
+        let options = Options { samples: 1, rtol: 1e-3, atol: 1e-3, ..Options::default() };
+        let mut until = TooLong(Cell::new(0));
+        let failure = simulate(&scene, &options, &mut until).expect_err("it is stopped");
+        assert!(matches!(failure.error, SimError::Interrupted { .. }), "{}", failure.error);
+    }
+}
+
+/// Stops a run after many looks.
+struct TooLong(Cell<usize>);
+
+impl Recorder for TooLong {
+    fn sample(&mut self, _: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn event(&mut self, _: &Event, _: &Snapshot) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn interrupted(&self) -> bool {
+        self.0.set(self.0.get() + 1);
+        self.0.get() > 5000
+    }
 }

@@ -135,3 +135,45 @@ fn a_held_main_body_is_held_in_the_attitude_of_its_scene() {
     assert_ne!(first.0.samples, expected.0.samples);
     assert_same(&next_run(&mut simulator), &expected, reference.name);
 }
+
+/// A rig that holds the main body still: nothing acts on that without gravity, but for what holds it.
+#[test]
+fn a_held_main_body_forgets_what_gravity_asked_for() {
+    let reference = Reference::all().find(|r| r.name.starts_with("s08")).expect("a scene");
+    let mut scene = SceneDescription::clone(&reference.scene());
+    scene.base = Base::Fixed;
+    scene.gravity = Some(Gravity { up: Vec3::unit_z(), acceleration: 9.81 });
+    scene.initial.omega_body = Vec3::zero();
+    scene.initial.velocity_inertial = Vec3::zero();
+    scene.externals.clear();
+    let mut weightless = scene.clone();
+    weightless.gravity = Some(Gravity { up: Vec3::unit_z(), acceleration: 0.0 });
+    let scenes = [scene, weightless].map(|s| Scene::new(s).expect("a physical scene"));
+    for options in options() {
+        let mut simulator = Simulator::new(&scenes[0], options);
+        for scene in [&scenes[0], &scenes[1], &scenes[0]] {
+            simulator.set_scene(scene);
+            assert_same(&next_run(&mut simulator), &run(scene, &options), reference.name);
+        }
+    }
+}
+
+/// Errors of a travel are relative to its stroke, which follows from where the slide starts.
+#[test]
+fn slides_that_start_elsewhere_have_other_strokes() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/mast.toml");
+    let scene = nboom::io::read_scene(path.as_ref()).expect("an example").scene;
+    let mut nearer = SceneDescription::clone(&scene);
+    let slides = nearer.bodies.iter_mut().filter(|body| body.joint.slides());
+    slides.for_each(|body| {
+        body.hinge.start.angle +=
+            0.9 * (body.hinge.lock_angle.unwrap_or(1.0) - body.hinge.start.angle)
+    });
+    let nearer = Scene::new(nearer).expect("a physical scene");
+    let options = Options { rtol: 1e-6, ..tight(5) };
+    let mut simulator = Simulator::new(&nearer, options);
+    for scene in [&nearer, &scene, &nearer] {
+        simulator.set_scene(scene);
+        assert_same(&next_run(&mut simulator), &run(scene, &options), "mast");
+    }
+}

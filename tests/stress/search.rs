@@ -106,6 +106,10 @@ impl StepMotion for Part<'_> {
         self.step.span().map(|time| time.min(self.end))
     }
 
+    fn goes_on(&self) -> bool {
+        self.step.goes_on()
+    }
+
     fn at(&mut self, time: f64) -> MotionAt<'_> {
         self.looks += 1;
         self.step.at(time)

@@ -41,7 +41,8 @@ pub struct GenerateArgs {
     #[arg(long)]
     pub inverse_dynamics: bool,
 
-    /// Also generate the right side of the scene's differential equations, with its springs, dampers and thrusters.
+    /// Also generate the right side of the scene's differential equations, all hinges free: springs, dampers, kick-off
+    /// springs, torque tables, couplings along a branch, rotors of the main body at constant speed, its thrusters.
     #[arg(long)]
     pub right_side: bool,
 

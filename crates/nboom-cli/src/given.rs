@@ -107,7 +107,7 @@ impl clap::Args for Given {
 #[cfg(test)]
 mod tests {
     use crate::{Cli, RunArgs};
-    use clap::Parser;
+    use clap::{CommandFactory, Parser};
 
     fn run(words: &[&str]) -> RunArgs {
         let words = [&["nboom", "run", "a.toml"], words].concat();
@@ -156,6 +156,16 @@ mod tests {
         let again = run(&said.iter().map(String::as_str).collect::<Vec<_>>());
         assert_eq!(format!("{:?}", first.tables), format!("{:?}", again.tables));
         assert_eq!(again.given.words(), said);
+    }
+
+    #[test]
+    fn every_option_is_recorded_by_its_name() {
+        let cli = Cli::command();
+        let run = cli.find_subcommand("run").expect("a command");
+        for option in run.get_arguments().filter(|arg| !arg.is_positional()) {
+            let name = option.get_id().as_str().replace('_', "-");
+            assert_eq!(option.get_long(), Some(&*name));
+        }
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::{CliError, choice};
 pub struct PlotArgs {
     /// Also draw figures for documents, into plots/ in the directory: svg, png or pdf, or several of them separated
     /// by commas. Angles, rates, rates of the main body, nutation, direction cosines, loads, stresses, energy.
-    #[arg(long = "plots", value_name = "FORMATS", value_delimiter = ',', value_parser = choice::plots)]
+    #[arg(id = "plots", long, value_name = "FORMATS", value_delimiter = ',', value_parser = choice::plots)]
     pub formats: Vec<Format>,
 }
 

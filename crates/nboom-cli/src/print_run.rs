@@ -325,6 +325,8 @@ mod tests {
                     since: Some(0.25),
                     angle: 0.0,
                     miss: None,
+                    closing_rate: None,
+                    largest_rate: 0.0,
                 }],
                 largest_impulse: Some(LockUpImpulse { hinge: 0, time: 0.25, impulse: -0.125 }),
             },

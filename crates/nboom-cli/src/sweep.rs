@@ -156,10 +156,23 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
     finish_sweep(&directory, &report, &args.outputs, routines, &Interrupt::watch)
 }
 
-/// Warns of the scene as it stands, as a run of it does; cases repeat its troubles.
+/// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave latches
+/// out; cases repeat its troubles.
 fn warn_of_the_scene(study: &Study, quiet: bool) {
     let scene = study.document.as_read().unwrap_or(&study.nominal);
     check::warnings(scene).iter().for_each(|warning| say("warning", warning));
+    // The cases of a draw are that without a fault, and those with each.
+    let of_case = |number| study.scene_of(&study.case(number)).map(|file| check::warnings(&file));
+    let without_fault = of_case(1).unwrap_or_default();
+    for (number, fault) in (2..).zip(&study.faults) {
+        let found = of_case(number).unwrap_or_default();
+        for warning in found.iter().filter(|warning| !without_fault.contains(warning)) {
+            say("warning", &format!("with {}: {warning}", fault.name));
+        }
+    }
+    if study.leaves_pulses_out() {
+        say("warning", "loads are without latches, which have no pulse_constant");
+    }
     if !quiet {
         left_out_of_studies(&scene.legacy).iter().for_each(|note| say("note", note));
     }
@@ -209,10 +222,17 @@ pub fn finish_sweep(
 }
 
 /// Warns also under `--quiet`, since results are not what they seem.
-fn warn_of_poor_cases(Counts { ok, poor, first_poor, .. }: Counts) {
+fn warn_of_poor_cases(counts: Counts) {
+    let Counts { ok, poor, first_poor, doubtful, first_doubtful, .. } = counts;
     if let Some(first) = first_poor {
         let told = format!("poor conservation in {poor} of {ok} cases that ran");
         say("warning", &format!("{told}, first in case {first}; do not trust their motion"));
+    }
+    if let Some(first) = first_doubtful {
+        let told = format!(
+            "errors of the run may decide whether a hinge locks in {doubtful} of {ok} cases"
+        );
+        say("warning", &format!("{told} that ran, first in case {first}"));
     }
 }
 

@@ -2,13 +2,10 @@
 
 use nboom_model::{HingeState, Scene};
 use nboom_results::WorstLoads;
-use nboom_sim::{HingeVerdict, Miss, Summary, Verdict};
+use nboom_sim::{Doubt, HingeVerdict, Miss, Summary, Verdict};
 use nboom_strength::{Limit, Worst};
 
 use crate::format::short;
-
-/// Errors of a run that is not unstable are below so many times its tolerance.
-const ERRORS: f64 = 1e3;
 
 /// Hinges beyond these are only counted.
 const SHOWN: usize = 12;
@@ -66,24 +63,29 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     }
 }
 
-/// Why the results of a run at this tolerance are not to be trusted, or not to be liked: laws that do not hold, latches that
-/// errors of the run may have kept open, and parts that fail.
+/// Why the results of a run at this tolerance are not to be trusted, or not to be liked: laws that do not hold, latches of
+/// which errors of the run may decide, and parts that fail.
 pub fn troubles(scene: &Scene, summary: &Summary, rtol: f64, worst: &WorstLoads) -> Vec<String> {
     let poor = summary.conservation.poor(rtol).map(|law| law.to_string());
-    let hinges = summary.verdict.hinges.iter().enumerate();
-    let open = hinges.filter_map(|(i, hinge)| narrow_miss(scene, i, hinge.miss?, rtol));
+    let doubtful = summary.verdict.doubts(scene, rtol).map(|(i, doubt)| in_doubt(scene, i, doubt));
     let negative = worst.weakest_of_each().filter_map(negative_margin);
-    poor.chain(open).chain(negative).collect()
+    poor.chain(doubtful).chain(negative).collect()
 }
 
-fn narrow_miss(scene: &Scene, i: usize, Miss { by, time }: Miss, rtol: f64) -> Option<String> {
-    (by <= ERRORS * rtol * scene.coordinate_scale(i)).then(|| {
-        let (label, by, time) = (scene.label(i), short(by, 2), short(time, 6));
-        format!(
-            "hinge {label} is {by} from its lock angle at {time} and does not lock: errors of the run may \
-             decide that"
-        )
-    })
+fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {
+    let label = scene.label(i);
+    match doubt {
+        Doubt::Missed(Miss { by, time }) => format!(
+            "hinge {label} is {} from its lock angle at {} and does not lock: errors of the run may decide that",
+            short(by, 2),
+            short(time, 6)
+        ),
+        Doubt::ComesToRest(rate) => format!(
+            "hinge {label} comes to rest at its lock angle, at a rate of {}: errors of the run may decide whether and \
+             when it locks",
+            short(rate, 2)
+        ),
+    }
 }
 
 fn negative_margin((worst, margin, limit): (&Worst, f64, Limit)) -> Option<String> {

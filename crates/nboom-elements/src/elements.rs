@@ -240,6 +240,12 @@ impl<R: Real> Elements<R> {
         self.couplings.iter().map(|coupling| (coupling.hinge(), coupling.potential(beta)))
     }
 
+    /// For each coupling its first hinge and the power of what no potential accounts for, at β and τ of all hinges of
+    /// the scene.
+    pub fn coupling_powers(&self, motion: [&[R]; 2]) -> impl Iterator<Item = (usize, R)> {
+        self.couplings.iter().map(move |coupling| (coupling.hinge(), coupling.power_in(motion)))
+    }
+
     /// Takes off the torques about the hinges of `links` what lines do not transmit.
     #[inline(always)]
     pub fn withhold<P: Placed<R>>(&self, links: &[P], torques: &mut [R]) {

@@ -86,6 +86,14 @@ impl Course {
         }
     }
 
+    /// When it starts and when it is over.
+    pub fn span(&self) -> [f64; 2] {
+        match self {
+            Self::Pulse { on, off } => [*on, *off],
+            Self::Table(points) => [points[0][0], points[points.len() - 1][0]],
+        }
+    }
+
     /// The piece that holds at `time`: 0 before it starts, and the last one when it is over.
     pub fn piece_at(&self, time: f64) -> usize {
         (0..).take_while(|&i| self.time(i).is_some_and(|at| at <= time)).count()

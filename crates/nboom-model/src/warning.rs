@@ -1,12 +1,13 @@
 mod forces;
 mod geometry;
 mod masses;
+mod outside;
 mod releases;
 
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::{BodyName, HingeLabel, Scene, shown};
+use crate::{BodyName, ExternalKind, HingeLabel, Scene, shown};
 
 /// Something a scene may do but its author probably does not want.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,6 +120,28 @@ pub enum ModelWarning {
         /// Its length.
         length: f64,
     },
+    /// The ends of a kick-off spring meet at the start, so that its force has no direction.
+    KickOffWithoutLength(HingeLabel),
+    /// A kick-off spring is longer than its limit at the start and with all lock angles reached.
+    KickOffNeverPushes {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Its length at the start.
+        length: f64,
+        /// The length up to which it pushes.
+        limit: f64,
+    },
+    /// A force or torque from outside acts at no time of the run.
+    NeverActs {
+        /// What.
+        kind: ExternalKind,
+        /// The body it is on.
+        body: BodyName,
+        /// When it acts.
+        span: [f64; 2],
+        /// The time of the run.
+        run: [f64; 2],
+    },
     /// At its lock angle a body lies folded back on its inboard body.
     FoldsBack {
         /// The body's hinge.
@@ -230,6 +253,22 @@ impl fmt::Display for ModelWarning {
                 "kick-off spring of hinge {hinge} pulls: force {force:?} at its length {length:?} found, \
                  a positive one pushes"
             ),
+            Self::KickOffWithoutLength(hinge) => write!(
+                f,
+                "the ends of the kick-off spring of hinge {hinge} meet at the start: its force has no direction, and a \
+                 run stops once the hinge is free"
+            ),
+            Self::KickOffNeverPushes { hinge, length, limit } => write!(
+                f,
+                "kick-off spring of hinge {hinge} pushes neither at the start nor with all hinges locked: length \
+                 {length:?} at the start found, {limit:?} at most expected"
+            ),
+            Self::NeverActs { kind, body, span: [on, off], run: [start, end] } => write!(
+                f,
+                "{} on the {body} acts at no time of the run: from {on:?} to {off:?} found, a time between {start:?} \
+                 and {end:?} expected",
+                kind.name()
+            ),
             Self::FoldsBack { hinge, inboard, lock } => write!(
                 f,
                 "segment {hinge}, locked at {}, lies folded back on segment {inboard}; at 0 deg it \
@@ -253,6 +292,7 @@ impl fmt::Display for ModelWarning {
 }
 
 pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
-    [releases::find(scene), forces::find(scene), geometry::find(scene), masses::find(scene)]
+    [releases::find, forces::find, outside::find, geometry::find, masses::find]
+        .map(|find| find(scene))
         .concat()
 }

@@ -3,8 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom_model::{
-    Appendage, Coupling, Dashpot, Hinge, HingeLabel, HingeState, KickOffSpring, MassProperties,
-    ModelWarning, Mount, Posture, Release, Scene, SceneDescription, Segment, Spring, TorqueTable,
+    Appendage, Coupling, Course, Dashpot, External, Hinge, HingeLabel, HingeState, KickOffSpring,
+    MassProperties, ModelWarning, Mount, Posture, Release, Scene, SceneDescription, Segment,
+    Spring, TorqueTable,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -308,4 +309,59 @@ fn masses_that_lose_digits() {
          motion may be lost as the masses differ by, about 14"
     );
     assert_eq!(of(1e12, 1.0).len(), 1);
+}
+
+#[test]
+fn what_acts_at_no_time_of_the_run() {
+    let pushed = |course: Course, amount: f64| {
+        let mut description = description(&[(Hinge::free(), 1.0)]);
+        (description.initial.time, description.end_time) = (1.0, 5.0);
+        let thrust = External::thrust(Vec3::unit_x() * amount, Vec3::zero(), [0.0, 1.0]);
+        description.externals = vec![External { course, ..thrust }];
+        Scene::new(description).expect("a scene").warnings()
+    };
+    let pulse = |on, off| Course::Pulse { on, off };
+    for (course, acts) in [
+        (Course::ALWAYS, true),
+        (pulse(0.0, 1.5), true),
+        (pulse(4.0, 9.0), true),
+        (pulse(0.0, 1.0), false),
+        (pulse(5.0, 9.0), false),
+        (pulse(2.0, 2.0), false),
+        (Course::Table(vec![[0.0, 0.0], [2.0, 1.0]]), true),
+        (Course::Table(vec![[6.0, 0.0], [7.0, 1.0]]), false),
+    ] {
+        assert_eq!(pushed(course.clone(), 2.0).is_empty(), acts, "{course:?}");
+        assert_eq!(pushed(course, 0.0), [], "nothing that could act");
+    }
+    assert_eq!(
+        pushed(pulse(5.0, 9.0), 2.0)[0].to_string(),
+        "thrust on the main body acts at no time of the run: from 5.0 to 9.0 found, a time between 1.0 and 5.0 \
+         expected"
+    );
+}
+
+#[test]
+fn a_kick_off_spring_that_cannot_push() {
+    // Its ends are on the main body's y axis and at the tip of the first body, which starts along y.
+    let with = |at: f64, limit_length: f64, lock: Option<f64>| {
+        let spring = KickOffSpring {
+            main_body_point: Vec3::unit_y() * at,
+            body_point: Vec3::unit_y(),
+            coefficients: [1.0, 0.0, 0.0, 0.0],
+            limit_length,
+        };
+        one(Hinge { kick_off: Some(spring), lock_angle: lock, ..Hinge::free() })
+    };
+    let told =
+        |warnings: Vec<ModelWarning>| warnings.iter().map(ToString::to_string).collect::<Vec<_>>();
+    // From 0 to 2: longer at the start; at a right angle it is √2 long.
+    let never = "kick-off spring of hinge 1,1 pushes neither at the start nor with all hinges locked: length 2.0 at \
+                 the start found, 1.0 at most expected";
+    assert_eq!(told(with(0.0, 1.0, Some(FRAC_PI_2))), [never]);
+    assert_eq!(told(with(0.0, 1.5, Some(FRAC_PI_2))), Vec::<String>::new(), "it pushes there");
+    assert_eq!(told(with(0.0, 1.0, None)), Vec::<String>::new(), "nobody knows where it comes to");
+    let meet = "the ends of the kick-off spring of hinge 1,1 meet at the start: its force has no direction, and a run \
+                stops once the hinge is free";
+    assert_eq!(told(with(2.0, 1.0, None)), [meet]);
 }

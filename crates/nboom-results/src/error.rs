@@ -57,8 +57,8 @@ pub enum ResultsError {
     },
     /// `.partial` cannot be added to the name of a directory for results, or is there already.
     #[error(
-        "{}: found a directory that results cannot go into, expected a name that does not end in \
-         .partial, as unfinished results have",
+        "{}: found a directory that results cannot go into, expected one that has a name, which does not end in \
+         .partial, as that of unfinished results does",
         path.display()
     )]
     Name {

@@ -81,6 +81,8 @@ struct HingeKeys {
     /// How near it came to its lock angle without locking, and when.
     miss: Option<f64>,
     miss_time: Option<f64>,
+    /// Its rate just before it locked.
+    closing_rate: Option<f64>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -152,6 +154,7 @@ impl HingeKeys {
             angle: hinge.angle,
             miss: hinge.miss.map(|miss| miss.by),
             miss_time: hinge.miss.map(|miss| miss.time),
+            closing_rate: hinge.closing_rate,
         }
     }
 }

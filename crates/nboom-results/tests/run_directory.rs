@@ -120,6 +120,8 @@ fn outcome(error: Option<&str>) -> Outcome {
                 since: Some(5.0),
                 angle: 0.25,
                 miss: None,
+                closing_rate: None,
+                largest_rate: 0.0,
             }],
             largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
         },

@@ -199,6 +199,8 @@ pub enum Feeds {
     Spring,
     /// What depends on its rate.
     Dashpot,
+    /// A coupling of it with another hinge.
+    Coupling,
 }
 
 impl fmt::Display for Feeds {
@@ -206,6 +208,7 @@ impl fmt::Display for Feeds {
         f.write_str(match self {
             Self::Spring => "spring",
             Self::Dashpot => "dashpot",
+            Self::Coupling => "coupling",
         })
     }
 }

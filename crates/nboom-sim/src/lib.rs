@@ -67,5 +67,5 @@ pub use run::record::{
     Detail, Failure, InstantMotion, Integration, Nobody, Recorder, Snapshot, Summary,
 };
 pub use run::step_motion::{MotionAt, StepMotion};
-pub use run::verdict::{HingeVerdict, LockUpImpulse, Miss, Verdict};
+pub use run::verdict::{Doubt, HingeVerdict, LockUpImpulse, Miss, Verdict};
 pub use run::{Simulator, simulate};

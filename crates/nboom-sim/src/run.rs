@@ -78,6 +78,8 @@ struct Run<'a> {
     ledger: Ledger,
     variables: &'a mut Vec<f64>,
     next_sample: usize,
+    /// Whether the next step is the first one after an instant.
+    begins_anew: bool,
     /// When the last burst of events began, and how many there were since.
     burst: (f64, usize),
     /// Time and number of steps when progress was last looked at.
@@ -129,6 +131,7 @@ impl<'a> Run<'a> {
             lanes,
             variables,
             next_sample: 0,
+            begins_anew: true,
             burst: (start, 0),
             pace: (start, 0),
             attitude_norm: AttitudeNorm::new(),
@@ -189,6 +192,7 @@ impl<'a> Run<'a> {
         }
         let controlled = self.equations.variables.layout.controlled();
         self.attitude_norm.put_back();
+        self.begins_anew = true;
         if is_first {
             self.stepper.start(self.equations, time, self.variables, controlled);
         } else {
@@ -331,6 +335,7 @@ impl<'a> Run<'a> {
         }
         let window = self.stepper.window();
         self.equations.read(window.time, &window.state, &mut self.situation.state);
+        self.summary.verdict.note_rates(&self.situation.state.tau);
         self.invariants = None;
     }
 

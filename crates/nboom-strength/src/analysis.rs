@@ -189,6 +189,7 @@ impl StressAnalysis {
     /// When the loads contradict the motion, or are no numbers.
     pub fn step(&mut self, step: &mut dyn StepMotion) -> Result<(), StrengthError> {
         let Self { search, finder, pulses, worst, .. } = self;
+        finder.begin(step.goes_on());
         search_step(search, step, finder, pulses, worst)?;
         let [_, end] = step.span();
         self.reached = end;
@@ -203,7 +204,6 @@ impl StressAnalysis {
     /// When the loads contradict the motion, or are no numbers.
     pub fn instant(&mut self, instant: &InstantMotion) -> Result<(), StrengthError> {
         let InstantMotion { before, jumps, after } = instant;
-        self.finder.jump();
         self.reached = after.time;
         self.latch_impulses.clear();
         let mut sides = Vec::new();

@@ -96,6 +96,11 @@ impl LoadFinder {
         }
     }
 
+    /// Notes that a step begins; unless it `goes_on` from the one before, loads jump there.
+    pub fn begin(&mut self, goes_on: bool) {
+        self.end = self.end.filter(|_| goes_on);
+    }
+
     /// The loads at `time` of a step; those of its end are kept for the start of the next one.
     ///
     /// # Errors
@@ -117,11 +122,6 @@ impl LoadFinder {
             self.at_end.copy_from_slice(row);
         }
         Ok(())
-    }
-
-    /// Notes an instant, at which loads jump.
-    pub fn jump(&mut self) {
-        self.end = None;
     }
 
     /// Loads at the peak of the pulse by which one hinge locks, eqs. (10.7) to (10.14).

@@ -13,7 +13,7 @@ use nboom_strength::{StrengthError, StressAnalysis};
 
 use crate::observer::Observer;
 use crate::plan::Case;
-use crate::row::{OK, Outcome, POOR, Row, Value};
+use crate::row::{DOUBTFUL, OK, Outcome, POOR, Row, Value};
 use crate::study::{Change, Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
@@ -66,6 +66,12 @@ impl Relation {
 }
 
 impl Study {
+    /// Whether the loads of its cases are without the pulses of hinges that latch, as their constants are not known.
+    pub fn leaves_pulses_out(&self) -> bool {
+        let analysis = self.run.analysis(&self.nominal, &[]);
+        analysis.is_ok_and(|found| found.is_some_and(|found| !found.has_pulses()))
+    }
+
     /// The scene of a case, with its fault; it ends when the scene says.
     ///
     /// # Errors
@@ -167,8 +173,8 @@ struct Results {
     values: Vec<Value>,
     /// Its trajectory.
     states: Vec<Vec<f64>>,
-    /// Whether a conservation law was not kept.
-    is_poor: bool,
+    /// The status of the case, which says what is wrong with them, if anything is.
+    status: &'static str,
 }
 
 /// Runs cases of a study one after the other. What it finds for a case does not depend on those before.
@@ -223,8 +229,8 @@ impl<'s> Runner<'s> {
         let empty = || vec![Value::Empty; self.study.wanted.len()];
         let (results, states, outcome, status) = match self.results(lanes, case, interrupted).await
         {
-            Ok(Results { values, states, is_poor }) => {
-                (values, states, Outcome::Ok, if is_poor { POOR } else { OK }.to_owned())
+            Ok(Results { values, states, status }) => {
+                (values, states, Outcome::Ok, status.to_owned())
             }
             Err(Stop::Interrupted) => return None,
             Err(Stop::Rejected(why)) => {
@@ -271,10 +277,17 @@ impl<'s> Runner<'s> {
             SimError::Interrupted { .. } => Stop::Interrupted,
             error => Stop::Failed(in_one_line(&with_causes(&error))),
         })?;
-        let is_poor = summary.conservation.poor(prepared.options.rtol).next().is_some();
+        let rtol = prepared.options.rtol;
+        let status = if summary.conservation.poor(rtol).next().is_some() {
+            POOR
+        } else if summary.verdict.doubts(scene, rtol).next().is_some() {
+            DOUBTFUL
+        } else {
+            OK
+        };
         let of_run = (&prepared.file, scene, &prepared.options);
         let values = values(&self.study.wanted, of_run, summary, &mut observer)?;
-        Ok(Results { values, states: observer.states, is_poor })
+        Ok(Results { values, states: observer.states, status })
     }
 
     fn prepare(&self, case: &Case) -> Result<Prepared, Rejection> {

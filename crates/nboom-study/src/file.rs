@@ -150,6 +150,9 @@ impl<'t> Reader<'t> {
         self.check_columns(root, &variables, &faults, &wanted);
         if variables.is_empty() && tables.is_empty() {
             self.error(&root.place(), "vary", "nothing that varies", "a table vary or fault");
+        } else if variables.is_empty() && draws > 1 {
+            let found = format!("{draws} draws of nothing that varies");
+            self.error(&root.place_of("draws"), "draws", found, "1, or a table vary");
         }
         if !self.errors.is_empty() {
             return Ok(None);

@@ -7,6 +7,9 @@ pub(crate) const OK: &str = "ok";
 /// nothing else of a case.
 pub(crate) const POOR: &str = "ok, poor conservation";
 
+/// The status of a case in which errors of the run may decide whether a hinge locks.
+pub(crate) const DOUBTFUL: &str = "ok, latch in doubt";
+
 /// The row of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {

@@ -19,7 +19,7 @@ mod summary;
 use nboom_tables::Cell;
 
 use crate::Requirement;
-use crate::row::{OK, POOR};
+use crate::row::{DOUBTFUL, OK, POOR};
 use compliance::{Met, Required};
 use extremes::Extremes;
 use moments::Moments;
@@ -62,7 +62,7 @@ pub enum Role {
     Variable,
     /// A number of the run; empty where there is none.
     Result,
-    /// `ok`, `ok, poor conservation`, or why there is no run.
+    /// `ok`, perhaps with what is wrong with the run, or why there is none.
     Status,
 }
 
@@ -134,8 +134,8 @@ impl Statistics {
         let head = self.head(cells);
         let group = self.group(head.fault);
         self.counts.cases += 1;
-        let is_poor = head.status == POOR;
-        if head.status != OK && !is_poor {
+        let (is_poor, is_doubtful) = (head.status == POOR, head.status == DOUBTFUL);
+        if head.status != OK && !is_poor && !is_doubtful {
             let is_rejected = head.status.starts_with("rejected");
             *(if is_rejected { &mut self.counts.rejected } else { &mut self.counts.failed }) += 1;
             if self.troubles.len() < MOST_TROUBLES {
@@ -148,6 +148,10 @@ impl Statistics {
         if is_poor {
             self.counts.poor += 1;
             self.counts.first_poor.get_or_insert(head.case);
+        }
+        if is_doubtful {
+            self.counts.doubtful += 1;
+            self.counts.first_doubtful.get_or_insert(head.case);
         }
         self.groups[group].cases += 1;
         let numbers: Vec<f64> = self.places.iter().map(|i| number(cells.get(*i))).collect();

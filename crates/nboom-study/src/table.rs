@@ -16,7 +16,7 @@ pub fn columns(study: &Study) -> Vec<Column> {
         Column::new(&variable.name, Kind::Number, "what is drawn for this variable")
     }));
     columns.extend(study.wanted.iter().map(|wanted| wanted.column().clone()));
-    let about = "`ok`, `ok, poor conservation`, or why there are no results";
+    let about = "`ok`, `ok, poor conservation`, `ok, latch in doubt`, or why there are no results";
     columns.push(Column::new("status", Kind::Text, about));
     columns
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::description::Description;
-use crate::directory::{self, JOURNAL_FILE, Place, STATISTICS_FILE, State};
+use crate::directory::{self, CASES_CSV_FILE, JOURNAL_FILE, Place, STATISTICS_FILE, State};
 use crate::journal::Journal;
 use crate::tables;
 use crate::workers::{Crew, Worker};
@@ -127,14 +127,16 @@ impl Task<'_> {
     /// When the directory is refused.
     pub fn begin(&self) -> Result<Begin, StudyError> {
         let place = Place::take(self.directory)?;
+        // A sweep that grows keeps the tables that it has.
+        let csv = self.csv || place.file(CASES_CSV_FILE).exists();
         let state = place.state(&self.description, self.accept_difference);
         let what = match state.map_err(|error| place.explained(error, [self.study, self.scene]))? {
             State::Complete(what) => {
-                return Ok(Begin::Complete(settle(&place, what, self.csv)?.into()));
+                return Ok(Begin::Complete(settle(&place, what, csv)?.into()));
             }
             State::Open(what) => what,
             State::Fewer(then) if self.resume => {
-                self.require_growth(&then)?;
+                self.require_growth(&then, csv)?;
                 growth::continued(&place, then, &self.description)?
             }
             State::Fewer(then) => {
@@ -151,28 +153,28 @@ impl Task<'_> {
         let missing = cases - before;
         let jobs = self.jobs as u64;
         space::require_memory(&what.columns_of_tables(), self.samples, missing, jobs)?;
-        space::require(self.directory, self.bytes(&what, missing), cases)?;
+        space::require(self.directory, self.bytes(&what, missing, csv), cases)?;
         let texts = [self.study, self.scene].map(str::to_owned);
         place.begin(&what, self.study, self.scene)?;
-        let begun = Begun { place, what, journal, before, texts, csv: self.csv };
+        let begun = Begun { place, what, journal, before, texts, csv };
         Ok(Begin::Open(begun.into()))
     }
 
     /// # Errors
     /// When memory or the disk is too small for the draws that come to those of a sweep.
-    fn require_growth(&self, then: &Description) -> Result<(), StudyError> {
+    fn require_growth(&self, then: &Description, csv: bool) -> Result<(), StudyError> {
         let Description { cases, .. } = self.description;
         let columns = self.description.columns_of_tables();
         let (more, jobs) = (cases - then.cases, self.jobs as u64);
         space::require_memory(&columns, self.samples, more, jobs)?;
         // The cases of a finished sweep are written once more.
         let missing = if then.complete { cases } else { more };
-        space::require(self.directory, self.bytes(&self.description, missing), cases)
+        space::require(self.directory, self.bytes(&self.description, missing, csv), cases)
     }
 
     /// About how much is still to be written, if so many cases are missing.
-    fn bytes(&self, what: &Description, missing: u64) -> u64 {
-        let formats = if what.shard.is_some() { 0 } else { tables::formats(self.csv) };
+    fn bytes(&self, what: &Description, missing: u64, csv: bool) -> u64 {
+        let formats = if what.shard.is_some() { 0 } else { tables::formats(csv) };
         let rows = missing.saturating_add(formats.saturating_mul(what.cases));
         rows.saturating_mul(space::of_case(&what.columns_of_tables(), self.samples))
     }

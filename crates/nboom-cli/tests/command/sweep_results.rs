@@ -147,6 +147,52 @@ fn warnings_of_the_scene_are_told_once() {
     }
 }
 
+#[test]
+fn what_a_fault_makes_of_the_scene_and_loads_without_latches_are_told_before() {
+    let place = Place::new();
+    place.write("panels.toml", PANELS);
+    let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
+    let fault = "[[fault]]\nname = 'much too late'\nlate_release = { hinge = '1,1', by = 200.0 }\n";
+    let loads = "[run]\nhinge_loads = true\n";
+    let late = PANELS.replacen("axis = \"y\"", "axis = \"y\", release = { at = 0.5 }", 1);
+    place.write("late.toml", &late);
+    for (scene, loads, fault, expected) in [
+        ("late.toml", "", fault, "warning: with much too late: hinge 1,1"),
+        (
+            "panels.toml",
+            loads,
+            "",
+            "warning: loads are without latches, which have no pulse_constant",
+        ),
+    ] {
+        place.write("study.toml", &format!("scene = '{scene}'\ndraws = 2\n{loads}{vary}{fault}"));
+        let told =
+            stderr(&sweep(&place, &["--quiet", "--no-report", "-o", &format!("{scene} with")]));
+        assert_eq!(told.matches(expected).count(), 1, "{told}");
+        place.write("study.toml", &format!("scene = '{scene}'\ndraws = 2\n{vary}"));
+        let told =
+            stderr(&sweep(&place, &["--quiet", "--no-report", "-o", &format!("{scene} without")]));
+        assert!(!told.contains(expected), "{told}");
+    }
+}
+
+#[test]
+fn a_sweep_that_grows_keeps_its_tables() {
+    let place = Place::new();
+    place.write("panels.toml", PANELS);
+    let study = |draws| {
+        format!(
+            "scene = 'panels.toml'\ndraws = {draws}\n[[vary]]\npath = 'main_body.mass'\nuniform = {{ from = 9.0, to = 11.0 }}\n"
+        )
+    };
+    place.write("study.toml", &study(4));
+    sweep(&place, &["--no-report", "--csv"]);
+    place.write("study.toml", &study(6));
+    let output = place.nboom(&["sweep", "study.toml", "--no-report", "--resume"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(cases(&place, "out/study").len(), 6);
+}
+
 /// A stiffer spring closes the latch sooner, so a bound on the time is one on the spring.
 #[test]
 fn requirements_are_counted_and_cases_that_break_them_have_pages() {

@@ -68,7 +68,7 @@ fn a_run_in_which_nothing_locks_says_how_far_hinges_came() {
     // It is on its way, and so nearest to its lock at zero at the end.
     let hinge = json!({
         "appendage": 1, "segment": 1, "state": 0, "time": 0.25, "angle": angle,
-        "miss": angle, "miss_time": 0.5,
+        "miss": angle, "miss_time": 0.5, "closing_rate": null,
     });
     assert_eq!(verdict["hinges"], json!([hinge]));
     for key in ["largest_impulse", "worst_load", "smallest_margin"] {
@@ -90,7 +90,7 @@ fn a_run_in_which_nothing_locks_says_how_far_hinges_came() {
 fn swinging(lock_angle: f64) -> String {
     format!(
         "name = \"swing\"\n[run]\nend = 12.0\n\
-         [main_body]\nmass = 10.0\ninertia = [1.0, 1.0, 1.0]\nheld = {{}}\n\
+         [main_body]\nmass = 10.0\ninertia = [1.0, 1.0, 1.0]\nbase = \"fixed\"\n\
          [[body]]\nname = \"boom\"\nmass = 1.0\nmass_centre = [1.0, 0.0, 0.0]\ninertia = [0.1, 1.0, 1.0]\n\
          [body.hinge]\nat = [0.0, 0.0, 0.0]\naxis = \"z\"\nstart_rad = 1.0\nlatch_rad = {lock_angle}\n\
          spring = {{ stiffness = 2.0 }}\n"

@@ -161,7 +161,17 @@ impl<R: Real> Coupled<R> {
     /// Power of what no potential accounts for: of the damper, and of all where it acts on one hinge alone.
     #[inline(always)]
     pub(super) fn power(&self, free: [&[R]; 2]) -> R {
-        let ends = self.ends.each_ref().map(|end| end.read(free));
+        self.power_at(self.ends.each_ref().map(|end| end.read(free)))
+    }
+
+    /// The same at β and τ of all hinges of the scene.
+    pub(super) fn power_in(&self, [beta, tau]: [&[R]; 2]) -> R {
+        self.power_at(self.hinges.map(|hinge| [beta[hinge], tau[hinge]]))
+    }
+
+    /// The same at the β and τ of the ends.
+    #[inline(always)]
+    fn power_at(&self, ends: [[R; 2]; 2]) -> R {
         let [[_, tau], [_, other_tau]] = ends;
         if self.is_mutual {
             return self.law.rate_power([tau, other_tau]);

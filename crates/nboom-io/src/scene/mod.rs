@@ -51,6 +51,7 @@ pub use names::{FOLDER_NAME, folder_name};
 use parameters::Parameters;
 pub use schema::schema;
 pub(crate) use sources::{Place, Sources};
+use tree::Value;
 pub use write::write_scene;
 
 /// How a scene is read.
@@ -113,6 +114,7 @@ fn assemble(
         reader.named(root, "parameters");
     }
     reader.check_set(root, &options.set);
+    reader.check_use(parts);
     let name = reader.scene_name(root).unwrap_or(name);
     let (mut settings, stress_interval) = reader.settings(root);
     let scene = reader.surroundings(root, name);
@@ -179,6 +181,20 @@ impl Reader<'_, '_> {
         [settings.hinge_loads, settings.listing] = self.files(&output);
         let stress_every = self.count(&output, "stress_every", MOST_SAMPLES);
         (settings, stress_every.unwrap_or(1))
+    }
+
+    /// Warns of parameters that no expression has; those of further files may be for other scenes.
+    fn check_use(&mut self, parts: &Parts) {
+        let own = parts.root().get("parameters").map(|entry| &entry.node.value);
+        let Some(Value::Table(own)) = own else { return };
+        for entry in &own.0[..] {
+            let name = entry.key.as_str();
+            if !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
+                let expected = format!("an expression with `${name}`, or no such parameter");
+                let found = "a parameter that nothing uses";
+                self.report.warn_at(self.sources, &entry.key_at, name, found, &expected);
+            }
+        }
     }
 
     /// Reports parameters on the command line that the scene does not have.

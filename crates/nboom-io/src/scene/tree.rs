@@ -67,15 +67,18 @@ impl Value {
             && match self {
                 Self::Text(text) => expression::names(text).any(|name| parameters.contains(&name)),
                 Self::List(nodes) => nodes.iter().any(|node| node.value.mentions(parameters)),
-                Self::Table(table) => {
-                    table.0.iter().any(|entry| entry.node.value.mentions(parameters))
-                }
+                Self::Table(table) => table.mentions(parameters),
                 Self::Number(_) | Self::Other(_) => false,
             }
     }
 }
 
 impl Table {
+    /// Whether a text in it may have one of these parameters.
+    pub fn mentions(&self, parameters: &[&str]) -> bool {
+        self.0.iter().any(|entry| entry.node.value.mentions(parameters))
+    }
+
     pub fn get(&self, key: &str) -> Option<&Entry> {
         self.0.iter().find(|entry| entry.key == key)
     }

@@ -238,3 +238,27 @@ fn slices_add_up_to_their_body_unless_it_says_that_they_differ() {
     assert_eq!(again.structure, file.structure);
     assert!(wrong(&scene("slices = \"alike\""))[0].contains("one of differ"));
 }
+
+#[test]
+fn a_parameter_that_nothing_uses_is_told() {
+    let scene = |parameters: &str, mass: &str| {
+        format!(
+            "[parameters]\n{parameters}\n{BUS}{}",
+            body("one", "", "").replace("mass = 3.0", mass)
+        )
+    };
+    for (parameters, mass, unused) in [
+        ("m = 3.0", "mass = \"$m\"", None),
+        ("m = 3.0\nn = \"2 * $m\"", "mass = \"$n\"", None),
+        ("m = 3.0", "mass = 3.0", Some("m")),
+        ("m = 3.0\nn = \"2 * $m\"", "mass = \"$m\"", Some("n")),
+    ] {
+        let told: Vec<String> =
+            right(&scene(parameters, mass)).warnings.iter().map(ToString::to_string).collect();
+        assert_eq!(told.len(), usize::from(unused.is_some()), "{told:?}");
+        if let Some(name) = unused {
+            let expected = format!("{name}: found a parameter that nothing uses");
+            assert!(told[0].contains(&expected), "{told:?}");
+        }
+    }
+}

@@ -10,17 +10,18 @@ use crate::{Hinge, Posture, Scene};
 const NO_TORQUE: f64 = 1e-9;
 
 pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
-    let posture = Posture::at_start(scene);
+    let postures = [Posture::at_start(scene), Posture::locked(scene)];
     let hinges = (0..scene.bodies.len()).filter(|&i| scene.bodies[i].hinge.can_turn());
     let feeds = scene.couplings.iter().filter(|coupling| coupling.is_mutual);
     let feeds = feeds.filter(|coupling| coupling.damping < 0.0).map(|coupling| {
         let hinges = coupling.hinges.map(|i| scene.label(i));
         ModelWarning::CouplingFeeds { hinges, damping: coupling.damping }
     });
-    hinges.flat_map(|i| of_hinge(scene, &posture, i)).chain(feeds).collect()
+    hinges.flat_map(|i| of_hinge(scene, &postures, i)).chain(feeds).collect()
 }
 
-fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
+fn of_hinge(scene: &Scene, postures: &[Posture; 2], i: usize) -> Vec<ModelWarning> {
+    let [posture, locked] = postures;
     let body = &scene.bodies[i];
     let (hinge, label) = (&body.hinge, || scene.label(i));
     let mut found = dashpot(hinge)
@@ -39,7 +40,23 @@ fn of_hinge(scene: &Scene, posture: &Posture, i: usize) -> Vec<ModelWarning> {
     if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
         found.push(ModelWarning::KickOffPulls { hinge: label(), force, length });
     }
+    if let Some(limit) = hinge.kick_off.map(|spring| spring.limit_length) {
+        let length = |posture| kick_off(scene, posture, i).map_or(0.0, Vec3::norm);
+        let [at_start, with_locks] = [length(posture), length(locked)];
+        if at_start == 0.0 {
+            found.push(ModelWarning::KickOffWithoutLength(label()));
+        } else if hinge.lock_angle.is_some() && at_start.min(with_locks) > limit {
+            let (hinge, length) = (label(), at_start);
+            found.push(ModelWarning::KickOffNeverPushes { hinge, length, limit });
+        }
+    }
     found
+}
+
+/// From one end of the kick-off spring of hinge `j` to the other.
+fn kick_off(scene: &Scene, posture: &Posture, j: usize) -> Option<Vec3<f64>> {
+    let spring = scene.bodies[j].hinge.kick_off?;
+    Some(posture.hinges[j].kick_off - spring.main_body_point)
 }
 
 /// Warnings about the spring and the dashpot's terms in the angle of a hinge on which nothing else acts.
@@ -149,7 +166,7 @@ fn kick_off_torque(scene: &Scene, posture: &Posture, i: usize) -> f64 {
 /// Direction, force and length of the kick-off spring of hinge `j`, if it acts at the start.
 fn push(scene: &Scene, posture: &Posture, j: usize) -> Option<(Vec3<f64>, f64, f64)> {
     let spring = scene.bodies[j].hinge.kick_off?;
-    let between = posture.hinges[j].kick_off - spring.main_body_point;
+    let between = kick_off(scene, posture, j)?;
     let length = between.norm();
     let [a0, a1, a2, a3] = spring.coefficients;
     let acts = length > 0.0 && length <= spring.limit_length;

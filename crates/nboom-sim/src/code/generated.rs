@@ -190,6 +190,8 @@ impl Generated {
         let is_same = repertoire.renew(&mut self.fit, recognised, external);
         if is_same {
             self.is_prepared = false;
+            // Something may have acted on the main body where nothing does now.
+            self.coordinates.fill(0.0);
             self.place(recognised);
         }
         is_same

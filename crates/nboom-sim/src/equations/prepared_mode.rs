@@ -113,11 +113,13 @@ impl PreparedMode {
     pub fn spin_from(&mut self, state: &State) {
         if !state.rotors.is_empty() {
             let known = self.dynamics.tree().rotors.iter().map(|rotor| rotor.motion);
-            // Their momentum is built into right sides.
-            if self.right_sides.is_some() && !known.eq(state.rotors.iter().copied()) {
+            // Their momentum is built into right sides, which have no place for one that changes.
+            let goes_on = self.right_sides.is_none() || known.eq(state.rotors.iter().copied());
+            let spun_up = self.dynamics.spins_up();
+            self.dynamics.spin_from(state.time, state.rotors.iter().copied());
+            if !goes_on || self.dynamics.spins_up() != spun_up {
                 self.is_fitted = false;
             }
-            self.dynamics.spin_from(state.time, state.rotors.iter().copied());
             if let Some(jacobian) = &mut self.jacobian {
                 jacobian.spin_from(state);
             }

@@ -41,9 +41,11 @@ impl Sizes {
         sizes
     }
 
-    /// Begins anew with `scene`, whose satellite is the same: less than one radian in the whole run is no
-    /// motion.
+    /// Begins anew with `scene`, whose satellite is the same, but for where hinges start: less than one radian in
+    /// the whole run is no motion.
     pub fn begin(&mut self, scene: &Scene) {
+        let sizes = self.of_hinges.iter_mut().enumerate();
+        sizes.for_each(|(i, size)| *size = scene.coordinate_scale(i));
         self.rate = 1.0 / (scene.end_time - scene.initial.time).max(f64::MIN_POSITIVE);
         self.inertias = None;
     }

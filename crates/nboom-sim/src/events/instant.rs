@@ -170,6 +170,8 @@ pub(crate) struct Outcome<R> {
     free: Vec<usize>,
     /// The positions among these of the hinges that lock.
     locking: Vec<usize>,
+    /// τ of these just before.
+    closing: Vec<f64>,
     lock_up: LockUp<R>,
 }
 
@@ -182,6 +184,7 @@ impl<R: Number> Outcome<R> {
             released: Vec::new(),
             free: Vec::new(),
             locking: Vec::new(),
+            closing: Vec::new(),
             lock_up: LockUp::of_none(),
         }
     }
@@ -193,7 +196,14 @@ impl<R: Number> Outcome<R> {
         for hinges in [&mut self.released, &mut self.free, &mut self.locking] {
             hinges.clear();
         }
+        self.closing.clear();
         self.lock_up.reset(0, 0);
+    }
+
+    /// The hinges that lock, and τ of each just before.
+    pub fn closing_rates(&self) -> impl Iterator<Item = (usize, f64)> {
+        let hinges = self.locking.iter().map(|&position| self.free[position]);
+        hinges.zip(self.closing.iter().copied())
     }
 
     /// What each hinge that locks changes, for the hinges that were [free](Self::free_before).
@@ -250,7 +260,7 @@ impl<R: Number> Outcome<R> {
             let found = state.invariants(dynamics);
             Totals::of(state, &found)
         };
-        let Self { events, crossed, released, free, locking, lock_up } = self;
+        let Self { events, crossed, released, free, locking, lock_up, .. } = self;
         let event = |kind, hinge, impulse: Option<R>, before: Totals| {
             let impulse = impulse.map(Number::to_f64);
             Event { time, kind, hinge, impulse, before, after }
@@ -293,10 +303,11 @@ impl<R: Number> Outcome<R> {
         state: &mut State<R>,
         mode: &mut Mode,
     ) -> Result<(), SimError> {
-        let Self { free, locking, lock_up, .. } = self;
+        let Self { free, locking, closing, lock_up, .. } = self;
         let Some(&first) = locks.first() else { return Ok(()) };
         free.extend(dynamics.free_hinges());
         locking.extend(locks.iter().filter_map(|i| free.iter().position(|j| j == i)));
+        closing.extend(locking.iter().map(|&position| state.tau[free[position]].to_f64()));
         for &i in locks {
             if let Some(angle) = scene.bodies[i].hinge.lock_angle {
                 state.beta[i] = R::constant(angle);

@@ -23,6 +23,8 @@ const INTERVAL: usize = 256;
 pub(super) struct Resources {
     /// The kinetic energy about the mass centre at the initial time, and what springs store.
     energy: f64,
+    /// The energy of rotors at the initial time, which their motors change.
+    rotor_energy: f64,
     /// Number of steps when the motion was last looked at.
     looked_at: usize,
 }
@@ -31,7 +33,7 @@ impl Resources {
     /// At the initial time, with these energies and momenta.
     pub fn of(scene: &Scene, invariants: &Invariants<f64>) -> Self {
         let energy = stored(scene) + turning(scene, invariants);
-        Self { energy, looked_at: 0 }
+        Self { energy, rotor_energy: invariants.rotor_energy, looked_at: 0 }
     }
 }
 
@@ -65,24 +67,34 @@ impl Run<'_> {
         let found = self.invariants();
         let Self { situation: Situation { state, .. }, equations, .. } = self;
         let scene = &equations.scene;
-        let growth = turning(scene, &found) / (self.resources.energy + state.work.thrust.abs());
+        let Resources { energy, rotor_energy, .. } = self.resources;
+        let motors = found.rotor_energy - rotor_energy + state.work.spin_up;
+        let growth = turning(scene, &found) / (energy + state.work.thrust.abs() + motors.abs());
         if growth.is_nan() || growth <= GROWTH {
             return None;
         }
         let elements = equations.entered.dynamics.elements();
-        let laws = || elements.torques().iter().zip(&scene.bodies).enumerate();
-        let from_spring = laws().map(|(i, (law, body))| {
-            (i, law.potential(body.hinge.start.angle) - law.potential(state.beta[i]))
+        let laws = || elements.torques().iter().enumerate();
+        let at_start: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
+        let from_spring = laws().map(|(i, law)| {
+            (i, law.potential(at_start[i]) - law.potential(state.beta[i]), Feeds::Spring)
         });
-        let from_dashpot =
-            laws().map(|(i, (law, _))| (i, law.rate_torque(state.tau[i]) * state.tau[i]));
-        let larger = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
-        let (spring, from_spring) = from_spring.max_by(larger)?;
-        let (dashpot, _) = from_dashpot.max_by(larger)?;
+        let potentials = |beta| elements.coupling_potentials(beta);
+        let by_coupling = potentials(&at_start)
+            .zip(potentials(&state.beta))
+            .map(|((i, before), (_, now))| (i, before - now, Feeds::Coupling));
+        let from_dashpot = laws()
+            .map(|(i, law)| (i, law.rate_torque(state.tau[i]) * state.tau[i], Feeds::Dashpot));
+        let by_damping = elements
+            .coupling_powers([&state.beta, &state.tau])
+            .map(|(i, power)| (i, power, Feeds::Coupling));
+        let larger = |a: &(usize, f64, Feeds), b: &(usize, f64, Feeds)| a.1.total_cmp(&b.1);
+        let (spring, from_spring, by_spring) = from_spring.chain(by_coupling).max_by(larger)?;
+        let (dashpot, _, by_dashpot) = from_dashpot.chain(by_damping).max_by(larger)?;
         let (hinge, feeds) = if state.work.dashpots > from_spring {
-            (dashpot, Feeds::Dashpot)
+            (dashpot, by_dashpot)
         } else {
-            (spring, Feeds::Spring)
+            (spring, by_spring)
         };
         Some(SimError::Runaway { time: state.time, hinge: scene.label(hinge), feeds, growth })
     }

@@ -17,6 +17,10 @@ pub trait StepMotion {
     /// When it starts and when it ends.
     fn span(&self) -> [f64; 2];
 
+    /// Whether it goes on from the step before as if there were one step: accelerations do not jump where it
+    /// starts.
+    fn goes_on(&self) -> bool;
+
     /// The motion at a time from its start to its end, by dense output and one evaluation of the
     /// equations of motion; the library's recursion and generated code allocate nothing for it.
     fn at(&mut self, time: f64) -> MotionAt<'_>;
@@ -170,12 +174,13 @@ pub(crate) struct DenseStep<'a> {
     /// Length of the step that dense output is of.
     full: f64,
     end: f64,
+    goes_on: bool,
 }
 
 impl<'a> DenseStep<'a> {
-    /// `full` is the length of the step that dense output is of.
+    /// `full` is the length of the step that dense output is of; it `goes_on` unless integration began anew.
     pub fn new(
-        hinges: &'a [HingeState],
+        (hinges, goes_on): (&'a [HingeState], bool),
         equations: &'a mut Equations,
         stepper: &'a dyn Stepper,
         full: f64,
@@ -188,13 +193,17 @@ impl<'a> DenseStep<'a> {
         room.beta.copy_from_slice(&equations.variables.origin.beta);
         room.tau.fill(0.0);
         room.beta_ddot.fill(0.0);
-        Self { hinges, equations, stepper, room, start, full, end }
+        Self { hinges, equations, stepper, room, start, full, end, goes_on }
     }
 }
 
 impl StepMotion for DenseStep<'_> {
     fn span(&self) -> [f64; 2] {
         [self.start, self.end]
+    }
+
+    fn goes_on(&self) -> bool {
+        self.goes_on
     }
 
     fn at(&mut self, time: f64) -> MotionAt<'_> {

@@ -48,10 +48,11 @@ impl Run<'_> {
         if !self.recorder.needs_steps() {
             return Ok(());
         }
+        let goes_on = !std::mem::replace(&mut self.begins_anew, false);
         let Self { situation, equations, stepper, room, recorder, .. } = self;
-        let mode = &situation.mode;
+        let mode = (&*situation.mode.hinges, goes_on);
         let time = stepper.window().end_time;
-        let mut step = DenseStep::new(&mode.hinges, equations, *stepper, full, room);
+        let mut step = DenseStep::new(mode, equations, *stepper, full, room);
         recorder.step(&mut step).map_err(|source| SimError::Record { time, source })
     }
 
@@ -150,6 +151,9 @@ impl Run<'_> {
         }
         let found = self.show_present();
         self.look(&found)?;
+        for (hinge, tau) in self.situation.outcome.closing_rates() {
+            self.summary.verdict.note_closing(hinge, tau);
+        }
         for event in &self.situation.outcome.events {
             self.summary.events += 1;
             self.summary.verdict.note(&self.equations.scene, event);

@@ -23,6 +23,10 @@ pub struct HingeVerdict {
     /// By how much it has missed its lock angle so far; `None` unless it is free, has a lock angle, and became free
     /// elsewhere.
     pub miss: Option<Miss>,
+    /// τ just before it locked; `None` unless it has \[rad/T\].
+    pub closing_rate: Option<f64>,
+    /// The largest magnitude of τ so far, at the ends of steps \[rad/T\].
+    pub largest_rate: f64,
 }
 
 /// Where a free hinge was nearest to its lock angle, which it has not reached.
@@ -45,7 +49,42 @@ pub struct LockUpImpulse {
     pub impulse: f64,
 }
 
+/// Why errors of a run may decide whether a hinge locks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Doubt {
+    /// It turns back just before its lock angle.
+    Missed(Miss),
+    /// It locks, but at this rate, at which it comes to rest there \[rad/T\].
+    ComesToRest(f64),
+}
+
+/// Errors of a run that is not unstable are below so many times its tolerance.
+const ERRORS: f64 = 1e3;
+
+/// The largest share of its fastest rate at which a hinge counts as one that comes to rest.
+const SLOW: f64 = 1e-3;
+
+impl HingeVerdict {
+    /// Why errors of a run at the tolerance `rtol` may decide whether the hinge locks, if they may; `scale` is the
+    /// [size](Scene::coordinate_scale) of a change of its angle.
+    pub fn doubt(&self, scale: f64, rtol: f64) -> Option<Doubt> {
+        let share = ERRORS * rtol;
+        let missed = self.miss.filter(|miss| miss.by <= share * scale).map(Doubt::Missed);
+        let is_slow = |rate: &f64| {
+            self.largest_rate > 0.0 && rate.abs() <= share.min(SLOW) * self.largest_rate
+        };
+        missed.or_else(|| self.closing_rate.filter(is_slow).map(Doubt::ComesToRest))
+    }
+}
+
 impl Verdict {
+    /// The hinges of which errors of a run at the tolerance `rtol` may decide whether they lock, and why.
+    pub fn doubts(&self, scene: &Scene, rtol: f64) -> impl Iterator<Item = (usize, Doubt)> {
+        let hinges = self.hinges.iter().enumerate();
+        hinges
+            .filter_map(move |(i, hinge)| Some((i, hinge.doubt(scene.coordinate_scale(i), rtol)?)))
+    }
+
     /// Begins anew, before anything has happened to as many hinges.
     pub(crate) fn begin(&mut self, hinges: &[HingeState], beta: &[f64]) {
         let hinge = |(&state, &angle): (&HingeState, &f64)| HingeVerdict {
@@ -53,6 +92,8 @@ impl Verdict {
             since: None,
             angle,
             miss: None,
+            closing_rate: None,
+            largest_rate: 0.0,
         };
         self.hinges.clear();
         self.hinges.extend(hinges.iter().zip(beta).map(hinge));
@@ -72,6 +113,18 @@ impl Verdict {
         if self.largest_impulse.is_none_or(is_larger) {
             self.largest_impulse = Some(LockUpImpulse { hinge, time: event.time, impulse });
         }
+    }
+
+    /// Notes the rates of all hinges at the end of a step.
+    pub(crate) fn note_rates(&mut self, tau: &[f64]) {
+        for (hinge, tau) in self.hinges.iter_mut().zip(tau) {
+            hinge.largest_rate = hinge.largest_rate.max(tau.abs());
+        }
+    }
+
+    /// Notes that a hinge has locked, which came at the rate τ.
+    pub(crate) fn note_closing(&mut self, hinge: usize, tau: f64) {
+        self.hinges[hinge].closing_rate = Some(tau);
     }
 
     /// Notes that a free hinge was at such a distance from its lock angle.

@@ -49,6 +49,12 @@ pub struct Counts {
     /// The first of these.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_poor: Option<u64>,
+    /// Those that ran, but in which errors may decide whether a hinge locks.
+    #[serde(default)]
+    pub doubtful: u64,
+    /// The first of these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_doubtful: Option<u64>,
 }
 
 /// Statistics of a variable or a result.

@@ -27,6 +27,7 @@ pub(super) enum Kind {
     ReleaseTime,
     Impulse,
     State,
+    ClosingRate,
     Miss,
     PeakForce,
     PeakMoment,
@@ -55,7 +56,7 @@ const fn of(
 
 const TIME: Option<[&str; 2]> = Some(["T"; 2]);
 
-static ALL: [Description; 9] = [
+static ALL: [Description; 10] = [
     of(Kind::LockTime, "lock_time", TIME, Needs::Nothing, "when it locked for the last time"),
     of(Kind::ReleaseTime, "release_time", TIME, Needs::Nothing, "when it was released"),
     of(
@@ -66,6 +67,13 @@ static ALL: [Description; 9] = [
         "impulsive torque of its last lock-up on the outboard side, of a slide the impulsive force",
     ),
     of(Kind::State, "state", None, Needs::Nothing, "at the end: -1 unreleased, 0 free, 1 locked"),
+    of(
+        Kind::ClosingRate,
+        "closing_rate",
+        Some(["rad/T", "L/T"]),
+        Needs::Nothing,
+        "its rate just before it locked for the last time",
+    ),
     of(
         Kind::Miss,
         "miss",
@@ -121,8 +129,8 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
         return Err(refused(missing));
     }
     let Hinge { start, lock_angle, .. } = file.scene.bodies[hinge].hinge;
-    let of_latch = matches!(found.kind, Kind::LockTime | Kind::Impulse | Kind::Miss);
-    if of_latch && start.state == HingeState::Locked {
+    let latching = [Kind::LockTime, Kind::Impulse, Kind::ClosingRate, Kind::Miss];
+    if latching.contains(&found.kind) && start.state == HingeState::Locked {
         return Err(refused("a hinge that is not locked from the start"));
     }
     if found.kind == Kind::Miss && lock_angle.is_none() {
@@ -152,6 +160,7 @@ impl Kind {
             Self::ReleaseTime => release,
             Self::Impulse => impulse,
             Self::State => Some(verdict.state.code().into()),
+            Self::ClosingRate => verdict.closing_rate,
             Self::Miss => match verdict.state {
                 HingeState::Locked => Some(0.0),
                 _ => verdict.miss.map(|miss| miss.by),

@@ -31,7 +31,7 @@ impl Key {
 }
 
 /// All, in their order in the file; `wall_seconds` is none, since it is another one each time.
-static KEYS: [Key; 59] = [
+static KEYS: [Key; 60] = [
     count("degrees_of_freedom", "six, or none of a held main body, and one for each hinge"),
     number("generated_share", "1", "share of the evaluations by generated code"),
     number("selections[].since", "T", "when this code took over"),
@@ -54,6 +54,7 @@ static KEYS: [Key; 59] = [
     number(ANGLE, "rad", "angle or travel at the end"),
     number(MISS, "rad", "how near it came to its lock angle without locking"),
     number("verdict.hinges[].miss_time", "T", "when it was nearest to its lock angle"),
+    number(CLOSING_RATE, "rad/T", "its rate just before it locked"),
     number("verdict.largest_impulse", "F L T", "magnitude of the largest impulse of a lock-up"),
     count("verdict.largest_impulse_at.appendage", APPENDAGE),
     count("verdict.largest_impulse_at.segment", SEGMENT),
@@ -104,6 +105,7 @@ const STATION: &str = "station of the segment, from 1";
 const LOAD_TIME: &str = "when the load was largest";
 const ANGLE: &str = "verdict.hinges[].angle";
 const MISS: &str = "verdict.hinges[].miss";
+const CLOSING_RATE: &str = "verdict.hinges[].closing_rate";
 /// Followed by a name.
 const PARAMETER: &str = "parameters.";
 
@@ -132,8 +134,11 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
         return Err(refused(missing));
     }
     let slides = label.flatten().is_some_and(|label| label.joint.slides());
-    let unit =
-        key.unit.map(|unit| if slides && [ANGLE, MISS].contains(&&*pattern) { "L" } else { unit });
+    let unit = key.unit.map(|unit| match &*pattern {
+        ANGLE | MISS if slides => "L",
+        CLOSING_RATE if slides => "L/T",
+        _ => unit,
+    });
     let kind = if unit.is_some() { Kind::Number } else { Kind::Integer };
     let pointer = match number {
         Some(number) => pattern.replace("[]", &format!(".{number}")),
