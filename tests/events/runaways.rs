@@ -133,11 +133,11 @@ fn a_coupling_of_the_wrong_sign() {
 #[test]
 fn a_rotor_that_spins_up_does_not_run_away() {
     for body in [None, Some(0)] {
-        let mut scene = description(&[oscillating(free(1e-3, 0.0), 3.0, 0.0)], 3e5);
+        let mut scene = description(&[oscillating(free(1e-3, 0.0), 0.03, 0.0)], 1e9);
         let speed = RotorSpeed::Table(vec![[0.0, 0.0], [5.0, 600.0]]);
         scene.rotors = vec![Rotor { body, axis: Vec3::unit_x(), inertia: 0.05, speed }];
         let scene = Scene::new(scene).expect("rotors are bodies");
-        let options = Options { samples: 1, rtol: 1e-3, atol: 1e-3, ..Options::default() };
+        let options = Options { samples: 1, ..Options::default() };
         let mut until = TooLong(Cell::new(0));
         let failure = simulate(&scene, &options, &mut until).expect_err("it is stopped");
         assert!(matches!(failure.error, SimError::Interrupted { .. }), "{}", failure.error);
