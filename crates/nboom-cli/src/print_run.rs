@@ -321,12 +321,8 @@ mod tests {
             selections: Vec::new(),
             verdict: Verdict {
                 hinges: vec![HingeVerdict {
-                    state: HingeState::Locked,
                     since: Some(0.25),
-                    angle: 0.0,
-                    miss: None,
-                    closing_rate: None,
-                    largest_rate: 0.0,
+                    ..HingeVerdict::new(HingeState::Locked, 0.0)
                 }],
                 largest_impulse: Some(LockUpImpulse { hinge: 0, time: 0.25, impulse: -0.125 }),
             },

@@ -116,12 +116,8 @@ fn outcome(error: Option<&str>) -> Outcome {
         ],
         verdict: Verdict {
             hinges: vec![HingeVerdict {
-                state: HingeState::Locked,
                 since: Some(5.0),
-                angle: 0.25,
-                miss: None,
-                closing_rate: None,
-                largest_rate: 0.0,
+                ..HingeVerdict::new(HingeState::Locked, 0.25)
             }],
             largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
         },

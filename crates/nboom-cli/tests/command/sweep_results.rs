@@ -186,7 +186,7 @@ fn a_sweep_that_grows_keeps_its_tables() {
         )
     };
     place.write("study.toml", &study(4));
-    sweep(&place, &["--no-report", "--csv"]);
+    sweep(&place, &["--no-report"]);
     place.write("study.toml", &study(6));
     let output = place.nboom(&["sweep", "study.toml", "--no-report", "--resume"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));

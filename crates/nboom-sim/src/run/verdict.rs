@@ -65,6 +65,11 @@ const ERRORS: f64 = 1e3;
 const SLOW: f64 = 1e-3;
 
 impl HingeVerdict {
+    /// Of a hinge to which nothing has happened yet.
+    pub fn new(state: HingeState, angle: f64) -> Self {
+        Self { state, since: None, angle, miss: None, closing_rate: None, largest_rate: 0.0 }
+    }
+
     /// Why errors of a run at the tolerance `rtol` may decide whether the hinge locks, if they may; `scale` is the
     /// [size](Scene::coordinate_scale) of a change of its angle.
     pub fn doubt(&self, scale: f64, rtol: f64) -> Option<Doubt> {
@@ -87,16 +92,9 @@ impl Verdict {
 
     /// Begins anew, before anything has happened to as many hinges.
     pub(crate) fn begin(&mut self, hinges: &[HingeState], beta: &[f64]) {
-        let hinge = |(&state, &angle): (&HingeState, &f64)| HingeVerdict {
-            state,
-            since: None,
-            angle,
-            miss: None,
-            closing_rate: None,
-            largest_rate: 0.0,
-        };
+        let hinges = hinges.iter().zip(beta);
         self.hinges.clear();
-        self.hinges.extend(hinges.iter().zip(beta).map(hinge));
+        self.hinges.extend(hinges.map(|(&state, &angle)| HingeVerdict::new(state, angle)));
         self.largest_impulse = None;
     }
 
