@@ -97,6 +97,7 @@ fn integration(since: f64, method: Method) -> Integration {
 fn outcome(error: Option<&str>) -> Outcome {
     let conservation =
         Conservation { linear_momentum: Some(1e-15), angular_momentum: Some(2e-15), energy: 3e-13 };
+    let hinge = HingeVerdict::new(HingeState::Locked, 0.25);
     let summary = Summary {
         end_time: 10.0,
         steps_accepted: 7,
@@ -115,10 +116,7 @@ fn outcome(error: Option<&str>) -> Outcome {
             selection(5.0, "generated", "articulated", "routine"),
         ],
         verdict: Verdict {
-            hinges: vec![HingeVerdict {
-                since: Some(5.0),
-                ..HingeVerdict::new(HingeState::Locked, 0.25)
-            }],
+            hinges: vec![HingeVerdict { since: Some(5.0), ..hinge }],
             largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
         },
     };
