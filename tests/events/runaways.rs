@@ -122,7 +122,7 @@ fn a_coupling_of_the_wrong_sign() {
     };
     for wrong in [Coupling { damping: -0.5, ..coupling }, Coupling { stiffness: -2.0, ..coupling }]
     {
-        let scene = Scene::new(coupled(wrong.clone())).expect("rotors are bodies");
+        let scene = Scene::new(coupled(wrong)).expect("rotors are bodies");
         let (hinge, feeds, _) = given_up(&scene);
         assert_eq!((hinge, feeds), (FIRST, Feeds::Coupling), "{wrong:?}");
     }

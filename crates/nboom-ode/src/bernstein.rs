@@ -82,8 +82,12 @@ impl Bernstein {
 
     /// A bound on the distance from its value at 0, over [0, 1].
     pub fn excursion(&self) -> f64 {
-        let start = self.coefficients[0];
-        self.coefficients().iter().map(|c| (c - start).abs()).fold(0.0, f64::max)
+        self.farthest_from(self.coefficients[0])
+    }
+
+    /// A bound on the distance from `level`, over [0, 1].
+    pub fn farthest_from(&self, level: f64) -> f64 {
+        self.coefficients().iter().map(|c| (c - level).abs()).fold(0.0, f64::max)
     }
 
     /// The polynomial divided by its variable, its value at 0 being taken for zero.

@@ -1,9 +1,11 @@
 //! Instants in which something happens: when they come, and what they change.
 
 pub(crate) mod angle_range;
+pub(crate) mod angles;
 pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;
+pub(crate) mod line_anchor;
 pub(crate) mod line_path;
 pub(crate) mod schedule;
 pub(crate) mod side;

@@ -17,7 +17,6 @@ use crate::options::Options;
 use crate::run::ledger::Ledger;
 use crate::run::record::{Failure, Integration, Recorder, Snapshot, Summary};
 use crate::run::step_motion::Room;
-use crate::run::verdict::Miss;
 
 pub(crate) mod account;
 pub(crate) mod beforehand;
@@ -308,17 +307,6 @@ impl<'a> Run<'a> {
             last_correction = correction.abs();
             // Dense output may put a zero just before the step's end that lies just after it.
             step = (step + correction).clamp(0.0, 1.01 * full);
-        }
-    }
-
-    /// Notes how near hinges have come to their lock angles in the step just taken, whose dense output is over a
-    /// step of length `full`.
-    fn note_misses(&mut self, full: f64) {
-        let Self { situation, equations, stepper, summary, .. } = self;
-        let (start, length) = (stepper.window().time, stepper.window().length());
-        for (hinge, [fraction, by]) in situation.guards.nearest(equations, length / full) {
-            let time = start + fraction * full;
-            summary.verdict.note_distance(hinge, Miss { by, time });
         }
     }
 

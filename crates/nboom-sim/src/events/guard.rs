@@ -1,14 +1,16 @@
 use nboom_dynamics::Recursive;
 use nboom_elements::{Coordinate, ElementId, Elements, Switched};
 use nboom_model::{HingeState, Mode, Release, Scene};
-use nboom_ode::{Bernstein, Interpolation, Stepper};
+use nboom_ode::{Interpolation, Stepper};
 use nboom_scalar::{Number, Real};
 
 use crate::equations::Equations;
 use crate::equations::state::State;
 use crate::events::angle_range::AngleRange;
+use crate::events::angles::Angles;
 use crate::events::event::EventKind;
 use crate::events::instant;
+use crate::events::line_anchor::LineAnchor;
 use crate::events::line_path::LinePath;
 use crate::events::side::{LockSide, Side};
 
@@ -126,28 +128,13 @@ const AT_BOUND: f64 = 1e-13;
 /// it moves is told from rounding.
 const BEYOND_ROUNDING: f64 = 1e-12;
 
-/// The angles of the free hinges over a step, each made when it is first asked for.
-#[derive(Default)]
-struct Angles(Vec<Option<Bernstein>>);
-
-impl Angles {
-    /// Those of another step of a mode with so many free hinges.
-    fn begin(&mut self, free: usize) {
-        self.0.clear();
-        self.0.resize(free, None);
-    }
-
-    /// That of the free hinge `position`; variable `first` is that of the first one.
-    fn of(&mut self, position: usize, first: usize, stepper: &dyn Stepper) -> &Bernstein {
-        self.0[position].get_or_insert_with(|| stepper.polynomial(first + position))
-    }
-}
-
 /// The guards of one mode.
 pub(crate) struct Guards {
     pub list: Vec<Guard>,
     interpolation: Interpolation,
     path: LinePath,
+    /// Of each guard of a line's length.
+    anchors: Vec<LineAnchor>,
     angles: Angles,
 }
 
@@ -157,6 +144,7 @@ impl Guards {
             list: Vec::new(),
             interpolation: Interpolation::new(),
             path: LinePath::default(),
+            anchors: Vec::new(),
             angles: Angles::default(),
         }
     }
@@ -210,6 +198,8 @@ impl Guards {
             };
             self.list.push(Guard { kind, side, range });
         }
+        self.anchors.resize_with(self.anchors.len().max(self.list.len()), LineAnchor::default);
+        self.anchors.iter_mut().for_each(|anchor| anchor.begin(dynamics.free_hinges().len()));
     }
 
     /// The guard that first changes sign within the step that dense output was prepared for,
@@ -230,7 +220,7 @@ impl Guards {
                     range.left_by(self.angles.of(range.hinge, first_angle, stepper))
                 }
                 (Coordinate::Length(line), limit) => {
-                    self.length_change(equations, stepper, (line, limit), guard.side)
+                    self.length_change(equations, stepper, (line, limit), i)
                 }
                 (Coordinate::Angle(hinge), angle) => {
                     let position = free.binary_search(&hinge);
@@ -261,8 +251,8 @@ impl Guards {
                 if bodies[hinge].hinge.start.angle != angle =>
             {
                 let position = free.binary_search(&hinge).ok()?;
-                let angles = self.angles.0[position].as_ref()?;
-                let (fraction, distance) = angles.nearest(angle, sign, end);
+                let over_step = self.angles.known(position)?;
+                let (fraction, distance) = over_step.nearest(angle, sign, end);
                 Some((hinge, [fraction, distance.max(0.0)]))
             }
             _ => None,
@@ -327,12 +317,19 @@ impl Guards {
         equations: &Equations,
         stepper: &dyn Stepper,
         (line, limit): (usize, f64),
-        side: Side,
+        guard: usize,
     ) -> Option<f64> {
-        let (dynamics, path, angles) =
-            (&equations.entered.dynamics, &mut self.path, &mut self.angles);
+        let Self { list, path, anchors, angles, .. } = self;
+        let (dynamics, side) = (&equations.entered.dynamics, list[guard].side);
         let first = equations.variables.layout.beta().start;
+        let farthest = |hinge, from| angles.of(hinge, first, stepper).farthest_from(from);
+        if matches!(side, Side::Known(_))
+            && anchors[guard].keeps_side(dynamics.line_joints(line), farthest)
+        {
+            return None;
+        }
         path.follow(dynamics, line, |hinge| *angles.of(hinge, first, stepper));
+        path.anchor(limit, &mut anchors[guard]);
         if let Side::Known(sign) = side
             && path.keeps_side(dynamics, limit, sign)
         {

@@ -9,6 +9,7 @@ use crate::run::finite;
 use crate::run::record::{Detail, InstantMotion, Snapshot};
 use crate::run::snapshot;
 use crate::run::step_motion::DenseStep;
+use crate::run::verdict::Miss;
 
 /// The sides of an instant.
 const BEFORE: usize = 0;
@@ -41,6 +42,17 @@ impl Run<'_> {
             self.sample(&found)?;
         }
         Ok(())
+    }
+
+    /// Notes how near hinges have come to their lock angles in the step just taken, whose dense output is over a
+    /// step of length `full`.
+    pub(super) fn note_misses(&mut self, full: f64) {
+        let Self { situation, equations, stepper, summary, .. } = self;
+        let (start, length) = (stepper.window().time, stepper.window().length());
+        for (hinge, [fraction, by]) in situation.guards.nearest(equations, length / full) {
+            let time = start + fraction * full;
+            summary.verdict.note_distance(hinge, Miss { by, time });
+        }
     }
 
     /// Shows the recorder the step just taken, whose dense output is over a step of length `full`.
