@@ -115,15 +115,23 @@ function hingeList(run) {
   const told = run.summary?.verdict?.hinges ?? [];
   if (told.length === 0) return null;
   const { units } = run;
-  const items = told.map(({ appendage, segment, state, time, angle }) => {
+  const items = told.map((joint) => {
+    const { appendage, segment, state, time, angle } = joint;
     const hinge = run.hinge(appendage, segment);
-    const at = hinge?.slides ? `${digits(angle)} ${units.length}` : angleText(angle);
+    const amount = (of) => (hinge?.slides ? `${digits(of)} ${units.length}` : angleText(of));
     const since = time === null ? '' : state === 1 ? `at ${digits(time, 6)} ${units.time}` : `since ${digits(time, 6)} ${units.time}`;
     return element('li', {}, given(hinge?.label ?? ''), element('span', { class: `state state-${STATES[state]}` }, `${STATES[state] ?? state} ${since}`),
-      element('span', { class: 'position' }, at));
+      element('span', { class: 'position' }, amount(angle)), latch(joint, amount, units));
   });
   const list = element('ul', { class: 'hinges' }, items);
   return items.length > MOST ? element('details', {}, element('summary', {}, `All ${items.length} joints`), list) : list;
+}
+
+/** How fast a latch closed, or how near a free joint came to it; nothing in runs of older versions. */
+function latch({ closing_rate: rate, miss, miss_time: time }, amount, units) {
+  const told = Number.isFinite(rate) ? `its latch closed at ${amount(rate)}/${units.time}`
+    : Number.isFinite(miss) ? `nearest to its latch at ${digits(time, 6)} ${units.time}: ${amount(miss)} away` : null;
+  return told && element('span', { class: 'latch' }, told);
 }
 
 /** Runs side by side: each key figure in a row. */

@@ -209,6 +209,18 @@ const checks = {
     await page.done();
   },
 
+  async 'each joint says how fast its latch closed, or how near it came'() {
+    for (const run of ['1970', 'wing', 'mast', 'gimbal']) {
+      const page = await open(run);
+      const { hinges } = JSON.parse(readFileSync(join(folder, run, 'summary.json'), 'utf8')).verdict;
+      const told = await page.$$eval('.hinges li', (items) => items.map((item) => item.querySelector('.latch')?.textContent ?? null));
+      const expected = hinges.map(({ closing_rate: rate, miss }) =>
+        rate !== null ? 'its latch closed at ' : miss !== null ? 'nearest to its latch at ' : null);
+      assert.deepEqual(told.map((text) => text && text.slice(0, text.indexOf(' at ') + 4)), expected, run);
+      await page.done();
+    }
+  },
+
   async 'it prints'() {
     const page = await open('1970');
     assert.ok((await page.pdf({ format: 'A4' })).length > 50_000);
