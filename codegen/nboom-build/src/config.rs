@@ -124,16 +124,16 @@ impl Config {
     }
 
     /// Routines write the matrix and the right side that the formulation solves, instead of
-    /// accelerations. The main body of a scene is free, also where the scene holds it.
+    /// accelerations or inverse dynamics. The main body of a scene is free, also where the scene holds it.
     pub fn for_equations(self) -> Self {
-        Self { equations: true, ..self }
+        Self { equations: true, inverse_dynamics: false, ..self }
     }
 
-    /// Routines are for inverse dynamics, instead of accelerations: from accelerations to the wrench on the
+    /// Routines are for inverse dynamics, instead of accelerations or equations: from accelerations to the wrench on the
     /// main body and the hinge torques. The main body of a scene is free, also where the scene holds it: the wrench
     /// is then what holds it.
     pub fn for_inverse_dynamics(self) -> Self {
-        Self { inverse_dynamics: true, ..self }
+        Self { inverse_dynamics: true, equations: false, ..self }
     }
 
     /// Beside each routine for accelerations there is one for the right side of a mode's differential

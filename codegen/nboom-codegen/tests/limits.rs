@@ -1,8 +1,11 @@
 //! How long generated text may become, and requests that are refused because they describe no routine.
 
-use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Request, STRAIGHT_LIMIT, source};
+use nboom_codegen::{CodegenError, HINGE_LIMIT, Level, Module, Request, STRAIGHT_LIMIT, source};
 use nboom_formulation::Formulation;
-use nboom_model::{Shape, Topology};
+use nboom_model::{
+    Body, Hinge, Joint, MassProperties, Mount, Scene, SceneDescription, Shape, Topology,
+};
+use nboom_scalar::{Sym3, Vec3};
 
 fn s1() -> Request {
     Request::new("S1", Topology::new([Shape::Chain(1)]), Level::Exact)
@@ -18,7 +21,7 @@ fn refusal(request: &Request) -> CodegenError {
 
 #[test]
 fn names_and_paths_that_are_none_are_refused() {
-    for name in ["", "S1 P", "4xS1", "fn", "r#fn", "S-1"] {
+    for name in ["", "S1 P", "4xS1", "fn", "r#fn", "S-1", "Real", "Pack", "k", "x", "kernels"] {
         let request = Request { name: name.to_owned(), ..s1() };
         assert_eq!(refusal(&request), CodegenError::Name(name.to_owned()));
     }
@@ -29,6 +32,28 @@ fn names_and_paths_that_are_none_are_refused() {
     }
     let elsewhere = Request { scalar_path: "::nboom::scalar".to_owned(), ..s1() };
     assert!(text_of(&elsewhere).contains("use ::nboom::scalar::{"));
+}
+
+/// Right sides are added to routines before these are checked.
+#[test]
+fn a_formulation_that_does_not_take_a_scene_is_refused_beside_right_sides_too() {
+    let body = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+    let mut description = SceneDescription::at_rest("mast", body, 1.0);
+    description.bodies.push(Body {
+        inboard: None,
+        mount: Mount::at(Vec3::unit_x()),
+        joint: Joint::Prismatic,
+        axis: Vec3::unit_x(),
+        mass_properties: body,
+        tip: Vec3::unit_x(),
+        hinge: Hinge::free(),
+    });
+    let scene = Scene::new(description).expect("a slide");
+    for formulation in [Formulation::Report, Formulation::Relative, Formulation::Momentum] {
+        let module = Module::of_simulator(&scene, None, formulation, Level::Fast);
+        let error = module.and_then(|module| module.text()).expect_err("slides are no chains");
+        assert!(matches!(error, CodegenError::NoLimbs { .. }), "{error}");
+    }
 }
 
 #[test]

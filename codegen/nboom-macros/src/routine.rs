@@ -68,6 +68,11 @@ impl Parse for Input {
             if given.contains(&option) {
                 return Err(syn::Error::new(option.span(), format!("`{option}` is given twice")));
             }
+            let is_result = |option: &&Ident| RESULTS.iter().any(|result| *option == result);
+            if let (true, Some(other)) = (is_result(&&option), given.iter().find(is_result)) {
+                let message = format!("`{option}` beside `{other}`, one of them expected");
+                return Err(syn::Error::new(option.span(), message));
+            }
             request = with(request, &option, input)?;
             given.push(option);
         }
@@ -106,6 +111,9 @@ const OPTIONS: [&str; 8] = [
     "inverse_dynamics",
     "right_side",
 ];
+
+/// Those that name what is generated in place of accelerations.
+const RESULTS: [&str; 3] = ["equations", "inverse_dynamics", "right_side"];
 
 fn with(request: Request, option: &Ident, input: ParseStream<'_>) -> Result<Request> {
     Ok(match option.to_string().as_str() {
@@ -219,6 +227,11 @@ mod tests {
 
     #[test]
     fn a_name_that_no_module_can_have_is_refused_there() {
+        is_refused(
+            "S: S2, formulation = symmetric, equations, right_side",
+            "right_side",
+            &["`right_side` beside `equations`"],
+        );
         is_refused("r#fn: S2", "r#fn", &["routine `r#fn`: a Rust identifier expected"]);
     }
 

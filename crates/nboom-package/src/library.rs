@@ -87,9 +87,10 @@ pub(crate) fn files(
         ("PARAMETER_LIST", list(recognised)),
         ("USES", only_if(of_free || requests.right_side.is_some(), "\nuse std::sync::OnceLock;\n")),
         ("HINGE_COUNT", recognised.links.len().to_string()),
-        ("HINGE_LIST", hinges),
         ("TREE_LIST", tree(recognised)),
         ("MORE_FUNCTIONS", equations.unwrap_or_default() + &inverse.unwrap_or_default()),
+        // Names of bodies may look like such keys.
+        ("HINGE_LIST", hinges),
     ];
     let filled = |template: &str| {
         let fill = |text: String, (key, value): &(&str, String)| {

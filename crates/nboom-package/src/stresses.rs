@@ -30,7 +30,9 @@ pub(crate) fn row(request: &StressRequest) -> String {
 /// The test of the crate `of_crate` for the routine, and its data.
 pub(crate) fn checks(of_crate: &str, request: &StressRequest) -> [(String, String); 2] {
     let name = &request.name;
+    let hinges = request.equations.hinges().to_string();
     let code = TEST.replace("/*CRATE*/", &rust_name(of_crate)).replace("/*NAME*/", name);
+    let code = code.replace("/*HINGES*/", &hinges);
     [("tests/stresses.rs".to_owned(), code), (format!("tests/{name}.csv"), table(request))]
 }
 

@@ -116,7 +116,7 @@ fn outcome(error: Option<&str>) -> Outcome {
             selection(5.0, "generated", "articulated", "routine"),
         ],
         verdict: Verdict {
-            hinges: vec![HingeVerdict { since: Some(5.0), ..hinge }],
+            hinges: vec![HingeVerdict { since: Some(5.0), closing_rate: Some(-0.5), ..hinge }],
             largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
         },
     };
@@ -217,7 +217,7 @@ fn a_finished_run_has_all_rows_and_every_key() {
         "factorizations": 3,
         "events": 2,
         "verdict": {
-            "hinges": [{"appendage": 1, "segment": 1, "state": 1, "time": 5.0, "angle": 0.25}],
+            "hinges": [{"appendage": 1, "segment": 1, "state": 1, "time": 5.0, "angle": 0.25, "miss": null, "miss_time": null, "closing_rate": -0.5}],
             "largest_impulse": 1.5,
             "largest_impulse_at": {"appendage": 1, "segment": 1, "time": 5.0, "impulse": -1.5},
             "worst_load": null,

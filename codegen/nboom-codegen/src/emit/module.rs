@@ -46,8 +46,13 @@ impl Module {
     /// With [`Request::right_sides`] beside the routines for accelerations of a scene, but for code that
     /// would be too long.
     pub fn with_right_sides(mut self, scene: &Scene) -> Self {
-        let right_sides = Request::right_sides(scene, &self.routines).into_iter();
-        self.routines.extend(right_sides.filter(|request| Equations::of(request).is_ok()));
+        let is_right = |request: &Request| request.check().is_ok();
+        // What is wrong with a routine is told when it is generated.
+        if self.routines.iter().all(is_right) {
+            let right_sides = Request::right_sides(scene, &self.routines).into_iter();
+            let is_short = |request: &Request| is_right(request) && Equations::of(request).is_ok();
+            self.routines.extend(right_sides.filter(is_short));
+        }
         self
     }
 

@@ -2,13 +2,14 @@ use nboom_formulation::{Formulation, NoPlace, Why};
 use nboom_sections::SectionError;
 
 use crate::request::Output;
+use crate::request::routine::USED;
 
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodegenError {
-    /// The name of the type is not one.
-    #[error("routine `{0}`: a Rust identifier expected")]
+    /// The name of the type is not one, or generated code uses it itself.
+    #[error("routine `{0}`: a Rust identifier expected that begins with a capital and is none of {used}", used = USED.join(", "))]
     Name(String),
     /// The path of the scalar crate is not one.
     #[error("routine `{name}`: `{path}` found, the path of the crate nboom_scalar expected")]
@@ -64,7 +65,7 @@ pub enum CodegenError {
         topology: String,
         /// The formulation.
         formulation: Formulation,
-        /// Additions, multiplications, divisions and square roots of an evaluation, or of the steps.
+        /// Additions, multiplications and divisions of an evaluation, or of the steps.
         operations: usize,
         /// The most that is emitted.
         limit: usize,
@@ -93,7 +94,7 @@ pub enum CodegenError {
     Length {
         /// The routine.
         name: String,
-        /// Additions, multiplications, divisions and square roots of an evaluation.
+        /// Additions, multiplications and divisions of an evaluation.
         operations: usize,
         /// The most that is emitted.
         limit: usize,

@@ -253,11 +253,15 @@ impl Request {
     }
 }
 
+/// Names of types that generated code uses itself, beside variables, whose names begin with small letters.
+pub(crate) const USED: [&str; 5] = ["Copy", "Isa", "Pack", "Real", "Routine"];
+
 /// # Errors
 /// When the type of a routine cannot be named so; a raw identifier cannot be part of a module's
 /// name.
 pub(crate) fn check_name(name: &str) -> Result<(), CodegenError> {
-    if name.starts_with("r#") || syn::parse_str::<syn::Ident>(name).is_err() {
+    let is_used = name.starts_with(|first: char| first.is_lowercase()) || USED.contains(&name);
+    if is_used || name.starts_with("r#") || syn::parse_str::<syn::Ident>(name).is_err() {
         return Err(CodegenError::Name(name.to_owned()));
     }
     Ok(())

@@ -52,7 +52,15 @@ fn a_crate_with_stresses_passes_its_tests_and_fails_them_when_they_are_wrong() {
     let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/n-boom-1970.nml");
     let file = nboom_io::read_scene(&deck).expect("the sample deck is right");
     let choices = Choices { stresses: file.structure.as_ref(), ..Choices::default() };
-    let place = written(&file.scene, &choices);
+    // What acts on hinged bodies is a part of the motion that loads follow from.
+    let mut description = (*file.scene).clone();
+    let push = External::thrust(Vec3::unit_x(), Vec3::unit_y(), [0.0, 1.0]);
+    description.externals =
+        vec![External { body: Some(0), ..push.clone() }, External { body: Some(1), ..push }];
+    let scene = Scene::new(description).expect("the bodies are physical");
+    let place = written(&scene, &choices);
+    let test = fs::read_to_string(place.path().join("tests/stresses.rs")).expect("readable");
+    assert!(test.contains("const HINGES: usize = 4;"), "{test}");
     cargo_test(place.path()).expect("the code is right");
     let readme = fs::read_to_string(place.path().join("README.md")).expect("readable");
     assert!(readme.contains("| `StressesS2P` | 4 hinges | loads and stresses |"), "{readme}");
