@@ -6,7 +6,7 @@ use nboom_expr::Graph;
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::{External, Scene, SceneDescription, Shape};
 use nboom_scalar::Vec3;
-use nboom_verify::{Certificate, TestCase, Truth, certify, drives, truth};
+use nboom_verify::{Certificate, TestCase, Truth, certify, certify_equations, drives, truth};
 
 use crate::PackageError;
 use crate::held::welded;
@@ -47,8 +47,9 @@ pub(crate) struct Certified {
 pub(crate) enum Found {
     /// Of accelerations.
     Accelerations(Certificate),
-    /// The largest residual of equations solved by the true accelerations, each in terms of the sum
-    /// of the magnitudes of what is added up, or of the natural size of right sides where that is larger.
+    /// The larger one of two: the largest deviation of matrix and right side; and the largest residual of the equations
+    /// for the true accelerations, each in terms of the sum of the magnitudes of what is added up, or of the natural
+    /// size of right sides where that is larger.
     Equations(f64),
     /// The largest deviation of forces, relative to the largest of them or to their natural size.
     InverseDynamics(f64),
@@ -101,9 +102,11 @@ impl Certified {
                 Found::Accelerations(accelerations(&graph, request, &test_cases)?)
             }
             Output::Equations => {
-                Found::Equations(deviation(&graph, request, &test_cases, |found, tested| {
+                let residual = deviation(&graph, request, &test_cases, |found, tested| {
                     residual(found, &tested.expected, tested.least)
-                })?)
+                })?;
+                // Rows that are wrong by a factor leave no residual.
+                Found::Equations(equations(&graph, request, &test_cases)?.max(residual))
             }
             Output::InverseDynamics => {
                 Found::InverseDynamics(deviation(&graph, request, &test_cases, |found, tested| {
@@ -216,6 +219,19 @@ fn accelerations(
         }));
     }
     Ok(most.expect("there is a test case"))
+}
+
+/// The largest deviation of matrix and right side in any of the test cases' states.
+fn equations(
+    graph: &Graph,
+    request: &Request,
+    test_cases: &[TestCase],
+) -> Result<f64, PackageError> {
+    test_cases.iter().try_fold(0.0_f64, |most, test_case| {
+        let inputs = inputs(test_case, request);
+        let of_state = |i: usize| graph.evaluate(&inputs[i].concat());
+        Ok(most.max(certify_equations(test_case, request.formulation, of_state)?))
+    })
 }
 
 /// The largest deviation in any of the test cases' states, `off` of what is found there.

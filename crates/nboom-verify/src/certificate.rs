@@ -1,3 +1,4 @@
+use nboom_formulation::{Equations, Formulation};
 use serde::Serialize;
 
 use crate::VerifyError;
@@ -45,6 +46,34 @@ pub fn certify(
             condition: most.condition.max(reference.condition),
             ..most
         })
+    })
+}
+
+/// The largest deviation of matrix and right side by `formulation` from those that follow from the recursion's in
+/// double-double, as of [`Quantity::MassMatrix`](crate::Quantity::MassMatrix) and
+/// [`Quantity::Forcing`](crate::Quantity::Forcing). `equations` gives the matrix row by row and then the right side, in
+/// state `i` of the test case, counted from 0.
+///
+/// Results that are too few or too many, or no numbers, deviate infinitely.
+///
+/// # Errors
+/// As [`certify`].
+pub fn certify_equations(
+    test_case: &TestCase,
+    formulation: Formulation,
+    mut equations: impl FnMut(usize) -> Vec<f64>,
+) -> Result<f64, VerifyError> {
+    let size = 6 + test_case.tree().links.len();
+    let mut referee = Referee::new(test_case, 1);
+    (0..test_case.states().len()).try_fold(0.0_f64, |most, i| {
+        let reference = referee.reference(i)?;
+        let mut matrix = equations(i);
+        if matrix.len() != size * size + size {
+            return Ok(f64::INFINITY);
+        }
+        let forcing = matrix.split_off(size * size);
+        let off = reference.off_equations(formulation, &Equations { matrix, forcing });
+        Ok(off.iter().fold(most, |most, off| most.max(off.from_double_double)))
     })
 }
 

@@ -50,7 +50,7 @@ mod reference;
 mod test_case;
 mod work_precision;
 
-pub use certificate::{Certificate, Truth, certify, drives, truth};
+pub use certificate::{Certificate, Truth, certify, certify_equations, drives, truth};
 pub use code::ComparedCode;
 pub use comparison::{Comparison, Row, compare};
 pub use dense::Dense;

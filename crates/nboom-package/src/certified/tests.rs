@@ -85,3 +85,31 @@ fn code_of_spheres_and_tops_is_certified_and_only_if_it_is_right() {
         is_found(&alike(inertia, links), 4);
     }
 }
+
+/// Equations that are all too large, or one of them, have the same solution.
+#[test]
+fn equations_are_compared_number_by_number() {
+    let scene = one_boom();
+    for formulation in [Formulation::Report, Formulation::Relative, Formulation::Symmetric] {
+        let request = Request::of_scene(&scene, Numbers::RunTime, Level::Exact);
+        let request = request.expect("code is generated for it").by(formulation).for_equations();
+        let cases = [TestCase::new(&scene, 5, SEED).expect("states with accelerations")];
+        let (graph, inputs) = (trace(&request), inputs(&cases[0], &request));
+        let right = equations(&graph, &request, &cases).expect("a comparison");
+        assert!(right < TOLERANCE, "{formulation}: {right:e}");
+        let off = |change: &dyn Fn(&mut Vec<f64>)| {
+            let of_state = |i: usize| {
+                let mut found = graph.evaluate(&inputs[i].concat());
+                change(&mut found);
+                found
+            };
+            certify_equations(&cases[0], formulation, of_state).expect("a comparison")
+        };
+        assert!(off(&|_| {}) < TOLERANCE);
+        assert!(off(&|all| all.iter_mut().for_each(|number| *number *= 2.0)) > 0.1);
+        // The row of the hinge, of seven.
+        let row = |all: &mut Vec<f64>| (42..49).chain([55]).for_each(|at| all[at] *= 1.0 + 1e-6);
+        assert!(off(&row) > 1e-8, "{formulation}");
+        assert!(off(&|all| all.truncate(55)).is_infinite());
+    }
+}
