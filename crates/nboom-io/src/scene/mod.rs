@@ -51,7 +51,6 @@ pub use names::{FOLDER_NAME, folder_name};
 use parameters::Parameters;
 pub use schema::schema;
 pub(crate) use sources::{Place, Sources};
-use tree::Value;
 pub use write::write_scene;
 
 /// How a scene is read.
@@ -114,7 +113,7 @@ fn assemble(
         reader.named(root, "parameters");
     }
     reader.check_set(root, &options.set);
-    reader.check_use(parts);
+    reader.check_use(parts, &options.set);
     let name = reader.scene_name(root).unwrap_or(name);
     let (mut settings, stress_interval) = reader.settings(root);
     let scene = reader.surroundings(root, name);
@@ -183,16 +182,15 @@ impl Reader<'_, '_> {
         (settings, stress_every.unwrap_or(1))
     }
 
-    /// Warns of parameters that no expression has; those of further files may be for other scenes.
-    fn check_use(&mut self, parts: &Parts) {
-        let own = parts.root().get("parameters").map(|entry| &entry.node.value);
-        let Some(Value::Table(own)) = own else { return };
-        for entry in &own.0[..] {
+    /// Warns of parameters on the command line that no expression of any file has.
+    fn check_use(&mut self, parts: &Parts, set: &[(String, f64)]) {
+        for entry in parts.entries("parameters") {
             let name = entry.key.as_str();
-            if !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
-                let expected = format!("an expression with `${name}`, or no such parameter");
+            let is_set = set.iter().any(|(set, _)| set == name);
+            if is_set && !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
                 let found = "a parameter that nothing uses";
-                self.report.warn_at(self.sources, &entry.key_at, name, found, &expected);
+                let expected = format!("one of which some number is an expression, as `${name}`");
+                self.report.warn_at(self.sources, &entry.key_at, "--set", found, &expected);
             }
         }
     }
