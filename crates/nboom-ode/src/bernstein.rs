@@ -82,12 +82,8 @@ impl Bernstein {
 
     /// A bound on the distance from its value at 0, over [0, 1].
     pub fn excursion(&self) -> f64 {
-        self.farthest_from(self.coefficients[0])
-    }
-
-    /// A bound on the distance from `level`, over [0, 1].
-    pub fn farthest_from(&self, level: f64) -> f64 {
-        self.coefficients().iter().map(|c| (c - level).abs()).fold(0.0, f64::max)
+        let start = self.coefficients[0];
+        self.coefficients().iter().map(|c| (c - start).abs()).fold(0.0, f64::max)
     }
 
     /// The polynomial divided by its variable, its value at 0 being taken for zero.
@@ -125,11 +121,16 @@ impl Bernstein {
     /// its distance there, negative beyond. Between its values the place is found to 1e-8 of the way, at which an
     /// extreme is flat to rounding.
     pub fn nearest(&self, level: f64, side: f64, end: f64) -> (f64, f64) {
-        let mut above = if end == 1.0 { *self } else { self.until(end) }.minus(level);
-        above.coefficients.iter_mut().for_each(|c| *c *= side);
-        let (first, last) = (above.coefficients[0], above.coefficients[above.degree]);
+        let part = if end == 1.0 { *self } else { self.until(end) };
+        let above = |c: f64| (c - level) * side;
+        let (first, last) = (above(part.coefficients[0]), above(part.coefficients[part.degree]));
         let mut least = if last < first { (1.0, last) } else { (0.0, first) };
-        above.find_less(0.0, 1.0, &mut least);
+        // Mostly it comes nearer all the way, or goes away.
+        if !part.coefficients().iter().all(|&c| above(c) >= least.1) {
+            let mut from_level = part;
+            from_level.coefficients.iter_mut().for_each(|c| *c = above(*c));
+            from_level.find_less(0.0, 1.0, &mut least);
+        }
         (least.0 * end, least.1)
     }
 

@@ -5,7 +5,6 @@ pub(crate) mod angles;
 pub(crate) mod event;
 pub(crate) mod guard;
 pub(crate) mod instant;
-pub(crate) mod line_anchor;
 pub(crate) mod line_path;
 pub(crate) mod schedule;
 pub(crate) mod side;

@@ -93,7 +93,7 @@ fn equations_are_compared_number_by_number() {
     for formulation in [Formulation::Report, Formulation::Relative, Formulation::Symmetric] {
         let request = Request::of_scene(&scene, Numbers::RunTime, Level::Exact);
         let request = request.expect("code is generated for it").by(formulation).for_equations();
-        let cases = [TestCase::new(&scene, 5, SEED).expect("states with accelerations")];
+        let cases = [TestCase::new(scene.clone(), 5, SEED).expect("states with accelerations")];
         let (graph, inputs) = (trace(&request), inputs(&cases[0], &request));
         let right = equations(&graph, &request, &cases).expect("a comparison");
         assert!(right < TOLERANCE, "{formulation}: {right:e}");

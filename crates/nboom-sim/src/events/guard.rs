@@ -10,7 +10,6 @@ use crate::events::angle_range::AngleRange;
 use crate::events::angles::Angles;
 use crate::events::event::EventKind;
 use crate::events::instant;
-use crate::events::line_anchor::LineAnchor;
 use crate::events::line_path::LinePath;
 use crate::events::side::{LockSide, Side};
 
@@ -133,8 +132,6 @@ pub(crate) struct Guards {
     pub list: Vec<Guard>,
     interpolation: Interpolation,
     path: LinePath,
-    /// Of each guard of a line's length.
-    anchors: Vec<LineAnchor>,
     angles: Angles,
 }
 
@@ -144,7 +141,6 @@ impl Guards {
             list: Vec::new(),
             interpolation: Interpolation::new(),
             path: LinePath::default(),
-            anchors: Vec::new(),
             angles: Angles::default(),
         }
     }
@@ -198,8 +194,6 @@ impl Guards {
             };
             self.list.push(Guard { kind, side, range });
         }
-        self.anchors.resize_with(self.anchors.len().max(self.list.len()), LineAnchor::default);
-        self.anchors.iter_mut().for_each(|anchor| anchor.begin(dynamics.free_hinges().len()));
     }
 
     /// The guard that first changes sign within the step that dense output was prepared for,
@@ -220,7 +214,7 @@ impl Guards {
                     range.left_by(self.angles.of(range.hinge, first_angle, stepper))
                 }
                 (Coordinate::Length(line), limit) => {
-                    self.length_change(equations, stepper, (line, limit), i)
+                    self.length_change(equations, stepper, (line, limit), guard.side)
                 }
                 (Coordinate::Angle(hinge), angle) => {
                     let position = free.binary_search(&hinge);
@@ -317,19 +311,12 @@ impl Guards {
         equations: &Equations,
         stepper: &dyn Stepper,
         (line, limit): (usize, f64),
-        guard: usize,
+        side: Side,
     ) -> Option<f64> {
-        let Self { list, path, anchors, angles, .. } = self;
-        let (dynamics, side) = (&equations.entered.dynamics, list[guard].side);
+        let Self { path, angles, .. } = self;
+        let dynamics = &equations.entered.dynamics;
         let first = equations.variables.layout.beta().start;
-        let farthest = |hinge, from| angles.of(hinge, first, stepper).farthest_from(from);
-        if matches!(side, Side::Known(_))
-            && anchors[guard].keeps_side(dynamics.line_joints(line), farthest)
-        {
-            return None;
-        }
         path.follow(dynamics, line, |hinge| *angles.of(hinge, first, stepper));
-        path.anchor(limit, &mut anchors[guard]);
         if let Side::Known(sign) = side
             && path.keeps_side(dynamics, limit, sign)
         {
