@@ -61,11 +61,19 @@ impl Gathering {
                 format!("cases {} to {} of a sweep of {first} to {last}", head.first, head.last);
             return Err(wrong(found));
         }
-        let is_missing = |missing: RangeInclusive<u64>| {
+        let missing = begun.journal.missing();
+        let has_some = |missing: &RangeInclusive<u64>| {
+            *missing.start() <= head.last && head.first <= *missing.end()
+        };
+        let has_all = |missing: &RangeInclusive<u64>| {
             missing.contains(&head.first) && missing.contains(&head.last)
         };
-        if !begun.journal.missing().into_iter().any(is_missing) {
+        if !missing.iter().any(has_some) {
             return Ok(());
+        }
+        if !missing.iter().any(has_all) {
+            let Head { first, last, .. } = head;
+            return Err(wrong(format!("cases {first} to {last}, of which some are there already")));
         }
         let also =
             Description { made_by: by.clone(), also_made_by: Vec::new(), ..begun.what.clone() };

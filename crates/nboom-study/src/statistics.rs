@@ -241,7 +241,7 @@ impl Statistics {
             if number == 0 {
                 histogram = histogram::histogram(&sorted);
             }
-            if self.lock(column).is_some() && !sorted.is_empty() {
+            if self.lock(column).is_some() {
                 sorted.resize(self.sample.rows_of(number).len(), f64::INFINITY);
             }
             let moments = &group.moments[column];

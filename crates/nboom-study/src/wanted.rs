@@ -127,22 +127,25 @@ impl Wanted {
     /// When there is no such result.
     pub fn named(text: &str, file: &SceneFile, loads: Loads) -> Result<Self, UnknownResult> {
         // Names of bodies may begin and end with blanks.
-        let (whole, text) = (text.trim_start(), text.trim());
+        let (whole, mut text) = (text.trim_start(), text.trim().to_owned());
         let found = match (whole.split_once(' '), whole.split_once(" of ")) {
             (Some((word, column)), _) if motion::WORDS.contains(&word) => {
                 motion::named(word, column.trim_start(), file)
             }
-            (_, Some((word, body))) => hinge::named(word.trim(), body, file, loads),
-            _ => summary::named(text, file, loads),
+            (_, Some((word, body))) => {
+                let word = word.trim();
+                // Statistics know lock times and margins by how their texts begin.
+                text = format!("{word} of {body}").trim_end().to_owned();
+                hinge::named(word, body, file, loads)
+            }
+            _ => summary::named(&text, file, loads),
         };
         match found {
             Ok((what, column)) => {
-                let column = Column { name: column_name(text), ..column };
-                Ok(Self { text: text.to_owned(), column, what })
+                let column = Column { name: column_name(&text), ..column };
+                Ok(Self { text, column, what })
             }
-            Err((expected, nearest)) => {
-                Err(UnknownResult { found: text.to_owned(), expected, nearest })
-            }
+            Err((expected, nearest)) => Err(UnknownResult { found: text, expected, nearest }),
         }
     }
 

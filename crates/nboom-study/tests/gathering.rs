@@ -62,6 +62,11 @@ fn batches_from_elsewhere_make_the_tables_of_one_process() {
     }
     // A worker that was thought lost comes back with what another one has run.
     first.add(&batch(1..=2), &Maker::current()).expect("known");
+    // One that is known in part would be lost with what is new in it.
+    for cases in [2..=4, 1..=12] {
+        let error = first.add(&batch(cases), &Maker::current()).expect_err("known in part");
+        assert!(matches!(error, StudyError::NoBatch { .. }), "{error}");
+    }
     drop(first);
     let mut second = gather(&study, &there);
     assert_eq!((second.missing(), second.done()), (vec![3..=8], [6, 12]));

@@ -83,9 +83,11 @@ pub struct SummaryColumn {
     pub largest: Vec<Extreme>,
 }
 
-/// What starts the text of a result that is a margin.
-const MARGINS: [&str; 4] = [
-    "margin of ",
+/// What starts the text of the margin of a hinge's segment.
+const MARGIN: &str = "margin of ";
+
+/// The texts of margins of the whole; those that say where they are begin likewise.
+const MARGINS: [&str; 3] = [
     "verdict.smallest_margin",
     "verdict.smallest_yield_margin",
     "verdict.smallest_ultimate_margin",
@@ -113,7 +115,7 @@ pub enum Worse {
 impl SummaryColumn {
     /// Whether it is a margin, which should not be negative.
     pub fn is_margin(&self) -> bool {
-        MARGINS.iter().any(|start| self.label.starts_with(start))
+        self.label.starts_with(MARGIN) || MARGINS.contains(&&*self.label)
     }
 
     /// The hinge of whose lock-ups these are the times. A case in which it does not lock has none, and counts as

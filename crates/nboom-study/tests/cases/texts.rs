@@ -24,6 +24,8 @@ fn unknown_results_have_the_nearest() {
         assert_eq!(error.nearest.as_deref(), Some(nearest), "{text}");
         Wanted::named(nearest, &file, Loads::None).unwrap_or_else(|error| panic!("{error}"));
     }
+    let spaced = Wanted::named("lock_time  of x panel 1", &file, Loads::None).expect("it is one");
+    assert_eq!(spaced.text(), "lock_time of x panel 1");
     for (text, expected) in [
         ("", "`lock_time of HINGE`"),
         ("verdict.hinges[5].angle", "a hinge from 1 to 4"),

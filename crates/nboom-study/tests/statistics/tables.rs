@@ -63,6 +63,8 @@ fn faults_stand_apart_and_empty_cells_are_hinges_that_never_latch() {
     }
     let time = &found.columns[1];
     assert_eq!((time.spreads[0].count, time.spreads[1].count), (900, 0));
+    let never = &time.spreads[1].percentiles;
+    assert!(never.len() == 7 && never.iter().all(|of| of.value.is_infinite()), "{never:?}");
     let [driver] = time.drivers[..] else { panic!("one variable") };
     // Nine in ten rise with the variable, the others are tied above them whatever it is: 0.8104, of 1000 draws to 0.02
     // or so, of which three are allowed.
@@ -126,6 +128,15 @@ fn the_worst_of_numbers_with_a_sign_is_the_largest_in_size() {
         assert_eq!(found.columns[0].worse(), worse, "{label}");
     }
     assert_eq!(of_result("impulse of boom", &[3.0, 1.0], &[]).columns[0].worse(), Worse::Large);
+    // Where and when a margin is smallest is no margin.
+    for (label, is_margin) in [
+        ("verdict.smallest_margin", true),
+        ("verdict.smallest_ultimate_margin", true),
+        ("verdict.smallest_margin_at.time", false),
+        ("verdict.smallest_yield_margin_at.station", false),
+    ] {
+        assert_eq!(of_result(label, &[3.0, 1.0], &[]).columns[0].is_margin(), is_margin, "{label}");
+    }
 }
 
 #[test]
