@@ -226,12 +226,16 @@ mod tests {
     }
 
     #[test]
-    fn a_name_that_no_module_can_have_is_refused_there() {
+    fn two_results_are_refused_at_the_second() {
         is_refused(
             "S: S2, formulation = symmetric, equations, right_side",
             "right_side",
             &["`right_side` beside `equations`"],
         );
+    }
+
+    #[test]
+    fn a_name_that_no_module_can_have_is_refused_there() {
         is_refused("r#fn: S2", "r#fn", &["routine `r#fn`: a Rust identifier expected"]);
     }
 

@@ -118,16 +118,22 @@ impl Bernstein {
     }
 
     /// Where on [0, `end`] the polynomial is nearest to `level`, on the side of it that has the sign `side`, and
-    /// its distance there, negative beyond. Between its values the place is found to 1e-8 of the way, at which an
-    /// extreme is flat to rounding.
+    /// its distance there, negative beyond. An extreme between the ends is found to 1e-8 of the way, over which it is
+    /// flat to rounding.
     pub fn nearest(&self, level: f64, side: f64, end: f64) -> (f64, f64) {
-        let part = if end == 1.0 { *self } else { self.until(end) };
+        let cut_off;
+        let part = if end == 1.0 {
+            self
+        } else {
+            cut_off = self.until(end);
+            &cut_off
+        };
         let above = |c: f64| (c - level) * side;
         let (first, last) = (above(part.coefficients[0]), above(part.coefficients[part.degree]));
         let mut least = if last < first { (1.0, last) } else { (0.0, first) };
         // Mostly it comes nearer all the way, or goes away.
         if !part.coefficients().iter().all(|&c| above(c) >= least.1) {
-            let mut from_level = part;
+            let mut from_level = *part;
             from_level.coefficients.iter_mut().for_each(|c| *c = above(*c));
             from_level.find_less(0.0, 1.0, &mut least);
         }

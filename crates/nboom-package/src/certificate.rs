@@ -113,7 +113,11 @@ impl OfFormulation {
                 condition: Some(found.condition),
                 ..nothing
             },
-            Found::Equations(residual) => Self { residual: Some(*residual), ..nothing },
+            Found::Equations { deviation, residual } => Self {
+                deviation_from_double_double: Some(*deviation),
+                residual: Some(*residual),
+                ..nothing
+            },
             Found::InverseDynamics(found) => {
                 Self { deviation_from_double_double: Some(*found), ..nothing }
             }

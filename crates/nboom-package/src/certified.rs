@@ -47,10 +47,14 @@ pub(crate) struct Certified {
 pub(crate) enum Found {
     /// Of accelerations.
     Accelerations(Certificate),
-    /// The larger one of two: the largest deviation of matrix and right side; and the largest residual of the equations
-    /// for the true accelerations, each in terms of the sum of the magnitudes of what is added up, or of the natural
-    /// size of right sides where that is larger.
-    Equations(f64),
+    /// Of matrix and right side.
+    Equations {
+        /// The largest deviation.
+        deviation: f64,
+        /// The largest residual of the equations for the true accelerations, each in terms of the sum of the
+        /// magnitudes of what is added up, or of the natural size of right sides where that is larger.
+        residual: f64,
+    },
     /// The largest deviation of forces, relative to the largest of them or to their natural size.
     InverseDynamics(f64),
     /// Of rates of change, relative to the largest of their kind or to its natural size.
@@ -106,7 +110,8 @@ impl Certified {
                     residual(found, &tested.expected, tested.least)
                 })?;
                 // Rows that are wrong by a factor leave no residual.
-                Found::Equations(equations(&graph, request, &test_cases)?.max(residual))
+                let deviation = equations(&graph, request, &test_cases)?;
+                Found::Equations { deviation, residual }
             }
             Output::InverseDynamics => {
                 Found::InverseDynamics(deviation(&graph, request, &test_cases, |found, tested| {
@@ -138,7 +143,7 @@ impl Certified {
             Found::Accelerations(found) => {
                 ("accelerations", found.from_recursion.max(found.from_double_double))
             }
-            Found::Equations(residual) => ("equations", *residual),
+            Found::Equations { deviation, residual } => ("equations", deviation.max(*residual)),
             Found::InverseDynamics(deviation) => ("inverse dynamics", *deviation),
             Found::RightSide { deviation, .. } => ("rates of change", *deviation),
         };
@@ -160,7 +165,9 @@ impl Certified {
             Found::RightSide { deviation, condition } => {
                 allowance(*condition) * ROUNDING.max(4.0 * deviation)
             }
-            Found::Equations(found) | Found::InverseDynamics(found) => ROUNDING.max(4.0 * found),
+            Found::Equations { residual: found, .. } | Found::InverseDynamics(found) => {
+                ROUNDING.max(4.0 * found)
+            }
         }
     }
 }

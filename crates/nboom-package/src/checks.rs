@@ -36,7 +36,7 @@ fn test(of_crate: &str, routine: &Routine) -> String {
     let (function, tolerance) = (name.to_lowercase(), routine.certified.tolerance());
     let off = match routine.certified.found {
         Found::Accelerations(_) | Found::InverseDynamics(_) => "off_numbers",
-        Found::Equations(_) => "off_equations",
+        Found::Equations { .. } => "off_equations",
         Found::RightSide { .. } => "off_rates",
     };
     let values = [
@@ -61,7 +61,7 @@ pub(crate) fn table_path(routine: &Routine) -> String {
 pub(crate) fn table(routine: &Routine) -> String {
     let word = match routine.certified.found {
         Found::Accelerations(_) => "acceleration",
-        Found::Equations(_) => "unknown",
+        Found::Equations { .. } => "unknown",
         Found::InverseDynamics(_) => "force",
         Found::RightSide { .. } => "rate",
     };

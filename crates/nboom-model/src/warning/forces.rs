@@ -4,7 +4,7 @@ use nboom_scalar::{Vec3, Wrench};
 
 use super::ModelWarning;
 use crate::hinge::SAME_ANGLE;
-use crate::{Hinge, Posture, Scene};
+use crate::{Hinge, KickOffSpring, Posture, Scene};
 
 /// Share of its terms below which a torque is none.
 const NO_TORQUE: f64 = 1e-9;
@@ -20,8 +20,9 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
     hinges.flat_map(|i| of_hinge(scene, &postures, i)).chain(feeds).collect()
 }
 
+/// Warnings about a hinge, from where all hinges start and from where they lock.
 fn of_hinge(scene: &Scene, postures: &[Posture; 2], i: usize) -> Vec<ModelWarning> {
-    let [posture, locked] = postures;
+    let [posture, _] = postures;
     let body = &scene.bodies[i];
     let (hinge, label) = (&body.hinge, || scene.label(i));
     let mut found = dashpot(hinge)
@@ -40,13 +41,13 @@ fn of_hinge(scene: &Scene, postures: &[Posture; 2], i: usize) -> Vec<ModelWarnin
     if let Some((_, force, length)) = push(scene, posture, i).filter(|(_, force, _)| *force < 0.0) {
         found.push(ModelWarning::KickOffPulls { hinge: label(), force, length });
     }
-    if let Some(limit) = hinge.kick_off.map(|spring| spring.limit_length) {
-        let length = |posture| kick_off(scene, posture, i).map_or(0.0, Vec3::norm);
-        let [at_start, with_locks] = [length(posture), length(locked)];
-        if at_start == 0.0 {
+    if let Some(spring) = &hinge.kick_off {
+        let [length, with_locks] = postures.each_ref().map(|at| between(spring, at, i).norm());
+        let limit = spring.limit_length;
+        if length == 0.0 {
             found.push(ModelWarning::KickOffWithoutLength(label()));
-        } else if hinge.lock_angle.is_some() && at_start.min(with_locks) > limit {
-            let (hinge, length) = (label(), at_start);
+        } else if hinge.lock_angle.is_some() && length.min(with_locks) > limit {
+            let hinge = label();
             found.push(ModelWarning::KickOffNeverPushes { hinge, length, limit });
         }
     }
@@ -54,9 +55,8 @@ fn of_hinge(scene: &Scene, postures: &[Posture; 2], i: usize) -> Vec<ModelWarnin
 }
 
 /// From one end of the kick-off spring of hinge `j` to the other.
-fn kick_off(scene: &Scene, posture: &Posture, j: usize) -> Option<Vec3<f64>> {
-    let spring = scene.bodies[j].hinge.kick_off?;
-    Some(posture.hinges[j].kick_off - spring.main_body_point)
+fn between(spring: &KickOffSpring, posture: &Posture, j: usize) -> Vec3<f64> {
+    posture.hinges[j].kick_off - spring.main_body_point
 }
 
 /// Warnings about the spring and the dashpot's terms in the angle of a hinge on which nothing else acts.
@@ -166,7 +166,7 @@ fn kick_off_torque(scene: &Scene, posture: &Posture, i: usize) -> f64 {
 /// Direction, force and length of the kick-off spring of hinge `j`, if it acts at the start.
 fn push(scene: &Scene, posture: &Posture, j: usize) -> Option<(Vec3<f64>, f64, f64)> {
     let spring = scene.bodies[j].hinge.kick_off?;
-    let between = kick_off(scene, posture, j)?;
+    let between = between(&spring, posture, j);
     let length = between.norm();
     let [a0, a1, a2, a3] = spring.coefficients;
     let acts = length > 0.0 && length <= spring.limit_length;

@@ -47,6 +47,17 @@ fn a_crate_of_a_sphere_passes_its_tests() {
     assert!(said.contains("SatelliteM, portable code: largest deviation"), "{said}");
 }
 
+/// Names are filled in among keys of a template that look like this.
+#[test]
+fn a_body_may_be_called_like_a_key_of_a_template() {
+    for key in ["TREE_LIST", "MORE_FUNCTIONS", "HINGE_COUNT"] {
+        let name = format!("/*{key}*/");
+        let place = written(&one_boom().with_names(vec![name.clone()]), &Choices::default());
+        let text = fs::read_to_string(place.path().join("src/lib.rs")).expect("readable");
+        assert!(text.contains(&format!("name: \"{name}\"")), "{text}");
+    }
+}
+
 #[test]
 fn a_crate_with_stresses_passes_its_tests_and_fails_them_when_they_are_wrong() {
     let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/n-boom-1970.nml");
