@@ -307,6 +307,14 @@ impl Stepper for Automatic {
         self.stepper_mut().retake(system, step);
     }
 
+    fn ends_inside(&self) -> bool {
+        self.stepper().ends_inside()
+    }
+
+    fn end_inside(&mut self, fraction: f64) -> bool {
+        self.stepper_mut().end_inside(fraction)
+    }
+
     fn move_end(&mut self, system: &mut dyn System, by: f64) -> bool {
         self.stepper_mut().move_end(system, by)
     }
@@ -321,6 +329,10 @@ impl Stepper for Automatic {
 
     fn window(&self) -> &Window {
         self.stepper().window()
+    }
+
+    fn slopes(&self) -> Option<&[f64]> {
+        self.stepper().slopes()
     }
 
     fn error_of(&self, i: usize) -> f64 {

@@ -185,9 +185,13 @@ impl Bernstein {
     /// Newton's method, with bisection where that does not get on.
     fn only_root(&self) -> f64 {
         let (mut left, mut right) = (0.0, 1.0);
-        let (mut x, mut last_step) = (0.5, 0.5);
+        let (first, last) = (self.coefficients[0], self.coefficients[self.degree]);
+        // A value of zero at an end is not the root.
+        let is_between = first > 0.0 && last < 0.0;
+        let (mut x, mut last_step) =
+            if is_between { (first / (first - last), 1.0) } else { (0.5, 0.5) };
         while right - left > RESOLUTION {
-            let (value, slope) = self.value_and_slope(x);
+            let [value, slope, _] = self.derivatives(x);
             *(if value < 0.0 { &mut right } else { &mut left }) = x;
             let newton = x - value / slope;
             let gets_on = (newton - x).abs() < 0.5 * last_step;
@@ -202,19 +206,21 @@ impl Bernstein {
         x
     }
 
-    /// Value and derivative at `x` (de Casteljau).
-    fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let mut row = self.coefficients;
-        let mut slope = 0.0;
+    /// Value and two derivatives at `x`, on [0, 1] or beyond (de Casteljau).
+    pub fn derivatives(&self, x: f64) -> [f64; 3] {
+        let (mut row, degree) = (self.coefficients, self.degree as f64);
+        let (mut slope, mut curvature) = (0.0, 0.0);
         for last in (0..self.degree).rev() {
-            if last == 0 {
-                slope = self.degree as f64 * (row[1] - row[0]);
+            match last {
+                0 => slope = degree * (row[1] - row[0]),
+                1 => curvature = degree * (degree - 1.0) * (row[2] - 2.0 * row[1] + row[0]),
+                _ => {}
             }
             for j in 0..=last {
                 row[j] += x * (row[j + 1] - row[j]);
             }
         }
-        (row[0], slope)
+        [row[0], slope, curvature]
     }
 
     /// The part of the polynomial on [0, `end`], as one on [0, 1] (de Casteljau).

@@ -19,6 +19,7 @@ mod control;
 mod dense;
 mod end_errors;
 mod end_slopes;
+mod first_step;
 mod stages;
 
 /// The row of [`Method`]'s table.
@@ -234,30 +235,6 @@ impl GaussLanes {
         self.measure(system);
     }
 
-    /// A first step from the times in which the first and the second derivative change the variables
-    /// by what they are; infinite where nothing moves.
-    fn first_step(&mut self, system: &mut dyn System) -> f64 {
-        let slope = self.ends.start(system, &mut self.window);
-        self.stages.derivative.copy_from_slice(slope);
-        let size = self.norm(|i| self.window.magnitude(i));
-        let by_slope = size / self.norm(|i| self.stages.derivative[i]);
-        if !by_slope.is_finite() {
-            return f64::INFINITY;
-        }
-        let ahead = AHEAD * by_slope;
-        let Self { stages: Stages { argument, derivative, .. }, window, ends, .. } = self;
-        for i in 0..argument.len() {
-            argument[i] = window.state[i] + ahead * derivative[i];
-        }
-        system.derivative(window.time + ahead, argument, derivative);
-        window.counts.evaluations += 1;
-        for (second, first) in derivative.iter_mut().zip(ends.start(system, window)) {
-            *second = (*second - first) / ahead;
-        }
-        let by_curvature = (size / self.norm(|i| self.stages.derivative[i])).sqrt();
-        by_slope.min(by_curvature) * size.powf(-0.5 / STAGES as f64)
-    }
-
     fn too_short(&mut self, system: &mut dyn System) -> StepError {
         let Self { stages: Stages { argument, derivative, .. }, window, .. } = self;
         let (time, step) = (window.time, window.next_step);
@@ -276,9 +253,6 @@ impl GaussLanes {
 
 /// A refused step is tried shorter by this at least.
 const SHORTER: f64 = 0.9;
-/// Share of the time in which the slope changes the variables by what they are, after which the
-/// slope is evaluated again.
-const AHEAD: f64 = 0.01;
 /// How much of the step it had a motion goes on with after an event, but no more than so many times the
 /// cautious first step.
 const CARRIED: f64 = 0.8;
@@ -288,6 +262,7 @@ impl Stepper for GaussLanes {
     fn start(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
         self.begin(system, t, y, controlled);
         self.window.next_step = self.first_step(system).min(self.window.longest);
+        self.guess_straight(system);
     }
 
     fn restart(&mut self, system: &mut dyn System, t: f64, y: &[f64], controlled: usize) {
@@ -298,6 +273,7 @@ impl Stepper for GaussLanes {
             first = (CARRIED * had).min(BEYOND_FIRST * first);
         }
         self.window.next_step = first.min(self.window.longest);
+        self.guess_straight(system);
     }
 
     fn reset(&mut self) {
@@ -354,6 +330,18 @@ impl Stepper for GaussLanes {
         self.dense.polynomial(&self.stages.variables, i)
     }
 
+    fn ends_inside(&self) -> bool {
+        true
+    }
+
+    fn end_inside(&mut self, fraction: f64) -> bool {
+        let Self { dense, stages, window, .. } = self;
+        dense.interpolate(&stages.variables, fraction, &mut window.end_state);
+        window.end_time = window.time + fraction * dense.step();
+        self.end_lost.fill(0.0);
+        true
+    }
+
     fn retake(&mut self, system: &mut dyn System, step: f64) {
         self.iterate(system, step, MOST_RETAKEN);
         self.keep(step);
@@ -379,6 +367,10 @@ impl Stepper for GaussLanes {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn slopes(&self) -> Option<&[f64]> {
+        self.ends.known_start()
     }
 
     fn error_of(&self, i: usize) -> f64 {

@@ -49,6 +49,9 @@ struct Attempt {
 /// Share of the step it had with which a restart begins: the whole of it costs accuracy where the motion
 /// has become faster.
 const CARRIED: f64 = 0.8;
+/// Share of a step about its end in which dense output is as good as the end: it has the value and the slope of
+/// the end, so its error goes with the square of the distance.
+const NEAR_END: f64 = 0.05;
 /// An error this small does not speed up the next step any more.
 const SMALL_ERROR: f64 = 1e-4;
 
@@ -291,6 +294,7 @@ impl Stepper for RungeKutta {
                 terms[3 + row] = *sum;
             }
         }
+        self.has_dense = true;
     }
 
     fn interpolate(&self, fraction: f64, out: &mut [f64]) {
@@ -309,6 +313,21 @@ impl Stepper for RungeKutta {
     fn polynomial(&self, i: usize) -> Bernstein {
         let count = self.terms();
         Bernstein::of_terms(self.window.state[i], &self.dense[i * count..(i + 1) * count])
+    }
+
+    fn ends_inside(&self) -> bool {
+        true
+    }
+
+    fn end_inside(&mut self, fraction: f64) -> bool {
+        if !self.has_dense || (fraction - 1.0).abs() > NEAR_END {
+            return false;
+        }
+        let mut end = std::mem::take(&mut self.window.end_state);
+        self.interpolate(fraction, &mut end);
+        self.window.end_state = end;
+        self.window.end_time = self.window.time + fraction * self.step;
+        true
     }
 
     fn retake(&mut self, system: &mut dyn System, step: f64) {
@@ -354,6 +373,10 @@ impl Stepper for RungeKutta {
 
     fn window(&self) -> &Window {
         &self.window
+    }
+
+    fn slopes(&self) -> Option<&[f64]> {
+        Some(&self.stages[..self.size()])
     }
 
     fn error_of(&self, i: usize) -> f64 {

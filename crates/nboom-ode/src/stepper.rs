@@ -74,6 +74,18 @@ pub trait Stepper: Send {
     /// of the step before.
     fn retake(&mut self, system: &mut dyn System, step: f64);
 
+    /// Whether steps may [end inside](Self::end_inside).
+    fn ends_inside(&self) -> bool {
+        false
+    }
+
+    /// Ends the step at this `fraction` of it by the dense output that was prepared, if that is as accurate there as
+    /// the end of a step; else returns `false` and leaves the step as it is. May be called several times, and after
+    /// it comes a [start](Self::start) or [`restart`](Self::restart).
+    fn end_inside(&mut self, _fraction: f64) -> bool {
+        false
+    }
+
     /// Moves the end of the step by `by` along a parabola, if the motion bends so little on the way
     /// that what is left out is far below the tolerance; else, or where a method takes steps again at
     /// no great cost, returns `false` and leaves the step as it is.
@@ -90,6 +102,12 @@ pub trait Stepper: Send {
 
     /// The step just taken.
     fn window(&self) -> &Window;
+
+    /// The derivatives where the next step starts, of methods whose steps [end inside](Self::ends_inside) after a
+    /// start.
+    fn slopes(&self) -> Option<&[f64]> {
+        None
+    }
 
     /// Estimated error of variable `i` in the last step tried, in units of the tolerance and
     /// per unit of time.

@@ -9,7 +9,7 @@ use crate::equations::state::State;
 use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::event::{Event, EventKind};
-use crate::events::guard::{GuardKind, read};
+use crate::events::guard::GuardKind;
 use crate::events::instant;
 use crate::events::situation::Situation;
 use crate::lanes::Lanes;
@@ -32,6 +32,7 @@ pub(crate) mod step_motion;
 pub(crate) mod verdict;
 
 mod giving_up;
+mod locating;
 mod runaway;
 mod simulator;
 mod telling;
@@ -53,9 +54,6 @@ pub fn simulate(
 ) -> Result<Summary, Failure> {
     Simulator::new(scene, *options).run(recorder).cloned()
 }
-
-/// Corrections after which an event's time is as good as it gets.
-const CORRECTIONS: usize = 8;
 
 struct Run<'a> {
     options: Options,
@@ -199,6 +197,8 @@ impl<'a> Run<'a> {
         }
         let Equations { scene, entered, .. } = &*self.equations;
         self.situation.watch(scene, &entered.dynamics);
+        let Situation { guards, state, .. } = &mut *self.situation;
+        guards.expect_from(self.equations, self.stepper, state);
         finite::check_instant(scene, time, &self.situation.outcome)?;
         self.tell_instant(has_before)?;
         self.report()?;
@@ -209,8 +209,9 @@ impl<'a> Run<'a> {
     /// situation there. Returns the guard.
     async fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
         let limit = self.situation.limit(&self.equations.scene);
+        let mut goal = self.goal();
         loop {
-            self.step(limit).await?;
+            self.step(goal.map_or(limit, |goal: f64| goal.min(limit))).await?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
             let guards = &mut self.situation.guards;
             if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
@@ -219,7 +220,7 @@ impl<'a> Run<'a> {
             let change = guards.first_change(self.equations, self.stepper);
             let full = self.stepper.window().length();
             if let Some((kind, fraction)) = change {
-                self.locate(kind, fraction * full, full).await;
+                self.locate(kind, fraction, full).await;
             }
             self.sample_within(full, self.stepper.window().end_time)?;
             self.note_misses(full);
@@ -230,6 +231,8 @@ impl<'a> Run<'a> {
             if change.is_some() || state.time >= limit {
                 return Ok(change.map(|(kind, _)| kind));
             }
+            // One step in two may be in vain.
+            goal = if goal.is_none() { self.goal() } else { None };
         }
     }
 
@@ -263,50 +266,12 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Takes the step again with another length.
-    async fn retake(&mut self, length: f64) {
-        if self.stepper.explicit().is_none() {
-            return self.stepper.retake(self.equations, length);
-        }
-        self.take(length, false).await;
-        if let Some(explicit) = self.stepper.explicit() {
-            explicit.end_after(length);
-        }
-    }
-
     /// Notes which method took the step, when that is a change.
     fn note_method(&mut self) {
         let (since, choice) = (self.stepper.window().time, self.stepper.choice());
         let integrations = &mut self.summary.integrations;
         if integrations.last().is_none_or(|last| last.choice.method != choice.method) {
             integrations.push(Integration { since, choice });
-        }
-    }
-
-    /// Takes the step again so that it ends where the guard is zero: Newton's method on the
-    /// integrated motion itself, from the place where dense output has the zero. One step is
-    /// mostly enough, whose end is then moved.
-    async fn locate(&mut self, kind: GuardKind, guess: f64, full: f64) {
-        let mut step = guess;
-        let mut last_correction = f64::INFINITY;
-        for _ in 0..CORRECTIONS {
-            self.retake(step).await;
-            let window = self.stepper.window();
-            let time = window.end_time;
-            self.equations.read(time, &window.end_state, self.scratch);
-            let reading = read(kind, &self.equations.entered.dynamics, self.scratch);
-            let correction = -reading.value / reading.rate;
-            let better = correction.abs() < 0.5 * last_correction;
-            let matters = self.stepper.window().time + (step + correction) != time;
-            if !(correction.is_finite() && better && matters) {
-                return;
-            }
-            if self.stepper.move_end(self.equations, correction) {
-                return;
-            }
-            last_correction = correction.abs();
-            // Dense output may put a zero just before the step's end that lies just after it.
-            step = (step + correction).clamp(0.0, 1.01 * full);
         }
     }
 

@@ -59,12 +59,13 @@ impl Iteration {
         }
         // What rounding changes does not shrink.
         let stalls = change >= self.last_change && change <= self.rounding.max(0.01);
-        if self.count > 1 && change > NOISE * self.rounding {
+        let is_noise = change <= NOISE * self.rounding;
+        if self.count > 1 && !is_noise {
             self.contraction = change / self.last_change;
         }
         self.last_change = change;
         let is_left = change * self.contraction < CONVERGED * (1.0 - self.contraction);
-        if change == 0.0 || stalls || (self.contraction < 1.0 && is_left) {
+        if is_noise || stalls || (self.contraction < 1.0 && is_left) {
             return Progress::Converged;
         }
         let slow = most == MOST && self.count > 2 && self.contraction > SLOW;

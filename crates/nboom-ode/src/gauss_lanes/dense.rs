@@ -76,6 +76,11 @@ impl Dense {
         vectorised(Fit { rule, taken, variables, derivatives, spectra });
     }
 
+    /// Length of the step.
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
     pub fn interpolate(&self, variables: &Variables, x: f64, out: &mut [f64]) {
         let (first, second): (Spectrum, Spectrum) = (integrals(x), second_integrals(x));
         for &i in &variables.evaluated {

@@ -30,6 +30,11 @@ impl EndSlopes {
         &self.start
     }
 
+    /// The slope at the start, if it was asked for.
+    pub fn known_start(&self) -> Option<&[f64]> {
+        self.knows_start.then_some(&self.start)
+    }
+
     /// The slopes at the start and at the end.
     pub fn both(&mut self, system: &mut dyn System, window: &mut Window) -> [&[f64]; 2] {
         self.start(system, window);

@@ -55,9 +55,14 @@ impl AngleRange {
         (low < 0.0 && 0.0 < high).then_some(Self { hinge, low: beta + low, high: beta + high })
     }
 
+    /// The angles where it ends, each with the sign of what is inside.
+    pub fn ends(&self) -> [(f64, f64); 2] {
+        [(self.low, 1.0), (self.high, -1.0)]
+    }
+
     /// Where on [0, 1] an angle leaves the range.
     pub fn left_by(&self, angle: &Bernstein) -> Option<f64> {
-        let ends = [angle.leaves(self.low, 1.0), angle.leaves(self.high, -1.0)];
+        let ends = self.ends().map(|(level, side)| angle.leaves(level, side));
         ends.into_iter().flatten().reduce(f64::min)
     }
 }

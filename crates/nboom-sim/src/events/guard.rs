@@ -11,15 +11,16 @@ use crate::events::angles::Angles;
 use crate::events::event::EventKind;
 use crate::events::instant;
 use crate::events::line_path::LinePath;
+use crate::events::outlook::Outlook;
 use crate::events::side::{LockSide, Side};
 
 /// A quantity whose change of sign is an event.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Guard {
     pub kind: GuardKind,
-    side: Side,
+    pub(super) side: Side,
     /// The angles at which it keeps its side, of a line's length that one hinge changes.
-    range: Option<AngleRange>,
+    pub(super) range: Option<AngleRange>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,7 +133,8 @@ pub(crate) struct Guards {
     pub list: Vec<Guard>,
     interpolation: Interpolation,
     path: LinePath,
-    angles: Angles,
+    pub(super) angles: Angles,
+    pub(super) outlook: Outlook,
 }
 
 impl Guards {
@@ -142,6 +144,7 @@ impl Guards {
             interpolation: Interpolation::new(),
             path: LinePath::default(),
             angles: Angles::default(),
+            outlook: Outlook::default(),
         }
     }
 
@@ -160,7 +163,6 @@ impl Guards {
         self.list.clear();
         // Steps that look for events allocate nothing.
         self.path.make_room(dynamics.free_hinges().len());
-        self.angles.begin(dynamics.free_hinges().len());
         for (i, body) in scene.bodies.iter().enumerate() {
             if let Some(angle) = body.hinge.lock_angle.filter(|_| mode.is_free(i)) {
                 let leaving = Side::Leaving { sign: None, at_rest: state.tau[i] == R::zero() };
@@ -196,6 +198,11 @@ impl Guards {
         }
     }
 
+    /// Forgets the steps of a run of `scene` before.
+    pub fn begin(&mut self, scene: &Scene) {
+        self.angles.forget(scene.bodies.len());
+    }
+
     /// The guard that first changes sign within the step that dense output was prepared for,
     /// and at which fraction of it.
     pub fn first_change(
@@ -206,12 +213,14 @@ impl Guards {
         let mut first: Option<(GuardKind, f64)> = None;
         let free = equations.entered.dynamics.free_hinges();
         let first_angle = equations.variables.layout.beta().start;
-        self.angles.begin(free.len());
+        self.angles.begin(stepper.window());
+        self.outlook.goes_on();
         for i in 0..self.list.len() {
             let guard = self.list[i];
             let change = match watched(guard.kind, equations.entered.dynamics.elements()) {
                 _ if let Some(range) = guard.range => {
-                    range.left_by(self.angles.of(range.hinge, first_angle, stepper))
+                    let variable = first_angle + range.hinge;
+                    range.left_by(self.angles.of(free[range.hinge], variable, stepper))
                 }
                 (Coordinate::Length(line), limit) => {
                     self.length_change(equations, stepper, (line, limit), guard.side)
@@ -219,7 +228,7 @@ impl Guards {
                 (Coordinate::Angle(hinge), angle) => {
                     let position = free.binary_search(&hinge);
                     let position = position.expect("guards watch only free hinges");
-                    let polynomial = self.angles.of(position, first_angle, stepper);
+                    let polynomial = self.angles.of(hinge, first_angle + position, stepper);
                     guard.side.change(polynomial, angle)
                 }
             };
@@ -238,14 +247,12 @@ impl Guards {
         equations: &Equations,
         end: f64,
     ) -> impl Iterator<Item = (usize, [f64; 2])> {
-        let free = equations.entered.dynamics.free_hinges();
         let bodies = &equations.scene.bodies;
         self.list.iter().filter_map(move |guard| match (guard.kind, guard.side) {
             (GuardKind::Lock { hinge, angle }, Side::Known(sign))
                 if bodies[hinge].hinge.start.angle != angle =>
             {
-                let position = free.binary_search(&hinge).ok()?;
-                let over_step = self.angles.known(position)?;
+                let over_step = self.angles.known(hinge)?;
                 let (fraction, distance) = over_step.nearest(angle, sign, end);
                 Some((hinge, [fraction, distance.max(0.0)]))
             }
@@ -316,7 +323,8 @@ impl Guards {
         let Self { path, angles, .. } = self;
         let dynamics = &equations.entered.dynamics;
         let first = equations.variables.layout.beta().start;
-        path.follow(dynamics, line, |hinge| *angles.of(hinge, first, stepper));
+        let free = dynamics.free_hinges();
+        path.follow(dynamics, line, |hinge| *angles.of(free[hinge], first + hinge, stepper));
         if let Side::Known(sign) = side
             && path.keeps_side(dynamics, limit, sign)
         {
@@ -370,7 +378,7 @@ fn bounds<R: Number>(dynamics: &Recursive<R>, mode: &Mode) -> impl Iterator<Item
 }
 
 /// What a guard watches, and the value that it waits for.
-fn watched<R: Real>(kind: GuardKind, elements: &Elements<R>) -> (Coordinate, f64) {
+pub(super) fn watched<R: Real>(kind: GuardKind, elements: &Elements<R>) -> (Coordinate, f64) {
     match kind {
         GuardKind::Lock { hinge, angle } | GuardKind::Trigger { trigger: hinge, angle, .. } => {
             (Coordinate::Angle(hinge), angle)

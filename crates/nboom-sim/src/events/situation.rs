@@ -44,8 +44,9 @@ impl<R: Number> Situation<R> {
     /// Goes to the beginning of `scene`, before the first instant; nothing is watched yet.
     /// `dynamics` is in the mode `start`, in which the scene starts.
     pub fn begin(&mut self, scene: &Scene, start: &Mode, dynamics: &mut Recursive<R>) {
-        let Self { state, mode, lock_sides, schedule, outcome, .. } = self;
+        let Self { state, mode, guards, lock_sides, schedule, outcome, .. } = self;
         outcome.reset();
+        guards.begin(scene);
         schedule.begin(scene);
         state.begin(scene);
         mode.hinges.clone_from(&start.hinges);

@@ -1,0 +1,64 @@
+use crate::events::guard::{GuardKind, read};
+use crate::run::Run;
+
+/// Corrections after which an event's time is as good as it gets.
+const CORRECTIONS: usize = 8;
+
+/// By how much a step is longer than to where a guard is expected to change. Expected are mostly a few
+/// thousandths of the way.
+const BEYOND: f64 = 1.02;
+
+impl Run<'_> {
+    /// Just after the next change of a guard, where one is expected within the next step. A method whose steps end
+    /// inside then goes no further than it has to, and need not take the step again.
+    pub(super) fn goal(&self) -> Option<f64> {
+        if !self.stepper.ends_inside() {
+            return None;
+        }
+        let window = self.stepper.window();
+        let (now, farthest) = (window.time, window.time + window.next_step);
+        let expected = self.situation.guards.expected(self.equations, (now, farthest))?;
+        Some(now + BEYOND * (expected - now)).filter(|goal| *goal > now)
+    }
+
+    /// Ends the step where the guard is zero, about this `fraction` of its length: inside, where the method allows
+    /// that, else by taking it again. That is Newton's method on the integrated motion itself, from the place where
+    /// dense output has the zero. One step is mostly enough, whose end is then moved.
+    pub(super) async fn locate(&mut self, kind: GuardKind, fraction: f64, full: f64) {
+        let mut step = fraction * full;
+        let mut last_correction = f64::INFINITY;
+        for _ in 0..CORRECTIONS {
+            let is_inside = self.stepper.end_inside(step / full);
+            if !is_inside {
+                self.retake(step).await;
+            }
+            let window = self.stepper.window();
+            let time = window.end_time;
+            self.equations.read(time, &window.end_state, self.scratch);
+            let reading = read(kind, &self.equations.entered.dynamics, self.scratch);
+            let correction = -reading.value / reading.rate;
+            let better = correction.abs() < 0.5 * last_correction;
+            let matters = self.stepper.window().time + (step + correction) != time;
+            if !(correction.is_finite() && better && matters) {
+                return;
+            }
+            if !is_inside && self.stepper.move_end(self.equations, correction) {
+                return;
+            }
+            last_correction = correction.abs();
+            // Dense output may put a zero just before the step's end that lies just after it.
+            step = (step + correction).clamp(0.0, 1.01 * full);
+        }
+    }
+
+    /// Takes the step again with another length.
+    async fn retake(&mut self, length: f64) {
+        if self.stepper.explicit().is_none() {
+            return self.stepper.retake(self.equations, length);
+        }
+        self.take(length, false).await;
+        if let Some(explicit) = self.stepper.explicit() {
+            explicit.end_after(length);
+        }
+    }
+}
