@@ -4,9 +4,11 @@ use std::io;
 
 use nboom::model::{External, Rotor, RotorSpeed, Scene};
 use nboom::scalar::Vec3;
-use nboom::sim::{Options, Recorder, Snapshot, StepMotion, simulate};
+use nboom::sim::EventKind::LockUp;
+use nboom::sim::{Method, Options, Recorder, Snapshot, StepMotion, Summary, simulate};
 
-use crate::rotors::{description, free, oscillating};
+use crate::collect::run;
+use crate::rotors::{description, free, locking_at, oscillating, scene};
 
 /// When steps start that do not go on from the one before, and how many do.
 #[derive(Default)]
@@ -50,4 +52,23 @@ fn a_step_says_whether_accelerations_jump_where_it_starts() {
     simulate(&scene, &Options::default(), &mut starts).expect("it runs");
     assert_eq!(starts.anew, [0.0, 1.0, 2.0, 3.0, 4.5, 6.0]);
     assert!(starts.others > 20 && starts.end == 9.0);
+}
+
+/// A step of `dop853` takes twelve evaluations, and three for its inside, so nothing is left in which one would be
+/// taken twice.
+#[test]
+fn a_step_goes_just_beyond_the_event_that_ends_it() {
+    let swing = oscillating(free(0.0, 1.0), 1.0, 0.0);
+    for angle in [0.2_f64, 0.5, 0.8, 0.95] {
+        let scene = scene(&[locking_at(swing, angle)], angle.asin() + 0.01);
+        let options = Options { samples: 1, integrator: Method::Dop853, ..Options::default() };
+        let (found, summary) = run(&scene, &options);
+        let [(LockUp, Some(0), time)] = found.happenings()[..] else { panic!("one lock-up") };
+        assert!((time - angle.asin()).abs() < 1e-8, "{angle}: {time}");
+        let Summary { steps_accepted, steps_rejected, evaluations, .. } = summary;
+        assert!(steps_accepted > 2, "{angle}");
+        // The start takes two, and the restart one.
+        let at_most = 12 * (steps_accepted + steps_rejected) + 3 * steps_accepted + 3;
+        assert!(evaluations <= at_most, "{angle}: {evaluations}, {at_most}");
+    }
 }

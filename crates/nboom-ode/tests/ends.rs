@@ -76,6 +76,65 @@ fn an_end_is_not_moved_as_far_as_the_motion_bends() {
 }
 
 #[test]
+fn a_step_that_ends_inside_is_on_the_motion() {
+    let mut anywhere = Vec::new();
+    for method in methods() {
+        let (mut stepper, mut system) = after_a_step(method);
+        stepper.prepare_dense(&mut system);
+        let (before, evaluations) = (stepper.window().clone(), system.evaluations);
+        let mut ends = 0;
+        for fraction in [0.1, 0.5, 0.97, 1.0, 1.005] {
+            if !stepper.end_inside(fraction) {
+                assert_eq!(stepper.window().end_time, before.end_time, "{method}");
+                assert_eq!(stepper.window().end_state, before.end_state, "{method}");
+                continue;
+            }
+            assert!(stepper.ends_inside(), "{method}");
+            ends += 1;
+            let window = stepper.window();
+            assert_eq!(window.end_time, before.time + fraction * before.length());
+            // As good as a step that is taken to there, but for its own error.
+            let (mut other, mut of_other) = after_a_step(method);
+            other.retake(&mut of_other, window.length());
+            let allowed = error_at_end(other.window()) + 0.01 * TOLERANCE.absolute;
+            let error = error_at_end(window);
+            assert!(error < allowed, "{method} {fraction}: {error:e}, {allowed:e}");
+        }
+        assert_eq!(system.evaluations, evaluations, "{method}");
+        assert!(ends > 0 || !stepper.ends_inside(), "{method}");
+        if ends == 5 {
+            anywhere.push(method);
+        }
+        // A start may follow, at the end.
+        let Window { end_time, end_state, .. } = stepper.window().clone();
+        stepper.restart(&mut system, end_time, &end_state, 2);
+        if let Some(slopes) = stepper.slopes() {
+            assert_eq!(slopes, [end_state[1], -end_state[0]], "{method}");
+        }
+        stepper.step(&mut system, end_time + 0.1).expect("a smooth motion");
+        assert!(
+            error_at_end(stepper.window()) < 3.0 * TOLERANCE.absolute.max(error_at_end(&before))
+        );
+    }
+    assert_eq!(anywhere, [Method::GaussLanes]);
+}
+
+#[test]
+fn a_step_in_which_rounding_is_all_that_is_left_is_not_refused() {
+    for relative in [1e-4, 1e-6, 1e-9, 1e-12] {
+        for step in [1e-3, 1e-6, 1e-9] {
+            let tolerance = Tolerance { relative, absolute: relative };
+            let mut stepper = Method::GaussLanes.stepper(tolerance);
+            let mut system = Oscillator { evaluations: 0 };
+            stepper.start(&mut system, 0.0, &[0.0, 1.0], 2);
+            stepper.step(&mut system, step).expect("a smooth motion");
+            let window = stepper.window();
+            assert_eq!((window.end_time, window.counts.rejected), (step, 0), "{relative:e}");
+        }
+    }
+}
+
+#[test]
 fn a_restart_goes_on_with_the_step_it_had_or_finds_one() {
     for method in methods() {
         let (mut stepper, mut system) = after_a_step(method);

@@ -1,7 +1,7 @@
 //! Every method against closed forms: order, dense output, cut steps, refusals.
 
 use nboom_expr::Graph;
-use nboom_ode::{Method, StepError, Stepper, System, Tolerance};
+use nboom_ode::{Bernstein, Method, StepError, Stepper, System, Tolerance};
 use nboom_scalar::Real;
 use nboom_series::Series;
 
@@ -119,6 +119,35 @@ fn polynomials_are_the_dense_output() {
             let value = at_the_middle(stepper.polynomial(i).coefficients());
             assert!((value - expected).abs() < 1e-14, "{method}: {value} {expected}");
         }
+    }
+}
+
+#[test]
+fn a_polynomial_has_derivatives_inside_and_beyond() {
+    // 1 − 2 x + 3 x³, and constants and straight lines, which bend nowhere.
+    let cubic = Bernstein::of_powers(&[1.0, -2.0, 0.0, 3.0]);
+    let line = Bernstein::of_powers(&[0.5, 2.0]);
+    for x in [-0.5_f64, 0.0, 0.3, 1.0, 2.5] {
+        let of_cubic = [1.0 - 2.0 * x + 3.0 * x.powi(3), -2.0 + 9.0 * x * x, 18.0 * x];
+        for (found, expected) in [
+            (cubic.derivatives(x), of_cubic),
+            (line.derivatives(x), [0.5 + 2.0 * x, 2.0, 0.0]),
+            (Bernstein::new(&[7.0]).derivatives(x), [7.0, 0.0, 0.0]),
+        ] {
+            let largest = expected.iter().fold(1.0, |m: f64, e| m.max(e.abs()));
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-13 * largest, "{x}: {found} {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_value_of_zero_at_an_end_is_not_the_root_between() {
+    // (x − ¼)(x − 1) and x (¼ − x).
+    for powers in [[0.25, -1.25, 1.0], [0.0, 0.25, -1.0]] {
+        let root = Bernstein::of_powers(&powers).leaves_side(1.0).expect("it is negative later");
+        assert!((root - 0.25).abs() < 1e-13, "{root}");
     }
 }
 
