@@ -59,7 +59,8 @@ fn a_step_says_whether_accelerations_jump_where_it_starts() {
 #[test]
 fn a_step_goes_just_beyond_the_event_that_ends_it() {
     let swing = oscillating(free(0.0, 1.0), 1.0, 0.0);
-    for angle in [0.2_f64, 0.5, 0.8, 0.95] {
+    // Not in the first steps, each of which is several times as long as the one before.
+    for angle in [0.5_f64, 0.8, 0.95] {
         let scene = scene(&[locking_at(swing, angle)], angle.asin() + 0.01);
         let options = Options { samples: 1, integrator: Method::Dop853, ..Options::default() };
         let (found, summary) = run(&scene, &options);

@@ -70,6 +70,9 @@ impl Guards {
         let dynamics = &equations.entered.dynamics;
         let farthest = farthest.min(now + REACH * self.angles.length());
         let crossing = |hinge: usize, level: f64, side: f64| {
+            if !self.comes_near(hinge, (level, side), farthest - now) {
+                return None;
+            }
             let above =
                 |time: f64| Some((self.outlook.angle(&self.angles, hinge, time)? - level) * side);
             crossing(above, now, farthest)
@@ -95,6 +98,18 @@ impl Guards {
             _ => None,
         };
         self.list.iter().filter_map(of_guard).reduce(f64::min)
+    }
+
+    /// Whether an angle that goes on at twice the rate it has at the end of the step comes to a level soon; mostly it does
+    /// not, and this costs next to nothing.
+    fn comes_near(&self, hinge: usize, (level, side): (f64, f64), soon: f64) -> bool {
+        let coefficients = match (self.outlook.since, self.angles.known(hinge)) {
+            (None, Some(angle)) => angle.coefficients(),
+            (since, _) => return since.is_some(),
+        };
+        let [.., before, last] = *coefficients else { return false };
+        let rate = (coefficients.len() - 1) as f64 * (last - before) / self.angles.length();
+        (last - level + 2.0 * soon * rate) * side < 0.0
     }
 
     /// By how much the squared length of a line is expected to exceed that of a limit.
