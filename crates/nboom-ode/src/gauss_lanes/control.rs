@@ -60,7 +60,10 @@ impl Iteration {
         // What rounding changes does not shrink.
         let stalls = change >= self.last_change && change <= self.rounding.max(0.01);
         let is_noise = change <= NOISE * self.rounding;
-        if self.count > 1 && !is_noise {
+        if is_noise {
+            // Noise tells nothing about it, but that it is good enough.
+            self.contraction = self.contraction.min(RATHER_SLOW);
+        } else if self.count > 1 {
             self.contraction = change / self.last_change;
         }
         self.last_change = change;

@@ -201,6 +201,7 @@ impl Guards {
     /// Forgets the steps of a run of `scene` before.
     pub fn begin(&mut self, scene: &Scene) {
         self.angles.forget(scene.bodies.len());
+        self.outlook.goes_on();
     }
 
     /// The guard that first changes sign within the step that dense output was prepared for,

@@ -19,7 +19,7 @@ pub(crate) struct Outlook {
 }
 
 impl Outlook {
-    /// A step was searched.
+    /// A step was searched, or none yet.
     pub fn goes_on(&mut self) {
         self.since = None;
     }
@@ -52,6 +52,7 @@ impl Guards {
         let Self { outlook: Outlook { since, jumps }, angles, .. } = self;
         let layout = &equations.variables.layout;
         let free = equations.entered.dynamics.free_hinges();
+        *since = None;
         let Some(slopes) = stepper.slopes().filter(|_| !layout.has_momenta()) else {
             return angles.forget(state.beta.len());
         };

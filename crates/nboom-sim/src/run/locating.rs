@@ -8,6 +8,9 @@ const CORRECTIONS: usize = 8;
 /// thousandths of the way.
 const BEYOND: f64 = 1.02;
 
+/// Nearer than this share of the next step no step ends on purpose: it might be too short to be taken.
+const NEAREST: f64 = 1e-4;
+
 impl Run<'_> {
     /// Just after the next change of a guard, where one is expected within the next step. A method whose steps end
     /// inside then goes no further than it has to, and need not take the step again.
@@ -18,7 +21,8 @@ impl Run<'_> {
         let window = self.stepper.window();
         let (now, farthest) = (window.time, window.time + window.next_step);
         let expected = self.situation.guards.expected(self.equations, (now, farthest))?;
-        Some(now + BEYOND * (expected - now)).filter(|goal| *goal > now)
+        let is_far_enough = expected - now > NEAREST * window.next_step;
+        is_far_enough.then_some(now + BEYOND * (expected - now))
     }
 
     /// Ends the step where the guard is zero, about this `fraction` of its length: inside, where the method allows
