@@ -186,8 +186,8 @@ impl Bernstein {
     fn only_root(&self) -> f64 {
         let (mut left, mut right) = (0.0, 1.0);
         let (first, last) = (self.coefficients[0], self.coefficients[self.degree]);
-        // A value of zero at an end is not the root.
-        let is_between = first > 0.0 && last < 0.0;
+        // An end where the value is zero, but for rounding, is not the root.
+        let is_between = first > 0.0 && -last > 1e-6 * first;
         let (mut x, mut last_step) =
             if is_between { (first / (first - last), 1.0) } else { (0.5, 0.5) };
         while right - left > RESOLUTION {

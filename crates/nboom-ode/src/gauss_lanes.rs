@@ -12,6 +12,7 @@ use stages::{Stages, Start};
 
 use crate::gauss::coefficients::STAGES;
 use crate::method::Description;
+use crate::stepper::is_near_end;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod collocation;
@@ -35,8 +36,8 @@ pub(crate) const DESCRIPTION: Description = Description {
 /// Gauss's collocation method with eight stages, of order 16, whose stages are evaluated side by side
 /// ([`System::derivatives`]).
 ///
-/// The stages follow from fixed-point iterations, which begin with the polynomial of the step before
-/// or, when a step is taken again, its own. Variables that are integrals of others are integrated
+/// The stages follow from fixed-point iterations, which begin with the polynomial of the step before or, when a step
+/// is taken again, its own; after a start with a slope that goes on changing as it does there. Variables that are integrals of others are integrated
 /// anew in each iteration ([`System::rate_of`]). The step follows from the last Legendre coefficients
 /// of the derivative.
 ///
@@ -298,6 +299,7 @@ impl Stepper for GaussLanes {
                     let end = if reaches { limit } else { time + step };
                     self.window.accept(end, reaches, step * factor);
                     self.ends.forget_end();
+                    self.dense.forget();
                     return Ok(());
                 }
                 Err(shorter) => {
@@ -335,7 +337,11 @@ impl Stepper for GaussLanes {
     }
 
     fn end_inside(&mut self, fraction: f64) -> bool {
-        let Self { dense, stages, window, .. } = self;
+        let Self { dense, stages, window, ends, .. } = self;
+        if dense.step() == 0.0 || !is_near_end(fraction) {
+            return false;
+        }
+        ends.forget_end();
         dense.interpolate(&stages.variables, fraction, &mut window.end_state);
         window.end_time = window.time + fraction * dense.step();
         self.end_lost.fill(0.0);

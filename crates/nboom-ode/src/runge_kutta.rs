@@ -1,5 +1,6 @@
 use std::ops::Range;
 
+use crate::stepper::is_near_end;
 use crate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
@@ -49,9 +50,6 @@ struct Attempt {
 /// Share of the step it had with which a restart begins: the whole of it costs accuracy where the motion
 /// has become faster.
 const CARRIED: f64 = 0.8;
-/// Share of a step about its end in which dense output is as good as the end: it has the value and the slope of
-/// the end, so its error goes with the square of the distance.
-const NEAR_END: f64 = 0.05;
 /// An error this small does not speed up the next step any more.
 const SMALL_ERROR: f64 = 1e-4;
 
@@ -320,7 +318,7 @@ impl Stepper for RungeKutta {
     }
 
     fn end_inside(&mut self, fraction: f64) -> bool {
-        if !self.has_dense || (fraction - 1.0).abs() > NEAR_END {
+        if !self.has_dense || !is_near_end(fraction) {
             return false;
         }
         let mut end = std::mem::take(&mut self.window.end_state);
@@ -354,6 +352,7 @@ impl Stepper for RungeKutta {
             self.step += by;
             self.window.end_time = time;
             self.stages.copy_within(after..after + stride, end);
+            self.has_dense = false;
         }
         is_straight
     }

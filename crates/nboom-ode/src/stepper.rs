@@ -79,9 +79,9 @@ pub trait Stepper: Send {
         false
     }
 
-    /// Ends the step at this `fraction` of it by the dense output that was prepared, if that is as accurate there as
-    /// the end of a step; else returns `false` and leaves the step as it is. May be called several times, and after
-    /// it comes a [start](Self::start) or [`restart`](Self::restart).
+    /// Ends the step at this `fraction` of it by the dense output that was prepared, if that is about as accurate
+    /// there as the end of a step; else returns `false` and leaves the step as it is. May be called several times, and
+    /// after it comes a [start](Self::start) or [`restart`](Self::restart).
     fn end_inside(&mut self, _fraction: f64) -> bool {
         false
     }
@@ -103,8 +103,8 @@ pub trait Stepper: Send {
     /// The step just taken.
     fn window(&self) -> &Window;
 
-    /// The derivatives where the next step starts, of methods whose steps [end inside](Self::ends_inside) after a
-    /// start.
+    /// The derivatives where the next step starts, right after a start or restart; none of methods whose steps do not
+    /// [end inside](Self::ends_inside).
     fn slopes(&self) -> Option<&[f64]> {
         None
     }
@@ -133,6 +133,15 @@ impl Choice {
     pub(crate) fn demanded(method: Method) -> Self {
         Self { method, reason: "as demanded" }
     }
+}
+
+/// Share of a step about its end in which dense output is about as good as the end: it has the value and the slope
+/// of the end, so its error goes with the square of the distance. In the middle it errs by up to the tolerance.
+const NEAR_END: f64 = 0.015;
+
+/// Whether dense output is good enough there to end a step by it.
+pub(crate) fn is_near_end(fraction: f64) -> bool {
+    (fraction - 1.0).abs() <= NEAR_END
 }
 
 /// Share of the way to its limit that a step takes where nothing moves, and may begin to.

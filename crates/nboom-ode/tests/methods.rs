@@ -144,9 +144,13 @@ fn a_polynomial_has_derivatives_inside_and_beyond() {
 
 #[test]
 fn a_value_of_zero_at_an_end_is_not_the_root_between() {
-    // (x − ¼)(x − 1) and x (¼ − x).
-    for powers in [[0.25, -1.25, 1.0], [0.0, 0.25, -1.0]] {
-        let root = Bernstein::of_powers(&powers).leaves_side(1.0).expect("it is negative later");
+    // (x − ¼)(x − 1), x (¼ − x), and the first one a rounding lower at its end.
+    for polynomial in [
+        Bernstein::of_powers(&[0.25, -1.25, 1.0]),
+        Bernstein::of_powers(&[0.0, 0.25, -1.0]),
+        Bernstein::new(&[0.25, -0.375, -1e-18]),
+    ] {
+        let root = polynomial.leaves_side(1.0).expect("it is negative later");
         assert!((root - 0.25).abs() < 1e-13, "{root}");
     }
 }

@@ -75,8 +75,8 @@ pub struct Options {
     /// Absolute error allowed in a step, as a share of each variable's natural size: 1 rad for angles,
     /// for rates the largest so far, or one radian in the whole run if that is more.
     pub atol: f64,
-    /// The longest step; a step may exceed it by up to a hundredth to reach the next scheduled
-    /// time.
+    /// The longest step; a step may exceed it by up to a hundredth to reach the next scheduled time or an event
+    /// that is expected.
     pub max_step: f64,
     /// Steps after which the run is given up.
     pub max_steps: usize,

@@ -210,6 +210,8 @@ impl<'a> Run<'a> {
     async fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
         let limit = self.situation.limit(&self.equations.scene);
         let mut goal = self.goal();
+        // Steps that have no goal after one was reached in vain: each time twice as many and one more.
+        let (mut pause, mut without) = (0_usize, 0_usize);
         loop {
             self.step(goal.map_or(limit, |goal: f64| goal.min(limit))).await?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
@@ -231,8 +233,12 @@ impl<'a> Run<'a> {
             if change.is_some() || state.time >= limit {
                 return Ok(change.map(|(kind, _)| kind));
             }
-            // One step in two may be in vain.
-            goal = if goal.is_none() { self.goal() } else { None };
+            let is_in_vain = goal.is_some_and(|goal| state.time >= goal);
+            if is_in_vain {
+                pause = pause.saturating_mul(2) + 1;
+            }
+            without = if is_in_vain { pause } else { without.saturating_sub(1) };
+            goal = if without == 0 { self.goal() } else { None };
         }
     }
 

@@ -59,16 +59,17 @@ impl Iteration {
         }
         // What rounding changes does not shrink.
         let stalls = change >= self.last_change && change <= self.rounding.max(0.01);
-        let is_noise = change <= NOISE * self.rounding;
-        if is_noise {
-            // Noise tells nothing about it, but that it is good enough.
-            self.contraction = self.contraction.min(RATHER_SLOW);
-        } else if self.count > 1 {
+        let noise = NOISE * self.rounding;
+        if change > noise && self.count > 1 {
             self.contraction = change / self.last_change;
+        } else if change <= noise {
+            // It is not known better than this.
+            self.contraction = self.contraction.min((noise / self.last_change).max(RATHER_SLOW));
         }
         self.last_change = change;
         let is_left = change * self.contraction < CONVERGED * (1.0 - self.contraction);
-        if is_noise || stalls || (self.contraction < 1.0 && is_left) {
+        let is_nothing = change <= noise.min(CONVERGED);
+        if is_nothing || stalls || (self.contraction < 1.0 && is_left) {
             return Progress::Converged;
         }
         let slow = most == MOST && self.count > 2 && self.contraction > SLOW;

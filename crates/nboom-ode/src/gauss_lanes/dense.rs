@@ -57,6 +57,7 @@ impl Dense {
     }
 
     pub fn start(&mut self, state: &[f64]) {
+        self.step = 0.0;
         self.state.clear();
         self.state.extend_from_slice(state);
         self.spectra.clear();
@@ -76,9 +77,14 @@ impl Dense {
         vectorised(Fit { rule, taken, variables, derivatives, spectra });
     }
 
-    /// Length of the step.
+    /// Length of the step it was prepared for; zero where that is not the last one.
     pub fn step(&self) -> f64 {
         self.step
+    }
+
+    /// Another step was taken.
+    pub fn forget(&mut self) {
+        self.step = 0.0;
     }
 
     pub fn interpolate(&self, variables: &Variables, x: f64, out: &mut [f64]) {

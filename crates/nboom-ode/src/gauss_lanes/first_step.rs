@@ -35,10 +35,10 @@ impl GaussLanes {
     }
 
     /// Takes for the first guess that the derivative goes on changing as it does at the start, which the
-    /// [first step](Self::first_step) has found out.
+    /// [first step](Self::first_step) has found out, if it could.
     pub(super) fn guess_straight(&mut self, system: &mut dyn System) {
         let length = self.window.next_step;
-        if !length.is_finite() {
+        if !(length.is_finite() && self.stages.derivative.iter().all(|change| change.is_finite())) {
             return;
         }
         let Self { stages, window, ends, known, collocation, .. } = self;

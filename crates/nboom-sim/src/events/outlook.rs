@@ -44,7 +44,7 @@ const REACH: f64 = 2.0;
 const SECANTS: usize = 12;
 
 /// Share of the time until then to which it is to be known.
-const CLOSE: f64 = 2e-3;
+const CLOSE: f64 = 1e-3;
 
 impl Guards {
     /// Notes what the instant has changed in which a mode began, at `state`, where `stepper` starts.
@@ -101,8 +101,8 @@ impl Guards {
         self.list.iter().filter_map(of_guard).reduce(f64::min)
     }
 
-    /// Whether an angle that goes on at twice the rate it has at the end of the step comes to a level soon; mostly it does
-    /// not, and this costs next to nothing.
+    /// Whether an angle that goes on at twice the rate it has at the end of the step comes to a level soon; mostly
+    /// it does not, and this costs next to nothing.
     fn comes_near(&self, hinge: usize, (level, side): (f64, f64), soon: f64) -> bool {
         let coefficients = match (self.outlook.since, self.angles.known(hinge)) {
             (None, Some(angle)) => angle.coefficients(),
@@ -127,8 +127,8 @@ impl Guards {
 fn crossing(above: impl Fn(f64) -> Option<f64>, now: f64, farthest: f64) -> Option<f64> {
     let mut far = (farthest, above(farthest).filter(|value| *value < 0.0)?);
     let mut near = (now, above(now).filter(|value| *value > 0.0)?);
-    // The secant rule; the value at an end that stays counts for half.
-    let mut found = farthest;
+    // The secant rule; the value at an end that stays twice counts for half (the Illinois rule).
+    let (mut found, mut last_side) = (now, 0.0);
     for _ in 0..SECANTS {
         let time = near.0 + (far.0 - near.0) * near.1 / (near.1 - far.1);
         let (value, change) = (above(time)?, (time - found).abs());
@@ -136,11 +136,13 @@ fn crossing(above: impl Fn(f64) -> Option<f64>, now: f64, farthest: f64) -> Opti
         if change <= CLOSE * (time - now) {
             return Some(found);
         }
+        let stays = if value.signum() == last_side { 0.5 } else { 1.0 };
         if value > 0.0 {
-            (near, far.1) = ((time, value), 0.5 * far.1);
+            (near, far.1) = ((time, value), stays * far.1);
         } else {
-            (far, near.1) = ((time, value), 0.5 * near.1);
+            (far, near.1) = ((time, value), stays * near.1);
         }
+        last_side = value.signum();
     }
     None
 }

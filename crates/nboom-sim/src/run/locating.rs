@@ -4,9 +4,9 @@ use crate::run::Run;
 /// Corrections after which an event's time is as good as it gets.
 const CORRECTIONS: usize = 8;
 
-/// By how much a step is longer than to where a guard is expected to change. Expected are mostly a few
-/// thousandths of the way.
-const BEYOND: f64 = 1.02;
+/// How many times as long a step is as the way to where a guard is expected to change: expectations err mostly by less
+/// than a hundredth of that.
+const BEYOND: f64 = 1.01;
 
 /// Nearer than this share of the next step no step ends on purpose: it might be too short to be taken.
 const NEAREST: f64 = 1e-4;
