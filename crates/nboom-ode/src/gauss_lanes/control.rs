@@ -91,7 +91,7 @@ impl Iteration {
 
 /// How much the error of a step may exceed the tolerance before it is tried again. As it goes with
 /// the sixteenth power of the step, a little too much is cheaper than another try.
-pub(super) const REFUSED: f64 = 30.0;
+pub(super) const REFUSED: f64 = 10.0;
 /// After so many iterations the error is known well enough to refuse a step that exceeds what is refused
 /// by this factor.
 pub(super) const TELLING: usize = 4;
