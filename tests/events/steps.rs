@@ -73,3 +73,21 @@ fn a_step_goes_just_beyond_the_event_that_ends_it() {
         assert!(evaluations <= at_most, "{angle}: {evaluations}, {at_most}");
     }
 }
+
+/// The second hinge locks in the first step after the first one has, which changes its rate at once.
+#[test]
+fn a_lock_up_right_after_another_is_expected_too() {
+    let swing = oscillating(free(0.0, 1.0), 1.0, 0.0);
+    for angle in [0.5, 0.52, 0.55] {
+        let hinges = [locking_at(swing, 0.45), locking_at(swing, angle)];
+        let options = Options { samples: 1, integrator: Method::Dop853, ..Options::default() };
+        let (found, summary) = run(&scene(&hinges, 0.7), &options);
+        let [(LockUp, Some(0), _), (LockUp, Some(1), _)] = found.happenings()[..] else {
+            panic!("two lock-ups: {:?}", found.happenings())
+        };
+        let Summary { steps_accepted, steps_rejected, evaluations, .. } = summary;
+        // As above, with one restart more.
+        let at_most = 12 * (steps_accepted + steps_rejected) + 3 * steps_accepted + 4;
+        assert!(evaluations <= at_most, "{angle}: {evaluations}, {at_most}");
+    }
+}

@@ -36,8 +36,9 @@ pub(crate) const DESCRIPTION: Description = Description {
 /// Gauss's collocation method with eight stages, of order 16, whose stages are evaluated side by side
 /// ([`System::derivatives`]).
 ///
-/// The stages follow from fixed-point iterations, which begin with the polynomial of the step before or, when a step
-/// is taken again, its own; after a start with a slope that goes on changing as it does there. Variables that are integrals of others are integrated
+/// The stages follow from fixed-point iterations. These begin with the polynomial of the step before or, when a step
+/// is taken again, its own; after a start, with a slope that goes on changing as it does there. Variables that are
+/// integrals of others are integrated
 /// anew in each iteration ([`System::rate_of`]). The step follows from the last Legendre coefficients
 /// of the derivative.
 ///

@@ -38,6 +38,7 @@ mod simulator;
 mod telling;
 
 use control::{Control, Sampling};
+use locating::Aims;
 use runaway::Resources;
 pub use simulator::Simulator;
 use simulator::Workspace;
@@ -209,11 +210,10 @@ impl<'a> Run<'a> {
     /// situation there. Returns the guard.
     async fn integrate_to_next_instant(&mut self) -> Result<Option<GuardKind>, SimError> {
         let limit = self.situation.limit(&self.equations.scene);
-        let mut goal = self.goal();
-        // Steps that have no goal after one was reached in vain: each time twice as many and one more.
-        let (mut pause, mut without) = (0_usize, 0_usize);
+        let mut aims = Aims::default();
         loop {
-            self.step(goal.map_or(limit, |goal: f64| goal.min(limit))).await?;
+            let goal = if aims.are_made() { self.goal() } else { None };
+            self.step(goal.map_or(limit, |goal| goal.min(limit))).await?;
             let sample_due = self.is_before(self.sample_time(), self.stepper.window().end_time);
             let guards = &mut self.situation.guards;
             if sample_due || self.recorder.needs_steps() || !guards.list.is_empty() {
@@ -233,12 +233,7 @@ impl<'a> Run<'a> {
             if change.is_some() || state.time >= limit {
                 return Ok(change.map(|(kind, _)| kind));
             }
-            let is_in_vain = goal.is_some_and(|goal| state.time >= goal);
-            if is_in_vain {
-                pause = pause.saturating_mul(2) + 1;
-            }
-            without = if is_in_vain { pause } else { without.saturating_sub(1) };
-            goal = if without == 0 { self.goal() } else { None };
+            aims.note(goal.is_some_and(|goal| state.time >= goal));
         }
     }
 

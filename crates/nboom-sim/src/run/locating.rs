@@ -11,6 +11,30 @@ const BEYOND: f64 = 1.01;
 /// Nearer than this share of the next step no step ends on purpose: it might be too short to be taken.
 const NEAREST: f64 = 1e-4;
 
+/// When steps have goals: after one was reached in vain, 1 step has none, then 3, 7 and so on.
+#[derive(Default)]
+pub(super) struct Aims {
+    pause: usize,
+    /// Steps from now on that have none.
+    without: usize,
+}
+
+impl Aims {
+    pub fn are_made(&self) -> bool {
+        self.without == 0
+    }
+
+    /// Notes a step in which nothing happened, and whether it reached a goal.
+    pub fn note(&mut self, is_in_vain: bool) {
+        if is_in_vain {
+            self.pause = self.pause.saturating_mul(2) + 1;
+            self.without = self.pause;
+        } else {
+            self.without = self.without.saturating_sub(1);
+        }
+    }
+}
+
 impl Run<'_> {
     /// Just after the next change of a guard, where one is expected within the next step. A method whose steps end
     /// inside then goes no further than it has to, and need not take the step again.
@@ -64,5 +88,29 @@ impl Run<'_> {
         if let Some(explicit) = self.stepper.explicit() {
             explicit.end_after(length);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many of so many steps have goals, each of which is reached in vain or not.
+    fn goals(steps: usize, in_vain: bool) -> usize {
+        let mut aims = Aims::default();
+        let has_goal = |_: &usize| {
+            let has_goal = aims.are_made();
+            aims.note(has_goal && in_vain);
+            has_goal
+        };
+        (0..steps).filter(has_goal).count()
+    }
+
+    #[test]
+    fn aims_in_vain_become_rare() {
+        // The k-th goal comes after 2ᵏ − 1 + … + 1 steps without one.
+        assert_eq!([1, 2, 3, 6, 7, 14].map(|steps| goals(steps, true)), [1, 1, 2, 2, 3, 3]);
+        assert!(goals(1_000_000, true) < 20);
+        assert_eq!(goals(1000, false), 1000);
     }
 }
