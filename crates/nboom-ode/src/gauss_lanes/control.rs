@@ -68,8 +68,7 @@ impl Iteration {
         }
         self.last_change = change;
         let is_left = change * self.contraction < CONVERGED * (1.0 - self.contraction);
-        let is_nothing = change <= noise.min(CONVERGED);
-        if is_nothing || stalls || (self.contraction < 1.0 && is_left) {
+        if stalls || (self.contraction < 1.0 && is_left) {
             return Progress::Converged;
         }
         let slow = most == MOST && self.count > 2 && self.contraction > SLOW;

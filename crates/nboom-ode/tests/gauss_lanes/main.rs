@@ -313,3 +313,25 @@ fn what_rounding_takes_from_one_step_the_next_ones_give_back() {
     let off = (stepper.window().state[0] - step * f64::from(count)).abs();
     assert!(off < 1e-16 * f64::from(count), "{off:e}");
 }
+
+/// y = t³ with ẏ as the second variable, whose derivative is straight.
+struct Cubic;
+
+impl System for Cubic {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
+        (dy[0], dy[1]) = (y[1], 6.0 * t);
+    }
+}
+
+/// The first guess has the second variable then, so one round finds the first one, and another that this is all.
+#[test]
+fn a_start_goes_on_as_derivatives_change_there() {
+    let mut stepper = GaussLanes::new(tolerance(1e-9));
+    stepper.start(&mut Cubic, 1.0, &[1.0, 3.0], 2);
+    let begun = stepper.window().counts.evaluations;
+    stepper.step(&mut Cubic, 1.25).expect("a smooth motion");
+    let window = stepper.window();
+    assert_eq!(window.counts.evaluations - begun, 2 * 8);
+    let error = (window.end_state[0] - window.end_time.powi(3)).abs();
+    assert!(error < 1e-9, "{error:e}");
+}
