@@ -137,5 +137,9 @@ fn a_long_step_is_broken_off() {
         if let Some(summary) = summary(&place.path("run.partial")) {
             assert_eq!(summary["complete"], false);
         }
+        // On a busy machine the next run may be interrupted before it has begun to write.
+        if has_some {
+            std::fs::remove_dir_all(place.path("run.partial")).expect("nobody holds it");
+        }
     }
 }
