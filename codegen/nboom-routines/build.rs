@@ -99,7 +99,7 @@ fn right_sides() -> Vec<Request> {
             let named = |kind: &str| Request { name: format!("{kind}{name}"), ..general() };
             let is_planar = topology.hinges() > 0 && !topology.has_limbs();
             let is_general = symmetry == Symmetry::General;
-            let is_pushed = has_few && is_general && is_planar;
+            let is_pushed = has_few && symmetry != Symmetry::Mirrored && is_planar;
             // With more hinges, more lines or a wrench beside them take too much straight code.
             let takes_both = topology.hinges() < FEW_HINGES;
             let pushed = is_pushed.then(|| {

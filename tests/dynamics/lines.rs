@@ -33,9 +33,8 @@ fn lengths_by_their_path_are_those_by_poses_and_rates_their_derivatives() {
     let mut circles = 0;
     for seed in 0..60 {
         let Moment { scene, mode, beta, tau, .. } = moment(6, seed, 0.3);
-        let (mut dynamics, mut dual) = (Recursive::new(&scene), Recursive::new(&scene));
+        let mut dynamics = Recursive::new(&scene);
         dynamics.set_mode(&mode, &beta);
-        dual.set_mode(&mode, &beta.iter().map(|&b| Dual::constant(b)).collect::<Vec<_>>());
         let free = dynamics.free_hinges().to_vec();
         let of_free = |j: usize| [beta[free[j]], tau[free[j]]];
         let free_beta: Vec<f64> = (0..free.len()).map(|j| of_free(j)[0]).collect();
@@ -52,7 +51,7 @@ fn lengths_by_their_path_are_those_by_poses_and_rates_their_derivatives() {
                 circles += 1;
             }
             let moving = |j: usize| Dual { value: of_free(j)[0], derivative: of_free(j)[1] };
-            let derivative: Dual<f64> = dual.line_length_squared(line, moving);
+            let derivative = dynamics.line_length_squared(line, moving);
             let error = (found.squared_rate - derivative.derivative).abs();
             assert!(
                 error < 1e-12 * (1.0 + derivative.derivative.abs()),

@@ -38,18 +38,6 @@ pub struct LineLength<R> {
     pub squared_rate: R,
 }
 
-/// A hinge that moves the end of a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LineJoint<R> {
-    /// Its position in [`Recursive::free_hinges`].
-    pub position: usize,
-    /// Whether it turns or slides.
-    pub joint: Joint,
-    /// From it to what moves the end outboard of it: the next hinge at β = 0, or the end itself
-    /// \[L\].
-    pub arm: R,
-}
-
 /// The length of a line that one hinge alone moves, which turns: |x̄|² = mean + along_cos cos β +
 /// along_sin sin β.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,20 +144,6 @@ impl<R: Real> Recursive<R> {
         }
     }
 
-    /// |x̄|² of one line, when `beta` gives the angle of each free hinge that moves its end.
-    ///
-    /// # Panics
-    /// When there are not so many lines.
-    pub fn line_length_squared(&self, line: usize, beta: impl Fn(usize) -> R) -> R {
-        let line = &self.elements.lines()[line];
-        let mut end = line.point;
-        for j in self.path_inward(line.link) {
-            let (of_link, beta) = (&self.constants[j], beta(j));
-            end = of_link.offset(self.tree.links[j].point, beta) + of_link.turned(beta) * end;
-        }
-        (end - line.main_body_point).norm_squared()
-    }
-
     /// How a line's length depends on its hinge; none where other hinges move it too, and where the hinge slides.
     ///
     /// # Panics
@@ -194,19 +168,17 @@ impl<R: Real> Recursive<R> {
         })
     }
 
-    /// Each free hinge that moves the end of a line, outboard before inboard.
+    /// Each free hinge that moves the end of a line, outboard before inboard: its position in
+    /// [`Recursive::free_hinges`], and what it leaves free.
     ///
     /// # Panics
     /// When there are not so many lines.
-    pub fn line_joints(&self, line: usize) -> impl Iterator<Item = LineJoint<R>> {
-        let line = &self.elements.lines()[line];
-        self.path_inward(line.link).scan(line.point.norm(), |arm, position| {
-            let link = &self.tree.links[position];
-            let arm = std::mem::replace(arm, link.point.norm());
-            Some(LineJoint { position, joint: link.joint, arm })
-        })
+    pub fn line_joints(&self, line: usize) -> impl Iterator<Item = (usize, Joint)> {
+        let path = self.path_inward(self.elements.lines()[line].link);
+        path.map(|position| (position, self.tree.links[position].joint))
     }
 
+    #[inline(always)]
     fn path_inward(&self, from: Option<usize>) -> impl Iterator<Item = usize> {
         std::iter::successors(from, |&j| self.tree.links[j].inboard)
     }
@@ -287,5 +259,22 @@ impl<R: Real> Invariants<R> {
         self.angular_momentum += about_center;
         self.linear_momentum_scale += inertial_momentum.norm();
         self.angular_momentum_scale += about_center.norm();
+    }
+}
+
+impl Recursive<f64> {
+    /// |x̄|² of one line, when `beta` gives the angle of each free hinge that moves its end; of several states
+    /// side by side if the angles are.
+    ///
+    /// # Panics
+    /// When there are not so many lines.
+    #[inline(always)]
+    pub fn line_length_squared<N: Real>(&self, line: usize, beta: impl Fn(usize) -> N) -> N {
+        let line = &self.elements.lines()[line];
+        let mut end = Vec3::constant(line.point);
+        for j in self.path_inward(line.link) {
+            end = self.constants[j].carried(self.tree.links[j].point, beta(j), end);
+        }
+        (end - Vec3::constant(line.main_body_point)).norm_squared()
     }
 }

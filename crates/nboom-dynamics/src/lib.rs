@@ -43,7 +43,7 @@ mod recursive;
 mod rotors;
 
 pub use impulse::{LockUp, LockUpError, VelocityJump};
-pub use invariants::{Invariants, LineCircle, LineJoint, LineLength};
+pub use invariants::{Invariants, LineCircle, LineLength};
 pub use momenta::{EffectiveInertias, Momenta};
 pub use outside::FromOutside;
 pub use recursive::{Accelerations, Motion, Recursive};

@@ -71,6 +71,34 @@ impl<R: Real> LinkConstants<R> {
     }
 }
 
+impl LinkConstants<f64> {
+    /// A point of the link from the inboard link's origin, in that link's axes, at the hinge angle `beta`, when it is
+    /// at `end` from the link's origin, which is at `origin` at β = 0.
+    #[inline(always)]
+    pub fn carried<N: Real>(&self, origin: Vec3<f64>, beta: N, end: Vec3<N>) -> Vec3<N> {
+        let still = Vec3::constant(origin) + times(&self.still, end);
+        match self.joint {
+            Joint::Revolute => {
+                let (s, c) = beta.sin_cos();
+                still + times(&self.along_cos, end) * c + times(&self.along_sin, end) * s
+            }
+            Joint::Prismatic => still + Vec3::constant(self.axis_inboard) * beta,
+        }
+    }
+}
+
+#[inline(always)]
+fn times<N: Real>(matrix: &Mat3<f64>, vector: Vec3<N>) -> Vec3<N> {
+    let [x, y, z] = &matrix.rows;
+    Vec3::new(dot(x, vector), dot(y, vector), dot(z, vector))
+}
+
+#[inline(always)]
+fn dot<N: Real>(row: &Vec3<f64>, vector: Vec3<N>) -> N {
+    let first = N::constant(row.x) * vector.x;
+    N::constant(row.z).mul_add(vector.z, N::constant(row.y).mul_add(vector.y, first))
+}
+
 /// Where one link is, main-body axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LinkPose<R> {

@@ -1,3 +1,5 @@
+use nboom_scalar::Real;
+
 /// Highest degree of a polynomial.
 pub(crate) const HIGHEST: usize = 24;
 
@@ -39,15 +41,17 @@ impl Bernstein {
         Self { degree, coefficients }
     }
 
-    /// Its value at `x`: Horner's rule in x / (1 − x) or, beyond the middle, in its inverse, so that on
-    /// [0, 1] no term is weighted by more than one.
-    pub fn at(&self, x: f64) -> f64 {
-        let (c, weights) = (self.coefficients(), &BINOMIALS[self.degree][..=self.degree]);
-        let (near, ratio) = if x < 0.5 { (1.0 - x, x / (1.0 - x)) } else { (x, (1.0 - x) / x) };
-        let next = |sum: f64, (c, weight): (&f64, &f64)| sum * ratio + c * weight;
-        let terms = c.iter().zip(weights);
-        let sum = if x < 0.5 { terms.rev().fold(0.0, next) } else { terms.fold(0.0, next) };
-        sum * near.powi(self.degree as i32)
+    /// Its value at `x`, or those at several places side by side.
+    #[inline(always)]
+    pub fn at<R: Real>(&self, x: R) -> R {
+        let (rest, powers) = (R::one() - x, powers(x, self.degree));
+        let (mut sum, mut power_of_rest) = (R::zero(), R::one());
+        for k in (0..=self.degree).rev() {
+            let weighted = R::constant(BINOMIALS[self.degree][k] * self.coefficients[k]);
+            sum = (powers[k] * power_of_rest).mul_add(weighted, sum);
+            power_of_rest = power_of_rest * rest;
+        }
+        sum
     }
 
     /// Σ c_k xᵏ, whose degree is one less than the number of coefficients.
@@ -206,21 +210,25 @@ impl Bernstein {
         x
     }
 
-    /// Value and two derivatives at `x`, on [0, 1] or beyond (de Casteljau).
+    /// Value and two derivatives at `x`, on [0, 1] or beyond.
     pub fn derivatives(&self, x: f64) -> [f64; 3] {
-        let (mut row, degree) = (self.coefficients, self.degree as f64);
-        let (mut slope, mut curvature) = (0.0, 0.0);
-        for last in (0..self.degree).rev() {
-            match last {
-                0 => slope = degree * (row[1] - row[0]),
-                1 => curvature = degree * (degree - 1.0) * (row[2] - 2.0 * row[1] + row[0]),
-                _ => {}
+        let (c, n) = (self.coefficients(), self.degree);
+        let [of_value, of_slope, of_bend] = [n, n.saturating_sub(1), n.saturating_sub(2)];
+        let powers = powers(x, n);
+        let (mut value, mut slope, mut bend, mut of_rest) = (0.0, 0.0, 0.0, 1.0);
+        for k in (0..=n).rev() {
+            value += BINOMIALS[of_value][k] * c[k] * powers[k] * of_rest;
+            if let Some(j) = k.checked_sub(1) {
+                slope += BINOMIALS[of_slope][j] * (c[k] - c[j]) * powers[j] * of_rest;
             }
-            for j in 0..=last {
-                row[j] += x * (row[j + 1] - row[j]);
+            if let Some(i) = k.checked_sub(2) {
+                let second = (c[k] - c[k - 1]) - (c[k - 1] - c[i]);
+                bend += BINOMIALS[of_bend][i] * second * powers[i] * of_rest;
             }
+            of_rest *= 1.0 - x;
         }
-        [row[0], slope, curvature]
+        let n = n as f64;
+        [value, n * slope, n * (n - 1.0) * bend]
     }
 
     /// The part of the polynomial on [0, `end`], as one on [0, 1] (de Casteljau).
@@ -248,6 +256,16 @@ impl Bernstein {
         }
         (left, right)
     }
+}
+
+/// Those of `x` up to this one.
+#[inline(always)]
+fn powers<R: Real>(x: R, highest: usize) -> [R; HIGHEST + 1] {
+    let mut powers = [R::one(); HIGHEST + 1];
+    for k in 0..highest {
+        powers[k + 1] = powers[k] * x;
+    }
+    powers
 }
 
 /// Most terms of dense output.
@@ -305,8 +323,8 @@ mod tests {
     use crate::Interpolation;
 
     fn through(f: impl Fn(f64) -> f64) -> Bernstein {
-        let values = std::array::from_fn(|i| f(Interpolation::point(i)));
-        Interpolation::new().through(&values)
+        let interpolation = Interpolation::new();
+        interpolation.through(&interpolation.points().map(f))
     }
 
     #[test]

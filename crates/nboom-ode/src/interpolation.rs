@@ -6,22 +6,21 @@ const DEGREE: usize = 7;
 /// The polynomial of degree 7 through values at eight fixed points of [0, 1].
 #[derive(Clone, Debug)]
 pub struct Interpolation {
+    points: [f64; DEGREE + 1],
     from_values: [[f64; DEGREE + 1]; DEGREE + 1],
 }
 
 impl Interpolation {
-    /// How many values are needed.
-    pub const POINTS: usize = DEGREE + 1;
-
     /// Prepares the interpolation.
     pub fn new() -> Self {
-        let basis = std::array::from_fn(|i| basis_at(Self::point(i)));
-        Self { from_values: inverse(basis) }
+        let angle = |i: usize| std::f64::consts::PI * i as f64 / DEGREE as f64;
+        let points = std::array::from_fn(|i| 0.5 - 0.5 * angle(i).cos());
+        Self { points, from_values: inverse(points.map(basis_at)) }
     }
 
-    /// Where value `i` belongs: Chebyshev points with both ends.
-    pub fn point(i: usize) -> f64 {
-        0.5 - 0.5 * (std::f64::consts::PI * i as f64 / DEGREE as f64).cos()
+    /// Where values are needed: Chebyshev points with both ends.
+    pub fn points(&self) -> [f64; DEGREE + 1] {
+        self.points
     }
 
     /// The polynomial with these values at the points.

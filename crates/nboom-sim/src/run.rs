@@ -168,7 +168,7 @@ impl<'a> Run<'a> {
     fn pass_instant(&mut self) -> Result<(), SimError> {
         let has_before = self.before_instant()?;
         let Equations { scene, entered, .. } = &mut *self.equations;
-        self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
+        self.invariants = self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;
         let (time, is_first) = (state.time, state.time <= scene.initial.time);
         // The mode in which a run begins is entered already.
@@ -177,7 +177,7 @@ impl<'a> Run<'a> {
             self.equations.enter(mode, state, self.variables);
         }
         let has_momenta = self.equations.variables.layout.has_momenta();
-        if has_momenta || !outcome.events.is_empty() {
+        if has_momenta {
             self.invariants = None;
         }
         self.ask_control()?;

@@ -2,7 +2,7 @@ use nboom_dynamics::Recursive;
 use nboom_elements::{Coordinate, ElementId, Elements, Switched};
 use nboom_model::{HingeState, Mode, Release, Scene};
 use nboom_ode::{Interpolation, Stepper};
-use nboom_scalar::{Number, Real};
+use nboom_scalar::{Eight, Number, Real};
 
 use crate::equations::Equations;
 use crate::equations::state::State;
@@ -321,29 +321,23 @@ impl Guards {
         (line, limit): (usize, f64),
         side: Side,
     ) -> Option<f64> {
-        let Self { path, angles, .. } = self;
+        let Self { path, angles, interpolation, .. } = self;
         let dynamics = &equations.entered.dynamics;
         let first = equations.variables.layout.beta().start;
         let free = dynamics.free_hinges();
         path.follow(dynamics, line, |hinge| *angles.of(free[hinge], first + hinge, stepper));
-        if let Side::Known(sign) = side
-            && path.keeps_side(dynamics, limit, sign)
-        {
-            return None;
-        }
         let pieces = (path.turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
         let mut side = side;
         (0..pieces).find_map(|piece| {
-            let values = std::array::from_fn(|i| {
-                let fraction = (piece as f64 + Interpolation::point(i)) / pieces as f64;
-                path.squared_at(dynamics, fraction) - limit * limit
-            });
-            let polynomial = self.interpolation.through(&values);
+            let within = |point: f64| (piece as f64 + point) / pieces as f64;
+            let squares = path.squares_at(dynamics, Eight(interpolation.points().map(within)));
+            let values = squares.0.map(|squared| squared - limit * limit);
+            let polynomial = interpolation.through(&values);
             let has_left = polynomial.excursion() > BEYOND_ROUNDING * limit * limit;
             let known = matches!(side, Side::Known(_));
             let change = side.change(&polynomial, 0.0).filter(|_| known || has_left);
             if let Side::Leaving { .. } = side {
-                side = Side::Known(values[Interpolation::POINTS - 1].signum());
+                side = Side::Known(values[values.len() - 1].signum());
             }
             change.map(|within| (piece as f64 + within) / pieces as f64)
         })

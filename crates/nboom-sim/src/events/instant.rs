@@ -231,6 +231,7 @@ impl<R: Number> Outcome<R> {
 
     /// Takes `state`, whose invariants may be `known`, and `mode` through an instant: lock-ups jointly, then
     /// releases, then force laws and what acts from outside. `dynamics` is in the mode before and is left there.
+    /// Returns the invariants after it, if they had to be found or nothing changes them.
     pub fn pass(
         &mut self,
         scene: &Scene,
@@ -238,7 +239,7 @@ impl<R: Number> Outcome<R> {
         (arrivals, schedule): (&Arrivals, &Schedule<R>),
         (state, known): (&mut State<R>, Option<Invariants<R>>),
         mode: &mut Mode,
-    ) -> Result<(), SimError> {
+    ) -> Result<Option<Invariants<R>>, SimError> {
         self.reset();
         let time = state.time.to_f64();
         let due = |i: &usize| {
@@ -249,17 +250,14 @@ impl<R: Number> Outcome<R> {
         self.released.extend((0..scene.bodies.len()).filter(due));
         let end = time + arrivals.duration;
         if arrivals.is_empty() && self.released.is_empty() && goes_on(scene, mode, end) {
-            return Ok(());
+            return Ok(known);
         }
-        let found = known.unwrap_or_else(|| state.invariants(dynamics));
-        let before = Totals::of(state, &found);
+        let found_before = known.unwrap_or_else(|| state.invariants(dynamics));
+        let before = Totals::of(state, &found_before);
         self.lock(scene, dynamics, &arrivals.locks, state, mode)?;
-        let after = if self.locking.is_empty() {
-            before
-        } else {
-            let found = state.invariants(dynamics);
-            Totals::of(state, &found)
-        };
+        let found =
+            if self.locking.is_empty() { found_before } else { state.invariants(dynamics) };
+        let after = Totals::of(state, &found);
         let Self { events, crossed, released, free, locking, lock_up, .. } = self;
         let event = |kind, hinge, impulse: Option<R>, before: Totals| {
             let impulse = impulse.map(Number::to_f64);
@@ -291,7 +289,7 @@ impl<R: Number> Outcome<R> {
                 events.push(event(kind, one.body, None, after));
             }
         }
-        Ok(())
+        Ok(Some(found))
     }
 
     /// Locks hinges with the exact change of all velocities.

@@ -85,7 +85,7 @@ impl<R: Number> Situation<R> {
     }
 
     /// Goes through the instant of what has arrived; `dynamics` stays in the mode before. Energy and momenta of
-    /// the state may be `known`.
+    /// the state may be `known`. Returns those after it, where they are.
     ///
     /// # Errors
     /// When hinges cannot lock.
@@ -94,17 +94,17 @@ impl<R: Number> Situation<R> {
         scene: &Scene,
         dynamics: &mut Recursive<R>,
         known: Option<Invariants<R>>,
-    ) -> Result<(), SimError> {
+    ) -> Result<Option<Invariants<R>>, SimError> {
         for (hinge, side) in self.lock_sides.iter_mut().enumerate() {
             *side = self.guards.lock_side(hinge).or(*side);
         }
         let Self { state, mode, schedule, arrivals, outcome, .. } = self;
         schedule.note_lock_ups(scene, arrivals.locks(), state.time);
-        outcome.pass(scene, dynamics, (arrivals, schedule), (state, known), mode)?;
+        let found = outcome.pass(scene, dynamics, (arrivals, schedule), (state, known), mode)?;
         for &hinge in &outcome.released {
             self.lock_sides[hinge] = LockSide::of(scene, hinge, state.beta[hinge]);
         }
-        Ok(())
+        Ok(found)
     }
 
     /// Whether a control law is to be asked in the present instant.
