@@ -80,9 +80,10 @@ const FEW_HINGES: usize = 4;
 /// The most equal appendages of a topology that has right sides: with more, registers are full already.
 const MOST_EQUAL: usize = 4;
 
-/// Right sides for topologies of the stock, without external wrench; of few hinges two more that
-/// assume nothing: one takes an external wrench, which a thrust is, the other a line that pushes each link, and
-/// of fewer hinges two of them and the wrench. Where lines push limbs, accelerations have to do.
+/// Right sides for topologies of the stock, without external wrench. Of few hinges there is one more that assumes
+/// nothing and takes an external wrench, which a thrust is, and others, along principal axes and along any, that take
+/// a line that pushes each link, and of fewer hinges two of them and the wrench. Where lines push limbs, accelerations
+/// have to do.
 ///
 /// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
 /// eight states at once, too.

@@ -1,4 +1,7 @@
 use nboom_scalar::Real;
+use tables::{BINOMIALS, TERM_COEFFICIENTS, binomial};
+
+mod tables;
 
 /// Highest degree of a polynomial.
 pub(crate) const HIGHEST: usize = 24;
@@ -125,23 +128,24 @@ impl Bernstein {
     /// its distance there, negative beyond. An extreme between the ends is found to 1e-8 of the way, over which it is
     /// flat to rounding.
     pub fn nearest(&self, level: f64, side: f64, end: f64) -> (f64, f64) {
-        let cut_off;
-        let part = if end == 1.0 {
-            self
-        } else {
-            cut_off = self.until(end);
-            &cut_off
-        };
         let above = |c: f64| (c - level) * side;
-        let (first, last) = (above(part.coefficients[0]), above(part.coefficients[part.degree]));
-        let mut least = if last < first { (1.0, last) } else { (0.0, first) };
         // Mostly it comes nearer all the way, or goes away.
-        if !part.coefficients().iter().all(|&c| above(c) >= least.1) {
-            let mut from_level = *part;
-            from_level.coefficients.iter_mut().for_each(|c| *c = above(*c));
-            from_level.find_less(0.0, 1.0, &mut least);
+        if self.is_monotone() {
+            let [first, last] = [self.coefficients[0], self.at(end)].map(above);
+            return if last < first { (end, last) } else { (0.0, first) };
         }
+        let mut from_level = if end == 1.0 { *self } else { self.until(end) };
+        from_level.coefficients.iter_mut().for_each(|c| *c = above(*c));
+        let [first, last] = [0, self.degree].map(|k| from_level.coefficients[k]);
+        let mut least = if last < first { (1.0, last) } else { (0.0, first) };
+        from_level.find_less(0.0, 1.0, &mut least);
         (least.0 * end, least.1)
+    }
+
+    /// Whether the coefficients never turn back, so that the polynomial does not.
+    fn is_monotone(&self) -> bool {
+        let c = self.coefficients();
+        c.is_sorted() || c.is_sorted_by(|a, b| a >= b)
     }
 
     /// Takes the place of the least value into `least`, if it is less than what is there. This is the part of a
@@ -266,55 +270,6 @@ fn powers<R: Real>(x: R, highest: usize) -> [R; HIGHEST + 1] {
         powers[k + 1] = powers[k] * x;
     }
     powers
-}
-
-/// Most terms of dense output.
-const TERMS: usize = 7;
-
-/// For each number of terms, Bernstein coefficients of x, x(1−x), x²(1−x), x²(1−x)², …:
-/// xᵃ(1−x)ᵇ of degree n has C(n−a−b, j−a) / C(n, j) at index j.
-const TERM_COEFFICIENTS: [[[f64; TERMS + 1]; TERMS]; TERMS + 1] = {
-    let mut tables = [[[0.0; TERMS + 1]; TERMS]; TERMS + 1];
-    let mut degree = 1;
-    while degree <= TERMS {
-        let mut term = 0;
-        while term < degree {
-            let (a, b) = (term / 2 + 1, term.div_ceil(2));
-            let mut j = a;
-            while j <= degree - b {
-                tables[degree][term][j] = binomial(degree - a - b, j - a) / binomial(degree, j);
-                j += 1;
-            }
-            term += 1;
-        }
-        degree += 1;
-    }
-    tables
-};
-
-/// C(n, k) up to the highest degree.
-const BINOMIALS: [[f64; HIGHEST + 1]; HIGHEST + 1] = {
-    let mut tables = [[0.0; HIGHEST + 1]; HIGHEST + 1];
-    let mut n = 0;
-    while n <= HIGHEST {
-        let mut k = 0;
-        while k <= n {
-            tables[n][k] = binomial(n, k);
-            k += 1;
-        }
-        n += 1;
-    }
-    tables
-};
-
-const fn binomial(n: usize, k: usize) -> f64 {
-    let mut value = 1.0;
-    let mut i = 0;
-    while i < k {
-        value = value * (n - i) as f64 / (i + 1) as f64;
-        i += 1;
-    }
-    value
 }
 
 #[cfg(test)]

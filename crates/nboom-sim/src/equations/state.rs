@@ -233,6 +233,14 @@ impl<R: Number> PointMotion<R> {
     }
 }
 
+impl State {
+    /// Length of a line.
+    pub fn length_of(&self, dynamics: &Recursive<f64>, line: usize) -> f64 {
+        let free = dynamics.free_hinges();
+        dynamics.line_length_squared(line, |j| self.beta[free[j]]).sqrt()
+    }
+}
+
 fn from_non_negative_scalar<R: Number>(q: Quaternion<R>) -> Quaternion<R> {
     let sign = R::constant(if q.scalar.to_f64() < 0.0 { -1.0 } else { 1.0 });
     Quaternion { scalar: q.scalar * sign, vector: q.vector * sign }

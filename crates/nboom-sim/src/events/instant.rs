@@ -255,8 +255,7 @@ impl<R: Number> Outcome<R> {
         let found_before = known.unwrap_or_else(|| state.invariants(dynamics));
         let before = Totals::of(state, &found_before);
         self.lock(scene, dynamics, &arrivals.locks, state, mode)?;
-        let found =
-            if self.locking.is_empty() { found_before } else { state.invariants(dynamics) };
+        let found = if self.locking.is_empty() { found_before } else { state.invariants(dynamics) };
         let after = Totals::of(state, &found);
         let Self { events, crossed, released, free, locking, lock_up, .. } = self;
         let event = |kind, hinge, impulse: Option<R>, before: Totals| {

@@ -73,3 +73,45 @@ impl WorkOnEight for Squares<'_> {
         found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nboom_model::{HingeState, Mode};
+    use rand_xoshiro::SplitMix64;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    use super::*;
+
+    #[test]
+    fn squares_of_eight_places_are_those_of_one_after_the_other() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/n-boom-1970.nml");
+        let scene = nboom_io::read_scene(path.as_ref()).expect("a valid deck").scene;
+        let mut mode = Mode::at_start(&scene);
+        mode.hinges.fill(HingeState::Free);
+        let mut dynamics = Recursive::new(&scene);
+        dynamics.set_mode(&mode, &vec![0.0; scene.bodies.len()]);
+        let mut numbers = SplitMix64::seed_from_u64(1);
+        let mut below_one = || (numbers.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let (mut path, mut of_several) = (LinePath::default(), 0);
+        for _ in 0..200 {
+            let mut angle = || std::array::from_fn::<f64, 8, _>(|_| 6.0 * below_one() - 3.0);
+            let angles: Vec<Bernstein> =
+                dynamics.free_hinges().iter().map(|_| Bernstein::new(&angle())).collect();
+            let fractions = Eight(std::array::from_fn(|_| below_one()));
+            for line in 0..dynamics.elements().lines().len() {
+                path.follow(&dynamics, line, |j| angles[j]);
+                let squares = path.squares_at(&dynamics, fractions).0;
+                for (fraction, found) in fractions.0.into_iter().zip(squares) {
+                    let at = |j: usize| [angles[j].at(fraction), 0.0];
+                    let expected = dynamics.line_length(line, at).squared;
+                    // Coordinates of up to some twenty lengths, sums of some ten products rounded once.
+                    assert!((found - expected).abs() < 1e-11 * (1.0 + expected), "{line} {found}");
+                }
+                let turned = |(hinge, _): &(usize, Bernstein)| angles[*hinge].excursion();
+                assert_eq!(path.turned, path.hinges.iter().map(turned).sum::<f64>());
+                of_several += usize::from(path.hinges.len() > 1);
+            }
+        }
+        assert!(of_several > 100, "{of_several}");
+    }
+}

@@ -111,8 +111,7 @@ impl Run<'_> {
         let dynamics = &equations.entered.dynamics;
         for (number, line) in dynamics.elements().lines().iter().enumerate() {
             let acts = line.acts && line.link.is_some();
-            let length = || state.line_length(dynamics, number)[0];
-            if acts && length() <= NO_LENGTH * line.size {
+            if acts && state.length_of(dynamics, number) <= NO_LENGTH * line.size {
                 let (time, hinge) = (state.time, equations.scene.label(line.hinge));
                 return Err(SimError::NoDirection { time, hinge, element: line.kind.names().name });
             }

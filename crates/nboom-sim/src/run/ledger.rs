@@ -217,10 +217,9 @@ fn potential(equations: &Equations, state: &State) -> Potential {
     if equations.gravity() != Vec3::zero() {
         found.gravity = gravity_potential(&equations.scene, state.center.position);
     }
-    for line in 0..equations.entered.dynamics.elements().lines().len() {
-        let [length, _] = state.line_length(&equations.entered.dynamics, line);
-        let line = &equations.entered.dynamics.elements().lines()[line];
-        found.add(line.potential(length), Some(line.hinge));
+    let dynamics = &equations.entered.dynamics;
+    for (number, line) in dynamics.elements().lines().iter().enumerate() {
+        found.add(line.potential(state.length_of(dynamics, number)), Some(line.hinge));
     }
     found
 }
