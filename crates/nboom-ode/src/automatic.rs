@@ -6,7 +6,7 @@ use crate::{
     Tolerance, Window,
 };
 
-const AT_ONCE: &str = "the tolerance is tight, and code takes eight stages at once";
+const AT_ONCE: &str = "the tolerance is very tight, and code takes eight stages at once";
 
 /// The row of [`Method`]'s table.
 pub(crate) const DESCRIPTION: Description = Description {
@@ -57,7 +57,7 @@ const LOOSE: f64 = 1e-5;
 /// Up to this relative tolerance, stages side by side are cheaper than an explicit method.
 const TIGHT: f64 = 1e-7;
 /// Up to this one they are so from the first step of a motion, however short it is.
-const VERY_TIGHT: f64 = 1e-8;
+const VERY_TIGHT: f64 = 1e-10;
 /// Explicit steps after which a motion is taken to go on for so long that stages side by side pay, if as
 /// many could follow.
 const SETTLED: usize = 12;
