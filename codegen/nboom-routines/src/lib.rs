@@ -65,14 +65,14 @@ pub fn right_sides_of_eight() -> &'static [Batch] {
 }
 
 /// Right sides of the differential equations by `articulated`, without external wrench: those of each
-/// topology of [`all`] with up to four equal appendages, and of up to four hinges one more that takes
-/// lines that push the links, and one that takes an external wrench.
+/// topology of [`all`] with up to four equal appendages, and of up to four hinges more that take
+/// lines that push the links, along principal axes and along any, and one that takes an external wrench.
 ///
 /// ```
 /// use nboom_formulation::RightSideLayout;
 /// let topology = "S2_P".parse()?;
 /// let of_topology = nboom_routines::right_sides().iter().filter(|kernel| kernel.topology == "S2_P");
-/// assert!(of_topology.clone().count() == 4);
+/// assert!(of_topology.clone().count() == 5);
 /// for kernel in of_topology {
 ///     assert_eq!(kernel.parameters, RightSideLayout::parameters(&topology));
 ///     assert_eq!(kernel.coordinates, RightSideLayout::coordinates(&topology));
