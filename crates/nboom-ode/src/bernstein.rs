@@ -44,7 +44,8 @@ impl Bernstein {
         Self { degree, coefficients }
     }
 
-    /// Its value at `x`, or those at several places side by side.
+    /// Its value at `x`, or those at several places side by side: on [0, 1] a sum of coefficients by positive shares, so
+    /// that it errs by rounding alone.
     #[inline(always)]
     pub fn at<R: Real>(&self, x: R) -> R {
         let (rest, powers) = (R::one() - x, powers(x, self.degree));
@@ -130,7 +131,7 @@ impl Bernstein {
     pub fn nearest(&self, level: f64, side: f64, end: f64) -> (f64, f64) {
         let above = |c: f64| (c - level) * side;
         // Mostly it comes nearer all the way, or goes away.
-        if self.is_monotone() {
+        if end <= 1.0 && self.is_monotone() {
             let [first, last] = [self.coefficients[0], self.at(end)].map(above);
             return if last < first { (end, last) } else { (0.0, first) };
         }
@@ -322,6 +323,9 @@ mod tests {
             mean + (2.0 * k - 1.0) * root
         });
         let wave = |x: f64| (x - 0.2) * (x - 0.5) * (x - 0.9);
+        let rising = through(|x| x * x);
+        // Its coefficients rise, and it turns back just beyond 1.
+        let almost = Bernstein::of_powers(&[0.0, 2.0 / 1.004, -1.0 / (1.004 * 1.004)]);
         for (p, level, side, end, place, distance) in [
             (hill, 2.0, -1.0, 1.0, 0.5, 1.0),
             (hill, 2.0, -1.0, 0.25, 0.25, 1.25),
@@ -331,6 +335,12 @@ mod tests {
             (waves, 1.0, -1.0, 0.8, turns[0], 1.0 - wave(turns[0])),
             (waves, -1.0, 1.0, 1.0, 0.0, 1.0 + wave(0.0)),
             (waves, 1.0, -1.0, 1.0, 1.0, 1.0 - wave(1.0)),
+            (rising, 2.0, -1.0, 1.0, 1.0, 1.0),
+            (rising, 2.0, -1.0, 0.5, 0.5, 1.75),
+            (rising, 2.0, -1.0, 1.01, 1.01, 2.0 - 1.01 * 1.01),
+            (rising, -1.0, 1.0, 0.5, 0.0, 1.0),
+            (rising.minus(0.5), -1.0, 1.0, 1.01, 0.0, 0.5),
+            (almost, 2.0, -1.0, 1.01, 1.004, 1.0),
         ] {
             let (found, nearest) = p.nearest(level, side, end);
             assert!((found - place).abs() < 2e-8, "{found} {place}");

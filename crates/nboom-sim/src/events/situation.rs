@@ -85,7 +85,7 @@ impl<R: Number> Situation<R> {
     }
 
     /// Goes through the instant of what has arrived; `dynamics` stays in the mode before. Energy and momenta of
-    /// the state may be `known`. Returns those after it, where they are.
+    /// the state may be `known`. Returns those after it, where they are known.
     ///
     /// # Errors
     /// When hinges cannot lock.
