@@ -154,6 +154,7 @@ fn exact_right_sides() -> Vec<Request> {
         unequal_laws(unequal(satellite("RolledUnequal", "4xS2"))),
         satellite("StraightM", "M"),
         satellite("StraightS1P", "S1_P").with_symmetry(Symmetry::Principal),
+        satellite("PushedStraightS1P", "S1_P").with_lines(1).with_symmetry(Symmetry::Principal),
         satellite("PushedS2P", "S2_P").with_external_wrench().with_lines(2).with_couplings(),
         satellite("PackedLimbs", "5xTr(rp)(s)_S2").with_external_wrench(),
         satellite("PushedLimb", "Trs").with_lines(1).with_couplings(),

@@ -196,6 +196,21 @@ fn a_routine_is_of_the_formulation_that_is_asked_for() {
     assert_eq!(source.to_string(), "no momentum routine for topology S1");
 }
 
+/// Springs that push do not take a satellite along principal axes to right sides that assume nothing.
+#[test]
+fn right_sides_along_principal_axes_take_springs_that_push() {
+    let deck = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/n-boom-1970.nml");
+    let scene = nboom::io::read_scene(&deck).expect("the sample deck").scene;
+    let assume = |kernel: &&Kernel| kernel.result != "right_side" || !kernel.assumptions.is_empty();
+    let kernels: &'static [Kernel] =
+        nboom_routines::for_runs().iter().filter(assume).copied().collect::<Vec<_>>().leak();
+    let (_, summary) = run(&scene, &asking(Path::Generated, None, kernels));
+    assert!(summary.selections.len() > 5, "{:?}", summary.selections);
+    for selection in &summary.selections {
+        assert!(selection.reason.contains("; whole right side"), "{selection:?}");
+    }
+}
+
 #[test]
 fn the_recursion_has_no_routine() {
     let kernels = nboom_routines::all();

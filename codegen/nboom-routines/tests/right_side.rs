@@ -24,6 +24,7 @@ macro_rules! for_each_exact_routine {
         $check::<exact::RolledMixed>();
         $check::<exact::StraightM>();
         $check::<exact::StraightS1P>();
+        $check::<exact::PushedStraightS1P>();
         $check::<exact::PushedS2P>();
         $check::<exact::PushedLimb>();
         $check::<exact::PushedS3>();

@@ -177,9 +177,6 @@ impl<'a> Run<'a> {
             self.equations.enter(mode, state, self.variables);
         }
         let has_momenta = self.equations.variables.layout.has_momenta();
-        if has_momenta {
-            self.invariants = None;
-        }
         self.ask_control()?;
         self.check_regular()?;
         self.check_lines()?;
@@ -187,6 +184,7 @@ impl<'a> Run<'a> {
         if has_momenta {
             // A lock-up leaves momenta; rates follow from them and not from its impulse.
             self.equations.read(time, self.variables, &mut self.situation.state);
+            self.invariants = None;
         }
         let controlled = self.equations.variables.layout.controlled();
         self.attitude_norm.put_back();

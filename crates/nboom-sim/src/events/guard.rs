@@ -325,7 +325,8 @@ impl Guards {
         let dynamics = &equations.entered.dynamics;
         let first = equations.variables.layout.beta().start;
         let free = dynamics.free_hinges();
-        path.follow(dynamics, line, |hinge| *angles.of(free[hinge], first + hinge, stepper));
+        let angle = |hinge| *angles.of(free[hinge], first + hinge, stepper);
+        path.follow(dynamics, (line, limit), angle);
         let pieces = (path.turned / PIECE).ceil().clamp(1.0, 1e4) as usize;
         let mut side = side;
         (0..pieces).find_map(|piece| {

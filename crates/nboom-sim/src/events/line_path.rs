@@ -10,7 +10,8 @@ pub(crate) struct LinePath {
     line: usize,
     /// Positions among the free hinges, and angles.
     hinges: Vec<(usize, Bernstein)>,
-    /// How far the hinges move together, at most: radians, and what slides as a share of the length.
+    /// How far the hinges move together, at most: radians, and what slides as a share of the limit or, if that is
+    /// greater, of the length where the step starts.
     pub turned: f64,
 }
 
@@ -21,11 +22,12 @@ impl LinePath {
         self.hinges.reserve(hinges);
     }
 
-    /// Takes up `line` over a step in which `angle` gives the angle of each free hinge.
+    /// Takes up `line`, whose length may come to `limit`, over a step in which `angle` gives the angle of each free
+    /// hinge.
     pub fn follow(
         &mut self,
         dynamics: &Recursive<f64>,
-        line: usize,
+        (line, limit): (usize, f64),
         mut angle: impl FnMut(usize) -> Bernstein,
     ) {
         self.hinges.clear();
@@ -39,7 +41,7 @@ impl LinePath {
         if slid > 0.0 {
             let at_start = |j: usize| self.angle(j).coefficients()[0];
             let length = dynamics.line_length_squared(line, at_start).sqrt();
-            self.turned += slid / length.max(f64::MIN_POSITIVE);
+            self.turned += slid / length.max(limit).max(f64::MIN_POSITIVE);
         }
     }
 
@@ -76,7 +78,11 @@ impl WorkOnEight for Squares<'_> {
 
 #[cfg(test)]
 mod tests {
-    use nboom_model::{HingeState, Mode};
+    use nboom_model::{
+        Body, Hinge, HingeState, Joint, KickOffSpring, MassProperties, Mode, Mount, Scene,
+        SceneDescription,
+    };
+    use nboom_scalar::{Sym3, Vec3};
     use rand_xoshiro::SplitMix64;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -99,7 +105,7 @@ mod tests {
                 dynamics.free_hinges().iter().map(|_| Bernstein::new(&angle())).collect();
             let fractions = Eight(std::array::from_fn(|_| below_one()));
             for line in 0..dynamics.elements().lines().len() {
-                path.follow(&dynamics, line, |j| angles[j]);
+                path.follow(&dynamics, (line, 1.0), |j| angles[j]);
                 let squares = path.squares_at(&dynamics, fractions).0;
                 for (fraction, found) in fractions.0.into_iter().zip(squares) {
                     let at = |j: usize| [angles[j].at(fraction), 0.0];
@@ -113,5 +119,37 @@ mod tests {
             }
         }
         assert!(of_several > 100, "{of_several}");
+    }
+    #[test]
+    fn a_line_of_almost_no_length_that_slides_is_searched_in_few_pieces() {
+        let mass_properties = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.2, 1.4));
+        let mut description = SceneDescription::at_rest("slide", mass_properties, 1.0);
+        let main_body_point = Vec3::unit_y();
+        let (coefficients, limit_length) = ([1.0, 0.0, 0.0, 0.0], 0.5);
+        let (body_point, start) = (Vec3::zero(), 1e-6);
+        let spring = KickOffSpring { main_body_point, body_point, coefficients, limit_length };
+        description.bodies = vec![Body {
+            inboard: None,
+            mount: Mount::at(main_body_point),
+            joint: Joint::Prismatic,
+            axis: Vec3::unit_x(),
+            mass_properties,
+            tip: Vec3::zero(),
+            hinge: Hinge { kick_off: Some(spring), ..Hinge::free() },
+        }];
+        let dynamics = Recursive::new(&Scene::new(description).expect("a physical scene"));
+        // From the start to three limits.
+        let angle = Bernstein::of_powers(&[start, 3.0 * limit_length]);
+        let mut path = LinePath::default();
+        path.follow(&dynamics, (0, limit_length), |_| angle);
+        assert!((path.turned - 3.0).abs() < 1e-12, "{}", path.turned);
+        let fractions = Eight(std::array::from_fn(|i| i as f64 / 7.0));
+        for (fraction, found) in
+            fractions.0.into_iter().zip(path.squares_at(&dynamics, fractions).0)
+        {
+            let expected = (start + 3.0 * limit_length * fraction).powi(2);
+            // The end's coordinates are of size one.
+            assert!((found - expected).abs() < 1e-15 * (1.0 + expected), "{found} {expected}");
+        }
     }
 }
