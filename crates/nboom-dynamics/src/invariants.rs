@@ -19,9 +19,10 @@ pub struct Invariants<R> {
     pub linear_momentum: Vec3<R>,
     /// Angular momentum H̄_c about the system mass centre, eq. (8.12).
     pub angular_momentum: Vec3<R>,
-    /// Sum of the magnitudes of the bodies' linear momenta.
+    /// Sum of the magnitudes of the links' linear momenta; bodies that held hinges weld together are one link.
     pub linear_momentum_scale: R,
-    /// Sum of the magnitudes of the bodies' angular momenta about the mass centre.
+    /// Sum of the magnitudes of the links' angular momenta about the mass centre, and of those of rotors relative to
+    /// their bodies.
     pub angular_momentum_scale: R,
     /// Σ h̄·ω̄ + Σ ½ J Ω² of rotors with the momenta h̄ relative to bodies that turn at ω̄: the
     /// part of the kinetic energy that would not be there if all of them stood still in their
