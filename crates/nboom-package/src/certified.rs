@@ -6,7 +6,9 @@ use nboom_expr::Graph;
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::{External, Scene, SceneDescription, Shape};
 use nboom_scalar::Vec3;
-use nboom_verify::{Certificate, TestCase, Truth, certify, certify_equations, drives, truth};
+use nboom_verify::{
+    Certificate, TestCase, Truth, allowance, certify, certify_equations, drives, of_largest, truth,
+};
 
 use crate::PackageError;
 use crate::held::welded;
@@ -18,9 +20,6 @@ pub const TOLERANCE: f64 = 1e-11;
 
 /// Compiled code may always deviate as much.
 const ROUNDING: f64 = 1e-12;
-
-/// Beyond this condition of the mass matrix accelerations may deviate in proportion.
-const HARMLESS_CONDITION: f64 = 1e4;
 
 /// What the states are drawn from.
 pub(crate) const SEED: u64 = 1970;
@@ -172,11 +171,6 @@ impl Certified {
     }
 }
 
-/// How many times as large deviations of accelerations may be.
-fn allowance(condition: f64) -> f64 {
-    (condition / HARMLESS_CONDITION).max(1.0)
-}
-
 /// The scene with something that acts on its main body, so that a wrench is compared.
 fn pushed(scene: &Scene) -> Scene {
     if !scene.externals.is_empty() || scene.base.is_held() {
@@ -256,13 +250,6 @@ fn deviation(
         }
     }
     Ok(most)
-}
-
-/// The largest deviation relative to the largest number, or to `least`; infinite where one is no number.
-fn of_largest(found: &[f64], expected: &[f64], least: f64) -> f64 {
-    let scale = expected.iter().fold(least, |most, e| most.max(e.abs()));
-    let off = found.iter().zip(expected).map(|(found, expected)| (found - expected).abs() / scale);
-    off.fold(0.0, |most, off| if off.is_nan() { f64::INFINITY } else { most.max(off) })
 }
 
 /// All states of a test case with what is to come out.

@@ -57,5 +57,6 @@ pub use dense::Dense;
 pub use error::VerifyError;
 pub use floor::Floor;
 pub use label::{Hinges, Label, Quantity};
+pub use reference::{allowance, of_largest};
 pub use test_case::{NotCovered, RandomState, TestCase};
 pub use work_precision::{TimedRun, WorkPrecision};

@@ -193,8 +193,9 @@ impl Reference<'_> {
     }
 }
 
-/// How many times as large deviations of accelerations may be.
-fn allowance(condition: f64) -> f64 {
+/// How many times as large deviations of accelerations may be where the mass matrix, scaled to diagonal 1, has this
+/// condition; at least 1.
+pub fn allowance(condition: f64) -> f64 {
     (condition / HARMLESS_CONDITION).max(1.0)
 }
 
@@ -202,8 +203,9 @@ fn rounded(numbers: &[DoubleDouble]) -> Vec<f64> {
     numbers.iter().map(|number| number.to_f64()).collect()
 }
 
-/// The largest deviation, relative to the largest number expected, or to `floor` if that is larger.
-fn of_largest(found: &[f64], expected: &[f64], floor: f64) -> f64 {
+/// The largest deviation, relative to the largest number expected, or to `floor` if that is larger; infinite where
+/// something found is no number or where there are not as many as expected.
+pub fn of_largest(found: &[f64], expected: &[f64], floor: f64) -> f64 {
     let least = floor.max(f64::MIN_POSITIVE);
     let scale = expected.iter().fold(least, |most, number| most.max(number.abs()));
     largest(found, expected, |_| scale)

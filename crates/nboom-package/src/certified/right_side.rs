@@ -3,9 +3,9 @@
 use nboom_codegen::Request;
 use nboom_formulation::{Coordinates, Forces, Layout, Recognised, RightSideLayout};
 use nboom_scalar::{Quaternion, Vec3};
-use nboom_verify::{TestCase, Truth};
+use nboom_verify::{TestCase, Truth, allowance, of_largest};
 
-use super::{Tested, above_zero, allowance, of_largest, recognised};
+use super::{Tested, above_zero, recognised};
 use crate::PackageError;
 use crate::right_side::forces;
 
