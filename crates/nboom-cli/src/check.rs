@@ -38,14 +38,14 @@ pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, Cli
 /// with this except `run`, which may be quiet.
 pub(crate) fn scene(args: &SceneArgs) -> Result<SceneFile, CliError> {
     let file = args.read()?;
-    warnings(&file).iter().for_each(|warning| say("warning", warning));
+    warnings(&file, &file.scene).iter().for_each(|warning| say("warning", warning));
     Ok(file)
 }
 
-/// All warnings, of the file and of the scene.
-pub fn warnings(file: &SceneFile) -> Vec<String> {
+/// All warnings, of the file and of its scene as it is run, which may end at another time.
+pub fn warnings(file: &SceneFile, scene: &Scene) -> Vec<String> {
     let of_file = file.warnings.iter().map(ToString::to_string);
-    let of_scene = file.scene.warnings();
+    let of_scene = scene.warnings();
     of_file.chain(of_scene.iter().map(ToString::to_string)).collect()
 }
 

@@ -86,10 +86,10 @@ impl RunArgs {
         let file = SceneFile { scene: slips.scene(file.scene), ..file };
         let kernels = if self.path == PathChoice::Generic { &[] } else { routines.for_runs };
         let stresses = self.stresses.analysis(&file, slips, kernels)?;
-        let warnings = check::warnings(&file).into_iter();
-        let warnings = warnings.chain(never_released(&file.scene, self.end_time));
+        let scene = with_end_time(file.scene.clone(), self.end_time)?;
+        let warnings = check::warnings(&file, &scene).into_iter();
+        let warnings = warnings.chain(never_released(&scene, self.end_time));
         let warnings: Vec<String> = warnings.chain(self.slips.warning()).collect();
-        let scene = with_end_time(file.scene, self.end_time)?;
         let options = options(self, routines, &file.legacy);
         let samples = match file.settings.sampling {
             Some(Sampling::Uniform(samples)) => Some(samples),

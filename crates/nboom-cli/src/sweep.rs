@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use clap::{Args, Parser, value_parser};
+use nboom_io::SceneFile;
 use nboom_results::write_file;
 use nboom_study::statistics::{Counts, Summary};
 use nboom_study::{
@@ -159,10 +160,11 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
 /// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave latches
 /// out; cases repeat its troubles.
 fn warn_of_the_scene(study: &Study, quiet: bool) {
+    let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
     let scene = study.document.as_read().unwrap_or(&study.nominal);
-    check::warnings(scene).iter().for_each(|warning| say("warning", warning));
+    warnings(scene).unwrap_or_default().iter().for_each(|warning| say("warning", warning));
     // The cases of a draw are that without a fault, and those with each.
-    let of_case = |number| study.scene_of(&study.case(number)).map(|file| check::warnings(&file));
+    let of_case = |number| warnings(&study.scene_of(&study.case(number)).ok()?);
     let without_fault = of_case(1).unwrap_or_default();
     for (number, fault) in (2..).zip(&study.faults) {
         let found = of_case(number).unwrap_or_default();

@@ -295,10 +295,7 @@ impl<'s> Runner<'s> {
         let file = self.study.scene_of(case)?;
         let kernels = if self.options.path == Path::Generic { &[] } else { self.options.kernels };
         let analysis = run.analysis(&file, kernels)?;
-        let scene = match run.end_time {
-            Some(end_time) => file.scene.ending_at(end_time)?,
-            None => file.scene.clone(),
-        };
+        let scene = run.scene(&file)?;
         let (times, samples) = run.output(&file, &scene)?;
         Ok(Prepared { file, scene, analysis, times, options: Options { samples, ..self.options } })
     }

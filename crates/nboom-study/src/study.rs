@@ -1,4 +1,5 @@
 use nboom_io::{SceneDocument, SceneFile, Slot};
+use nboom_model::{ModelError, Scene};
 use nboom_sim::{Form, Options, Path};
 
 use crate::distribution::Distribution;
@@ -173,6 +174,17 @@ pub struct RunSettings {
 }
 
 impl RunSettings {
+    /// The scene of a file with the end that its run has.
+    ///
+    /// # Errors
+    /// When that is before the start.
+    pub fn scene(&self, file: &SceneFile) -> Result<Scene, Vec<ModelError>> {
+        match self.end_time {
+            Some(end_time) => file.scene.ending_at(end_time),
+            None => Ok(file.scene.clone()),
+        }
+    }
+
     /// The options of a run, without generated code.
     pub fn options(&self) -> Options {
         let defaults = Options::default();

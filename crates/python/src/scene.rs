@@ -157,7 +157,7 @@ impl Scene {
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        warnings(&self.file)
+        warnings(&self.file, &self.file.scene)
     }
 
     #[getter]

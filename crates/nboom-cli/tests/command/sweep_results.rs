@@ -148,6 +148,29 @@ fn warnings_of_the_scene_are_told_once() {
 }
 
 #[test]
+fn warnings_are_judged_by_the_end_that_the_runs_have() {
+    let place = Place::new();
+    let late = PANELS.replacen("axis = \"y\"", "axis = \"y\", release = { at = 0.5 }", 1);
+    place.write("panels.toml", &late);
+    let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
+    let fault = "[[fault]]\nname = 'late'\nlate_release = { hinge = '1,1', by = 0.25 }\n";
+    for (end_time, as_it_stands, with_fault) in
+        [("0.4", true, true), ("0.7", false, true), ("0.8", false, false)]
+    {
+        let run = format!("[run]\nend_time = {end_time}\n");
+        let study = format!("scene = 'panels.toml'\ndraws = 2\n{run}{vary}{fault}");
+        place.write("study.toml", &study);
+        let told = stderr(&sweep(&place, &["--quiet", "--no-report", "-o", end_time]));
+        let after =
+            |release| format!("released at {release}, after the end of the run at {end_time}");
+        let found = ["0.5", "0.75"].map(|release| told.contains(&after(release)));
+        assert_eq!(found, [as_it_stands, with_fault], "{told}");
+        let run = place.nboom(&["run", "panels.toml", "--end-time", end_time]);
+        assert_eq!(stderr(&run).contains(&after("0.5")), as_it_stands, "{}", stderr(&run));
+    }
+}
+
+#[test]
 fn what_a_fault_makes_of_the_scene_and_loads_without_latches_are_told_before() {
     let place = Place::new();
     place.write("panels.toml", PANELS);

@@ -69,10 +69,7 @@ impl Runs<'_> {
 
     /// Whether runs of this scene are those of the scene as it stands.
     fn are_those_of(&self, file: &SceneFile) -> bool {
-        let scene = |file: &SceneFile| match self.run.end_time {
-            Some(end_time) => file.scene.ending_at(end_time).ok(),
-            None => Some(file.scene.clone()),
-        };
+        let scene = |file: &SceneFile| self.run.scene(file).ok();
         let has_loads = Loads::of(self.nominal, self.run) > Loads::None;
         let is_sampled_alike =
             self.run.samples.is_some() || file.settings.sampling == self.nominal.settings.sampling;
