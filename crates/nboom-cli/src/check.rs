@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
-use nboom_io::SceneFile;
-use nboom_model::Scene;
+use nboom_io::{Format, NEVER, SceneFile};
+use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::with_causes;
 use nboom_sim::{Nobody, Options, simulate};
 
@@ -46,7 +46,26 @@ pub(crate) fn scene(args: &SceneArgs) -> Result<SceneFile, CliError> {
 pub fn warnings(file: &SceneFile, scene: &Scene) -> Vec<String> {
     let of_file = file.warnings.iter().map(ToString::to_string);
     let of_scene = scene.warnings();
-    of_file.chain(of_scene.iter().map(ToString::to_string)).collect()
+    let of_scene = of_scene.iter().map(ToString::to_string);
+    of_file.chain(of_scene).chain(never_released(file, scene)).collect()
+}
+
+/// A warning if the scene of a deck lasts longer than the deck says, and beyond release times that mean never; where the
+/// deck itself does, its reader says so.
+fn never_released(file: &SceneFile, scene: &Scene) -> Option<String> {
+    let is_longer = scene.end_time > file.scene.end_time && scene.end_time >= NEVER;
+    if file.format != Format::Nml || !is_longer {
+        return None;
+    }
+    let waits = |hinge: &Hinge| {
+        hinge.start.state == HingeState::Unreleased && hinge.release == Release::Never
+    };
+    let i = scene.bodies.iter().position(|body| waits(&body.hinge))?;
+    Some(format!(
+        "end time {}: hinge {} is never released, since a release time of {NEVER:e} and more in a deck means never",
+        scene.end_time,
+        scene.label(i)
+    ))
 }
 
 /// The topology with all hinges free, and the assumptions of code generated for the scene.

@@ -1,8 +1,8 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use nboom_io::{LegacySettings, NEVER, Sampling, SceneFile, folder_name, write_scene};
-use nboom_model::{Hinge, HingeState, Release, Scene};
+use nboom_io::{LegacySettings, Sampling, SceneFile, folder_name, write_scene};
+use nboom_model::Scene;
 use nboom_results::{
     Kept, Outcome, RunDescription, RunDirectory, StressDescription, StressTables, WorstLoads,
     with_causes,
@@ -87,9 +87,8 @@ impl RunArgs {
         let kernels = if self.path == PathChoice::Generic { &[] } else { routines.for_runs };
         let stresses = self.stresses.analysis(&file, slips, kernels)?;
         let scene = with_end_time(file.scene.clone(), self.end_time)?;
-        let warnings = check::warnings(&file, &scene).into_iter();
-        let warnings = warnings.chain(never_released(&scene, self.end_time));
-        let warnings: Vec<String> = warnings.chain(self.slips.warning()).collect();
+        let mut warnings = check::warnings(&file, &scene);
+        warnings.extend(self.slips.warning());
         let options = options(self, routines, &file.legacy);
         let samples = match file.settings.sampling {
             Some(Sampling::Uniform(samples)) => Some(samples),
@@ -144,20 +143,6 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
         Some(end_time) => scene.ending_at(end_time).map_err(CliError::EndTime),
         None => Ok(scene),
     }
-}
-
-/// A warning if the run lasts beyond the release times that mean never in a deck.
-fn never_released(scene: &Scene, end_time: Option<f64>) -> Option<String> {
-    let end_time = end_time.filter(|&time| time >= NEVER)?;
-    let waits = |hinge: &Hinge| {
-        hinge.start.state == HingeState::Unreleased && hinge.release == Release::Never
-    };
-    let i = scene.bodies.iter().position(|body| waits(&body.hinge))?;
-    Some(format!(
-        "--end-time {end_time}: hinge {} is never released, since a release time of {NEVER:e} and \
-         more in a deck means never",
-        scene.label(i)
-    ))
 }
 
 fn options(args: &RunArgs, routines: &Routines, legacy: &LegacySettings) -> Options {

@@ -46,12 +46,29 @@ fn what_is_probably_not_meant_is_a_warning_of_check_and_of_run() {
 fn an_end_time_beyond_a_release_time_that_means_never_is_a_warning() {
     let place = Place::new();
     place.write("boom.nml", &BOOM.replace("RELTB=0.25", "RELTB=2.0E6"));
-    let words = "--end-time 3000000: hinge 1,1 is never released";
+    let words = "end time 3000000: hinge 1,1 is never released";
     for (end_time, is_told) in [("3E6", true), ("1E5", false)] {
-        let output = place.nboom(&["run", "boom.nml", "--samples", "1", "--end-time", end_time]);
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
-        assert_eq!(stderr(&output).contains(words), is_told, "{}", stderr(&output));
+        let run = place.nboom(&["run", "boom.nml", "--samples", "1", "--end-time", end_time]);
+        let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
+        let of_runs = format!("[run]\nstresses = false\nsamples = 1\nend_time = {end_time}\n");
+        place.write("study.toml", &format!("scene = 'boom.nml'\ndraws = 2\n{of_runs}{vary}"));
+        let sweep = place.nboom(&["sweep", "study.toml", "--no-report", "-o", end_time]);
+        for output in [run, sweep] {
+            assert_eq!(code(&output), 0, "{}", stderr(&output));
+            let times = stderr(&output).matches(words).count();
+            assert_eq!(times, usize::from(is_told), "{}", stderr(&output));
+        }
     }
+}
+
+#[test]
+fn a_scene_that_waits_without_a_release_time_is_not_warned_of_one() {
+    let place = Place::new();
+    place.write("boom.nml", &BOOM.replace("RELTB=0.25", "RELTB=2.0E6"));
+    assert_eq!(code(&place.nboom(&["convert", "boom.nml", "-o", "boom.toml"])), 0);
+    let run = place.nboom(&["run", "boom.toml", "--samples", "1", "--end-time", "3E6"]);
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    assert!(!stderr(&run).contains("never released"), "{}", stderr(&run));
 }
 
 #[test]
