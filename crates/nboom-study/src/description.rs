@@ -61,6 +61,9 @@ pub struct Description {
     pub requirements: Vec<Requirement>,
     /// Whether all cases are done.
     pub complete: bool,
+    /// Whether its tables are to be in CSV too once all cases are done; then `tables` says which there are.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub csv: bool,
     /// How long the files of its tables are \[bytes\]; a shard has none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, u64>,

@@ -46,15 +46,15 @@ pub(crate) fn continued(
     then: Description,
     now: &Description,
 ) -> Result<Description, StudyError> {
-    let open =
-        Description { complete: false, tables: BTreeMap::new(), counts: None, ..then.clone() };
+    let (csv, tables) = (now.csv, BTreeMap::new());
+    let open = Description { complete: false, csv, tables, counts: None, ..then.clone() };
     if then.complete {
         tables::require(place, &then.tables)?;
         // One that is there is of a process that was killed here.
         place.remove(JOURNAL_FILE)?;
         write_journal(place, &then)?;
-        place.describe(&open)?;
     }
+    place.describe(&open)?;
     // Those of fewer draws; beside a description of more draws the study would be another one.
     let tables = tables::TWINS.as_flattened().iter().copied();
     tables

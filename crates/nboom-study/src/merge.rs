@@ -27,7 +27,7 @@ pub fn merge(
     let (mut whole, mut texts): (Option<Description>, _) = (None, None);
     for (path, part) in &parts {
         texts = Some(directory::sources(path, part)?);
-        let part = Description { shard: None, complete: false, counts: None, ..part.clone() };
+        let part = Description { shard: None, complete: false, csv, counts: None, ..part.clone() };
         whole = Some(match whole {
             None => part,
             Some(whole) => {
@@ -40,7 +40,7 @@ pub fn merge(
     let place = Place::take(directory)?;
     let what = match place.state(&whole, accept_difference)? {
         State::Complete(what) => return settle(&place, what, csv),
-        State::Open(what) => what,
+        State::Open(what) => Description { csv: csv || what.csv, ..what },
         State::Fewer(then) => {
             let (directory, differences) = (directory.to_owned(), then.differences(&whole));
             return Err(StudyError::Different { directory, differences });
@@ -49,9 +49,9 @@ pub fn merge(
     let journals: Result<Vec<Journal>, _> = parts.iter().map(whole_journal).collect();
     let journals = journals?;
     let bytes: u64 = journals.iter().map(Journal::bytes).sum();
-    space::require(directory, bytes.saturating_mul(tables::formats(csv)), what.cases)?;
+    space::require(directory, bytes.saturating_mul(tables::formats(what.csv)), what.cases)?;
     place.begin(&what, &study, &scene)?;
-    finish(&place, what, &journals, [&study, &scene], csv)
+    finish(&place, what, &journals, [&study, &scene])
 }
 
 /// Directories of shards with what they are, in order of cases.

@@ -70,7 +70,6 @@ impl Sweep<'_> {
             samples: samples(study),
             jobs,
             resume: self.resume,
-            csv: self.csv,
             accept_difference: self.accept_difference,
         })
     }
@@ -97,6 +96,7 @@ impl Sweep<'_> {
             results: study.wanted.iter().map(|wanted| wanted.text().to_owned()).collect(),
             requirements: study.requirements.clone(),
             complete: false,
+            csv: self.csv,
             tables: BTreeMap::new(),
             counts: None,
         }

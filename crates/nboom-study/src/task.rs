@@ -26,8 +26,6 @@ pub(crate) struct Task<'a> {
     pub jobs: usize,
     /// Whether what was begun is continued.
     pub resume: bool,
-    /// Whether tables are in CSV too.
-    pub csv: bool,
     /// Whether another program or machine may continue it.
     pub accept_difference: bool,
 }
@@ -79,7 +77,6 @@ pub(crate) struct Begun {
     before: u64,
     /// The study and the scene.
     texts: [String; 2],
-    csv: bool,
 }
 
 impl Begun {
@@ -88,13 +85,13 @@ impl Begun {
     /// # Errors
     /// When a file cannot be written, and when the journal cannot be read.
     pub fn finish(self) -> Result<Report, StudyError> {
-        let Self { place, what, journal, before, texts: [study, scene], csv } = self;
+        let Self { place, what, journal, before, texts: [study, scene] } = self;
         let done = journal.done();
         let report = if done < what.share() {
             let files = place.files();
             Report { end: End::Interrupted, description: what, done, computed: 0, files }
         } else {
-            finish(&place, what, &[journal], [&study, &scene], csv)?
+            finish(&place, what, &[journal], [&study, &scene])?
         };
         Ok(Report { computed: done - before, ..report })
     }
@@ -127,17 +124,19 @@ impl Task<'_> {
     /// When the directory is refused.
     pub fn begin(&self) -> Result<Begin, StudyError> {
         let place = Place::take(self.directory)?;
-        // A sweep that grows keeps the tables that it has.
-        let csv = self.csv || place.file(CASES_CSV_FILE).exists();
-        let state = place.state(&self.description, self.accept_difference);
+        // A sweep that goes on or grows keeps the tables that it has and those that it was to have.
+        let was_to_have = place.found.as_ref().is_some_and(|found| found.csv);
+        let csv = self.description.csv || was_to_have || place.file(CASES_CSV_FILE).exists();
+        let now = Description { csv, ..self.description.clone() };
+        let state = place.state(&now, self.accept_difference);
         let what = match state.map_err(|error| place.explained(error, [self.study, self.scene]))? {
             State::Complete(what) => {
                 return Ok(Begin::Complete(settle(&place, what, csv)?.into()));
             }
-            State::Open(what) => what,
+            State::Open(what) => Description { csv, ..what },
             State::Fewer(then) if self.resume => {
-                self.require_growth(&then, csv)?;
-                growth::continued(&place, then, &self.description)?
+                self.require_growth(&then, &now)?;
+                growth::continued(&place, then, &now)?
             }
             State::Fewer(then) => {
                 let (directory, draws) = (self.directory.to_owned(), then.draws);
@@ -153,28 +152,27 @@ impl Task<'_> {
         let missing = cases - before;
         let jobs = self.jobs as u64;
         space::require_memory(&what.columns_of_tables(), self.samples, missing, jobs)?;
-        space::require(self.directory, self.bytes(&what, missing, csv), cases)?;
+        space::require(self.directory, self.bytes(&what, missing), cases)?;
         let texts = [self.study, self.scene].map(str::to_owned);
         place.begin(&what, self.study, self.scene)?;
-        let begun = Begun { place, what, journal, before, texts, csv };
+        let begun = Begun { place, what, journal, before, texts };
         Ok(Begin::Open(begun.into()))
     }
 
     /// # Errors
     /// When memory or the disk is too small for the draws that come to those of a sweep.
-    fn require_growth(&self, then: &Description, csv: bool) -> Result<(), StudyError> {
-        let Description { cases, .. } = self.description;
-        let columns = self.description.columns_of_tables();
+    fn require_growth(&self, then: &Description, now: &Description) -> Result<(), StudyError> {
+        let (cases, columns) = (now.cases, now.columns_of_tables());
         let (more, jobs) = (cases - then.cases, self.jobs as u64);
         space::require_memory(&columns, self.samples, more, jobs)?;
         // The cases of a finished sweep are written once more.
         let missing = if then.complete { cases } else { more };
-        space::require(self.directory, self.bytes(&self.description, missing, csv), cases)
+        space::require(self.directory, self.bytes(now, missing), cases)
     }
 
     /// About how much is still to be written, if so many cases are missing.
-    fn bytes(&self, what: &Description, missing: u64, csv: bool) -> u64 {
-        let formats = if what.shard.is_some() { 0 } else { tables::formats(csv) };
+    fn bytes(&self, what: &Description, missing: u64) -> u64 {
+        let formats = if what.shard.is_some() { 0 } else { tables::formats(what.csv) };
         let rows = missing.saturating_add(formats.saturating_mul(what.cases));
         rows.saturating_mul(space::of_case(&what.columns_of_tables(), self.samples))
     }
@@ -192,9 +190,8 @@ pub(crate) fn finish(
     what: Description,
     journals: &[Journal],
     [study, scene]: [&str; 2],
-    csv: bool,
 ) -> Result<Report, StudyError> {
-    let statistics = tables::statistics(&what, journals)?;
+    let (csv, statistics) = (what.csv, tables::statistics(&what, journals)?);
     let mut of_tables = BTreeMap::new();
     if what.shard.is_none() {
         let texts = [("study", study), ("scene", scene)];
@@ -203,7 +200,7 @@ pub(crate) fn finish(
         place.sum_up(&statistics)?;
     }
     let counts = Some(statistics.counts);
-    let what = Description { complete: true, tables: of_tables, counts, ..what };
+    let what = Description { complete: true, csv: false, tables: of_tables, counts, ..what };
     place.describe(&what)?;
     Ok(Report { end: End::Complete, ..settle(place, what, csv)? })
 }

@@ -70,7 +70,6 @@ impl Fake {
             samples: self.samples,
             jobs: self.jobs,
             resume: self.resume,
-            csv: self.csv,
             accept_difference: self.accept_difference,
         };
         task.run(&worker, watcher)
@@ -105,6 +104,7 @@ impl Fake {
             results: vec!["x".to_owned()],
             requirements: Vec::new(),
             complete: false,
+            csv: self.csv,
             tables: BTreeMap::new(),
             counts: None,
         }

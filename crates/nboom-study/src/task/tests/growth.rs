@@ -53,12 +53,21 @@ proptest! {
 fn tables_in_csv_grow_too_though_they_are_not_asked_for_again() {
     let place = tempfile::tempdir().expect("a directory");
     let [directory, alone] = ["grown", "alone"].map(|name| place.path().join(name));
-    let few = Fake::of(20);
-    few.finish(&directory, &[]);
+    let few = Fake { jobs: 1, ..Fake::of(20) };
+    grown(&few, 50).finish(&alone, &[]);
     let many = Fake { csv: false, ..grown(&few, 50) };
-    many.finish(&directory, &[]);
-    Fake { csv: true, ..grown(&few, 50) }.finish(&alone, &[]);
-    assert!(files(&directory) == files(&alone), "other bytes");
+    // Of the sweep of few draws and of that of many, whether it is interrupted.
+    for (few_are_left, interruptions) in [(false, &[][..]), (false, &[5, 5]), (true, &[])] {
+        if few_are_left {
+            few.run(&directory, &Impatient(AtomicI64::new(5))).expect("it can be interrupted");
+        } else {
+            few.finish(&directory, &[]);
+        }
+        let report = many.finish(&directory, interruptions);
+        assert!(report.description.complete);
+        assert!(files(&directory) == files(&alone), "other bytes: {interruptions:?}");
+        fs::remove_dir_all(&directory).expect("it is there");
+    }
 }
 
 #[test]
