@@ -87,31 +87,30 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
         };
         let [low, median, high] = PERCENTS.map(of);
         let gaps = column.spreads.first().filter(|spread| spread.count < spread.cases);
-        let may_be_never = column.hinge_that_locks().is_some() && gaps.is_some();
-        let left_out = gaps.filter(|_| !may_be_never);
+        // A latch that does not close is later than all others.
+        let left_out = gaps.filter(|_| column.hinge_that_locks().is_none());
         let left_out = left_out.map_or_else(String::new, |spread| {
             format!(", {} of {} cases", spread.count, spread.cases)
         });
         let [low, high] = [(low, Worse::Large), (high, Worse::Small)]
-            .map(|(of, better)| told(of, has_bounds && column.worse() != better, may_be_never));
+            .map(|(of, better)| told(of, has_bounds && column.worse() != better));
         let driver =
             column.drivers.first().filter(|driver| driver.coefficient.abs() > driver.bound);
         let driver = driver.map_or_else(String::new, |driver| {
             format!("{} {:+.2}", statistics.columns[driver.variable].label, driver.coefficient)
         });
         let unit = column.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
-        let median = told(median, false, may_be_never);
+        let median = told(median, false);
         rows.push([format!("{}{unit}{left_out}", column.label), low, median, high, driver]);
     }
     rows
 }
 
 /// A percentile, with its bounds or without.
-fn told(of: Option<Percentile>, has_bounds: bool, may_be_never: bool) -> String {
+fn told(of: Option<Percentile>, has_bounds: bool) -> String {
     let Some(Percentile { value, low, high, .. }) = of else { return "-".to_owned() };
-    let high = high.or_else(|| may_be_never.then_some(f64::INFINITY));
     match (low, high) {
-        (Some(low), Some(high)) if has_bounds => {
+        (Some(low), Some(high)) if has_bounds && low.is_finite() => {
             format!("{} ({} to {})", number(value), number(low), number(high))
         }
         _ => number(value),

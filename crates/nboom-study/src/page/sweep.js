@@ -49,7 +49,12 @@ const said = (value, count) => (value === null ? 'never' : digits(value, count))
 const whole = (number) => number.toLocaleString('en');
 const casesOf = (count) => `${whole(count)} ${count === 1 ? 'case' : 'cases'}`;
 const percent = (share) => `${digits(100 * share, 3)}\u202f%`;
-const interval = (low, high, told = digits) => (low === null && high === null ? 'no bounds' : `${low === null ? 'no bound' : told(low)} to ${high === null ? 'no bound' : told(high)}`);
+/** An interval, which has an end only where there are enough cases for it. */
+function interval(low, high, told = said) {
+  const end = (value) => (value === undefined ? 'no bound' : told(value));
+  if (low === null) return 'never';
+  return low === undefined && high === undefined ? 'no bounds' : `${end(low)} to ${end(high)}`;
+}
 const titled = ({ label, unit }) => [given(label), unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null];
 
 /** A cell with a number. */

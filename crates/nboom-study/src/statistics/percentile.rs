@@ -15,7 +15,6 @@ pub(super) fn percentiles(sorted: &[f64]) -> Vec<Percentile> {
         // Of few numbers all may lie on one side of the percentile; its interval then reaches to the estimate.
         let (before, after, _) = neighbours(sorted.len() - 1, share);
         let (low, high) = (low.map(|i| sorted[i.min(before)]), high.map(|i| sorted[i.max(after)]));
-        let [low, high] = [low, high].map(|bound| bound.filter(|bound| bound.is_finite()));
         Some(Percentile { percent, value, low, high })
     };
     PERCENTS.into_iter().filter_map(of).collect()

@@ -183,9 +183,11 @@ pub struct Percentile {
     /// Its estimate; infinite, and `null` in a file, if a lock-up is never.
     #[serde(with = "never")]
     pub value: f64,
-    /// Lower end; none if there are too few cases for one.
+    /// Lower end; none, and not in a file, if there are too few cases for one; infinite, and `null`, if it is never.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "never::end")]
     pub low: Option<f64>,
-    /// Upper end; none if there are too few cases for one, or it is never.
+    /// Upper end, likewise.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "never::end")]
     pub high: Option<f64>,
 }
 
@@ -303,5 +305,18 @@ mod never {
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
         Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+    }
+
+    /// Of the ends of an interval those that there are.
+    pub mod end {
+        use serde::{Deserializer, Serializer};
+
+        pub fn serialize<S: Serializer>(time: &Option<f64>, to: S) -> Result<S::Ok, S::Error> {
+            super::serialize(&time.unwrap_or(f64::INFINITY), to)
+        }
+
+        pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+            super::deserialize(from).map(Some)
+        }
     }
 }

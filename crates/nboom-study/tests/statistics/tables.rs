@@ -80,7 +80,22 @@ fn a_latch_that_never_closes_is_later_than_all_others_and_the_worst() {
     let [.., late, latest] = &time.spreads[0].percentiles[..] else { panic!("seven") };
     // A tenth never latches.
     assert_eq!((late.value, latest.value), (f64::INFINITY, f64::INFINITY));
-    assert_eq!([late.low, late.high, latest.low, latest.high], [None; 4], "they are never too");
+    let never = Some(f64::INFINITY);
+    assert_eq!([late.low, late.high, latest.low, latest.high], [never; 4], "they are never too");
+    // Which a file tells from too few cases for an end.
+    let few = two_by_two(2);
+    let median = few.columns[1].spreads[0].percentiles[3];
+    assert_eq!([median.low, median.high], [None; 2]);
+    for (summary, number, expected) in
+        [(&found, 6, Some(&serde_json::Value::Null)), (&few, 3, None)]
+    {
+        let text = serde_json::to_string(summary).expect("JSON");
+        let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let percentile = &json["columns"][1]["spreads"][0]["percentiles"][number];
+        assert_eq!([percentile.get("low"), percentile.get("high")], [expected; 2], "{percentile}");
+        let read: Summary = serde_json::from_str(&text).expect("statistics");
+        assert_eq!(read.columns[1].spreads, summary.columns[1].spreads);
+    }
     // Half of all cases have latched by a time at which 5/9 of those that latch have.
     let median = time.spreads[0].percentiles[3];
     let off = 2.0 * 4.5 * (0.25_f64 / 900.0).sqrt();
