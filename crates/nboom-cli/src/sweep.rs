@@ -172,7 +172,9 @@ fn warn_of_the_scene(study: &Study, quiet: bool) {
             say("warning", &format!("with {}: {warning}", fault.name));
         }
     }
-    if study.leaves_pulses_out() {
+    // Where only some latches lack it the reader of the scene says which.
+    let is_told = scene.warnings.iter().any(|warning| warning.symbol == "pulse_constant");
+    if study.leaves_pulses_out() && !is_told {
         say("warning", "loads are without latches, which have no pulse_constant");
     }
     if !quiet {

@@ -200,6 +200,22 @@ fn what_a_fault_makes_of_the_scene_and_loads_without_latches_are_told_before() {
 }
 
 #[test]
+fn a_pulse_constant_that_only_some_latches_have_is_told_once_with_its_place() {
+    let place = Place::new();
+    let some = PANELS.replacen("mass = 1.0", "mass = 1.0\npulse_constant = 0.001", 1);
+    place.write("panels.toml", &some);
+    let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
+    let loads = "[run]\nhinge_loads = true\n";
+    place.write("study.toml", &format!("scene = 'panels.toml'\ndraws = 2\n{loads}{vary}"));
+    let told = stderr(&sweep(&place, &["--quiet", "--no-report"]));
+    let found: Vec<&str> = told.lines().filter(|line| line.contains("pulse_constant")).collect();
+    let second = some.lines().position(|line| line.contains("panel -x")).expect("a body");
+    // The table of a body begins one line above its name; lines count from 1.
+    let expected = format!("panels.toml:{second}:");
+    assert!(found.len() == 1 && found[0].contains(&expected), "{told}");
+}
+
+#[test]
 fn a_sweep_that_grows_keeps_its_tables() {
     let place = Place::new();
     place.write("panels.toml", PANELS);
