@@ -66,6 +66,9 @@ const SETTLED: usize = 12;
 const STIFF: usize = 15;
 /// Likewise of stages side by side whose iteration is slow; such a step costs several explicit ones.
 const SLOW: usize = 4;
+/// What slowed them down most often bounds explicit steps too: as many count as seen, and are forgotten after half
+/// as many that it does not bound.
+const SEEN_BY_LANES: usize = 10;
 /// Share of the stability limit beyond which a step counts as bounded by it: the tighter the
 /// tolerance, the further below the limit steps settle. Oscillations that accuracy bounds stay
 /// below a third of it.
@@ -182,12 +185,13 @@ impl Automatic {
         let mut state = std::mem::take(&mut self.handed_over);
         let &Window { time, state: ref present, next_step: usual, .. } = self.window();
         state.clone_from(present);
-        match self.active {
-            Active::Lanes => self.lanes_were_slow = true,
+        let from = self.active;
+        self.hand_over(to, reason);
+        match from {
+            Active::Lanes => (self.lanes_were_slow, self.against) = (true, SEEN_BY_LANES),
             Active::Implicit => self.patience *= 2,
             Active::Explicit => {}
         }
-        self.hand_over(to, reason);
         let controlled = self.controlled;
         self.stepper_mut().start(system, time, &state, controlled);
         self.handed_over = state;

@@ -125,6 +125,25 @@ fn stages_side_by_side_are_left_where_their_iteration_is_slow() {
 }
 
 #[test]
+fn what_slows_stages_side_by_side_down_counts_as_stiffness() {
+    let mut system = Drawn { fast: (20.0, 41.0), takes_eight: true, evaluations: 0 };
+    let mut automatic = Automatic::new(tolerance(1e-8));
+    automatic.start(&mut system, 0.0, &[1.0], 1);
+    let (mut were_side_by_side, mut explicit) = (false, 0);
+    while automatic.choice().method != Method::Radau5 {
+        automatic.step(&mut system, 40.0).expect("a bounded motion");
+        automatic.advance();
+        match automatic.choice().method {
+            Method::GaussLanes => were_side_by_side = true,
+            Method::Dop853 if were_side_by_side => explicit += 1,
+            _ => {}
+        }
+    }
+    // The explicit method needs fifteen steps to see it alone.
+    assert!((1..15).contains(&explicit), "{explicit}");
+}
+
+#[test]
 fn stages_do_not_go_side_by_side_where_a_motion_soon_ends() {
     let steps = |end: f64| run_on_eight(1e-9, (0.0, 0.0), end).2;
     let mut alone = RungeKutta::dop853(tolerance(1e-9));
