@@ -68,8 +68,30 @@ impl Relation {
 impl Study {
     /// Whether the loads of its cases are without the pulses of hinges that latch, as their constants are not known.
     pub fn leaves_pulses_out(&self) -> bool {
-        let analysis = self.run.analysis(&self.nominal, &[]);
+        let analysis = self.analysis(&self.nominal, &[]);
         analysis.is_ok_and(|found| found.is_some_and(|found| !found.has_pulses()))
+    }
+
+    /// What finds the loads of a run, if its scene has them and a result depends on them.
+    fn analysis(
+        &self,
+        file: &SceneFile,
+        kernels: &[Kernel],
+    ) -> Result<Option<StressAnalysis>, StrengthError> {
+        if !self.wanted.iter().any(Wanted::depends_on_loads) {
+            return Ok(None);
+        }
+        let (SceneFile { scene, structure, .. }, run) = (file, &self.run);
+        match structure {
+            Some(structure) if run.stresses => {
+                let analysis = StressAnalysis::new(scene, structure, run.strength)?;
+                Ok(Some(analysis.with_kernels(kernels)))
+            }
+            structure if run.hinge_loads || file.settings.hinge_loads => {
+                StressAnalysis::of_hinges(scene, structure.as_ref(), run.strength).map(Some)
+            }
+            _ => Ok(None),
+        }
     }
 
     /// The scene of a case, with its fault; it ends when the scene says.
@@ -115,25 +137,6 @@ fn broken(file: SceneFile, fault: &Fault) -> Result<SceneFile, Rejection> {
 }
 
 impl RunSettings {
-    /// What finds the loads of a run, if any are wanted.
-    fn analysis(
-        &self,
-        file: &SceneFile,
-        kernels: &[Kernel],
-    ) -> Result<Option<StressAnalysis>, StrengthError> {
-        let (SceneFile { scene, structure, .. }, settings) = (file, self.strength);
-        match structure {
-            Some(structure) if self.stresses => {
-                let analysis = StressAnalysis::new(scene, structure, settings)?;
-                Ok(Some(analysis.with_kernels(kernels)))
-            }
-            structure if self.hinge_loads || file.settings.hinge_loads => {
-                StressAnalysis::of_hinges(scene, structure.as_ref(), settings).map(Some)
-            }
-            _ => Ok(None),
-        }
-    }
-
     /// The output times of a run of this scene; `None` for uniform ones, of which there are as many as the
     /// second says.
     fn output(
@@ -294,7 +297,7 @@ impl<'s> Runner<'s> {
         let run = &self.study.run;
         let file = self.study.scene_of(case)?;
         let kernels = if self.options.path == Path::Generic { &[] } else { self.options.kernels };
-        let analysis = run.analysis(&file, kernels)?;
+        let analysis = self.study.analysis(&file, kernels)?;
         let scene = run.scene(&file)?;
         let (times, samples) = run.output(&file, &scene)?;
         Ok(Prepared { file, scene, analysis, times, options: Options { samples, ..self.options } })
@@ -353,4 +356,38 @@ fn values(
     let labels = scene.labels();
     let found = Found { labels, hinges, extremes, summary, worst: &worst, keys: keys.as_ref() };
     Ok(Wanted::values(wanted, &found))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn loads_are_found_where_a_result_depends_on_them() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let scene = root.join("examples/n-boom-1970.nml");
+        let place = tempfile::tempdir().expect("a directory");
+        let path = place.path().join("study.toml");
+        for (result, is_of_loads) in [
+            ("lock_time of 1,1", false),
+            ("final nutation", false),
+            ("conservation.energy", false),
+            ("steps_accepted", false),
+            ("evaluations", true),
+            ("selections[1].evaluations", true),
+            ("peak_moment of 1,1", true),
+            ("verdict.largest_hinge_force_at.time", true),
+            ("verdict.worst_load", true),
+        ] {
+            let vary = "[[vary]]\npath = 'main_body.mass'\nas = 'factor'\nvalues = [1.0]\n";
+            let results = format!("method = 'grid'\nresults = ['final omega_x', '{result}']\n");
+            let text = format!("scene = {scene:?}\n{results}{vary}");
+            std::fs::write(&path, text).expect("writable");
+            let study = Study::read(&path).unwrap_or_else(|error| panic!("{error}"));
+            let found = study.analysis(&study.nominal, &[]).expect("sections are sections");
+            assert_eq!(found.is_some(), is_of_loads, "{result}");
+        }
+    }
 }

@@ -23,6 +23,7 @@ pub struct Wanted {
     text: String,
     column: Column,
     what: What,
+    needs: Needs,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +69,8 @@ enum Needs {
     HingeLoads,
     Stresses,
     Strengths,
+    /// The loads that runs of the study find, if any: it counts evaluations, those for loads too.
+    Effort,
 }
 
 /// What a run has found.
@@ -101,7 +104,7 @@ impl Needs {
     /// What is missing for it, in words.
     fn missing(self, file: &SceneFile, loads: Loads) -> Option<&'static str> {
         let (is_there, missing) = match self {
-            Self::Nothing => return None,
+            Self::Nothing | Self::Effort => return None,
             Self::FreeBody => (!file.scene.base.is_held(), "a main body that moves freely"),
             Self::HingeLoads => (loads > Loads::None, "a run with loads of hinges"),
             Self::Stresses => (loads >= Loads::Stations, "a run with stresses"),
@@ -111,6 +114,11 @@ impl Needs {
             ),
         };
         (!is_there).then_some(missing)
+    }
+
+    /// Whether a run without loads may be without it, or with another one.
+    fn depends_on_loads(self) -> bool {
+        !matches!(self, Self::Nothing | Self::FreeBody)
     }
 }
 
@@ -141,9 +149,9 @@ impl Wanted {
             _ => summary::named(&text, file, loads),
         };
         match found {
-            Ok((what, column)) => {
+            Ok((what, column, needs)) => {
                 let column = Column { name: column_name(&text), ..column };
-                Ok(Self { text, column, what })
+                Ok(Self { text, column, what, needs })
             }
             Err((expected, nearest)) => Err(UnknownResult { found: text, expected, nearest }),
         }
@@ -189,6 +197,11 @@ impl Wanted {
         }
     }
 
+    /// Whether the loads of the run have to be found for it.
+    pub(crate) fn depends_on_loads(&self) -> bool {
+        self.needs.depends_on_loads()
+    }
+
     /// Whether it is a number of `summary.json`.
     pub(crate) fn of_summary(&self) -> bool {
         matches!(self.what, What::Summary(_))
@@ -221,8 +234,8 @@ const DEFAULTS: [&str; 5] = [
     "verdict.smallest_margin",
 ];
 
-/// What a text stands for, or what is expected instead and what is like it.
-type Named = Result<(What, Column), (String, Option<String>)>;
+/// What a text stands for and needs, or what is expected instead and what is like it.
+type Named = Result<(What, Column, Needs), (String, Option<String>)>;
 
 /// What is refused since something is missing for it.
 fn refused(missing: &str) -> (String, Option<String>) {

@@ -147,7 +147,7 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
     let column = Column::new("", found.unit.map_or(Holds::Integer, |_| Holds::Number), found.about);
     let unit = found.unit.map(|unit| units(file).label(unit[usize::from(label.joint.slides())]));
     let body = label.name.as_deref().map(str::to_owned);
-    Ok((What::Hinge(found.kind, hinge), Column { unit, body, ..column }))
+    Ok((What::Hinge(found.kind, hinge), Column { unit, body, ..column }, found.needs))
 }
 
 impl Kind {

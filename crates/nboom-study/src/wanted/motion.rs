@@ -5,7 +5,7 @@ use nboom_model::{Column, Quantity, WantedTable};
 use nboom_results::quantity;
 use nboom_sim::{Snapshot, Summary};
 
-use super::{Named, What, refused};
+use super::{Named, Needs, What, refused};
 use crate::table::{of_motion, units};
 
 /// What is taken of a column.
@@ -56,7 +56,7 @@ pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {
         _ => format!("{}, {word} of output times and events", head.description),
     };
     let head = nboom_tables::Column { description, ..head };
-    Ok((What::Motion(Extreme { taken, column }), head))
+    Ok((What::Motion(Extreme { taken, column }), head, Needs::Nothing))
 }
 
 impl Extreme {

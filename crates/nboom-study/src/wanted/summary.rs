@@ -33,9 +33,9 @@ impl Key {
 /// All, in their order in the file; `wall_seconds` is none, since it is another one each time.
 static KEYS: [Key; 60] = [
     count("degrees_of_freedom", "six, or none of a held main body, and one for each hinge"),
-    number("generated_share", "1", "share of the evaluations by generated code"),
+    number("generated_share", "1", "share of the evaluations by generated code").of(Needs::Effort),
     number("selections[].since", "T", "when this code took over"),
-    count("selections[].evaluations", "evaluations by this code"),
+    count("selections[].evaluations", "evaluations by this code").of(Needs::Effort),
     number("integrations[].since", "T", "when this integrator took over"),
     number("rtol", "1", "relative error allowed in a step"),
     number("atol", "1", "absolute error allowed in a step"),
@@ -43,7 +43,7 @@ static KEYS: [Key; 60] = [
     number("end_time", "T", "time reached"),
     count("steps_accepted", "steps accepted"),
     count("steps_rejected", "steps rejected"),
-    count("evaluations", "evaluations of the accelerations"),
+    count("evaluations", "evaluations of the accelerations").of(Needs::Effort),
     count("jacobians", "evaluations of the Jacobian"),
     count("factorizations", "factorisations of iteration matrices"),
     count("events", "events, the end included"),
@@ -147,7 +147,8 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
     let column = Column::new("", kind, key.about);
     let unit = unit.map(|unit| units(file).label(unit));
     let body = label.flatten().and_then(|label| label.name.as_deref()).map(str::to_owned);
-    Ok((What::Summary(format!("/{}", pointer.replace('.', "/"))), Column { unit, body, ..column }))
+    let what = What::Summary(format!("/{}", pointer.replace('.', "/")));
+    Ok((what, Column { unit, body, ..column }, key.needs))
 }
 
 /// The parameter with this name.
@@ -155,7 +156,7 @@ fn parameter(name: &str, file: &SceneFile) -> Named {
     let names = || file.settings.parameters.iter().map(|(name, _)| name.as_str());
     if names().any(|known| known == name) {
         let column = Column::new("", Kind::Number, "parameter of the scene");
-        return Ok((What::Summary(format!("/parameters/{name}")), column));
+        return Ok((What::Summary(format!("/parameters/{name}")), column, Needs::Nothing));
     }
     let meant = nearest(name, names()).map(|name| format!("{PARAMETER}{name}"));
     Err(("a parameter of the scene".to_owned(), meant))

@@ -220,3 +220,17 @@ fn margins_are_judged_as_the_study_says() {
     // Peaks of latches are taller.
     assert!(margin("[run]\namplification = 1.7") < plain);
 }
+
+#[test]
+fn results_are_the_same_whether_loads_are_found_beside_them_or_not() {
+    let results = "'lock_time of 1,1', 'impulse of 2,2', 'steps_accepted', 'final nutation', \
+                   'conservation.energy', 'miss of 2,1', 'largest omega_x'";
+    let row_of = |more: &str| {
+        let text = format!("results = [{results}{more}]");
+        complete(row(&study("beside-loads", &example("n-boom-1970.nml"), &text), 1))
+    };
+    let [without, with] = ["", ", 'verdict.worst_load', 'evaluations'"].map(row_of);
+    let (status, found) = without.cells.split_last().expect("a status");
+    assert_eq!(found, &with.cells[..found.len()]);
+    assert_eq!(Some(status), with.cells.last());
+}
