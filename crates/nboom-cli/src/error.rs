@@ -12,7 +12,7 @@ use nboom_strength::StrengthError;
 use nboom_tables::TablesError;
 use nboom_verify::VerifyError;
 
-use crate::{CaseError, SectionFileError, SweepError};
+use crate::{CaseError, Left, SectionFileError, SweepError};
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -113,14 +113,11 @@ pub enum CliError {
     /// Signals cannot be waited for.
     #[error("cannot wait for signals")]
     Signals(#[source] std::io::Error),
-    /// A run was interrupted and did not come to the end of its step in time.
-    #[error(
-        "interrupted within a step{}",
-        if .directory.is_some() { "" } else { "; there are no unfinished results" }
-    )]
-    WithinStep {
-        /// The directory of the results up to then, if there are any.
-        directory: Option<PathBuf>,
+    /// A command was interrupted and did not come to an end in time.
+    #[error("interrupted {left}")]
+    BrokenOff {
+        /// The results that there are.
+        left: Left,
     },
     /// The output of a conversion is neither a scene nor a deck by its name.
     #[error(
@@ -336,7 +333,7 @@ impl CliError {
             } => 2,
             Self::Verify(VerifyError::NotFinite { .. }) => 2,
             Self::Simulation { .. } | Self::Verify(_) => 3,
-            Self::Certificate { .. } | Self::Signals(_) | Self::WithinStep { .. } => 3,
+            Self::Certificate { .. } | Self::Signals(_) | Self::BrokenOff { .. } => 3,
             Self::Results(_) | Self::Tables(_) | Self::Stdout(_) => 3,
             #[cfg(feature = "generator")]
             Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
@@ -361,8 +358,7 @@ impl CliError {
             Self::Sections(error @ SectionFileError::Sections(_)) => {
                 error.to_string().lines().map(str::to_owned).collect()
             }
-            Self::Simulation { directory: Some(directory), .. }
-            | Self::WithinStep { directory: Some(directory) } => {
+            Self::Simulation { directory: Some(directory), .. } => {
                 let (why, kept) = (with_causes(self), directory.display());
                 vec![format!("{why}; what was computed before is in {kept}, marked incomplete")]
             }

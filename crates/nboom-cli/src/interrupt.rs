@@ -1,3 +1,4 @@
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,12 +21,47 @@ const PATIENCE: Duration = Duration::from_millis(700);
 #[derive(Clone)]
 pub struct Interrupt {
     came: Arc<dyn Fn() -> bool + Send + Sync>,
-    /// Held by work that must not be broken off; where unfinished results are.
-    shield: Arc<Mutex<Option<PathBuf>>>,
+    /// Held by work that must not be broken off; what the command leaves if it is broken off.
+    shield: Arc<Mutex<Left>>,
+}
+
+/// The results that a command leaves which is broken off.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Left {
+    /// None.
+    #[default]
+    Nothing,
+    /// Those of a run that goes on, in this directory.
+    Unfinished(PathBuf),
+    /// Those of a run that has stopped before its end, in this directory.
+    Incomplete(PathBuf),
+    /// Those of a whole run, in this directory.
+    Complete(PathBuf),
 }
 
 /// Makes an [`Interrupt`] when the work begins.
 pub type Interrupts<'a> = &'a dyn Fn() -> Result<Interrupt, CliError>;
+
+impl fmt::Display for Left {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let incomplete = |f: &mut fmt::Formatter<'_>, when: &str, directory: &Path| {
+            let directory = directory.display();
+            write!(f, "{when}; what was computed before is in {directory}, marked incomplete")
+        };
+        match self {
+            Self::Nothing => write!(f, "within a step; there are no unfinished results"),
+            Self::Unfinished(directory) => incomplete(f, "within a step", directory),
+            Self::Incomplete(directory) => {
+                incomplete(f, "while more was made of the results", directory)
+            }
+            Self::Complete(directory) => write!(
+                f,
+                "while more was made of the results; the run itself is complete, its results are in {}",
+                directory.display()
+            ),
+        }
+    }
+}
 
 impl Interrupt {
     /// An interrupt that comes when the program around the command says so. It is asked at each step of a
@@ -66,19 +102,20 @@ impl Interrupt {
     ) -> Result<T, E> {
         let mut held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
         let made = make()?;
-        *held = Some(unfinished(&made).to_owned());
+        *held = Left::Unfinished(unfinished(&made).to_owned());
         Ok(made)
     }
 
-    /// Says that no unfinished results are left.
-    pub(crate) fn leaves_nothing(&self) {
-        *self.shield.lock().unwrap_or_else(PoisonError::into_inner) = None;
-    }
-
-    /// Runs work that must not be broken off.
-    pub(crate) fn shielded<T>(&self, work: impl FnOnce() -> T) -> T {
-        let _held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
-        work()
+    /// Finishes results by work that must not be broken off; `left` says what is there then.
+    pub(crate) fn finishing<T>(
+        &self,
+        finish: impl FnOnce() -> T,
+        left: impl FnOnce(&T) -> Left,
+    ) -> T {
+        let mut held = self.shield.lock().unwrap_or_else(PoisonError::into_inner);
+        let finished = finish();
+        *held = left(&finished);
+        finished
     }
 }
 
@@ -95,14 +132,45 @@ fn noted() -> Result<Arc<AtomicBool>, CliError> {
 }
 
 /// Ends the program a while after a signal has come, unless the run is over by then.
-fn insist(came: &AtomicBool, shield: &Weak<Mutex<Option<PathBuf>>>) {
+fn insist(came: &AtomicBool, shield: &Weak<Mutex<Left>>) {
     while !came.load(Ordering::Relaxed) {
         thread::sleep(LOOK);
     }
     thread::sleep(PATIENCE);
     let Some(shield) = shield.upgrade() else { return };
     let held = shield.lock().unwrap_or_else(PoisonError::into_inner);
-    let error = CliError::WithinStep { directory: held.clone() };
+    let error = CliError::BrokenOff { left: held.clone() };
     error.lines().iter().for_each(|line| say("error", line));
     process::exit(error.exit_code().into());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_broken_off_says_what_it_leaves() {
+        let interrupt = Interrupt::when(|| false);
+        let told = || {
+            let left = interrupt.shield.lock().expect("nobody panics").clone();
+            CliError::BrokenOff { left }.lines().join("\n")
+        };
+        assert_eq!(told(), "interrupted within a step; there are no unfinished results");
+        let make = || Ok::<_, ()>(PathBuf::from("a.partial"));
+        assert!(interrupt.making(make, PathBuf::as_path).is_ok());
+        assert_eq!(
+            told(),
+            "interrupted within a step; what was computed before is in a.partial, marked incomplete"
+        );
+        for (left, expected) in [
+            (Left::Incomplete("a".into()), "what was computed before is in a, marked incomplete"),
+            (Left::Complete("a".into()), "the run itself is complete, its results are in a"),
+        ] {
+            interrupt.finishing(|| (), |()| left);
+            assert_eq!(
+                told(),
+                format!("interrupted while more was made of the results; {expected}")
+            );
+        }
+    }
 }

@@ -90,7 +90,7 @@ pub use error::CliError;
 #[cfg(feature = "generator")]
 pub use generate::GenerateArgs;
 pub use given::Given;
-pub use interrupt::{Interrupt, Interrupts};
+pub use interrupt::{Interrupt, Interrupts, Left};
 #[cfg(feature = "generator")]
 pub use man::ManArgs;
 pub use merge::MergeArgs;

@@ -59,12 +59,12 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
                 let (path, input) = (path.clone(), record.input.path);
                 return Err(CliError::NothingToRepeat { path, input, scene });
             }
-            say(&format!(
-                "{} is not what was read then, SHA-256 {}; this is a run of {}",
-                record.input.path,
-                record.input.sha256,
-                scene.display()
-            ));
+            let (path, hash) = (&record.input.path, &record.input.sha256);
+            let how = match is_there && !input.exists() {
+                true => format!("{path} is not there"),
+                false => format!("{path} is not what was read then, SHA-256 {hash}"),
+            };
+            say(&format!("{how}; this is a run of {}", scene.display()));
             let again = arguments(args, record.options.without(&OF_THE_INPUT), &scene)?;
             let file = again.scene.read()?;
             (again, file)

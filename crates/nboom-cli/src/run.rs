@@ -12,7 +12,7 @@ use nboom_strength::StressAnalysis;
 
 use crate::certify::Certifier;
 use crate::ignored::{ignored, refuse_idle};
-use crate::interrupt::{Interrupt, Interrupts};
+use crate::interrupt::{Interrupt, Interrupts, Left};
 use crate::progress::Progress;
 use crate::record::Record;
 use crate::repeat::{is_record, repeated};
@@ -211,8 +211,13 @@ fn simulate_into_files(
     let error = failed.as_ref().map(|error| with_causes(error));
     let outcome = Outcome { summary, wall_seconds: started.elapsed().as_secs_f64(), error };
     let worst = watch.files.worst_loads();
-    let kept = interrupt.shielded(|| watch.files.finish(&outcome));
-    interrupt.leaves_nothing();
+    let kept = interrupt.finishing(
+        || watch.files.finish(&outcome),
+        |kept| match failed.is_none() && kept.written.is_ok() {
+            true => Left::Complete(kept.directory.clone()),
+            false => Left::Incomplete(kept.directory.clone()),
+        },
+    );
     let tabled = tables::add(&args.tables.formats, &kept);
     // Printed even with --quiet, since the results are not what they seem.
     warn_of_poor_results(scene, args.case, &outcome, options, &worst);

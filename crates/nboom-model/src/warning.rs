@@ -58,8 +58,16 @@ pub enum ModelWarning {
         /// The end.
         end: f64,
     },
-    /// This hinge may turn and starts at its lock angle, so that it locks only when it comes back there.
-    StartsAtLock(HingeLabel),
+    /// This hinge may turn and starts at its lock angle, so that it locks only when it comes back there; or so near
+    /// it that rounding may be all that is between.
+    StartsAtLock {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Whether it is held at first.
+        is_held: bool,
+        /// Its lock angle less its angle \[rad\], or lengths where it slides.
+        apart: f64,
+    },
     /// This hinge starts more than two turns away from zero.
     ManyTurns {
         /// The hinge.
@@ -199,10 +207,20 @@ impl fmt::Display for ModelWarning {
                     "hinge {hinge} is released at {release:?}, after the end of the run at {end:?}"
                 )
             }
-            Self::StartsAtLock(hinge) => write!(
-                f,
-                "hinge {hinge} starts free at its lock angle: it locks only when it comes back there"
-            ),
+            Self::StartsAtLock { hinge, is_held, apart } => {
+                let how = if *is_held { "is held until its release" } else { "starts free" };
+                match *apart {
+                    0.0 => write!(
+                        f,
+                        "hinge {hinge} {how} at its lock angle: it locks only when it comes back there"
+                    ),
+                    apart => write!(
+                        f,
+                        "hinge {hinge} {how} {apart:e} from its lock angle: it locks at once if it moves there, \
+                         else only when it comes back"
+                    ),
+                }
+            }
             Self::ManyTurns { hinge, start } => write!(
                 f,
                 "hinge {hinge} starts at {}, {:.1} turns away from zero",

@@ -286,6 +286,21 @@ fn starts_and_releases_that_are_hardly_meant() {
         told(&[(from_to(0.5, 0.5), 1.0)]),
         ["hinge 1,1 starts free at its lock angle: it locks only when it comes back there"]
     );
+    assert_eq!(
+        told(&[(from_to(0.5, 0.5 + f64::EPSILON), 1.0)]),
+        [
+            "hinge 1,1 starts free 2.220446049250313e-16 from its lock angle: it locks at once if it moves there, else \
+          only when it comes back"
+        ]
+    );
+    let mut held = Hinge { release: Release::Time(0.5), ..from_to(0.5, 0.5) };
+    held.start.state = HingeState::Unreleased;
+    assert_eq!(
+        told(&[(held, 1.0)]),
+        [
+            "hinge 1,1 is held until its release at its lock angle: it locks only when it comes back there"
+        ]
+    );
     let mut late = Hinge { release: Release::Time(2.0), ..quarter };
     late.start.state = HingeState::Unreleased;
     assert_eq!(

@@ -151,8 +151,8 @@ pub enum SimError {
         by: &'static str,
     },
     /// The run would take forever at its present pace.
-    #[error("at time {}, {}: the last {steps} steps took only {within:e} time units; the motion \
-             is too stiff for so long a run", moment(.time), place(.hinge))]
+    #[error("at time {}, {}: the last {steps} steps took only {within:e} time units; at this pace \
+             the run does not come to its end, which is too far, or the motion is too stiff", moment(.time), place(.hinge))]
     TooManySteps {
         /// Time reached.
         time: f64,

@@ -114,7 +114,7 @@ fn parameters_are_repeated_and_changed_like_options() {
     // Without the input the parameters are numbers in the scene as it was read.
     fs::remove_file(place.path("wing.toml")).expect("it is there");
     let told = nboom(&place, &["run", "first/run.json", "-o", "kept"]);
-    assert!(told.contains("this is a run of first/scene.toml"), "{told}");
+    assert!(told.contains("wing.toml is not there; this is a run of first/scene.toml"), "{told}");
     let table =
         |directory: &str| fs::read(place.path(directory).join("states.csv")).expect("a table");
     assert!(table("first") == table("kept"));

@@ -176,7 +176,7 @@ fn what_a_fault_makes_of_the_scene_and_loads_without_latches_are_told_before() {
     place.write("panels.toml", PANELS);
     let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
     let fault = "[[fault]]\nname = 'much too late'\nlate_release = { hinge = '1,1', by = 200.0 }\n";
-    let loads = "[run]\nhinge_loads = true\n";
+    let loads = "results = ['peak_moment of 1,1']\n[run]\nhinge_loads = true\n";
     let late = PANELS.replacen("axis = \"y\"", "axis = \"y\", release = { at = 0.5 }", 1);
     place.write("late.toml", &late);
     for (scene, loads, fault, expected) in [

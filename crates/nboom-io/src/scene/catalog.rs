@@ -277,7 +277,7 @@ static BODY: TableKind = choice(
         optional(
             "pulse_constant",
             Number,
-            "Impulse over peak of the lock-up pulse of its hinge, a time; needed with stations.",
+            "Impulse over peak of the lock-up pulse of its hinge, a time; needed with stations if that latches.",
         ),
         optional(
             "slices",
@@ -319,7 +319,7 @@ static HINGE: TableKind = table(
         optional(
             "torque",
             AnglePairs,
-            "Torque by angle as a list of pairs, smooth between them; positive opens to larger angles.",
+            "Torque by angle as a list of pairs, smooth between them, straight beyond the first and last; positive opens to larger angles.",
         ),
     ],
 );

@@ -218,8 +218,8 @@ impl Responsible<'_> {
             structures.iter().flatten().any(|structure| !structure.stations.is_empty());
         let found = "a body whose hinge latches without it";
         let mut has_all_pulses = true;
-        for (i, structure) in structures.iter().enumerate() {
-            if structure.is_some() || scene.bodies[i].hinge.lock_angle.is_none() {
+        for (i, body) in scene.bodies.iter().enumerate() {
+            if body.hinge.lock_angle.is_none() || self.body(i).has("pulse_constant") {
                 continue;
             }
             has_all_pulses = false;

@@ -80,14 +80,9 @@ impl Reader<'_, '_> {
         if stations.is_empty() && pulse_constant.is_none() {
             return None;
         }
-        for (key, what) in [
-            ("material", "the name of its material"),
-            ("pulse_constant", "impulse over peak of its latch's pulse"),
-        ] {
-            if !stations.is_empty() && !body.has(key) {
-                let expected = format!("`{key}`, {what}, since the body has stations");
-                self.error(&body.at, key, "a body without it", &expected);
-            }
+        if !stations.is_empty() && !body.has("material") {
+            let expected = "`material`, the name of its material, since the body has stations";
+            self.error(&body.at, "material", "a body without it", expected);
         }
         let material = material.unwrap_or(ANY_MATERIAL);
         Some(SegmentStructure { pulse_constant: pulse_constant.unwrap_or(1.0), material, stations })

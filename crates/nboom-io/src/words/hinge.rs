@@ -109,13 +109,13 @@ impl HingeWords {
         self
     }
 
-    /// Torque by angle \[degrees\] as pairs, smooth between them; positive opens to larger angles.
+    /// Torque by angle \[degrees\] as pairs, smooth between them, straight beyond the first and last; positive opens to larger angles.
     pub fn torque_deg(self, points: &[[f64; 2]]) -> Self {
         let radians = points.iter().map(|[angle, torque]| [angle.to_radians(), *torque]);
         self.torque_rad(&radians.collect::<Vec<_>>())
     }
 
-    /// Torque by angle \[radians\] as pairs, smooth between them; positive opens to larger angles.
+    /// Torque by angle \[radians\] as pairs, smooth between them, straight beyond the first and last; positive opens to larger angles.
     pub fn torque_rad(mut self, points: &[[f64; 2]]) -> Self {
         self.torque = points.to_vec();
         self

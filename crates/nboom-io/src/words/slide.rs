@@ -65,7 +65,7 @@ impl SlideWords {
         Self(self.0.damper(damper))
     }
 
-    /// Force by travel as pairs, smooth between them; positive drives to larger travel.
+    /// Force by travel as pairs, smooth between them, straight beyond the first and last; positive drives to larger travel.
     pub fn force(self, points: &[[f64; 2]]) -> Self {
         Self(self.0.torque_rad(points))
     }

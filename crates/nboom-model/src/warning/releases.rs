@@ -54,9 +54,10 @@ fn of_start(scene: &Scene, i: usize) -> Vec<ModelWarning> {
         found.push(ModelWarning::ManyTurns { hinge: scene.label(i), start });
     }
     let same = SAME_ANGLE * scene.coordinate_scale(i);
-    let is_at_lock = hinge.lock_angle.is_some_and(|lock| (lock - start).abs() <= same);
-    if is_at_lock && hinge.can_turn() {
-        found.push(ModelWarning::StartsAtLock(scene.label(i)));
+    let apart = hinge.lock_angle.map(|lock| lock - start).filter(|apart| apart.abs() <= same);
+    if let Some(apart) = apart.filter(|_| hinge.can_turn()) {
+        let is_held = state == HingeState::Unreleased;
+        found.push(ModelWarning::StartsAtLock { hinge: scene.label(i), is_held, apart });
     }
     if let (HingeState::Unreleased, Release::Time(release)) = (state, hinge.release)
         && release > end

@@ -30,7 +30,7 @@ pub(super) static SLIDE: TableKind = table(
         optional(
             "force",
             Rows(2),
-            "Force by travel as a list of pairs, smooth between them; positive drives to larger travel.",
+            "Force by travel as a list of pairs, smooth between them, straight beyond the first and last; positive drives to larger travel.",
         ),
     ],
 );
