@@ -40,6 +40,9 @@ mod system;
 /// and again make any number.
 const MOST_MODES: usize = 63;
 
+/// Thousands of bytes, in a box, since modes change places at each event.
+type Prepared = Box<PreparedMode>;
+
 /// The differential equations of one mode, and the way from their variables to a [`State`].
 pub(crate) struct Equations {
     pub scene: Arc<Scene>,
@@ -48,10 +51,10 @@ pub(crate) struct Equations {
     satellite: Arc<Scene>,
     /// The mode in which the scene starts.
     pub start: Mode,
-    /// The mode that was entered last; modes are large, and change places at each event.
-    pub entered: Box<PreparedMode>,
+    /// The mode that was entered last.
+    pub entered: Prepared,
     /// Others that were entered.
-    others: Vec<Box<PreparedMode>>,
+    others: Vec<Prepared>,
     /// Runs of one kind may share it.
     pub repertoire: SharedRepertoire,
     /// Hinge laws of the program's own.
@@ -307,8 +310,8 @@ impl Equations {
 /// Makes that `entered` which is prepared for this mode of this satellite with held hinges at `beta`, one of the
 /// `others` if it is among them, and holds `commands` there.
 fn change_mode(
-    entered: &mut Box<PreparedMode>,
-    others: &mut Vec<Box<PreparedMode>>,
+    entered: &mut Prepared,
+    others: &mut Vec<Prepared>,
     (satellite, mode): (&Arc<Scene>, &Mode),
     commands: &Commands,
     beta: impl Fn(usize) -> f64 + Copy,
