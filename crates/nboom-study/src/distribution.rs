@@ -42,6 +42,8 @@ pub enum Distribution {
         values: Vec<f64>,
         /// In what proportion they come.
         weights: Vec<f64>,
+        /// The places of the numbers from the smallest to the largest.
+        ascending: Vec<usize>,
     },
     /// Points at equal distances, ends included.
     Points {
@@ -105,7 +107,7 @@ impl Distribution {
                 reaches("from", from, (from / median).ln() / sigma)?;
                 reaches("to", to, (median / to).ln() / sigma)
             }
-            Self::Values { ref values, ref weights } => {
+            Self::Values { ref values, ref weights, .. } => {
                 values.iter().try_for_each(|&value| finite("values", value))?;
                 let is_weight = |weight: f64| weight >= 0.0 && weight.is_finite();
                 weights.iter().try_for_each(|&weight| {
@@ -125,6 +127,13 @@ impl Distribution {
                 refuse(points >= 2, "points", points as f64, "at least 2")
             }
         }
+    }
+
+    /// One of these numbers, which come in proportion to these weights.
+    pub fn one_of(values: Vec<f64>, weights: Vec<f64>) -> Self {
+        let mut ascending: Vec<usize> = (0..values.len().min(weights.len())).collect();
+        ascending.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+        Self::Values { values, weights, ascending }
     }
 
     /// How many points it has in a grid; none of a distribution that has no points.
@@ -162,15 +171,16 @@ impl Distribution {
                 let found = median * (sigma * normal_between(score(*from), score(*to), u)).exp();
                 found.clamp(*from, *to)
             }
-            Self::Values { values, weights } => {
+            Self::Values { values, weights, ascending } => {
                 let mut left = u * weights.iter().sum::<f64>();
-                let place = weights.iter().position(|weight| {
-                    left -= weight;
+                let mut places = ascending.iter().copied().filter(|&place| weights[place] > 0.0);
+                // Rounding may leave something beyond the last one that comes at all.
+                let last = places.clone().next_back();
+                let place = places.find(|&place| {
+                    left -= weights[place];
                     left < 0.0
                 });
-                // Rounding may leave something beyond the last one that comes at all.
-                let last = || weights.iter().rposition(|weight| *weight > 0.0);
-                values[place.or_else(last).unwrap_or(0)]
+                values[place.or(last).unwrap_or(0)]
             }
         }
     }
@@ -327,10 +337,15 @@ mod tests {
 
     #[test]
     fn values_come_in_proportion_to_their_weights() {
-        let few =
-            Distribution::Values { values: vec![5.0, 1.0, 7.0], weights: vec![1.0, 0.0, 3.0] };
-        for (u, value) in [(1e-12, 5.0), (0.2499, 5.0), (0.2501, 7.0), (1.0 - 1e-16, 7.0)] {
-            assert_eq!(few.quantile(u), value, "{u}");
+        // In whatever order they are given: a quantile is not exceeded with its probability.
+        for (values, weights) in
+            [([5.0, 1.0, 7.0], [1.0, 0.0, 3.0]), ([7.0, 5.0, 1.0], [3.0, 1.0, 0.0])]
+        {
+            let few = Distribution::one_of(values.to_vec(), weights.to_vec());
+            for (u, value) in [(1e-12, 5.0), (0.2499, 5.0), (0.2501, 7.0), (1.0 - 1e-16, 7.0)] {
+                assert_eq!(few.quantile(u), value, "{u}");
+            }
+            assert_eq!([0, 1, 2].map(|number| few.point(number)), values);
         }
     }
 
@@ -355,9 +370,8 @@ mod tests {
         let log = |median, from| Distribution::LogNormal { median, sigma: 0.1, from, to: 9.0 };
         assert_eq!(key(log(0.0, 0.0)), "median");
         assert_eq!(key(log(1.0, -1.0)), "from");
-        let values = |values: &[f64], weights: &[f64]| Distribution::Values {
-            values: values.to_vec(),
-            weights: weights.to_vec(),
+        let values = |values: &[f64], weights: &[f64]| {
+            Distribution::one_of(values.to_vec(), weights.to_vec())
         };
         assert_eq!(key(values(&[], &[])), "values");
         assert_eq!(key(values(&[1.0], &[0.0])), "weights");

@@ -264,8 +264,7 @@ impl<'t> Reader<'t> {
             if !names.insert(&result.column().name) {
                 let found =
                     format!("{}, twice or the name of a variable", quoted(&result.column().name));
-                let expected =
-                    "each column once; hinges whose names are too alike by their numbers, as 1,2";
+                let expected = "each column once; hinges whose names are too alike by their numbers, as `lock_time of 1,2` or `final beta_1_2`";
                 self.error(&root.place_of("results"), "results", found, expected);
             }
         }

@@ -188,7 +188,7 @@ mod tests {
     fn a_grid_has_each_combination_once_and_each_fault_of_it() {
         let values = |values: &[f64]| {
             let weights = vec![1.0; values.len()];
-            variable(Distribution::Values { values: values.to_vec(), weights })
+            variable(Distribution::one_of(values.to_vec(), weights))
         };
         let variables =
             [values(&[1.0, 2.0]), variable(Distribution::Points { from: 0.0, to: 2.0, points: 3 })];

@@ -121,7 +121,7 @@ impl<'t> Reader<'t> {
                     true => self.numbers(of, "weights")?.value,
                     false => vec![1.0; values.len()],
                 };
-                Distribution::Values { values, weights }
+                Distribution::one_of(values, weights)
             }
             name => self.bell(of, name)?,
         };

@@ -55,11 +55,11 @@ static KEYS: [Key; 60] = [
     number(MISS, "rad", "how near it came to its lock angle without locking"),
     number("verdict.hinges[].miss_time", "T", "when it was nearest to its lock angle"),
     number(CLOSING_RATE, "rad/T", "its rate just before it locked"),
-    number("verdict.largest_impulse", "F L T", "magnitude of the largest impulse of a lock-up"),
+    number(LARGEST_IMPULSE, "F L T", "magnitude of the largest impulse of a lock-up"),
     count("verdict.largest_impulse_at.appendage", APPENDAGE),
     count("verdict.largest_impulse_at.segment", SEGMENT),
     number("verdict.largest_impulse_at.time", "T", "when the impulse of a lock-up was largest"),
-    number("verdict.largest_impulse_at.impulse", "F L T", "largest impulse of a lock-up"),
+    number(IMPULSE, "F L T", "largest impulse of a lock-up"),
     number("verdict.worst_load", "F/L^2", "largest von Mises stress").of(Needs::Stresses),
     count("verdict.worst_load_at.appendage", APPENDAGE).of(Needs::Stresses),
     count("verdict.worst_load_at.segment", SEGMENT).of(Needs::Stresses),
@@ -103,6 +103,8 @@ const APPENDAGE: &str = "appendage of the hinge, from 1";
 const SEGMENT: &str = "segment of the hinge, from 1";
 const STATION: &str = "station of the segment, from 1";
 const LOAD_TIME: &str = "when the load was largest";
+const LARGEST_IMPULSE: &str = "verdict.largest_impulse";
+const IMPULSE: &str = "verdict.largest_impulse_at.impulse";
 const ANGLE: &str = "verdict.hinges[].angle";
 const MISS: &str = "verdict.hinges[].miss";
 const CLOSING_RATE: &str = "verdict.hinges[].closing_rate";
@@ -137,6 +139,7 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
     let unit = key.unit.map(|unit| match &*pattern {
         ANGLE | MISS if slides => "L",
         CLOSING_RATE if slides => "L/T",
+        LARGEST_IMPULSE | IMPULSE if latches_slide(file) => "F T",
         _ => unit,
     });
     let kind = if unit.is_some() { Kind::Number } else { Kind::Integer };
@@ -149,6 +152,13 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
     let body = label.flatten().and_then(|label| label.name.as_deref()).map(str::to_owned);
     let what = What::Summary(format!("/{}", pointer.replace('.', "/")));
     Ok((what, Column { unit, body, ..column }, key.needs))
+}
+
+/// Whether all hinges that latch slide.
+fn latches_slide(file: &SceneFile) -> bool {
+    let mut latching =
+        file.scene.bodies.iter().filter(|body| body.hinge.lock_angle.is_some()).peekable();
+    latching.peek().is_some() && latching.all(|body| body.joint.slides())
 }
 
 /// The parameter with this name.

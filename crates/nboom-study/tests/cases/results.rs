@@ -234,3 +234,14 @@ fn results_are_the_same_whether_loads_are_found_beside_them_or_not() {
     assert_eq!(found, &with.cells[..found.len()]);
     assert_eq!(Some(status), with.cells.last());
 }
+
+#[test]
+fn the_largest_impulse_has_the_unit_of_those_of_the_hinges() {
+    for scene in ["mast.toml", "wing.toml"] {
+        let text = "results = ['impulse of 1,1', 'verdict.largest_impulse', \
+                    'verdict.largest_impulse_at.impulse']";
+        let study = study("unit-of-impulse", &example(scene), text);
+        let units: Vec<_> = study.wanted.iter().map(|wanted| &wanted.column().unit).collect();
+        assert!(units[0].is_some() && units.iter().all(|unit| *unit == units[0]), "{units:?}");
+    }
+}

@@ -122,7 +122,7 @@ fn a_study_is_read_as_it_says() {
     assert_eq!((k.relation, masses.relation), (Relation::Factor, Relation::Value));
     assert_eq!((masses.slots.len(), study.document.number(&masses.slots[0])), (2, 1.0));
     let (values, weights) = (vec![100.0, 110.0], vec![3.0, 1.0]);
-    assert_eq!(spin.distribution, Distribution::Values { values, weights });
+    assert_eq!(spin.distribution, Distribution::one_of(values, weights));
     assert_eq!(study.correlations[0].between, [0, 1]);
     assert_eq!(study.faults[0].late_release, [LateRelease { hinge: 0, by: 0.5 }]);
     assert_eq!(study.faults[0].changes[0].relation, Relation::Offset);
