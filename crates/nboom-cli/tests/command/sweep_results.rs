@@ -205,7 +205,7 @@ fn a_pulse_constant_that_only_some_latches_have_is_told_once_with_its_place() {
     let some = PANELS.replacen("mass = 1.0", "mass = 1.0\npulse_constant = 0.001", 1);
     place.write("panels.toml", &some);
     let vary = "[[vary]]\npath = 'main_body.mass'\nuniform = { from = 9.0, to = 11.0 }\n";
-    let loads = "[run]\nhinge_loads = true\n";
+    let loads = "results = ['peak_moment of 1,1']\n[run]\nhinge_loads = true\n";
     place.write("study.toml", &format!("scene = 'panels.toml'\ndraws = 2\n{loads}{vary}"));
     let told = stderr(&sweep(&place, &["--quiet", "--no-report"]));
     let found: Vec<&str> = told.lines().filter(|line| line.contains("pulse_constant")).collect();

@@ -204,9 +204,11 @@ fn a_body_with_stations_is_told_what_it_lacks() {
     assert!(told[0].contains(expected), "{told:?}");
     let steel = "\n[materials.steel]\nyoungs_modulus = 1.0\n";
     let of = |hinge: &str| {
-        BUS.to_owned() + steel + &body("boom", "material = \"steel\"", hinge) + station
+        let more = "material = \"steel\"\nrepeat = { count = 3, about = \"z\" }";
+        BUS.to_owned() + steel + &body("boom", more, hinge) + station
     };
     assert!(right(&of("")).structure.is_some(), "what never latches needs no pulse of a latch");
+    // Of copies it is said once.
     let told = wrong(&of("latch_deg = 90"));
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(

@@ -1,6 +1,7 @@
 //! Numbers of `summary.json`, by their paths.
 
 use nboom_io::{SceneFile, nearest};
+use nboom_model::{Hinge, HingeState};
 use nboom_tables::{Column, Kind};
 
 use super::{Loads, Named, Needs, What, refused};
@@ -156,8 +157,9 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
 
 /// Whether all hinges that latch slide.
 fn latches_slide(file: &SceneFile) -> bool {
-    let mut latching =
-        file.scene.bodies.iter().filter(|body| body.hinge.lock_angle.is_some()).peekable();
+    let latches =
+        |hinge: &Hinge| hinge.lock_angle.is_some() && hinge.start.state != HingeState::Locked;
+    let mut latching = file.scene.bodies.iter().filter(|body| latches(&body.hinge)).peekable();
     latching.peek().is_some() && latching.all(|body| body.joint.slides())
 }
 
