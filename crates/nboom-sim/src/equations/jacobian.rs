@@ -35,14 +35,17 @@ impl Jacobian {
 
     /// Holds `commands` in place of those that it held.
     pub fn command(&mut self, commands: &Commands) {
-        let done = in_vector_registers(Command { jacobian: self, commands });
-        done.unwrap_or_else(Command::over::<f64>);
+        self.go_on(Origin::Commands(commands));
     }
 
     /// Makes the rotors go on from `state`.
     pub fn spin_from(&mut self, state: &State) {
-        let done = in_vector_registers(SpinFrom { jacobian: self, state });
-        done.unwrap_or_else(SpinFrom::over::<f64>);
+        self.go_on(Origin::Rotors(state));
+    }
+
+    fn go_on(&mut self, from: Origin<'_>) {
+        let done = in_vector_registers(GoOn { jacobian: self, from });
+        done.unwrap_or_else(GoOn::over::<f64>);
     }
 
     /// Writes ∂ẏ/∂y at `y`, which stands as in `layout`, to `out`, row by row; at `time`
@@ -86,39 +89,31 @@ impl WorkOnEight for Make<'_> {
     }
 }
 
-struct Command<'a> {
+/// What derivatives go on from, besides the mode.
+enum Origin<'a> {
+    Commands(&'a Commands),
+    Rotors(&'a State),
+}
+
+struct GoOn<'a> {
     jacobian: &'a mut Jacobian,
-    commands: &'a Commands,
+    from: Origin<'a>,
 }
 
-impl Command<'_> {
+impl GoOn<'_> {
     fn over<R: Real>(self) {
-        self.jacobian.columns::<R>().dynamics.command(self.commands);
-    }
-}
-
-impl WorkOnEight for Command<'_> {
-    type Output = ();
-
-    fn carry_out<R: EightNumbers>(self) {
-        self.over::<R>();
-    }
-}
-
-struct SpinFrom<'a> {
-    jacobian: &'a mut Jacobian,
-    state: &'a State,
-}
-
-impl SpinFrom<'_> {
-    fn over<R: Real>(self) {
-        let motions = self.state.rotors.iter().map(RotorMotion::of_constant);
         let dynamics = &mut self.jacobian.columns::<R>().dynamics;
-        dynamics.spin_from(Real::constant(self.state.time), motions);
+        match self.from {
+            Origin::Commands(commands) => dynamics.command(commands),
+            Origin::Rotors(state) => {
+                let motions = state.rotors.iter().map(RotorMotion::of_constant);
+                dynamics.spin_from(Real::constant(state.time), motions);
+            }
+        }
     }
 }
 
-impl WorkOnEight for SpinFrom<'_> {
+impl WorkOnEight for GoOn<'_> {
     type Output = ();
 
     fn carry_out<R: EightNumbers>(self) {
@@ -213,7 +208,8 @@ mod tests {
             let Equations { scene, entered, variables, .. } = &mut equations;
             let make = Make { scene, mode: &entered.mode, dynamics: &entered.dynamics };
             let mut of_one = Jacobian { columns: make.over::<f64>() };
-            SpinFrom { jacobian: &mut of_one, state: &variables.origin }.over::<f64>();
+            let from = Origin::Rotors(&variables.origin);
+            GoOn { jacobian: &mut of_one, from }.over::<f64>();
             let mut expected = vec![f64::NAN; y.len() * y.len()];
             let out = &mut expected[..];
             let write = Write { jacobian: &mut of_one, layout, time, carried, y: &y, out };
