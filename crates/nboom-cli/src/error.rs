@@ -350,6 +350,17 @@ impl CliError {
         }
     }
 
+    /// Whether a run stopped by what it is, and not since it was interrupted or could not be written.
+    pub(crate) fn is_of_the_run(&self) -> bool {
+        let Self::Simulation { error, .. } = self else { return false };
+        match error {
+            SimError::Interrupted { .. } => false,
+            // Loads that cannot be found are of no kind that a disk has.
+            SimError::Record { source, .. } => source.kind() == io::ErrorKind::Other,
+            _ => true,
+        }
+    }
+
     /// The message for the user, a piece for each error.
     pub fn lines(&self) -> Vec<String> {
         match self {
@@ -368,5 +379,21 @@ impl CliError {
             }
             _ => vec![with_causes(self)],
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neither_an_interrupt_nor_a_full_disk_is_of_the_run() {
+        let of = |error| CliError::Simulation { error, directory: None }.is_of_the_run();
+        assert!(of(SimError::StepsUsedUp { time: 1.0, steps: 9, by: "max_steps" }));
+        assert!(!of(SimError::Interrupted { time: 1.0 }));
+        let unkept = |source| of(SimError::Record { time: 1.0, source });
+        assert!(unkept(io::Error::other(StrengthError::NotFinite { time: 1.0 })));
+        assert!(!unkept(io::ErrorKind::StorageFull.into()));
+        assert!(!CliError::Signals(io::ErrorKind::Other.into()).is_of_the_run());
     }
 }

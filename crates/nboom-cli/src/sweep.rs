@@ -268,7 +268,14 @@ fn run_worst(
         words.extend([format!("--case={case}").into(), "-o".into(), folder.into()]);
         words.extend(["--".into(), study.into()]);
         match Cli::try_parse_from(&words).map(|cli| cli.command) {
-            Ok(Command::Run(args)) => run(&args, routines, interrupts)?,
+            Ok(Command::Run(args)) => match run(&args, routines, interrupts) {
+                // Its page has loads, which its row may be without.
+                Err(error) if error.is_of_the_run() => {
+                    let lines = error.lines().join("; ");
+                    say("warning", &format!("case {case} has no whole page: {lines}"));
+                }
+                done => drop(done?),
+            },
             other => unreachable!("these words are a run: {words:?}, {other:?}"),
         };
     }
