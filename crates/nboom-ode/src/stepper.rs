@@ -222,9 +222,12 @@ impl Window {
     /// comes close; `None` where it would not change the time.
     pub(crate) fn attempt(&self, limit: f64) -> Option<(f64, bool)> {
         let (remaining, wanted) = (limit - self.time, self.wanted(limit));
-        let reaches = wanted * 1.01 >= remaining;
+        let changes_time = |step: f64| self.time + 0.1 * step != self.time;
+        // At rest a careful step may be too short for the time there is, however near the limit.
+        let reaches =
+            wanted * 1.01 >= remaining || self.next_step == f64::INFINITY && !changes_time(wanted);
         let step = if reaches { remaining } else { wanted };
-        (reaches || self.time + 0.1 * step != self.time).then_some((step, reaches))
+        (reaches || changes_time(step)).then_some((step, reaches))
     }
 
     /// Takes note of a step to `end` that is as good as the tolerance asks for, after which

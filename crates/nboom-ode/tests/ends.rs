@@ -186,6 +186,25 @@ fn a_restart_goes_on_with_the_step_it_had_or_finds_one() {
     }
 }
 
+/// A thousandth of the time to the limit does not change the time of a clock that counts from an epoch.
+#[test]
+fn what_is_at_rest_reaches_a_near_limit_at_a_large_time() {
+    let start = 1.7e9;
+    for after in [1e-3, 1e-6] {
+        for method in methods() {
+            let (mut system, mut stepper) =
+                (Oscillator { evaluations: 0 }, method.stepper(TOLERANCE));
+            stepper.start(&mut system, start, &[0.0, 0.0], 2);
+            while stepper.window().time < start + after {
+                stepper.step(&mut system, start + after).expect("nothing moves");
+                stepper.advance();
+            }
+            assert_eq!(stepper.window().time, start + after, "{method}");
+            assert_eq!(stepper.window().state, [0.0, 0.0], "{method}");
+        }
+    }
+}
+
 #[test]
 fn a_restart_of_what_was_at_rest_finds_a_first_step() {
     for method in methods() {
