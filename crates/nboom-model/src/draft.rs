@@ -254,6 +254,7 @@ impl SceneDraft {
         let mut description = self.scene.clone();
         let (mut structures, mut shapes, mut of_draft) = (Vec::new(), Vec::new(), Vec::new());
         let mut errors = Vec::new();
+        let mut rotors = Vec::new();
         for (i, place) in names.places.iter().enumerate() {
             let draft = &self.bodies[place.draft];
             let release = match names.release(&self.bodies, place, &draft.release) {
@@ -284,7 +285,7 @@ impl SceneDraft {
                 repeat.place(copy, place.inboard.is_none(), &mut body);
             }
             let in_body = |rotor: &Rotor| Rotor { body: Some(i), ..rotor.clone() };
-            description.rotors.extend(draft.rotors.iter().map(in_body));
+            rotors.extend(draft.rotors.iter().map(|rotor| (place.draft, in_body(rotor))));
             let on_body = |external: &External| External { body: Some(i), ..external.clone() };
             description.externals.extend(draft.externals.iter().map(on_body));
             for coupling in &draft.couplings {
@@ -302,6 +303,9 @@ impl SceneDraft {
             shapes.push(draft.shape);
             of_draft.push(place.draft);
         }
+        // They are numbered as they were described, which bodies need not be.
+        rotors.sort_by_key(|(of_draft, _)| *of_draft);
+        description.rotors.extend(rotors.into_iter().map(|(_, rotor)| rotor));
         errors.dedup();
         if errors.is_empty() {
             Ok(Resolved { description, names: names.all(), of_draft, structures, shapes })

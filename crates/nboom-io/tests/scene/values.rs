@@ -70,6 +70,23 @@ fn columns_of_rotors_have_their_numbers() {
     told(&[(columns.to_owned(), "columns: found `rotor_speed`, expected a quantity")]);
 }
 
+/// Bodies stand in any order, those that carry others last.
+#[test]
+fn rotors_are_numbered_as_they_stand_in_the_file() {
+    let of_body = ROTOR.replace("main_body", "body");
+    let one = |name: &str, on: &str, speed: f64| {
+        body(name, on, "") + &of_body + &format!("speed_rad = {speed:?}\n")
+    };
+    let bodies = one("outer", "on = \"inner\"", 111.0) + &one("inner", "", 222.0);
+    let file = right(&format!("{BUS}{bodies}{ROTOR}speed_rad = 7.0\n"));
+    let speeds: Vec<_> = file.scene.rotors.iter().map(|rotor| rotor.speed.clone()).collect();
+    assert_eq!(speeds, [7.0, 111.0, 222.0].map(RotorSpeed::Constant));
+    assert_eq!(
+        file.scene.rotors.iter().map(|of| of.body).collect::<Vec<_>>(),
+        [None, Some(1), Some(0)]
+    );
+}
+
 #[test]
 fn what_is_wrong_with_a_rotor_is_told() {
     let with = |speed: &str| format!("{ROTOR}{speed}\n");
