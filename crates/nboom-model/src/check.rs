@@ -101,12 +101,15 @@ fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
 fn find_in_motion(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     let initial = &scene.initial;
     let main_body_is = |quantity| ModelError::NotFinite { body: BodyName::MainBody, quantity };
+    let both_finite = initial.time.is_finite() && scene.end_time.is_finite();
+    let lasts_on_numbers = !both_finite || (scene.end_time - initial.time).is_finite();
     let finite = [
         (initial.time.is_finite(), "initial time"),
         (initial.position_inertial.is_finite(), "initial position"),
         (initial.velocity_inertial.is_finite(), "initial velocity"),
         (initial.omega_body.is_finite(), "initial angular rate"),
         (scene.end_time.is_finite(), "end time"),
+        (lasts_on_numbers, "time from the initial to the end time"),
         (scene.gravity.is_none_or(|g| g.acceleration.is_finite()), "gravity"),
     ];
     errors.extend(finite.iter().filter(|(ok, _)| !ok).map(|(_, name)| main_body_is(name)));

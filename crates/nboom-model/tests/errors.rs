@@ -52,6 +52,8 @@ fn numbers_that_are_none_are_refused() {
             s.bodies[1].hinge.release = Release::AfterLock { hinge: 0, delay };
         }),
     ];
+    let beyond = told(|scene| (scene.initial.time, scene.end_time) = (-1e308, 1e308));
+    assert!(matches!(&beyond[..], [one] if one.contains("time from the initial to the end time")));
     for (quantity, change) in cases {
         let found = told(|scene| change(scene, nan, bad));
         let is_told = |error: &String| error.contains(quantity) && error.ends_with("is not finite");
