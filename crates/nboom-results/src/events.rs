@@ -21,8 +21,12 @@ pub(crate) fn heads() -> Vec<Head> {
             "impulsive torque of a lock-up, of a slide the impulsive force in the unit of force times \
              that of time",
         ),
-        Head::number("energy_before", "F L", "kinetic energy just before the instant"),
-        Head::number("energy_after", "F L", "kinetic energy just after the instant"),
+        Head::number(
+            "energy_before",
+            "F L",
+            "kinetic energy before; lock-ups of one instant share it",
+        ),
+        Head::number("energy_after", "F L", "kinetic energy after"),
     ]
 }
 

@@ -36,17 +36,18 @@ export function eventTable(run, go) {
   if (slides) headings[3] = `Impulse [${units.angularMomentum}; of sliding joints ${units.force} ${units.time}]`;
   const momentum = momentumAt(run);
   if (momentum) headings.push(`Angular momentum [${units.angularMomentum}]`, 'its change');
-  let instant = null;
+  let [instant, before] = [null, null];
   const rows = run.events.map((event) => {
-    // Events of one instant share the change.
     const first = event.t !== instant;
-    instant = event.t;
+    // Lock-ups of one instant share the change of energy; what comes after them in it changes none.
+    const shared = !first && event.before === before;
+    [instant, before] = [event.t, event.before];
     const change = event.after - event.before;
     return {
       attributes: { tabindex: 0, class: 'event', 'data-t': event.t, click: () => go(event.t), keydown: ({ key }) => key === 'Enter' && go(event.t) },
       cells: [numeric(digits(event.t, 6)), hingeOf(event, run)?.label ?? '', happening(event),
         numeric(event.impulse === null ? '' : digits(event.impulse)),
-        ...(first ? [event.before, event.after, change] : [null, null, null]).map((value) => numeric(value === null ? '″' : digits(value, 5))),
+        ...(shared ? [null, null, null] : [event.before, event.after, change]).map((value) => numeric(value === null ? '″' : digits(value, 5))),
         ...(momentum ? momentum(event.t, first) : [])],
     };
   });
