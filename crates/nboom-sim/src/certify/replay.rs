@@ -254,6 +254,10 @@ impl<'a> Replay<'a> {
         for _ in 0..CORRECTIONS {
             self.look(since, course);
             let Reading { value, rate } = read(kind, &self.dynamics, &self.scratch);
+            // At rest on a bound no rate tells when it was reached.
+            if value == exact(0.0) {
+                return Ok(since);
+            }
             let correction = value / rate;
             let size = correction.to_f64().abs();
             let better = size < 0.5 * last;

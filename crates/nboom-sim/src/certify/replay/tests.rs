@@ -1,7 +1,7 @@
 use nboom_elements::{HingeLaw, Kind};
 use nboom_model::{
     Appendage, Hinge, HingeStart, HingeState, KickOffSpring, MassProperties, Mount, Release,
-    SceneDescription, Segment, Spring,
+    SceneDescription, Segment, Spring, TorqueTable,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -212,5 +212,24 @@ fn a_kick_off_spring_that_nobody_told_of_is_noticed() {
         }
         let mut replay = Replay::new(&scene, &[], Accuracy::REFERENCE, 1000, &|| false);
         assert!(!matches!(replay.complete(), Ok(true)), "none of {whole:?}");
+    }
+}
+
+/// No rate tells when a hinge has come to where it rests.
+#[test]
+fn a_hinge_that_starts_at_rest_on_a_point_of_its_table_leaves_it_at_once() {
+    let still = |table: Vec<[f64; 2]>, release| {
+        let mut description = (*kicked(-0.75, 0.0, 0.0)).clone();
+        let hinge = &mut description.bodies[0].hinge;
+        *hinge = Hinge { release, start: hinge.start, ..Hinge::free() };
+        if let Release::Time(_) = release {
+            hinge.start.state = HingeState::Unreleased;
+        }
+        description.torque_tables.push(TorqueTable { hinge: 0, points: table });
+        Scene::new(description).expect("bodies are physical")
+    };
+    for release in [Release::Never, Release::Time(0.375)] {
+        let scene = still(vec![[-0.75, 0.5], [0.25, 1.0]], release);
+        replay(&scene, &guide(&scene), Accuracy::REFERENCE);
     }
 }
