@@ -5,6 +5,7 @@ use std::cell::Cell;
 
 use nboom::model::{
     Coupling, Dashpot, Hinge, HingeLabel, Rotor, RotorSpeed, Scene, SceneDescription, Spring,
+    TorqueTable,
 };
 use nboom::scalar::Vec3;
 use nboom::sim::{Event, Feeds, Options, Recorder, SimError, Snapshot, Summary, simulate};
@@ -72,6 +73,15 @@ fn a_spring_of_the_wrong_sign() {
         let (hinge, feeds, _) = given_up(&scene(&[Hinge { spring, ..free(0.0, 0.0) }], end_time));
         assert_eq!((hinge, feeds), (FIRST, Feeds::Spring));
     }
+}
+
+/// A table whose last points rise goes on rising.
+#[test]
+fn a_torque_table_that_pushes_away() {
+    let mut scene = description(&[free(0.1, 0.0)], 1e4);
+    scene.torque_tables.push(TorqueTable { hinge: 0, points: vec![[0.0, 0.0], [0.1, 5.0]] });
+    let (hinge, feeds, _) = given_up(&Scene::new(scene).expect("rotors are bodies"));
+    assert_eq!((hinge, feeds), (FIRST, Feeds::Table));
 }
 
 /// In space and with other hinges about: one hinge of a random tree feeds.

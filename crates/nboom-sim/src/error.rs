@@ -129,7 +129,7 @@ pub enum SimError {
     },
     /// Something feeds energy without end.
     #[error("at time {}, hinge {hinge}: the motion runs away, with {growth:.0e} times the energy of its \
-             beginning; its {feeds} feeds it, a coefficient may have the wrong sign", moment(.time))]
+             beginning; {feeds}", moment(.time))]
     Runaway {
         /// Time reached.
         time: f64,
@@ -197,6 +197,8 @@ pub enum SimError {
 pub enum Feeds {
     /// What depends on its angle: the spring, or the dashpot's terms in the angle.
     Spring,
+    /// A torque tabulated over its angle, which goes on straight beyond its points.
+    Table,
     /// What depends on its rate.
     Dashpot,
     /// A coupling of it with another hinge.
@@ -206,9 +208,12 @@ pub enum Feeds {
 impl fmt::Display for Feeds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Spring => "spring",
-            Self::Dashpot => "dashpot",
-            Self::Coupling => "coupling",
+            Self::Spring => "its spring feeds it, a coefficient may have the wrong sign",
+            Self::Table => {
+                "its torque table feeds it, which goes on straight beyond its last points"
+            }
+            Self::Dashpot => "its dashpot feeds it, a coefficient may have the wrong sign",
+            Self::Coupling => "its coupling feeds it, a coefficient may have the wrong sign",
         })
     }
 }

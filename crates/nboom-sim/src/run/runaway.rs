@@ -2,7 +2,7 @@
 
 use nboom_dynamics::Invariants;
 use nboom_elements::stored;
-use nboom_model::Scene;
+use nboom_model::{Scene, Spring};
 
 use super::Run;
 use crate::error::{Feeds, SimError};
@@ -77,7 +77,11 @@ impl Run<'_> {
         let laws = || elements.torques().iter().enumerate();
         let at_start: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
         let from_spring = laws().map(|(i, law)| {
-            (i, law.potential(at_start[i]) - law.potential(state.beta[i]), Feeds::Spring)
+            let Spring { quadratic, linear, .. } = scene.bodies[i].hinge.spring;
+            let has_spring = quadratic != 0.0 || linear != 0.0;
+            let has_table = scene.torque_tables.iter().any(|table| table.hinge == i);
+            let feeds = if has_table && !has_spring { Feeds::Table } else { Feeds::Spring };
+            (i, law.potential(at_start[i]) - law.potential(state.beta[i]), feeds)
         });
         let potentials = |beta| elements.coupling_potentials(beta);
         let by_coupling = potentials(&at_start)
