@@ -13,6 +13,7 @@ mod random_scene;
 #[path = "../support/scaled.rs"]
 mod scaled;
 
+mod balances;
 mod couplings;
 mod free_fall;
 mod independence;

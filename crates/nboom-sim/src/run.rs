@@ -43,6 +43,9 @@ use runaway::Resources;
 pub use simulator::Simulator;
 use simulator::Workspace;
 
+/// Steps after which a run looks at energy and momenta once, if no output time and no event has made it.
+const STEPS_UNSEEN: usize = 16;
+
 /// Runs `scene` from its initial to its end time and tells `recorder` on the way.
 ///
 /// # Errors
@@ -76,6 +79,8 @@ struct Run<'a> {
     ledger: Ledger,
     variables: &'a mut Vec<f64>,
     next_sample: usize,
+    /// Steps since energy and momenta were last looked at.
+    unseen_steps: usize,
     /// Whether the next step is the first one after an instant.
     begins_anew: bool,
     /// When the last burst of events began, and how many there were since.
@@ -129,6 +134,7 @@ impl<'a> Run<'a> {
             lanes,
             variables,
             next_sample: 0,
+            unseen_steps: 0,
             begins_anew: true,
             burst: (start, 0),
             pace: (start, 0),
@@ -289,6 +295,12 @@ impl<'a> Run<'a> {
         self.equations.read(window.time, &window.state, &mut self.situation.state);
         self.summary.verdict.note_rates(&self.situation.state.tau);
         self.invariants = None;
+        self.unseen_steps += 1;
+        if self.unseen_steps == STEPS_UNSEEN {
+            self.unseen_steps = 0;
+            let found = self.invariants();
+            self.ledger.note_motion(&found);
+        }
     }
 
     /// Whether `time` is before `other` and not in its instant, which the fastest motion of all makes.

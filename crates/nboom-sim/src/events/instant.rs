@@ -172,6 +172,8 @@ pub(crate) struct Outcome<R> {
     locking: Vec<usize>,
     /// τ of these just before.
     closing: Vec<f64>,
+    /// Energy and momenta just before a lock-up.
+    pub before_lock_up: Option<Invariants<R>>,
     lock_up: LockUp<R>,
 }
 
@@ -185,6 +187,7 @@ impl<R: Number> Outcome<R> {
             free: Vec::new(),
             locking: Vec::new(),
             closing: Vec::new(),
+            before_lock_up: None,
             lock_up: LockUp::of_none(),
         }
     }
@@ -197,6 +200,7 @@ impl<R: Number> Outcome<R> {
             hinges.clear();
         }
         self.closing.clear();
+        self.before_lock_up = None;
         self.lock_up.reset(0, 0);
     }
 
@@ -255,6 +259,7 @@ impl<R: Number> Outcome<R> {
         let found_before = known.unwrap_or_else(|| state.invariants(dynamics));
         let before = Totals::of(state, &found_before);
         self.lock(scene, dynamics, &arrivals.locks, state, mode)?;
+        self.before_lock_up = (!self.locking.is_empty()).then_some(found_before);
         let found = if self.locking.is_empty() { found_before } else { state.invariants(dynamics) };
         let after = Totals::of(state, &found);
         let Self { events, crossed, released, free, locking, lock_up, .. } = self;

@@ -79,6 +79,19 @@ impl Ledger {
         self.start_energy += potential(equations, state).kept(self.falls);
     }
 
+    /// Takes note of how large energy and momenta are in a motion that is not compared: residuals are relative to
+    /// the largest ones, whatever the output times.
+    pub fn note_motion(&mut self, invariants: &Invariants<f64>) {
+        let scales = &mut self.scales;
+        for (largest, value) in [
+            (&mut scales.linear_momentum, invariants.linear_momentum_scale),
+            (&mut scales.angular_momentum, invariants.angular_momentum_scale),
+            (&mut scales.energy, kinetic(self.falls, invariants)),
+        ] {
+            *largest = if value.is_finite() { largest.max(value) } else { *largest };
+        }
+    }
+
     /// The largest residuals so far.
     pub fn residuals(&self) -> Conservation {
         self.relative(&self.residuals)

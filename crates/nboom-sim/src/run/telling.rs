@@ -98,6 +98,7 @@ impl Run<'_> {
     /// Enters the state shown in the ledger and sees all of it that the recorder wants.
     fn look(&mut self, found: &Invariants<f64>) -> Result<(), SimError> {
         let account = self.ledger.check(self.equations, self.shown, found)?;
+        self.unseen_steps = 0;
         self.see(found, self.recorder.needs_detail())?;
         self.seen.account = Some(account);
         Ok(())
@@ -160,6 +161,9 @@ impl Run<'_> {
     pub(super) fn report(&mut self) -> Result<(), SimError> {
         if self.situation.outcome.events.is_empty() {
             return Ok(());
+        }
+        if let Some(before) = &self.situation.outcome.before_lock_up {
+            self.ledger.note_motion(before);
         }
         let found = self.show_present();
         self.look(&found)?;
