@@ -33,15 +33,16 @@ fn boom(hinge: Hinge, end_time: f64) -> SceneDescription {
 }
 
 /// The satellite is at rest at its initial time and at its end, and what is left of its angular momentum there is
-/// compared with what the bodies had in between: between 201 output times and between two there is at most a factor
-/// of 2, by how near to the fastest moment one looks.
+/// compared with what the bodies had in between. A latch closes at the fastest moment; on the way to rest every
+/// sixteenth step is looked at, which misses that moment, but not by two orders. The end alone would make the
+/// residuals larger by seven.
 #[test]
 fn few_output_times_find_the_residuals_of_many() {
     let latching = boom(Hinge { lock_angle: Some(0.0), ..Hinge::free() }, 30.0);
     // It creeps to its rest without an event.
     let dashpot = Dashpot { rate_linear: -3.0, ..Dashpot::default() };
     let damped = boom(Hinge { dashpot, ..Hinge::free() }, 60.0);
-    for (scene, latches) in [(latching, true), (damped, false)] {
+    for (scene, latches, factor) in [(latching, true, 2.0), (damped, false, 100.0)] {
         let [few, many] = [1, 200].map(|samples| run(&scene, &options(samples, 1e-7)));
         assert_eq!(few.events.len() > 1, latches);
         assert!(few.last().tau[0].abs() < 1e-6 && few.last().omega_body.norm() < 1e-5);
@@ -49,6 +50,6 @@ fn few_output_times_find_the_residuals_of_many() {
             found.summary.conservation.angular_momentum.expect("a free main body")
         };
         let (few, many) = (of(few), of(many));
-        assert!(few > 0.0 && few <= 2.0 * many, "latches {latches}: {few:e} {many:e}");
+        assert!(few > 0.0 && few <= factor * many, "latches {latches}: {few:e} {many:e}");
     }
 }
