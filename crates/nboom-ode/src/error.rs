@@ -26,3 +26,17 @@ pub enum StepError {
         time: f64,
     },
 }
+
+impl StepError {
+    /// The step that meets the tolerance is too short; the variable with the largest error is one of `variables`.
+    pub(crate) fn underflow(
+        time: f64,
+        step: f64,
+        variables: impl Iterator<Item = usize>,
+        error_of: impl Fn(usize) -> f64,
+    ) -> Self {
+        let larger = |&a: &usize, &b: &usize| error_of(a).total_cmp(&error_of(b));
+        let variable = variables.max_by(larger).unwrap_or(0);
+        Self::Underflow { time, step, variable }
+    }
+}

@@ -4,6 +4,7 @@ use coefficients::{Coefficients, Matrix, STAGES, dot};
 use plan::Plan;
 
 use crate::method::Description;
+use crate::stepper::root_mean_square;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 pub(crate) mod coefficients;
@@ -105,8 +106,7 @@ impl Gauss {
 
     /// Root mean square of `values` over the controlled variables, in units of the tolerance.
     fn norm(&self, values: impl Fn(usize) -> f64) -> f64 {
-        let square = |i: usize| (values(i) / self.scale_of(i)).powi(2);
-        ((0..self.controlled).map(square).sum::<f64>() / self.controlled.max(1) as f64).sqrt()
+        root_mean_square(self.controlled, |i| values(i) / self.scale_of(i))
     }
 
     /// Increments to begin with: those of the polynomial at hand, else of the slope at the start.
@@ -256,9 +256,7 @@ impl Gauss {
         if let Some(variable) = derivative.iter().position(|slope| !slope.is_finite()) {
             return StepError::NotFinite { time, variable };
         }
-        let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
-        let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
-        StepError::Underflow { time, step, variable }
+        StepError::underflow(time, step, 0..self.controlled, |i| self.error_of(i))
     }
 }
 

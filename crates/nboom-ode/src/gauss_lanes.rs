@@ -12,7 +12,7 @@ use stages::{Stages, Start};
 
 use crate::gauss::coefficients::STAGES;
 use crate::method::Description;
-use crate::stepper::is_near_end;
+use crate::stepper::{is_near_end, root_mean_square};
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod collocation;
@@ -121,8 +121,7 @@ impl GaussLanes {
 
     /// Root mean square of `values` over the controlled variables, in units of the tolerance.
     fn norm(&self, values: impl Fn(usize) -> f64) -> f64 {
-        let square = |i: usize| (values(i) * self.per_tolerance[i]).powi(2);
-        ((0..self.controlled).map(square).sum::<f64>() / self.controlled.max(1) as f64).sqrt()
+        root_mean_square(self.controlled, |i| values(i) * self.per_tolerance[i])
     }
 
     /// Slopes to begin with: those of the polynomial at hand, else the one at the start.
@@ -246,10 +245,8 @@ impl GaussLanes {
             return StepError::NotFinite { time, variable };
         }
         let errors = self.end_errors();
-        let larger = |&a: &usize, &b: &usize| errors.of(a).total_cmp(&errors.of(b));
         let evaluated = &self.stages.variables.evaluated[..self.count];
-        let variable = evaluated.iter().copied().max_by(larger).unwrap_or(0);
-        StepError::Underflow { time, step, variable }
+        StepError::underflow(time, step, evaluated.iter().copied(), |i| errors.of(i))
     }
 }
 

@@ -5,6 +5,7 @@ use collocation::Collocation;
 use iteration_matrix::{IterationMatrix, Point};
 use newton::{MOST, Outcome, Stages};
 
+use crate::stepper::root_mean_square;
 use crate::{Bernstein, Choice, Method, StepError, Stepper, System, Tolerance, Window};
 
 mod coefficients;
@@ -141,9 +142,7 @@ impl Radau {
 
     /// Root mean square of an error over the controlled variables, in units of the tolerance.
     fn norm(&self, error: impl Fn(usize) -> f64) -> f64 {
-        let square = |(i, scale): (usize, &f64)| (error(i) / scale).powi(2);
-        let sum: f64 = self.scales.iter().enumerate().map(square).sum();
-        (sum / self.controlled.max(1) as f64).sqrt()
+        root_mean_square(self.controlled, |i| error(i) / self.scales[i])
     }
 
     /// A first step over which the variables change by about a hundredth; infinite where nothing
@@ -260,9 +259,7 @@ impl Radau {
         if let Some(variable) = (0..self.size()).find(broken) {
             return StepError::NotFinite { time, variable };
         }
-        let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
-        let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
-        StepError::Underflow { time, step, variable }
+        StepError::underflow(time, step, 0..self.controlled, |i| self.error_of(i))
     }
 }
 

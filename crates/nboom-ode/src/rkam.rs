@@ -243,9 +243,7 @@ impl Rkam {
         if let Some(variable) = latest.map(not_finite).position(|broken| broken) {
             return StepError::NotFinite { time, variable };
         }
-        let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
-        let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
-        StepError::Underflow { time, step, variable }
+        StepError::underflow(time, step, 0..self.controlled, |i| self.error_of(i))
     }
 
     /// The next step after one that was refused.

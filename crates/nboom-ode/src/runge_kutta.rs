@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::stepper::is_near_end;
+use crate::stepper::{is_near_end, root_mean_square};
 use crate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::weighted_sum::{BLOCK, sum_up};
 use crate::{Bernstein, Choice, StepError, Stepper, System, Tolerance, Window};
@@ -189,15 +189,12 @@ impl RungeKutta {
         if let Some(variable) = (0..self.size()).find(not_finite) {
             return StepError::NotFinite { time, variable };
         }
-        let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
-        let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
-        StepError::Underflow { time, step, variable }
+        StepError::underflow(time, step, 0..self.controlled, |i| self.error_of(i))
     }
 
     /// Root mean square of `values` over the controlled variables, in units of the tolerance.
     fn norm(&self, values: impl Fn(usize) -> f64) -> f64 {
-        let square = |i: usize| (values(i) / self.scale_of(i)).powi(2);
-        ((0..self.controlled).map(square).sum::<f64>() / self.controlled.max(1) as f64).sqrt()
+        root_mean_square(self.controlled, |i| values(i) / self.scale_of(i))
     }
 }
 

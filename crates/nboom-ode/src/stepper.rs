@@ -255,3 +255,9 @@ impl Window {
         std::mem::swap(&mut self.state, &mut self.end_state);
     }
 }
+
+/// Root mean square of so many numbers; zero of none.
+pub(crate) fn root_mean_square(count: usize, number: impl Fn(usize) -> f64) -> f64 {
+    let sum: f64 = (0..count).map(|i| number(i).powi(2)).sum();
+    (sum / count.max(1) as f64).sqrt()
+}

@@ -160,9 +160,8 @@ impl Stepper for Taylor {
         let next = if reach.is_finite() { reach } else { limit - time };
         self.window.next_step = next.min(self.window.longest);
         let Some((step, reaches)) = self.window.attempt(limit) else {
-            let larger = |&a: &usize, &b: &usize| self.error_of(a).total_cmp(&self.error_of(b));
-            let variable = (0..self.controlled).max_by(larger).unwrap_or(0);
-            return Err(StepError::Underflow { time, step: reach, variable });
+            let error_of = |i| self.error_of(i);
+            return Err(StepError::underflow(time, reach, 0..self.controlled, error_of));
         };
         self.take(step);
         let end = if reaches { limit } else { time + step };
