@@ -160,6 +160,8 @@ fn exact_right_sides() -> Vec<Request> {
         satellite("PushedLimb", "Trs").with_lines(1).with_couplings(),
         satellite("PushedS3", "S3").with_lines(1).by(Formulation::Relative),
         satellite("CoupledS3", "S3").with_couplings().with_rotors(),
+        satellite("CoupledRolled", "4xS3_2xS2_S1").with_couplings(),
+        unequal_couplings(satellite("CoupledUnequal", "4xS2").with_couplings()),
     ]
 }
 
@@ -169,6 +171,16 @@ fn unequal_laws(mut request: Request) -> Request {
         let law = RightSideLayout::law(&request.topology, hinge);
         request.assumptions[law.start] = Some(0.0);
         request.assumptions[law.start + 1] = (hinge > 2).then_some(-0.5);
+    }
+    request
+}
+
+/// Assumes numbers of couplings: one of all hinges, others of some.
+fn unequal_couplings(mut request: Request) -> Request {
+    for hinge in 0..request.topology.hinges() {
+        let coupling = RightSideLayout::coupling(&request.topology, hinge);
+        request.assumptions[coupling.start] = Some(1.0);
+        request.assumptions[coupling.start + 1] = (hinge > 2).then_some(-0.5);
     }
     request
 }

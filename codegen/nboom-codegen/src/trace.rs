@@ -61,7 +61,7 @@ impl Equations {
             check_length(request, &straight)?;
             return Ok(Self::Straight(straight));
         }
-        if request.has_lines() || request.has_couplings() {
+        if request.has_lines() || request.couples_beyond_chains() {
             let few = request.topology.hinges() <= STRAIGHT_HINGES;
             let straight = few.then(straight).filter(is_short);
             let (topology, limit) = (request.topology.to_string(), STRAIGHT_LIMIT);

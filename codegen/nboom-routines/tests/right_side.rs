@@ -29,6 +29,7 @@ macro_rules! for_each_exact_routine {
         $check::<exact::PushedLimb>();
         $check::<exact::PushedS3>();
         $check::<exact::CoupledS3>();
+        $check::<exact::CoupledRolled>();
     };
 }
 
@@ -127,6 +128,7 @@ fn exact_code_is_the_right_side_bit_for_bit() {
 #[test]
 fn what_is_assumed_of_one_hinge_is_not_of_the_others() {
     is_the_right_side::<exact::RolledUnequal>();
+    is_the_right_side::<exact::CoupledUnequal>();
 }
 
 fn never_reads_assumptions<T: Routine>() {
@@ -176,6 +178,7 @@ fn each_lane_of_a_batch_is_a_state(batch: &Batch) {
 fn each_of_eight_states_is_its_state_alone() {
     each_lane_is_a_state::<exact::PushedS2P>();
     each_lane_is_a_state::<exact::RolledMixed>();
+    each_lane_is_a_state::<exact::CoupledRolled>();
 }
 
 #[test]

@@ -238,17 +238,25 @@ impl<R: Real> Forces<R> {
         Wrench { moment: self.external.moment - omega.cross(self.spin), ..self.external }
     }
 
-    /// Power of the parts of the torques that depend on rates, summed up appendage by appendage, then of couplings.
+    /// Power of the parts of the torques that depend on rates, summed up appendage by appendage, its couplings last.
     pub fn rate_power(&self, topology: &Topology, tau: &[R]) -> R {
-        let mut of_hinges = self.laws.iter().zip(tau).map(|(law, &tau)| law.rate_torque(tau) * tau);
-        let sum = |sum: R, power: R| sum + power;
-        let mut of_appendage =
-            |shape: &Shape| of_hinges.by_ref().take(shape.hinges()).fold(R::zero(), sum);
-        let of_laws = topology.shapes().iter().map(&mut of_appendage).fold(R::zero(), sum);
-        let of_coupling = |(own, inboard, law): (usize, usize, CouplingLaw<R>)| {
-            law.rate_power([tau[own], tau[inboard]])
+        let coupled = self.coupled(topology);
+        let power_of = |hinge: usize| self.laws[hinge].rate_torque(tau[hinge]) * tau[hinge];
+        let mut first = 0;
+        let of_appendage = |shape: &Shape| {
+            let hinges = first..first + shape.hinges();
+            first = hinges.end;
+            let own = coupled.iter().filter(|(own, ..)| hinges.contains(own));
+            let of_couplings =
+                own.map(|(own, inboard, law)| law.rate_power([tau[*own], tau[*inboard]]));
+            hinges
+                .clone()
+                .map(power_of)
+                .chain(of_couplings)
+                .fold(R::zero(), |sum, power| sum + power)
         };
-        self.coupled(topology).into_iter().map(of_coupling).fold(of_laws, sum)
+        let all = topology.shapes().iter().map(of_appendage);
+        all.fold(R::zero(), |sum, power| sum + power)
     }
 }
 

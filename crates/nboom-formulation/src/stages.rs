@@ -20,7 +20,10 @@ mod trunk;
 
 pub use crate::limb::Standing;
 pub use base::{base, base_in_mode, held_base, held_base_in_mode};
-pub use forces::{ATTITUDE, ATTITUDE_RATE, BETA, COUPLING, LAW, LINE, POWER, attitude, law};
+pub use forces::{
+    ATTITUDE, ATTITUDE_RATE, BETA, COUPLING, INBOARD_BETA, INBOARD_TAU, INBOARD_TORQUE, LAW, LINE,
+    POWER, attitude, coupling, law,
+};
 pub use group::Group;
 pub use joint::{
     BIAS, JOINT, Mounting, OUTBOARD, RATES, SHARE, STANCE, joint_back, joint_inward, joint_outward,

@@ -1,6 +1,7 @@
 //! Functions that take one appendage, or several side by side, through the sweeps.
 
 pub(crate) mod joints;
+mod laws;
 mod trunk;
 
 use nboom_formulation::stages::{
@@ -148,7 +149,8 @@ impl<'a> Sweeps<'a> {
 
     fn chain_in(&self, chain: &Chain) -> TokenStream {
         let Chain { start, outward, inward, root, .. } = chain;
-        let (angles, laws) = (self.angles(), chain.law.as_ref().map(|law| self.laws(law)));
+        let (angles, laws) =
+            (self.angles(), self.laws(chain.law.as_ref(), chain.coupling.as_ref()));
         let outward = self.links_outward(outward);
         let inward = self.links_inward(inward, chain.law.is_some());
         let omega = omega_spread(self.request.output);
@@ -179,31 +181,6 @@ impl<'a> Sweeps<'a> {
             let mut alpha = P::zero();
             #angles
             let turns = P::sin_cos_all(angles);
-        }
-    }
-
-    /// Torques about all hinges of an appendage, and their power.
-    fn laws(&self, step: &Placed) -> TokenStream {
-        let (hinges, law) = (self.group.shape.hinges(), name(step));
-        let what = comment("Torques of springs and dashpots, and their power.");
-        let laws = repeated("i", hinges, false, |i| {
-            let (bind, constants) = self.of_link(step, i);
-            let [beta, tau] = [self.hinges().beta((0, i)), self.hinges().tau((0, i))];
-            let slot = slot(i);
-            quote! {
-                #bind
-                let ([torque], [work]) = #law(#constants [#beta], [#tau]);
-                torques[#slot] = torque;
-                of_appendage += work;
-            }
-        });
-        let hinges = Literal::usize_unsuffixed(hinges);
-        quote! {
-            #what
-            let mut torques = [P::zero(); #hinges];
-            let mut of_appendage = P::zero();
-            #laws
-            *power += of_appendage.sum();
         }
     }
 
@@ -269,16 +246,21 @@ impl<'a> Sweeps<'a> {
         }
     }
 
-    fn paddle_in(&self, paddle: &Paddle) -> TokenStream {
-        let Paddle { law, inward, .. } = paddle;
+    fn paddle_in(&self, Paddle { law, inward, .. }: &Paddle) -> TokenStream {
+        self.whole_in(law.as_ref(), inward, &[quote!(saved.0), quote!(saved.1)])
+    }
+
+    fn limb_in(&self, LimbSteps { law, inward, .. }: &LimbSteps) -> TokenStream {
+        self.whole_in(law.as_ref(), inward, &[quote!(*saved)])
+    }
+
+    /// Inward through a whole appendage in one step, which writes what it is `kept` for the way back.
+    fn whole_in(&self, law: Option<&Placed>, inward: &Placed, kept: &[TokenStream]) -> TokenStream {
         let (inward_, k_inward) = (name(inward), self.argument(inward));
-        let laws = law.as_ref().map(|law| self.laws(law));
-        let hinges = self.whole_hinges(law.is_some());
+        let (laws, hinges) = (self.laws(law, None), self.whole_hinges(law.is_some()));
         let omega = omega_spread(self.request.output);
-        let taken = self.shown_with(
-            &[quote!(saved.0), quote!(saved.1)],
-            |written| quote!(#written = #inward_(#k_inward omega, hinges);),
-        );
+        let taken =
+            self.shown_with(kept, |written| quote!(#written = #inward_(#k_inward omega, hinges);));
         quote! {
             let omega = #omega;
             #laws
@@ -297,24 +279,6 @@ impl<'a> Sweeps<'a> {
             quote!(#beta, #tau, #torque)
         };
         (0..self.group.shape.hinges()).map(of_hinge).collect()
-    }
-
-    fn limb_in(&self, limb: &LimbSteps) -> TokenStream {
-        let LimbSteps { law, inward, .. } = limb;
-        let (inward_, k_inward) = (name(inward), self.argument(inward));
-        let laws = law.as_ref().map(|law| self.laws(law));
-        let hinges = self.whole_hinges(law.is_some());
-        let omega = omega_spread(self.request.output);
-        let taken = self.shown_with(
-            &[quote!(*saved)],
-            |written| quote!(#written = #inward_(#k_inward omega, hinges);),
-        );
-        quote! {
-            let omega = #omega;
-            #laws
-            let hinges = [#(#hinges),*];
-            #taken
-        }
     }
 
     fn limb_out(&self, limb: &LimbSteps) -> TokenStream {

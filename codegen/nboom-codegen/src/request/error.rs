@@ -70,10 +70,10 @@ pub enum CodegenError {
         /// The most that is emitted.
         limit: usize,
     },
-    /// Lines push links, or hinges are coupled, of a satellite whose code is loops.
+    /// Lines push links, or hinges of other appendages than chains are coupled, of a satellite whose code is loops.
     #[error(
-        "topology {topology}: the evaluation with lines that push links or coupled hinges takes more \
-         than {limit} operations; only without them it is emitted as loops"
+        "topology {topology}: the evaluation with lines that push links, or coupled hinges that are not of a chain, \
+         takes more than {limit} operations; only without them it is emitted as loops"
     )]
     StraightAlone {
         /// The topology.

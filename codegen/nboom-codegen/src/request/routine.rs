@@ -1,5 +1,5 @@
 use nboom_formulation::{Formulation, Layout, RightSideLayout, Symmetry};
-use nboom_model::Topology;
+use nboom_model::{Shape, Topology};
 
 use crate::request::{CodegenError, Output};
 
@@ -170,6 +170,18 @@ impl Request {
             |(hinge, inboard): (usize, Option<usize>)| inboard.is_some() && self.may_couple(hinge);
         let mut hinges = self.topology.inboard_hinges().into_iter().enumerate();
         self.output == Output::RightSide && hinges.any(is_coupled)
+    }
+
+    /// Whether a hinge that is not one of a chain may be coupled with the one inboard of it: loops have no step for that.
+    pub(crate) fn couples_beyond_chains(&self) -> bool {
+        let of_hinges = self.topology.shapes().iter();
+        let is_of_chain = of_hinges.flat_map(|shape| {
+            std::iter::repeat_n(matches!(shape, Shape::Chain(_)), shape.hinges())
+        });
+        let inboard = self.topology.inboard_hinges().into_iter().enumerate();
+        let mut beyond = inboard.zip(is_of_chain).filter(|(_, is_of_chain)| !is_of_chain);
+        self.output == Output::RightSide
+            && beyond.any(|((hinge, inboard), _)| inboard.is_some() && self.may_couple(hinge))
     }
 
     /// Whether a right side may have a coupling at the place of this hinge.

@@ -9,8 +9,8 @@ mod trunk;
 
 use nboom_expr::{Expr, Operations};
 use nboom_formulation::stages::{
-    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, MAIN_RATES, OUTBOARD_SHARE, PADDLE, POWER,
-    REACHED, Stage, TORQUE, TURNED,
+    self, AT_ORIGIN, ELIMINATED, EXTERNAL, Group, INBOARD_TORQUE, MAIN_RATES, OUTBOARD_SHARE,
+    PADDLE, POWER, REACHED, Stage, TORQUE, TURNED,
 };
 use nboom_formulation::{Layout, RightSideLayout};
 use nboom_model::{Limb, Shape};
@@ -24,6 +24,9 @@ use crate::trace::rolled::trunk::TrunkLines;
 pub(crate) use crate::trace::rolled::trunk::{Among, PartSteps, TrunkSteps, own_places};
 use crate::trace::stage::Masks;
 use crate::trace::{OPERATION_LIMIT, Traced};
+
+/// A coupling adds to the torques about two hinges.
+const TORQUES_OF_COUPLING: usize = 2;
 
 /// The steps of all sweeps of a request.
 pub(crate) struct Rolled {
@@ -53,6 +56,8 @@ pub(crate) enum Steps {
 pub(crate) struct Chain {
     /// The torque about a hinge, of a right side.
     pub law: Option<Placed>,
+    /// The torques about a hinge and the one inboard of it, of a right side with couplings.
+    pub coupling: Option<Placed>,
     pub start: Placed,
     pub outward: Placed,
     pub inward: Placed,
@@ -84,7 +89,13 @@ impl Steps {
         match self {
             Self::Chain(of) => {
                 let inward = [&of.start, &of.outward, &of.inward];
-                of.law.iter().chain(inward).chain(&of.root).chain([&of.first, &of.back]).collect()
+                of.law
+                    .iter()
+                    .chain(&of.coupling)
+                    .chain(inward)
+                    .chain(&of.root)
+                    .chain([&of.first, &of.back])
+                    .collect()
             }
             Self::Paddle(of) => of.law.iter().chain([&of.inward, &of.first, &of.back]).collect(),
             Self::Limb(of) => of.law.iter().chain([&of.inward, &of.back]).collect(),
@@ -134,7 +145,8 @@ impl Rolled {
         for (shape, count) in request.topology.groups() {
             let links = shape.hinges();
             let law = RightSideLayout::law(&request.topology, hinge).start;
-            let group = Equal { shape, count, parameter, hinge, law, part: None };
+            let coupling = RightSideLayout::coupling(&request.topology, hinge).start;
+            let group = Equal { shape, count, parameter, hinge, law, coupling, part: None };
             let steps = match &group.shape {
                 Shape::Chain(_) => {
                     Steps::Chain(Box::new(chain(request, &group, links, &mut places)))
@@ -166,10 +178,15 @@ impl Rolled {
     /// Operations of an evaluation.
     pub fn evaluation(&self) -> Operations {
         let mut operations = self.sum(|traced| traced.split.evaluation());
-        // Sines of absolute angles are taken, and what joints show their inboard links is added up, between steps.
+        // Sines of absolute angles are taken, and what joints show their inboard links and torques of couplings are
+        // added up, between steps.
         for (group, steps) in &self.groups {
             match steps {
-                Steps::Chain(chain) => operations.angles += chain.outward.times,
+                Steps::Chain(chain) => {
+                    operations.angles += chain.outward.times;
+                    let coupled = chain.coupling.iter().map(|coupling| coupling.times);
+                    operations.additions += TORQUES_OF_COUPLING * coupled.sum::<usize>();
+                }
                 Steps::Joints(joints) => {
                     operations.angles += group.count * group.shape.hinges();
                     let shown = joints.mounts.iter().map(|kind| kind.inward.times * joints.shown());
@@ -253,6 +270,22 @@ fn law(request: &Request, group: &Equal, places: &mut Places) -> Option<Placed> 
     of_right_side.map(|traced| places.place(traced, group.shape.hinges() * group.count))
 }
 
+/// The torques of a coupling about two hinges of a group, of a right side that may have one in it.
+fn coupling(request: &Request, group: &Equal, places: &mut Places) -> Option<Placed> {
+    let links = group.shape.hinges();
+    let hinges = group.count * links;
+    let mut outboard = (0..hinges).filter(|hinge| hinge % links > 0);
+    let is_coupled = |hinge: usize| request.may_couple(group.hinge + hinge);
+    if request.output != Output::RightSide || !outboard.any(is_coupled) {
+        return None;
+    }
+    let assumed = group.of_couplings(request);
+    let traced = Traced::new(&group.prefix(), &stages::coupling(), &assumed, &Masks::new());
+    let all = [TORQUE, INBOARD_TORQUE, POWER];
+    let traced = all.into_iter().fold(traced, |traced, of| traced.passing_on(of, &[true]));
+    Some(places.place(traced, hinges - group.count))
+}
+
 fn traced_law(prefix: &str, assumed: &[Option<f64>]) -> Traced {
     let law = Traced::new(prefix, &stages::law(), assumed, &Masks::new());
     law.passing_on(TORQUE, &[true]).passing_on(POWER, &[true])
@@ -282,6 +315,7 @@ fn chain(request: &Request, group: &Equal, links: usize, places: &mut Places) ->
     let (once, each) = (group.count, links * group.count);
     Chain {
         law: law(request, group, places),
+        coupling: coupling(request, group, places),
         start: places.place(start, once),
         outward: places.place(outward, each),
         inward: places.place(inward, each),

@@ -1,6 +1,6 @@
 //! Steps that a right side takes beside those of the accelerations.
 
-use nboom_elements::HingeLaw;
+use nboom_elements::{CouplingLaw, HingeLaw};
 use nboom_scalar::{Quaternion, Real};
 
 use crate::parameters::Reader;
@@ -21,6 +21,12 @@ pub const COUPLING: Group =
     Group::new("coupling", &["own_weight", "inboard_weight", "stiffness", "rest", "damping"]);
 /// β of a hinge.
 pub const BETA: Group = Group::new("beta", &["beta"]);
+/// β of the hinge inboard of it.
+pub const INBOARD_BETA: Group = Group::new("inboard_beta", &["inboard_beta"]);
+/// τ of the hinge inboard of it.
+pub const INBOARD_TAU: Group = Group::new("inboard_tau", &["inboard_tau"]);
+/// The torque about the hinge inboard of it.
+pub const INBOARD_TORQUE: Group = Group::new("inboard_torque", &["inboard_torque"]);
 /// Power of the part of a hinge's torque that depends on its rate.
 pub const POWER: Group = Group::new("power", &["power"]);
 
@@ -54,6 +60,25 @@ pub fn law<R: Real>() -> Stage<R> {
             let law = HingeLaw::of_numbers(std::array::from_fn(|_| reader.next()));
             let (beta, tau) = (reader.next(), reader.next());
             vec![law.torque(beta, tau), law.rate_torque(tau) * tau]
+        }),
+    }
+}
+
+/// The torques of a coupling about a hinge and the one inboard of it.
+pub fn coupling<R: Real>() -> Stage<R> {
+    Stage {
+        name: "coupling",
+        about: "The torques of a coupling about a hinge and the one inboard of it, and the power of its damper.",
+        parameters: vec![COUPLING],
+        inputs: vec![BETA, INBOARD_BETA, TAU, INBOARD_TAU],
+        outputs: vec![TORQUE, INBOARD_TORQUE, POWER],
+        run: Box::new(|numbers| {
+            let mut reader = Reader(numbers.iter().copied());
+            let law = CouplingLaw::of_numbers(std::array::from_fn(|_| reader.next()));
+            let beta = [reader.next(), reader.next()];
+            let tau = [reader.next(), reader.next()];
+            let [own, inboard] = law.torques(beta, tau);
+            vec![own, inboard, law.rate_power(tau)]
         }),
     }
 }

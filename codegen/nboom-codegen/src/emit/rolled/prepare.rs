@@ -48,7 +48,17 @@ pub(super) fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream
         };
         let rest = match steps {
             Steps::Chain(chain) => {
-                let Chain { start, outward, inward, root, first, .. } = chain.as_ref();
+                let Chain { coupling, start, outward, inward, root, first, .. } = chain.as_ref();
+                let couplings = coupling.as_ref().map(|coupling| {
+                    let hinges = group.shape.hinges();
+                    repeated("i", hinges - 1, false, |i| {
+                        let size = RightSideLayout::COUPLING;
+                        let at = place(group.coupling + size, &[(size * hinges, a), (size, i)]);
+                        let (array, of_coupling) =
+                            (array("coupling", size, at), store(coupling, "coupling", i));
+                        quote!(#array #of_coupling)
+                    })
+                });
                 let of_branch = branch(&with_root(start, root, first));
                 let links = repeated("i", group.shape.hinges(), false, |i| {
                     let at = group.parameter + Layout::BRANCH;
@@ -57,7 +67,7 @@ pub(super) fn prepare(group: &Equal, steps: &Steps, level: Level) -> TokenStream
                     let of_link = [outward, inward].map(|step| store(step, "link", i));
                     quote!(#link #(#of_link)*)
                 });
-                quote!(#of_branch #links)
+                quote!(#couplings #of_branch #links)
             }
             Steps::Paddle(paddle) => {
                 let Paddle { inward, first, .. } = paddle.as_ref();

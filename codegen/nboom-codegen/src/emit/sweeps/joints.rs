@@ -112,7 +112,7 @@ impl Sweeps<'_> {
         let Joints { law, start, root, .. } = joints;
         let (angles, outward, inward) =
             (self.joint_angles(joints), self.joints_outward(joints), self.joints_inward(joints));
-        let laws = law.as_ref().map(|law| self.laws(law));
+        let laws = self.laws(law.as_ref(), None);
         let omega = omega_spread(self.request.output);
         let (start_, k_start) = (name(start), self.argument(start));
         let shown = self.shown(root.as_ref(), &quote!(share));

@@ -139,7 +139,7 @@ impl<'a> Sweeps<'a> {
         let [carriers, all_shown, all_carried] =
             [carrier, shown, carried_at].map(|among| literal(among.all));
         let left = literal(inward.traced.size(of_limb(LIMB, part)));
-        let laws = law.as_ref().map(|law| self.laws(law));
+        let laws = self.laws(law.as_ref(), None);
         let hinges = self.whole_hinges(law.is_some());
         let [inward_, back_] = [inward, back].map(name);
         let [k_inward, k_back] = [inward, back].map(|step| self.argument(step));

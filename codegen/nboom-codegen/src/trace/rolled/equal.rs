@@ -18,6 +18,8 @@ pub(crate) struct Equal {
     pub hinge: usize,
     /// Where the laws of a right side begin.
     pub law: usize,
+    /// Where the couplings of a right side begin.
+    pub coupling: usize,
     /// Of parts of a limb, what names of functions begin with. Their numbers stand part by part, as those of the
     /// limb do, where those of equal appendages stand side by side.
     pub part: Option<String>,
@@ -73,6 +75,15 @@ impl Equal {
             self.law + (appendage * hinges + hinge) * RightSideLayout::LAW
         };
         self.common(request, start, RightSideLayout::LAW, hinges)
+    }
+
+    /// What is assumed of every coupling of a hinge with the one inboard of it in the same appendage.
+    pub fn of_couplings(&self, request: &Request) -> Vec<Option<f64>> {
+        let hinges = self.shape.hinges();
+        let start = |appendage: usize, outboard: usize| {
+            self.coupling + (appendage * hinges + 1 + outboard) * RightSideLayout::COUPLING
+        };
+        self.common(request, start, RightSideLayout::COUPLING, hinges - 1)
     }
 
     /// What is assumed of `size` numbers wherever they `start`, by appendage and repetition.

@@ -71,7 +71,7 @@ pub fn asked(seed: u64, dice: &mut Dice, limb: &Limb) -> (Request, Equal, Vec<f6
     let topology = Topology::new([shape.clone()]);
     let mut request = Request::new("Limb", topology, Level::Exact);
     let parameter = Layout::MAIN;
-    let group = Equal { shape, count: 1, parameter, hinge: 0, law: 0, part: None };
+    let group = Equal { shape, count: 1, parameter, hinge: 0, law: 0, coupling: 0, part: None };
     let p = dice.parameters(&group, limb);
     let assumed = |value: &f64| match seed % 4 {
         0 => None,

@@ -183,6 +183,7 @@ fn equal(request: &Request, limb: &Equal, parts: &EqualParts, number: usize) -> 
         parameter: limb.parameter + limb.link(parts.first),
         hinge,
         law: RightSideLayout::law(&request.topology, hinge).start,
+        coupling: RightSideLayout::coupling(&request.topology, hinge).start,
         part: Some(format!("{}_part{}", limb.prefix(), number + 1)),
     }
 }
