@@ -8,9 +8,9 @@ use nboom_model::{Shape, Topology};
 
 /// Topologies that scenes often have, or come through while their hinges are released and lock.
 #[rustfmt::skip]
-const STOCK: [&str; 26] = [
+const STOCK: [&str; 27] = [
     // A main body alone, booms and wings of panels.
-    "M", "S1", "S2", "S3", "2xS1", "S2_S1", "2xS2", "2xS3", "2xS4", "4xS1", "4xS2", "4xS3", "4xS4",
+    "M", "S1", "S2", "S3", "2xS1", "S2_S1", "2xS2", "2xS3", "2xS4", "2xS5", "4xS1", "4xS2", "4xS3", "4xS4",
     "4xS5", "6xS1", "6xS2", "6xS3", "6xS4", "20xS5", "S100",
     // Hinges canted to each other: a gimbal, a pair of booms, a gimbal on a boom.
     "Trr", "2xTrr", "Trrr",
@@ -77,6 +77,12 @@ fn equations() -> Vec<Request> {
 /// The most hinges of a topology that has right sides with lines.
 const FEW_HINGES: usize = 4;
 
+/// The most equal chains of a topology that has right sides with couplings: wings that cables keep in step.
+const MOST_COUPLED: usize = 2;
+
+/// The most links of such a chain.
+const LONGEST_COUPLED: usize = 5;
+
 /// The most equal appendages of a topology that has right sides: with more, registers are full already.
 const MOST_EQUAL: usize = 4;
 
@@ -85,7 +91,10 @@ const MOST_EQUAL: usize = 4;
 /// a line that pushes each link, and of fewer hinges two of them and the wrench. Where lines push limbs, accelerations
 /// have to do.
 ///
-/// Those that have few hinges, or a chain whose links can only be taken one after the other, are for
+/// Wings of panels that follow each other, one or two, have one along principal axes and one along any whose hinges
+/// are coupled.
+///
+/// Those that have few hinges, couplings, or a chain whose links can only be taken one after the other, are for
 /// eight states at once, too.
 fn right_sides() -> Vec<Request> {
     let mut requests = Vec::new();
@@ -112,12 +121,25 @@ fn right_sides() -> Vec<Request> {
                 }
             });
             let thrust = (has_few && is_general).then(|| named("Thrust").with_external_wrench());
+            let is_coupled = symmetry != Symmetry::Mirrored && is_wing(&topology);
+            let coupled = is_coupled.then(|| named("Coupled").with_couplings().on_eight_states());
             let on_eight = has_few || topology.shapes().len() == 1;
             requests.push(if on_eight { request.on_eight_states() } else { request });
             requests.extend(pushed.map(Request::on_eight_states).into_iter().chain(thrust));
+            requests.extend(coupled);
         }
     }
     requests
+}
+
+/// Whether all of it is equal chains that may be coupled.
+fn is_wing(topology: &Topology) -> bool {
+    let mut groups = topology.groups();
+    let is_coupled = |(shape, count): (Shape, usize)| {
+        let links = 2..=LONGEST_COUPLED;
+        matches!(shape, Shape::Chain(_)) && links.contains(&shape.hinges()) && count <= MOST_COUPLED
+    };
+    groups.next().is_some_and(is_coupled) && groups.next().is_none()
 }
 
 /// Routines that keep the closed form's every rounding on `f64`, for the tests.
