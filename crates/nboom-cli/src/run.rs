@@ -226,16 +226,18 @@ fn simulate_into_files(
         let _ = show(args, &kept);
         return Err(CliError::Simulation { error, directory: Some(kept.directory) });
     }
+    // The run has its page and its figures even if nothing can be said of its digits.
     let certified = match watch.witness.as_ref().zip(args.certify) {
         Some((witness, reference)) if kept.written.is_ok() => {
-            Some(certifier.certify(scene, options, reference, (witness, &worst), &kept)?)
+            certifier.certify(scene, options, reference, (witness, &worst), &kept).map(Some)
         }
-        _ => None,
+        _ => Ok(None),
     };
     let shown = show(args, &kept);
     kept.written?;
     shown?;
     tabled?;
+    let certified = certified?;
     let (outcome, events) = (&outcome, watch.events);
     let account = print_run::Account { scene, run: &run, outcome, events, worst, certified };
     Ok(account.text(&directory))

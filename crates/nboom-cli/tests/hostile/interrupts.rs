@@ -78,6 +78,7 @@ fn an_interrupted_certificate_leaves_a_complete_run() {
     assert_eq!(summary(&place.path("run")).expect("a summary")["complete"], true);
     assert!(!place.path("run/certificate.json").exists());
     assert!(!place.path("run.partial").exists());
+    assert!(place.path("run/report.html").exists(), "the page is of the run");
 }
 
 /// Output times and stresses are asked too: a step may have millions of output times.
