@@ -21,7 +21,7 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
     let judged = Judged {
         structure: file.structure.as_ref(),
         stresses: !stresses.no_stresses,
-        hinge_loads: stresses.hinge_loads || file.settings.hinge_loads,
+        hinge_loads: stresses.of_hinges(file),
         has_yield_stress: stresses.yield_stress.is_some(),
     };
     let given = [
@@ -61,7 +61,9 @@ pub(crate) fn ignored(file: &SceneFile, args: Option<&RunArgs>) -> Option<String
     let bounded = by_rkam && file.legacy.upper_error.is_some();
     let tolerances = args.filter(|_| bounded).map_or_else(Vec::new, given_tolerances);
     let structure = file.structure.as_ref().filter(|_| stresses);
-    let slips = args.map_or_else(Vec::new, |args| args.slips.idle(&file.scene, structure));
+    let slips = args.map_or_else(Vec::new, |args| {
+        args.slips.idle(&file.scene, structure, args.stresses.of_hinges(file))
+    });
     let reasons = [
         (for_rkam, "they steer --integrator rkam"),
         (words("IAX", !listing && file.legacy.print_interval.is_some()), "it thins out --listing"),

@@ -25,10 +25,17 @@ impl SlipArgs {
         Some(format!("wrong on purpose, as in 1970: {}", names.join(", ")))
     }
 
-    /// Slips by name that nothing in a scene and its stations shows; of all slips, all if none does.
-    pub(crate) fn idle(self, scene: &Scene, structure: Option<&Structure>) -> Vec<&'static str> {
+    /// Slips by name that nothing in a scene and what is computed of it shows; of all slips, all if none
+    /// does. `structure` has the stations whose stresses are computed.
+    pub(crate) fn idle(
+        self,
+        scene: &Scene,
+        structure: Option<&Structure>,
+        hinge_loads: bool,
+    ) -> Vec<&'static str> {
         let slips = self.as_1970.unwrap_or_default();
-        let shows = |slip: &Slip| shows(*slip, scene, structure);
+        let has_loads = structure.is_some() || hinge_loads;
+        let shows = |slip: &Slip| shows(*slip, scene, structure, has_loads);
         if slips == Slips::all() {
             return if slips.iter().any(|slip| shows(&slip)) { Vec::new() } else { vec![ALL] };
         }
@@ -37,7 +44,7 @@ impl SlipArgs {
 }
 
 /// Whether there is what a slip acts on.
-fn shows(slip: Slip, scene: &Scene, structure: Option<&Structure>) -> bool {
+fn shows(slip: Slip, scene: &Scene, structure: Option<&Structure>, has_loads: bool) -> bool {
     let mut bodies = 0..scene.bodies.len();
     let has_spring = |i: usize| scene.bodies[i].hinge.kick_off.is_some();
     let is_of_paddle = |i: usize| {
@@ -54,9 +61,7 @@ fn shows(slip: Slip, scene: &Scene, structure: Option<&Structure>) -> bool {
         Slip::ChainKickOff => bodies.any(|i| has_spring(i) && in_chain(i)),
         Slip::PaddleKickOff => bodies.any(|i| has_spring(i) && is_of_paddle(i)),
         Slip::PaddleInertia => bodies.any(is_of_paddle),
-        Slip::LoadTransfer => {
-            structure.is_some() && bodies.any(|i| scene.bodies[i].inboard.is_some())
-        }
+        Slip::LoadTransfer => has_loads && bodies.any(|i| scene.bodies[i].inboard.is_some()),
         Slip::TubeInertia | Slip::TubeShear => {
             sections.any(|section| matches!(section, SectionShape::Tube { .. }))
         }
@@ -87,6 +92,7 @@ mod tests {
     use super::*;
     use crate::{Cli, Command};
     use clap::{CommandFactory, Parser};
+    use nboom_io::ReadOptions;
 
     fn parsed(extra: &[&str]) -> Result<Option<Slips>, i32> {
         let words = ["nboom", "run", "scene.nml"].iter().chain(extra);
@@ -113,7 +119,7 @@ mod tests {
         let file = nboom_io::parse_deck("boom.nml", deck, "boom").expect("a deck");
         let idle = |slips: &[Slip]| {
             let args = SlipArgs { as_1970: Some(slips.iter().copied().collect()) };
-            args.idle(&file.scene, file.structure.as_ref())
+            args.idle(&file.scene, file.structure.as_ref(), true)
         };
         // One boom without a spring.
         for slip in Slip::ALL {
@@ -121,6 +127,16 @@ mod tests {
         }
         assert_eq!(idle(&Slip::ALL), ["all"]);
         assert!(idle(&[]).is_empty());
+    }
+
+    #[test]
+    fn loads_of_hinges_show_how_they_are_handed_on() {
+        let wing = include_str!("../../../examples/wing.toml");
+        let file = nboom_io::parse_scene("wing.toml", wing, "wing", None, &ReadOptions::default())
+            .expect("a scene");
+        let args = SlipArgs { as_1970: Some([Slip::LoadTransfer].into_iter().collect()) };
+        assert!(args.idle(&file.scene, None, true).is_empty());
+        assert_eq!(args.idle(&file.scene, None, false), ["load-transfer"]);
     }
 
     #[test]

@@ -57,6 +57,11 @@ impl StressArgs {
         if self.report_signs { StressSigns::Report } else { StressSigns::Tension }
     }
 
+    /// Whether a scene or the command line asks for the loads of hinges, with or without stresses.
+    pub(crate) fn of_hinges(&self, file: &SceneFile) -> bool {
+        self.hinge_loads || file.settings.hinge_loads
+    }
+
     /// The analysis that a scene or the command line asks for, if one does; `kernels` may have code for
     /// its loads.
     ///
@@ -80,7 +85,7 @@ impl StressArgs {
                 let analysis = StressAnalysis::new(scene, structure, settings)?;
                 Ok(Some(analysis.with_kernels(kernels)))
             }
-            structure if self.hinge_loads || file.settings.hinge_loads => {
+            structure if self.of_hinges(file) => {
                 StressAnalysis::of_hinges(scene, structure.as_ref(), settings).map(Some)
             }
             _ => Ok(None),

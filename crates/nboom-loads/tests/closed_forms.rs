@@ -3,8 +3,9 @@
 use nboom_dynamics::{LockUp, Recursive};
 use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{
-    Appendage, Hinge, HingeState, KickOffSpring, MassProperties, Material, Mode, Mount, Scene,
-    SceneDescription, SectionShape, Segment, SegmentStructure, Station, Structure,
+    Appendage, Body, Hinge, HingeState, Joint, KickOffSpring, MassProperties, Material, Mode, Mount,
+    Rotor, RotorSpeed, Scene, SceneDescription, SectionShape, Segment, SegmentStructure, Station,
+    Structure,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -332,5 +333,40 @@ fn the_hinge_that_is_out_of_balance_most_is_named_wherever_it_is() {
         held[hinge] = HingeState::Locked;
         let (named, residual) = loads.largest_torque_residual(&found, &held, &wrong).expect("one");
         assert!(named == 1 - hinge && residual < ROUNDING, "{named}: {residual:e}");
+    }
+}
+
+#[test]
+fn slides_turn_no_load_that_is_handed_on_as_in_1970() {
+    // One boom on another, each at its own travel: what 1970 turned by an angle is not turned.
+    let mut description = (*boom(Vec3::zero(), None)).clone();
+    description.bodies[0].joint = Joint::Prismatic;
+    let outer = Body { inboard: Some(0), ..description.bodies[0] };
+    description.bodies.push(outer);
+    let scene = Scene::new(description).expect("rods are bodies");
+    let mut loads = Loads::new(&scene, None);
+    let mut right = loads.load_set();
+    let beta = [1.5, 0.7];
+    let acceleration = VelocityChange {
+        origin_body: Vec3::new(0.3, -0.5, 0.9),
+        omega_body: Vec3::new(-0.2, 0.8, 0.4),
+        tau: &[0.0; 2],
+    };
+    let motion = SceneMotion {
+        omega_body: Vec3::new(0.4, -0.3, 0.6),
+        beta: &beta,
+        tau: &[0.1, -0.2],
+        acceleration,
+        force_densities: &[0.0; 2],
+        outside: &[],
+        rotors: &[],
+    };
+    loads.continuous(&motion, &mut right);
+    let mut of_1970 = right.clone();
+    loads.hand_on_as_in_1970(&beta, &mut of_1970);
+    for hinge in [0, 1] {
+        let [found, expected] = [&of_1970, &right].map(|loads| loads.hinge(hinge));
+        assert_near(found.force, expected.force.to_array());
+        assert_near(found.moment, expected.moment.to_array());
     }
 }
