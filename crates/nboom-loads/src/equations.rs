@@ -239,11 +239,14 @@ fn gather<R: Real>(
 ) {
     for (i, (segment, place)) in segments.iter().zip(&mut *places).enumerate() {
         out.hinges[i] = place.inertia_wrench(&segment.inertia);
+        place.size = place.inertia_size(&segment.inertia);
         for Carried { place: rotor, along } in &segment.rotors {
             let [speed, acceleration] = motion.rotors[*rotor];
-            out.hinges[i].moment += place.omega.cross(*along * speed) + *along * acceleration;
+            let (momentum, driven) = (*along * speed, *along * acceleration);
+            out.hinges[i].moment += place.omega.cross(momentum) + driven;
+            // Rotors may cancel each other's moments, but not each other's rounding.
+            place.size.moment += place.omega.norm() * momentum.norm() + driven.norm();
         }
-        place.size = place.inertia_size(&segment.inertia);
         for (load, cut) in out.stations_mut(i).iter_mut().zip(&segment.stations) {
             *load = place.inertia_wrench(&cut.outboard);
         }

@@ -3,9 +3,9 @@
 use nboom_dynamics::{LockUp, Recursive};
 use nboom_loads::{LoadSet, Loads, LockUpShare, SceneMotion, VelocityChange};
 use nboom_model::{
-    Appendage, Body, Hinge, HingeState, Joint, KickOffSpring, MassProperties, Material, Mode, Mount,
-    Rotor, RotorSpeed, Scene, SceneDescription, SectionShape, Segment, SegmentStructure, Station,
-    Structure,
+    Appendage, Body, Hinge, HingeState, Joint, KickOffSpring, MassProperties, Material, Mode,
+    Mount, Rotor, RotorSpeed, Scene, SceneDescription, SectionShape, Segment, SegmentStructure,
+    Station, Structure,
 };
 use nboom_scalar::{Mat3, Sym3, Vec3};
 
@@ -369,4 +369,31 @@ fn slides_turn_no_load_that_is_handed_on_as_in_1970() {
         assert_near(found.force, expected.force.to_array());
         assert_near(found.moment, expected.moment.to_array());
     }
+}
+
+#[test]
+fn rotors_that_cancel_each_other_count_in_what_a_load_is_made_of() {
+    let mut description = (*boom(Vec3::zero(), None)).clone();
+    let (inertia, speed, driven) = (0.05, 1e12, 1e10);
+    let rotor = |axis| Rotor { body: Some(0), axis, inertia, speed: RotorSpeed::Constant(speed) };
+    description.rotors = [Vec3::unit_y(), -Vec3::unit_y()].map(rotor).into();
+    let scene = Scene::new(description).expect("rods are bodies");
+    let mut loads = Loads::new(&scene, None);
+    let mut found = loads.load_set();
+    let (zero, omega_body) = (Vec3::zero(), Vec3::new(0.2, 0.3, 0.1));
+    let acceleration = VelocityChange { origin_body: zero, omega_body: zero, tau: &[0.0] };
+    let motion = SceneMotion {
+        omega_body,
+        beta: &[0.0],
+        tau: &[0.0],
+        acceleration,
+        force_densities: &[0.0],
+        outside: &[],
+        rotors: &[[speed, driven]; 2],
+    };
+    loads.continuous(&motion, &mut found);
+    // Off by as little as rounding of either rotor's moment is.
+    let wrong = [found.hinge(0).moment.x + 1e-15 * inertia * speed];
+    let residual = loads.largest_torque_residual(&found, &[HingeState::Free], &wrong);
+    assert!(residual.is_some_and(|(_, residual)| residual < 1e-13), "{residual:?}");
 }
