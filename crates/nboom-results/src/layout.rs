@@ -1,11 +1,12 @@
 //! Columns and numbers of the listing.
 
-use nboom_model::{Joint, UnitSystem};
 use std::io::{self, Write};
 
+use nboom_model::{HingeLabel, Joint, UnitSystem};
 use nboom_scalar::Vec3;
+use nboom_sim::{Detail, EventKind, Snapshot};
 
-/// Unit labels in the listing's capitals.
+/// Unit labels: the original's capitals, and a scene's own as they are, since mN is no MN.
 pub(crate) struct Units {
     pub(crate) length: String,
     pub(crate) time: String,
@@ -18,15 +19,18 @@ pub(crate) struct Units {
 
 impl Units {
     pub(crate) fn of(system: &UnitSystem) -> Self {
-        let time = if *system == UnitSystem::None { "T" } else { "SEC" }.to_owned();
-        let force = system.force().to_uppercase();
-        let torque = system.torque().to_uppercase();
+        let (time, label): (_, fn(&str) -> String) = match system {
+            UnitSystem::None => ("T", str::to_uppercase),
+            UnitSystem::Si | UnitSystem::FtLbfS | UnitSystem::InLbfS => ("SEC", str::to_uppercase),
+            UnitSystem::Custom { time, .. } => (time.as_str(), str::to_owned),
+        };
+        let (force, torque) = (label(system.force()), label(&system.torque()));
         Self {
-            length: system.length().to_uppercase(),
-            energy: system.energy().to_uppercase(),
+            length: label(system.length()),
+            energy: label(&system.energy()),
             momentum: format!("{force} {time}"),
             angular_momentum: format!("{torque} {time}"),
-            time,
+            time: time.to_owned(),
             force,
             torque,
         }
@@ -119,9 +123,59 @@ impl Columns {
     }
 }
 
+pub(crate) fn inertial_columns(units: &Units) -> [(&'static str, String); 6] {
+    [
+        ("REFERENCE PT POSITION", units.length.clone()),
+        ("MASS CTR POSITION", units.length.clone()),
+        ("MASS CTR VELOCITY", units.rate_of(&units.length)),
+        ("MASS CTR ACCELERATION", units.acceleration_of(&units.length)),
+        ("ANGULAR MOMENTUM", units.angular_momentum.clone()),
+        ("LINEAR MOMENTUM", units.momentum.clone()),
+    ]
+}
+
+pub(crate) fn inertial_vectors(snapshot: &Snapshot, detail: &Detail) -> [Vec3<f64>; 6] {
+    [
+        snapshot.position_inertial,
+        detail.mass_center_inertial,
+        detail.mass_center_velocity_inertial,
+        detail.mass_center_acceleration_inertial,
+        snapshot.angular_momentum_inertial,
+        snapshot.linear_momentum_inertial,
+    ]
+}
+
+pub(crate) fn row_name(label: &HingeLabel) -> String {
+    let [appendage, segment] = label.numbers();
+    format!("{appendage:>3} {segment:>3}")
+}
+
+pub(crate) fn title(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::LockUp => "LOCK-UP OF HINGE",
+        EventKind::Release => "RELEASE OF HINGE",
+        EventKind::Rise(kind) => kind.names().rise.in_listing,
+        EventKind::Fall(kind) => kind.names().fall.in_listing,
+        EventKind::ThrustOn => "THRUST ON",
+        EventKind::ThrustOff => "THRUST OFF",
+        EventKind::End => "END OF RUN",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_of_a_scene_are_not_changed() {
+        let [length, time, force] = ["mm", "min", "mN"].map(str::to_owned);
+        let units = Units::of(&UnitSystem::Custom { length, time, force });
+        assert_eq!([&*units.length, &*units.force, &*units.energy], ["mm", "mN", "mm mN"]);
+        assert_eq!(units.angular_momentum, "mm mN min");
+        assert_eq!(units.acceleration_of("DEG"), "DEG/min SQ");
+        let old = Units::of(&UnitSystem::InLbfS);
+        assert_eq!([old.angular_momentum, old.momentum], ["IN LBF SEC", "LBF SEC"]);
+    }
 
     #[test]
     fn exponents_have_a_sign_and_two_digits() {

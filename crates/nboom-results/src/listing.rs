@@ -2,10 +2,9 @@ use std::io::{self, Write};
 
 use nboom_elements::Kind;
 use nboom_model::{HingeLabel, Joint, UnitSystem};
-use nboom_scalar::Vec3;
-use nboom_sim::{Detail, Event, EventKind, Snapshot};
+use nboom_sim::{Detail, Event, Snapshot};
 
-use crate::layout::{Columns, Units, number};
+use crate::layout::{Columns, Units, inertial_columns, inertial_vectors, number, row_name, title};
 use crate::{euler_angles, event_order};
 
 const HINGE_MOTION: Columns = Columns { first: 8, others: 20 };
@@ -150,7 +149,7 @@ impl<W: Write> ListingWriter<W> {
             });
             HINGE_MOTION.numbers(&mut self.out, &row_name(label), &shown)?;
         }
-        if self.hinges.iter().any(|label| label.joint.slides()) {
+        if self.slides() {
             writeln!(self.out, "SEGMENTS THAT SLIDE HAVE LENGTHS ({}), NOT DEG", units.length)?;
         }
         Ok(())
@@ -183,7 +182,19 @@ impl<W: Write> ListingWriter<W> {
             }
             HINGE_FORCES.row(&mut self.out, &row_name(label), &cells)?;
         }
+        if self.slides() {
+            let Units { force, torque, .. } = units;
+            writeln!(
+                self.out,
+                "SEGMENTS THAT SLIDE HAVE FORCES ({force}), NOT TORQUES ({torque})"
+            )?;
+        }
         Ok(())
+    }
+
+    /// Whether any segment does.
+    fn slides(&self) -> bool {
+        self.hinges.iter().any(|label| label.joint.slides())
     }
 
     fn write_system(
@@ -229,48 +240,11 @@ fn heading(out: &mut impl Write, columns: &[(&str, String)]) -> io::Result<()> {
     SYSTEM.heading(out, "COMP", &columns)
 }
 
-fn inertial_columns(units: &Units) -> [(&'static str, String); 6] {
-    [
-        ("REFERENCE PT POSITION", units.length.clone()),
-        ("MASS CTR POSITION", units.length.clone()),
-        ("MASS CTR VELOCITY", units.rate_of(&units.length)),
-        ("MASS CTR ACCELERATION", units.acceleration_of(&units.length)),
-        ("ANGULAR MOMENTUM", units.angular_momentum.clone()),
-        ("LINEAR MOMENTUM", units.momentum.clone()),
-    ]
-}
-
-fn inertial_vectors(snapshot: &Snapshot, detail: &Detail) -> [Vec3<f64>; 6] {
-    [
-        snapshot.position_inertial,
-        detail.mass_center_inertial,
-        detail.mass_center_velocity_inertial,
-        detail.mass_center_acceleration_inertial,
-        snapshot.angular_momentum_inertial,
-        snapshot.linear_momentum_inertial,
-    ]
-}
-
-fn row_name(label: &HingeLabel) -> String {
-    let [appendage, segment] = label.numbers();
-    format!("{appendage:>3} {segment:>3}")
-}
-
-fn title(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::LockUp => "LOCK-UP OF HINGE",
-        EventKind::Release => "RELEASE OF HINGE",
-        EventKind::Rise(kind) => kind.names().rise.in_listing,
-        EventKind::Fall(kind) => kind.names().fall.in_listing,
-        EventKind::ThrustOn => "THRUST ON",
-        EventKind::ThrustOff => "THRUST OFF",
-        EventKind::End => "END OF RUN",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nboom_sim::EventKind;
+
     use crate::fixture::{self, event, snapshot};
 
     fn listing(units: UnitSystem, write: impl Fn(&mut ListingWriter<&mut Vec<u8>>)) -> String {
@@ -352,6 +326,22 @@ mod tests {
             let found = rest.find(heading).unwrap_or_else(|| panic!("{heading} in\n{rest}"));
             rest = &rest[found + heading.len()..];
         }
+    }
+
+    #[test]
+    fn both_tables_of_hinges_say_what_slides_have() {
+        let said = |hinges: Vec<HingeLabel>| -> Vec<String> {
+            let (mut bytes, units) = (Vec::new(), UnitSystem::FtLbfS);
+            let writer = ListingWriter::new(&mut bytes, "masts", hinges, units);
+            writer.expect("memory").write(&snapshot(0.5)).expect("memory");
+            let text = String::from_utf8(bytes).expect("text");
+            let lines = text.lines().filter_map(|l| l.strip_prefix("SEGMENTS THAT SLIDE HAVE "));
+            lines.map(str::to_owned).collect()
+        };
+        let mut hinges = fixture::labels();
+        assert!(said(hinges.clone()).is_empty());
+        hinges[1].joint = Joint::Prismatic;
+        assert_eq!(said(hinges), ["LENGTHS (FT), NOT DEG", "FORCES (LBF), NOT TORQUES (FT LBF)"]);
     }
 
     #[test]
