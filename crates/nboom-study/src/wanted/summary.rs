@@ -1,7 +1,7 @@
 //! Numbers of `summary.json`, by their paths.
 
 use nboom_io::{SceneFile, nearest};
-use nboom_model::{Hinge, HingeState};
+use nboom_model::{Body, HingeState, Joint};
 use nboom_tables::{Column, Kind};
 
 use super::{Loads, Named, Needs, What, refused};
@@ -137,10 +137,18 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
         return Err(refused(missing));
     }
     let slides = label.flatten().is_some_and(|label| label.joint.slides());
+    let is_impulse = matches!(&*pattern, LARGEST_IMPULSE | IMPULSE);
+    let [turning_latches, sliding_latches] =
+        [Joint::Revolute, Joint::Prismatic].map(|joint| is_impulse && latches(joint, file));
+    if turning_latches && sliding_latches {
+        return Err(refused(
+            "`impulse of HINGE` where hinges and slides latch, whose impulses have different units",
+        ));
+    }
     let unit = key.unit.map(|unit| match &*pattern {
         ANGLE | MISS if slides => "L",
         CLOSING_RATE if slides => "L/T",
-        LARGEST_IMPULSE | IMPULSE if latches_slide(file) => "F T",
+        LARGEST_IMPULSE | IMPULSE if sliding_latches => "F T",
         _ => unit,
     });
     let kind = if unit.is_some() { Kind::Number } else { Kind::Integer };
@@ -155,12 +163,12 @@ pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {
     Ok((what, Column { unit, body, ..column }, key.needs))
 }
 
-/// Whether all hinges that latch slide.
-fn latches_slide(file: &SceneFile) -> bool {
-    let latches =
-        |hinge: &Hinge| hinge.lock_angle.is_some() && hinge.start.state != HingeState::Locked;
-    let mut latching = file.scene.bodies.iter().filter(|body| latches(&body.hinge)).peekable();
-    latching.peek().is_some() && latching.all(|body| body.joint.slides())
+/// Whether there are joints of this kind that may latch.
+fn latches(joint: Joint, file: &SceneFile) -> bool {
+    let mut of_kind = file.scene.bodies.iter().filter(|body| body.joint == joint);
+    of_kind.any(|Body { hinge, .. }| {
+        hinge.lock_angle.is_some() && hinge.start.state != HingeState::Locked
+    })
 }
 
 /// The parameter with this name.

@@ -245,3 +245,32 @@ fn the_largest_impulse_has_the_unit_of_those_of_the_hinges() {
         assert!(units[0].is_some() && units.iter().all(|unit| *unit == units[0]), "{units:?}");
     }
 }
+
+#[test]
+fn impulses_of_hinges_and_slides_have_no_common_column() {
+    let body = |name: &str, joint: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 3.0\nmass_centre = [1.0, 0.0, 0.0]\n\
+             inertia = [0.1, 1.0, 1.0]\n{joint}\n"
+        )
+    };
+    let hinge = "hinge = { at = [0.5, 0.0, 0.0], axis = \"z\", start_deg = 90.0, latch_deg = 0.0 }";
+    let slide = |latch| format!("slide = {{ at = [0.0, 0.0, 0.5], axis = \"z\", {latch} }}");
+    let named = |latch: &str, text: &str| {
+        let text_of_scene = format!(
+            "[run]\nend = 1.0\n[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n{}{}",
+            body("boom", hinge),
+            body("mast", &slide(latch))
+        );
+        let file = nboom_io::parse_scene("s.toml", &text_of_scene, "s", None, &Default::default());
+        Wanted::named(text, &file.expect("right"), Loads::None)
+    };
+    for text in ["verdict.largest_impulse", "verdict.largest_impulse_at.impulse"] {
+        let refused = named("latch = 0.5", text).expect_err("two units").to_string();
+        assert!(refused.contains("`impulse of HINGE`"), "{refused}");
+        // A slide that never latches has no impulse.
+        let unit = named("start = 0.1", text).expect("of the boom").column().unit.clone();
+        assert_eq!(unit.as_deref(), Some("F L T"));
+    }
+    named("latch = 0.5", "verdict.largest_impulse_at.time").expect("a time is a time");
+}
