@@ -6,7 +6,7 @@ use std::iter::repeat;
 use std::path::{Path, PathBuf};
 
 use nboom_io::sha256;
-use nboom_results::{Kind, Lock, ResultsError, require_named, write_file};
+use nboom_results::{Kind, Lock, require_named, write_file};
 
 use crate::StudyError;
 use crate::description::{Description, Source, short};
@@ -86,7 +86,7 @@ impl Place {
             match Kind::of(&path).map_err(StudyError::reading(&path))? {
                 Kind::Nothing => {}
                 Kind::File if found.is_some() => {}
-                found => return Err(ResultsError::Foreign { path, found }.into()),
+                found => return Err(StudyError::Foreign { path, found }),
             }
         }
         Ok(Self { path: path.to_owned(), _lock: lock, found })
@@ -276,7 +276,7 @@ pub(crate) fn description(directory: &Path) -> Result<Option<Description>, Study
     match Kind::of(&path).map_err(StudyError::reading(&path))? {
         Kind::Nothing => return Ok(None),
         Kind::File => {}
-        found => return Err(ResultsError::Foreign { path, found }.into()),
+        found => return Err(StudyError::Foreign { path, found }),
     }
     let text = text(&path)?;
     Description::parse(&text).map(Some).map_err(|found| StudyError::NoSweep { path, found })
@@ -313,7 +313,7 @@ pub fn require_as_swept(study: &Path) -> Result<(), StudyError> {
     match description(directory) {
         Ok(Some(what)) => sources(directory, &what).map(drop),
         // A study may lie beside a file of that name which no sweep has written, such as a schema.
-        Ok(None) | Err(StudyError::NoSweep { .. } | StudyError::Results(_)) => Ok(()),
+        Ok(None) | Err(StudyError::NoSweep { .. } | StudyError::Foreign { .. }) => Ok(()),
         Err(error) => Err(error),
     }
 }

@@ -1,7 +1,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use nboom_results::ResultsError;
+use nboom_results::{Kind, ResultsError};
 use nboom_tables::TablesError;
 
 use crate::Shard;
@@ -23,6 +23,18 @@ pub enum StudyError {
         path: PathBuf,
         /// What the system says.
         source: io::Error,
+    },
+    /// Something that was not written by a sweep has the name of a file of a sweep.
+    #[error(
+        "{}: found {found} that no sweep has written, expected a file of a sweep or nothing; move or \
+         delete it, or name another directory",
+        path.display()
+    )]
+    Foreign {
+        /// The path.
+        path: PathBuf,
+        /// What is there.
+        found: Kind,
     },
     /// A file is not what a sweep writes.
     #[error("{}: {found} found, a file that nboom sweep has written expected", path.display())]

@@ -255,7 +255,7 @@ fn impulses_of_hinges_and_slides_have_no_common_column() {
         )
     };
     let hinge = "hinge = { at = [0.5, 0.0, 0.0], axis = \"z\", start_deg = 90.0, latch_deg = 0.0 }";
-    let slide = |latch| format!("slide = {{ at = [0.0, 0.0, 0.5], axis = \"z\", {latch} }}");
+    let slide = |latch: &str| format!("slide = {{ at = [0.0, 0.0, 0.5], axis = \"z\", {latch} }}");
     let named = |latch: &str, text: &str| {
         let text_of_scene = format!(
             "[run]\nend = 1.0\n[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n{}{}",

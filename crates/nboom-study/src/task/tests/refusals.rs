@@ -109,9 +109,10 @@ fn files_of_others_stay() {
         fs::write(&path, "mine").expect("writable");
         let error = refused(&fake, place.path());
         assert!(
-            matches!(&error, StudyError::Results(ResultsError::Foreign { path: found, .. }) if *found == path),
+            matches!(&error, StudyError::Foreign { path: found, .. } if *found == path),
             "{error}"
         );
+        assert!(error.to_string().contains("found a file that no sweep has written"), "{error}");
         assert_eq!(fs::read_to_string(&path).expect("readable"), "mine");
         fs::remove_file(path).expect("it is there");
     }
