@@ -1,7 +1,7 @@
 use nboom_model::{
     Base, Body, Coupling, Course, Dashpot, DrivePoint, External, ExternalAxes, ExternalKind, Hinge,
     HingeLabel, HingePlace, HingeState, Joint, KickOffSpring, MassProperties, Posture, Release,
-    RotorSpeed, Scene, Spring,
+    RotorSpeed, Scene, Spring, TorqueTable,
 };
 use nboom_scalar::Vec3;
 
@@ -111,11 +111,9 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
     let forces = laws.into_iter().chain([hinge.kick_off.as_ref().map(kick_off)]);
     let couplings = scene.couplings.iter().filter(|coupling| coupling.hinges[0] == i);
     let forces = forces.chain(couplings.map(|one| Some(coupling(scene, &label, one))));
-    let joint = match label.joint {
-        Joint::Revolute => "hinge",
-        Joint::Prismatic => "slide",
-    };
-    let mut lines = vec![format!("  {joint} {label}: {}", course(scene, &label, hinge))];
+    let tables = scene.torque_tables.iter().filter(|table| table.hinge == i);
+    let forces = forces.chain(tables.map(|table| Some(torque_table(&label, table))));
+    let mut lines = vec![format!("  {}: {}", joint(&label), course(scene, &label, hinge))];
     let places = postures.each_ref().map(|posture| place(&posture.hinges[i]));
     let when = ["at the start", "locked"];
     lines.extend(when.iter().zip(places).map(|(when, place)| format!("    {when}: {place}")));
@@ -123,6 +121,14 @@ fn hinge_lines(scene: &Scene, i: usize, postures: &[Posture; 2]) -> Vec<String> 
     lines.push(format!("    body: {}", mass_properties(mass)));
     lines.extend(rotors(scene, Some(i)).map(|rotor| format!("    {rotor}")));
     lines
+}
+
+/// A hinge or slide with its label.
+fn joint(label: &HingeLabel) -> String {
+    match label.joint {
+        Joint::Revolute => format!("hinge {label}"),
+        Joint::Prismatic => format!("slide {label}"),
+    }
 }
 
 /// Explains the places of hinges.
@@ -172,11 +178,14 @@ fn release(scene: &Scene, release: Release) -> String {
         Release::Time(time) => format!("released at time {}", short(time, 10)),
         Release::Angle { hinge, angle } => {
             let trigger = scene.label(hinge);
-            format!("released when hinge {trigger} passes {}", coordinate(&trigger, angle))
+            let passes = match trigger.joint {
+                Joint::Revolute => "passes",
+                Joint::Prismatic => "reaches",
+            };
+            format!("released when {} {passes} {}", joint(&trigger), coordinate(&trigger, angle))
         }
         Release::AfterLock { hinge, delay } => {
-            let delay = short(delay, 10);
-            format!("released {delay} after hinge {} locks", scene.label(hinge))
+            format!("released {} after {} locks", short(delay, 10), joint(&scene.label(hinge)))
         }
         Release::Never => "never released".to_owned(),
     }
@@ -217,11 +226,22 @@ fn damper(label: &HingeLabel, dashpot: &Dashpot) -> Option<String> {
 fn coupling(scene: &Scene, label: &HingeLabel, coupling: &Coupling) -> String {
     let Coupling { hinges: [_, other], ratio, stiffness, rest, damping, is_mutual } = *coupling;
     let [ratio, stiffness, damping] = [ratio, stiffness, damping].map(|number| short(number, 6));
-    let (other, rest) = (scene.label(other), coordinate(label, rest));
+    let (other, rest) = (joint(&scene.label(other)), coordinate(label, rest));
     let alone = if is_mutual { "" } else { ", acts on this hinge alone" };
     format!(
-        "coupling to hinge {other}: ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}{alone}"
+        "coupling to {other}: ratio {ratio}, stiffness {stiffness}, rest {rest}, damping {damping}{alone}"
     )
+}
+
+/// As a scene in TOML says it.
+fn torque_table(label: &HingeLabel, table: &TorqueTable) -> String {
+    let what = match label.joint {
+        Joint::Revolute => "torque",
+        Joint::Prismatic => "force",
+    };
+    let point =
+        |[at, amount]: &[f64; 2]| format!("{} at {}", short(*amount, 6), coordinate(label, *at));
+    format!("{what} table: {}", table.points.iter().map(point).collect::<Vec<_>>().join(", "))
 }
 
 /// A term, unless it is zero.
@@ -253,7 +273,7 @@ fn environment(scene: &Scene) -> Vec<String> {
 /// A force or torque from outside.
 fn outside(scene: &Scene, external: &External) -> String {
     let kind = external.kind.name();
-    let on = external.body.map(|body| format!(" on the body of hinge {}", scene.label(body)));
+    let on = external.body.map(|body| format!(" on the body of {}", joint(&scene.label(body))));
     let at = match external.kind {
         ExternalKind::Force => format!(" at {}", vector(external.point)),
         ExternalKind::Torque => String::new(),
@@ -337,6 +357,27 @@ mod tests {
             "thrust: (1, 0, 0) at (0, 0, 0), on from 0.5 to 1.5",
             "thrust on the body of hinge 1,1: (1, 0, 0) at (0, 0, 0), always on",
             "torque: (1, 0, 0), along inertial axes, by a table of 3 points from 0 to 3",
+        ] {
+            assert!(text.contains(words), "no {words:?} in {text}");
+        }
+    }
+
+    #[test]
+    fn slides_are_named_as_such_and_tables_are_shown() {
+        let scene = with_everything();
+        let mut description = SceneDescription::clone(&scene);
+        description.bodies[0].joint = Joint::Prismatic;
+        description.bodies[1].hinge.release = Release::AfterLock { hinge: 0, delay: 0.5 };
+        let points = vec![[0.0, 2.0], [1.0_f64.to_radians(), -1.0]];
+        description.torque_tables =
+            [0, 1].map(|hinge| TorqueTable { hinge, points: points.clone() }).into();
+        let text = text(&Scene::new(description).expect("the bodies are physical"));
+        for words in [
+            "slide 1,1: ",
+            "force table: 2 at 0, -1 at 0.0174533",
+            "torque table: 2 at 0 deg, -1 at 1 deg",
+            "released 0.5 after slide 1,1 locks",
+            "thrust on the body of slide 1,1: ",
         ] {
             assert!(text.contains(words), "no {words:?} in {text}");
         }
