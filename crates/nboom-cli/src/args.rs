@@ -311,7 +311,7 @@ pub struct VerifyArgs {
     pub states: usize,
 
     /// Seed of the random states; the same seed gives the same states everywhere.
-    #[arg(long, value_name = "S", default_value = "1970")]
+    #[arg(long, value_name = "S", default_value = "1970", allow_negative_numbers = true)]
     pub seed: u64,
 
     /// Largest deviation allowed.

@@ -60,9 +60,10 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
                 return Err(CliError::NothingToRepeat { path, input, scene });
             }
             let (path, hash) = (&record.input.path, &record.input.sha256);
-            let how = match is_there && !input.exists() {
-                true => format!("{path} is not there"),
-                false => format!("{path} is not what was read then, SHA-256 {hash}"),
+            let how = match (is_there, input.exists()) {
+                (false, _) => "standard input is not read again".to_owned(),
+                (true, false) => format!("{path} is not there"),
+                (true, true) => format!("{path} is not what was read then, SHA-256 {hash}"),
             };
             say(&format!("{how}; this is a run of {}", scene.display()));
             let again = arguments(args, record.options.without(&OF_THE_INPUT), &scene)?;

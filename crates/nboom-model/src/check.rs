@@ -94,7 +94,8 @@ fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
                     .then(|| format!("point {} at {}, {}", k + 1, shown(angle), shown(torque)))
             }),
         };
-        errors.extend(defect.map(|defect| ModelError::TablePoints { table: i + 1, defect }));
+        let joint = scene.bodies.get(hinge).map_or(Joint::Revolute, |body| body.joint);
+        errors.extend(defect.map(|defect| ModelError::TablePoints { joint, table: i + 1, defect }));
     }
 }
 

@@ -105,9 +105,15 @@ impl Column {
         if !named.is_empty() {
             return Ok(named);
         }
+        let is_there = |quantity: &Quantity| all.iter().any(|column| column.quantity == *quantity);
         let mut known: Vec<String> = all.iter().map(|column| column.name(hinges)).collect();
-        known.extend(Quantity::all().map(|quantity| quantity.name().to_owned()));
-        let expected = "a quantity as `omega`, or a column of states.csv";
+        known.extend(Quantity::all().filter(is_there).map(|quantity| quantity.name().to_owned()));
+        let missing = Quantity::all().filter(|quantity| !is_there(quantity));
+        let expected = match missing.into_iter().find(|quantity| quantity.is_beginning_of(text)) {
+            Some(of_rotor) if of_rotor.is_of_rotor() => "columns of a scene without rotors",
+            Some(_) => "columns of a scene without hinges",
+            None => "a quantity as `omega`, or a column of states.csv",
+        };
         Err(UnknownColumn { found: text.to_owned(), expected, known })
     }
 

@@ -1,7 +1,7 @@
 use std::fmt;
 
 use crate::mass::MassDefect;
-use crate::{ExternalKind, ExternalPart, HingeLabel, shown};
+use crate::{ExternalKind, ExternalPart, HingeLabel, Joint, shown};
 
 /// Which body a message is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -153,11 +153,16 @@ pub enum ModelError {
         /// How many hinges there are.
         count: usize,
     },
-    /// A torque table does not have two points with finite numbers, or its angles do not ascend.
+    /// A torque table, of a slide a force table, does not have two points with finite numbers, or they do not
+    /// ascend.
     #[error(
-        "torque table {table}: {defect} found, two or more points of finite numbers at ascending angles expected"
+        "{} table {table}: {defect} found, two or more points of finite numbers at ascending {} expected",
+        if joint.slides() { "force" } else { "torque" },
+        if joint.slides() { "travels" } else { "angles" }
     )]
     TablePoints {
+        /// That on which it acts.
+        joint: Joint,
         /// Number of the table, from 1.
         table: usize,
         /// What was found.

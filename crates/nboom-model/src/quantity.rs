@@ -165,6 +165,12 @@ impl Quantity {
         Self::OF_A_HINGE.contains(&self)
     }
 
+    /// Whether a text is its name, alone or before a number.
+    pub(crate) fn is_beginning_of(self, text: &str) -> bool {
+        let number = text.strip_prefix(self.name());
+        number.is_some_and(|number| number.is_empty() || number.starts_with('_'))
+    }
+
     /// Whether each rotor has one.
     pub fn is_of_rotor(self) -> bool {
         Self::OF_A_ROTOR.contains(&self)

@@ -1,8 +1,8 @@
 //! What is no scene is refused, each defect by its own words.
 
 use nboom_model::{
-    Appendage, Course, External, ExternalKind, Gravity, Hinge, HingeState, MassProperties, Mount,
-    Release, Scene, SceneDescription, Segment, TorqueTable,
+    Appendage, Course, External, ExternalKind, Gravity, Hinge, HingeState, Joint, MassProperties,
+    Mount, Release, Scene, SceneDescription, Segment, TorqueTable,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -167,4 +167,23 @@ fn what_never_acts_from_outside_is_left_out() {
 
 fn held_at_rate(rate: f64) -> nboom_model::HingeStart {
     nboom_model::HingeStart { angle: 0.0, rate, state: HingeState::Locked }
+}
+
+#[test]
+fn a_table_of_a_slide_has_forces_at_travels() {
+    let told = |joint| {
+        told(|scene| {
+            scene.bodies[0].joint = joint;
+            scene.torque_tables = vec![TorqueTable { hinge: 0, points: Vec::new() }];
+        })
+    };
+    for (joint, table, places) in [
+        (Joint::Revolute, "torque table 1: ", "angles"),
+        (Joint::Prismatic, "force table 1: ", "travels"),
+    ] {
+        let found = told(joint);
+        let ascending = format!("at ascending {places} expected");
+        assert!(found.len() == 1 && found[0].starts_with(table), "{found:?}");
+        assert!(found[0].ends_with(&ascending), "{found:?}");
+    }
 }

@@ -1,7 +1,8 @@
 use nboom_model::HingeLabel;
 use nboom_sections::SectionError;
 
-/// Why stresses cannot be computed.
+/// Why stresses cannot be computed. Messages leave out the time, which the error of the run that they end
+/// says.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StrengthError {
@@ -26,7 +27,7 @@ pub enum StrengthError {
     /// The loads contradict the motion: the moment about a free hinge's axis is not that of its
     /// spring and dashpot.
     #[error(
-        "at time {time} the load about the axis of hinge {hinge} differs from its torque by \
+        "the load about the axis of hinge {hinge} differs from its torque by \
          {residual:e} of what it is made of, at most {most:e} expected"
     )]
     Unbalanced {
@@ -40,9 +41,23 @@ pub enum StrengthError {
         most: f64,
     },
     /// A load is infinite or not a number.
-    #[error("at time {time} the loads are no finite numbers")]
+    #[error("the loads are no finite numbers")]
     NotFinite {
         /// When.
         time: f64,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use nboom_sim::SimError;
+
+    use super::*;
+
+    #[test]
+    fn the_time_is_said_once() {
+        let source = std::io::Error::other(StrengthError::NotFinite { time: 0.025 });
+        let told = SimError::Record { time: 0.025, source }.to_string();
+        assert_eq!(told, "at time 0.025: the loads are no finite numbers");
+    }
 }

@@ -258,6 +258,12 @@ fn a_body_whose_moments_overflow_is_wrong_input() {
 }
 
 #[test]
+fn a_negative_seed_is_a_wrong_value_and_no_option() {
+    let output = Place::new().nboom(&["verify", "boom.nml", "--seed", "-1"]);
+    refused(&output, 2, &["invalid value '-1'", "--seed"]);
+}
+
+#[test]
 fn every_error_of_a_deck_is_told_with_its_card() {
     let place = Place::new();
     let wrong = BOOM.replace("INSTR=0", "BOGUS=0").replace("EMM=100.0", "BAFFLE=1.0");

@@ -178,6 +178,8 @@ fn columns_and_times_that_nobody_has_are_refused() {
         (["--columns", "omga"], "did you mean `omega`?"),
         (["--columns", "beta of bom"], "did you mean `beta of boom`?"),
         (["--columns", "reaction_force"], "columns of a main body that moves freely expected"),
+        (["--columns", "motor_torque"], "found, columns of a scene without rotors expected\n"),
+        (["--columns", "rotor_speed_1"], "found, columns of a scene without rotors expected\n"),
         (["--times", "1,0.5"], "--times: found 0.5 after 1, expected ascending times"),
         (["--times", "1,11"], "found 11, expected a time from 0, the start, to 10, the end"),
         (["--times", "1,,2"], "a number expected"),

@@ -90,7 +90,15 @@ impl Reader<'_, '_> {
         let mut table = WantedTable { columns: Vec::new(), in_degrees };
         for (text, at) in self.texts(output, "columns") {
             match Column::named(text, scene.labels(), scene.rotors.len()) {
-                Ok(named) => table.add(named),
+                Ok(columns) => {
+                    let named = WantedTable { columns, in_degrees };
+                    if named.is_of_held_body() && !scene.base.is_held() {
+                        let expected = "columns of a main body that moves freely";
+                        self.error(&at, "columns", &quoted(text), expected);
+                    } else {
+                        table.add(named.columns);
+                    }
+                }
                 Err(error) => {
                     let known = error.known.iter().map(String::as_str);
                     let help = suggest::nearest(text, known).map(suggest::question);
@@ -105,10 +113,6 @@ impl Reader<'_, '_> {
                     );
                 }
             }
-        }
-        if table.is_of_held_body() && !scene.base.is_held() {
-            let (found, expected) = ("a reaction", "columns of a main body that moves freely");
-            self.error(&output.place("columns"), "columns", found, expected);
         }
         Some(table)
     }

@@ -17,21 +17,19 @@ impl Reader<'_, '_> {
             return self.choice(root, "units", UNIT_SETS).and_then(UnitSystem::from_name);
         }
         let labels = self.table(root, "units")?;
+        // One that is missing has been reported.
         let [length, time, force] = ["length", "time", "force"]
-            .map(|key| self.text(&labels, key).unwrap_or_default().to_owned());
-        for (key, label) in [("length", &length), ("time", &time), ("force", &force)] {
+            .map(|key| self.text(&labels, key).map(|label| (key, label.to_owned())));
+        for (key, label) in [&length, &time, &force].into_iter().flatten() {
             if label.trim().is_empty()
                 || label.contains([',', '"'])
                 || label.contains(char::is_control)
             {
-                self.error(
-                    &labels.place(key),
-                    key,
-                    "no label",
-                    "a label without commas and quotes",
-                );
+                let expected = "a label without commas and quotes";
+                self.error(&labels.place(key), key, "no label", expected);
             }
         }
+        let ((_, length), (_, time), (_, force)) = (length?, time?, force?);
         Some(UnitSystem::Custom { length, time, force })
     }
 

@@ -69,7 +69,10 @@ fn what_is_wrong_with_a_rig_is_told_at_its_place() {
             &format!("{DRIVEN}[gravity]\nacceleration = 9.8\nup = \"x\"\n"),
             "gravity across its axis",
         ),
-        ("[output]\ncolumns = [\"reaction_force\"]\n", "columns: found a reaction"),
+        (
+            "[output]\ncolumns = [\"reaction_force\"]\n",
+            ":12: columns: found `reaction_force`, expected columns of a main body that moves freely",
+        ),
     ] {
         let found = rows(text);
         assert!(found.iter().any(|line| line.contains(words)), "{words}: {found:#?}");

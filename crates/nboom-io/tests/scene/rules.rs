@@ -130,6 +130,12 @@ fn units_are_labels() {
     assert_eq!(custom, Some(UnitSystem::Custom { length, time, force }));
 }
 
+#[test]
+fn a_label_that_is_missing_is_told_once() {
+    let found = wrong(&format!("units = {{ length = \"m\", time = \"s\" }}\n{BUS}"));
+    assert!(found.len() == 1 && found[0].contains("force: found none in units"), "{found:?}");
+}
+
 /// Counted from the first by the right hand.
 #[test]
 fn copies_follow_each_other_by_the_right_hand() {

@@ -67,7 +67,10 @@ fn columns_of_rotors_have_their_numbers() {
     let names: Vec<String> = table.columns.iter().map(|column| column.name(&[])).collect();
     assert_eq!(names, ["rotor_speed_1", "rotor_speed_2", "motor_torque_2"]);
     assert_eq!(table.columns[2].quantity, Quantity::MotorTorque);
-    told(&[(columns.to_owned(), "columns: found `rotor_speed`, expected a quantity")]);
+    told(&[(
+        columns.to_owned(),
+        "columns: found `rotor_speed`, expected columns of a scene without rotors",
+    )]);
 }
 
 /// Bodies stand in any order, those that carry others last.
