@@ -11,7 +11,7 @@ use super::include::Parts;
 use super::memory::Memory;
 use super::parameters::Parameters;
 use super::tree::Value;
-use super::{Found, ReadOptions, Sources, assemble, write_scene};
+use super::{Found, ReadOptions, Sources, assemble, idle, write_scene};
 use crate::diagnostic::Report;
 use crate::source::{self, sha256};
 use crate::{Format, InputError, LegacySettings, SceneFile};
@@ -269,6 +269,10 @@ impl SceneDocument {
         let (parts, memory) = (self.parts_with(values), self.memory.as_deref());
         let mut report = Report::new(&self.file);
         let found = assemble(&parts, memory, &self.name, &self.options, &self.sources, &mut report);
+        // Where a number stands for an expression, the text does not say what uses what.
+        if memory.is_none() && !self.is_changed {
+            idle::check_use(&parts, &self.options.set, &self.sources, &mut report);
+        }
         report.sort();
         match found {
             Some(Found { scene, structure, settings, stress_interval })

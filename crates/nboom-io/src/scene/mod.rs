@@ -11,6 +11,7 @@ mod externals;
 mod fields;
 mod given_keys;
 mod hinges;
+mod idle;
 mod include;
 mod keys;
 mod lists;
@@ -113,7 +114,6 @@ fn assemble(
         reader.named(root, "parameters");
     }
     reader.check_set(root, &options.set);
-    reader.check_use(parts, &options.set);
     let name = reader.scene_name(root).unwrap_or(name);
     let (mut settings, stress_interval) = reader.settings(root);
     let scene = reader.surroundings(root, name);
@@ -180,19 +180,6 @@ impl Reader<'_, '_> {
         [settings.hinge_loads, settings.listing] = self.files(&output);
         let stress_every = self.count(&output, "stress_every", MOST_SAMPLES);
         (settings, stress_every.unwrap_or(1))
-    }
-
-    /// Warns of parameters on the command line that no expression of any file has.
-    fn check_use(&mut self, parts: &Parts, set: &[(String, f64)]) {
-        for entry in parts.entries("parameters") {
-            let name = entry.key.as_str();
-            let is_set = set.iter().any(|(set, _)| set == name);
-            if is_set && !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
-                let found = "a parameter that nothing uses";
-                let expected = format!("one of which some number is an expression, as `${name}`");
-                self.report.warn_at(self.sources, &entry.key_at, "--set", found, &expected);
-            }
-        }
     }
 
     /// Reports parameters on the command line that the scene does not have.

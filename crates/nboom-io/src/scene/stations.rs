@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use nboom_model::{
-    MassProperties, Material, MaterialDefect, SectionShape, SegmentStructure, Station, Vertex,
+    MassProperties, Material, MaterialDefect, SectionShape, SegmentStructure, Station,
+    StructureDefect, Vertex,
 };
 use nboom_scalar::{Sym3, Vec3};
 
@@ -76,7 +77,7 @@ impl Reader<'_, '_> {
         let material = self.material(body, materials);
         // What it allows is asked for when bodies and slices are compared.
         self.choice(body, "slices", SLICES);
-        let pulse_constant = self.number(body, "pulse_constant");
+        let pulse_constant = self.pulse_constant(body);
         if stations.is_empty() && pulse_constant.is_none() {
             return None;
         }
@@ -86,6 +87,17 @@ impl Reader<'_, '_> {
         }
         let material = material.unwrap_or(ANY_MATERIAL);
         Some(SegmentStructure { pulse_constant: pulse_constant.unwrap_or(1.0), material, stations })
+    }
+
+    /// The constant of the pulses of its latch, which is right even where nothing asks for loads.
+    fn pulse_constant(&mut self, body: &Fields<'_>) -> Option<f64> {
+        let constant = self.number(body, "pulse_constant")?;
+        if constant > 0.0 {
+            return Some(constant);
+        }
+        let (found, expected) = phrases(&StructureDefect::PulseConstant(constant).to_string());
+        self.error(&body.place("pulse_constant"), "pulse_constant", &found, &expected);
+        None
     }
 
     fn material(&mut self, body: &Fields<'_>, materials: &Materials) -> Option<Material> {

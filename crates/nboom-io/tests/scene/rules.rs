@@ -252,27 +252,58 @@ fn slices_add_up_to_their_body_unless_it_says_that_they_differ() {
     assert!(wrong(&scene("slices = \"alike\""))[0].contains("one of differ"));
 }
 
+fn warnings(text: &str, set: &[&str]) -> Vec<String> {
+    let set = set.iter().map(|name| ((*name).to_owned(), 3.0)).collect();
+    let options = ReadOptions { set, ..ReadOptions::default() };
+    let file = parse_scene("a.toml", text, "a", None, &options).expect("a right scene");
+    file.warnings.iter().map(ToString::to_string).collect()
+}
+
 #[test]
-fn a_parameter_that_is_set_and_that_nothing_uses_is_told() {
-    let read = |parameters: &str, mass: &str, set: &[&str]| -> Vec<String> {
-        let body = body("one", "", "").replace("mass = 3.0", mass);
-        let text = format!("[parameters]\n{parameters}\n{BUS}{body}");
-        let set = set.iter().map(|name| ((*name).to_owned(), 3.0)).collect();
-        let options = ReadOptions { set, ..ReadOptions::default() };
-        let file = parse_scene("a.toml", &text, "a", None, &options).expect("a right scene");
-        file.warnings.iter().map(ToString::to_string).collect()
-    };
+fn a_parameter_that_nothing_uses_is_told() {
     for (parameters, mass, set, unused) in [
-        ("m = 3.0", "mass = \"$m\"", &["m"][..], 0),
-        ("m = 3.0\nn = \"2 * $m\"", "mass = \"$n\"", &["m", "n"], 0),
-        ("m = 3.0", "mass = 3.0", &["m"], 1),
-        ("m = 3.0\nn = \"2 * $m\"", "mass = \"$m\"", &["m", "n"], 1),
-        // A scene that is not written to its end has parameters for later.
-        ("m = 3.0", "mass = 3.0", &[], 0),
+        ("m = 3.0", "mass = \"$m\"", &["m"][..], &[][..]),
+        ("m = 3.0\nn = \"2 * $m\"", "mass = \"$n\"", &["m", "n"], &[]),
+        ("m = 3.0", "mass = 3.0", &["m"], &["--set"]),
+        ("m = 3.0\nn = \"2 * $m\"", "mass = \"$m\"", &["m", "n"], &["--set"]),
+        ("m = 3.0", "mass = 3.0", &[], &["m"]),
     ] {
-        let told = read(parameters, mass, set);
-        assert_eq!(told.len(), unused, "{told:?}");
-        let is_told = |told: &String| told.contains("--set: found a parameter that nothing uses");
-        assert!(told.iter().all(is_told), "{told:?}");
+        let body = body("one", "", "").replace("mass = 3.0", mass);
+        let told = warnings(&format!("[parameters]\n{parameters}\n{BUS}{body}"), set);
+        assert_eq!(told.len(), unused.len(), "{told:?}");
+        for (told, symbol) in told.iter().zip(unused) {
+            let expected = format!("{symbol}: found a parameter that nothing uses");
+            assert!(told.contains(&expected), "{told}");
+        }
     }
+}
+
+#[test]
+fn what_is_said_in_vain_is_told() {
+    let alloy = "[materials.alloy]\nyoungs_modulus = 7e10\n";
+    let force = "[[main_body.thruster]]\npoint = [0.0, 0.0, 0.0]\nforce = [0, 0.0, 0.0]\n";
+    let joint = |line: &str| body("one", "", line);
+    for (text, words) in [
+        (format!("{alloy}{}", joint("")), "alloy: found a material that nothing uses"),
+        (joint("torque_deg = []"), "torque_deg: found an empty list"),
+        (
+            joint("damper = {}"),
+            "damper: found a table that has no effect, expected at least one of",
+        ),
+        (joint("damper = { rest_deg = 10 }"), "damper: found a table that has no effect"),
+        (format!("[output]\ncolumns = []\n{}", joint("")), "columns: found an empty list"),
+        (format!("{force}{}", joint("")), "force: found a force of zero"),
+    ] {
+        let told = warnings(&format!("{BUS}{text}"), &[]);
+        assert!(told.len() == 1 && told[0].contains(words), "{words}: {told:?}");
+    }
+    let used = body("one", "material = \"alloy\"", "damper = { damping = 0.0 }");
+    assert_eq!(warnings(&format!("{BUS}{alloy}{used}"), &[]), [""; 0]);
+}
+
+#[test]
+fn a_pulse_constant_is_positive_with_loads_and_without() {
+    let found = wrong(&format!("{BUS}{}", body("one", "pulse_constant = -0.2", "")));
+    let words = ":14:18: pulse_constant: found";
+    assert!(found.len() == 1 && found[0].contains(words), "{found:?}");
 }

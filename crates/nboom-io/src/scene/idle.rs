@@ -1,0 +1,70 @@
+//! What a scene says in vain: probably a mistake, and no error.
+
+use super::fields::{Fields, Reader};
+use super::include::Parts;
+use super::sources::Sources;
+use super::tree::{Table, Value};
+use crate::diagnostic::Report;
+
+/// Warns of parameters and materials that nothing uses: those of the scene's own file, since a file that it includes
+/// may serve others, and parameters that are set.
+pub(super) fn check_use(
+    parts: &Parts,
+    set: &[(String, f64)],
+    sources: &Sources,
+    report: &mut Report<'_>,
+) {
+    let is_own = |key: &str, name: &str| {
+        let named = parts.root().get(key).map(|entry| &entry.node.value);
+        matches!(named, Some(Value::Table(table)) if table.get(name).is_some())
+    };
+    for entry in parts.entries("parameters") {
+        let name = entry.key.as_str();
+        let is_set = set.iter().any(|(set, _)| set == name);
+        let is_asked_for = is_set || is_own("parameters", name);
+        if is_asked_for && !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
+            let symbol = if is_set { "--set" } else { name };
+            let expected = format!("one of which some number is an expression, as `${name}`");
+            let found = "a parameter that nothing uses";
+            report.warn_at(sources, &entry.key_at, symbol, found, &expected);
+        }
+    }
+    for entry in parts.entries("materials") {
+        let name = entry.key.as_str();
+        if is_own("materials", name) && !parts.iter().any(|(_, table, _)| is_used(table, name)) {
+            let expected = format!("one of some body, as `material = \"{name}\"`");
+            let found = "a material that nothing uses";
+            report.warn_at(sources, &entry.key_at, name, found, &expected);
+        }
+    }
+}
+
+impl Reader<'_, '_> {
+    /// Warns of an empty list, or of a table without any of the keys that count.
+    pub fn check_said(&mut self, fields: &Fields<'_>, key: &'static str, keys: &[&str]) {
+        let Some((entry, _)) = fields.entry(key) else { return };
+        let (found, expected) = match &entry.node.value {
+            Value::List(nodes) if nodes.is_empty() => {
+                ("an empty list", "at least one entry".to_owned())
+            }
+            Value::Table(table)
+                if !keys.is_empty() && keys.iter().all(|key| table.get(key).is_none()) =>
+            {
+                ("a table that has no effect", format!("at least one of {}", keys.join(", ")))
+            }
+            _ => return,
+        };
+        self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, &expected);
+    }
+}
+
+/// Whether a body of a file is of this material.
+fn is_used(file: &Table, material: &str) -> bool {
+    let bodies = file.get("body").map(|entry| &entry.node.value);
+    let Some(Value::List(bodies)) = bodies else { return false };
+    bodies.iter().any(|body| {
+        let Value::Table(body) = &body.value else { return false };
+        let of = body.get("material").map(|entry| &entry.node.value);
+        matches!(of, Some(Value::Text(name)) if name == material)
+    })
+}
