@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use nboom_io::words::{
-    Axes, BodyWords, HingeWords, KickOff, SceneWords, Thrust, after, at, body, damper, hinge,
-    initial, main_body, scene, spring, when,
+    Axes, BodyWords, HingeWords, KickOff, SceneWords, Thrust, after, at, body, coupling, damper,
+    hinge, initial, main_body, scene, spring, when,
 };
 use nboom_io::{read_scene, write_scene};
 use nboom_model::{
@@ -178,6 +178,11 @@ rate_deg = 3.0
 state = "free"
 torque_rad = [[0.0, 1.0], [1.0, 0.0]]
 
+[[body.coupling]]
+to = "a"
+stiffness = 2.0
+acts_on = "this"
+
 [[body]]
 name = "c"
 on = "main_body"
@@ -190,6 +195,17 @@ at = [0.0, 2.0, 0.0]
 axis = "x"
 axes = { columns = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]] }
 release = { after = "a", by = 2.0 }
+
+[[body]]
+name = "d"
+mass = 3.0
+mass_centre = [0.0, 1.0, 0.0]
+inertia = [1.0, 0.1, 1.0]
+
+[body.hinge]
+at = [0.0, 2.0, 0.0]
+axis = "x"
+axes = { turn = { about = "-z", by_rad = 0.7 } }
 "#;
     let rod = |name: &str, hinge: HingeWords| {
         let rod = body(name).mass(3.0).mass_centre([0.0, 1.0, 0.0]);
@@ -220,6 +236,7 @@ release = { after = "a", by = 2.0 }
         .axis(Vec3::unit_x())
         .axes(Axes::columns([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]))
         .release(after("a").by(2.0));
+    let d = hinge().axis("x").axes(Axes::turn_rad("-z", 0.7));
     let kick_off = KickOff {
         main_body_end: [0.0, 1.0, 0.0],
         end: [0.0, 0.5, 0.0],
@@ -235,8 +252,9 @@ release = { after = "a", by = 2.0 }
         .gravity(9.81, [1.0, 2.0, 2.0])
         .thrust(thrust)
         .body(rod("a", a).kick_off(kick_off))
-        .body(rod("b", b).on("a"))
-        .body(rod("c", c).on("main_body"));
+        .body(rod("b", b).on("a").coupling(coupling("a").stiffness(2.0).acts_on_this()))
+        .body(rod("c", c).on("main_body"))
+        .body(rod("d", d));
     same(words, &right(toml).scene);
 }
 

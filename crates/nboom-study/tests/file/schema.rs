@@ -50,14 +50,37 @@ fn keys(schema: &serde_json::Value, found: &mut Vec<String>) {
     }
 }
 
+/// Words in code, as `key` or `{ key = 1 }`, of a text without blocks of code.
+fn in_code(text: &str) -> Vec<&str> {
+    let spans = text.split('`').skip(1).step_by(2);
+    spans.flat_map(|span| span.split(|c: char| !(c.is_alphanumeric() || c == '_'))).collect()
+}
+
 #[test]
 fn the_page_of_studies_has_all_keys() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/studies.md");
     let page = fs::read_to_string(page).expect("a page");
-    let mut found = Vec::new();
-    keys(&schema(), &mut found);
-    assert!(found.len() > 40, "{found:?}");
-    let words: Vec<&str> = page.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    let page = page.split("```").step_by(2).collect::<String>();
+    let cell = |line: &str| Some(line.strip_prefix('|')?.split('|').next()?.to_owned());
+    let cells: String = page.lines().filter_map(cell).collect();
+    let schema = schema();
+    let (mut in_tables, mut found) = (Vec::new(), Vec::new());
+    for (name, inner) in schema["properties"].as_object().expect("keys") {
+        match name.as_str() {
+            "vary" | "fault" | "requirement" => {
+                in_tables.extend(inner["items"]["properties"].as_object().expect("keys").keys());
+            }
+            // In sentences.
+            "run" | "correlation" => {}
+            _ => in_tables.push(name),
+        }
+    }
+    keys(&schema, &mut found);
+    assert!(found.len() > 40 && in_tables.len() > 25, "{found:?} {in_tables:?}");
+    let (words, cells) = (in_code(&page), in_code(&cells));
+    for key in in_tables {
+        assert!(cells.contains(&key.as_str()), "{key} in no table");
+    }
     for key in found {
         assert!(words.contains(&key.as_str()), "{key}");
     }
