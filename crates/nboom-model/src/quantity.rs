@@ -160,11 +160,6 @@ impl Quantity {
         }
     }
 
-    /// Whether each hinge has one.
-    pub fn is_of_hinge(self) -> bool {
-        Self::OF_A_HINGE.contains(&self)
-    }
-
     /// Whether a text is its name, alone or before a number.
     pub(crate) fn is_beginning_of(self, text: &str) -> bool {
         let number = text.strip_prefix(self.name());

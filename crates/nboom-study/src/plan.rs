@@ -12,7 +12,7 @@ use latin_hypercube::Strata;
 use sobol::Sequence;
 
 /// Most draws of a study.
-const MOST_DRAWS: u64 = 1_000_000_000;
+pub(crate) const MOST_DRAWS: u64 = 1_000_000_000;
 
 /// What is drawn for a case.
 #[derive(Clone, Debug, PartialEq)]

@@ -81,6 +81,20 @@ pub enum Relation {
     Offset,
 }
 
+impl Relation {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Value, Self::Factor, Self::Offset];
+
+    /// Its name in studies.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Value => "value",
+            Self::Factor => "factor",
+            Self::Offset => "offset",
+        }
+    }
+}
+
 /// A number that varies.
 #[derive(Clone, Debug)]
 pub struct Variable {

@@ -150,7 +150,7 @@ impl Wanted {
         };
         match found {
             Ok((what, column, needs)) => {
-                let column = Column { name: column_name(&text), ..column };
+                let column = Column { name: name_of_result(&text), ..column };
                 Ok(Self { text, column, what, needs })
             }
             Err((expected, nearest)) => Err(UnknownResult { found: text, expected, nearest }),
@@ -162,7 +162,7 @@ impl Wanted {
     pub fn defaults(file: &SceneFile, loads: Loads) -> Vec<Self> {
         let labels = file.scene.labels();
         let columns: Vec<_> =
-            labels.iter().map(|label| label.name.as_deref().map(column_name)).collect();
+            labels.iter().map(|label| label.name.as_deref().map(name_of_result)).collect();
         // Names that are the same as those of columns, `panel +x` and `panel -x`, do not tell hinges apart.
         let is_alone = |i: usize| columns.iter().filter(|other| **other == columns[i]).count() == 1;
         let latches = file.scene.bodies.iter().zip(labels).enumerate();
@@ -242,8 +242,9 @@ fn refused(missing: &str) -> (String, Option<String>) {
     (missing.to_owned(), None)
 }
 
-/// The name of a column: each run of characters other than letters, digits and `_` becomes one `_`.
-fn column_name(text: &str) -> String {
+/// The name of a column after the text of a result: each run of characters other than letters, digits and `_`
+/// of any script becomes one `_`.
+fn name_of_result(text: &str) -> String {
     let mut name = String::new();
     let mut is_inside = true;
     for c in text.chars() {

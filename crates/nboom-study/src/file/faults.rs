@@ -5,12 +5,8 @@ use nboom_model::{Hinge, HingeState, Release, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, parted, quoted};
-use super::vary::relation;
 use crate::hinges;
-use crate::study::{Change, Fault, LateRelease};
-
-/// Ways in which a number of a fault can change one of the scene.
-const WAYS: [&str; 3] = ["value", "factor", "offset"];
+use crate::study::{Change, Fault, LateRelease, Relation};
 
 /// Keys of what a fault breaks.
 const BREAKS: [&str; 6] =
@@ -187,15 +183,19 @@ impl<'t> Reader<'t> {
         for inner in self.tables(of, "change") {
             let path = self.text(&inner, "path");
             let slot = path.and_then(|path| self.slot(document, &path));
-            let ways: Vec<&'static str> = WAYS.into_iter().filter(|way| inner.has(way)).collect();
-            let [way] = ways[..] else {
-                let found = if ways.is_empty() { "nothing".to_owned() } else { ways.join(" and ") };
-                self.error(&inner.place(), "change", found, "one of value, factor, offset");
+            let given: Vec<Relation> =
+                Relation::ALL.into_iter().filter(|relation| inner.has(relation.name())).collect();
+            let [relation] = given[..] else {
+                let names: Vec<&str> = given.into_iter().map(Relation::name).collect();
+                let found =
+                    if names.is_empty() { "nothing".to_owned() } else { names.join(" and ") };
+                let expected = format!("one of {}", Relation::ALL.map(Relation::name).join(", "));
+                self.error(&inner.place(), "change", found, expected);
                 continue;
             };
-            let number = self.number(&inner, way);
+            let number = self.number(&inner, relation.name());
             if let (Some(slot), Some(number)) = (slot, number) {
-                found.push(Change { slot, relation: relation(way), number: number.value });
+                found.push(Change { slot, relation, number: number.value });
                 places.push(inner.place_of("path"));
             }
         }

@@ -4,6 +4,9 @@ use nboom_sim::{Form, Method as Integrator};
 use nboom_strength::PulseShape;
 use serde_json::{Map, Value, json};
 
+use crate::plan::MOST_DRAWS;
+use crate::study::Relation;
+
 /// A table of a study.
 #[derive(Debug)]
 pub(super) struct Table {
@@ -37,9 +40,6 @@ pub(super) enum Holds {
     Tables(&'static Table),
 }
 
-/// Most draws that a study may ask for.
-pub(super) const MOST_DRAWS: u64 = 1_000_000_000;
-
 /// The largest seed, which tables in any format keep.
 pub(super) const LARGEST_SEED: u64 = 1 << 53;
 
@@ -49,7 +49,7 @@ pub(super) fn methods() -> Vec<&'static str> {
 }
 
 fn relations() -> Vec<&'static str> {
-    vec!["value", "factor", "offset"]
+    Relation::ALL.map(Relation::name).into()
 }
 
 fn integrators() -> Vec<&'static str> {

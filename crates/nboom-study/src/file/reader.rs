@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::{Holds, Key, Table};
+use crate::description::short;
 
 /// A line that is longer is not shown \[characters\].
 const LONGEST_LINE: usize = 200;
@@ -301,9 +302,5 @@ pub(super) fn parted<'m>(message: &'m str, otherwise: &'m str) -> (&'m str, &'m 
 
 /// A piece of the text in quotes, shortened if it is long.
 pub(super) fn quoted(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let shown: String = text.chars().take(LONGEST).map(visible).collect();
-    let dots = if text.chars().nth(LONGEST).is_some() { "..." } else { "" };
-    format!("`{shown}{dots}`")
+    format!("`{}`", short(text))
 }

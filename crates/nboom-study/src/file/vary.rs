@@ -23,7 +23,9 @@ impl<'t> Reader<'t> {
         document: &SceneDocument,
         method: Method,
     ) -> Option<Variable> {
-        let relation = self.choice(of, "as").map(|found| relation(found.value));
+        let relation = self.choice(of, "as").and_then(|found| {
+            Relation::ALL.into_iter().find(|relation| relation.name() == found.value)
+        });
         let paths = self.paths(of);
         let mut slots: Vec<Slot> = Vec::new();
         for path in paths.iter().flatten() {
@@ -41,7 +43,7 @@ impl<'t> Reader<'t> {
         let distribution = self.distribution(of, method);
         let name = match self.text(of, "name") {
             Some(name) => name.value.to_owned(),
-            None => column_name(paths.as_ref()?.first()?.value),
+            None => name_of_path(paths.as_ref()?.first()?.value),
         };
         let starts = |c: char| c.is_ascii_alphabetic() || c == '_';
         let goes_on = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -256,17 +258,9 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// A relation by its name, which is one.
-pub(super) fn relation(name: &str) -> Relation {
-    match name {
-        "factor" => Relation::Factor,
-        "offset" => Relation::Offset,
-        _ => Relation::Value,
-    }
-}
-
-/// The name of a column that a path has: each run of other characters than letters, digits and `_` is one `_`.
-fn column_name(path: &str) -> String {
+/// The name of a variable after its path: each run of characters other than letters, digits and `_` of ASCII
+/// becomes one `_`, but none at the ends.
+fn name_of_path(path: &str) -> String {
     let parts = path.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
     parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
 }
