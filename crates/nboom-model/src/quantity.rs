@@ -144,8 +144,12 @@ impl Quantity {
             Self::AngularRate => "angular rate of the main body, main-body axes",
             Self::Angle => "angle relative to the inboard body",
             Self::Rate => "rate relative to the inboard body",
-            Self::AngleSum => "sum of angles along the appendage",
-            Self::RateSum => "sum of rates along the appendage",
+            Self::AngleSum => {
+                "sum of angles along the appendage, begun anew at slides and where axes are not parallel"
+            }
+            Self::RateSum => {
+                "sum of rates along the appendage, begun anew at slides and where axes are not parallel"
+            }
             Self::State => "-1 unreleased, 0 free, 1 locked",
             Self::KineticEnergy => "kinetic energy",
             Self::LinearMomentum => "linear momentum, inertial axes",
