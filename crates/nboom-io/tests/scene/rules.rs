@@ -150,6 +150,21 @@ fn copies_follow_each_other_by_the_right_hand() {
     }
 }
 
+/// The tip is for pictures only.
+#[test]
+fn wheels_at_one_place_are_repeated_about_any_axis_but_their_own() {
+    let wheels = |about: &str| {
+        format!(
+            "{BUS}\n[[body]]\nname = \"wheel\"\nmass = 0.0\nmass_centre = [0.0, 0.0, 0.0]\n\
+             inertia = [0.05, 0.0, 0.0]\nrepeat = {{ count = 3, about = {about} }}\n\
+             hinge = {{ at = [0.0, 0.0, 0.0], axis = \"x\" }}\n"
+        )
+    };
+    assert_eq!(right(&wheels("[1.0, 1.0, 1.0]")).scene.bodies.len(), 3);
+    let found = wrong(&wheels("\"x\""));
+    assert!(found.len() == 1 && found[0].contains("bodies in places of their own"), "{found:?}");
+}
+
 #[test]
 fn the_names_of_unit_sets_are_those_of_the_model() {
     for units in UnitSystem::NAMED {

@@ -48,14 +48,19 @@ impl Repeat {
         along + across * c + Mat3::skew(about) * s
     }
 
-    /// Whether a copy of the body lies where the body does.
+    /// Whether a copy of the body lies where the body does; of one without mass, which fills no place, whether it
+    /// is the same again: its copies turn about the same axis.
     pub(super) fn overlaps(&self, body: &BodyDraft) -> bool {
         let point = body.mount.point;
         let rot = body.mount.rot_inboard_from_hinge;
-        let mass_center = point + rot * body.mass_properties.center_of_mass;
         let is_on_axis = |point: Vec3<f64>| {
             self.about.cross(point).norm() <= ON_AXIS * point.norm().max(f64::MIN_POSITIVE)
         };
-        self.count > 1 && [point, point + rot * body.tip, mass_center].into_iter().all(is_on_axis)
+        let of_body = if body.mass_properties.mass == 0.0 {
+            [rot * body.axis; 2]
+        } else {
+            [body.tip, body.mass_properties.center_of_mass].map(|place| point + rot * place)
+        };
+        self.count > 1 && is_on_axis(point) && of_body.into_iter().all(is_on_axis)
     }
 }
