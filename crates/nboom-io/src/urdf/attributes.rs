@@ -1,7 +1,8 @@
-//! Which attributes elements have. A misspelled one would leave its default in place with no word.
+//! Which attributes and parts elements have. A misspelled one would leave its default in place with no word.
 
 use roxmltree::{Attribute, Node};
 
+use super::left_out::LeftOut;
 use super::reader::Reader;
 use crate::diagnostic::quoted;
 use crate::scene::suggest;
@@ -26,6 +27,11 @@ impl Known {
             "origin" => (&["xyz", "rpy"], &[]),
             "axis" => (&["xyz"], &[]),
             "dynamics" => (&["damping", "friction"], &["D", "K", "mu_coulomb", "mu_viscous"]),
+            "limit" => (
+                &["lower", "upper", "effort", "velocity"],
+                &["acceleration", "deceleration", "jerk"],
+            ),
+            "mimic" => (&["joint", "multiplier", "offset"], &[]),
             "mass" => (&["value"], &[]),
             "inertia" => (&["ixx", "ixy", "ixz", "iyy", "iyz", "izz"], &[]),
             _ => return None,
@@ -39,19 +45,56 @@ impl Known {
             || self.read.contains(&attribute.name())
             || self.besides.contains(&attribute.name())
     }
+}
 
-    fn listed(&self) -> String {
-        let quoted: Vec<String> = self.read.iter().map(|name| format!("`{name}`")).collect();
-        match &quoted[..] {
-            [others @ .., last] if !others.is_empty() => {
-                format!("{} or {last}", others.join(", "))
-            }
-            _ => quoted.concat(),
+/// Names, the last one after `and` or `or`.
+fn listed(names: &[&str], last_after: &str) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match &quoted[..] {
+        [others @ .., last] if !others.is_empty() => {
+            format!("{} {last_after} {last}", others.join(", "))
         }
+        _ => quoted.concat(),
+    }
+}
+
+/// The parts of an element that are read, some of them only to be named, and those that are known not to be.
+fn parts(tag: &str) -> [&'static [&'static str]; 2] {
+    match tag {
+        "robot" => [&["link", "joint"], &["material", "gazebo", "transmission", "sensor", "group"]],
+        "link" => [&["inertial"], &["visual", "collision", "material", "sensor", "contact"]],
+        "inertial" => [&["origin", "mass", "inertia"], &[]],
+        "joint" => [
+            &["origin", "parent", "child", "axis", "dynamics", "limit", "mimic"],
+            &["calibration", "safety_controller"],
+        ],
+        _ => [&[], &[]],
     }
 }
 
 impl<'d> Reader<'_, 'd, '_> {
+    /// Whether a part of an element is one that is read. One that seems to be meant for such a part is an error,
+    /// for without it the robot is another one; what is neither is `left_out`.
+    pub fn is_read(&mut self, part: Node<'d, 'd>, left_out: &mut LeftOut) -> bool {
+        let (name, at) = (part.tag_name().name(), part.range().start);
+        let owner = part.parent().map_or("", |owner| owner.tag_name().name());
+        let [read, besides] = parts(owner);
+        if read.contains(&name) {
+            return true;
+        }
+        // Those of a namespace are for the program that it belongs to.
+        let is_foreign = part.tag_name().namespace().is_some() || besides.contains(&name);
+        match suggest::nearest(name, read.iter().copied()).filter(|_| !is_foreign) {
+            Some(meant) => {
+                let found = format!("element {} in `{owner}`", quoted(name));
+                let expected = format!("{}; {}", listed(read, "and"), suggest::question(meant));
+                self.error_at(at, meant, found, expected);
+            }
+            None => left_out.element(name, at),
+        }
+        false
+    }
+
     /// Reports attributes that the element does not have, and what it says otherwise than by attributes.
     pub fn check_attributes(&mut self, node: Node<'d, 'd>) {
         let tag = node.tag_name().name();
@@ -61,7 +104,7 @@ impl<'d> Reader<'_, 'd, '_> {
             let found = format!("attribute {} of `{tag}`", quoted(name));
             let meant = suggest::nearest(name, known.read.iter().copied()).map(suggest::question);
             let meant = meant.map_or_else(String::new, |meant| format!("; {meant}"));
-            let expected = format!("{}{meant}", known.listed());
+            let expected = format!("{}{meant}", listed(known.read, "or"));
             self.error_at(attribute.range().start, tag, found, expected);
         }
         let says = |part: &Node<'_, '_>| match part.text() {
@@ -69,7 +112,7 @@ impl<'d> Reader<'_, 'd, '_> {
             _ => part.is_element(),
         };
         if known.is_leaf && node.children().any(|part| says(&part)) {
-            let expected = format!("{} as attributes", known.listed());
+            let expected = format!("{} as attributes", listed(known.read, "or"));
             self.error(node, tag, &format!("`{tag}` with content"), &expected);
         }
     }

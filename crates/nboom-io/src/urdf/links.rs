@@ -59,10 +59,6 @@ pub(super) enum Motion {
 
 /// Types that are read.
 const TYPES: [&str; 5] = ["revolute", "continuous", "prismatic", "fixed", "floating"];
-/// Parts of a joint that are read, some of them only to be named.
-const OF_JOINTS: [&str; 7] = ["origin", "parent", "child", "axis", "dynamics", "limit", "mimic"];
-/// Parts of an `inertial`.
-const OF_INERTIALS: [&str; 3] = ["origin", "mass", "inertia"];
 
 impl<'d> Robot<'d> {
     /// Reads all links and joints; those that are wrong are reported.
@@ -90,9 +86,9 @@ impl<'d> Robot<'d> {
                     let found = format!("macro {}", quoted(node.tag_name().name()));
                     reader.error(node, "robot", &found, "links and joints, as xacro writes them");
                 }
+                _ if !reader.is_read(node, &mut robot.left_out) => {}
                 "link" => robot.read_link(node, reader),
-                "joint" => robot.read_joint(node, reader),
-                other => robot.left_out.element(other, node.range().start),
+                _ => robot.read_joint(node, reader),
             }
         }
         robot.left_out.tell(reader);
@@ -104,14 +100,9 @@ impl<'d> Robot<'d> {
         let (name, at) = (reader.text(node, "name"), node.range().start);
         let inertial = reader.inertial(node);
         for part in node.children().filter(Node::is_element) {
-            if !part.has_tag_name("inertial") {
-                self.left_out.element(part.tag_name().name(), part.range().start);
-                continue;
-            }
-            for part in part.children().filter(Node::is_element) {
-                let tag = part.tag_name().name();
-                if !OF_INERTIALS.contains(&tag) {
-                    self.left_out.element(tag, part.range().start);
+            if reader.is_read(part, &mut self.left_out) {
+                for part in part.children().filter(Node::is_element) {
+                    reader.is_read(part, &mut self.left_out);
                 }
             }
         }
@@ -146,21 +137,25 @@ impl<'d> Robot<'d> {
         for part in node.children().filter(Node::is_element) {
             let (tag, at) = (part.tag_name().name(), part.range().start);
             match tag {
+                _ if !reader.is_read(part, &mut self.left_out) => {}
                 "limit" if has_limits => {
+                    reader.check_attributes(part);
                     // Not taken over, but told if they are none.
                     let _: [Option<[f64; 1]>; 2] =
                         ["lower", "upper"].map(|end| reader.numbers(part, end));
                     self.left_out.of_joint(Kind::Limits, at, name);
                 }
-                "mimic" => self.left_out.of_joint(Kind::Mimicry, at, name),
+                "mimic" => {
+                    reader.check_attributes(part);
+                    self.left_out.of_joint(Kind::Mimicry, at, name);
+                }
                 "dynamics" => {
                     let friction = reader.numbers(part, "friction");
                     if friction.is_some_and(|[friction]| friction != 0.0) {
                         self.left_out.of_joint(Kind::Friction, at, name);
                     }
                 }
-                _ if OF_JOINTS.contains(&tag) => {}
-                _ => self.left_out.element(tag, at),
+                _ => {}
             }
         }
     }

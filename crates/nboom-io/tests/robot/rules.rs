@@ -174,11 +174,11 @@ fn attributes_of_other_programs_are_no_errors() {
 
 #[test]
 fn what_is_left_out_of_an_inertial_is_named() {
-    let body = BODY.replace("</inertial>", "<inertai/></inertial>");
+    let body = BODY.replace("</inertial>", "<density/></inertial>");
     let text = format!("<robot name=\"arm\"><link name=\"base\">{body}</link></robot>");
     let file = parse_robot("arm.urdf", &text, "file", Base::Free).expect("a robot");
     let told: Vec<&str> = file.warnings.iter().map(|warning| warning.found.as_str()).collect();
-    assert_eq!(told, ["inertai"]);
+    assert_eq!(told, ["density"]);
 }
 
 /// The tree of a robot is that of the scene that it is written as, whatever its links are called.
