@@ -25,6 +25,6 @@ mod trace;
 pub use emit::{Generated, Module, Standing, generate, hash, source};
 pub use request::{
     CodegenError, HINGE_LIMIT, Level, Numbers, Output, Request, STRAIGHT_HINGE_LIMIT,
-    StressRequest, held,
+    StressRequest, held_at,
 };
 pub use trace::{OPERATION_LIMIT, STRAIGHT_LIMIT, trace};

@@ -13,5 +13,5 @@ pub use error::CodegenError;
 pub(crate) use names::{Names, identifier};
 pub use output::Output;
 pub use routine::{HINGE_LIMIT, Level, Request, STRAIGHT_HINGE_LIMIT};
-pub use scene::{Numbers, held};
+pub use scene::{Numbers, held_at};
 pub use stresses::StressRequest;

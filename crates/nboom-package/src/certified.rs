@@ -1,7 +1,7 @@
 //! How far the formulation of a routine is from the truth: its graph, interpreted on random
 //! states, and which of them the compiled code is tested on.
 
-use nboom_codegen::{Output, Request, trace};
+use nboom_codegen::{Output, Request, held_at, trace};
 use nboom_expr::Graph;
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::{External, Scene, SceneDescription, Shape};
@@ -11,7 +11,6 @@ use nboom_verify::{
 };
 
 use crate::PackageError;
-use crate::held::welded;
 
 mod right_side;
 
@@ -31,6 +30,9 @@ const FREE: [usize; 2] = [100, 20];
 /// Random states with held hinges, each at other angles, and those of them that the compiled code
 /// is tested on.
 const HELD: [usize; 2] = [20, 4];
+
+/// So many sets of angles are tried for these states: a routine takes only those at which what it assumes holds.
+const TRIES: usize = 10 * HELD[0];
 
 /// A routine's formulation against the truth.
 pub(crate) struct Certified {
@@ -94,7 +96,7 @@ impl Certified {
         let scene = if request.external { pushed(scene) } else { scene.clone() };
         let (mut test_cases, tested) = match free {
             None => (vec![TestCase::new(scene, FREE[0], SEED)?], FREE[1]),
-            Some(free) => (held(&scene, free)?, HELD[1]),
+            Some(free) => (held(&scene, request, free)?, HELD[1]),
         };
         if request.output == Output::RightSide {
             test_cases = test_cases.into_iter().map(TestCase::with_lines_pushing).collect();
@@ -183,13 +185,35 @@ fn pushed(scene: &Scene) -> Scene {
     Scene::new(description).expect("a force leaves a scene valid")
 }
 
-/// The scene in states with held hinges, one random state of each.
-fn held(scene: &Scene, free: &[bool]) -> Result<Vec<TestCase>, PackageError> {
-    let test_case = |i: usize| {
-        let angle = 0.4 + 0.7 * i as f64;
-        Ok(TestCase::new(welded(scene, free, angle)?, 1, SEED + i as u64)?)
-    };
-    (0..HELD[0]).map(test_case).collect()
+/// The scene in states with held hinges that the routine accepts, one random state of each.
+///
+/// # Errors
+/// [`PackageError::NotAccepted`] where there is none.
+fn held(scene: &Scene, request: &Request, free: &[bool]) -> Result<Vec<TestCase>, PackageError> {
+    let mut accepted = Vec::new();
+    for i in 0..TRIES {
+        let held = held_at(free, 0.4 + 0.7 * i as f64);
+        let test_case = TestCase::held_at(scene.clone(), held, SEED + i as u64)?;
+        if accepts(request, recognised(&test_case)) {
+            accepted.push(test_case);
+        }
+        if accepted.len() == HELD[0] {
+            break;
+        }
+    }
+    if accepted.is_empty() {
+        let topology = request.topology.to_string();
+        return Err(PackageError::NotAccepted { topology, tries: TRIES });
+    }
+    Ok(accepted)
+}
+
+/// Whether a satellite has the numbers that a routine assumes; as [`Kernel::accepts`](nboom_scalar::Kernel::accepts).
+fn accepts(request: &Request, recognised: &Recognised) -> bool {
+    let parameters = recognised.parameters.write();
+    let mut pairs = request.assumptions.iter().zip(parameters);
+    recognised.topology == request.topology
+        && pairs.all(|(assumed, found)| assumed.is_none_or(|assumed| assumed == found))
 }
 
 /// The largest deviations in any of the test cases' states.
@@ -258,7 +282,7 @@ fn tested(test_case: &TestCase, request: &Request) -> Result<Vec<Tested>, Packag
     let inputs = inputs(test_case, request);
     match request.output {
         Output::InverseDynamics => return motions(recognised, test_case, inputs, truth),
-        Output::RightSide => return right_side::tested(test_case, request, &truth),
+        Output::RightSide => return right_side::tested(test_case, &truth),
         Output::Accelerations | Output::Equations => {}
     }
     let case = |([parameters, coordinates], truth): ([Vec<f64>; 2], Truth)| {
@@ -310,11 +334,7 @@ fn above_zero(least: f64) -> f64 {
 
 /// Parameters and coordinates of each state.
 fn inputs(test_case: &TestCase, request: &Request) -> Vec<[Vec<f64>; 2]> {
-    let mut parameters = recognised(test_case).parameters.write();
-    // Welding and taking moments about the mass centre has rounded.
-    for (parameter, assumed) in parameters.iter_mut().zip(&request.assumptions) {
-        *parameter = assumed.unwrap_or(*parameter);
-    }
+    let parameters = recognised(test_case).parameters.write();
     let states = test_case.coordinates();
     states.map(|state| [parameters.clone(), state.write(&request.topology)]).collect()
 }

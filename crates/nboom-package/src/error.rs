@@ -3,7 +3,6 @@ use std::path::{Path, PathBuf};
 
 use nboom_codegen::{CodegenError, Standing};
 use nboom_formulation::Formulation;
-use nboom_model::ModelError;
 use nboom_scalar::ForeignError;
 use nboom_verify::VerifyError;
 
@@ -17,16 +16,16 @@ pub enum PackageError {
     /// The code cannot be compared with the recursion.
     #[error(transparent)]
     Verify(#[from] VerifyError),
-    /// Bodies welded at held hinges are no scene.
+    /// A routine for states with held hinges accepts none of them.
     #[error(
-        "scene {scene} with hinges held: {}",
-        errors.iter().map(ModelError::to_string).collect::<Vec<_>>().join("; ")
+        "topology {topology} of states with held hinges: none of {tries} found that has the numbers which its \
+         routine assumes, at least one expected"
     )]
-    Welded {
-        /// The scene.
-        scene: String,
-        /// What is wrong with them.
-        errors: Vec<ModelError>,
+    NotAccepted {
+        /// The topology.
+        topology: String,
+        /// At how many sets of angles hinges were held.
+        tries: usize,
     },
     /// The code is not what the recursion computes.
     #[error(

@@ -18,7 +18,6 @@ mod compile;
 mod error;
 mod files;
 mod generate;
-mod held;
 mod library;
 mod listing;
 mod load;

@@ -102,6 +102,14 @@ impl TestCase {
         (0..states).map(one).collect()
     }
 
+    /// One random state of `scene` with hinges held at these angles.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn held_at(scene: Scene, held: Vec<Option<f64>>, seed: u64) -> Result<Self, VerifyError> {
+        Self::in_mode(scene, held, 1, seed, &mut Rng::new(seed))
+    }
+
     fn in_mode(
         scene: Scene,
         held: Vec<Option<f64>>,

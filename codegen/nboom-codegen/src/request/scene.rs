@@ -26,8 +26,9 @@ const LOCK_STATES: usize = 32;
 /// operations, and none repeats another.
 const LIMB_LINKS: usize = 60;
 
-/// Angles for which held hinges are welded to see which numbers are zero at any angle.
-pub(crate) const ANGLES: [f64; 2] = [0.723, -1.931];
+/// Angles around which held hinges are welded to see which numbers are zero at any angle: of link frames there is a
+/// choice, and another one where axes come close to each other.
+pub(crate) const ANGLES: [f64; 8] = [0.723, -1.931, 0.31, -0.56, 1.47, -2.62, 2.97, -1.13];
 
 impl Request {
     /// Code for a scene whose hinges are all free, with external wrench if something acts on the scene from
@@ -129,8 +130,10 @@ impl Request {
     /// When a body is not rigid, carries a rotor or is one of too many.
     pub fn free_hinges(&self, scene: &Scene) -> Result<Option<Vec<bool>>, CodegenError> {
         for free in combinations(scene) {
-            if welded(scene, &free, ANGLES[0])?.topology == self.topology {
-                return Ok(Some(free));
+            for angle in ANGLES {
+                if welded(scene, &free, angle)?.topology == self.topology {
+                    return Ok(Some(free));
+                }
             }
         }
         Ok(None)
@@ -149,9 +152,15 @@ pub(crate) fn name(word: &str, topology: &Topology) -> String {
     format!("{word}{}", identifier(topology))
 }
 
+/// For each hinge that is not `free`, the angle at which it is held, different ones around `angle`.
+pub fn held_at(free: &[bool], angle: f64) -> Vec<Option<f64>> {
+    let of_hinge = |(i, &free): (usize, &bool)| (!free).then(|| angle * (1.0 + 0.1 * i as f64));
+    free.iter().enumerate().map(of_hinge).collect()
+}
+
 /// The scene with the hinges that are not `free` held, at different angles around `angle`.
-pub fn held(scene: &Scene, free: &[bool], angle: f64) -> WeldedTree<f64> {
-    let beta: Vec<f64> = (0..free.len()).map(|i| angle * (1.0 + 0.1 * i as f64)).collect();
+pub(crate) fn held(scene: &Scene, free: &[bool], angle: f64) -> WeldedTree<f64> {
+    let beta: Vec<f64> = held_at(free, angle).iter().map(|held| held.unwrap_or(0.0)).collect();
     WeldedTree::new(scene, &mode_with(scene, free), &beta)
 }
 

@@ -140,7 +140,10 @@ fn simplest_frame(tree: &WeldedTree<f64>, j: usize, inboard: Option<LinkFrame>) 
     let squares = near.filter_map(|near| {
         let square = near - link.axis * link.axis.dot(near);
         let norm = square.norm();
-        (norm > 0.1 * near.norm() && norm > 0.0).then(|| square * (1.0 / norm))
+        let share = norm / near.norm();
+        // Of equal frames, those are taken first which stay when hinges are held at other angles.
+        let leans = usize::from(share < 1.0 - 1e-14);
+        (share > 0.1).then(|| (square * (1.0 / norm), leans))
     });
     let cost = |frame: &Mat3<f64>| {
         let of_mount = from_inboard.transpose() * *frame;
@@ -152,8 +155,9 @@ fn simplest_frame(tree: &WeldedTree<f64>, j: usize, inboard: Option<LinkFrame>) 
         let i = of_own.about_origin;
         cost + odd(of_own.first_moment) + odd(Vec3::new(i.xy, i.xz, i.yz))
     };
-    let frames = squares.map(|square| frame_of(link.axis, square));
-    frames.min_by_key(cost).expect("two of the units are not along the axis")
+    let frames = squares.map(|(square, leans)| (frame_of(link.axis, square), leans));
+    let simplest = frames.min_by_key(|(frame, leans)| (cost(frame), *leans));
+    simplest.map(|(frame, _)| frame).expect("two of the units are not along the axis")
 }
 
 /// How many components are neither zero nor, of a unit vector, the only one, but for rounding.

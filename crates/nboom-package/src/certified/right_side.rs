@@ -1,6 +1,5 @@
 //! Right sides against the truth.
 
-use nboom_codegen::Request;
 use nboom_formulation::{Coordinates, Forces, Layout, Recognised, RightSideLayout};
 use nboom_scalar::{Quaternion, Vec3};
 use nboom_verify::{TestCase, Truth, allowance, of_largest};
@@ -13,17 +12,9 @@ use crate::right_side::forces;
 ///
 /// # Errors
 /// What a right side has no place for.
-pub(super) fn tested(
-    test_case: &TestCase,
-    request: &Request,
-    truth: &[Truth],
-) -> Result<Vec<Tested>, PackageError> {
+pub(super) fn tested(test_case: &TestCase, truth: &[Truth]) -> Result<Vec<Tested>, PackageError> {
     let (recognised, forces) = (recognised(test_case), forces(test_case)?);
-    let mut parameters = [recognised.parameters.write(), forces.write()].concat();
-    // Welding and taking moments about the mass centre has rounded.
-    for (parameter, assumed) in parameters.iter_mut().zip(&request.assumptions) {
-        *parameter = assumed.unwrap_or(*parameter);
-    }
+    let parameters = [recognised.parameters.write(), forces.write()].concat();
     let states = test_case.coordinates().zip(truth).enumerate();
     let case = |(i, (state, truth)): (usize, (Coordinates<f64>, &Truth))| {
         let attitude = attitude(i);

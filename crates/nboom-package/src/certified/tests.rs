@@ -4,6 +4,8 @@ use nboom_model::{
 };
 use nboom_scalar::{Sym3, Vec3};
 
+mod held;
+
 use super::*;
 
 const OUTPUTS: [Output; 4] =
