@@ -100,9 +100,8 @@ impl MassProperties {
         let mass = self.mass + other.mass;
         let share = if mass > 0.0 { other.mass / mass } else { 1.0 };
         let between = other.center_of_mass - self.center_of_mass;
-        let d = between.norm_squared();
         // Both offsets from the common centre are parts of `between`: m₁r² + m₂s² = m₁m₂d²/m.
-        let offsets = (Sym3::diagonal(d, d, d) + Sym3::outer(between) * -1.0) * (share * self.mass);
+        let offsets = Sym3::across(between, between) * (share * self.mass);
         Self {
             mass,
             center_of_mass: self.center_of_mass + between * share,
@@ -209,6 +208,11 @@ mod tests {
         let rod = point(1.0, 2.0).joined_with(&point(3.0, 6.0));
         assert_eq!((rod.mass, rod.center_of_mass), (4.0, Vec3::unit_y() * 5.0));
         assert_eq!(rod.inertia, Sym3::diagonal(9.0 + 3.0, 0.0, 9.0 + 3.0));
+
+        // The small inertia about the long axis keeps its digits.
+        let slender =
+            |y| MassProperties { inertia: Sym3::diagonal(1.0, 0.01, 1.0), ..point(3.0, y) };
+        assert_eq!(slender(0.1).joined_with(&slender(0.8)).inertia.yy, 0.02);
 
         let nothing = point(0.0, 2.0).joined_with(&point(0.0, 6.0));
         assert_eq!((nothing.mass, nothing.center_of_mass), (0.0, Vec3::unit_y() * 6.0));

@@ -165,15 +165,9 @@ impl<R: Real> RigidInertia<R> {
     pub fn seen_from(self, offset: Vec3<R>) -> Self {
         let c = self.first_moment;
         let (m, p) = (self.mass, offset);
-        let two_c_plus_mp = c + c + p * m;
-        let trace = two_c_plus_mp.dot(p);
         // (2c·p + m p²) U − (c pᵀ + p cᵀ) − m p pᵀ, with both dyads taken together.
-        let dyads = Sym3::outer_twice(two_c_plus_mp, p) * R::constant(0.5);
-        Self {
-            mass: m,
-            first_moment: c + p * m,
-            about_origin: self.about_origin + Sym3::diagonal(trace, trace, trace) - dyads,
-        }
+        let of_shift = Sym3::across(c + c + p * m, p);
+        Self { mass: m, first_moment: c + p * m, about_origin: self.about_origin + of_shift }
     }
 
     /// Turns the components to other axes.
@@ -309,6 +303,17 @@ mod tests {
         ] {
             assert!((a - b).rows.iter().all(|r| r.norm() < 1e-14), "{a:?} {b:?}");
         }
+    }
+
+    #[test]
+    fn a_slender_body_keeps_its_inertia_about_its_long_axis() {
+        let inertia = Sym3::diagonal(1.0, 0.01, 1.0);
+        let about_hinge = RigidInertia::new(3.0, Vec3::unit_y(), inertia).about_origin;
+        assert_eq!(about_hinge, Sym3::diagonal(4.0, 0.01, 4.0));
+        // m (p² U − p pᵀ), by hand.
+        let point = RigidInertia::new(2.0, Vec3::new(1.0, 2.0, -3.0), Sym3::zero()).about_origin;
+        let expected = Sym3 { xx: 26.0, yy: 20.0, zz: 10.0, xy: -4.0, xz: 6.0, yz: 12.0 };
+        assert_eq!(point, expected);
     }
 
     #[test]

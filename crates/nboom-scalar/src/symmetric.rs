@@ -61,17 +61,21 @@ impl<R: Real> Sym3<R> {
         }
     }
 
-    /// Twice the symmetric part of the dyad, `a bᵀ + b aᵀ`.
+    /// `(a·b) U − ½ (a bᵀ + b aᵀ)`: for a = m p and b = p, the inertia about the origin of a point mass m at p.
+    ///
+    /// No diagonal entry is a difference, so that a slender body keeps the digits of its small inertia where it
+    /// is added to this.
     #[inline(always)]
-    pub fn outer_twice(a: Vec3<R>, b: Vec3<R>) -> Self {
-        let two = |p: R| p + p;
+    pub fn across(a: Vec3<R>, b: Vec3<R>) -> Self {
+        let [x, y, z] = [a.x * b.x, a.y * b.y, a.z * b.z];
+        let half = -R::constant(0.5);
         Self {
-            xx: two(a.x * b.x),
-            yy: two(a.y * b.y),
-            zz: two(a.z * b.z),
-            xy: a.x * b.y + a.y * b.x,
-            xz: a.x * b.z + a.z * b.x,
-            yz: a.y * b.z + a.z * b.y,
+            xx: y + z,
+            yy: z + x,
+            zz: x + y,
+            xy: (a.x * b.y + a.y * b.x) * half,
+            xz: (a.x * b.z + a.z * b.x) * half,
+            yz: (a.y * b.z + a.z * b.y) * half,
         }
     }
 

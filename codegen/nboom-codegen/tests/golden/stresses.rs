@@ -51,7 +51,7 @@ pub mod routine_stresses_s1 {
                 2.0,
                 0.0,
                 3.1,
-                0.20000000000000018,
+                0.2,
                 3.1,
                 0.0,
                 0.0,
@@ -64,7 +64,7 @@ pub mod routine_stresses_s1 {
                 1.5,
                 0.0,
                 2.55,
-                0.10000000000000009,
+                0.1,
                 2.55,
                 0.0,
                 0.0,
@@ -113,7 +113,7 @@ pub mod routine_stresses_s1 {
                 2.0,
                 0.0,
                 3.1,
-                0.20000000000000018,
+                0.2,
                 3.1,
                 0.0,
                 0.0,
@@ -192,93 +192,93 @@ pub mod routine_stresses_s1 {
         let [omega_x, omega_y, omega_z, a_x, a_y, a_z] = R::gather_all(x, 0, 1);
         let [omega_dot_x, omega_dot_y, omega_dot_z] = R::gather_all(x, 6, 1);
         let [tau_1, tau_dot_1, density_1] = R::gather_all(x, 10, 1);
-        let t41 = omega_dot_x * omega_dot_x + omega_dot_y * omega_dot_y;
-        let t44 = (t41 + omega_dot_z * omega_dot_z).sqrt();
-        let t57 = omega_y * cos_beta_1 + omega_z * sin_beta_1;
-        let t58 = omega_z * cos_beta_1 - omega_y * sin_beta_1;
-        let t63 = R::constant(0.1) * omega_dot_z - R::constant(-0.2) * omega_dot_x;
-        let t70 = R::constant(-0.2) * omega_y - omega_z;
-        let t73 = R::constant(0.1) * omega_z - R::constant(-0.2) * omega_x;
-        let t75 = omega_x - R::constant(0.1) * omega_y;
-        let t89 = omega_x * omega_x + omega_y * omega_y + omega_z * omega_z;
-        let t91 = tau_1 * t89.sqrt();
-        let t98 = (t44 + t89) * R::constant(1.02469507659596);
-        let t110 = omega_dot_y * cos_beta_1 + omega_dot_z * sin_beta_1 + tau_1 * t58;
-        let t111 = omega_dot_z * cos_beta_1 - omega_dot_y * sin_beta_1 - tau_1 * t57;
-        let t66 = a_x + (R::constant(-0.2) * omega_dot_y - omega_dot_z);
-        let t112 = t66 + (omega_y * t75 - omega_z * t73);
-        let t113 = a_y + t63 + (omega_z * t70 - omega_x * t75);
-        let t68 = a_z + (omega_dot_x - R::constant(0.1) * omega_dot_y);
-        let t114 = t68 + (omega_x * t73 - omega_y * t70);
-        let t119 = cos_beta_1 * t113 + sin_beta_1 * t114;
-        let t120 = cos_beta_1 * t114 - sin_beta_1 * t113;
-        let t121 = omega_dot_x + tau_dot_1;
-        let t122 = omega_x + tau_1;
-        let t123 = R::constant(2.0) * t120;
-        let t124 = R::constant(2.0) * t112;
-        let t130 = R::constant(3.1) * t122;
-        let t131 = R::constant(0.20000000000000018) * t57;
-        let t132 = R::constant(3.1) * t58;
-        let t143 = R::constant(0.20000000000000018) * t110 + (t58 * t130 - t122 * t132);
-        let t150 = R::constant(2.0) * t58;
-        let t151 = R::constant(2.0) * t122;
-        let t157 = t124 - R::constant(2.0) * t111 + t57 * t151;
-        let t101 = (t91 * t91).sqrt() + (t44 + (tau_dot_1 * tau_dot_1).sqrt());
-        let t99 = (a_x * a_x + a_y * a_y + a_z * a_z).sqrt() + t98;
-        let t168 = (t101 + (t122 * t122 + t57 * t57 + t58 * t58)) * R::constant(6.4);
-        let t177 = R::constant(2.55) * t122;
-        let t178 = R::constant(0.10000000000000009) * t57;
-        let t179 = R::constant(2.55) * t58;
-        let t175 = R::constant(1.5) * t120 + R::constant(2.55) * t121;
-        let t190 = R::constant(0.10000000000000009) * t110 + (t58 * t177 - t122 * t179);
-        let t176 = R::constant(2.55) * t111 - R::constant(1.5) * t112;
-        let t196 = R::constant(1.5) * t58;
-        let t197 = R::constant(1.5) * t122;
-        let t203 = t112 - R::constant(1.5) * t111 + t57 * t197;
-        let t204 = t119 - (t58 * t196 + t122 * t197);
-        let t205 = t120 + R::constant(1.5) * t121 + t57 * t196;
-        let t209 = R::constant(-0.2) + R::constant(0.5) * sin_beta_1;
-        let t212 = R::constant(0.1) * density_1;
-        let t210 = R::one() + R::constant(0.5) * cos_beta_1 - R::constant(0.5);
-        let t213 = density_1 * t210;
-        let t214 = density_1 * (t209 - R::constant(-1.0));
-        let t216 = sin_beta_1 * t213;
-        let t218 = cos_beta_1 * t214;
-        let t219 = cos_beta_1 * t213 + sin_beta_1 * t214;
-        let t220 = t218 - t216;
-        let t221 = t216 - t218;
-        let t142 = t123 + R::constant(3.1) * t121 + (t57 * t132 - t58 * t131);
-        let t224 = t142 + R::constant(0.5) * t221;
-        let t144 = R::constant(3.1) * t111 - t124 + (t122 * t131 - t57 * t130);
-        let t225 = t144 + R::constant(0.5) * t212;
-        let t226 = t157 - t212;
-        let t227 = R::constant(2.0) * t119 - (t58 * t150 + t122 * t151) - t219;
-        let t228 = t123 + R::constant(2.0) * t121 + t57 * t150 + t221;
-        let t235 = R::constant(0.5) * (t212 * t212 + t219 * t219 + t220 * t220).sqrt();
-        let t236 = R::constant(2.0) * t99 + t168 + t235;
-        let t237 = t175 + (t57 * t179 - t58 * t178) - t205;
-        let t238 = t176 + (t122 * t178 - t57 * t177) + t203;
-        let t239 = R::constant(-79.57747154594766) * t204;
-        let t240 = R::constant(-795.7747154594766) * t238;
-        let t241 = R::constant(795.7747154594766) * t237;
-        let t242 = R::constant(397.8873577297383) * t190;
-        let t243 = R::constant(-159.15494309189532) * t205;
-        let t244 = R::constant(159.15494309189532) * t203;
-        let t245 = R::constant(-42.23449305021446) * t227;
-        let t248 = R::constant(-1028.8698667648662) * t225;
-        let t249 = R::constant(-28.040453749190558) * t224 + t248;
-        let t250 = R::constant(29.389456942950876) * t227 + t249;
-        let t253 = R::constant(28.040453749190558) * t225;
-        let t254 = R::constant(669.2368467514789) * t224 + t253;
-        let t255 = R::constant(7.5550925726384905) * t227 + t254;
-        let t256 = t212 - t157;
-        let t257 = -t228;
-        let t259 = R::constant(-0.028905471965408935) * t228;
-        let t261 = R::constant(0.012500230916737964) * t226 + t259 - t143;
-        R::scatter_all([t226, t227, t228, t224, t143, t225, t203, t204], out, 0, 1);
-        R::scatter_all([t205, t237, t190, t238, t226, t227, t228, t224], out, 8, 1);
-        R::scatter_all([t143, t225, t239, t240, t241, t242, t243, t244], out, 16, 1);
-        R::scatter_all([t245, t250, t255, t256, t257, t261, t236], out, 24, 1);
+        let t40 = omega_dot_x * omega_dot_x + omega_dot_y * omega_dot_y;
+        let t43 = (t40 + omega_dot_z * omega_dot_z).sqrt();
+        let t56 = omega_y * cos_beta_1 + omega_z * sin_beta_1;
+        let t57 = omega_z * cos_beta_1 - omega_y * sin_beta_1;
+        let t62 = R::constant(0.1) * omega_dot_z - R::constant(-0.2) * omega_dot_x;
+        let t69 = R::constant(-0.2) * omega_y - omega_z;
+        let t72 = R::constant(0.1) * omega_z - R::constant(-0.2) * omega_x;
+        let t74 = omega_x - R::constant(0.1) * omega_y;
+        let t88 = omega_x * omega_x + omega_y * omega_y + omega_z * omega_z;
+        let t90 = tau_1 * t88.sqrt();
+        let t97 = (t43 + t88) * R::constant(1.02469507659596);
+        let t109 = omega_dot_y * cos_beta_1 + omega_dot_z * sin_beta_1 + tau_1 * t57;
+        let t110 = omega_dot_z * cos_beta_1 - omega_dot_y * sin_beta_1 - tau_1 * t56;
+        let t65 = a_x + (R::constant(-0.2) * omega_dot_y - omega_dot_z);
+        let t111 = t65 + (omega_y * t74 - omega_z * t72);
+        let t112 = a_y + t62 + (omega_z * t69 - omega_x * t74);
+        let t67 = a_z + (omega_dot_x - R::constant(0.1) * omega_dot_y);
+        let t113 = t67 + (omega_x * t72 - omega_y * t69);
+        let t118 = cos_beta_1 * t112 + sin_beta_1 * t113;
+        let t119 = cos_beta_1 * t113 - sin_beta_1 * t112;
+        let t120 = omega_dot_x + tau_dot_1;
+        let t121 = omega_x + tau_1;
+        let t122 = R::constant(2.0) * t119;
+        let t123 = R::constant(2.0) * t111;
+        let t129 = R::constant(3.1) * t121;
+        let t130 = R::constant(0.2) * t56;
+        let t131 = R::constant(3.1) * t57;
+        let t142 = R::constant(0.2) * t109 + (t57 * t129 - t121 * t131);
+        let t149 = R::constant(2.0) * t57;
+        let t150 = R::constant(2.0) * t121;
+        let t156 = t123 - R::constant(2.0) * t110 + t56 * t150;
+        let t100 = (t90 * t90).sqrt() + (t43 + (tau_dot_1 * tau_dot_1).sqrt());
+        let t98 = (a_x * a_x + a_y * a_y + a_z * a_z).sqrt() + t97;
+        let t167 = (t100 + (t121 * t121 + t56 * t56 + t57 * t57)) * R::constant(6.4);
+        let t176 = R::constant(2.55) * t121;
+        let t177 = R::constant(0.1) * t56;
+        let t178 = R::constant(2.55) * t57;
+        let t174 = R::constant(1.5) * t119 + R::constant(2.55) * t120;
+        let t189 = R::constant(0.1) * t109 + (t57 * t176 - t121 * t178);
+        let t175 = R::constant(2.55) * t110 - R::constant(1.5) * t111;
+        let t195 = R::constant(1.5) * t57;
+        let t196 = R::constant(1.5) * t121;
+        let t202 = t111 - R::constant(1.5) * t110 + t56 * t196;
+        let t203 = t118 - (t57 * t195 + t121 * t196);
+        let t204 = t119 + R::constant(1.5) * t120 + t56 * t195;
+        let t208 = R::constant(-0.2) + R::constant(0.5) * sin_beta_1;
+        let t211 = R::constant(0.1) * density_1;
+        let t209 = R::one() + R::constant(0.5) * cos_beta_1 - R::constant(0.5);
+        let t212 = density_1 * t209;
+        let t213 = density_1 * (t208 - R::constant(-1.0));
+        let t215 = sin_beta_1 * t212;
+        let t217 = cos_beta_1 * t213;
+        let t218 = cos_beta_1 * t212 + sin_beta_1 * t213;
+        let t219 = t217 - t215;
+        let t220 = t215 - t217;
+        let t141 = t122 + R::constant(3.1) * t120 + (t56 * t131 - t57 * t130);
+        let t223 = t141 + R::constant(0.5) * t220;
+        let t143 = R::constant(3.1) * t110 - t123 + (t121 * t130 - t56 * t129);
+        let t224 = t143 + R::constant(0.5) * t211;
+        let t225 = t156 - t211;
+        let t226 = R::constant(2.0) * t118 - (t57 * t149 + t121 * t150) - t218;
+        let t227 = t122 + R::constant(2.0) * t120 + t56 * t149 + t220;
+        let t234 = R::constant(0.5) * (t211 * t211 + t218 * t218 + t219 * t219).sqrt();
+        let t235 = R::constant(2.0) * t98 + t167 + t234;
+        let t236 = t174 + (t56 * t178 - t57 * t177) - t204;
+        let t237 = t175 + (t121 * t177 - t56 * t176) + t202;
+        let t238 = R::constant(-79.57747154594766) * t203;
+        let t239 = R::constant(-795.7747154594766) * t237;
+        let t240 = R::constant(795.7747154594766) * t236;
+        let t241 = R::constant(397.8873577297383) * t189;
+        let t242 = R::constant(-159.15494309189532) * t204;
+        let t243 = R::constant(159.15494309189532) * t202;
+        let t244 = R::constant(-42.23449305021446) * t226;
+        let t247 = R::constant(-1028.8698667648662) * t224;
+        let t248 = R::constant(-28.040453749190558) * t223 + t247;
+        let t249 = R::constant(29.389456942950876) * t226 + t248;
+        let t252 = R::constant(28.040453749190558) * t224;
+        let t253 = R::constant(669.2368467514789) * t223 + t252;
+        let t254 = R::constant(7.5550925726384905) * t226 + t253;
+        let t255 = t211 - t156;
+        let t256 = -t227;
+        let t258 = R::constant(-0.028905471965408935) * t227;
+        let t260 = R::constant(0.012500230916737964) * t225 + t258 - t142;
+        R::scatter_all([t225, t226, t227, t223, t142, t224, t202, t203], out, 0, 1);
+        R::scatter_all([t204, t236, t189, t237, t225, t226, t227, t223], out, 8, 1);
+        R::scatter_all([t142, t224, t238, t239, t240, t241, t242, t243], out, 16, 1);
+        R::scatter_all([t244, t249, t254, t255, t256, t260, t235], out, 24, 1);
     }
 }
 pub use routine_stresses_s1::StressesS1;

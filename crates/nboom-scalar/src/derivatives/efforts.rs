@@ -79,11 +79,9 @@ impl Moving {
         let momentum = inertia.momentum(self.velocity);
         // ω × J − J ω×, and what the velocity of the reference point adds.
         let turned = Mat3::skew(w) * j.to_matrix();
-        let along = 2.0 * c.dot(v);
         let both = turned + turned.transpose();
         self.inertia = inertia;
-        self.coriolis =
-            Sym3::upper_of(&both) + Sym3::diagonal(along, along, along) - Sym3::outer_twice(c, v);
+        self.coriolis = Sym3::upper_of(&both) + Sym3::across(c, v) * 2.0;
         self.momentum = momentum;
         self.effort = inertia.momentum(self.acceleration);
         self.effort.add(self.velocity.cross_wrench(momentum));
@@ -94,9 +92,8 @@ impl Moving {
     fn add(&mut self, outboard: &Self) {
         let way = outboard.joint - self.joint;
         let p = outboard.momentum.force;
-        let along = 2.0 * way.dot(p);
         self.inertia.add(outboard.inertia.seen_from(way));
-        let shift = Sym3::diagonal(along, along, along) - Sym3::outer_twice(p, way);
+        let shift = Sym3::across(p, way) * 2.0;
         self.coriolis += outboard.coriolis + shift;
         self.momentum.add(outboard.momentum.seen_from(way));
         self.effort.add(outboard.effort.seen_from(way));
