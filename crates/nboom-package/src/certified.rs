@@ -141,9 +141,7 @@ impl Certified {
 
     fn require_close(&self, request: &Request) -> Result<(), PackageError> {
         let (quantity, deviation) = match &self.found {
-            Found::Accelerations(found) => {
-                ("accelerations", found.from_recursion.max(found.from_double_double))
-            }
+            Found::Accelerations(found) => ("accelerations", found.worst),
             Found::Equations { deviation, residual } => ("equations", deviation.max(*residual)),
             Found::InverseDynamics(deviation) => ("inverse dynamics", *deviation),
             Found::RightSide { deviation, .. } => ("rates of change", *deviation),
@@ -239,6 +237,7 @@ fn accelerations(
             states: most.states + found.states,
             from_recursion: most.from_recursion.max(found.from_recursion),
             from_double_double: most.from_double_double.max(found.from_double_double),
+            worst: most.worst.max(found.worst),
             condition: most.condition.max(found.condition),
             ..most
         }));

@@ -18,6 +18,10 @@ pub struct Certificate {
     pub from_recursion: f64,
     /// Largest deviation from the recursion in double-double, rounded to `f64`.
     pub from_double_double: f64,
+    /// The largest deviation that counts in any state: the larger one of both, or that from double-double alone
+    /// where the recursion in `f64` is farther from it.
+    #[serde(skip)]
+    pub worst: f64,
     /// The largest condition of the mass matrix, scaled to diagonal 1.
     pub condition: f64,
 }
@@ -34,8 +38,9 @@ pub fn certify(
     mut accelerations: impl FnMut(usize) -> Vec<f64>,
 ) -> Result<Certificate, VerifyError> {
     let (states, seed) = (test_case.states().len(), test_case.seed());
+    let (from_recursion, from_double_double, worst) = (0.0, 0.0, 0.0);
     let nothing =
-        Certificate { states, seed, from_recursion: 0.0, from_double_double: 0.0, condition: 1.0 };
+        Certificate { states, seed, from_recursion, from_double_double, worst, condition: 1.0 };
     let mut referee = Referee::new(test_case, 1);
     (0..states).try_fold(nothing, |most, i| {
         let reference = referee.reference(i)?;
@@ -43,6 +48,7 @@ pub fn certify(
         Ok(Certificate {
             from_recursion: most.from_recursion.max(off.from_recursion),
             from_double_double: most.from_double_double.max(off.from_double_double),
+            worst: most.worst.max(off.worst()),
             condition: most.condition.max(reference.condition),
             ..most
         })

@@ -23,8 +23,10 @@ pub struct Row {
     pub from_recursion: Option<f64>,
     /// Its largest deviation from the recursion in double-double, rounded to `f64`.
     pub from_double_double: f64,
-    /// The state where the larger of both is, from 1.
+    /// The state where its largest deviation that counts is, from 1.
     pub state: usize,
+    #[serde(skip)]
+    worst: f64,
 }
 
 impl Row {
@@ -38,12 +40,14 @@ impl Row {
             from_recursion,
             from_double_double: 0.0,
             state: 0,
+            worst: 0.0,
         }
     }
 
-    /// The larger one of both deviations.
+    /// The largest deviation that counts in any state: the larger one of both, or that from double-double alone
+    /// where the recursion in `f64` is farther from it.
     pub fn worst(&self) -> f64 {
-        self.from_recursion.unwrap_or(0.0).max(self.from_double_double)
+        self.worst
     }
 
     fn note(&mut self, state: usize, virtual_links: usize, off: Deviation) {
@@ -51,6 +55,7 @@ impl Row {
             self.state = state;
         }
         self.states += 1;
+        self.worst = self.worst.max(off.worst());
         self.label.virtual_links = self.label.virtual_links.max(virtual_links);
         self.from_recursion = self.from_recursion.map(|most| most.max(off.from_recursion));
         self.from_double_double = self.from_double_double.max(off.from_double_double);
