@@ -1,4 +1,4 @@
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::{env, fs, io};
 
 use nboom_codegen::{
@@ -158,11 +158,17 @@ impl Config {
         Self { scalar_path: path.to_owned(), ..self }
     }
 
-    /// Writes the file into the build script's output directory, unless it is there.
+    /// Writes the file into the build script's output directory, unless it is there. It may stand in a folder
+    /// there, `generated/wing.rs`.
     ///
     /// # Errors
-    /// When a scene cannot be read, a routine cannot be generated, or the file cannot be written.
+    /// When the file would be outside that directory, a scene cannot be read, a routine cannot be generated, or the
+    /// file cannot be written.
     pub fn write(&self, file: &str) -> Result<(), BuildError> {
+        let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+        if !Path::new(file).components().all(inside) {
+            return Err(BuildError::NotInOutDir { file: file.to_owned() });
+        }
         let folder = env::var_os("OUT_DIR").ok_or(BuildError::NoOutDir)?;
         // Whatever is in this folder was written by a build script.
         self.bring_up_to_date(&Path::new(&folder).join(file), |_| true)

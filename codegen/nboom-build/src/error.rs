@@ -36,6 +36,14 @@ pub enum BuildError {
     /// There is no directory for what a build script writes.
     #[error("OUT_DIR is not set, the environment that cargo gives to build scripts expected")]
     NoOutDir,
+    /// What is overwritten unasked is no file of anybody else.
+    #[error(
+        "file `{file}` found, one in OUT_DIR expected, without `..` and not from the root; `write_to` writes elsewhere"
+    )]
+    NotInOutDir {
+        /// The file.
+        file: String,
+    },
     /// A file cannot be read or written.
     #[error("{}", path.display())]
     Io {

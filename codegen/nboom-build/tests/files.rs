@@ -35,6 +35,17 @@ fn message(result: Result<(), BuildError>) -> String {
 }
 
 #[test]
+fn a_file_outside_the_output_directory_is_not_overwritten() {
+    let (_folder, path) = place();
+    fs::write(&path, "fn mine() {}").expect("the folder is ours");
+    for file in [path.to_str().expect("text"), "../routines.rs", "generated/../../routines.rs"] {
+        let told = message(satellite().write(file));
+        assert!(told.contains(&format!("file `{file}` found, one in OUT_DIR expected")), "{told}");
+    }
+    assert_eq!(text(&path), "fn mine() {}");
+}
+
+#[test]
 fn an_up_to_date_file_is_not_written_again() {
     let (_folder, path) = place();
     satellite().write_to(&path).expect("there is no file");
