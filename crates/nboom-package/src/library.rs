@@ -19,6 +19,10 @@ const CODE: &str = include_str!("../templates/lib.rs");
 /// What only a crate with equations has.
 const EQUATIONS: &str = include_str!("../templates/equations.rs");
 
+/// What a hinge has besides in it.
+const EQUATION_FIELD: &str = "    /// Row and column of its unknown in the matrix of [`equations`], and its place in the right side.\n    \
+     pub equation: usize,\n";
+
 /// What only a crate with inverse dynamics has.
 const INVERSE: &str = include_str!("../templates/inverse_dynamics.rs");
 
@@ -54,7 +58,10 @@ pub(crate) fn files(
     let right_side = right_side.map(|request| right_side::texts(scene, recognised, request));
     let [side_in_words, side_in_code] = right_side.transpose()?.unwrap_or_default();
     let of_free = equations.is_some() || inverse.is_some();
-    let hinges = hinges(scene, recognised);
+    let rows = requests.equations.as_ref().map(|request| (request.formulation, free));
+    let hinges = hinges(scene, recognised, rows.map(|(_, free)| free));
+    let equations_in_words =
+        rows.map_or(String::new(), |(formulation, free)| order(scene, formulation, free));
     let held = held_main(scene);
     let is_let_go = held.is_some() && of_free;
     let only_if = |is_so: bool, text: &str| if is_so { text } else { "" }.to_owned();
@@ -89,6 +96,8 @@ pub(crate) fn files(
         ("HINGE_COUNT", recognised.links.len().to_string()),
         ("TREE_LIST", tree(recognised)),
         ("MORE_FUNCTIONS", equations.unwrap_or_default() + &inverse.unwrap_or_default()),
+        ("EQUATION_FIELD", only_if(rows.is_some(), EQUATION_FIELD)),
+        ("EQUATIONS_IN_WORDS", equations_in_words),
         // Names of bodies may look like such keys.
         ("HINGE_LIST", hinges),
     ];
@@ -145,17 +154,21 @@ fn table(requests: &[Request]) -> String {
     rows
 }
 
-/// A line for each hinge in the order of the scene.
-fn hinges(scene: &Scene, recognised: &Recognised) -> String {
+/// A line for each hinge in the order of the scene. `of_equations` are the appendages of equations, if there are any.
+fn hinges(scene: &Scene, recognised: &Recognised, of_equations: Option<&Recognised>) -> String {
     let topology = &recognised.topology;
     let mut rows = vec![String::new(); recognised.links.len()];
     for (&link, place) in recognised.links.iter().zip(Layout::places(topology)) {
         let label = scene.label(link);
         let [angle, rate, torque] = Layout::hinge_in_state(topology, place);
+        let row = |of: &Recognised| of.links.iter().position(|&other| other == link);
+        let row = of_equations
+            .and_then(row)
+            .map_or(String::new(), |row| format!(", equation: {}", Layout::OUTPUT + row));
         let slides = label.joint == Joint::Prismatic;
         rows[link] = format!(
             "    Hinge {{ name: {:?}, appendage: {}, segment: {}, slides: {slides}, angle: {angle}, \
-             rate: {rate}, torque: {torque}, acceleration: {} }},\n",
+             rate: {rate}, torque: {torque}, acceleration: {}{row} }},\n",
             label.name.as_deref().unwrap_or_default(),
             label.appendage + 1,
             label.segment + 1,
@@ -163,6 +176,19 @@ fn hinges(scene: &Scene, recognised: &Recognised) -> String {
         );
     }
     rows.concat()
+}
+
+/// In which order rows and columns of the matrix stand.
+fn order(scene: &Scene, formulation: Formulation, recognised: &Recognised) -> String {
+    let hinges = recognised.links.iter().map(|&link| scene.label(link).to_string());
+    let hinges = in_words(&hinges.collect::<Vec<_>>().join("; "));
+    let hinges = if hinges.is_empty() { "none".to_owned() } else { hinges };
+    format!(
+        "**Equations** are the matrix, row by row, and the right side. Rows and columns are those of {}, the first two \
+         of 3 numbers each. Hinges come appendage by appendage, in the order of the topology, which may differ \
+         from that of `HINGES` and of accelerations: {hinges}. `Hinge::equation` counts rows from 0.\n\n",
+        unknowns(formulation)
+    )
 }
 
 /// A line for each link of the tree that derivatives loop over.

@@ -26,7 +26,7 @@ pub struct Hinge {
     pub torque: usize,
     /// Where the angular acceleration stands.
     pub acceleration: usize,
-}
+/*EQUATION_FIELD*/}
 
 /// The hinges of the scene, all of them free, in its order.
 #[rustfmt::skip]

@@ -196,6 +196,24 @@ fn equations_are_symmetric_beside_articulated_accelerations() {
     assert_eq!(of(1), (&"equations".into(), &"symmetric".into()));
 }
 
+/// Rows of the matrix go by the topology, S2_S1, in which the scene's second boom comes first.
+#[test]
+fn hinges_say_which_row_of_the_equations_is_theirs() {
+    let (scene, choices) = (satellite("two booms", &[1, 2]), Choices::default());
+    let place = written(&scene, &Choices { equations: true, ..choices });
+    let [code, readme] = ["src/lib.rs", "README.md"]
+        .map(|file| fs::read_to_string(place.path().join(file)).expect("readable"));
+    for (hinge, row) in [("1, segment: 1", 8), ("2, segment: 1", 6), ("2, segment: 2", 7)] {
+        let mut lines = code.lines().filter(|line| line.contains(&format!("appendage: {hinge}")));
+        let line = lines.next().expect("a line for each hinge");
+        assert!(line.ends_with(&format!(", equation: {row} }},")), "{line}");
+    }
+    assert!(readme.contains("2,1; 2,2; 1,1. `Hinge::equation`"), "{readme}");
+    let place = written(&scene, &choices);
+    let code = fs::read_to_string(place.path().join("src/lib.rs")).expect("readable");
+    assert!(!code.contains("equation:"));
+}
+
 #[test]
 fn routines_are_those_asked_for() {
     let names = |choices: Choices| -> Vec<String> {
