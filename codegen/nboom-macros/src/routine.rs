@@ -54,6 +54,10 @@ impl Parse for Input {
         let (visibility, name): (Visibility, Ident) = (input.parse()?, input.parse()?);
         input.parse::<Token![:]>()?;
         let (topology, span) = topology(input)?;
+        if input.peek(syn::token::Paren) {
+            let message = "a topology with brackets is a string: `\"T(rr)\"`";
+            return Err(input.error(message));
+        }
         let mut request = Request {
             scalar_path: SCALAR.to_owned(),
             ..Request::new(&name.to_string(), topology, Level::Fast)
@@ -174,6 +178,11 @@ mod tests {
         is_refused("S: 2.5", "2.5", &["`2.5` found"]);
         is_refused("S: -2", "-2", &["`- 2` found"]);
         is_refused("S: *", "*", &["a topology expected, for example `S2_P`"]);
+    }
+
+    #[test]
+    fn a_topology_with_brackets_is_told_to_be_a_string() {
+        is_refused("S: Tr(rr)(s)", "(", &["a topology with brackets is a string"]);
     }
 
     #[test]
