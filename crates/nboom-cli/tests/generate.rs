@@ -107,7 +107,7 @@ fn a_compiler_that_is_not_there_or_fails_is_said() {
     ends(&failing.expect("it starts"), 3, &["cargo has failed in", "work/nboom-simulator-"]);
     let nowhere =
         command(place, &compile[..4]).env_remove("HOME").env_remove("XDG_CACHE_HOME").output();
-    ends(&nowhere.expect("it starts"), 2, &["XDG_CACHE_HOME", "HOME"]);
+    ends(&nowhere.expect("it starts"), 2, &["XDG_CACHE_HOME", "HOME", "--work"]);
     assert!(!place.join("boom").exists());
     fs::write(place.join("file"), "").expect("writable");
     let in_file = ["compile", "boom.nml", "-o", "boom", "--work", "file"];
