@@ -77,7 +77,9 @@ pub enum PackageError {
         source: io::Error,
     },
     /// There is no folder to build in.
-    #[error("neither XDG_CACHE_HOME nor HOME is set, so a folder to build in has to be named: --work")]
+    #[error(
+        "neither XDG_CACHE_HOME nor HOME is set, so a folder to build in has to be named: --work"
+    )]
     NoFolder,
     /// Cargo cannot be started.
     #[error("cannot start {}, which builds generated code; it comes with Rust", program.display())]
