@@ -154,7 +154,7 @@ pub(crate) fn name(word: &str, topology: &Topology) -> String {
 
 /// For each hinge that is not `free`, the angle at which it is held, different ones around `angle`.
 pub fn held_at(free: &[bool], angle: f64) -> Vec<Option<f64>> {
-    let of_hinge = |(i, &free): (usize, &bool)| (!free).then(|| angle * (1.0 + 0.1 * i as f64));
+    let of_hinge = |(i, &free): (usize, &bool)| (!free).then_some(angle * (1.0 + 0.1 * i as f64));
     free.iter().enumerate().map(of_hinge).collect()
 }
 
