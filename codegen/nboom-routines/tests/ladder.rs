@@ -209,7 +209,10 @@ fn a_word_says_what_each_routine_of_the_stock_assumes() {
         of_topology.map(assumptions_in_a_word).collect()
     };
     assert_eq!(words("4xS5"), ["principal", "mirrored", "general"].repeat(2));
-    assert_eq!(words("2xS4"), ["principal", "mirrored", "general"].repeat(2));
+    assert_eq!(words("6xS4"), ["principal", "mirrored", "general"]);
+    // Right sides of wings come with couplings too, but for mirrored links.
+    let of_wings = ["principal", "principal", "mirrored", "general", "general"];
+    assert_eq!(words("2xS4"), [&["principal", "mirrored", "general"], &of_wings[..]].concat());
     assert_eq!(words("S1_P")[..2], ["principal", "general"]);
     assert_eq!(words("Trrr")[..2], ["principal", "general"]);
     assert_eq!(words("M")[..2], ["principal", "general"]);
