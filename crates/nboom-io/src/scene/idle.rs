@@ -6,32 +6,29 @@ use super::sources::Sources;
 use super::tree::{Table, Value};
 use crate::diagnostic::Report;
 
-/// Warns of parameters and materials that nothing uses: those of the scene's own file, since a file that it includes
-/// may serve others, and parameters that are set.
+/// Warns of parameters that are set and of materials, where nothing uses them. A scene that is not written to its end
+/// has parameters for later, and a file that it includes may serve others.
 pub(super) fn check_use(
     parts: &Parts,
     set: &[(String, f64)],
     sources: &Sources,
     report: &mut Report<'_>,
 ) {
-    let is_own = |key: &str, name: &str| {
-        let named = parts.root().get(key).map(|entry| &entry.node.value);
-        matches!(named, Some(Value::Table(table)) if table.get(name).is_some())
-    };
+    let materials = parts.root().get("materials").map(|entry| &entry.node.value);
+    let is_own =
+        |name: &str| matches!(materials, Some(Value::Table(table)) if table.get(name).is_some());
     for entry in parts.entries("parameters") {
         let name = entry.key.as_str();
         let is_set = set.iter().any(|(set, _)| set == name);
-        let is_asked_for = is_set || is_own("parameters", name);
-        if is_asked_for && !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
-            let symbol = if is_set { "--set" } else { name };
+        if is_set && !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
             let expected = format!("one of which some number is an expression, as `${name}`");
             let found = "a parameter that nothing uses";
-            report.warn_at(sources, &entry.key_at, symbol, found, &expected);
+            report.warn_at(sources, &entry.key_at, "--set", found, &expected);
         }
     }
     for entry in parts.entries("materials") {
         let name = entry.key.as_str();
-        if is_own("materials", name) && !parts.iter().any(|(_, table, _)| is_used(table, name)) {
+        if is_own(name) && !parts.iter().any(|(_, table, _)| is_used(table, name)) {
             let expected = format!("one of some body, as `material = \"{name}\"`");
             let found = "a material that nothing uses";
             report.warn_at(sources, &entry.key_at, name, found, &expected);
