@@ -164,24 +164,27 @@ impl Request {
         coefficients.any(|at| self.assumptions[at] != Some(0.0))
     }
 
+    /// The hinges of a right side that may be coupled with the one inboard of them.
+    pub(crate) fn coupled(&self) -> impl Iterator<Item = usize> {
+        let inboard = self.topology.inboard_hinges().into_iter().enumerate();
+        let is_coupled = |&(hinge, inboard): &(usize, Option<usize>)| {
+            self.output == Output::RightSide && inboard.is_some() && self.may_couple(hinge)
+        };
+        inboard.filter(is_coupled).map(|(hinge, _)| hinge)
+    }
+
     /// Whether a hinge may be coupled with the one inboard of it.
     pub(crate) fn has_couplings(&self) -> bool {
-        let is_coupled =
-            |(hinge, inboard): (usize, Option<usize>)| inboard.is_some() && self.may_couple(hinge);
-        let mut hinges = self.topology.inboard_hinges().into_iter().enumerate();
-        self.output == Output::RightSide && hinges.any(is_coupled)
+        self.coupled().next().is_some()
     }
 
     /// Whether a hinge that is not one of a chain may be coupled with the one inboard of it: loops have no step for that.
     pub(crate) fn couples_beyond_chains(&self) -> bool {
         let of_hinges = self.topology.shapes().iter();
-        let is_of_chain = of_hinges.flat_map(|shape| {
-            std::iter::repeat_n(matches!(shape, Shape::Chain(_)), shape.hinges())
-        });
-        let inboard = self.topology.inboard_hinges().into_iter().enumerate();
-        let mut beyond = inboard.zip(is_of_chain).filter(|(_, is_of_chain)| !is_of_chain);
-        self.output == Output::RightSide
-            && beyond.any(|((hinge, inboard), _)| inboard.is_some() && self.may_couple(hinge))
+        let is_of_chain: Vec<bool> = of_hinges
+            .flat_map(|shape| std::iter::repeat_n(matches!(shape, Shape::Chain(_)), shape.hinges()))
+            .collect();
+        self.coupled().any(|hinge| !is_of_chain[hinge])
     }
 
     /// Whether a right side may have a coupling at the place of this hinge.

@@ -272,11 +272,9 @@ fn law(request: &Request, group: &Equal, places: &mut Places) -> Option<Placed> 
 
 /// The torques of a coupling about two hinges of a group, of a right side that may have one in it.
 fn coupling(request: &Request, group: &Equal, places: &mut Places) -> Option<Placed> {
-    let links = group.shape.hinges();
-    let hinges = group.count * links;
-    let mut outboard = (0..hinges).filter(|hinge| hinge % links > 0);
-    let is_coupled = |hinge: usize| request.may_couple(group.hinge + hinge);
-    if request.output != Output::RightSide || !outboard.any(is_coupled) {
+    let hinges = group.count * group.shape.hinges();
+    let of_group = group.hinge..group.hinge + hinges;
+    if !request.coupled().any(|hinge| of_group.contains(&hinge)) {
         return None;
     }
     let assumed = group.of_couplings(request);
