@@ -1,5 +1,8 @@
 //! Routines for states with held hinges of robots, whose link frames depend on the angles.
 
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng as _, SeedableRng};
+
 use super::*;
 
 /// A robot of equal links half a metre apart, each on the one given by a hinge about an axis.
@@ -54,14 +57,9 @@ fn an_arm_is_certified_and_runs_generated_at_any_held_angle() {
 fn random_trees_are_certified_and_run_generated_at_held_angles() {
     let units = [Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z()];
     let [mut states, mut of_accepted] = [0; 2];
-    for tree in 0..12_usize {
-        let mut seed = 0x9e37_79b9_usize.wrapping_mul(tree + 1);
-        let mut below = |end: usize| {
-            seed = seed
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 33) % end
-        };
+    for tree in 0..12 {
+        let mut dice = SplitMix64::seed_from_u64(tree);
+        let mut below = |end: usize| (dice.next_u64() % end as u64) as usize;
         // Each link hangs on the last one or inboard of it.
         let mut way = Vec::new();
         let mut links = Vec::new();
