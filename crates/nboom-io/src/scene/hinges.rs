@@ -29,7 +29,7 @@ pub(super) fn read(
         Joint::Revolute => reader.angle_pairs(table, "torque"),
         Joint::Prismatic => reader.rows(table, "force"),
     };
-    ["torque", "force"].iter().for_each(|key| reader.check_said(table, key, &[]));
+    ["torque", "force"].iter().for_each(|key| reader.warn_if_idle(table, key, &[]));
     for (key, found, expected) in words.contradictions() {
         reader.error(&table.place(key), key, &found, expected);
     }
@@ -107,7 +107,7 @@ impl Reader<'_, '_> {
             Joint::Revolute => ["rate_squared", "angle", "angle_squared"],
             Joint::Prismatic => ["speed_squared", "travel", "travel_squared"],
         };
-        self.check_said(of, "damper", &["damping", rate_squared, angle, angle_squared]);
+        self.warn_if_idle(of, "damper", &["damping", rate_squared, angle, angle_squared]);
         let mut words = words::damper(self.number(&damper, "damping").unwrap_or(0.0));
         let mut set = |key, to: fn(DamperWords, f64) -> DamperWords| {
             if let Some(number) = self.number(&damper, key) {

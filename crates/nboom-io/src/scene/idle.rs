@@ -38,7 +38,7 @@ pub(super) fn check_use(
 
 impl Reader<'_, '_> {
     /// Warns of an empty list, or of a table without any of the keys that count.
-    pub fn check_said(&mut self, fields: &Fields<'_>, key: &'static str, keys: &[&str]) {
+    pub fn warn_if_idle(&mut self, fields: &Fields<'_>, key: &'static str, keys: &[&str]) {
         let Some((entry, _)) = fields.entry(key) else { return };
         let (found, expected) = match &entry.node.value {
             Value::List(nodes) if nodes.is_empty() => {

@@ -87,7 +87,7 @@ impl Reader<'_, '_> {
             let columns = Column::all(scene.bodies.len());
             return in_degrees.then_some(WantedTable { columns, in_degrees });
         }
-        self.check_said(output, "columns", &[]);
+        self.warn_if_idle(output, "columns", &[]);
         let mut table = WantedTable { columns: Vec::new(), in_degrees };
         for (text, at) in self.texts(output, "columns") {
             match Column::named(text, scene.labels(), scene.rotors.len()) {
