@@ -74,8 +74,8 @@ pub enum Command {
     /// at random angles. The thrust is on and kick-off springs are disengaged. The whole mass
     /// matrix, factored by Cholesky's method (dense), closed forms and generated routines, including one of a larger topology if a run takes it, are compared with
     /// the recursion in f64. All code is compared with the recursion in double-double, which has 32
-    /// digits; where the recursion in f64 is farther from that than some code is, this code's deviation from it does
-    /// not count. Deviations of accelerations are relative to the largest one. Where the mass matrix
+    /// digits. A deviation from the recursion in f64 does not count where that is itself farther from
+    /// double-double than the code. Deviations of accelerations are relative to the largest one. Where the mass matrix
     /// of what moves freely, scaled to diagonal 1, has a condition above 1e4, they are divided by its ratio to 1e4, since
     /// it magnifies rounding as much. If a formulation has a mass matrix and forcing, they are
     /// compared with those of the recursion for its unknowns, with O at the inertial origin.

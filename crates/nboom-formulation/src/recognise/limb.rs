@@ -141,7 +141,8 @@ fn simplest_frame(tree: &WeldedTree<f64>, j: usize, inboard: Option<LinkFrame>) 
         let square = near - link.axis * link.axis.dot(near);
         let norm = square.norm();
         let share = norm / near.norm();
-        // Of equal frames, those are taken first which stay when hinges are held at other angles.
+        // Of equal frames, those from a direction square to the axis, but for rounding, are taken first: they stay when
+        // hinges are held at other angles.
         let leans = usize::from(share < 1.0 - 1e-14);
         (share > 0.1).then(|| (square * (1.0 / norm), leans))
     });
