@@ -54,6 +54,19 @@ fn an_arm_is_certified_and_runs_generated_at_any_held_angle() {
 }
 
 #[test]
+fn a_routine_that_accepts_no_state_is_refused() {
+    let [x, y] = [Vec3::unit_x(), Vec3::unit_y()];
+    let arm = robot(&[(None, x), (Some(0), y), (Some(1), x)]);
+    let mut request = Request::lock_states(&arm, Level::Fast).expect("limbs are covered").remove(0);
+    let free = request.free_hinges(&arm).expect("covered").expect("it is one of them");
+    assert!(Certified::new(&arm, &request, Some(&free)).is_ok());
+    let assumed = request.assumptions.iter_mut().flatten().next().expect("it assumes something");
+    *assumed = 12.5;
+    let refused = Certified::new(&arm, &request, Some(&free)).err();
+    assert!(matches!(refused, Some(PackageError::NotAccepted { .. })), "{refused:?}");
+}
+
+#[test]
 fn random_trees_are_certified_and_run_generated_at_held_angles() {
     let units = [Vec3::unit_x(), Vec3::unit_y(), Vec3::unit_z()];
     let [mut states, mut of_accepted] = [0; 2];
