@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use nboom::model::{Scene, SceneDescription};
-use nboom::scalar::InstructionSet;
+use nboom::scalar::{InstructionSet, Kernel};
 use nboom::sim::{Lanes, Method, Options, Simulator, Summary, Task};
 
 use crate::catalog::Reference;
@@ -11,8 +11,10 @@ use crate::collect::{Collected, run, tight};
 use crate::random_scene::Rng;
 use crate::trajectories::agrees;
 
+/// Of runs that take explicit steps in lanes: by `auto` tight tolerances have stages of one run side by side.
 fn options(samples: usize) -> Options {
     Options {
+        integrator: Method::Dop853,
         kernels: nboom_routines::for_runs(),
         batches: nboom_routines::right_sides_of_eight(),
         lanes: true,
@@ -57,9 +59,11 @@ fn a_run_does_not_depend_on_those_beside_it() {
     for reference in Reference::all() {
         scenes.extend((0..5).map(|seed| dispersed(&reference.scene(), seed)));
     }
-    for options in
-        [options(10), Options { integrator: Method::Dopri5, rtol: 1e-6, atol: 1e-9, ..options(10) }]
-    {
+    for options in [
+        options(10),
+        Options { integrator: Method::Dopri5, rtol: 1e-6, atol: 1e-9, ..options(10) },
+        Options { integrator: Method::Auto, rtol: 1e-9, ..options(10) },
+    ] {
         let alone: Vec<(Collected, Summary)> =
             scenes.iter().map(|scene| run(scene, &options)).collect();
         for at_once in [3, 16] {
@@ -100,4 +104,27 @@ fn lanes_are_filled_by_runs_of_one_kind() {
     let filled = lanes.steps() as f64 / (8 * lanes.packs()) as f64;
     assert!(lanes.steps() > 40 * 40, "{} steps in lanes", lanes.steps());
     assert!(filled > 0.5, "{filled} of all lanes are filled");
+}
+
+/// Equal appendages fill the registers of one state, so that lanes have nothing to add.
+#[test]
+fn only_code_that_leaves_registers_empty_has_lanes() {
+    if InstructionSet::of_this_processor() == InstructionSet::Portable {
+        return;
+    }
+    let steps_by = |in_packs: bool| -> usize {
+        let allowed = |kernel: &&Kernel| kernel.in_packs == in_packs;
+        let kernels: Vec<Kernel> =
+            nboom_routines::for_runs().iter().filter(allowed).copied().collect();
+        let options = Options { kernels: kernels.leak(), ..options(1) };
+        let lanes = Lanes::new();
+        for reference in Reference::all() {
+            let mut simulator = Simulator::new(&reference.scene(), options);
+            let mut ignored = Collected::default();
+            lanes.finish(simulator.run_in(&lanes, &mut ignored)).expect("it runs");
+        }
+        lanes.steps()
+    };
+    assert!(steps_by(false) > 1000, "{} steps", steps_by(false));
+    assert_eq!(steps_by(true), 0);
 }

@@ -144,6 +144,16 @@ fn small_satellites_are_straight_lines_and_large_ones_loops() {
 }
 
 #[test]
+fn loops_over_equal_appendages_say_that_one_state_fills_registers() {
+    assert!(text_of(&four_s3()).contains("const IN_PACKS: bool = true;"));
+    for without in [s1(), snake(), right_side()] {
+        assert!(!text_of(&without).contains("IN_PACKS"));
+    }
+    let part = "Trr(rr)(rr)(s)".parse().expect("a topology");
+    assert!(text_of(&Request::new("Limb", part, Level::Fast)).contains("IN_PACKS"));
+}
+
+#[test]
 fn equal_parts_of_a_limb_go_side_by_side_unless_the_limb_has_equals() {
     let of = |name: &str| {
         let topology = name.parse().expect("a topology");

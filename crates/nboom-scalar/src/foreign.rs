@@ -13,7 +13,7 @@ use crate::code::Code;
 use crate::{Batch, CONTRACT, Eight, Kernel, Numbers, RoutineOn};
 
 /// Version of the layout of a table and of all that it has: any change counts on.
-const LAYOUT: u32 = 1;
+const LAYOUT: u32 = 2;
 
 /// The first number of a table: a mark, the layout, and what generated code and callers agree on.
 const ABI: u64 = (0x6e62_6f6f << 32) | ((LAYOUT as u64) << 16) | CONTRACT as u64;
@@ -49,6 +49,7 @@ struct ForeignRoutine<N> {
     instructions: Many<u8>,
     assumptions: Many<Assumption>,
     external: bool,
+    in_packs: bool,
     code: Code<N>,
 }
 
@@ -159,6 +160,7 @@ impl<N: Numbers> ForeignRoutine<N> {
             instructions: text(routine.instructions),
             assumptions: Many::of(assumptions.leak()),
             external: routine.external,
+            in_packs: routine.in_packs,
             code: routine.code,
         }
     }
@@ -183,6 +185,7 @@ impl<N: Numbers> ForeignRoutine<N> {
             constants: sizes.constants,
             coordinates: sizes.coordinates,
             outputs: sizes.outputs,
+            in_packs: self.in_packs,
             // SAFETY: as above.
             instructions: unsafe { self.instructions.text() },
             code: self.code,
@@ -208,6 +211,7 @@ mod tests {
         const CONSTANTS: usize = 1;
         const COORDINATES: usize = 3;
         const OUTPUTS: usize = 2;
+        const IN_PACKS: bool = true;
 
         fn prepare<R: Real>(parameters: &[R], constants: &mut [R]) {
             constants[0] = parameters[0] / parameters[1];
@@ -247,6 +251,7 @@ mod tests {
         for (direct, loaded) in direct.iter().zip(loaded) {
             assert!(direct.is_of_same_routine(loaded), "{direct:?} {loaded:?}");
             assert_eq!(direct.instructions, loaded.instructions);
+            assert!(direct.in_packs && loaded.in_packs);
             assert_eq!(results(direct), results(loaded));
         }
     }

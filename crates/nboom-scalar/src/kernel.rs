@@ -58,6 +58,8 @@ pub struct RoutineOn<N> {
     pub coordinates: usize,
     /// How many numbers an evaluation writes.
     pub outputs: usize,
+    /// Whether one state by itself fills registers, equal appendages side by side.
+    pub in_packs: bool,
     /// Instruction set in use: `avx512`, `avx2` or `portable`.
     pub instructions: &'static str,
     pub(crate) code: Code<N>,
@@ -82,6 +84,7 @@ impl<N: Numbers> RoutineOn<N> {
             constants: T::CONSTANTS,
             coordinates: T::COORDINATES,
             outputs: T::OUTPUTS,
+            in_packs: T::IN_PACKS,
             instructions: instructions.name(),
             code: Code::of::<T>(instructions)?,
         })

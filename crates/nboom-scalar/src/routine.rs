@@ -30,6 +30,9 @@ pub trait Routine {
     const COORDINATES: usize;
     /// How many numbers an evaluation writes.
     const OUTPUTS: usize;
+    /// Whether [`evaluate_packed`](Self::evaluate_packed) takes equal appendages side by side, so that one state
+    /// fills registers.
+    const IN_PACKS: bool = false;
 
     /// Computes the constants that depend on parameters alone.
     ///

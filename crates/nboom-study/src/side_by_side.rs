@@ -10,9 +10,9 @@ use crate::cases::Cases;
 use crate::workers::Worker;
 use crate::{Runner, Study};
 
-/// Runs of one thread that go on at once. With several times as many as lanes, few steps wait long for others by
-/// the same code, and what all of them need still fits the cache of a core.
-const AT_ONCE: usize = 16;
+/// Runs of one thread that go on at once. Twice as many fill a few more lanes, but what they need leaves less of a
+/// core's cache.
+const AT_ONCE: usize = 8;
 
 impl Study {
     /// What runs cases in one thread, by this generated code.

@@ -257,6 +257,12 @@ impl Call {
         Some(quote!(#(#calls)*))
     }
 
+    /// Whether there are equal appendages, or equal parts of one, for packs.
+    pub fn takes_side_by_side(&self) -> bool {
+        let parts = self.parts.as_ref().map_or(&[][..], |parts| &parts.calls);
+        self.count > 1 || parts.iter().any(Self::takes_side_by_side)
+    }
+
     /// First appendage and width of each pack.
     fn packs(&self, most: usize) -> Vec<(usize, usize)> {
         let mut packs = Vec::new();

@@ -96,6 +96,8 @@ pub(crate) struct Item<'a> {
     pub evaluate: TokenStream,
     /// Body of `evaluate_packed` on the packs of `I`.
     pub evaluate_packed: TokenStream,
+    /// Whether that has equal appendages to take side by side.
+    pub in_packs: bool,
 }
 
 impl Item<'_> {
@@ -104,6 +106,7 @@ impl Item<'_> {
         let Signature { name, result, topology, formulation, external, .. } = signature;
         let name = format_ident!("{name}");
         let assumed = signature.assumed();
+        let in_packs = self.in_packs.then(|| quote!(const IN_PACKS: bool = true;));
         let [parameters, constants, coordinates, outputs] =
             [signature.assumptions.len(), self.constants, signature.coordinates, signature.outputs]
                 .map(Literal::usize_unsuffixed);
@@ -119,6 +122,7 @@ impl Item<'_> {
                 const CONSTANTS: usize = #constants;
                 const COORDINATES: usize = #coordinates;
                 const OUTPUTS: usize = #outputs;
+                #in_packs
                 fn prepare<R: Real>(p: &[R], k: &mut [R]) {
                     let p: &[R; #parameters] = p.try_into().expect("one value for each parameter");
                     let k: &mut [R; #constants] = k.try_into().expect("room for each constant");

@@ -7,7 +7,7 @@ use nboom_formulation::{Layout, RightSideLayout};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::emit::driver::{Beside, Driver};
+use crate::emit::driver::{Beside, Call, Driver};
 use crate::emit::hinges::omega_spread;
 use crate::emit::item::{Item, Signature};
 use crate::emit::rolled::prepare::{prepare, store};
@@ -37,6 +37,7 @@ pub(crate) fn items(rolled: &Rolled, request: &Request, signature: &Signature) -
         prepare: quote!(#(#of_groups)* #of_main #base),
         evaluate: quote!(#sized #on_any),
         evaluate_packed: quote!(#sized_for_packs #in_packs),
+        in_packs: driver.calls.iter().any(Call::takes_side_by_side),
     };
     let item = item.tokens();
     let steps = rolled.steps().into_iter().map(|placed| {

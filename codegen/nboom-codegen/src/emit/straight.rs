@@ -34,6 +34,7 @@ pub(crate) fn items(
         prepare: prepare(split, level, names),
         evaluate: quote!(evaluate_on::<R, R>(k, x, out);),
         evaluate_packed: quote!(evaluate_on::<f64, I::One>(k, x, out);),
+        in_packs: false,
     };
     let item = item.tokens();
     quote! {

@@ -82,6 +82,12 @@ impl RightSides {
         self.batch.is_some()
     }
 
+    /// Whether lanes are better filled by the states of as many scenes: where there is code for them, unless that for
+    /// one state fills registers with equal appendages.
+    pub fn suits_lanes(&self) -> bool {
+        self.takes_eight() && !self.of_one.routine.in_packs
+    }
+
     /// That on eight states, if there is one.
     pub fn of_eight(&mut self) -> Option<&mut RightSide<Eight>> {
         let Self { fit, of_one, batch, of_eight, eight_are_prepared } = self;

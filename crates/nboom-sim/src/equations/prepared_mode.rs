@@ -254,11 +254,11 @@ impl PreparedMode {
         }
     }
 
-    /// The right sides by which explicit steps may be taken beside those of other runs in `layout`, if
+    /// The right sides by which explicit steps are better taken beside those of other runs in `layout`, if
     /// there are such.
     pub fn side_by_side(&self, layout: &VariableLayout) -> Option<&RightSides> {
         let is_all = layout.unknowns == Unknowns::Velocities && !layout.thrust && !layout.held;
-        self.right_sides.as_ref().filter(|right_sides| is_all && right_sides.takes_eight())
+        self.right_sides.as_ref().filter(|right_sides| is_all && right_sides.suits_lanes())
     }
 
     /// Makes ready what [`rates_of_eight`](Self::rates_of_eight) needs in `layout`.

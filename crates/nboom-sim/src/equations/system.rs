@@ -27,10 +27,6 @@ impl System for Equations {
     }
 
     fn takes_eight(&mut self) -> bool {
-        // Lanes that other runs fill are not for stages.
-        if self.in_lanes().is_some() {
-            return false;
-        }
         let Self { scene, commands, variables, entered, .. } = self;
         let takes = entered.takes_eight(&variables.layout);
         if takes {
