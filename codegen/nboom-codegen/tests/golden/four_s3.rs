@@ -27,6 +27,7 @@ pub mod routine_four_s3 {
         const CONSTANTS: usize = 256;
         const COORDINATES: usize = 45;
         const OUTPUTS: usize = 18;
+        const IN_PACKS: bool = true;
         fn prepare<R: Real>(p: &[R], k: &mut [R]) {
             let p: &[R; 202] = p.try_into().expect("one value for each parameter");
             let k: &mut [R; 256] = k.try_into().expect("room for each constant");
