@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nboom::model::{External, Hinge, Release, Scene, SceneDescription};
 use nboom::scalar::Vec3;
-use nboom::sim::{Method, Miss, Options};
+use nboom::sim::{HingeVerdict, Method, Miss, Options};
 
 use crate::collect::{run, tight};
 use crate::rotors::{description, free, growing, locking_at, oscillating, scene, waiting};
@@ -145,10 +145,39 @@ fn errors_decide_about_a_hinge_that_turns_back_just_before_its_lock_angle() {
     for (gap, rtol, is_doubtful) in
         [(1e-8, 1e-9, true), (1e-8, 1e-12, false), (1e-4, 1e-6, true), (1e-2, 1e-6, false)]
     {
-        let scene = scene(&[locking_at(swinging(), 1.0 + gap)], 3.0);
-        let options = Options { samples: 1, rtol, atol: 1e-3 * rtol, ..Options::default() };
-        let (_, summary) = run(&scene, &options);
-        let doubts: Vec<_> = summary.verdict.doubts(&scene, rtol).collect();
-        assert_eq!(doubts.len(), usize::from(is_doubtful), "{gap:e}, {rtol:e}: {doubts:?}");
+        let verdict = verdict_of_a_swing_that_locks_at(1.0 + gap, rtol);
+        assert!(verdict.0.closing_rate.is_none(), "{gap:e}, {rtol:e}");
+        assert_eq!(verdict.1, is_doubtful, "{gap:e}, {rtol:e}: {verdict:?}");
     }
+    // No run that is worth having errs by so much, whatever its tolerance.
+    assert!(!verdict_of_a_swing_that_locks_at(1.05, 1e-3).1);
+}
+
+#[test]
+fn errors_decide_about_a_hinge_that_locks_just_before_it_would_turn_back() {
+    for (gap, rtol, is_doubtful) in [
+        (1e-8, 1e-9, true),
+        (1e-8, 1e-12, false),
+        (1e-4, 1e-6, true),
+        (1e-4, 1e-9, false),
+        (1e-3, 1e-3, true),
+        (5e-2, 1e-3, false),
+    ] {
+        let verdict = verdict_of_a_swing_that_locks_at(1.0 - gap, rtol);
+        assert!(verdict.0.closing_rate.is_some(), "{gap:e}, {rtol:e}");
+        assert_eq!(verdict.1, is_doubtful, "{gap:e}, {rtol:e}: {verdict:?}");
+        if let Some(found) = verdict.0.stopping_distance {
+            // τ²/2|τ̇| at β = sin t = 1 − gap, and errors of some hundred times the tolerance.
+            let expected = gap * (1.0 - 0.5 * gap) / (1.0 - gap);
+            assert!((found - expected).abs() < 1e3 * rtol, "{found:e}, {expected:e}");
+        }
+    }
+}
+
+/// What becomes of the hinge, and whether errors may decide that.
+fn verdict_of_a_swing_that_locks_at(angle: f64, rtol: f64) -> (HingeVerdict, bool) {
+    let scene = scene(&[locking_at(swinging(), angle)], 3.0);
+    let options = Options { samples: 1, rtol, atol: 1e-3 * rtol, ..Options::default() };
+    let (_, summary) = run(&scene, &options);
+    (summary.verdict.hinges[0], summary.verdict.doubts(&scene, rtol).next().is_some())
 }

@@ -80,10 +80,11 @@ fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {
             short(by, 2),
             short(time, 6)
         ),
-        Doubt::ComesToRest(rate) => format!(
-            "hinge {label} comes to rest at its lock angle, at a rate of {}: errors of the run may decide whether and \
+        Doubt::HardlyLocks { rate, stopping_distance } => format!(
+            "hinge {label} hardly locks, at a rate of {} and {} before it stops: errors of the run may decide whether and \
              when it locks",
-            short(rate, 2)
+            short(rate, 2),
+            short(stopping_distance, 2)
         ),
     }
 }

@@ -241,6 +241,13 @@ impl Equations {
         &self.accelerations
     }
 
+    /// τ̇ of a hinge as computed last; none of one that is not free.
+    pub fn hinge_acceleration(&self, hinge: usize) -> Option<f64> {
+        let free = self.entered.dynamics.free_hinges();
+        let place = free.iter().position(|&i| i == hinge);
+        place.map(|place| self.accelerations.tau_dot[place])
+    }
+
     /// Writes β, τ and τ̇ of the free hinges, τ̇ as computed last, among those of all hinges.
     pub fn spread(&self, motion: &Motion<'_, f64>, all: [&mut [f64]; 3]) {
         let [beta, tau, tau_dot] = all;

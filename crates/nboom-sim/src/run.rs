@@ -31,6 +31,7 @@ pub(crate) mod snapshot;
 pub(crate) mod step_motion;
 pub(crate) mod verdict;
 
+mod closing;
 mod giving_up;
 mod locating;
 mod runaway;
@@ -173,6 +174,7 @@ impl<'a> Run<'a> {
     /// Changes the mode as the instant demands and starts integration anew.
     fn pass_instant(&mut self) -> Result<(), SimError> {
         let has_before = self.before_instant()?;
+        self.note_closing();
         let Equations { scene, entered, .. } = &mut *self.equations;
         self.invariants = self.situation.pass(scene, &mut entered.dynamics, self.invariants)?;
         let Situation { state, mode, outcome, .. } = &mut *self.situation;

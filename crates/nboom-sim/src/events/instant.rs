@@ -170,8 +170,6 @@ pub(crate) struct Outcome<R> {
     free: Vec<usize>,
     /// The positions among these of the hinges that lock.
     locking: Vec<usize>,
-    /// τ of these just before.
-    closing: Vec<f64>,
     /// Energy and momenta just before a lock-up.
     pub before_lock_up: Option<Invariants<R>>,
     lock_up: LockUp<R>,
@@ -186,7 +184,6 @@ impl<R: Number> Outcome<R> {
             released: Vec::new(),
             free: Vec::new(),
             locking: Vec::new(),
-            closing: Vec::new(),
             before_lock_up: None,
             lock_up: LockUp::of_none(),
         }
@@ -199,15 +196,8 @@ impl<R: Number> Outcome<R> {
         for hinges in [&mut self.released, &mut self.free, &mut self.locking] {
             hinges.clear();
         }
-        self.closing.clear();
         self.before_lock_up = None;
         self.lock_up.reset(0, 0);
-    }
-
-    /// The hinges that lock, and τ of each just before.
-    pub fn closing_rates(&self) -> impl Iterator<Item = (usize, f64)> {
-        let hinges = self.locking.iter().map(|&position| self.free[position]);
-        hinges.zip(self.closing.iter().copied())
     }
 
     /// What each hinge that locks changes, for the hinges that were [free](Self::free_before).
@@ -305,11 +295,10 @@ impl<R: Number> Outcome<R> {
         state: &mut State<R>,
         mode: &mut Mode,
     ) -> Result<(), SimError> {
-        let Self { free, locking, closing, lock_up, .. } = self;
+        let Self { free, locking, lock_up, .. } = self;
         let Some(&first) = locks.first() else { return Ok(()) };
         free.extend(dynamics.free_hinges());
         locking.extend(locks.iter().filter_map(|i| free.iter().position(|j| j == i)));
-        closing.extend(locking.iter().map(|&position| state.tau[free[position]].to_f64()));
         for &i in locks {
             if let Some(angle) = scene.bodies[i].hinge.lock_angle {
                 state.beta[i] = R::constant(angle);

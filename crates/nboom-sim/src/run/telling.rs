@@ -167,9 +167,6 @@ impl Run<'_> {
         }
         let found = self.show_present();
         self.look(&found)?;
-        for (hinge, tau) in self.situation.outcome.closing_rates() {
-            self.summary.verdict.note_closing(hinge, tau);
-        }
         for event in &self.situation.outcome.events {
             self.summary.events += 1;
             self.summary.verdict.note(&self.equations.scene, event);

@@ -25,6 +25,9 @@ pub struct HingeVerdict {
     pub miss: Option<Miss>,
     /// τ just before it locked; `None` unless it has \[rad/T\].
     pub closing_rate: Option<f64>,
+    /// How much farther it would have gone before it stopped, at its deceleration just before it locked; `None` unless
+    /// it has, slowly and slowing down \[rad\].
+    pub stopping_distance: Option<f64>,
     /// The largest magnitude of τ so far, at the ends of steps \[rad/T\].
     pub largest_rate: f64,
 }
@@ -54,31 +57,38 @@ pub struct LockUpImpulse {
 pub enum Doubt {
     /// It turns back just before its lock angle.
     Missed(Miss),
-    /// It locks, but at this rate, at which it comes to rest there \[rad/T\].
-    ComesToRest(f64),
+    /// It locks just before it stops or turns back.
+    HardlyLocks {
+        /// τ just before \[rad/T\].
+        rate: f64,
+        /// How much farther it would have gone \[rad\].
+        stopping_distance: f64,
+    },
 }
 
 /// Errors of a run that is not unstable are below so many times its tolerance.
 const ERRORS: f64 = 1e3;
 
-/// The largest share of its fastest rate at which a hinge counts as one that comes to rest.
-const SLOW: f64 = 1e-3;
+/// No run errs by more, of the size of a change of a hinge's angle, that is worth having.
+const MOST: f64 = 1e-2;
 
 impl HingeVerdict {
     /// Of a hinge to which nothing has happened yet.
     pub fn new(state: HingeState, angle: f64) -> Self {
-        Self { state, since: None, angle, miss: None, closing_rate: None, largest_rate: 0.0 }
+        Self { state, since: None, angle, miss: None, closing_rate: None, stopping_distance: None, largest_rate: 0.0 }
     }
 
     /// Why errors of a run at the tolerance `rtol` may decide whether the hinge locks, if they may; `scale` is the
     /// [size](Scene::coordinate_scale) of a change of its angle.
     pub fn doubt(&self, scale: f64, rtol: f64) -> Option<Doubt> {
-        let share = ERRORS * rtol;
-        let missed = self.miss.filter(|miss| miss.by <= share * scale).map(Doubt::Missed);
-        let is_slow = |rate: &f64| {
-            self.largest_rate > 0.0 && rate.abs() <= share.min(SLOW) * self.largest_rate
+        let error = (ERRORS * rtol).min(MOST) * scale;
+        let missed = self.miss.filter(|miss| miss.by <= error).map(Doubt::Missed);
+        let hardly_locks = || {
+            let (rate, stopping_distance) = (self.closing_rate?, self.stopping_distance?);
+            let doubt = Doubt::HardlyLocks { rate, stopping_distance };
+            (stopping_distance <= error).then_some(doubt)
         };
-        missed.or_else(|| self.closing_rate.filter(is_slow).map(Doubt::ComesToRest))
+        missed.or_else(hardly_locks)
     }
 }
 
@@ -122,7 +132,15 @@ impl Verdict {
 
     /// Notes that a hinge has locked, which came at the rate τ.
     pub(crate) fn note_closing(&mut self, hinge: usize, tau: f64) {
-        self.hinges[hinge].closing_rate = Some(tau);
+        (self.hinges[hinge].closing_rate, self.hinges[hinge].stopping_distance) = (Some(tau), None);
+    }
+
+    /// Notes the acceleration τ̇ of a hinge just before it locks, which came at the rate that was noted last.
+    pub(crate) fn note_stopping(&mut self, hinge: usize, tau_dot: f64) {
+        let HingeVerdict { closing_rate, stopping_distance, .. } = &mut self.hinges[hinge];
+        // Within τ²/2|τ̇| the deceleration |τ̇| takes the rate τ away.
+        *stopping_distance =
+            closing_rate.filter(|tau| tau * tau_dot < 0.0).map(|tau| 0.5 * tau * tau / tau_dot.abs());
     }
 
     /// Notes that a free hinge was at such a distance from its lock angle.
