@@ -21,6 +21,8 @@ pub struct RunDescription {
     pub rtol: f64,
     /// Absolute error allowed in a step.
     pub atol: f64,
+    /// The initial time and the end of the run.
+    pub span: [f64; 2],
     /// Output times are the initial time and this many after it, unless `output` has others.
     pub samples: usize,
     /// What is asked for beside the usual output.
@@ -59,6 +61,7 @@ impl RunDescription {
             integrator: options.integrator.name(),
             rtol: options.rtol,
             atol: options.atol,
+            span: [scene.initial.time, scene.end_time],
             samples: options.samples,
             output: WantedOutput::default(),
             units,
@@ -243,7 +246,7 @@ impl<'a> SummaryFile<'a> {
             integrations: Vec::new(),
             rtol: run.rtol,
             atol: run.atol,
-            samples: run.output.times.as_ref().map_or(run.samples, |times| times.count() + 1),
+            samples: run.output.times.as_ref().map_or(run.samples, |of| of.intervals(run.span)),
             units: run.units.name(),
             stresses: run.stresses.map(StressKeys::from),
             latch_pulses: run.latch_pulses,

@@ -10,14 +10,15 @@ impl Fault {
     /// # Errors
     /// When a hinge cannot be released late, in words.
     pub fn apply(&self, description: &mut SceneDescription) -> Result<(), String> {
-        let hinges = &mut description.bodies;
+        let SceneDescription { bodies: hinges, initial, .. } = description;
         for &i in &self.missed_release {
             hinges[i].hinge.release = Release::Never;
         }
         for &LateRelease { hinge, by } in &self.late_release {
             let release = &mut hinges[hinge].hinge.release;
             *release = match *release {
-                Release::Time(time) => Release::Time(time + by),
+                // What was due before the start is released then.
+                Release::Time(time) => Release::Time(time.max(initial.time) + by),
                 Release::AfterLock { hinge, delay } => {
                     Release::AfterLock { hinge, delay: delay + by }
                 }
@@ -83,9 +84,15 @@ mod tests {
 
     /// Events, and the angles at the end, of the cubesat with a fault.
     fn run(fault: &Fault) -> Events {
+        run_of(fault, (*cubesat()).clone())
+    }
+
+    fn cubesat() -> Scene {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/cubesat.toml");
-        let scene = nboom_io::read_scene(&path).expect("a scene").scene;
-        let mut description = (*scene).clone();
+        nboom_io::read_scene(&path).expect("a scene").scene
+    }
+
+    fn run_of(fault: &Fault, mut description: SceneDescription) -> Events {
         fault.apply(&mut description).expect("possible");
         let scene = Scene::new(description).expect("a scene");
         let mut events = Events::default();
@@ -115,6 +122,16 @@ mod tests {
         let events = run(&Fault { late_release: vec![late], ..none() });
         assert_eq!(time(&events, EventKind::Release, 0), Some(1.25));
         assert_eq!(time(&events, EventKind::Release, 1), Some(1.0));
+    }
+
+    #[test]
+    fn a_release_that_was_due_before_the_start_is_late_from_the_start_on() {
+        let mut description = (*cubesat()).clone();
+        description.bodies[0].hinge.release = Release::Time(-5.0);
+        let late = LateRelease { hinge: 0, by: 0.25 };
+        let fault = Fault { late_release: vec![late], ..none() };
+        let events = run_of(&fault, description);
+        assert_eq!(time(&events, EventKind::Release, 0), Some(0.25));
     }
 
     #[test]

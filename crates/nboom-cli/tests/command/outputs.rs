@@ -37,6 +37,10 @@ fn output_times_are_those_asked_for_and_both_ends() {
     // Those beyond the end are left out.
     run(&place, "times = [0.5, 1.25, 7.0]", &["--end-time", "1.0"]);
     assert_eq!(times(&place, "states.csv"), [0.0, 0.5, 1.0]);
+    assert_eq!(place.summary("out")["samples"], 2);
+    run(&place, "times = [0.0, 0.5, 1.0]", &["--end-time", "1.0"]);
+    assert_eq!(times(&place, "states.csv"), [0.0, 0.5, 1.0]);
+    assert_eq!(place.summary("out")["samples"], 2);
     run(&place, "every = 0.5", &["--end-time", "1.75"]);
     assert_eq!(times(&place, "states.csv"), [0.0, 0.5, 1.0, 1.5, 1.75]);
     // The command line counts more.

@@ -113,14 +113,16 @@ fn surroundings(lines: &mut Lines, scene: &Scene) {
     let [x, y, z] = initial.attitude.vector.to_array();
     let quaternion = list([initial.attitude.scalar, x, y, z]);
     lines.value("attitude", format!("{{ quaternion = {quaternion} }}"));
-    let rates = initial.omega_body.to_array();
-    let degrees = rates.map(in_degrees);
-    match degrees {
-        [Some(x), Some(y), Some(z)] => lines.value("rate_deg", list([x, y, z])),
-        _ => lines.value("rate_rad", list(rates)),
-    }
     lines.value("position", vector(initial.position_inertial));
-    lines.value("velocity", vector(initial.velocity_inertial));
+    // How fast a main body is that is held follows from what holds it, which a study may vary.
+    if !scene.base.is_held() {
+        let rates = initial.omega_body.to_array();
+        match rates.map(in_degrees) {
+            [Some(x), Some(y), Some(z)] => lines.value("rate_deg", list([x, y, z])),
+            _ => lines.value("rate_rad", list(rates)),
+        }
+        lines.value("velocity", vector(initial.velocity_inertial));
+    }
     if let Some(gravity) = &scene.gravity {
         lines.table("gravity");
         lines.value("acceleration", number(gravity.acceleration));

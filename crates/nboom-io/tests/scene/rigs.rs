@@ -38,6 +38,16 @@ fn a_main_body_is_free_fixed_or_driven() {
     }
 }
 
+/// A drive that a study varies is that of the written scene.
+#[test]
+fn a_written_rig_starts_as_it_is_driven_whatever_that_is() {
+    let written = write_scene(&right(&(BUS.to_owned() + DRIVEN)));
+    let faster = written.replace("0.5", "0.75");
+    assert_ne!(faster, written);
+    let file = read(&faster).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(file.scene.initial.velocity_inertial, Vec3::unit_z() * 0.75);
+}
+
 #[test]
 fn words_say_the_same() {
     let bus = || main_body().mass(100.0).inertia([40.0, 30.0, 20.0]);

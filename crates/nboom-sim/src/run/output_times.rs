@@ -11,18 +11,22 @@ impl OutputTimes {
         Self(times)
     }
 
-    /// How many there are.
-    pub fn count(&self) -> usize {
-        self.0.len()
+    /// How many intervals they cut the span of a run into.
+    pub fn intervals(&self, span: [f64; 2]) -> usize {
+        self.inside(span).len() + 1
+    }
+
+    fn inside(&self, [start, end]: [f64; 2]) -> &[f64] {
+        let after_start = &self.0[self.0.partition_point(|time| *time <= start)..];
+        &after_start[..after_start.partition_point(|time| *time < end)]
     }
 
     /// The output time number `n`, from 0, of a run over a span; infinite after the last one.
     pub(super) fn nth(&self, n: usize, [start, end]: [f64; 2]) -> f64 {
-        let after_start = &self.0[self.0.partition_point(|time| *time <= start)..];
-        let inside = |i: usize| after_start.get(i).copied().filter(|time| *time < end);
+        let inside = self.inside([start, end]);
         match n.checked_sub(1) {
             None => start,
-            Some(i) if i == 0 || inside(i - 1).is_some() => inside(i).unwrap_or(end),
+            Some(i) if i <= inside.len() => inside.get(i).copied().unwrap_or(end),
             Some(_) => f64::INFINITY,
         }
     }
@@ -34,7 +38,10 @@ mod tests {
 
     fn all(times: &[f64], span: [f64; 2]) -> Vec<f64> {
         let times = OutputTimes::at(times.iter().copied());
-        (0..).map(|n| times.nth(n, span)).take_while(|time| time.is_finite()).collect()
+        let all: Vec<f64> =
+            (0..).map(|n| times.nth(n, span)).take_while(|time| time.is_finite()).collect();
+        assert_eq!(times.intervals(span), all.len() - 1);
+        all
     }
 
     #[test]

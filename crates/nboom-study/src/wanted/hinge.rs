@@ -133,8 +133,11 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
     if latching.contains(&found.kind) && start.state == HingeState::Locked {
         return Err(refused("a hinge that is not locked from the start"));
     }
-    if found.kind == Kind::Miss && lock_angle.is_none() {
+    if latching.contains(&found.kind) && lock_angle.is_none() {
         return Err(refused("a hinge that has a lock angle"));
+    }
+    if found.kind == Kind::ReleaseTime && start.state != HingeState::Unreleased {
+        return Err(refused("a hinge that is held at the start"));
     }
     let has_stations = || {
         let structure = file.structure.as_ref();

@@ -100,6 +100,23 @@ fn the_lock_up_of_a_hinge_that_is_locked_is_no_result() {
 }
 
 #[test]
+fn a_hinge_without_a_latch_never_locks_and_one_that_is_free_is_never_released() {
+    let study = STUDY.split("[[fault]]").next().expect("text");
+    let unlatched = SCENE.replace("latch_deg = 0.0\n", "");
+    assert_ne!(unlatched, SCENE);
+    for result in ["lock_time", "impulse", "closing_rate", "miss"] {
+        let study = study.replace("lock_time of boom", &format!("{result} of boom"));
+        let found = errors(&unlatched, &study);
+        let told = found.iter().find(|(line, _)| *line == 6);
+        assert!(told.is_some_and(|(_, told)| told.contains("has a lock angle")), "{found:?}");
+    }
+    let free = SCENE.replace("release = { at = 1.0 }\n", "");
+    let found = errors(&free, &study.replace("lock_time of boom", "release_time of boom"));
+    let told = found.iter().find(|(line, _)| *line == 6);
+    assert!(told.is_some_and(|(_, told)| told.contains("held at the start")), "{found:?}");
+}
+
+#[test]
 fn changes_of_faults_that_a_variable_undoes_or_that_are_none() {
     let change = "{ path = \"body.tip.mass\", offset = 0.1 }";
     let varied = "path = \"parameters.k\"";
