@@ -34,7 +34,10 @@ pub enum CaseError {
         cases: u64,
     },
     /// What is drawn makes no scene.
-    #[error("{}: case {case} is rejected: {why}", path.display())]
+    #[error(
+        "{}: case {case} is rejected: {why}; scene.toml is the scene as a sweep writes it out",
+        path.display()
+    )]
     Rejected {
         /// The study.
         path: PathBuf,

@@ -80,11 +80,9 @@ fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {
             short(by, 2),
             short(time, 6)
         ),
-        Doubt::HardlyLocks { rate, stopping_distance } => format!(
-            "hinge {label} hardly locks, at a rate of {} and {} before it stops: errors of the run may decide whether and \
-             when it locks",
-            short(rate, 2),
-            short(stopping_distance, 2)
+        Doubt::HardlyLocks(rate) => format!(
+            "hinge {label} hardly locks, at a rate of {}: errors of the run may decide whether and when it locks",
+            short(rate, 2)
         ),
     }
 }

@@ -57,13 +57,8 @@ pub struct LockUpImpulse {
 pub enum Doubt {
     /// It turns back just before its lock angle.
     Missed(Miss),
-    /// It locks just before it stops or turns back.
-    HardlyLocks {
-        /// τ just before \[rad/T\].
-        rate: f64,
-        /// How much farther it would have gone \[rad\].
-        stopping_distance: f64,
-    },
+    /// It locks, but at this rate, at which it would soon have stopped or turned back \[rad/T\].
+    HardlyLocks(f64),
 }
 
 /// Errors of a run that is not unstable are below so many times its tolerance.
@@ -71,6 +66,9 @@ const ERRORS: f64 = 1e3;
 
 /// No run errs by more, of the size of a change of a hinge's angle, that is worth having.
 const MOST: f64 = 1e-2;
+
+/// The largest share of its fastest rate at which a hinge counts as one that is at rest.
+const SLOW: f64 = 1e-3;
 
 impl HingeVerdict {
     /// Of a hinge to which nothing has happened yet.
@@ -81,14 +79,15 @@ impl HingeVerdict {
     /// Why errors of a run at the tolerance `rtol` may decide whether the hinge locks, if they may; `scale` is the
     /// [size](Scene::coordinate_scale) of a change of its angle.
     pub fn doubt(&self, scale: f64, rtol: f64) -> Option<Doubt> {
-        let error = (ERRORS * rtol).min(MOST) * scale;
-        let missed = self.miss.filter(|miss| miss.by <= error).map(Doubt::Missed);
-        let hardly_locks = || {
-            let (rate, stopping_distance) = (self.closing_rate?, self.stopping_distance?);
-            let doubt = Doubt::HardlyLocks { rate, stopping_distance };
-            (stopping_distance <= error).then_some(doubt)
+        let share = ERRORS * rtol;
+        let error = share.min(MOST) * scale;
+        let is_at_rest = |rate: f64| {
+            self.largest_rate > 0.0 && rate.abs() <= share.min(SLOW) * self.largest_rate
         };
-        missed.or_else(hardly_locks)
+        let soon_stops = self.stopping_distance.is_some_and(|distance| distance <= error);
+        let hardly_locks = |rate: &f64| soon_stops || is_at_rest(*rate);
+        let missed = self.miss.filter(|miss| miss.by <= error).map(Doubt::Missed);
+        missed.or_else(|| self.closing_rate.filter(hardly_locks).map(Doubt::HardlyLocks))
     }
 }
 
