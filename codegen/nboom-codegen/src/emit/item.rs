@@ -106,7 +106,11 @@ impl Item<'_> {
         let Signature { name, result, topology, formulation, external, .. } = signature;
         let name = format_ident!("{name}");
         let assumed = signature.assumed();
-        let in_packs = self.in_packs.then(|| quote!(const IN_PACKS: bool = true;));
+        let in_packs = self.in_packs.then(|| {
+            quote!(
+                const IN_PACKS: bool = true;
+            )
+        });
         let [parameters, constants, coordinates, outputs] =
             [signature.assumptions.len(), self.constants, signature.coordinates, signature.outputs]
                 .map(Literal::usize_unsuffixed);

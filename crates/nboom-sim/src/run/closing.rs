@@ -18,9 +18,8 @@ impl Run<'_> {
         for &hinge in arrivals.locks() {
             verdict.note_closing(hinge, state.tau[hinge]);
         }
-        let is_slow = |&hinge: &usize| {
-            state.tau[hinge].abs() <= SLOW * verdict.hinges[hinge].largest_rate
-        };
+        let is_slow =
+            |&hinge: &usize| state.tau[hinge].abs() <= SLOW * verdict.hinges[hinge].largest_rate;
         if !arrivals.locks().iter().any(is_slow) {
             return;
         }

@@ -73,7 +73,15 @@ const SLOW: f64 = 1e-3;
 impl HingeVerdict {
     /// Of a hinge to which nothing has happened yet.
     pub fn new(state: HingeState, angle: f64) -> Self {
-        Self { state, since: None, angle, miss: None, closing_rate: None, stopping_distance: None, largest_rate: 0.0 }
+        Self {
+            state,
+            since: None,
+            angle,
+            miss: None,
+            closing_rate: None,
+            stopping_distance: None,
+            largest_rate: 0.0,
+        }
     }
 
     /// Why errors of a run at the tolerance `rtol` may decide whether the hinge locks, if they may; `scale` is the
@@ -138,8 +146,9 @@ impl Verdict {
     pub(crate) fn note_stopping(&mut self, hinge: usize, tau_dot: f64) {
         let HingeVerdict { closing_rate, stopping_distance, .. } = &mut self.hinges[hinge];
         // Within τ²/2|τ̇| the deceleration |τ̇| takes the rate τ away.
-        *stopping_distance =
-            closing_rate.filter(|tau| tau * tau_dot < 0.0).map(|tau| 0.5 * tau * tau / tau_dot.abs());
+        *stopping_distance = closing_rate
+            .filter(|tau| tau * tau_dot < 0.0)
+            .map(|tau| 0.5 * tau * tau / tau_dot.abs());
     }
 
     /// Notes that a free hinge was at such a distance from its lock angle.
