@@ -6,6 +6,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+// The generator's, so that there is one.
+#[path = "../../codegen/nboom-codegen/src/hash.rs"]
+mod hash;
+
 /// The workspace, seen from this crate.
 const ROOT: &str = "../..";
 
@@ -52,18 +56,13 @@ fn main() {
 fn write(files: &BTreeMap<String, String>) {
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo runs build scripts"));
     let mut list = String::from("&[\n");
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let mut mark = |text: &str| {
-        for byte in text.bytes() {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    };
+    let mut all = String::new();
     for (number, (path, text)) in files.iter().enumerate() {
         let name = format!("source-{number}");
         fs::write(out.join(&name), text).expect("the output directory can be written");
         writeln!(list, "    ({path:?}, include_str!({name:?})),").expect("a string takes any text");
-        mark(path);
-        mark(text);
+        all.push_str(path);
+        all.push_str(text);
     }
     list.push_str("]\n");
     fs::write(out.join("sources.rs"), list).expect("the output directory can be written");
@@ -72,8 +71,8 @@ fn write(files: &BTreeMap<String, String>) {
         println!("cargo::rerun-if-changed={folder}");
         collect(Path::new("."), Path::new(folder), "", &mut own);
     }
-    own.values().for_each(|text| mark(text));
-    println!("cargo::rustc-env=NBOOM_PACKAGE={hash:016x}");
+    all.extend(own.into_values());
+    println!("cargo::rustc-env=NBOOM_PACKAGE={:016x}", hash::hash(all.as_bytes()));
 }
 
 fn read(path: &Path) -> String {

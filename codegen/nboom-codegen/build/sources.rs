@@ -4,6 +4,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+#[path = "../src/hash.rs"]
+mod hash;
+
 /// The crate that generates.
 const GENERATOR: &str = "nboom-codegen";
 
@@ -22,7 +25,7 @@ pub fn folders(root: &Path) -> BTreeSet<PathBuf> {
     found
 }
 
-/// FNV-1a of the texts of all files, in the order of their paths, and of the version, which code names.
+/// A number for the texts of all files, in the order of their paths, and of the version, which code names.
 pub fn hash(root: &Path) -> u64 {
     let mut files = Vec::new();
     for folder in folders(root) {
@@ -31,8 +34,7 @@ pub fn hash(root: &Path) -> u64 {
     files.sort();
     let bytes = files.into_iter().flat_map(|file| read(&file).into_bytes());
     let bytes = bytes.chain(env!("CARGO_PKG_VERSION").bytes());
-    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    bytes.fold(0xcbf2_9ce4_8422_2325, step)
+    hash::hash(&bytes.collect::<Vec<u8>>())
 }
 
 /// Where the workspace's manifest says a crate is.

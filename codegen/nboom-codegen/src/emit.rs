@@ -21,6 +21,6 @@ mod straight;
 mod sweeps;
 mod text;
 
-pub use file::{Standing, hash};
+pub use file::Standing;
 pub use module::Module;
 pub use routine::{Generated, generate, source};

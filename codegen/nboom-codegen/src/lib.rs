@@ -19,10 +19,12 @@
 //! ```
 
 mod emit;
+mod hash;
 mod request;
 mod trace;
 
-pub use emit::{Generated, Module, Standing, generate, hash, source};
+pub use emit::{Generated, Module, Standing, generate, source};
+pub use hash::hash;
 pub use request::{
     CodegenError, HINGE_LIMIT, Level, Numbers, Output, Request, STRAIGHT_HINGE_LIMIT,
     StressRequest, held_at,

@@ -7,9 +7,10 @@ use nboom_model::{Scene, Structure};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::emit::file::{self, Standing, hash};
+use crate::emit::file::{self, Standing};
 use crate::emit::routine::{generate, scalar, source};
 use crate::emit::text::formatted;
+use crate::hash;
 use crate::request::{CodegenError, Level, Output, Request, StressRequest};
 use crate::trace::Equations;
 

@@ -8,6 +8,7 @@ use nboom_formulation::stages::{
 use nboom_loads::MotionSize;
 use nboom_model::{Shape, Topology};
 
+use crate::hash;
 use crate::request::Output;
 
 /// The longest identifier of a topology: files are named by it, too.
@@ -20,10 +21,7 @@ pub(crate) fn identifier(topology: &Topology) -> String {
     if name.len() <= LONGEST {
         return name;
     }
-    // FNV-1a.
-    let of_byte = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325, of_byte);
-    format!("{}Hinges{hash:016x}", topology.hinges())
+    format!("{}Hinges{:016x}", topology.hinges(), hash(name.as_bytes()))
 }
 
 /// Names of all numbers that a routine reads and writes, in the order of its layout.
