@@ -60,6 +60,22 @@ impl<R: Real> Spin<R> {
         )
     }
 
+    /// K (ω × Ω) + (ω + Ω) × K (ω + Ω) for a link that turns at Ω = σ ê₁ relative to the main body. The first
+    /// component is free of σ.
+    pub(crate) fn gyroscopic_moment(&self, sigma: R, k: &Sym3<R>) -> Vec3<R> {
+        let w = self.w;
+        let whole = w.x + sigma;
+        let h = *k * Vec3::new(whole, w.y, w.z);
+        let (b2, b3) = (sigma * w.z, sigma * w.y);
+        Vec3::new(
+            w.x * (k.xz * w.y - k.xy * w.z)
+                + k.yz * (self.w22 - self.w33)
+                + (k.zz - k.yy) * self.w23,
+            k.yy * b2 - k.yz * b3 + w.z * h.x - whole * h.z,
+            k.yz * b2 - k.zz * b3 + whole * h.y - w.y * h.x,
+        )
+    }
+
     /// Bias acceleration of a point of the main body at `v` from O.
     pub fn bias_of_main_point(&self, v: Vec3<R>) -> Vec3<R> {
         self.bias_of(R::zero(), v)
@@ -175,7 +191,7 @@ pub fn outward_at<R: Real>(
     let about_hinge = turned_inertia(&link.inertia.about_origin, s, c);
     let (ly, lz) = turn(link.next[0], link.next[1]);
     let force = from_hinge * link.inertia.mass + spin.bias_of(sigma, first_moment);
-    let moment = first_moment.cross(from_hinge) + gyroscopic_moment(spin, sigma, &about_hinge);
+    let moment = first_moment.cross(from_hinge) + spin.gyroscopic_moment(sigma, &about_hinge);
     let hinge_offset = Vec3::new(R::zero(), ly, lz);
     let hinge = from_hinge + spin.bias_of(sigma, hinge_offset);
     let turned = Turned {
@@ -201,19 +217,6 @@ pub(crate) fn turned_inertia<R: Real>(k: &Sym3<R>, s: R, c: R) -> Sym3<R> {
         xz: s * k.xy + c * k.xz,
         yz: c * ((k.yy - k.zz) * s + (k.yz + k.yz) * c) - k.yz,
     }
-}
-
-/// K (ω × Ω) + (ω + Ω) × K (ω + Ω) for a link turning at σ about ê₁.
-fn gyroscopic_moment<R: Real>(spin: &Spin<R>, sigma: R, k: &Sym3<R>) -> Vec3<R> {
-    let w = spin.w;
-    let whole = w.x + sigma;
-    let h = *k * Vec3::new(whole, w.y, w.z);
-    let (b2, b3) = (sigma * w.z, sigma * w.y);
-    Vec3::new(
-        w.x * (k.xz * w.y - k.xy * w.z) + k.yz * (spin.w22 - spin.w33) + (k.zz - k.yy) * spin.w23,
-        k.yy * b2 - k.yz * b3 + w.z * h.x - whole * h.z,
-        k.yz * b2 - k.zz * b3 + whole * h.y - w.y * h.x,
-    )
 }
 
 /// What a link and everything outboard are at its hinge, once eliminated: articulated inertia over (ω̇₂, ω̇₃, a) and the

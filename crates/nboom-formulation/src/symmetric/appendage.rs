@@ -5,6 +5,7 @@ use nboom_scalar::{ArticulatedInertia, Real, RigidInertia, Sym3, Twist, Vec3, Wr
 
 use crate::arrow::Arrow;
 use crate::base::AtOrigin;
+use crate::chain::Spin;
 use crate::limb;
 use crate::parameters::{Branch, HingeCoordinates};
 use crate::pose::{self, Posed, each};
@@ -25,7 +26,7 @@ pub(super) fn arrow<R: Real>(
     let torque = each(hinges, |hinge| hinge.torque);
     let links = pose::place(shape, branch, &beta);
     match shape {
-        Shape::Chain(_) => chain(&links, &Turning::new(w), &sigma, &torque),
+        Shape::Chain(_) => chain(&links, &Spin::new(w), &sigma, &torque),
         Shape::Paddle => paddle(&links, w, [sigma[0], sigma[1]], &torque),
         Shape::Limb(limb) => pose::no_limb(limb),
     }
@@ -57,49 +58,6 @@ fn sum_from_the_tip<T: Clone>(items: &mut [T], add: impl Fn(T, &mut T)) {
     for i in (1..items.len()).rev() {
         let sum = items[i].clone();
         add(sum, &mut items[i - 1]);
-    }
-}
-
-/// The main body's rate in appendage axes with its products.
-struct Turning<R> {
-    w: Vec3<R>,
-    w22: R,
-    w33: R,
-    w12: R,
-    w13: R,
-    w23: R,
-}
-
-impl<R: Real> Turning<R> {
-    fn new(w: Vec3<R>) -> Self {
-        Self { w, w22: w.y * w.y, w33: w.z * w.z, w12: w.x * w.y, w13: w.x * w.z, w23: w.y * w.z }
-    }
-
-    /// N v, the acceleration of the tip of a vector that turns with a link at rate `sigma`
-    /// relative to the main body, when no rate changes.
-    fn bias(&self, sigma: R, v: Vec3<R>) -> Vec3<R> {
-        let whole = self.w.x + sigma;
-        let (square, twice) = (whole * whole, whole + sigma);
-        Vec3::new(
-            twice * (self.w.y * v.y + self.w.z * v.z) - (self.w22 + self.w33) * v.x,
-            self.w12 * v.x - (square + self.w33) * v.y + self.w23 * v.z,
-            self.w13 * v.x + self.w23 * v.y - (square + self.w22) * v.z,
-        )
-    }
-
-    /// K (ω × Ω) + (ω + Ω) × K (ω + Ω) for Ω = σ ê₁. The first component is free of σ.
-    fn gyroscopic(&self, sigma: R, k: &Sym3<R>) -> Vec3<R> {
-        let w = self.w;
-        let whole = w.x + sigma;
-        let h = *k * Vec3::new(whole, w.y, w.z);
-        let (b2, b3) = (sigma * w.z, sigma * w.y);
-        Vec3::new(
-            w.x * (k.xz * w.y - k.xy * w.z)
-                + k.yz * (self.w22 - self.w33)
-                + (k.zz - k.yy) * self.w23,
-            k.yy * b2 - k.yz * b3 + w.z * h.x - whole * h.z,
-            k.yz * b2 - k.zz * b3 + whole * h.y - w.y * h.x,
-        )
     }
 }
 
@@ -140,9 +98,9 @@ fn about_first<R: Real>(v: Vec3<R>) -> Vec3<R> {
     Vec3::new(R::zero(), -v.z, v.y)
 }
 
-fn chain<R: Real>(links: &[Posed<R>], turning: &Turning<R>, sigma: &[R], torque: &[R]) -> Arrow<R> {
+fn chain<R: Real>(links: &[Posed<R>], spin: &Spin<R>, sigma: &[R], torque: &[R]) -> Arrow<R> {
     let (bodies, mass) = augmented(links);
-    let accelerations = hinge_accelerations(links, turning, sigma);
+    let accelerations = hinge_accelerations(links, spin, sigma);
     let mut columns = Vec::new();
     let mut right = Vec::new();
     // Sums over the links outboard: first moments, their bias forces, and the whole inertia.
@@ -152,14 +110,14 @@ fn chain<R: Real>(links: &[Posed<R>], turning: &Turning<R>, sigma: &[R], torque:
         let d = body.first_moment;
         let bias = d.cross(accelerations[i])
             + link.hinge_offset.cross(forces)
-            + turning.gyroscopic(sigma[i], &body.inertia);
+            + spin.gyroscopic_moment(sigma[i], &body.inertia);
         let outer_torque = torque.get(i + 1).map_or(R::zero(), |&outer| outer);
         right.push(torque[i] - outer_torque - bias.x);
         columns.push(column(link, body, moments));
         whole += body.inertia + crossed(link.hinge_offset, moments);
         bias_moment += bias;
         moments += d;
-        forces += turning.bias(sigma[i], d);
+        forces += spin.bias_of(sigma[i], d);
     }
     columns.reverse();
     right.reverse();
@@ -179,16 +137,12 @@ fn chain<R: Real>(links: &[Posed<R>], turning: &Turning<R>, sigma: &[R], torque:
 }
 
 /// Bias acceleration of each hinge.
-fn hinge_accelerations<R: Real>(
-    links: &[Posed<R>],
-    turning: &Turning<R>,
-    sigma: &[R],
-) -> Vec<Vec3<R>> {
-    let mut hinge = turning.bias(R::zero(), links[0].hinge);
+fn hinge_accelerations<R: Real>(links: &[Posed<R>], spin: &Spin<R>, sigma: &[R]) -> Vec<Vec3<R>> {
+    let mut hinge = spin.bias_of(R::zero(), links[0].hinge);
     let mut all = Vec::new();
     for (link, &sigma) in links.iter().zip(sigma) {
         all.push(hinge);
-        hinge += turning.bias(sigma, link.hinge_offset);
+        hinge += spin.bias_of(sigma, link.hinge_offset);
     }
     all
 }
