@@ -161,6 +161,11 @@ fn a_program_is_not_put_over_what_is_no_simulator() {
     for output in ["directory", "new/", ".", "notes/program"] {
         ends(&compile(output), 2, &["cannot write", output]);
     }
+    // Nobody can make files in these, not even root.
+    #[cfg(target_os = "linux")]
+    for output in ["/proc/program", "/proc/new/program"] {
+        ends(&compile(output), 3, &["cannot write", output]);
+    }
     ends(&compile(env!("CARGO_BIN_EXE_nboom")), 2, &["was not written by this command"]);
     for (name, bytes) in files {
         assert_eq!(fs::read(place.join(name)).ok().as_deref(), Some(bytes));

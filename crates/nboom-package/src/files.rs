@@ -1,6 +1,6 @@
 //! Files, read and written whole.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -30,16 +30,7 @@ pub(crate) fn replace(path: &Path, bytes: &[u8], executable: bool) -> Result<(),
     let failed = || PackageError::writing(path);
     let folder = path.parent().unwrap_or(Path::new(""));
     fs::create_dir_all(folder).map_err(failed())?;
-    let beside = (0..).map(|number| beside(path, number));
-    let (new, mut file) = beside
-        .map(|new| (OpenOptions::new().write(true).create_new(true).open(&new), new))
-        .find_map(|(opened, new)| match opened {
-            Ok(file) => Some(Ok((new, file))),
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => None,
-            Err(error) => Some(Err(error)),
-        })
-        .expect("numbers do not end")
-        .map_err(failed())?;
+    let (new, mut file) = open_beside(path).map_err(failed())?;
     let mut written = file.write_all(bytes);
     drop(file);
     if executable {
@@ -50,6 +41,30 @@ pub(crate) fn replace(path: &Path, bytes: &[u8], executable: bool) -> Result<(),
         let _ = fs::remove_file(&new);
         failed()(error)
     })
+}
+
+/// Refuses the path of a new file that cannot be made: a file is made, and removed, in its folder, or in the
+/// nearest one that there is.
+pub(crate) fn require_writable(path: &Path) -> Result<(), PackageError> {
+    let tried = std::path::absolute(path).and_then(|whole| {
+        let below = whole.ancestors().find(|below| below.parent().is_none_or(Path::is_dir));
+        let (new, _) = open_beside(below.unwrap_or(&whole))?;
+        fs::remove_file(new)
+    });
+    tried.map_err(PackageError::writing(path))
+}
+
+/// A new hidden file in the same folder, and its path.
+fn open_beside(path: &Path) -> io::Result<(PathBuf, File)> {
+    (0..)
+        .map(|number| beside(path, number))
+        .map(|new| (OpenOptions::new().write(true).create_new(true).open(&new), new))
+        .find_map(|(opened, new)| match opened {
+            Ok(file) => Some(Ok((new, file))),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => None,
+            Err(error) => Some(Err(error)),
+        })
+        .expect("numbers do not end")
 }
 
 /// The name of a hidden file in the same folder.

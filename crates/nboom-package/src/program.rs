@@ -7,7 +7,7 @@ use std::path::Path;
 use nboom_codegen::Standing;
 
 use crate::PackageError;
-use crate::files::{read, replace};
+use crate::files::{read, replace, require_writable};
 
 /// What a simulator says of itself, before the number of its request and a full stop.
 const MADE: &str = "Simulator made by nboom compile, request ";
@@ -38,7 +38,9 @@ pub(crate) fn require_free(program: &Path) -> Result<(), PackageError> {
             let (path, standing) = (program.to_owned(), Standing::Foreign);
             Err(PackageError::NotOurs { path, standing })
         }
-        _ => Ok(()),
+        // One that is up to date stays, wherever it is.
+        Some(_) => Ok(()),
+        None => require_writable(program),
     }
 }
 
