@@ -188,15 +188,15 @@ fn torques_of_lines_and_hinges_are_those_of_the_recursion() {
         let pushing = pushed.dynamics.elements().pushing().count();
         let forces = match &pushed.forces {
             Ok(forces) => forces,
-            Err(NoPlace::Lines) => {
+            Err(NoPlace::Lines { .. }) => {
                 too_many += 1;
                 continue;
             }
-            Err(NoPlace::Coupling) => {
+            Err(NoPlace::Coupling { .. }) => {
                 apart += 1;
                 continue;
             }
-            Err(NoPlace::Rotor) => {
+            Err(NoPlace::Rotor { .. }) => {
                 spun_up += 1;
                 continue;
             }

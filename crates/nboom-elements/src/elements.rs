@@ -163,6 +163,11 @@ impl<R: Real> Elements<R> {
         !self.pushes.is_empty() || self.commanded.is_some()
     }
 
+    /// What acts from outside, in the scene's order.
+    pub fn pushes(&self) -> &[Push<R>] {
+        &self.pushes
+    }
+
     /// What acts from outside on links other than the main one, each with its link.
     #[inline(always)]
     pub fn on_links(&self) -> impl Iterator<Item = (usize, &Push<R>)> {
@@ -254,9 +259,9 @@ impl<R: Real> Elements<R> {
         }
     }
 
-    /// Whether some line does not transmit all of its moment.
-    pub fn withholds(&self) -> bool {
-        !self.withheld.is_empty()
+    /// The hinge of the first line that does not transmit all of its moment, if there is one.
+    pub fn withheld(&self) -> Option<usize> {
+        self.withheld.first().map(WithheldMoment::hinge)
     }
 
     /// Power of what no potential accounts for: of the parts of the torques about the hinges `free` that

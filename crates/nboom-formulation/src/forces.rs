@@ -1,10 +1,9 @@
-use std::fmt;
-
-use nboom_elements::{Coupled, CoupledEnd, CouplingLaw, Elements, HingeLaw, KickOffLaw};
-use nboom_model::{Shape, Topology, WeldedTree};
+use nboom_elements::{Coupled, CoupledEnd, CouplingLaw, Elements, HingeLaw, KickOffLaw, Push};
+use nboom_model::{LinkRotor, Shape, Topology, WeldedTree};
 use nboom_scalar::{Mat3, Real, Vec3, Wrench};
 
 use crate::embedding::Embedding;
+use crate::no_place::NoPlace;
 use crate::parameters::{Parameters, Reader};
 use crate::pose::{self, LinkPlace};
 use crate::recognise::Recognised;
@@ -37,47 +36,6 @@ pub struct LinkLine<R> {
     pub main_body_point: Vec3<R>,
     /// The force by the line's length.
     pub law: KickOffLaw<R>,
-}
-
-/// What acts on a satellite that a right side has no place for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoPlace {
-    /// A coupling that acts on one hinge alone, couples hinges of which neither is next inboard of the other, or
-    /// is not the only one of its hinges.
-    Coupling,
-    /// A rotor on a hinged link, or one that changes its speed.
-    Rotor,
-    /// Something from outside that acts on a hinged link, or is not constant along main-body axes.
-    External,
-    /// More lines on one link than [`RightSideLayout::LINES_OF_LINK`].
-    Lines,
-    /// A line that does not transmit all of its moment.
-    Withheld,
-}
-
-impl fmt::Display for NoPlace {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Coupling => {
-                let what = "acts on one hinge alone, or on hinges that do not follow each other";
-                write!(f, "a coupling that {what}, or beside another one")
-            }
-            Self::Rotor => write!(f, "a rotor on a hinged body, or one that changes its speed"),
-            Self::External => {
-                write!(
-                    f,
-                    "a force or torque that is not constant on the main body and along its axes"
-                )
-            }
-            Self::Lines => {
-                let most = RightSideLayout::LINES_OF_LINK;
-                write!(f, "more than {most} kick-off springs on bodies that move as one")
-            }
-            Self::Withheld => {
-                write!(f, "a kick-off spring that does not turn all hinges inboard of it")
-            }
-        }
-    }
 }
 
 /// The length of a line that does not push, 2⁴⁰⁰: no hinge angle makes it zero, and its square is a
@@ -282,9 +240,11 @@ fn push<R: Real>(
     }
 }
 
-/// Whether there are rotors that are not on the main body, or change their speed.
-fn has_other_rotors(tree: &WeldedTree<f64>) -> bool {
-    tree.rotors.iter().any(|rotor| rotor.link.is_some() || rotor.motion.acceleration != 0.0)
+/// The first rotor that is not on the main body, or changes its speed.
+fn other_rotor(tree: &WeldedTree<f64>) -> Option<usize> {
+    let is_other =
+        |rotor: &LinkRotor<f64>| rotor.link.is_some() || rotor.motion.acceleration != 0.0;
+    tree.rotors.iter().position(is_other)
 }
 
 impl Forces<f64> {
@@ -297,14 +257,15 @@ impl Forces<f64> {
         tree: &WeldedTree<f64>,
         recognised: &Recognised,
     ) -> Result<Self, NoPlace> {
-        for (is_so, what) in [
-            (elements.withholds(), NoPlace::Withheld),
-            (has_other_rotors(tree), NoPlace::Rotor),
-            (elements.pushes_vary() || elements.on_links().next().is_some(), NoPlace::External),
-        ] {
-            if is_so {
-                return Err(what);
-            }
+        let withheld = elements.withheld().map(|hinge| NoPlace::Withheld { hinge });
+        let rotor = || other_rotor(tree).map(|rotor| NoPlace::Rotor { rotor });
+        let is_other = |push: &&Push<f64>| push.link.is_some() || push.varies();
+        let external = || {
+            let push = elements.pushes().iter().find(is_other)?;
+            Some(NoPlace::External { external: push.number })
+        };
+        if let Some(what) = withheld.or_else(rotor).or_else(external) {
+            return Err(what);
         }
         let mut forces = Self::none(recognised.links.len());
         for (law, &link) in forces.laws.iter_mut().zip(&recognised.links) {
@@ -320,7 +281,8 @@ impl Forces<f64> {
             let of_link = |&other: &usize| other == link;
             let hinge = recognised.links.iter().position(of_link).expect("every link has a hinge");
             let is_empty = |&place: &usize| forces.lines[place] == LinkLine::absent();
-            let place = forces.places(hinge).find(is_empty).ok_or(NoPlace::Lines)?;
+            let place = forces.places(hinge).find(is_empty);
+            let place = place.ok_or(NoPlace::Lines { hinge: line.hinge })?;
             forces.lines[place] = LinkLine {
                 point: recognised.frames[hinge].point(line.point),
                 main_body_point: line.main_body_point,
@@ -335,8 +297,9 @@ impl Forces<f64> {
 
     /// Adds a coupling; beside a hinge that is held it is a part of the other one's law.
     fn couple(&mut self, coupled: &Coupled<f64>, recognised: &Recognised) -> Result<(), NoPlace> {
+        let no_place = NoPlace::Coupling { hinges: coupled.hinges };
         if !coupled.is_mutual {
-            return Err(NoPlace::Coupling);
+            return Err(no_place);
         }
         let of = |link| recognised.links.iter().position(|&of| of == link).expect("a link's hinge");
         let law = coupled.law;
@@ -358,10 +321,10 @@ impl Forces<f64> {
         } else if inboard[second] == Some(first) {
             (second, law.reversed())
         } else {
-            return Err(NoPlace::Coupling);
+            return Err(no_place);
         };
         if self.couplings[own] != uncoupled() {
-            return Err(NoPlace::Coupling);
+            return Err(no_place);
         }
         self.couplings[own] = law;
         Ok(())

@@ -3,8 +3,9 @@ use std::ops::Deref;
 use nboom_scalar::{Sym3, Vec3};
 
 use crate::{
-    Appendage, Base, Coupling, Departures, External, Gravity, Hinge, HingeLabel, InitialMotion,
-    Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Shapes, check, warning,
+    Appendage, Base, BodyName, Coupling, Departures, External, Gravity, Hinge, HingeLabel,
+    InitialMotion, Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Shapes, check,
+    warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -250,6 +251,11 @@ impl Scene {
     /// What users call the hinges.
     pub fn labels(&self) -> &[HingeLabel] {
         &self.labels
+    }
+
+    /// What messages call a hinged body, or the main body.
+    pub fn body_name(&self, body: Option<usize>) -> BodyName {
+        body.map_or(BodyName::MainBody, |body| BodyName::Segment(self.label(body)))
     }
 
     /// Six of a main body that moves freely, and one for each hinge, whether it is held or free.

@@ -55,8 +55,7 @@ pub(crate) fn texts(
 /// # Errors
 /// What a right side has no place for.
 pub(crate) fn forces(test_case: &TestCase) -> Result<Forces<f64>, PackageError> {
-    let scene = || test_case.scene().name.clone();
-    let no_place = |what| CodegenError::NoPlace { scene: scene(), what }.into();
+    let no_place = |what| CodegenError::no_place(test_case.scene(), what).into();
     test_case
         .forces()
         .expect("requests are refused before when there is no topology")

@@ -1,4 +1,5 @@
 use nboom_formulation::{Formulation, NoPlace, Why};
+use nboom_model::Scene;
 use nboom_sections::SectionError;
 
 use crate::request::Output;
@@ -162,10 +163,12 @@ pub enum CodegenError {
         formulation: Formulation,
     },
     /// Something acts on a scene that a right side has no place for.
-    #[error("scene {scene}: {what} found, for which a right side has no place")]
+    #[error("scene {scene}: {place}: {what} found, for which a right side has no place")]
     NoPlace {
         /// The scene.
         scene: String,
+        /// Which of the scene, with its body or hinges.
+        place: String,
         /// What acts.
         what: NoPlace,
     },
@@ -179,4 +182,11 @@ pub enum CodegenError {
         /// What keeps it out.
         why: Why,
     },
+}
+
+impl CodegenError {
+    /// Something acts on this scene that a right side has no place for.
+    pub fn no_place(scene: &Scene, what: NoPlace) -> Self {
+        Self::NoPlace { scene: scene.name.clone(), place: what.in_scene(scene), what }
+    }
 }

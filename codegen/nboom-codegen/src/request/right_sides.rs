@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nboom_elements::Elements;
 use nboom_formulation::{Forces, Layout, NoPlace, RightSideLayout, recognise};
-use nboom_model::{Mode, RotorSpeed, Scene, Topology};
+use nboom_model::{Mode, Rotor, RotorSpeed, Scene, Topology};
 
 use crate::request::scene::{ANGLES, combinations, held, mode_with, welded};
 use crate::request::{CodegenError, Request};
@@ -56,10 +56,11 @@ impl Request {
         welded(scene, &all_free, ANGLES[0])?;
         let acting = acting(scene, &all_free, ANGLES[0], (true, 1));
         let (_, cases) = acting.expect("the scene is recognised");
-        let no_place = |what| CodegenError::NoPlace { scene: scene.name.clone(), what };
+        let no_place = |what| CodegenError::no_place(scene, what);
         // A table may begin later.
-        if scene.rotors.iter().any(|rotor| matches!(rotor.speed, RotorSpeed::Table(_))) {
-            return Err(no_place(NoPlace::Rotor));
+        let varies = |rotor: &Rotor| matches!(rotor.speed, RotorSpeed::Table(_));
+        if let Some(rotor) = scene.rotors.iter().position(varies) {
+            return Err(no_place(NoPlace::Rotor { rotor }));
         }
         let cases = cases.map_err(no_place)?;
         let places = self.places_that_push(&cases);

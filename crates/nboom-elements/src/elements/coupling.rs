@@ -68,7 +68,7 @@ impl<R: Real> CouplingLaw<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coupled<R> {
     /// Its hinges, as numbered in the scene.
-    hinges: [usize; 2],
+    pub hinges: [usize; 2],
     /// Where each of them is.
     pub ends: [CoupledEnd<R>; 2],
     /// Its law, hinges in this order.

@@ -6,6 +6,8 @@ use nboom_scalar::{Mat3, Real, Twist, Vec3, Wrench};
 /// One that varies within the mode is as it was set last.
 #[derive(Clone, Copy, Debug)]
 pub struct Push<R> {
+    /// Its place among the scene's forces and torques from outside.
+    pub number: usize,
     /// The link; `None` is the main link.
     pub link: Option<usize>,
     /// Its place among the forces and torques on hinged bodies, if it is on one.
@@ -44,18 +46,24 @@ impl<R: Real> Push<R> {
     pub(crate) fn write_all(scene: &Scene, mode: &Mode, tree: &WeldedTree<R>, all: &mut Vec<Self>) {
         let mut hinged = 0;
         all.clear();
-        for (external, &piece) in scene.externals.iter().zip(&mode.externals) {
+        let externals = scene.externals.iter().enumerate();
+        for ((number, external), &piece) in externals.zip(&mode.externals) {
             let place = external.body.map(|_| hinged);
             hinged += usize::from(place.is_some());
             if external.course.acts(piece) {
-                all.push(Self::new(external, piece, tree, place));
+                all.push(Self::new((number, external), piece, tree, place));
             }
         }
         let time = R::constant(scene.initial.time);
         all.iter_mut().for_each(|push| push.set(&Mat3::identity(), time));
     }
 
-    fn new(one: &External, piece: usize, tree: &WeldedTree<R>, hinged: Option<usize>) -> Self {
+    fn new(
+        (number, one): (usize, &External),
+        piece: usize,
+        tree: &WeldedTree<R>,
+        hinged: Option<usize>,
+    ) -> Self {
         let at = Vec3::constant(one.point);
         let (link, point, rot_link_from_body) = match one.body {
             None => (None, at, Mat3::identity()),
@@ -72,6 +80,7 @@ impl<R: Real> Push<R> {
         });
         let amount = Vec3::constant(one.amount);
         Self {
+            number,
             link,
             hinged,
             kind: one.kind,

@@ -32,6 +32,11 @@ impl<R: Real> WithheldMoment<R> {
         scene.departures().withheld.iter().filter_map(of)
     }
 
+    /// The hinge of the line.
+    pub fn hinge(&self) -> usize {
+        self.line.hinge
+    }
+
     /// The moment about the axis.
     #[inline(always)]
     pub fn torque<P: Placed<R>>(&self, links: &[P]) -> R {

@@ -3,7 +3,7 @@
 use nboom_scalar::Vec3;
 
 use super::ModelWarning;
-use crate::{BodyName, Scene};
+use crate::Scene;
 
 pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
     let run = [scene.initial.time, scene.end_time];
@@ -11,8 +11,7 @@ pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
     let idle = pushing.filter_map(|one| {
         let [on, off] = one.course.span();
         let acts = on < off && on < run[1] && off > run[0];
-        let on_body = |body| BodyName::Segment(scene.label(body));
-        let body = one.body.map_or(BodyName::MainBody, on_body);
+        let body = scene.body_name(one.body);
         (!acts).then_some(ModelWarning::NeverActs { kind: one.kind, body, span: [on, off], run })
     });
     idle.collect()

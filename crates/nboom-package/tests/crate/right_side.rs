@@ -198,14 +198,14 @@ fn a_right_side_of_a_rig_holds_its_main_body() {
 fn what_a_right_side_has_no_place_for_is_refused() {
     let place = place();
     let directory = place.path().join("crate");
-    let refused = |name: &str, change: &dyn Fn(&mut SceneDescription)| {
+    let refused = |name: &str, whose: &str, change: &dyn Fn(&mut SceneDescription)| {
         let mut description = (*satellite(name, &[3])).clone();
         change(&mut description);
         let scene = Scene::new(description).expect("the bodies are physical");
         for numbers in [Numbers::RunTime, Numbers::Baked] {
             let choices = Choices { numbers, right_side: true, ..Choices::default() };
             let refused = generate(&scene, &choices, &directory).expect_err("no place");
-            let expected = format!("scene {name}: ");
+            let expected = format!("scene {name}: {whose}: ");
             assert!(refused.to_string().starts_with(&expected), "{refused}");
             assert!(
                 refused.to_string().ends_with("for which a right side has no place"),
@@ -213,20 +213,34 @@ fn what_a_right_side_has_no_place_for_is_refused() {
             );
         }
     };
-    refused("one alone", &|scene| {
+    refused("one alone", "coupling of hinges 1,2 and 1,3", &|scene| {
         scene.couplings = vec![Coupling { is_mutual: false, ..CABLE }];
     });
-    refused("apart", &|scene| scene.couplings = vec![Coupling { hinges: [2, 0], ..CABLE }]);
-    refused("doubled", &|scene| scene.couplings = vec![CABLE; 2]);
+    refused("apart", "coupling of hinges 1,3 and 1,1", &|scene| {
+        scene.couplings = vec![Coupling { hinges: [2, 0], ..CABLE }];
+    });
+    refused("doubled", "coupling of hinges 1,2 and 1,3", &|scene| {
+        scene.couplings = vec![CABLE; 2];
+    });
     let rotor =
         Rotor { body: None, axis: Vec3::unit_x(), inertia: 1.0, speed: RotorSpeed::Constant(2.0) };
     let speed = RotorSpeed::Table(vec![[0.0, 1.0], [2.0, 3.0]]);
-    refused("spun up", &|scene| {
+    refused("spun up", "rotor on the main body", &|scene| {
         scene.rotors = vec![Rotor { speed: speed.clone(), ..rotor.clone() }]
     });
-    refused("on a boom", &|scene| scene.externals[0].body = Some(1));
-    refused("inertial", &|scene| scene.externals[0].axes = ExternalAxes::Inertial);
+    refused("on a boom", "thrust on the segment 1,2 from 1.0 to 2.0", &|scene| {
+        scene.externals[0].body = Some(1);
+    });
+    // The first one has a place.
+    let push = "thrust on the main body from 3.0 to 4.0";
+    refused("inertial", push, &|scene| {
+        let course = Course::Pulse { on: 3.0, off: 4.0 };
+        let push = External { course, ..scene.externals[0].clone() };
+        scene.externals.push(External { axes: ExternalAxes::Inertial, ..push });
+    });
     let table = Course::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]);
-    refused("table", &|scene| scene.externals[0].course = table.clone());
+    refused("table", "thrust on the main body from 0.0 to 2.0", &|scene| {
+        scene.externals[0].course = table.clone();
+    });
     assert!(!directory.exists());
 }
