@@ -2,9 +2,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use nboom_formulation::Formulation;
+use nboom_model::Scene;
 use nboom_package::{Choices, Level, Numbers, Written, generate as write, is_current};
 
-use crate::{CliError, SceneArgs, check, choice};
+use crate::{CliError, SceneArgs, check, choice, print_scene};
 
 /// Options of `nboom generate`.
 #[derive(Args, Debug)]
@@ -96,7 +97,24 @@ pub(crate) fn generate(args: &GenerateArgs) -> Result<String, CliError> {
     } else {
         write(scene, &choices, directory)?
     };
-    Ok(account(&written, &scene.name, &directory.display().to_string()))
+    let account = account(&written, &scene.name, &directory.display().to_string());
+    let is_anew = matches!(written, Written::Anew { .. });
+    let of_right_side = if is_anew && right_side { thrusts(scene) } else { String::new() };
+    Ok(account + &of_right_side)
+}
+
+/// What acts from outside in the right side of a scene: all of the scene where one is made, but on a main body that is held.
+fn thrusts(scene: &Scene) -> String {
+    let acting = scene.externals.iter().map(|external| print_scene::outside(scene, external));
+    let acting: Vec<String> = acting.collect();
+    let acting = match acting.is_empty() {
+        true => "no thruster".to_owned(),
+        false if scene.base.is_held() => {
+            format!("without {}: the main body is held", acting.join("; "))
+        }
+        false => acting.join("; "),
+    };
+    format!("right side  {acting}\n")
 }
 
 fn account(written: &Written, scene: &str, directory: &str) -> String {

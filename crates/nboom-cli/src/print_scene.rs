@@ -271,7 +271,7 @@ fn environment(scene: &Scene) -> Vec<String> {
 }
 
 /// A force or torque from outside.
-fn outside(scene: &Scene, external: &External) -> String {
+pub(crate) fn outside(scene: &Scene, external: &External) -> String {
     let kind = external.kind.name();
     let on = external.body.map(|body| format!(" on the body of {}", joint(&scene.label(body))));
     let at = match external.kind {

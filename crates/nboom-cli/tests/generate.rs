@@ -77,6 +77,63 @@ fn a_crate_is_written_once_checked_and_not_overwritten() {
     assert_eq!(fs::read_to_string(&routines).ok(), Some(edited));
 }
 
+/// A boom of one link, and beside it one of two, which the topology S2_S1 counts first; a thruster.
+const BOOMS: &str = r#"
+[run]
+end = 4.0
+
+[main_body]
+mass = 100.0
+inertia = [40.0, 30.0, 35.0]
+
+[[main_body.thruster]]
+force = [0.0, 2.0, 0.0]
+point = [0.5, 0.0, 0.0]
+from = 1.0
+until = 2.0
+
+[[body]]
+name = "probe"
+mass = 3.0
+mass_centre = [0.0, 1.0, 0.0]
+inertia = [1.0, 0.1, 1.0]
+hinge = { at = [0.0, 0.5, 0.0], axis = "x" }
+
+[[body]]
+name = "yoke"
+mass = 3.0
+mass_centre = [0.0, 1.0, 0.0]
+inertia = [1.0, 0.1, 1.0]
+hinge = { at = [0.0, -0.5, 0.0], axis = "x" }
+
+[[body]]
+name = "panel"
+on = "yoke"
+mass = 3.0
+mass_centre = [0.0, 1.0, 0.0]
+inertia = [1.0, 0.1, 1.0]
+hinge = { at = [0.0, 2.0, 0.0], axis = "x" }
+"#;
+
+#[test]
+fn a_right_side_says_which_thrusters_it_has_and_which_it_has_no_place_for() {
+    let place = place();
+    let place = place.path();
+    fs::write(place.join("booms.toml"), BOOMS).expect("writable");
+    let inertial = BOOMS.replace("until = 2.0", "until = 2.0\naxes = \"inertial\"");
+    fs::write(place.join("inertial.toml"), inertial).expect("writable");
+    let of = |scene: &str| nboom(place, &["generate", scene, "-o", "crate", "--right-side"]);
+    let refused = "thrust on the main body from 1.0 to 2.0: ";
+    ends(&of("inertial.toml"), 2, &[refused, "for which a right side has no place"]);
+    let thrust = "right side  thrust: (0, 2, 0) at (0.5, 0, 0), on from 1 to 2\n";
+    ends(&of("booms.toml"), 0, &["SatelliteS2S1RightSide", thrust]);
+    ends(
+        &nboom(place, &["generate", "boom.nml", "-o", "bare", "--right-side"]),
+        0,
+        &["right side  no thruster\n"],
+    );
+}
+
 #[test]
 fn what_cannot_be_generated_is_said() {
     let place = place();
