@@ -27,6 +27,6 @@ pub use emit::{Generated, Module, Standing, generate, source};
 pub use hash::hash;
 pub use request::{
     CodegenError, HINGE_LIMIT, Level, Numbers, Output, Request, STRAIGHT_HINGE_LIMIT,
-    StressRequest, held_at,
+    StressRequest, held_at, links,
 };
 pub use trace::{OPERATION_LIMIT, STRAIGHT_LIMIT, trace};

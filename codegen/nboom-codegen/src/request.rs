@@ -2,6 +2,7 @@
 
 mod assumptions;
 mod error;
+mod links;
 mod names;
 mod output;
 mod right_sides;
@@ -10,6 +11,7 @@ mod scene;
 mod stresses;
 
 pub use error::CodegenError;
+pub use links::links;
 pub(crate) use names::{Names, identifier};
 pub use output::Output;
 pub use routine::{HINGE_LIMIT, Level, Request, STRAIGHT_HINGE_LIMIT};

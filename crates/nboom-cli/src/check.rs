@@ -68,17 +68,25 @@ fn never_released(file: &SceneFile, scene: &Scene) -> Option<String> {
     ))
 }
 
-/// The topology with all hinges free, and the assumptions of code generated for the scene.
+/// The topology with all hinges free, the assumptions of code generated for the scene, and its links if they are
+/// counted otherwise than the scene's hinges.
 #[cfg(feature = "generator")]
 fn generated_code(scene: &Scene) -> String {
-    use nboom_codegen::{Level, Numbers, Request};
-    let request = match Request::of_scene(scene, Numbers::RunTime, Level::Fast) {
-        Ok(request) => request,
+    use nboom_codegen::{Level, Numbers, Request, links};
+    let found = Request::of_scene(scene, Numbers::RunTime, Level::Fast);
+    let (request, links) = match found.and_then(|request| Ok((request, links(scene)?))) {
+        Ok(found) => found,
         Err(error) => return format!("generated code: none, {error}\n"),
+    };
+    let differ = links.iter().any(|[link, hinge]| link.numbers() != hinge.numbers());
+    let links = links.iter().map(|[link, hinge]| format!("{link} is hinge {hinge}"));
+    let links = match differ {
+        true => format!("links of generated code: {}\n", links.collect::<Vec<_>>().join("; ")),
+        false => String::new(),
     };
     let phrases = request.assumptions_in_words();
     let phrases = if phrases.is_empty() { "nothing".to_owned() } else { phrases.join("; ") };
-    format!("topology: {}\ngenerated code assumes: {phrases}\n", request.topology)
+    format!("topology: {}\ngenerated code assumes: {phrases}\n{links}", request.topology)
 }
 
 /// The code that a run begins with, and why, found by a run that ends where it starts.

@@ -116,6 +116,18 @@ hinge = { at = [0.0, 2.0, 0.0], axis = "x" }
 "#;
 
 #[test]
+fn links_of_code_have_the_names_of_the_scene_where_they_are_counted_otherwise() {
+    let place = place();
+    let place = place.path();
+    fs::write(place.join("booms.toml"), BOOMS).expect("writable");
+    let links = "links of generated code: 1,1 is hinge 2,1 (yoke); 1,2 is hinge 2,2 (panel); 2,1 is hinge 1,1 (probe)\n";
+    ends(&nboom(place, &["check", "booms.toml"]), 0, &["topology: S2_S1\n", links]);
+    let same = nboom(place, &["check", "boom.nml"]);
+    ends(&same, 0, &["topology: S2\n"]);
+    assert!(!String::from_utf8_lossy(&same.stdout).contains("links of generated code"));
+}
+
+#[test]
 fn a_right_side_says_which_thrusters_it_has_and_which_it_has_no_place_for() {
     let place = place();
     let place = place.path();

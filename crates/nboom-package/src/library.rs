@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use nboom_codegen::Request;
+use nboom_codegen::{CodegenError, Request, links};
 use nboom_formulation::{Formulation, Layout, Recognised};
 use nboom_model::{Joint, Mode, Scene, WeldedTree};
 use nboom_scalar::{TreeLink, Twist};
@@ -84,6 +84,7 @@ pub(crate) fn files(
         ("SCENE", in_words(&scene.name)),
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("TOPOLOGY", requests.whole.topology.to_string()),
+        ("LINKS", in_words(&links_in_words(scene)?)),
         ("ROUTINE_TABLE", table(&requests.all()) + &row_of_stresses.clone().unwrap_or_default()),
         ("STRESSES", row_of_stresses.map_or(String::new(), |_| stresses::NUMBERS.to_owned())),
         ("PACKAGE", name.to_owned()),
@@ -126,6 +127,14 @@ fn list(recognised: &Recognised) -> String {
         format!("    {parameter:?}, // {}\n", Layout::name(&recognised.topology, i))
     };
     recognised.parameters.write().into_iter().enumerate().map(line).collect()
+}
+
+/// Which hinge of the scene each link of the topology is.
+fn links_in_words(scene: &Scene) -> Result<String, CodegenError> {
+    let all = links(scene)?;
+    let all = all.iter().map(|[link, hinge]| format!("{link} is hinge {hinge}"));
+    let all = all.collect::<Vec<_>>().join("; ");
+    Ok(if all.is_empty() { "none".to_owned() } else { all })
 }
 
 /// A scene's name as it can stand in a line of Markdown.

@@ -81,6 +81,19 @@ fn a_crate_says_where_the_numbers_of_a_hinge_stand() {
     assert_eq!(found, expected.map(line));
 }
 
+/// The chains of two come first in the topology 2xS2_S1, and the chain of one last.
+#[test]
+fn a_crate_says_which_hinge_a_link_is() {
+    let scene = satellite("mixed", &[1, 2, 2]);
+    let names = ["probe", "left yoke", "left panel", "right yoke", "right panel"];
+    let scene = scene.with_names(names.map(str::to_owned).to_vec());
+    let place = written(&scene, &Choices::default());
+    let text = fs::read_to_string(place.path().join("README.md")).expect("readable");
+    let links = "1,1 is hinge 2,1 (left yoke); 1,2 is hinge 2,2 (left panel); 2,1 is hinge 3,1 (right yoke); \
+                 2,2 is hinge 3,2 (right panel); 3,1 is hinge 1,1 (probe)";
+    assert!(text.contains(links), "{text}");
+}
+
 /// The two fingers of the robot slide.
 #[test]
 fn a_crate_knows_hinges_by_name_and_which_of_them_slide() {
