@@ -29,10 +29,15 @@ impl Responsible<'_> {
         error: &DraftError,
     ) {
         let body = &self.bodies[error.body];
-        // No body leads to itself, and none to the copies of one by their common name.
+        // No body leads to itself.
         let others = || draft.bodies.iter().enumerate().filter(|(i, _)| *i != error.body);
         let names = || others().map(|(_, body)| body.name.as_str());
-        let meant = |name: &str| suggest::nearest(name, names()).filter(|meant| *meant != name);
+        let of_hinges = draft.names_for(error.body);
+        let meant = |name: &str| {
+            let of_hinges = of_hinges.iter().map(String::as_str);
+            // The message says what copies are called whose common name this is.
+            suggest::nearest(name, of_hinges).filter(|_| names().all(|known| known != name))
+        };
         let (at, symbol, help) = match &error.defect {
             DraftDefect::NameTaken(_) => (body.place("name"), "name", None),
             DraftDefect::Inboard { name, .. } => {

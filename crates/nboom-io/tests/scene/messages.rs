@@ -32,6 +32,27 @@ fn names_that_nobody_has_are_told_with_the_nearest_one() {
     assert!(only(&text).ends_with("did you mean `outer boom`?"));
 }
 
+/// Elsewhere a copy is called by its number, within its appendage by the name that all have.
+#[test]
+fn copies_are_suggested_by_the_names_that_lead_to_them() {
+    let panels = body("panel", "repeat = { count = 3, about = [1.0, 0.0, 0.0] }", "")
+        + &body("flap", "on = \"panel\"", "release = { after = \"panl\" }");
+    let waits = |name: &str| body("boom", "", &format!("release = {{ after = \"{name}\" }}"));
+    let told = |text: String| wrong(&(BUS.to_owned() + &text)).join("\n");
+    let within = told(panels.clone());
+    assert!(within.ends_with("did you mean `panel`?"), "{within}");
+    let panels = panels.replace("panl", "panel");
+    for (name, meant) in [("panel2", "panel 2"), ("Panel 3", "panel 3"), ("flap1", "flap 1")] {
+        let elsewhere = told(panels.clone() + &waits(name));
+        assert!(elsewhere.ends_with(&format!("did you mean `{meant}`?")), "{elsewhere}");
+    }
+    let common = told(panels.clone() + &waits("panel"));
+    assert!(common.ends_with("expected the name of one copy, as `panel 1`"), "{common}");
+    let coupled = "coupling = [{ to = \"panel4\", stiffness = 1.0 }]";
+    let coupled = told(panels + &body("boom", coupled, ""));
+    assert!(coupled.contains("did you mean `panel "), "{coupled}");
+}
+
 #[test]
 fn a_name_fits_into_a_line() {
     for name in ["", "  ", "a\\nb", "a\\u001b[31mb", &"a".repeat(201)] {

@@ -2,7 +2,7 @@ use std::collections::HashMap;
 
 use super::{
     BodyDraft, CouplingDraft, DraftDefect, DraftError, MAIN_BODY_NAMES, MOST_BODIES, ReleaseDraft,
-    Repeat,
+    Repeat, SceneDraft,
 };
 use crate::{Coupling, Release};
 
@@ -163,6 +163,21 @@ impl Names {
                 None => "the name of another body".to_owned(),
             },
         })
+    }
+}
+
+impl SceneDraft {
+    /// What releases and couplings of a body of the draft may call the others: one of the same appendage by its name
+    /// in the draft, copies elsewhere by their own. None while bodies do not hang together.
+    pub fn names_for(&self, body: usize) -> Vec<String> {
+        let places = Names::of(&self.bodies).map_or_else(|_| Vec::new(), |names| names.places);
+        let Some(own) = places.iter().find(|place| place.draft == body) else { return Vec::new() };
+        let others = places.iter().filter(|place| place.draft != body);
+        let name = |place: &Place| match (place.root, place.copy) == (own.root, own.copy) {
+            true => self.bodies[place.draft].name.clone(),
+            false => place.name.clone(),
+        };
+        others.map(name).collect()
     }
 }
 
