@@ -6,7 +6,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use nboom_formulation::Formulation;
 use nboom_io::SceneFile;
-use nboom_package::{Build, Built, Level, Progress, compile as build, library, load};
+use nboom_package::{Build, Built, Level, PackageError, Progress, compile as build, library, load};
 
 use crate::format::{count, short};
 use crate::{CliError, Routines, SceneArgs, check, choice, say};
@@ -51,7 +51,10 @@ pub(crate) fn compile(args: &CompileArgs) -> Result<String, CliError> {
     let built =
         build(&file.scene, file.structure.as_ref(), &how, &args.output, |step| shown.show(&step));
     shown.line.finish_and_clear();
-    let Built { up_to_date, topology, routines, folder } = built?;
+    let Built { up_to_date, topology, routines, folder } = built.map_err(|error| match error {
+        PackageError::NoFolder => CliError::NoWork,
+        other => other.into(),
+    })?;
     let (scene, program) = (&file.scene.name, args.output.display());
     let seconds = short(started.elapsed().as_secs_f64(), 3);
     if up_to_date {

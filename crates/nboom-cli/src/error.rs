@@ -1,3 +1,5 @@
+mod exit_code;
+
 use std::io;
 use std::path::PathBuf;
 
@@ -236,6 +238,12 @@ pub enum CliError {
     #[cfg(feature = "generator")]
     #[error(transparent)]
     Package(#[from] PackageError),
+    /// There is no folder to build in.
+    #[cfg(feature = "generator")]
+    #[error(
+        "neither XDG_CACHE_HOME nor HOME found, one of them or --work, a folder to build in, expected"
+    )]
+    NoWork,
     /// Sections cannot be computed.
     #[error(transparent)]
     Sections(#[from] SectionFileError),
@@ -297,59 +305,7 @@ pub enum CliError {
     Stdout(#[source] io::Error),
 }
 
-/// Whether a path leads through a file, or to a directory where a file is expected or the reverse.
-#[cfg(feature = "generator")]
-fn is_wrong_path(kind: io::ErrorKind) -> bool {
-    use io::ErrorKind::{AlreadyExists, IsADirectory, NotADirectory};
-    matches!(kind, AlreadyExists | IsADirectory | NotADirectory)
-}
-
 impl CliError {
-    /// 1 when a comparison failed, 2 when the input or the command line is wrong, 3 when computing or writing failed or was interrupted.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            Self::Deviation { .. } => 1,
-            Self::Input(_) | Self::EndTime(_) | Self::GeneratedRecursion => 2,
-            Self::Start(_) | Self::OutputIsInput { .. } => 2,
-            Self::NoFormat | Self::VainFormat { .. } | Self::Instructions { .. } => 2,
-            Self::NoScene { .. } | Self::NoDeck(_) | Self::WouldReplace { .. } => 2,
-            Self::NoPicture { .. } | Self::NoSvg { .. } => 2,
-            #[cfg(feature = "generator")]
-            Self::Exists { .. } => 2,
-            Self::Results(error) if error.is_refusal() => 2,
-            Self::NotWithTaylor { .. } | Self::NoStresses { .. } | Self::NoStrength { .. } => 2,
-            Self::Case(_) => 2,
-            Self::Sweep(error) => error.exit_code(),
-            Self::OutputTimes(_) | Self::Report(_) | Self::NoPage { .. } => 2,
-            Self::OtherPage { .. } | Self::OtherUnits { .. } => 2,
-            Self::PlotsOfSweep { .. } | Self::SweepBesideOthers { .. } => 2,
-            Self::Tables(error) if error.is_of_input() => 2,
-            Self::Sections(_) | Self::Stresses(_) | Self::NoStations { .. } => 2,
-            Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,
-            Self::NoRecord { .. } | Self::NoArguments { .. } | Self::NothingToRepeat { .. } => 2,
-            Self::Simulation {
-                error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
-                ..
-            } => 2,
-            Self::Verify(VerifyError::NotFinite { .. }) => 2,
-            Self::Simulation { .. } | Self::Verify(_) => 3,
-            Self::Certificate { .. } | Self::Signals(_) | Self::BrokenOff { .. } => 3,
-            Self::Results(_) | Self::Tables(_) | Self::Stdout(_) => 3,
-            #[cfg(feature = "generator")]
-            Self::Package(PackageError::Outdated { .. } | PackageError::Deviation { .. }) => 1,
-            #[cfg(feature = "generator")]
-            Self::Package(
-                PackageError::Codegen(_) | PackageError::NotOurs { .. } | PackageError::NoFolder,
-            ) => 2,
-            #[cfg(feature = "generator")]
-            Self::Package(
-                PackageError::Read { source, .. } | PackageError::Write { source, .. },
-            ) if is_wrong_path(source.kind()) => 2,
-            #[cfg(feature = "generator")]
-            Self::Package(_) => 3,
-        }
-    }
-
     /// Whether a run stopped by what it is, and not since it was interrupted or could not be written.
     pub(crate) fn is_of_the_run(&self) -> bool {
         let Self::Simulation { error, .. } = self else { return false };

@@ -78,7 +78,7 @@ pub enum PackageError {
     },
     /// There is no folder to build in.
     #[error(
-        "neither XDG_CACHE_HOME nor HOME is set, so a folder to build in has to be named: --work"
+        "neither XDG_CACHE_HOME nor HOME found, one of them or `work`, a folder to build in, expected"
     )]
     NoFolder,
     /// Cargo cannot be started.
