@@ -311,8 +311,10 @@ impl CliError {
         let Self::Simulation { error, .. } = self else { return false };
         match error {
             SimError::Interrupted { .. } => false,
-            // Loads that cannot be found are of no kind that a disk has.
-            SimError::Record { source, .. } => source.kind() == io::ErrorKind::Other,
+            SimError::Record { source, .. } => {
+                let why = source.get_ref().and_then(|why| why.downcast_ref::<ResultsError>());
+                why.is_some_and(ResultsError::is_of_numbers)
+            }
             _ => true,
         }
     }
@@ -348,7 +350,12 @@ mod tests {
         assert!(of(SimError::StepsUsedUp { time: 1.0, steps: 9, by: "max_steps" }));
         assert!(!of(SimError::Interrupted { time: 1.0 }));
         let unkept = |source| of(SimError::Record { time: 1.0, source });
-        assert!(unkept(io::Error::other(StrengthError::NotFinite { time: 1.0 })));
+        let no_loads = ResultsError::from(StrengthError::NotFinite { time: 1.0 });
+        assert!(unkept(io::Error::other(no_loads)));
+        // A disk may fail in a way that has no name.
+        let path = PathBuf::from("states.csv");
+        let failed = ResultsError::Write { path, source: io::Error::other("by its controller") };
+        assert!(!unkept(io::Error::other(failed)));
         assert!(!unkept(io::ErrorKind::StorageFull.into()));
         assert!(!CliError::Signals(io::ErrorKind::Other.into()).is_of_the_run());
     }

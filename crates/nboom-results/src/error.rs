@@ -6,6 +6,7 @@ use nboom_strength::StrengthError;
 
 use crate::kind::Kind;
 use crate::lock::Holder;
+use crate::number::NotFinite;
 
 /// Why the files of a run could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -101,6 +102,15 @@ impl ResultsError {
             self,
             InUse { .. } | Foreign { .. } | NotADirectory { .. } | Name { .. } | Mounted { .. }
         )
+    }
+
+    /// Whether numbers that are none keep results from being written, and not the place for them.
+    pub fn is_of_numbers(&self) -> bool {
+        match self {
+            Self::Stresses(_) => true,
+            Self::Write { source, .. } => source.get_ref().is_some_and(|why| why.is::<NotFinite>()),
+            _ => false,
+        }
     }
 
     pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self + use<> {

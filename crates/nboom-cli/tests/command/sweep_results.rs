@@ -86,6 +86,33 @@ fn warnings_of_runs_for_pages_name_their_cases() {
     assert!(of_margins.iter().all(|line| line.contains("case ")), "{told}");
 }
 
+/// A pulse as short as that has a peak beyond all numbers, which rows of lock-up times do not see.
+#[test]
+fn a_case_whose_page_has_no_loads_is_told_and_the_sweep_goes_on() {
+    let place = Place::new();
+    let scene = include_str!("../../../../examples/solar-array.toml");
+    let sharp: Vec<&str> = scene
+        .lines()
+        .map(
+            |line| {
+                if line.starts_with("pulse_constant") { "pulse_constant = 1e-310" } else { line }
+            },
+        )
+        .collect();
+    place.write("four.toml", &sharp.join("\n"));
+    let study = "scene = 'four.toml'\ndraws = 2\nresults = ['lock_time of 1,1']\n";
+    let vary = "[[vary]]\nname = 'root'\npath = 'parameters.damping'\nas = 'factor'\nuniform = { from = 0.9, to = 1.1 }\n";
+    place.write("study.toml", &format!("{study}{vary}"));
+    let output = place.nboom(&["sweep", "study.toml", "--csv"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    for case in ["1", "2"] {
+        let told = format!("warning: case {case} has no whole page: at time ");
+        assert!(stderr(&output).contains(&told), "{}", stderr(&output));
+    }
+    assert!(cases(&place, "out/study").iter().all(|case| case["status"] == "ok"));
+    assert!(place.path("out/study/report.html").is_file());
+}
+
 /// A case alone is judged by the factors of its study, too.
 #[test]
 fn a_case_has_the_margins_that_it_had_in_the_sweep() {
