@@ -3,6 +3,7 @@ mod geometry;
 mod masses;
 mod outside;
 mod releases;
+mod rotors;
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -150,6 +151,15 @@ pub enum ModelWarning {
         /// The time of the run.
         run: [f64; 2],
     },
+    /// A rotor changes its speed after the end of the run.
+    SpeedAfterEnd {
+        /// The body that carries it.
+        body: BodyName,
+        /// From when on.
+        from: f64,
+        /// The end.
+        end: f64,
+    },
     /// At its lock angle a body lies folded back on its inboard body.
     FoldsBack {
         /// The body's hinge.
@@ -287,6 +297,11 @@ impl fmt::Display for ModelWarning {
                  and {end:?} expected",
                 kind.name()
             ),
+            Self::SpeedAfterEnd { body, from, end } => write!(
+                f,
+                "rotor on the {body}: a change of speed from {from:?} on found, one before the end of the run at \
+                 {end:?} expected"
+            ),
             Self::FoldsBack { hinge, inboard, lock } => write!(
                 f,
                 "segment {hinge}, locked at {}, lies folded back on segment {inboard}; at 0 deg it \
@@ -310,7 +325,7 @@ impl fmt::Display for ModelWarning {
 }
 
 pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
-    [releases::find, forces::find, outside::find, geometry::find, masses::find]
-        .map(|find| find(scene))
-        .concat()
+    let all =
+        [releases::find, forces::find, outside::find, rotors::find, geometry::find, masses::find];
+    all.map(|find| find(scene)).concat()
 }

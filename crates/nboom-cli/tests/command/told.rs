@@ -72,6 +72,26 @@ fn a_scene_that_waits_without_a_release_time_is_not_warned_of_one() {
 }
 
 #[test]
+fn stresses_at_few_output_times_are_ignored_where_there_are_no_loads() {
+    let place = Place::new();
+    let scene = "[run]\nend = 1.0\n\n[output]\nstress_every = 3\n\n[main_body]\nmass = 100.0\n\
+                 inertia = [40.0, 30.0, 20.0]\n";
+    let boom = "\n[[body]]\nname = \"boom\"\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n\n[body.hinge]\n\
+                at = [0.0, 2.0, 0.0]\naxis = \"x\"\n";
+    place.write("boom.toml", &format!("{scene}{boom}"));
+    let told = "ignored: stress_every (it thins out loads, and there are none)";
+    let run = |args: &[&str]| {
+        let output = place.nboom(&[&["run", "boom.toml"], args].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output).contains(told)
+    };
+    assert!(run(&[]));
+    assert!(!run(&["--hinge-loads"]));
+    let check = place.nboom(&["check", "boom.toml"]);
+    assert!(stdout(&check).contains(told), "{}", stdout(&check));
+}
+
+#[test]
 fn words_that_do_nothing_are_said_to_be_ignored() {
     let place = Place::new();
     let words = "IAX=2,HZO=0.001,LSTEP=1000,SEGSTT=0.0";

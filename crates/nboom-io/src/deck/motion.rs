@@ -90,7 +90,10 @@ impl Builder<'_, '_, '_> {
     }
 
     pub fn thrust(&mut self) -> Option<External> {
-        let magnitude = self.positive_magnitude("FT")?;
+        let Some(magnitude) = self.positive_magnitude("FT") else {
+            self.warn_ignored_elements(plain("FTHAT"), 0..3, "FT is 0");
+            return None;
+        };
         let direction = self.unit_vector("FTHAT")?;
         let (on, off) = (self.values.real("TINT", 0), self.values.real("TFIN", 0));
         if on == off {

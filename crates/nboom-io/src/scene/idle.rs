@@ -4,9 +4,11 @@ use super::fields::{Fields, Reader};
 use super::include::Parts;
 use super::sources::Sources;
 use super::tree::{Table, Value};
+use crate::deck::shown;
 use crate::diagnostic::Report;
 
-/// Warns of parameters that are set and of materials, where nothing uses them. A scene that is not written to its end
+/// Warns of parameters that are set more than once, and of those that are set and of materials, where nothing uses
+/// them. A scene that is not written to its end
 /// has parameters for later, and a file that it includes may serve others.
 pub(super) fn check_use(
     parts: &Parts,
@@ -19,8 +21,14 @@ pub(super) fn check_use(
         |name: &str| matches!(materials, Some(Value::Table(table)) if table.get(name).is_some());
     for entry in parts.entries("parameters") {
         let name = entry.key.as_str();
-        let is_set = set.iter().any(|(set, _)| set == name);
-        if is_set && !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
+        let values: Vec<f64> =
+            set.iter().filter(|(set, _)| set == name).map(|(_, value)| *value).collect();
+        if let [_, .., last] = values[..] {
+            let found =
+                format!("values of `{name}`, of which the last one, {}, holds", shown(last));
+            report.warn_at(sources, &entry.key_at, "--set", &found, "one value of a parameter");
+        }
+        if !values.is_empty() && !parts.iter().any(|(_, table, _)| table.mentions(&[name])) {
             let expected = format!("one of which some number is an expression, as `${name}`");
             let found = "a parameter that nothing uses";
             report.warn_at(sources, &entry.key_at, "--set", found, &expected);

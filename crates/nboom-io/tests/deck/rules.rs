@@ -201,6 +201,7 @@ fn what_has_no_effect_since_other_values_are_zero_is_ignored_with_a_warning() {
         (" THETIK(2)=30.0", "THETIK(2)", "EKNIK(2,1) and (2,2) are 0"),
         (" GAMAIK(3)=30.0,QNIK(1,4)=-1.0", "GAMAIK(3)", "QNIK(3,3) and (3,4) are 0"),
         (" XIKF(4)=2.0,AES(1,1)=1.0,XIKF(1)=1.0", "XIKF(4)", "AES(1,4) to (4,4) are 0"),
+        (" FTHAT=0.0,-1.0,0.0", "FTHAT(2)", "FT is 0"),
     ] {
         let found = warnings(cards);
         let words = format!("{symbol}: found ");

@@ -295,6 +295,19 @@ fn a_parameter_that_is_set_and_that_nothing_uses_is_told() {
 }
 
 #[test]
+fn a_parameter_that_is_set_twice_is_told() {
+    let body = body("one", "", "").replace("mass = 3.0", "mass = \"$m\"");
+    let text = format!("[parameters]\nm = 3.0\n{BUS}{body}");
+    let set = [("m".to_owned(), 5.0), ("m".to_owned(), 7.0)].to_vec();
+    let options = ReadOptions { set, ..ReadOptions::default() };
+    let file = parse_scene("a.toml", &text, "a", None, &options).expect("a right scene");
+    let told: Vec<_> = file.warnings.iter().map(ToString::to_string).collect();
+    let words = "--set: found values of `m`, of which the last one, 7, holds, expected one value";
+    assert!(told.len() == 1 && told[0].contains(words), "{told:?}");
+    assert_eq!(file.scene.bodies[0].mass_properties.mass, 7.0);
+}
+
+#[test]
 fn what_is_said_in_vain_is_told() {
     let alloy = "[materials.alloy]\nyoungs_modulus = 7e10\n";
     let force = "[[main_body.thruster]]\npoint = [0.0, 0.0, 0.0]\nforce = [0, 0.0, 0.0]\n";
