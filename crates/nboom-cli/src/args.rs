@@ -6,8 +6,9 @@ use nboom_model::UnitSystem;
 use nboom_sim::{Form, Method, Reference};
 
 use crate::{
-    BenchArgs, ConvertArgs, Given, MergeArgs, PlotArgs, ReportArgs, SceneArgs, SchemaArgs,
-    SectionArgs, SlipArgs, StressArgs, SweepArgs, TableArgs, TablesArgs, choice, examples,
+    BenchArgs, CheckArgs, ConvertArgs, Given, MergeArgs, PlotArgs, ReportArgs, SceneArgs,
+    SchemaArgs, SectionArgs, SlipArgs, StressArgs, SweepArgs, TableArgs, TablesArgs, choice,
+    examples,
 };
 #[cfg(feature = "generator")]
 use crate::{CompileArgs, CompletionsArgs, GenerateArgs, ManArgs, NewArgs};
@@ -214,8 +215,13 @@ pub struct RunArgs {
     #[arg(long, value_name = "H", value_parser = choice::positive, allow_negative_numbers = true)]
     pub max_step: Option<f64>,
 
+    /// Steps after which the run is given up; of a deck under rkam LSTEP says it where this option does not.
+    #[arg(long, value_name = "N", default_value = "10000000", value_parser = count_parser(),
+          allow_negative_numbers = true)]
+    pub max_steps: usize,
+
     /// Events after which the run is given up, since a spring at its limit length may chatter.
-    #[arg(long, value_name = "N", default_value = "20000", value_parser = events_parser(),
+    #[arg(long, value_name = "N", default_value = "20000", value_parser = count_parser(),
           allow_negative_numbers = true)]
     pub max_events: usize,
 
@@ -273,19 +279,6 @@ pub struct RunArgs {
     /// results are poor or a part fails, are still printed.
     #[arg(long)]
     pub quiet: bool,
-}
-
-/// Options of `nboom check`.
-#[derive(Args, Debug)]
-pub struct CheckArgs {
-    /// The scene.
-    #[command(flatten)]
-    pub scene: SceneArgs,
-
-    /// Also draw the scene, as it starts and with all hinges latched, with names, the axes of all bodies
-    /// and the mass centre.
-    #[arg(long, value_name = "FILE.svg")]
-    pub picture: Option<PathBuf>,
 }
 
 /// Options of `nboom verify`.
@@ -346,7 +339,7 @@ fn samples_parser() -> impl TypedValueParser<Value = usize> {
     value_parser!(u32).range(1..=10_000_000).map(|n| n as usize)
 }
 
-fn events_parser() -> impl TypedValueParser<Value = usize> {
+fn count_parser() -> impl TypedValueParser<Value = usize> {
     value_parser!(u32).range(1..).map(|n| n as usize)
 }
 
@@ -372,7 +365,8 @@ mod tests {
         let args = run_args(&[]).expect("a scene is enough");
         let defaults = Options::default();
         assert_eq!((args.rtol, args.atol), (defaults.rtol, defaults.atol));
-        assert_eq!((args.max_step, args.max_events), (None, defaults.max_events));
+        assert_eq!((args.max_step, args.max_steps), (None, defaults.max_steps));
+        assert_eq!(args.max_events, defaults.max_events);
         assert_eq!((args.samples, args.units), (None, None));
     }
 

@@ -144,6 +144,7 @@ pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
         ("formulation", settings.formulation.map(|form| form.name().to_owned())),
         ("path", path.map(str::to_owned)),
         ("max-step", settings.max_step.map(|step| step.to_string())),
+        ("max-steps", settings.max_steps.map(|steps| steps.to_string())),
         ("max-events", settings.max_events.map(|events| events.to_string())),
         ("samples", settings.samples.map(|samples| samples.to_string())),
         ("end-time", settings.end_time.map(|time| time.to_string())),

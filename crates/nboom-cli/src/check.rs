@@ -1,14 +1,26 @@
 use std::path::PathBuf;
 
+use clap::Args;
 use nboom_io::{Format, NEVER, SceneFile};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::with_causes;
 use nboom_sim::{Nobody, Options, simulate};
 
 use crate::ignored::ignored;
-use crate::{
-    CheckArgs, CliError, Routines, SceneArgs, output, picture, print_scene, print_structure, say,
-};
+use crate::{CliError, Routines, SceneArgs, output, picture, print_scene, print_structure, say};
+
+/// Options of `nboom check`.
+#[derive(Args, Debug)]
+pub struct CheckArgs {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Also draw the scene, as it starts and with all hinges latched, with names, the axes of all bodies
+    /// and the mass centre.
+    #[arg(long, value_name = "FILE.svg")]
+    pub picture: Option<PathBuf>,
+}
 
 /// Reads a scene and returns what it contains for standard output.
 pub(crate) fn check(args: &CheckArgs, routines: &Routines) -> Result<String, CliError> {

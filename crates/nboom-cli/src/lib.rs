@@ -76,10 +76,10 @@ use std::process::ExitCode;
 
 use nboom_scalar::{Batch, InstructionSet, Kernel};
 
-pub use args::{CheckArgs, Cli, Command, PathChoice, RunArgs, VerifyArgs};
+pub use args::{Cli, Command, PathChoice, RunArgs, VerifyArgs};
 pub use bench::BenchArgs;
 pub use case::{CaseError, words_of_settings};
-pub use check::warnings;
+pub use check::{CheckArgs, warnings};
 pub use choice::ChoiceError;
 #[cfg(feature = "generator")]
 pub use compile::CompileArgs;

@@ -146,13 +146,14 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
 }
 
 fn options(args: &RunArgs, routines: &Routines, legacy: &LegacySettings) -> Options {
-    let RunArgs { integrator, rtol, atol, max_events, formulation, lanes, .. } = *args;
+    let RunArgs { integrator, rtol, atol, max_steps, max_events, formulation, lanes, .. } = *args;
     let (kernels, batches) = (routines.for_runs, routines.right_sides_of_eight);
     let mut options = Options {
         integrator,
         rtol,
         atol,
         max_step: args.max_step.unwrap_or(f64::INFINITY),
+        max_steps,
         max_events,
         path: args.path.into(),
         formulation,
@@ -163,7 +164,11 @@ fn options(args: &RunArgs, routines: &Routines, legacy: &LegacySettings) -> Opti
     };
     if integrator == Method::Rkam {
         options.rkam = Some(rkam(legacy, options.tolerance()));
-        options.max_steps = legacy.max_steps.unwrap_or(options.max_steps);
+        // What the command line says comes before the deck.
+        let is_given = max_steps != Options::default().max_steps;
+        if let Some(of_deck) = legacy.max_steps.filter(|_| !is_given) {
+            (options.max_steps, options.max_steps_by) = (of_deck, "LSTEP");
+        }
     }
     options
 }

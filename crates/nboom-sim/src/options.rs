@@ -80,6 +80,8 @@ pub struct Options {
     pub max_step: f64,
     /// Steps after which the run is given up.
     pub max_steps: usize,
+    /// What says so: this option, or the symbol of a deck.
+    pub max_steps_by: &'static str,
     /// Events after which the run is given up.
     pub max_events: usize,
     /// Whether generated or library code computes accelerations.
@@ -105,6 +107,7 @@ impl Default for Options {
             atol: 1e-12,
             max_step: f64::INFINITY,
             max_steps: 10_000_000,
+            max_steps_by: "max_steps",
             max_events: 20_000,
             path: Path::Auto,
             formulation: None,
@@ -201,14 +204,6 @@ impl Options {
         self.formulation == Some(Form::Closed(Formulation::Momentum))
             && self.path != Path::Generated
             && self.integrator != Method::Taylor
-    }
-
-    /// What says how many steps are allowed.
-    pub(crate) fn most_steps_by(&self) -> &'static str {
-        match (self.integrator, self.rkam) {
-            (Method::Rkam, Some(_)) if self.max_steps != Self::default().max_steps => "LSTEP",
-            _ => "max_steps",
-        }
     }
 
     /// Errors allowed in a step.

@@ -171,6 +171,8 @@ pub struct RunSettings {
     pub path: Option<Path>,
     /// The longest step.
     pub max_step: Option<f64>,
+    /// Steps after which a run is given up.
+    pub max_steps: Option<usize>,
     /// Events after which a run is given up.
     pub max_events: Option<usize>,
     /// Output times after the initial one.
@@ -209,6 +211,7 @@ impl RunSettings {
             formulation: self.formulation,
             path: self.path.unwrap_or_default(),
             max_step: self.max_step.unwrap_or(defaults.max_step),
+            max_steps: self.max_steps.unwrap_or(defaults.max_steps),
             max_events: self.max_events.unwrap_or(defaults.max_events),
             samples: self.samples.unwrap_or(defaults.samples),
             lanes: self.lanes,

@@ -281,7 +281,7 @@ fn every_error_of_a_deck_is_told_with_its_card() {
 #[test]
 fn a_wrong_command_line_is_refused() {
     let place = Place::new();
-    let cases: [(&[&str], &[&str]); 21] = [
+    let cases: [(&[&str], &[&str]); 22] = [
         (&[], &["Usage"]),
         (&["fly", "boom.nml"], &["fly"]),
         (&["run"], &["SCENE"]),
@@ -295,6 +295,7 @@ fn a_wrong_command_line_is_refused() {
         (&["run", "boom.nml", "--atol", "0"], &["--atol", "above zero"]),
         (&["run", "boom.nml", "--max-step", "0"], &["--max-step", "above zero"]),
         (&["run", "boom.nml", "--max-step", "nan"], &["--max-step", "finite"]),
+        (&["run", "boom.nml", "--max-steps", "0"], &["--max-steps"]),
         (&["run", "boom.nml", "--max-events", "0"], &["--max-events"]),
         (&["run", "boom.nml", "--atol", "nan"], &["--atol", "finite"]),
         (&["run", "boom.nml", "--samples", "0"], &["--samples"]),

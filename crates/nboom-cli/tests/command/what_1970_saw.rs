@@ -110,4 +110,12 @@ fn what_1970_saw() {
     assert!(message.contains("at time 0.42"), "{message}");
     assert!(message.contains("the 150 steps that LSTEP allows are used up"), "{message}");
     assert!(!message.contains("stiff"), "{message}");
+    // The command line comes before the deck, with any method.
+    for method in ["rkam", "dop853"] {
+        let words = ["run", "deck.nml", "--max-steps", "20", "--integrator", method];
+        let output = place.nboom(&[&words[..], &["--no-stresses"]].concat());
+        let message = stderr(&output);
+        assert_eq!(code(&output), 3, "{message}");
+        assert!(message.contains("the 20 steps that max_steps allows are used up"), "{message}");
+    }
 }

@@ -7,6 +7,7 @@ use nboom_scalar::RigidInertia;
 use super::Run;
 use crate::error::SimError;
 use crate::events::situation::Situation;
+use crate::options::Options;
 
 /// A torque whose square is no number any more.
 const BOUND: f64 = 1e154;
@@ -43,8 +44,8 @@ impl Run<'_> {
             return Err(runaway);
         }
         if used_up {
-            let by = self.options.most_steps_by();
-            return Err(SimError::StepsUsedUp { time, steps: self.options.max_steps, by });
+            let Options { max_steps: steps, max_steps_by: by, .. } = self.options;
+            return Err(SimError::StepsUsedUp { time, steps, by });
         }
         if crawls {
             let (steps, within) = (steps - steps_then, time - since);

@@ -105,6 +105,7 @@ pub(super) const RUN: Table = Table {
         key("formulation", Holds::OneOf(forms), "form of the equations of motion"),
         key("path", Holds::OneOf(codes), "which code computes accelerations"),
         key("max_step", Holds::Number, "longest step"),
+        key("max_steps", Holds::Whole(1, u32::MAX as u64), "steps after which a run is given up"),
         key("max_events", Holds::Whole(1, u32::MAX as u64), "events after which a run is given up"),
         key("samples", Holds::Whole(1, 10_000_000), "output times after the initial one"),
         key("end_time", Holds::Number, "end of the runs, instead of the scene's"),

@@ -25,6 +25,7 @@ impl<'t> Reader<'t> {
             formulation: self.choice(of, "formulation").and_then(|of| Form::named(of.value)),
             path: code,
             max_step: number(self, "max_step"),
+            max_steps: self.whole(of, "max_steps").map(|found| found.value as usize),
             max_events: self.whole(of, "max_events").map(|found| found.value as usize),
             samples: self.whole(of, "samples").map(|found| found.value as usize),
             end_time: number(self, "end_time"),
