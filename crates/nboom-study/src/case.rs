@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use nboom_io::{Diagnostic, InputError, Sampling, SceneFile};
-use nboom_model::{ModelError, Scene};
+use nboom_io::{Sampling, SceneFile};
+use nboom_model::Scene;
 use nboom_results::{RunDescription, SummaryFile, WantedOutput, WorstLoads, with_causes};
 use nboom_scalar::{Batch, Kernel};
 use nboom_sim::{
@@ -13,46 +13,11 @@ use nboom_strength::{StrengthError, StressAnalysis};
 
 use crate::observer::Observer;
 use crate::plan::Case;
+use crate::rejection::{Rejection, in_one_line};
 use crate::row::{DOUBTFUL, OK, Outcome, POOR, Row, Value};
 use crate::study::{Change, Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
-
-/// Why a case has no scene, in one line.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct Rejection(String);
-
-impl From<InputError> for Rejection {
-    fn from(error: InputError) -> Self {
-        match &error {
-            InputError::Content(errors) if !errors.is_empty() => {
-                let Diagnostic { file, line, symbol, found, expected, .. } = &errors[0];
-                // A table is the same wherever its scene lies.
-                let file = std::path::Path::new(file).file_name().unwrap_or_default().display();
-                let text = format!("{file}:{line}: {symbol}: found {found}, expected {expected}");
-                Self(in_one_line(&text))
-            }
-            other => Self(in_one_line(&other.to_string())),
-        }
-    }
-}
-
-impl From<Vec<ModelError>> for Rejection {
-    fn from(errors: Vec<ModelError>) -> Self {
-        Self(in_one_line(&errors.first().map_or_else(String::new, ToString::to_string)))
-    }
-}
-
-impl From<StrengthError> for Rejection {
-    fn from(error: StrengthError) -> Self {
-        Self(in_one_line(&error.to_string()))
-    }
-}
-
-fn in_one_line(text: &str) -> String {
-    text.replace(char::is_control, " ")
-}
 
 impl Relation {
     /// What becomes of the number that is there.
@@ -121,14 +86,14 @@ impl Study {
         if found == expected {
             return Ok(file);
         }
-        Err(Rejection(format!("found {found} hinged bodies, expected {expected} in all cases")))
+        Err(Rejection::of_count(found, expected))
     }
 }
 
 /// The scene with a fault of its hinges.
 fn broken(file: SceneFile, fault: &Fault) -> Result<SceneFile, Rejection> {
     let mut description = (*file.scene).clone();
-    fault.apply(&mut description).map_err(|why| Rejection(in_one_line(&why)))?;
+    fault.apply(&mut description)?;
     let labels = file.scene.labels().iter();
     let names = labels.filter_map(|label| label.name.as_deref()).map(str::to_owned).collect();
     let scene = Scene::new(description)?.with_names(names);
@@ -150,8 +115,7 @@ impl RunSettings {
             None => Ok((None, samples)),
             Some(Sampling::Uniform(samples)) => Ok((None, *samples)),
             Some(sampling) => {
-                let times = sampling.times([scene.initial.time, scene.end_time]);
-                let times = times.map_err(|error| Rejection(error.to_string()))?;
+                let times = sampling.times([scene.initial.time, scene.end_time])?;
                 Ok((times.map(OutputTimes::at), samples))
             }
         }

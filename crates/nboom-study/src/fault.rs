@@ -4,12 +4,36 @@ use nboom_model::{HingeState, Release, SceneDescription, Spring};
 
 use crate::study::{Fault, LateRelease};
 
+/// Why a fault cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{} found, {} expected", self.found(), Self::EXPECTED)]
+#[non_exhaustive]
+pub enum FaultError {
+    /// A hinge that is to be released late waits for the angle of another one.
+    ReleaseByAngle,
+    /// A hinge that is to be released late is never released.
+    NoRelease,
+}
+
+impl FaultError {
+    /// What would have been right.
+    pub(crate) const EXPECTED: &str = "one by time";
+
+    /// What is there instead.
+    pub(crate) fn found(self) -> &'static str {
+        match self {
+            Self::ReleaseByAngle => "a release by another hinge's angle",
+            Self::NoRelease => "no release",
+        }
+    }
+}
+
 impl Fault {
     /// Breaks what the fault breaks; its changes of single numbers are made before.
     ///
     /// # Errors
-    /// When a hinge cannot be released late, in words.
-    pub fn apply(&self, description: &mut SceneDescription) -> Result<(), String> {
+    /// When a hinge cannot be released late.
+    pub fn apply(&self, description: &mut SceneDescription) -> Result<(), FaultError> {
         let SceneDescription { bodies: hinges, initial, .. } = description;
         for &i in &self.missed_release {
             hinges[i].hinge.release = Release::Never;
@@ -22,12 +46,8 @@ impl Fault {
                 Release::AfterLock { hinge, delay } => {
                     Release::AfterLock { hinge, delay: delay + by }
                 }
-                Release::Angle { .. } => {
-                    return Err(
-                        "a release by another hinge's angle found, one by time expected".into()
-                    );
-                }
-                Release::Never => return Err("no release found, one by time expected".into()),
+                Release::Angle { .. } => return Err(FaultError::ReleaseByAngle),
+                Release::Never => return Err(FaultError::NoRelease),
             };
         }
         for &i in &self.failed_latch {
@@ -155,7 +175,7 @@ mod tests {
         let scene = nboom_io::read_scene(&path).expect("a deck").scene;
         let late = |hinge| Fault { late_release: vec![LateRelease { hinge, by: 1.0 }], ..none() };
         assert_eq!(late(0).apply(&mut (*scene).clone()), Ok(()));
-        let refused = late(1).apply(&mut (*scene).clone()).expect_err("by an angle");
-        assert!(refused.contains("by time expected"), "{refused}");
+        let refused = late(1).apply(&mut (*scene).clone());
+        assert_eq!(refused, Err(FaultError::ReleaseByAngle));
     }
 }

@@ -24,6 +24,7 @@ mod merge;
 mod observer;
 mod page;
 mod plan;
+mod rejection;
 mod requirement;
 mod row;
 mod shard;
@@ -39,7 +40,7 @@ mod wanted;
 mod watcher;
 mod workers;
 
-pub use case::{Rejection, Runner};
+pub use case::Runner;
 pub use description::{Description, Maker, Source};
 pub use directory::{
     CASES_CSV_FILE, CASES_FILE, JOURNAL_FILE, PAGE_FILE, STATISTICS_FILE, STUDY_FILE,
@@ -47,12 +48,14 @@ pub use directory::{
 };
 pub use distribution::Distribution;
 pub use error::StudyError;
+pub use fault::FaultError;
 pub use file::schema;
 pub use finished::SweepDirectory;
 pub use gathering::Gathering;
 pub use merge::merge;
 pub use page::{Facts, page};
 pub use plan::{Case, Plan};
+pub use rejection::Rejection;
 pub use requirement::Requirement;
 pub use row::{Outcome, Row, Value};
 pub use shard::{NoSuchShard, Shard};

@@ -5,6 +5,7 @@ use nboom_model::{Hinge, HingeState, Release, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, parted, quoted};
+use crate::fault::FaultError;
 use crate::hinges;
 use crate::study::{Change, Fault, LateRelease, Relation};
 
@@ -96,11 +97,10 @@ impl<'t> Reader<'t> {
     /// Reports a fault that makes no scene of one that is right.
     fn try_fault(&mut self, of: &Fields<'t>, fault: &Fault, nominal: &SceneFile) {
         let mut description = (*nominal.scene).clone();
-        let broken = fault.apply(&mut description).and_then(|()| {
-            let made = Scene::new(description);
-            made.map_err(|errors| errors.first().map_or_else(String::new, ToString::to_string))
-        });
-        if let Err(why) = broken {
+        if let Err(error) = fault.apply(&mut description) {
+            self.error(&of.place(), "fault", error.found(), FaultError::EXPECTED);
+        } else if let Err(errors) = Scene::new(description) {
+            let why = errors.first().map_or_else(String::new, ToString::to_string);
             let (found, expected) = parted(&why, "a fault that leaves a scene");
             self.error(&of.place(), "fault", found, expected);
         }
