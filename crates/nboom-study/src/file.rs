@@ -21,7 +21,7 @@ use nboom_results::with_causes;
 use toml::de::DeTable;
 
 use crate::directory::SWEPT_SCENE_FILE;
-use crate::plan::{Case, Plan};
+use crate::plan::{Case, Plan, PlanError};
 use crate::study::{Fault, Method, RunSettings, Study, Variable};
 use crate::wanted::{Loads, UnknownResult, Wanted};
 use effect::Runs;
@@ -102,32 +102,7 @@ impl<'t> Reader<'t> {
         let trajectories = self.flag(root, "trajectories").unwrap_or(false);
         let of_run = self.table(root, "run");
         let run = self.run_settings(of_run.as_ref());
-        let expanded = self.flag(root, "expanded").unwrap_or(false);
-        let Some(scene) = self.text(root, "scene") else { return Ok(None) };
-        let read = || -> Result<_, InputError> {
-            let folder = path.parent().unwrap_or(Path::new(""));
-            let document = SceneDocument::read(&folder.join(scene.value), options)?;
-            let document = if expanded { document.expanded()? } else { document };
-            // Lines in the table of cases are those of the scene beside it.
-            let document = document.alone(SWEPT_SCENE_FILE)?;
-            let nominal = document.scene(&[])?;
-            Ok((document, nominal))
-        };
-        let (document, nominal) = match read() {
-            Ok(found) => found,
-            Err(InputError::Content(errors)) => return Err(errors),
-            Err(error) => {
-                let told = with_causes(&error);
-                let parts = told.split_once(": found ");
-                let parts = parts.and_then(|(file, found)| {
-                    let (found, expected) = found.split_once(", expected ")?;
-                    Some((format!("{}, {found}", quoted(file)), expected))
-                });
-                let (found, expected) = parts.unwrap_or((told.clone(), "the file of a scene"));
-                self.error(&scene.place, "scene", found, expected);
-                return Ok(None);
-            }
-        };
+        let Some((document, nominal)) = self.scene(root, path, options)? else { return Ok(None) };
         self.check_run(of_run.as_ref(), &run, &nominal);
         let varied = self.tables(root, "vary");
         let variables: Vec<_> = varied
@@ -165,18 +140,7 @@ impl<'t> Reader<'t> {
             return Ok(None);
         }
         let plan = Plan::new(method, seed, draws, &variables, &correlations, faults.len());
-        let plan = match plan {
-            Ok(plan) => plan,
-            Err(error) => {
-                let (key, found, expected) = error.told();
-                let place = match pairs.first().filter(|_| key == "correlation") {
-                    Some(pair) => pair.place(),
-                    None => root.place_of(key),
-                };
-                self.error(&place, key, found, expected);
-                return Ok(None);
-            }
-        };
+        let Some(plan) = self.feasible(plan, root, &pairs) else { return Ok(None) };
         let draws = plan.draws();
         Ok(Some(Study {
             name,
@@ -195,6 +159,61 @@ impl<'t> Reader<'t> {
             trajectories,
             plan,
         }))
+    }
+
+    /// The scene with its text, or nothing if there is none; errors are those of the scene.
+    fn scene(
+        &mut self,
+        root: &Fields<'t>,
+        path: &Path,
+        options: &ReadOptions,
+    ) -> Result<Option<(SceneDocument, SceneFile)>, Vec<Diagnostic>> {
+        let expanded = self.flag(root, "expanded").unwrap_or(false);
+        let Some(scene) = self.text(root, "scene") else { return Ok(None) };
+        let read = || -> Result<_, InputError> {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let document = SceneDocument::read(&folder.join(scene.value), options)?;
+            let document = if expanded { document.expanded()? } else { document };
+            // Lines in the table of cases are those of the scene beside it.
+            let document = document.alone(SWEPT_SCENE_FILE)?;
+            let nominal = document.scene(&[])?;
+            Ok((document, nominal))
+        };
+        match read() {
+            Ok(found) => Ok(Some(found)),
+            Err(InputError::Content(errors)) => Err(errors),
+            Err(error) => {
+                let told = with_causes(&error);
+                let parts = told.split_once(": found ");
+                let parts = parts.and_then(|(file, found)| {
+                    let (found, expected) = found.split_once(", expected ")?;
+                    Some((format!("{}, {found}", quoted(file)), expected))
+                });
+                let (found, expected) = parts.unwrap_or((told.clone(), "the file of a scene"));
+                self.error(&scene.place, "scene", found, expected);
+                Ok(None)
+            }
+        }
+    }
+
+    /// The plan, or nothing if its draws cannot be made; `pairs` are the tables of correlations.
+    fn feasible(
+        &mut self,
+        plan: Result<Plan, PlanError>,
+        root: &Fields<'t>,
+        pairs: &[Fields<'t>],
+    ) -> Option<Plan> {
+        let error = match plan {
+            Ok(plan) => return Some(plan),
+            Err(error) => error,
+        };
+        let (key, found, expected) = error.told();
+        let place = match pairs.first().filter(|_| key == "correlation") {
+            Some(pair) => pair.place(),
+            None => root.place_of(key),
+        };
+        self.error(&place, key, found, expected);
+        None
     }
 
     /// The study's name, which becomes that of a folder.
