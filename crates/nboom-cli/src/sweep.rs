@@ -7,7 +7,7 @@ use std::thread;
 use clap::{Args, Parser, value_parser};
 use nboom_io::SceneFile;
 use nboom_results::write_file;
-use nboom_study::statistics::{Counts, Summary};
+use nboom_study::statistics::{Counts, Meaning, Summary};
 use nboom_study::{
     End, Facts, PAGE_FILE, Report, STUDY_FILE, SWEPT_SCENE_FILE, Shard, Study, StudyError, Sweep,
     SweepDirectory, Watcher,
@@ -241,8 +241,8 @@ fn warn_of_poor_cases(counts: Counts) {
 }
 
 fn warn_of_negative_margins(statistics: &Summary) {
-    for column in statistics.columns.iter().filter(|column| column.is_result && column.is_margin())
-    {
+    let margins = statistics.columns.iter().filter(|column| column.meaning == Meaning::Margin);
+    for column in margins {
         if let Some(worst) = column.smallest.first().filter(|worst| worst.value < 0.0) {
             let (label, value, case) = (&column.label, short(worst.value, 3), worst.case);
             say("warning", &format!("{label}: negative, down to {value} in case {case}"));
@@ -297,7 +297,7 @@ fn worst(statistics: &Summary) -> Vec<u64> {
     // There are not pages for many results: margins come first, then latches that do not close.
     results.sort_by_key(|(column, worst)| {
         let is_never = worst.first().is_some_and(|worst| worst.value == f64::INFINITY);
-        (!column.is_margin(), !is_never)
+        (column.meaning != Meaning::Margin, !is_never)
     });
     // The first of all results, before the second of any.
     for rank in 0..MOST_PAGES {
@@ -370,8 +370,7 @@ mod tests {
 
     #[test]
     fn broken_requirements_have_pages_first_then_margins_then_latches_that_do_not_close() {
-        let result =
-            |label: String| Field { name: label.clone(), label, unit: None, role: Role::Result };
+        let result = |label: String| Field::new(&label, &label, None, Role::Result);
         let forces = (1..=20).map(|i| result(format!("peak_force of {i}")));
         let others = ["lock_time of boom", "margin of boom"].map(str::to_owned).map(result);
         // Broken by one case, whose force is as large as that of all others.

@@ -88,7 +88,7 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
         let [low, median, high] = PERCENTS.map(of);
         let gaps = column.spreads.first().filter(|spread| spread.count < spread.cases);
         // A latch that does not close is later than all others.
-        let left_out = gaps.filter(|_| column.hinge_that_locks().is_none());
+        let left_out = gaps.filter(|_| column.meaning.hinge_that_locks().is_none());
         let left_out = left_out.map_or_else(String::new, |spread| {
             format!(", {} of {} cases", spread.count, spread.cases)
         });

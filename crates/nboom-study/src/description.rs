@@ -152,17 +152,17 @@ impl Description {
     pub(crate) fn fields(&self) -> Vec<Field> {
         let first_result = self.columns.len().saturating_sub(1 + self.results.len());
         let field = |(i, column): (usize, &Column)| {
-            let name = column.name.clone();
+            let name = &column.name;
             let result = i.checked_sub(first_result).and_then(|i| self.results.get(i));
             let (role, label) = match (name.as_str(), result) {
-                (_, Some(text)) => (Role::Result, text.clone()),
-                ("case", None) => (Role::Case, name.clone()),
-                ("seed", None) => (Role::Seed, name.clone()),
-                ("fault", None) => (Role::Fault, name.clone()),
-                ("status", None) => (Role::Status, name.clone()),
-                _ => (Role::Variable, name.clone()),
+                (_, Some(text)) => (Role::Result, text),
+                ("case", None) => (Role::Case, name),
+                ("seed", None) => (Role::Seed, name),
+                ("fault", None) => (Role::Fault, name),
+                ("status", None) => (Role::Status, name),
+                _ => (Role::Variable, name),
             };
-            Field { name, label, unit: column.unit.clone(), role }
+            Field::new(name, label, column.unit.clone(), role)
         };
         self.columns.iter().enumerate().map(field).collect()
     }

@@ -10,6 +10,7 @@ mod confidence;
 mod extremes;
 mod histogram;
 mod latch;
+mod meaning;
 mod moments;
 mod percentile;
 mod rank;
@@ -20,8 +21,10 @@ use nboom_tables::Cell;
 
 use crate::Requirement;
 use crate::row::{DOUBTFUL, OK, POOR};
+use crate::wanted::Wanted;
 use compliance::{Met, Required};
 use extremes::Extremes;
+pub use meaning::Meaning;
 use moments::Moments;
 use rank::Ranked;
 use sample::Sample;
@@ -47,6 +50,17 @@ pub struct Field {
     pub unit: Option<String>,
     /// What it is for.
     pub role: Role,
+    /// What it is, if it is a result.
+    pub meaning: Meaning,
+}
+
+impl Field {
+    /// A column that people call `label`, by which a result is known.
+    pub fn new(name: &str, label: &str, unit: Option<String>, role: Role) -> Self {
+        let meaning =
+            if role == Role::Result { Wanted::meaning(label) } else { Meaning::default() };
+        Self { name: name.to_owned(), label: label.to_owned(), unit, role, meaning }
+    }
 }
 
 /// What a column of a table of cases is for.
@@ -230,7 +244,7 @@ impl Statistics {
 
     /// The hinge of whose lock-ups a column has the times.
     fn lock(&self, column: usize) -> Option<&str> {
-        summary::hinge_that_locks(&self.field(column).label)
+        self.field(column).meaning.hinge_that_locks()
     }
 
     fn column(&self, column: usize, drivers: Vec<Driver>) -> SummaryColumn {
@@ -257,6 +271,7 @@ impl Statistics {
             spreads: spreads.collect(),
             name: field.name.clone(),
             label: field.label.clone(),
+            meaning: field.meaning.clone(),
             unit: field.unit.clone(),
             is_result: field.role == Role::Result,
             worse_by_requirement: self.worse_by_requirement(column),

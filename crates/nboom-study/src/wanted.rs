@@ -14,6 +14,7 @@ use nboom_tables::Column;
 use crate::RunSettings;
 use crate::hinges;
 use crate::row::Value;
+use crate::statistics::Meaning;
 pub(crate) use hinge::Happened;
 pub(crate) use motion::Extreme;
 
@@ -142,7 +143,6 @@ impl Wanted {
             }
             (_, Some((word, body))) => {
                 let word = word.trim();
-                // Statistics know lock times and margins by how their texts begin.
                 text = format!("{word} of {body}").trim_end().to_owned();
                 hinge::named(word, body, file, loads)
             }
@@ -155,6 +155,13 @@ impl Wanted {
             }
             Err((expected, nearest)) => Err(UnknownResult { found: text, expected, nearest }),
         }
+    }
+
+    /// What a text that names a result makes of it for statistics.
+    pub(crate) fn meaning(text: &str) -> Meaning {
+        let word = text.split_once(' ').and_then(|(word, _)| motion::meaning(word));
+        let of_hinge = || hinge::meaning(text.split_once(" of ")?);
+        word.or_else(of_hinge).unwrap_or_else(|| summary::meaning(text))
     }
 
     /// Those of a study that does not say any: what became of latches, the nutation, conservation, and the

@@ -141,7 +141,7 @@ function histogram(column) {
 }
 
 // A latch that does not close is later than all others.
-const isLockTime = (column) => column.label.startsWith('lock_time of ');
+const isLockTime = (column) => column.meaning.lock_time !== undefined;
 
 function spreadFigure(column) {
   const [spread] = column.spreads;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Meaning;
 use crate::Requirement;
 
 /// Statistics of a table of cases. Where cases are grouped by fault, group 0 has no fault, and group `i` has
@@ -64,6 +65,9 @@ pub struct SummaryColumn {
     pub name: String,
     /// What people call it.
     pub label: String,
+    /// What it is.
+    #[serde(default)]
+    pub meaning: Meaning,
     /// Its unit.
     pub unit: Option<String>,
     /// Whether it is a result; else it is a variable.
@@ -83,23 +87,6 @@ pub struct SummaryColumn {
     pub largest: Vec<Extreme>,
 }
 
-/// What starts the text of the margin of a hinge's segment.
-const MARGIN: &str = "margin of ";
-
-/// The texts of margins of the whole; those that say where they are begin likewise.
-const MARGINS: [&str; 3] = [
-    "verdict.smallest_margin",
-    "verdict.smallest_yield_margin",
-    "verdict.smallest_ultimate_margin",
-];
-
-/// What starts that of the smallest of a run, and that of the largest.
-const SMALLEST: &str = "smallest ";
-const LARGEST: &str = "largest ";
-
-/// What starts that of the time of a lock-up.
-const LOCK_TIME: &str = "lock_time of ";
-
 /// On which side of their range numbers are worse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -113,29 +100,18 @@ pub enum Worse {
 }
 
 impl SummaryColumn {
-    /// Whether it is a margin, which should not be negative.
-    pub fn is_margin(&self) -> bool {
-        self.label.starts_with(MARGIN) || MARGINS.contains(&&*self.label)
-    }
-
-    /// The hinge of whose lock-ups these are the times. A case in which it does not lock has none, and counts as
-    /// later than all others.
-    pub fn hinge_that_locks(&self) -> Option<&str> {
-        hinge_that_locks(&self.label)
-    }
-
     /// On which side its numbers are worse.
     pub fn worse(&self) -> Worse {
         let is_negative = |found: &Extreme| found.value < 0.0;
         if let Some(side) = self.worse_by_requirement {
             side
-        } else if self.is_margin() || self.label.starts_with(SMALLEST) {
-            Worse::Small
-        } else if self.smallest.first().is_some_and(is_negative) && !self.label.starts_with(LARGEST)
-        {
-            Worse::Both
         } else {
-            Worse::Large
+            match self.meaning {
+                Meaning::Margin | Meaning::Smallest => Worse::Small,
+                Meaning::Largest => Worse::Large,
+                _ if self.smallest.first().is_some_and(is_negative) => Worse::Both,
+                _ => Worse::Large,
+            }
         }
     }
 
@@ -153,11 +129,6 @@ impl SummaryColumn {
             }
         }
     }
-}
-
-/// The hinge in the text of a result that is the time of its lock-up.
-pub(super) fn hinge_that_locks(label: &str) -> Option<&str> {
-    label.strip_prefix(LOCK_TIME)
 }
 
 /// How numbers spread.

@@ -7,6 +7,7 @@ use nboom_tables::{Column, Kind as Holds};
 
 use super::{Found, Loads, Named, Needs, What, refused};
 use crate::hinges::find;
+use crate::statistics::Meaning;
 use crate::table::units;
 
 /// What happened to a hinge for the last time.
@@ -110,6 +111,16 @@ static ALL: [Description; 10] = [
         "smallest margin of the stations of its segment",
     ),
 ];
+
+/// What the result with this name of the hinge of a body is, if there is one.
+pub(super) fn meaning((word, body): (&str, &str)) -> Option<Meaning> {
+    let found = ALL.iter().find(|known| known.name == word)?;
+    Some(match found.kind {
+        Kind::LockTime => Meaning::LockTime { hinge: body.to_owned() },
+        Kind::Margin => Meaning::Margin,
+        _ => Meaning::Other,
+    })
+}
 
 /// The result with this name of the hinge of a body.
 pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> Named {

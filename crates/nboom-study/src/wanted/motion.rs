@@ -6,6 +6,7 @@ use nboom_results::quantity;
 use nboom_sim::{Snapshot, Summary};
 
 use super::{Named, Needs, What, refused};
+use crate::statistics::Meaning;
 use crate::table::{of_motion, units};
 
 /// What is taken of a column.
@@ -25,6 +26,16 @@ pub(crate) struct Extreme {
 
 /// What is called so before the name of a column.
 pub(super) const WORDS: [&str; 3] = ["final", "largest", "smallest"];
+
+/// What a number is of whose text this is the first word, if it is one of such a column.
+pub(super) fn meaning(word: &str) -> Option<Meaning> {
+    match word {
+        "largest" => Some(Meaning::Largest),
+        "smallest" => Some(Meaning::Smallest),
+        "final" => Some(Meaning::Other),
+        _ => None,
+    }
+}
 
 /// The column with this name, taken as the word says.
 pub(super) fn named(word: &str, text: &str, file: &SceneFile) -> Named {

@@ -5,6 +5,7 @@ use nboom_model::{Body, HingeState, Joint};
 use nboom_tables::{Column, Kind};
 
 use super::{Loads, Named, Needs, What, refused};
+use crate::statistics::Meaning;
 use crate::table::units;
 
 /// A number of the file.
@@ -111,6 +112,18 @@ const MISS: &str = "verdict.hinges[].miss";
 const CLOSING_RATE: &str = "verdict.hinges[].closing_rate";
 /// Followed by a name.
 const PARAMETER: &str = "parameters.";
+
+/// The margins of the whole.
+const MARGINS: [&str; 3] = [
+    "verdict.smallest_margin",
+    "verdict.smallest_yield_margin",
+    "verdict.smallest_ultimate_margin",
+];
+
+/// What the number with this path is.
+pub(super) fn meaning(path: &str) -> Meaning {
+    if MARGINS.contains(&path) { Meaning::Margin } else { Meaning::Other }
+}
 
 /// The number with this path.
 pub(super) fn named(text: &str, file: &SceneFile, loads: Loads) -> Named {

@@ -1,7 +1,7 @@
 //! Whole tables: faults, latches, cases that did not run, tables that are too long.
 
 use nboom_study::Requirement;
-use nboom_study::statistics::{Extreme, Role, Statistics, Summary, Worse};
+use nboom_study::statistics::{Extreme, Meaning, Role, Statistics, Summary, Worse};
 use nboom_tables::Cell;
 
 use crate::{field, uniform};
@@ -100,7 +100,7 @@ fn a_latch_that_never_closes_is_later_than_all_others_and_the_worst() {
     let median = time.spreads[0].percentiles[3];
     let off = 2.0 * 4.5 * (0.25_f64 / 900.0).sqrt();
     assert!((median.value - 2.0 * 5.0 / 9.0).abs() < off, "{median:?}");
-    assert_eq!(time.hinge_that_locks(), Some("panel +x"));
+    assert_eq!(time.meaning.hinge_that_locks(), Some("panel +x"));
     assert!(time.worst().iter().all(|worst| worst.value == f64::INFINITY));
     assert_eq!(time.worst()[0].case, 2, "the first with a fault");
 }
@@ -150,7 +150,8 @@ fn the_worst_of_numbers_with_a_sign_is_the_largest_in_size() {
         ("verdict.smallest_margin_at.time", false),
         ("verdict.smallest_yield_margin_at.station", false),
     ] {
-        assert_eq!(of_result(label, &[3.0, 1.0], &[]).columns[0].is_margin(), is_margin, "{label}");
+        let meaning = &of_result(label, &[3.0, 1.0], &[]).columns[0].meaning;
+        assert_eq!(*meaning == Meaning::Margin, is_margin, "{label}");
     }
 }
 
