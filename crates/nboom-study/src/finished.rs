@@ -43,8 +43,9 @@ impl SweepDirectory {
     pub fn statistics(&self) -> Result<Summary, StudyError> {
         let path = self.path.join(STATISTICS_FILE);
         let text = directory::text(&path)?;
-        serde_json::from_str(&text)
-            .map_err(|error| StudyError::NoSweep { path, found: error.to_string() })
+        let found = serde_json::from_str(&text)
+            .map_err(|error| StudyError::NoSweep { path, found: error.to_string() });
+        Ok(Summary::renewed(found?, &self.description.fields()))
     }
 
     /// Hands on the rows of the table of cases, in order.

@@ -12,6 +12,7 @@ mod histogram;
 mod latch;
 mod meaning;
 mod moments;
+mod older;
 mod percentile;
 mod rank;
 mod sample;
