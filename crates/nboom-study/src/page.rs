@@ -12,7 +12,15 @@ use crate::statistics::Summary;
 
 const TEMPLATE: &str = include_str!("page/sweep.html");
 const STYLE: &str = include_str!("page/sweep.css");
-const PROGRAM: &str = include_str!("page/sweep.js");
+
+/// The files of the page's program, in one scope.
+const PROGRAM: &str = concat!(
+    "'use strict';\n(() => {\n",
+    include_str!("page/text.js"),
+    include_str!("page/picture.js"),
+    include_str!("page/sweep.js"),
+    "})();\n",
+);
 
 /// What a page says of a sweep beside its statistics.
 #[derive(Clone, Debug, Serialize)]

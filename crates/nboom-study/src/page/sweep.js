@@ -1,117 +1,10 @@
-// The page of a sweep: sections in the order in which people ask. All text goes through `textContent`.
+// The page of a sweep: sections in the order in which people ask.
 
-'use strict';
-(() => {
 const { facts, summary } = JSON.parse(document.getElementById('data').textContent);
 const { counts, columns, points } = summary;
 const results = columns.filter((column) => column.is_result);
 const groups = ['no fault', ...summary.faults];
 const METHODS = { monte_carlo: 'Monte Carlo', latin_hypercube: 'Latin hypercube', sobol: 'Sobol sequence', grid: 'grid' };
-
-// Texts.
-
-/** Marks that turn the direction of text, and control characters, which could make text read as what it is not. */
-const DECEPTIVE = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
-
-const visible = (text) => String(text).replace(DECEPTIVE, '\ufffd');
-
-function fill(made, attributes, children) {
-  for (const [key, value] of Object.entries(attributes)) {
-    if (value === false || value === null || value === undefined) continue;
-    if (typeof value === 'function') made.addEventListener(key, value);
-    else made.setAttribute(key, value === true ? '' : visible(value));
-  }
-  for (const child of children.flat()) {
-    if (child === null || child === undefined || child === false) continue;
-    made.append(child instanceof Node ? child : visible(child));
-  }
-  return made;
-}
-
-const element = (name, attributes = {}, ...children) => fill(document.createElement(name), attributes, children);
-const drawn = (name, attributes = {}, ...children) => fill(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);
-
-/** A name that a file gave, which cannot turn the direction of what is around it. */
-const given = (text) => element('bdi', {}, text);
-
-/** A number with so many significant digits, without an exponent where that is short. */
-function digits(value, count = 4) {
-  if (value === null || value === undefined) return '\u2013';
-  const size = Math.abs(value);
-  if (size === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(count))).replace('-', '\u2212');
-  const [mantissa, power] = value.toExponential(count - 1).split('e');
-  const raised = [...String(Number(power))].map((c) => '\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079'['-0123456789'.indexOf(c)]);
-  return `${String(Number(mantissa)).replace('-', '\u2212')}\u202f\u00b7\u202f10${raised.join('')}`;
-}
-
-/** A number, or the word for a lock-up that does not come. */
-const said = (value, count) => (value === null ? 'never' : digits(value, count));
-const whole = (number) => number.toLocaleString('en');
-const casesOf = (count) => `${whole(count)} ${count === 1 ? 'case' : 'cases'}`;
-const percent = (share) => `${digits(100 * share, 3)}\u202f%`;
-/** An interval, which has an end only where there are enough cases for it. */
-function interval(low, high, told = said) {
-  const end = (value) => (value === undefined ? 'no bound' : told(value));
-  if (low === null) return 'never';
-  return low === undefined && high === undefined ? 'no bounds' : `${end(low)} to ${end(high)}`;
-}
-const titled = ({ label, unit }) => [given(label), unit ? element('span', { class: 'unit' }, ` [${unit}]`) : null];
-
-/** A cell with a number. */
-const numeric = (text) => ({ number: text });
-
-function table(headings, rows) {
-  const cell = (content) => (content?.number === undefined
-    ? element('td', { class: typeof content === 'string' ? 'text' : null }, content)
-    : element('td', { class: 'number' }, content.number));
-  const head = headings.map((heading, i) => element('th', { class: rows[0]?.[i]?.number === undefined ? null : 'number' }, heading));
-  return element('div', { class: 'wide' }, element('table', {},
-    element('thead', {}, element('tr', {}, head)),
-    element('tbody', {}, rows.map((row) => element('tr', {}, row.map(cell))))));
-}
-
-function section(id, title, ...content) {
-  return element('section', { id }, element('h2', {}, title), ...content);
-}
-
-const note = (text) => element('p', { class: 'note' }, text);
-
-// Pictures.
-
-/** Round numbers between two others. */
-function ticks(low, high, count) {
-  const raw = (high - low) / count;
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999);
-  const first = Math.ceil(low / step - 1e-9);
-  const last = Math.floor(high / step + 1e-9);
-  return Array.from({ length: Math.max(0, Math.min(50, last - first + 1)) }, (_, i) => Number(((first + i) * step).toPrecision(12)));
-}
-
-/** The ends of a range with some room, so that a single number has a range too. */
-function roomy([low, high], share = 0.03) {
-  const size = high - low;
-  const room = size > 1e-12 * Math.max(Math.abs(low), Math.abs(high)) ? share * size : 0.1 * Math.abs(high) || 1;
-  return [low - room, high + room];
-}
-
-/** A picture with axes: places of numbers on it, and what is to be added to. */
-function frame({ width = 460, height = 190, x, y, left = 50, right = 10, top = 10, xLabel, yLabel, xText = digits, yText = digits, about }) {
-  const bottom = height - (xLabel ? 42 : 24);
-  const X = (value) => left + ((value - x[0]) / (x[1] - x[0])) * (width - left - right);
-  const Y = (value) => bottom - ((value - y[0]) / (y[1] - y[0])) * (bottom - top);
-  const across = ticks(...x, Math.max(2, Math.floor((width - left) / 65))).map((at) => [
-    drawn('line', { class: 'grid', x1: X(at), x2: X(at), y1: top, y2: bottom }),
-    drawn('text', { x: X(at), y: bottom + 16, 'text-anchor': 'middle' }, xText(at))]);
-  const up = yText === null ? [] : ticks(...y, Math.max(2, Math.floor(height / 60))).map((at) => [
-    drawn('line', { class: 'grid', x1: left, x2: width - right, y1: Y(at), y2: Y(at) }),
-    drawn('text', { x: left - 6, y: Y(at) + 4, 'text-anchor': 'end' }, yText(at))]);
-  const svg = drawn('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': about }, across.flat(), up.flat(),
-    drawn('line', { class: 'axis', x1: left, x2: width - right, y1: bottom, y2: bottom }),
-    xLabel ? drawn('text', { x: width - right, y: height - 6, 'text-anchor': 'end' }, xLabel) : null,
-    yLabel ? drawn('text', { x: 0, y: 12 }, yLabel) : null);
-  return { svg, X, Y, top, bottom };
-}
 
 function histogram(column) {
   const { histogram: found, spreads: [spread] } = column;
@@ -391,4 +284,3 @@ addEventListener('keydown', ({ key, target, ctrlKey, metaKey, altKey }) => {
   if (key === 't' && !ctrlKey && !metaKey && !altKey && !/INPUT|SELECT/.test(target.tagName)) switchTheme();
 });
 document.documentElement.dataset.ready = '';
-})();
