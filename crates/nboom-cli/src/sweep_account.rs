@@ -5,7 +5,9 @@ use std::path::Path;
 
 use nboom_study::Method;
 use nboom_study::Report;
-use nboom_study::statistics::{Percentile, Proportion, Summary, Worse};
+use nboom_study::statistics::{Percentile, Proportion, Spread, Summary, Worse};
+
+use crate::format::short;
 
 /// The head of percentiles with bounds.
 const BOUNDED: &str = "95 %, by 95 % confidence";
@@ -81,34 +83,35 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
     let head = ["", "5 %", "median", if has_bounds { BOUNDED } else { "95 %" }, "driven by"];
     let mut rows = vec![head.map(str::to_owned)];
     for column in statistics.columns.iter().filter(|column| column.is_result) {
-        let of = |percent: f64| {
-            let spread = column.spreads.first()?;
-            spread.percentiles.iter().find(|of| of.percent == percent).copied()
-        };
+        // Cases without fault are always there, if only as none.
+        let Some(spread) = column.spreads.first() else { continue };
+        let of = |percent: f64| spread.percentiles.iter().find(|of| of.percent == percent);
         let [low, median, high] = PERCENTS.map(of);
-        let gaps = column.spreads.first().filter(|spread| spread.count < spread.cases);
         // A latch that does not close is later than all others.
-        let left_out = gaps.filter(|_| column.meaning.hinge_that_locks().is_none());
-        let left_out = left_out.map_or_else(String::new, |spread| {
+        let has_gaps = spread.count < spread.cases && column.meaning.hinge_that_locks().is_none();
+        let left_out = if has_gaps {
             format!(", {} of {} cases", spread.count, spread.cases)
-        });
+        } else {
+            String::new()
+        };
         let [low, high] = [(low, Worse::Large), (high, Worse::Small)]
-            .map(|(of, better)| told(of, has_bounds && column.worse() != better));
+            .map(|(of, better)| told(spread, of, has_bounds && column.worse() != better));
         let driver =
             column.drivers.first().filter(|driver| driver.coefficient.abs() > driver.bound);
         let driver = driver.map_or_else(String::new, |driver| {
             format!("{} {:+.2}", statistics.columns[driver.variable].label, driver.coefficient)
         });
         let unit = column.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
-        let median = told(median, false);
+        let median = told(spread, median, false);
         rows.push([format!("{}{unit}{left_out}", column.label), low, median, high, driver]);
     }
     rows
 }
 
 /// A percentile, with its bounds or without.
-fn told(of: Option<Percentile>, has_bounds: bool) -> String {
-    let Some(Percentile { value, low, high, .. }) = of else { return "-".to_owned() };
+fn told(spread: &Spread, of: Option<&Percentile>, has_bounds: bool) -> String {
+    let Some(&Percentile { value, low, high, .. }) = of else { return "-".to_owned() };
+    let number = |value| number(spread, value);
     match (low, high) {
         (Some(low), Some(high)) if has_bounds && low.is_finite() => {
             format!("{} ({} to {})", number(value), number(low), number(high))
@@ -117,7 +120,33 @@ fn told(of: Option<Percentile>, has_bounds: bool) -> String {
     }
 }
 
-/// Five digits, or never.
-fn number(value: f64) -> String {
-    if value == f64::INFINITY { "never".to_owned() } else { crate::format::short(value, 5) }
+/// Five digits, or as many as tell the number from others of its column; or never.
+fn number(spread: &Spread, value: f64) -> String {
+    match value == f64::INFINITY {
+        true => "never".to_owned(),
+        false => short(value, spread.digits(value, 5)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nboom_study::statistics::{Field, Role, Statistics};
+    use nboom_tables::Cell;
+
+    use super::*;
+
+    #[test]
+    fn numbers_that_lie_close_together_far_from_zero_are_told_apart() {
+        let label = "lock_time of boom".to_owned();
+        let field = Field { name: label.clone(), label, unit: None, role: Role::Result };
+        let mut statistics = Statistics::new(vec![field], &[]);
+        // Percentiles of 0 to 100 in steps of one are themselves.
+        let number = |i: u32| 5000.0 + 1e-3 * f64::from(i);
+        (0..=100).for_each(|i| statistics.row(&[Cell::Number(number(i))]));
+        let rows = rows(&statistics.finish(), false);
+        let told = rows[1][1..4].iter().map(|cell| cell.parse::<f64>().expect("a number"));
+        for (told, expected) in told.zip([5, 50, 95].map(number)) {
+            assert!((told - expected).abs() < 5e-4, "{told} for {expected}");
+        }
+    }
 }

@@ -68,6 +68,28 @@ const checks = {
     await page.done();
   },
 
+  async 'labels of axes are the numbers at their places'(path) {
+    const page = await open(path);
+    const axes = await page.$$eval('svg', (pictures) => pictures.flatMap((svg) => ['middle', 'end'].map((anchor) => {
+      const texts = [...svg.querySelectorAll(`text[text-anchor="${anchor}"]`)].filter((text) => /^[\u2212\d]/.test(text.textContent));
+      return texts.map((text) => [text.textContent, Number(text.getAttribute(anchor === 'middle' ? 'x' : 'y'))]);
+    })));
+    const superscripts = '\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b';
+    const number = (text) => {
+      const [mantissa, power] = text.replaceAll('\u2212', '-').replace(/[,%\u202f]/g, '').split('\u00b710');
+      return Number(mantissa) * 10 ** Number([...(power ?? '')].map((c) => '0123456789-'[superscripts.indexOf(c)]).join(''));
+    };
+    assert.ok(axes.some((labels) => labels.length > 2));
+    for (const labels of axes.filter((found) => found.length > 1)) {
+      const [[first, from], [last, to]] = [labels[0], labels.at(-1)];
+      for (const [text, place] of labels) {
+        const share = (number(text) - number(first)) / (number(last) - number(first));
+        assert.ok(Math.abs(share - (place - from) / (to - from)) < 0.01, `${text} of ${labels.map(([one]) => one)}`);
+      }
+    }
+    await page.done();
+  },
+
   async 'each requirement has a row for each fault, and its bound stands in a histogram that reaches it'(path) {
     const page = await open(path);
     const { columns, requirements, faults } = page.data.summary;

@@ -16,19 +16,19 @@ function histogram(column) {
   svg.append(...high.map((count, i) => {
     const [left, right] = step > 0 ? [X(from + i * step), X(from + (i + 1) * step)] : [X(from) - 6, X(from) + 6];
     return drawn('rect', { class: 'bar', x: left, y: Y(count), width: Math.max(0.5, right - left - 0.6), height: bottom - Y(count) },
-      drawn('title', {}, `${digits(from + i * step)} to ${digits(from + (i + 1) * step)}: ${casesOf(count)}`));
+      drawn('title', {}, `${among(spread, from + i * step)} to ${among(spread, from + (i + 1) * step)}: ${casesOf(count)}`));
   }));
   const required = column.is_result ? summary.requirements.find(({ result }) => result === column.label) : undefined;
   for (const [words, bound] of [['at least', required?.at_least], ['at most', required?.at_most]]) {
     if (bound === undefined || bound < x[0] || bound > x[1]) continue;
-    svg.append(drawn('line', { class: 'limit', x1: X(bound), x2: X(bound), y1: top, y2: bottom }, drawn('title', {}, `required: ${words} ${digits(bound, 6)}`)));
+    svg.append(drawn('line', { class: 'limit', x1: X(bound), x2: X(bound), y1: top, y2: bottom }, drawn('title', {}, `required: ${words} ${digits(bound, 12)}`)));
   }
   for (const { percent: which, value, low, high: upper } of spread.percentiles.filter((one) => [5, 50, 95].includes(one.percent))) {
     if (value === null) continue;
     const [left, right] = [X(low ?? from), X(upper ?? to)];
     svg.append(drawn('rect', { class: 'band', x: left, y: top, width: Math.max(0, right - left), height: bottom - top }),
       drawn('line', { class: 'mark', x1: X(value), x2: X(value), y1: top, y2: bottom, 'stroke-dasharray': which === 50 ? null : '4 3' },
-        drawn('title', {}, `${which} %: ${digits(value)}`)));
+        drawn('title', {}, `${which} %: ${among(spread, value)}`)));
   }
   return svg;
 }
@@ -38,11 +38,12 @@ const isLockTime = (column) => column.meaning.lock_time !== undefined;
 
 function spreadFigure(column) {
   const [spread] = column.spreads;
+  const told = (value) => said(spread, value);
   const gaps = spread.cases - spread.count;
   return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), histogram(column),
-    spread.count > 0 && note([`Mean ${digits(spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${isLockTime(column) ? ', which count as never' : ''}.` : '.'].join('')),
+    spread.count > 0 && note([`Mean ${among(spread, spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${isLockTime(column) ? ', which count as never' : ''}.` : '.'].join('')),
     spread.percentiles.length > 0
-      ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(said(value)), numeric(interval(low, high))]))
+      ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(told(value)), numeric(interval(low, high, told))]))
       : null);
 }
 
@@ -146,7 +147,7 @@ function scatter() {
   }
   function tell(i) {
     const fault = points.faults[i] > 0 ? `, ${groups[points.faults[i]]}` : '';
-    nearest.textContent = visible(`case ${points.cases[i]}${fault}: ${[shown.x, shown.y].map((column) => `${columns[column].label} = ${digits(points.values[column][i], 5)}`).join(', ')}`);
+    nearest.textContent = visible(`case ${points.cases[i]}${fault}: ${[shown.x, shown.y].map((column) => `${columns[column].label} = ${among(columns[column].spreads[points.faults[i]], points.values[column][i], 5)}`).join(', ')}`);
   }
   function mark() {
     for (const { i, circle } of places) circle.classList.toggle('chosen', points.cases[i] === chosen);
@@ -190,7 +191,7 @@ function latches() {
 }
 
 function requirements() {
-  const bounds = ({ at_least: least, at_most: most }) => [least === undefined ? null : `at least ${digits(least, 6)}`, most === undefined ? null : `at most ${digits(most, 6)}`].filter(Boolean).join(' and ');
+  const bounds = ({ at_least: least, at_most: most }) => [least === undefined ? null : `at least ${digits(least, 12)}`, most === undefined ? null : `at most ${digits(most, 12)}`].filter(Boolean).join(' and ');
   const row = (what, i, { count, of, low, high }, first) => [what, given(groups[i]), numeric(of > 0 ? `${whole(count)} of ${whole(of)}` : '\u2013'),
     numeric(of > 0 ? percent(count / of) : '\u2013'), numeric(of > 0 ? interval(low, high, percent) : '\u2013'), first];
   const rows = summary.requirements.flatMap((one) => one.met.map((met, i) => row([given(one.result), ` ${bounds(one)}`], i, met, one.first_broken[i] ? caseButton(one.first_broken[i]) : '')));
@@ -201,26 +202,26 @@ function requirements() {
 }
 
 function boxFigure(column) {
-  const boxes = column.spreads.map(({ percentiles, count, cases }) => ({ count, cases, of: (which) => percentiles.find(({ percent: one }) => one === which) }));
+  const boxes = column.spreads.map((spread) => ({ spread, count: spread.count, of: (which) => spread.percentiles.find(({ percent: one }) => one === which) }));
   const there = boxes.filter(({ count, of }) => count > 0 && of(5) && of(5).value !== null);
   if (there.length === 0) return null;
   const numbers = there.flatMap(({ of }) => [5, 25, 50, 75, 95].map((which) => of(which).value)).filter((value) => value !== null);
   const x = roomy([Math.min(...numbers), Math.max(...numbers)]);
   const height = 30 * boxes.length;
   const { svg, X, top } = frame({ x, y: [0, 1], height: height + 34, left: 8, yText: null, about: `${column.label} by fault` });
-  boxes.forEach(({ count, of }, i) => {
+  boxes.forEach(({ spread, count, of }, i) => {
     if (!there.includes(boxes[i])) return;
     const [low, from, middle, to, high] = [5, 25, 50, 75, 95].map((which) => X(of(which).value ?? x[1]));
     const y = top + 30 * i + 14;
     svg.append(drawn('line', { class: 'whisker', x1: low, x2: high, y1: y, y2: y }),
       drawn('rect', { class: `box${i > 0 ? ' broken' : ''}`, x: from, y: y - 8, width: Math.max(1, to - from), height: 16 }),
-      drawn('line', { class: 'median', x1: middle, x2: middle, y1: y - 10, y2: y + 10 }, drawn('title', {}, `${groups[i]}: median ${said(of(50).value)} of ${whole(count)} cases`)));
+      drawn('line', { class: 'median', x1: middle, x2: middle, y1: y - 10, y2: y + 10 }, drawn('title', {}, `${groups[i]}: median ${said(spread, of(50).value)} of ${whole(count)} cases`)));
   });
   const [bare] = boxes;
-  const rows = boxes.map(({ count, cases, of }, i) => {
+  const rows = boxes.map(({ spread, count, of }, i) => {
     const medians = [of(50)?.value, bare.of(50)?.value];
     const difference = i > 0 && medians.every(Number.isFinite) ? medians[0] - medians[1] : null;
-    return [given(groups[i]), numeric(said(of(50)?.value)), numeric(i > 0 ? digits(difference, 3) : ''), numeric(`${whole(count)} of ${whole(cases)}`)];
+    return [given(groups[i]), numeric(said(spread, of(50)?.value)), numeric(i > 0 ? digits(difference, 3) : ''), numeric(`${whole(count)} of ${whole(spread.cases)}`)];
   });
   return element('figure', {}, element('h3', {}, titled(column)), svg, table(['From top to bottom', 'Median', 'Difference', 'Cases'], rows));
 }
@@ -237,9 +238,9 @@ const caseButton = (number) => element('button', { type: 'button', class: 'case'
 const reportOf = (number) => facts.reports.includes(number) && `worst/case-${number}/report.html`;
 
 function worst() {
-  const end = (found) => found.map(({ case: number, fault, value }) => element('div', {}, `${said(value, 5)} `, caseButton(number), reportOf(number) ? [' ', element('a', { href: reportOf(number) }, 'page')] : null, fault > 0 ? [' ', given(groups[fault])] : null));
+  const end = (column, found) => found.map(({ case: number, fault, value }) => element('div', {}, `${said(column.spreads[fault], value, 5)} `, caseButton(number), reportOf(number) ? [' ', element('a', { href: reportOf(number) }, 'page')] : null, fault > 0 ? [' ', given(groups[fault])] : null));
   return results.length > 0 && section('worst', 'Extreme cases', note('Of all cases that ran, with and without fault.'),
-    table(['Result', 'Smallest', 'Largest'], results.map((column) => [element('span', {}, titled(column)), element('div', {}, end(column.smallest)), element('div', {}, end(column.largest))])));
+    table(['Result', 'Smallest', 'Largest'], results.map((column) => [element('span', {}, titled(column)), element('div', {}, end(column, column.smallest)), element('div', {}, end(column, column.largest))])));
 }
 
 function troubles() {

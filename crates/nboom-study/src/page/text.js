@@ -34,13 +34,22 @@ function digits(value, count = 4) {
   return `${String(Number(mantissa)).replace('-', '\u2212')}\u202f\u00b7\u202f10${raised.join('')}`;
 }
 
-/** A number, or the word for a lock-up that does not come. */
-const said = (value, count) => (value === null ? 'never' : digits(value, count));
+/** How many significant digits a number has down to a step of this size. */
+const digitsTo = (step, value) => Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 1;
+
+/** A number with enough digits to tell it from others that spread so far; those beyond the tenth are errors of runs. */
+function among({ deviation }, value, least = 4) {
+  const needed = deviation > 0 && Number.isFinite(value) ? Math.min(10, digitsTo(deviation / 100, value)) : 0;
+  return digits(value, Math.max(least, needed));
+}
+
+/** The same, or the word for a lock-up that does not come. */
+const said = (spread, value, least) => (value === null ? 'never' : among(spread, value, least));
 const whole = (number) => number.toLocaleString('en');
 const casesOf = (count) => `${whole(count)} ${count === 1 ? 'case' : 'cases'}`;
 const percent = (share) => `${digits(100 * share, 3)}\u202f%`;
 /** An interval, which has an end only where there are enough cases for it. */
-function interval(low, high, told = said) {
+function interval(low, high, told) {
   const end = (value) => (value === undefined ? 'no bound' : told(value));
   if (low === null) return 'never';
   return low === undefined && high === undefined ? 'no bounds' : `${end(low)} to ${end(high)}`;

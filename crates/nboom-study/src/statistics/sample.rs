@@ -97,7 +97,7 @@ impl Sample {
         rows.sort_by_key(|row| self.cases[*row].lot);
         rows.truncate(MOST_POINTS);
         rows.sort_unstable();
-        let few = |column: &Vec<f64>| rows.iter().map(|row| rounded(column[*row])).collect();
+        let few = |column: &Vec<f64>| for_a_plot(rows.iter().map(|row| column[*row]).collect());
         Points {
             cases: rows.iter().map(|row| self.cases[*row].case).collect(),
             faults: rows.iter().map(|row| self.cases[*row].group).collect(),
@@ -111,9 +111,21 @@ fn keep<T: Copy>(held: &mut Vec<T>, stays: &[bool]) {
     held.retain(|_| stays.next().is_some_and(|stays| *stays));
 }
 
-/// The number to six digits, which are enough for a plot; none of NaN.
-fn rounded(value: f64) -> Option<f64> {
-    if value.is_nan() { None } else { format!("{value:.5e}").parse().ok() }
+/// Digits of a number, and of how far numbers spread, that are enough for a plot.
+const DIGITS: f64 = 6.0;
+
+/// Digits that tell any number from the next.
+const ALL_DIGITS: f64 = 17.0;
+
+/// The numbers to six digits, or to more of numbers that lie close together far from zero; none of NaN.
+fn for_a_plot(values: Vec<f64>) -> Vec<Option<f64>> {
+    let there = || values.iter().copied().filter(|value| !value.is_nan());
+    let (low, high) =
+        (there().fold(f64::INFINITY, f64::min), there().fold(-f64::INFINITY, f64::max));
+    let further = (low.abs().max(high.abs()) / (high - low)).log10().ceil();
+    let digits = if high > low { (DIGITS + further.max(0.0)).min(ALL_DIGITS) } else { ALL_DIGITS };
+    let rounded = |value: &f64| format!("{value:.0$e}", digits as usize - 1).parse().ok();
+    values.iter().map(|value| if value.is_nan() { None } else { rounded(value) }).collect()
 }
 
 #[cfg(test)]
@@ -135,6 +147,23 @@ mod tests {
         let whole = sample(500);
         assert_eq!((whole.len(), whole.share()), (1000, 1));
         assert_eq!(whole.points().cases, (1..=1000).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn points_that_lie_close_together_stay_apart() {
+        let numbers =
+            |i: u64| [-7e-3, 5000.0, 1e-30].map(|from| from + 1e-3 * from * i as f64 / 400.0);
+        let mut sample = Sample::new(3);
+        for i in 0..400 {
+            sample.offer(i, i, 0, &numbers(i));
+        }
+        for (column, values) in sample.points().values.iter().enumerate() {
+            for (i, value) in values.iter().enumerate() {
+                let (value, exact) = (value.expect("a number"), numbers(i as u64)[column]);
+                let spread = (numbers(399)[column] - numbers(0)[column]).abs();
+                assert!((value - exact).abs() <= 5e-6 * spread, "{value} for {exact}");
+            }
+        }
     }
 
     #[test]

@@ -146,6 +146,22 @@ pub struct Spread {
     pub percentiles: Vec<Percentile>,
 }
 
+/// Digits beyond these are errors of runs.
+const MOST_DIGITS: usize = 10;
+
+impl Spread {
+    /// How many significant digits of a number tell it from others that spread so far, at least so many.
+    pub fn digits(&self, value: f64, least: usize) -> usize {
+        let order = |size: f64| size.log10().floor();
+        let further = self
+            .deviation
+            .filter(|deviation| *deviation > 0.0)
+            .map(|deviation| order(value.abs()) - order(deviation / 100.0) + 1.0);
+        // A negative number, or that of zero, becomes 0.
+        least.max(further.map_or(0, |digits| digits as usize).min(MOST_DIGITS))
+    }
+}
+
 /// A percentile with its interval of 95 % confidence, which assumes no distribution but independent draws.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Percentile {
@@ -262,7 +278,7 @@ pub struct Points {
     pub cases: Vec<u64>,
     /// Their groups.
     pub faults: Vec<usize>,
-    /// Of each of `columns` their numbers to six digits.
+    /// Of each of `columns` their numbers, to six digits of how far these spread.
     pub values: Vec<Vec<Option<f64>>>,
 }
 
