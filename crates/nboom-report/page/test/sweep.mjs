@@ -90,6 +90,18 @@ const checks = {
     await page.done();
   },
 
+  async 'it warns of cases that are not to be trusted, with the first of them'(path) {
+    const page = await open(path);
+    const { poor, first_poor: firstPoor, doubtful, first_doubtful: firstDoubtful } = page.data.summary.counts;
+    const warnings = await page.$$eval('#account .warning', (found) => found.map((one) => one.textContent));
+    for (const [count, first, words] of [[poor, firstPoor, /poor conservation/], [doubtful, firstDoubtful, /whether a hinge locks/]]) {
+      const found = warnings.filter((text) => words.test(text));
+      assert.equal(found.length, count > 0 ? 1 : 0);
+      if (count > 0) assert.match(found[0], new RegExp(`\\b${count}\\b.* case ${first}\\b`));
+    }
+    await page.done();
+  },
+
   async 'each requirement has a row for each fault, and its bound stands in a histogram that reaches it'(path) {
     const page = await open(path);
     const { columns, requirements, faults } = page.data.summary;
