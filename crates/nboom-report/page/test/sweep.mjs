@@ -102,6 +102,27 @@ const checks = {
     await page.done();
   },
 
+  async 'what is of cases without fault says so, and of no cases nothing is said'(path) {
+    const page = await open(path);
+    const { columns, latches, faults } = page.data.summary;
+    const bare = faults.length > 0 ? / without fault/ : /cases?\b/;
+    for (const [i, { by_end: [{ count, of }] }] of latches.entries()) {
+      const told = await page.locator('#latches figure').nth(i).locator('.note').textContent();
+      assert.match(told, of === 0 ? /^No case.* ran\.$/ : new RegExp(`\\b${count === 0 ? 'none of' : `${count} of`} ${of} case`));
+      if (of > 0) assert.match(told, bare);
+    }
+    for (const [i, { spreads: [{ cases, count }] }] of columns.entries()) {
+      const figure = page.locator(`[data-column="${i}"] .note`).last();
+      if (count === 0) assert.match(await figure.textContent(), cases === 0 ? /^No case.* ran\.$/ : /^No case.* has this number\.$/);
+    }
+    if (faults.length > 0) {
+      for (const id of ['latches', 'drivers'].filter((one) => one === 'latches' ? latches.length > 0 : columns.some(({ drivers }) => drivers.length > 0))) {
+        assert.match(await page.locator(`#${id} > .note`).textContent(), bare, id);
+      }
+    }
+    await page.done();
+  },
+
   async 'each requirement has a row for each fault, and its bound stands in a histogram that reaches it'(path) {
     const page = await open(path);
     const { columns, requirements, faults } = page.data.summary;

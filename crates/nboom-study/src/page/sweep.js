@@ -4,11 +4,13 @@ const { facts, summary } = JSON.parse(document.getElementById('data').textConten
 const { counts, columns, points } = summary;
 const results = columns.filter((column) => column.is_result);
 const groups = ['no fault', ...summary.faults];
+// What is of cases without fault says so where there are others.
+const bare = summary.faults.length > 0 ? ' without fault' : '';
 const METHODS = { monte_carlo: 'Monte Carlo', latin_hypercube: 'Latin hypercube', sobol: 'Sobol sequence', grid: 'grid' };
 
 function histogram(column) {
   const { histogram: found, spreads: [spread] } = column;
-  if (!found) return note('No case without fault has this number.');
+  if (!found) return note(spread.cases > 0 ? `No case${bare} has this number.` : `No case${bare} ran.`);
   const { from, to, counts: high } = found;
   const step = (to - from) / high.length;
   const x = roomy([from, to]);
@@ -76,7 +78,7 @@ function account() {
 }
 
 function spreadSection(id, title, shown) {
-  const without = summary.faults.length > 0 ? ' They are of cases without fault.' : '';
+  const without = bare ? ` They are of cases${bare}.` : '';
   return shown.length > 0 && section(id, title,
     note(`Lines are the percentiles 5, 50 and 95, bands their intervals.${without}`),
     element('div', { class: 'figures' }, shown.map(spreadFigure)));
@@ -103,7 +105,7 @@ function driverFigure(column) {
 
 function drivers() {
   return results.some((column) => column.drivers.length > 0) && section('drivers', 'What drives what',
-    note('Spearman\u2019s rank correlation: 1 where a result always grows with the variable, \u22121 where it always falls. Within the grey band it may be chance (95 % for all variables together).'),
+    note(`Spearman\u2019s rank correlation: 1 where a result always grows with the variable, \u22121 where it always falls. Within the grey band it may be chance (95 % for all variables together).${bare ? ` Of cases${bare}.` : ''}`),
     element('div', { class: 'figures' }, results.map(driverFigure)));
 }
 
@@ -166,7 +168,7 @@ function scatter() {
 // Latches and faults.
 
 function latchFigure({ hinge, unit, times, by_end: [end] }) {
-  if (times.length === 0) return element('figure', {}, element('h3', {}, given(hinge)), note('It never latches.'));
+  if (times.length === 0) return element('figure', {}, element('h3', {}, given(hinge)), note(end.of === 0 ? `No case${bare} ran.` : `It latches in none of ${casesOf(end.of)}${bare}.`));
   const last = times.at(-1).time;
   const x = [Math.min(0, times[0].time), last > 0 ? 1.06 * last : last + 1];
   const { svg, X, Y } = frame({ x, y: [0, 1], height: 170, yText: (share) => `${Math.round(100 * share)} %`, about: `Share of cases in which ${hinge} has latched, over time`, xLabel: unit ? `t [${unit}]` : 't' });
@@ -177,16 +179,14 @@ function latchFigure({ hinge, unit, times, by_end: [end] }) {
   };
   svg.append(drawn('polygon', { class: 'band', points: [...steps(({ low }) => low), ...steps(({ high }) => high).reverse()].join(' ') }),
     drawn('polyline', { class: 'curve', points: steps(({ count, of }) => count / of).join(' ') }));
-  return element('figure', {}, element('h3', {}, given(hinge)), svg, note(`${latched(end)} by the end.`));
+  return element('figure', {}, element('h3', {}, given(hinge)), svg, note(`${percent(end.count / end.of)} (${interval(end.low, end.high, percent)}), ${whole(end.count)} of ${casesOf(end.of)}${bare}, by the end.`));
 }
-
-const latched = ({ count, of, low, high }) => (of === 0 ? 'no case ran' : `${percent(count / of)} (${interval(low, high, percent)}), ${whole(count)} of ${whole(of)} cases,`);
 
 function latches() {
   const rows = summary.latches.flatMap(({ hinge, by_end: ends }) => ends.map(({ count, of, low, high }, i) => [given(hinge), given(groups[i]),
     numeric(`${whole(count)} of ${whole(of)}`), numeric(of > 0 ? percent(count / of) : '\u2013'), numeric(of > 0 ? interval(low, high, percent) : '\u2013')]));
   return summary.latches.length > 0 && section('latches', 'Latched by a time',
-    note('The share of cases that ran in which a hinge has latched, with Wilson\u2019s interval of 95 % confidence.'),
+    note(`The share of cases that ran in which a hinge has latched, with Wilson\u2019s interval of 95 % confidence.${bare ? ` Curves are of cases${bare}.` : ''}`),
     element('div', { class: 'figures' }, summary.latches.map(latchFigure)),
     summary.faults.length > 0 ? table(['Hinge', 'Fault', 'Latched', 'Share', '95 % confidence'], rows) : null);
 }
@@ -278,7 +278,6 @@ function pick(number) {
 }
 
 document.title = visible(facts.name);
-const bare = summary.faults.length > 0 ? ' without fault' : '';
 document.body.append(...[header(), account(), requirements(), spreadSection('results', `Results${bare}`, results), drivers(), scatter(), latches(), faults(), worst(), troubles(),
   spreadSection('variables', 'What was drawn', columns.filter((column) => !column.is_result)), commandBar()].filter(Boolean));
 pick(results.find(({ largest }) => largest.length > 0)?.largest[0].case ?? 1);
