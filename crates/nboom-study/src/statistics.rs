@@ -3,7 +3,8 @@
 //! Counts, means, deviations and extremes are of all rows. Percentiles, histograms, rank correlations and
 //! curves need values at hand. They are of all rows as long as these fit; of a larger table they are of the rows
 //! of a random share of draws, chosen by their seeds: every second draw of a grid or of a Sobol sequence would
-//! be no fair share. All statistics are of cases that ran, those of faults apart from those without.
+//! be no fair share. Statistics of results are of cases that ran, those of variables of all cases: what was drawn
+//! includes what makes no scene. Those of faults stand apart from those without.
 
 mod compliance;
 mod confidence;
@@ -101,8 +102,9 @@ pub struct Statistics {
 #[derive(Clone, Debug)]
 struct Group {
     fault: String,
-    /// Those that ran.
     cases: u64,
+    /// Those of them that ran.
+    ran: u64,
     /// Of each variable and result.
     moments: Vec<Moments>,
     met: Met,
@@ -148,18 +150,44 @@ impl Statistics {
     pub fn row(&mut self, cells: &[Cell<'_>]) {
         let head = self.head(cells);
         let group = self.group(head.fault);
-        self.counts.cases += 1;
+        let ran = self.count(&head, group);
+        let told = |column: usize| match ran || self.field(column).role == Role::Variable {
+            true => number(cells.get(self.places[column])),
+            false => f64::NAN,
+        };
+        let numbers: Vec<f64> = (0..self.places.len()).map(told).collect();
+        for (column, value) in numbers.iter().enumerate() {
+            let extreme = Extreme { case: head.case, fault: group, value: *value };
+            if !value.is_nan() {
+                self.groups[group].moments[column].add(*value);
+                self.extremes[column].add(extreme);
+            } else if ran && self.lock(column).is_some() {
+                self.extremes[column].add_never(extreme);
+            }
+        }
+        if ran {
+            self.groups[group].met.add(head.case, &numbers, &self.required);
+        }
+        self.sample.offer(head.case, head.seed, (group, ran), &numbers);
+    }
+
+    /// Counts a case, and says whether it ran.
+    fn count(&mut self, head: &Head<'_>, group: usize) -> bool {
         let (is_poor, is_doubtful) = (head.status == POOR, head.status == DOUBTFUL);
-        if head.status != OK && !is_poor && !is_doubtful {
+        let ran = head.status == OK || is_poor || is_doubtful;
+        self.counts.cases += 1;
+        self.groups[group].cases += 1;
+        if !ran {
             let is_rejected = head.status.starts_with("rejected");
             *(if is_rejected { &mut self.counts.rejected } else { &mut self.counts.failed }) += 1;
             if self.troubles.len() < MOST_TROUBLES {
                 let status = head.status.to_owned();
                 self.troubles.push(Trouble { case: head.case, fault: group, status });
             }
-            return;
+            return false;
         }
         self.counts.ok += 1;
+        self.groups[group].ran += 1;
         if is_poor {
             self.counts.poor += 1;
             self.counts.first_poor.get_or_insert(head.case);
@@ -168,26 +196,14 @@ impl Statistics {
             self.counts.doubtful += 1;
             self.counts.first_doubtful.get_or_insert(head.case);
         }
-        self.groups[group].cases += 1;
-        let numbers: Vec<f64> = self.places.iter().map(|i| number(cells.get(*i))).collect();
-        for (column, value) in numbers.iter().enumerate() {
-            let extreme = Extreme { case: head.case, fault: group, value: *value };
-            if !value.is_nan() {
-                self.groups[group].moments[column].add(*value);
-                self.extremes[column].add(extreme);
-            } else if self.lock(column).is_some() {
-                self.extremes[column].add_never(extreme);
-            }
-        }
-        self.groups[group].met.add(head.case, &numbers, &self.required);
-        self.sample.offer(head.case, head.seed, group, &numbers);
+        true
     }
 
     /// What the rows say.
     pub fn finish(self) -> Summary {
         let variables: Vec<usize> =
             (0..self.places.len()).filter(|i| self.field(*i).role == Role::Variable).collect();
-        let bare = self.sample.rows_of(0);
+        let bare = self.sample.rows_that_ran(0);
         let ranked = |column: usize| {
             let values = self.sample.column(column);
             match self.lock(column) {
@@ -257,11 +273,11 @@ impl Statistics {
                 histogram = histogram::histogram(&sorted);
             }
             if self.lock(column).is_some() {
-                sorted.resize(self.sample.rows_of(number).len(), f64::INFINITY);
+                sorted.resize(self.sample.rows_that_ran(number).len(), f64::INFINITY);
             }
             let moments = &group.moments[column];
             Spread {
-                cases: group.cases,
+                cases: if field.role == Role::Result { group.ran } else { group.cases },
                 count: moments.count(),
                 mean: moments.mean(),
                 deviation: moments.deviation(),
@@ -284,11 +300,11 @@ impl Statistics {
     }
 
     fn latches(&self) -> Vec<Latch> {
-        let bare = self.sample.rows_of(0).len();
+        let bare = self.sample.rows_that_ran(0).len();
         let latch = |column: usize| {
             let hinge = self.lock(column)?.to_owned();
             let by_end =
-                |group: &Group| confidence::proportion(group.moments[column].count(), group.cases);
+                |group: &Group| confidence::proportion(group.moments[column].count(), group.ran);
             Some(Latch {
                 hinge,
                 unit: self.field(column).unit.clone(),
@@ -304,21 +320,21 @@ impl Statistics {
     }
 
     fn compliance(&self) -> Vec<Compliance> {
-        let groups = || self.groups.iter().map(|group| (&group.met, group.cases));
+        let groups = || self.groups.iter().map(|group| (&group.met, group.ran));
         let of = |(number, required): (usize, &Required)| required.compliance(number, groups());
         self.required.iter().enumerate().map(of).collect()
     }
 
     fn meet_all(&self) -> Vec<Proportion> {
         let groups = self.groups.iter().filter(|_| !self.required.is_empty());
-        groups.map(|group| group.met.all(group.cases)).collect()
+        groups.map(|group| group.met.all(group.ran)).collect()
     }
 }
 
 impl Group {
     fn new(fault: &str, columns: usize, requirements: usize) -> Self {
         let moments = vec![Moments::default(); columns];
-        Self { fault: fault.to_owned(), cases: 0, moments, met: Met::new(requirements) }
+        Self { fault: fault.to_owned(), cases: 0, ran: 0, moments, met: Met::new(requirements) }
     }
 }
 

@@ -43,7 +43,7 @@ function spreadFigure(column) {
   const told = (value) => said(spread, value);
   const gaps = spread.cases - spread.count;
   return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), histogram(column),
-    spread.count > 0 && note([`Mean ${among(spread, spread.mean)}, deviation ${digits(spread.deviation)}, ${casesOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${isLockTime(column) ? ', which count as never' : ''}.` : '.'].join('')),
+    spread.count > 0 && note([`Mean ${among(spread, spread.mean)}, deviation ${digits(spread.deviation)}, ${column.is_result ? casesOf(spread.count) : drawsOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${isLockTime(column) ? ', which count as never' : ''}.` : '.'].join('')),
     spread.percentiles.length > 0
       ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(told(value)), numeric(interval(low, high, told))]))
       : null);
@@ -77,10 +77,9 @@ function account() {
     ['latin_hypercube', 'sobol'].includes(facts.method) ? note('These draws are more even than independent ones, for which the intervals are; as a rule they are wider than need be.') : null);
 }
 
-function spreadSection(id, title, shown) {
-  const without = bare ? ` They are of cases${bare}.` : '';
+function spreadSection(id, title, of, shown) {
   return shown.length > 0 && section(id, title,
-    note(`Lines are the percentiles 5, 50 and 95, bands their intervals.${without}`),
+    note(`Lines are the percentiles 5, 50 and 95, bands their intervals. ${of}`),
     element('div', { class: 'figures' }, shown.map(spreadFigure)));
 }
 
@@ -278,8 +277,8 @@ function pick(number) {
 }
 
 document.title = visible(facts.name);
-document.body.append(...[header(), account(), requirements(), spreadSection('results', `Results${bare}`, results), drivers(), scatter(), latches(), faults(), worst(), troubles(),
-  spreadSection('variables', 'What was drawn', columns.filter((column) => !column.is_result)), commandBar()].filter(Boolean));
+document.body.append(...[header(), account(), requirements(), spreadSection('results', `Results${bare}`, `Of cases that ran${bare}.`, results), drivers(), scatter(), latches(), faults(), worst(), troubles(),
+  spreadSection('variables', 'What was drawn', 'Of all draws, whether their cases ran or not.', columns.filter((column) => !column.is_result)), commandBar()].filter(Boolean));
 pick(results.find(({ largest }) => largest.length > 0)?.largest[0].case ?? 1);
 addEventListener('keydown', ({ key, target, ctrlKey, metaKey, altKey }) => {
   if (key === 't' && !ctrlKey && !metaKey && !altKey && !/INPUT|SELECT/.test(target.tagName)) switchTheme();

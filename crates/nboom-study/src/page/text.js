@@ -47,6 +47,7 @@ function among({ deviation }, value, least = 4) {
 const said = (spread, value, least) => (value === null ? 'never' : among(spread, value, least));
 const whole = (number) => number.toLocaleString('en');
 const casesOf = (count) => `${whole(count)} ${count === 1 ? 'case' : 'cases'}`;
+const drawsOf = (count) => `${whole(count)} ${count === 1 ? 'draw' : 'draws'}`;
 const percent = (share) => `${digits(100 * share, 3)}\u202f%`;
 /** An interval, which has an end only where there are enough cases for it. */
 function interval(low, high, told) {

@@ -30,6 +30,7 @@ pub(super) struct Sample {
 struct Held {
     case: u64,
     group: usize,
+    ran: bool,
     /// A random number that cases of one draw share.
     lot: u64,
 }
@@ -40,9 +41,15 @@ impl Sample {
         Self { most, halvings: 0, cases: Vec::new(), columns: vec![Vec::new(); columns] }
     }
 
-    /// Holds the case if its draw is of the share.
-    pub(super) fn offer(&mut self, case: u64, seed: u64, group: usize, numbers: &[f64]) {
-        let held = Held { case, group, lot: SplitMix64::seed_from_u64(seed).next_u64() };
+    /// Holds the case, of this group and run or not, if its draw is of the share.
+    pub(super) fn offer(
+        &mut self,
+        case: u64,
+        seed: u64,
+        (group, ran): (usize, bool),
+        numbers: &[f64],
+    ) {
+        let held = Held { case, group, ran, lot: SplitMix64::seed_from_u64(seed).next_u64() };
         if !self.is_in(&held) {
             return;
         }
@@ -74,10 +81,10 @@ impl Sample {
         &self.columns[column]
     }
 
-    /// Rows of a group.
-    pub(super) fn rows_of(&self, group: usize) -> Vec<u32> {
+    /// Rows of the cases of a group that ran.
+    pub(super) fn rows_that_ran(&self, group: usize) -> Vec<u32> {
         (0..self.len())
-            .filter(|row| self.cases[*row].group == group)
+            .filter(|row| self.cases[*row].ran && self.cases[*row].group == group)
             .map(|row| row as u32)
             .collect()
     }
@@ -91,9 +98,9 @@ impl Sample {
         sorted
     }
 
-    /// A random few of the draws.
+    /// A random few of the cases that ran.
     pub(super) fn points(&self) -> Points {
-        let mut rows: Vec<usize> = (0..self.len()).collect();
+        let mut rows: Vec<usize> = (0..self.len()).filter(|row| self.cases[*row].ran).collect();
         rows.sort_by_key(|row| self.cases[*row].lot);
         rows.truncate(MOST_POINTS);
         rows.sort_unstable();
@@ -136,8 +143,8 @@ mod tests {
     fn sample(draws: u64) -> Sample {
         let mut sample = Sample { most: 1000, ..Sample::new(1) };
         for draw in 0..draws {
-            sample.offer(2 * draw + 1, draw, 0, &[draw as f64 / draws as f64]);
-            sample.offer(2 * draw + 2, draw, 1, &[draw as f64 / draws as f64]);
+            sample.offer(2 * draw + 1, draw, (0, true), &[draw as f64 / draws as f64]);
+            sample.offer(2 * draw + 2, draw, (1, true), &[draw as f64 / draws as f64]);
         }
         sample
     }
@@ -155,7 +162,7 @@ mod tests {
             |i: u64| [-7e-3, 5000.0, 1e-30].map(|from| from + 1e-3 * from * i as f64 / 400.0);
         let mut sample = Sample::new(3);
         for i in 0..400 {
-            sample.offer(i, i, 0, &numbers(i));
+            sample.offer(i, i, (0, true), &numbers(i));
         }
         for (column, values) in sample.points().values.iter().enumerate() {
             for (i, value) in values.iter().enumerate() {

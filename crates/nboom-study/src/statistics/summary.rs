@@ -134,7 +134,7 @@ impl SummaryColumn {
 /// How numbers spread.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
-    /// Cases that ran.
+    /// Cases that ran; of a variable all.
     pub cases: u64,
     /// Those of them that have a number.
     pub count: u64,

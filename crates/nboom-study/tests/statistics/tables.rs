@@ -244,7 +244,7 @@ fn a_long_table_has_counts_and_extremes_of_all_rows_and_percentiles_of_a_share()
 }
 
 #[test]
-fn cases_that_did_not_run_are_counted_and_listed_and_no_part_of_anything_else() {
+fn cases_that_did_not_run_are_counted_and_listed_and_have_no_results_but_what_was_drawn() {
     let mut statistics = table(&[]);
     for case in 1..=300 {
         let status = match case % 3 {
@@ -267,6 +267,37 @@ fn cases_that_did_not_run_are_counted_and_listed_and_no_part_of_anything_else() 
         [3, 6, 9, 12, 15]
     );
     assert_eq!(found.latches[0].by_end[0].of, 100);
+    // The numbers from 1 to 300 were drawn, whatever became of them.
+    let drawn = &found.columns[0];
+    let spread = &drawn.spreads[0];
+    assert_eq!((spread.cases, spread.count, spread.mean), (300, 300, Some(150.5)));
+    assert_eq!(spread.percentiles[3].value, 150.5);
+    assert_eq!(drawn.histogram.as_ref().expect("numbers").counts.iter().sum::<u64>(), 300);
+    assert_eq!(found.points.cases, (1..=100).map(|i| 3 * i).collect::<Vec<_>>());
+    // Those that ran say what drives them: the bound is 1.96 / sqrt(99).
+    let [driver] = found.columns[1].drivers[..] else { panic!("one variable") };
+    assert_eq!(driver.coefficient, 1.0);
+    assert!((driver.bound - 0.197).abs() < 1e-3, "{driver:?}");
+}
+
+#[test]
+fn a_latch_that_never_closes_is_one_of_a_case_that_ran() {
+    let mut statistics = table(&[]);
+    let statuses = ["ok", "failed: step too small at t = 2"].into_iter().cycle();
+    for (case, status) in (1..=8).zip(statuses) {
+        let number = Cell::Number(f64::from(case));
+        let time = if case == 1 { number } else { Cell::Empty };
+        let case = Cell::Integer(case.into());
+        statistics.row(&[case, case, Cell::Empty, number, time, Cell::Text(status)]);
+    }
+    let found = statistics.finish();
+    let time = &found.columns[1];
+    let late: Vec<_> = time.largest.iter().map(|late| (late.case, late.value)).collect();
+    let never = f64::INFINITY;
+    assert_eq!(late, [(3, never), (5, never), (7, never), (1, 1.0)]);
+    assert_eq!((time.spreads[0].cases, time.spreads[0].count), (4, 1));
+    let first = found.latches[0].times[0].latched;
+    assert_eq!((first.count, first.of), (1, 4));
 }
 
 #[test]
