@@ -56,6 +56,8 @@ const checks = {
     const before = await circles();
     const rows = points.cases.map((_, i) => i).filter((i) => points.values[a][i] !== null && points.values[b][i] !== null);
     assert.equal(before.length, rows.length);
+    const told = await page.locator('#scatter > .note').textContent();
+    assert.match(told, new RegExp(`^${rows.length.toLocaleString('en')} of `), 'it says how many points there are');
     // Places grow with numbers, upwards.
     const numbers = (column) => rows.map((i) => points.values[column][i]);
     const follows = (places, values) => places.every((place, i) => i === 0 || Math.abs(place - places[i - 1]) < 0.11 || (place > places[i - 1]) === (values[i] > values[i - 1]));

@@ -118,6 +118,7 @@ function scatter() {
   const shown = { y: Math.max(0, first), x: first < 0 ? 1 : columns[first].drivers[0].variable, group: -1 };
   const place = element('div', { class: 'scatter' });
   const nearest = element('output', { class: 'nearest' });
+  const told = note('');
   const choice = (key, label, options) => element('label', {}, label, element('select', { id: `scatter-${key}`, change: ({ target }) => { shown[key] = Number(target.value); draw(); } },
     options.map(([value, text]) => element('option', { value, selected: value === shown[key] }, text))));
   const all = columns.map(({ label }, i) => [i, label]);
@@ -127,6 +128,7 @@ function scatter() {
     const rows = points.cases.map((_, i) => i).filter((i) => x[i] !== null && y[i] !== null && (shown.group < 0 || points.faults[i] === shown.group));
     const ends = (values) => rows.reduce(([low, high], i) => [Math.min(low, values[i]), Math.max(high, values[i])], [Infinity, -Infinity]);
     nearest.textContent = '';
+    told.textContent = [`${whole(rows.length)} of ${whole(counts.ok)} cases that ran`, summary.faults.length > 0 ? ', those with a fault in orange' : '', '. A click chooses a case.'].join('');
     if (rows.length === 0) { places = []; place.replaceChildren(note('No case has both numbers.')); return; }
     const named = ({ label, unit }) => (unit ? `${label} [${unit}]` : label);
     const width = Math.max(300, Math.min(860, document.documentElement.clientWidth - 30));
@@ -160,8 +162,7 @@ function scatter() {
   return section('scatter', 'One against another',
     element('div', { class: 'choices' }, choice('x', 'Across', all), choice('y', 'Up', all),
       summary.faults.length > 0 ? choice('group', 'Cases', [[-1, 'all'], ...groups.map((name, i) => [i, name])]) : null),
-    place, nearest,
-    note([`${whole(points.cases.length)} of ${whole(counts.ok)} cases that ran`, summary.faults.length > 0 ? ', those with a fault in orange' : '', '. A click chooses a case.'].join('')));
+    place, nearest, told);
 }
 
 // Latches and faults.
