@@ -125,6 +125,15 @@ const checks = {
     await page.done();
   },
 
+  async 'a grid, whose points are chosen, has no intervals, and any other sweep has'(path) {
+    const page = await open(path);
+    const isGrid = page.data.facts.method === 'grid';
+    const [confidence, bands] = [page.getByText(/confidence|may be chance|bands/), page.locator('.band, .bound')];
+    assert.equal(await confidence.count() === 0, isGrid);
+    assert.equal(await bands.count() === 0, isGrid);
+    await page.done();
+  },
+
   async 'each requirement has a row for each fault, and its bound stands in a histogram that reaches it'(path) {
     const page = await open(path);
     const { columns, requirements, faults } = page.data.summary;

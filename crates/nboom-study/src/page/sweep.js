@@ -6,6 +6,9 @@ const results = columns.filter((column) => column.is_result);
 const groups = ['no fault', ...summary.faults];
 // What is of cases without fault says so where there are others.
 const bare = summary.faults.length > 0 ? ' without fault' : '';
+// What only draws have: points of a grid are chosen, and have no intervals.
+const isDrawn = facts.method !== 'grid';
+const ofDraws = (...found) => (isDrawn ? found : []);
 const METHODS = { monte_carlo: 'Monte Carlo', latin_hypercube: 'Latin hypercube', sobol: 'Sobol sequence', grid: 'grid' };
 
 function histogram(column) {
@@ -28,7 +31,7 @@ function histogram(column) {
   for (const { percent: which, value, low, high: upper } of spread.percentiles.filter((one) => [5, 50, 95].includes(one.percent))) {
     if (value === null) continue;
     const [left, right] = [X(low ?? from), X(upper ?? to)];
-    svg.append(drawn('rect', { class: 'band', x: left, y: top, width: Math.max(0, right - left), height: bottom - top }),
+    svg.append(...ofDraws(drawn('rect', { class: 'band', x: left, y: top, width: Math.max(0, right - left), height: bottom - top })),
       drawn('line', { class: 'mark', x1: X(value), x2: X(value), y1: top, y2: bottom, 'stroke-dasharray': which === 50 ? null : '4 3' },
         drawn('title', {}, `${which} %: ${among(spread, value)}`)));
   }
@@ -45,7 +48,7 @@ function spreadFigure(column) {
   return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), histogram(column),
     spread.count > 0 && note([`Mean ${among(spread, spread.mean)}, deviation ${digits(spread.deviation)}, ${column.is_result ? casesOf(spread.count) : drawsOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${isLockTime(column) ? ', which count as never' : ''}.` : '.'].join('')),
     spread.percentiles.length > 0
-      ? table(['Percentile', 'Value', '95 % confidence'], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(told(value)), numeric(interval(low, high, told))]))
+      ? table(['Percentile', 'Value', ...ofDraws('95 % confidence')], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(told(value)), ...ofDraws(numeric(interval(low, high, told)))]))
       : null);
 }
 
@@ -73,24 +76,24 @@ function account() {
     summary.share > 1 ? note(`Counts, means, deviations and extreme cases are of all cases. Percentiles, histograms, drivers and curves are of ${whole(summary.held)} cases: those of a random one of ${whole(summary.share)} draws.`) : null,
     poor > 0 ? element('p', { class: 'warning' }, `${whole(poor)} of the cases that ran ${poor === 1 ? 'has' : 'have'} poor conservation, the first is `, caseButton(firstPoor), '. Do not trust their motion.') : null,
     doubtful > 0 ? element('p', { class: 'warning' }, `In ${whole(doubtful)} of the cases that ran errors of the run may decide whether a hinge locks, the first is `, caseButton(firstDoubtful), '.') : null,
-    facts.method === 'grid' ? element('p', { class: 'warning' }, 'Points of a grid are chosen, not drawn. Percentiles and intervals describe the grid, not how likely anything is.') : null,
+    facts.method === 'grid' ? element('p', { class: 'warning' }, 'Points of a grid are chosen, not drawn. Percentiles and shares describe the grid, not how likely anything is.') : null,
     ['latin_hypercube', 'sobol'].includes(facts.method) ? note('These draws are more even than independent ones, for which the intervals are; as a rule they are wider than need be.') : null);
 }
 
 function spreadSection(id, title, of, shown) {
   return shown.length > 0 && section(id, title,
-    note(`Lines are the percentiles 5, 50 and 95, bands their intervals. ${of}`),
+    note(`Lines are the percentiles 5, 50 and 95${ofDraws(', bands their intervals')}. ${of}`),
     element('div', { class: 'figures' }, shown.map(spreadFigure)));
 }
 
 function driverFigure(column) {
   const found = column.drivers.filter(({ coefficient, bound }, i) => i < 3 || (i < 12 && Math.abs(coefficient) > bound));
   const bar = ({ coefficient, bound }) => drawn('svg', { viewBox: '0 0 160 16', style: 'width: 160px', 'aria-hidden': 'true' },
-    drawn('rect', { class: 'bound', x: 80 - 78 * bound, y: 0, width: 156 * bound, height: 16 }),
+    ...ofDraws(drawn('rect', { class: 'bound', x: 80 - 78 * bound, y: 0, width: 156 * bound, height: 16 })),
     drawn('rect', { class: `bar${coefficient < 0 ? ' negative' : ''}`, x: 80 + 78 * Math.min(0, coefficient), y: 3, width: 78 * Math.abs(coefficient), height: 10 }),
     drawn('line', { class: 'axis', x1: 80, x2: 80, y1: 0, y2: 16 }));
   const rows = found.map((driver) => {
-    const isWeak = Math.abs(driver.coefficient) <= driver.bound;
+    const isWeak = isDrawn && Math.abs(driver.coefficient) <= driver.bound;
     return [element('span', { class: isWeak ? 'name weak' : 'name' }, given(columns[driver.variable].label)), bar(driver), numeric(driver.coefficient.toFixed(2).replace('-', '\u2212'))];
   });
   const others = column.drivers.length - found.length;
@@ -104,7 +107,7 @@ function driverFigure(column) {
 
 function drivers() {
   return results.some((column) => column.drivers.length > 0) && section('drivers', 'What drives what',
-    note(`Spearman\u2019s rank correlation: 1 where a result always grows with the variable, \u22121 where it always falls. Within the grey band it may be chance (95 % for all variables together).${bare ? ` Of cases${bare}.` : ''}`),
+    note(`Spearman\u2019s rank correlation: 1 where a result always grows with the variable, \u22121 where it always falls.${ofDraws(' Within the grey band it may be chance (95 % for all variables together).')}${bare ? ` Of cases${bare}.` : ''}`),
     element('div', { class: 'figures' }, results.map(driverFigure)));
 }
 
@@ -177,29 +180,33 @@ function latchFigure({ hinge, unit, times, by_end: [end] }) {
     for (const at of times) corners.push([at.time, corners.at(-1)[1]], [at.time, value(at)]);
     return [...corners, [x[1], corners.at(-1)[1]]].map(([time, share]) => `${X(time).toFixed(1)},${Y(share).toFixed(1)}`);
   };
-  svg.append(drawn('polygon', { class: 'band', points: [...steps(({ low }) => low), ...steps(({ high }) => high).reverse()].join(' ') }),
+  svg.append(...ofDraws(drawn('polygon', { class: 'band', points: [...steps(({ low }) => low), ...steps(({ high }) => high).reverse()].join(' ') })),
     drawn('polyline', { class: 'curve', points: steps(({ count, of }) => count / of).join(' ') }));
-  return element('figure', {}, element('h3', {}, given(hinge)), svg, note(`${percent(end.count / end.of)} (${interval(end.low, end.high, percent)}), ${whole(end.count)} of ${casesOf(end.of)}${bare}, by the end.`));
+  return element('figure', {}, element('h3', {}, given(hinge)), svg, note(`${percent(end.count / end.of)}${ofDraws(` (${interval(end.low, end.high, percent)})`)}, ${whole(end.count)} of ${casesOf(end.of)}${bare}, by the end.`));
 }
 
+/** The cells of a share of cases, and what stands above them. */
+const shareHeadings = (met) => [met, 'Share', ...ofDraws('95 % confidence')];
+const shareCells = ({ count, of, low, high }) => [`${whole(count)} of ${whole(of)}`, percent(count / of), ...ofDraws(interval(low, high, percent))]
+  .map((text) => numeric(of > 0 ? text : '\u2013'));
+const wilson = `${ofDraws(', with Wilson\u2019s interval of 95 % confidence')}`;
+
 function latches() {
-  const rows = summary.latches.flatMap(({ hinge, by_end: ends }) => ends.map(({ count, of, low, high }, i) => [given(hinge), given(groups[i]),
-    numeric(`${whole(count)} of ${whole(of)}`), numeric(of > 0 ? percent(count / of) : '\u2013'), numeric(of > 0 ? interval(low, high, percent) : '\u2013')]));
+  const rows = summary.latches.flatMap(({ hinge, by_end: ends }) => ends.map((end, i) => [given(hinge), given(groups[i]), ...shareCells(end)]));
   return summary.latches.length > 0 && section('latches', 'Latched by a time',
-    note(`The share of cases that ran in which a hinge has latched, with Wilson\u2019s interval of 95 % confidence.${bare ? ` Curves are of cases${bare}.` : ''}`),
+    note(`The share of cases that ran in which a hinge has latched${wilson}.${bare ? ` Curves are of cases${bare}.` : ''}`),
     element('div', { class: 'figures' }, summary.latches.map(latchFigure)),
-    summary.faults.length > 0 ? table(['Hinge', 'Fault', 'Latched', 'Share', '95 % confidence'], rows) : null);
+    summary.faults.length > 0 ? table(['Hinge', 'Fault', ...shareHeadings('Latched')], rows) : null);
 }
 
 function requirements() {
   const bounds = ({ at_least: least, at_most: most }) => [least === undefined ? null : `at least ${digits(least, 12)}`, most === undefined ? null : `at most ${digits(most, 12)}`].filter(Boolean).join(' and ');
-  const row = (what, i, { count, of, low, high }, first) => [what, given(groups[i]), numeric(of > 0 ? `${whole(count)} of ${whole(of)}` : '\u2013'),
-    numeric(of > 0 ? percent(count / of) : '\u2013'), numeric(of > 0 ? interval(low, high, percent) : '\u2013'), first];
+  const row = (what, i, met, first) => [what, given(groups[i]), ...shareCells(met), first];
   const rows = summary.requirements.flatMap((one) => one.met.map((met, i) => row([given(one.result), ` ${bounds(one)}`], i, met, one.first_broken[i] ? caseButton(one.first_broken[i]) : '')));
   const all = summary.requirements.length > 1 ? summary.meet_all.map((met, i) => row('all of them', i, met, '')) : [];
   return rows.length > 0 && section('requirements', 'Requirements',
-    note('The share of cases that ran which meet a requirement, with Wilson\u2019s interval of 95 % confidence. A case without the number does not meet it.'),
-    table(['Requirement', 'Fault', 'Met', 'Share', '95 % confidence', 'First that breaks it'], [...rows, ...all]));
+    note(`The share of cases that ran which meet a requirement${wilson}. A case without the number does not meet it.`),
+    table(['Requirement', 'Fault', ...shareHeadings('Met'), 'First that breaks it'], [...rows, ...all]));
 }
 
 function boxFigure(column) {
