@@ -134,6 +134,19 @@ const checks = {
     await page.done();
   },
 
+  async 'curves of latches fill their pictures, however late they are'(path) {
+    const page = await open(path);
+    for (const [i, { times }] of page.data.summary.latches.entries()) {
+      if (times.length < 2) continue;
+      const steps = await page.locator('#latches figure').nth(i).locator('.curve').evaluate((curve) => {
+        const places = [...curve.points].map(({ x, y }) => [x, y]);
+        return places.filter(([, y], k) => k > 0 && y !== places[k - 1][1]).map(([x]) => x / curve.ownerSVGElement.viewBox.baseVal.width);
+      });
+      assert.ok(steps.at(-1) - steps[0] > 0.6, `${steps}`);
+    }
+    await page.done();
+  },
+
   async 'each requirement has a row for each fault, and its bound stands in a histogram that reaches it'(path) {
     const page = await open(path);
     const { columns, requirements, faults } = page.data.summary;

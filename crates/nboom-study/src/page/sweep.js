@@ -172,8 +172,7 @@ function scatter() {
 
 function latchFigure({ hinge, unit, times, by_end: [end] }) {
   if (times.length === 0) return element('figure', {}, element('h3', {}, given(hinge)), note(end.of === 0 ? `No case${bare} ran.` : `It latches in none of ${casesOf(end.of)}${bare}.`));
-  const last = times.at(-1).time;
-  const x = [Math.min(0, times[0].time), last > 0 ? 1.06 * last : last + 1];
+  const x = roomy([times[0].time, times.at(-1).time], 0.06);
   const { svg, X, Y } = frame({ x, y: [0, 1], height: 170, yText: (share) => `${Math.round(100 * share)} %`, about: `Share of cases in which ${hinge} has latched, over time`, xLabel: unit ? `t [${unit}]` : 't' });
   const steps = (value) => {
     const corners = [[x[0], 0]];
