@@ -2,7 +2,7 @@
 
 import uPlot from 'uplot';
 import { csv, save } from './save.js';
-import { digits, element, order } from './text.js';
+import { digits, element, order, stepped } from './text.js';
 
 /** Curves beyond these have no legend of their own; the nearest one is named. */
 const LEGEND = 12;
@@ -80,7 +80,7 @@ export class Figure {
       scales: { x: { time: false }, y: this.log ? { distr: 3 } : { range: (_, low, high) => range(low, high, this.least) } },
       axes: [
         { ...axis, label: `Time [${this.timeUnit}]`, labelSize: 18, size: 34 },
-        { ...axis, size: 66, ...(this.log ? { splits: decades } : {}), values: (_, ticks) => ticks.map((tick) => (tick === null ? '' : this.log ? order10(tick) : digits(tick))) },
+        { ...axis, size: widthOf, ...(this.log ? { splits: decades } : {}), values: (_, ticks, __, ___, step) => ticks.map((tick) => (tick === null ? '' : this.log ? order10(tick) : stepped(tick, step))) },
       ],
       series: [{ label: `t [${this.timeUnit}]`, value: (_, x) => (x === null ? '' : digits(x, 5)) }, ...this.series.map(of)],
       hooks: {
@@ -151,6 +151,14 @@ export class Figure {
     const headings = this.series.map(({ label }) => (this.unit ? `${label} [${this.unit}]` : label));
     save(`${this.title}.csv`, csv([`t [${this.timeUnit}]`, ...headings], [times, ...columns]));
   }
+}
+
+/** How wide an axis is: as its longest label asks for, and alike where labels are short. */
+function widthOf(plot, labels, number) {
+  const { font: [font], ticks, gap } = plot.axes[number];
+  plot.ctx.font = font;
+  const widths = (labels ?? []).map((label) => plot.ctx.measureText(label).width / devicePixelRatio);
+  return Math.max(66, Math.ceil(Math.max(0, ...widths) + ticks.size + gap));
 }
 
 /** Powers of ten, at most about eight. */

@@ -56,6 +56,12 @@ export function digits(value, count = 4) {
   return minus(Number(value.toPrecision(count)).toString());
 }
 
+/** A number with the digits in which it differs from those a step away. */
+export function stepped(value, step) {
+  const needed = Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 1;
+  return digits(value, Math.max(1, Math.min(14, needed)));
+}
+
 /** A small number by its order. */
 export function order(value) {
   if (value === null || value === undefined || !Number.isFinite(value)) return '\u2013';

@@ -25,6 +25,15 @@ function table(run, file) {
 async function open(name, { width = 1280, height = 900, colorScheme = 'light' } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true });
   const page = await context.newPage();
+  // What is written on canvases, and where it begins.
+  await page.addInitScript(() => {
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    window.written = [];
+    CanvasRenderingContext2D.prototype.fillText = function fillText(text, x, ...rest) {
+      if (this.textAlign === 'right') window.written.push({ text, from: x - this.measureText(text).width });
+      return write.call(this, text, x, ...rest);
+    };
+  });
   const wrong = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) wrong.push(message.text()); });
   page.on('pageerror', (error) => wrong.push(error.stack));
@@ -225,6 +234,16 @@ const checks = {
     const page = await open('1970');
     assert.ok((await page.pdf({ format: 'A4' })).length > 50_000);
     await page.done();
+  },
+
+  async 'no label of an axis is cut'() {
+    for (const name of ['1970', 'comparison.html', 'wing']) {
+      const page = await open(name);
+      const written = await page.evaluate(() => window.written);
+      assert.ok(written.length > 20);
+      assert.deepEqual(written.filter(({ from }) => from < 0), [], name);
+      await page.done();
+    }
   },
 
   async 'runs are compared on the same axes'() {
