@@ -68,7 +68,7 @@ pub(crate) fn text(report: &Report, statistics: &Summary, directory: &Path) -> S
         shares(&format!("{} latches", latch.hinge), &latch.by_end);
     }
     for of in &statistics.requirements {
-        shares(&format!("{} is met", of.requirement), &of.met);
+        shares(&format!("{} is met", statistics.in_words(&of.requirement)), &of.met);
     }
     if statistics.requirements.len() > 1 {
         shares("all requirements are met", &statistics.meet_all);
@@ -101,9 +101,8 @@ fn rows(statistics: &Summary, has_bounds: bool) -> Vec<[String; 5]> {
         let driver = driver.map_or_else(String::new, |driver| {
             format!("{} {:+.2}", statistics.columns[driver.variable].label, driver.coefficient)
         });
-        let unit = column.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
         let median = told(spread, median, false);
-        rows.push([format!("{}{unit}{left_out}", column.label), low, median, high, driver]);
+        rows.push([format!("{}{left_out}", column.title()), low, median, high, driver]);
     }
     rows
 }
@@ -138,7 +137,8 @@ mod tests {
     #[test]
     fn numbers_that_lie_close_together_far_from_zero_are_told_apart() {
         let label = "lock_time of boom".to_owned();
-        let field = Field { name: label.clone(), label, unit: None, role: Role::Result };
+        let (name, description) = (label.clone(), String::new());
+        let field = Field { name, label, description, unit: None, role: Role::Result };
         let mut statistics = Statistics::new(vec![field], &[]);
         // Percentiles of 0 to 100 in steps of one are themselves.
         let number = |i: u32| 5000.0 + 1e-3 * f64::from(i);

@@ -162,7 +162,8 @@ impl Description {
                 ("status", None) => (Role::Status, name),
                 _ => (Role::Variable, name),
             };
-            Field::new(name, label, column.unit.clone(), role)
+            let description = column.description.clone();
+            Field { description, ..Field::new(name, label, column.unit.clone(), role) }
         };
         self.columns.iter().enumerate().map(field).collect()
     }

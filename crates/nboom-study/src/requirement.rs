@@ -1,5 +1,3 @@
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 /// Bounds that a result of each run should keep.
@@ -22,13 +20,11 @@ impl Requirement {
             && self.at_least.is_none_or(|least| value >= least)
             && self.at_most.is_none_or(|most| value <= most)
     }
-}
 
-impl fmt::Display for Requirement {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// Its bounds in words.
+    pub fn bounds(&self) -> String {
         let bound = |words, bound: Option<f64>| bound.map(|bound| format!("{words} {bound}"));
         let bounds = [bound("at least", self.at_least), bound("at most", self.at_most)];
-        let bounds: Vec<String> = bounds.into_iter().flatten().collect();
-        write!(f, "{} {}", self.result, bounds.join(" and "))
+        bounds.into_iter().flatten().collect::<Vec<_>>().join(" and ")
     }
 }

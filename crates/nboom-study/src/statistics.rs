@@ -48,6 +48,8 @@ pub struct Field {
     pub name: String,
     /// What people call it: of a result its text, else the name.
     pub label: String,
+    /// What its numbers mean.
+    pub description: String,
     /// The unit of its numbers.
     pub unit: Option<String>,
     /// What it is for.
@@ -57,11 +59,12 @@ pub struct Field {
 }
 
 impl Field {
-    /// A column that people call `label`, by which a result is known.
+    /// A column that people call `label`, by which a result is known, without a description.
     pub fn new(name: &str, label: &str, unit: Option<String>, role: Role) -> Self {
         let meaning =
             if role == Role::Result { Wanted::meaning(label) } else { Meaning::default() };
-        Self { name: name.to_owned(), label: label.to_owned(), unit, role, meaning }
+        let (name, label) = (name.to_owned(), label.to_owned());
+        Self { name, label, description: String::new(), unit, role, meaning }
     }
 }
 
@@ -289,6 +292,7 @@ impl Statistics {
             name: field.name.clone(),
             label: field.label.clone(),
             meaning: field.meaning.clone(),
+            description: field.description.clone(),
             unit: field.unit.clone(),
             is_result: field.role == Role::Result,
             worse_by_requirement: self.worse_by_requirement(column),

@@ -4,6 +4,7 @@ use nboom_model::{Quantity, UnitSystem};
 use nboom_tables::{Column, Kind};
 
 use crate::Study;
+use crate::study::{Relation, Variable};
 
 /// Those of the table of cases: case, seed, fault if there are any, variables, results, status.
 pub fn columns(study: &Study) -> Vec<Column> {
@@ -12,13 +13,31 @@ pub fn columns(study: &Study) -> Vec<Column> {
     if !study.faults.is_empty() {
         columns.push(Column::new("fault", Kind::Text, "what is broken, if anything is"));
     }
-    columns.extend(study.variables.iter().map(|variable| {
-        Column::new(&variable.name, Kind::Number, "what is drawn for this variable")
-    }));
+    columns.extend(study.variables.iter().map(|variable| of_variable(variable, study)));
     columns.extend(study.wanted.iter().map(|wanted| wanted.column().clone()));
     let about = "`ok`, `ok, poor conservation`, `ok, latch in doubt`, or why there are no results";
     columns.push(Column::new("status", Kind::Text, about));
     columns
+}
+
+/// That of a variable, which says what becomes of its numbers.
+fn of_variable(variable: &Variable, study: &Study) -> Column {
+    let (document, slots) = (&study.document, &variable.slots);
+    let paths: Vec<String> = slots.iter().map(|slot| document.path(slot)).collect();
+    let (word, unit) = match variable.relation {
+        Relation::Factor => ("factor on", Some("1")),
+        relation => {
+            let units = || slots.iter().map(|slot| document.unit(slot));
+            let unit = units().next().flatten().filter(|first| units().all(|of| of == Some(first)));
+            (if relation == Relation::Value { "value of" } else { "offset to" }, unit)
+        }
+    };
+    let about = format!("{word} {}", paths.join(", "));
+    let column = Column::new(&variable.name, Kind::Number, about);
+    match unit {
+        Some(unit) => column.in_units_of(units(&study.nominal).label(unit)),
+        None => column,
+    }
 }
 
 /// Those of the table of the states of all cases: case, time, and the columns of `states.csv`.

@@ -281,7 +281,7 @@ fn requirements_are_counted_and_cases_that_break_them_have_pages() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     // Wilson's interval of 14 of 20.
     let line = format!(
-        "lock_time of 1,1 at most {} is met in 14 of 20 cases: 0.4810 to 0.8545",
+        "lock_time of 1,1 [T] at most {} is met in 14 of 20 cases: 0.4810 to 0.8545",
         times[13].0
     );
     let told = stdout(&output);
@@ -292,7 +292,7 @@ fn requirements_are_counted_and_cases_that_break_them_have_pages() {
     );
     assert!(
         told.contains(
-            "impulse of 1,1 at least -1000000000 and at most 1000000000 is met in 20 of 20"
+            "impulse of 1,1 [F L T] at least -1000000000 and at most 1000000000 is met in 20 of 20"
         ),
         "{told}"
     );

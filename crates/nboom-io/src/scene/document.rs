@@ -195,6 +195,23 @@ impl SceneDocument {
         Err(unknown(path::NO_NUMBER, nearest.map(|slot| path::text(root, &slot))))
     }
 
+    /// The path of a place of this document.
+    ///
+    /// # Panics
+    /// As [`Self::number`].
+    pub fn path(&self, slot: &Slot) -> String {
+        path::text(self.parts.root(), slot)
+    }
+
+    /// The unit of the number at a place of this document, with T for that of times, where its key says it: that of
+    /// angles and their rates.
+    ///
+    /// # Panics
+    /// As [`Self::number`].
+    pub fn unit(&self, slot: &Slot) -> Option<&'static str> {
+        path::unit(self.parts.root(), slot)
+    }
+
     /// Whether a number may stand there.
     fn is_number(&self, slot: &Slot) -> bool {
         match child(self.parts.root(), slot) {

@@ -72,6 +72,9 @@ pub enum Holds {
 /// The endings of keys of angles.
 pub(crate) const ENDINGS: [&str; 2] = ["_deg", "_rad"];
 
+/// Keys of angles whose values are rates.
+const RATES: [&str; 2] = ["rate", "speed"];
+
 impl Holds {
     /// Whether its keys end in `_deg` or `_rad`.
     pub fn is_angle(&self) -> bool {
@@ -99,6 +102,15 @@ impl Key {
         } else {
             vec![self.name.to_owned()]
         }
+    }
+
+    /// The unit of its numbers under this name, with T for that of times; none unless the ending says one of all of them.
+    pub(crate) fn unit(&self, name: &str) -> Option<&'static str> {
+        let is_of_all = matches!(self.holds, Holds::Angle | Holds::Angles);
+        let ending =
+            ENDINGS.iter().position(|ending| name.ends_with(ending)).filter(|_| is_of_all)?;
+        let units = if RATES.contains(&self.name) { ["deg/T", "rad/T"] } else { ["deg", "rad"] };
+        Some(units[ending])
     }
 
     /// Whether it may stand under this name.

@@ -183,6 +183,35 @@ proptest! {
 }
 
 #[test]
+fn places_have_the_unit_that_their_key_says() {
+    let main = MAIN.replace(
+        "[[main_body.thruster]]",
+        "[initial]\nrate_rad = [0.1, 0.0, 0.0]\n[[main_body.thruster]]",
+    );
+    let main = main.replace("angle / 3\"", "angle / 3\"\nrate_deg = 1.0");
+    let path =
+        folder("units", &main, &PART.replace("[parameters]", "[parameters]\ntilt_deg = 3.0"));
+    let document = SceneDocument::read(&path, &ReadOptions::default()).expect("right");
+    for (path, unit) in [
+        ("body.\"boom v1.2\".hinge.start_deg", Some("deg")),
+        ("body.\"boom v1.2\".hinge.latch_deg", Some("deg")),
+        ("body.\"boom v1.2\".hinge.rate_deg", Some("deg/T")),
+        ("body.panel +x.hinge.spring.rest_deg", Some("deg")),
+        ("initial.rate_rad[1]", Some("rad/T")),
+        // Of a pair of angle and torque neither.
+        ("body.\"boom v1.2\".hinge.torque_deg[1][2]", None),
+        ("body.\"boom v1.2\".hinge.at[2]", None),
+        ("main_body.thruster[1].force[2]", None),
+        // Whatever a parameter is called.
+        ("parameters.tilt_deg", None),
+    ] {
+        let slot = document.slot(path).expect("a number");
+        assert_eq!(document.unit(&slot), unit, "{path}");
+        assert_eq!(document.path(&slot), path);
+    }
+}
+
+#[test]
 fn its_text_is_that_of_the_file_or_stands_alone() {
     let path = folder("alone", &MAIN.replace("include = [\"part.toml\"]", ""), PART);
     fs::write(

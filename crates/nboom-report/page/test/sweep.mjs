@@ -125,6 +125,16 @@ const checks = {
     await page.done();
   },
 
+  async 'it says what becomes of what was drawn'(path) {
+    const page = await open(path);
+    for (const [i, { is_result: isResult, description }] of page.data.summary.columns.entries()) {
+      if (isResult) continue;
+      assert.match(description, /^(value of|factor on|offset to) /);
+      assert.equal(await page.locator(`[data-column="${i}"] .note`).first().textContent(), description);
+    }
+    await page.done();
+  },
+
   async 'a grid, whose points are chosen, has no intervals, and any other sweep has'(path) {
     const page = await open(path);
     const isGrid = page.data.facts.method === 'grid';
@@ -156,7 +166,10 @@ const checks = {
       const row = page.locator('#requirements tbody tr').filter({ hasText: result }).first();
       assert.match(await row.textContent(), new RegExp(`${met[0].count} of ${met[0].of}`));
       assert.equal(await row.locator('.case').count(), first ? 1 : 0);
-      const { from, to } = columns.find(({ label }) => label === result).histogram;
+      const { histogram, unit } = columns.find(({ label }) => label === result);
+      assert.ok(unit === null || (await row.textContent()).includes(`[${unit}]`), 'its bound has a unit');
+      if (!histogram) continue;
+      const { from, to } = histogram;
       const inside = [least, most].filter((bound) => bound !== undefined && bound > from && bound < to).length;
       assert.ok(await page.locator(`[data-column="${columns.findIndex(({ label }) => label === result)}"] line.limit`).count() >= inside);
     }

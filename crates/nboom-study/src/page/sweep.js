@@ -4,6 +4,9 @@ const { facts, summary } = JSON.parse(document.getElementById('data').textConten
 const { counts, columns, points } = summary;
 const results = columns.filter((column) => column.is_result);
 const groups = ['no fault', ...summary.faults];
+/** The column of what is required. */
+const columnOf = ({ result }) => results.find(({ label }) => label === result);
+
 // What is of cases without fault says so where there are others.
 const bare = summary.faults.length > 0 ? ' without fault' : '';
 // What only draws have: points of a grid are chosen, and have no intervals.
@@ -23,7 +26,7 @@ function histogram(column) {
     return drawn('rect', { class: 'bar', x: left, y: Y(count), width: Math.max(0.5, right - left - 0.6), height: bottom - Y(count) },
       drawn('title', {}, `${among(spread, from + i * step)} to ${among(spread, from + (i + 1) * step)}: ${casesOf(count)}`));
   }));
-  const required = column.is_result ? summary.requirements.find(({ result }) => result === column.label) : undefined;
+  const required = summary.requirements.find((one) => columnOf(one) === column);
   for (const [words, bound] of [['at least', required?.at_least], ['at most', required?.at_most]]) {
     if (bound === undefined || bound < x[0] || bound > x[1]) continue;
     svg.append(drawn('line', { class: 'limit', x1: X(bound), x2: X(bound), y1: top, y2: bottom }, drawn('title', {}, `required: ${words} ${digits(bound, 12)}`)));
@@ -45,7 +48,7 @@ function spreadFigure(column) {
   const [spread] = column.spreads;
   const told = (value) => said(spread, value);
   const gaps = spread.cases - spread.count;
-  return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), histogram(column),
+  return element('figure', { 'data-column': columns.indexOf(column) }, element('h3', {}, titled(column)), column.is_result ? null : note(column.description), histogram(column),
     spread.count > 0 && note([`Mean ${among(spread, spread.mean)}, deviation ${digits(spread.deviation)}, ${column.is_result ? casesOf(spread.count) : drawsOf(spread.count)}`, gaps > 0 ? `; ${whole(gaps)} without such a number${isLockTime(column) ? ', which count as never' : ''}.` : '.'].join('')),
     spread.percentiles.length > 0
       ? table(['Percentile', 'Value', ...ofDraws('95 % confidence')], spread.percentiles.map(({ percent: which, value, low, high }) => [numeric(`${which} %`), numeric(told(value)), ...ofDraws(numeric(interval(low, high, told)))]))
@@ -201,7 +204,7 @@ function latches() {
 function requirements() {
   const bounds = ({ at_least: least, at_most: most }) => [least === undefined ? null : `at least ${digits(least, 12)}`, most === undefined ? null : `at most ${digits(most, 12)}`].filter(Boolean).join(' and ');
   const row = (what, i, met, first) => [what, given(groups[i]), ...shareCells(met), first];
-  const rows = summary.requirements.flatMap((one) => one.met.map((met, i) => row([given(one.result), ` ${bounds(one)}`], i, met, one.first_broken[i] ? caseButton(one.first_broken[i]) : '')));
+  const rows = summary.requirements.flatMap((one) => one.met.map((met, i) => row([...titled(columnOf(one)), ` ${bounds(one)}`], i, met, one.first_broken[i] ? caseButton(one.first_broken[i]) : '')));
   const all = summary.requirements.length > 1 ? summary.meet_all.map((met, i) => row('all of them', i, met, '')) : [];
   return rows.length > 0 && section('requirements', 'Requirements',
     note(`The share of cases that ran which meet a requirement${wilson}. A case without the number does not meet it.`),

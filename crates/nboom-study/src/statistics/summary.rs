@@ -33,6 +33,16 @@ pub struct Summary {
     pub points: Points,
 }
 
+impl Summary {
+    /// A requirement in words, with the unit of its result.
+    pub fn in_words(&self, required: &Requirement) -> String {
+        let is_of = |column: &&SummaryColumn| column.is_result && column.label == required.result;
+        let title =
+            self.columns.iter().find(is_of).map_or(required.result.clone(), SummaryColumn::title);
+        format!("{title} {}", required.bounds())
+    }
+}
+
 /// Numbers of cases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
@@ -68,6 +78,9 @@ pub struct SummaryColumn {
     /// What it is.
     #[serde(default)]
     pub meaning: Meaning,
+    /// What it means: of a variable what becomes of its numbers.
+    #[serde(default)]
+    pub description: String,
     /// Its unit.
     pub unit: Option<String>,
     /// Whether it is a result; else it is a variable.
@@ -100,6 +113,12 @@ pub enum Worse {
 }
 
 impl SummaryColumn {
+    /// What people call it, with its unit.
+    pub fn title(&self) -> String {
+        let unit = self.unit.as_ref().map_or_else(String::new, |unit| format!(" [{unit}]"));
+        format!("{}{unit}", self.label)
+    }
+
     /// On which side its numbers are worse.
     pub fn worse(&self) -> Worse {
         let is_negative = |found: &Extreme| found.value < 0.0;

@@ -110,6 +110,23 @@ fn read(study: &str) -> Result<Study, InputError> {
 }
 
 #[test]
+fn columns_of_variables_say_what_becomes_of_their_numbers() {
+    let angles = "[[vary]]\npaths = ['body.boom.hinge.start_deg', 'body.tip.hinge.release.passes_deg']\n\
+                  as = 'offset'\nuniform = { from = -1.0, to = 1.0 }\n";
+    let study = read(&STUDY.replace("[[correlation]]", &format!("{angles}[[correlation]]")));
+    let columns = nboom_study::columns(&study.expect("right"));
+    let told: Vec<_> =
+        columns[3..7].iter().map(|of| (of.description.as_str(), of.unit.as_deref())).collect();
+    let expected = [
+        ("factor on parameters.k", Some("1")),
+        ("value of body.tip.mass, body.boom.mass", None),
+        ("value of main_body.mass", None),
+        ("offset to body.boom.hinge.start_deg, body.tip.hinge.release.passes_deg", Some("deg")),
+    ];
+    assert_eq!(told, expected);
+}
+
+#[test]
 fn a_study_is_read_as_it_says() {
     let study = read(STUDY).expect("right");
     assert_eq!((study.name.as_str(), study.seed, study.draws), ("all of it", 7, 20));

@@ -56,7 +56,7 @@ fn requirements_are_of_results_in_the_table_and_have_bounds() {
     let read = Study::read(&place.path().join("study.toml")).expect("a study");
     let [requirement] = &read.requirements[..] else { panic!("one requirement") };
     assert_eq!((requirement.at_least, requirement.at_most), (Some(1.0), Some(2.5)));
-    assert_eq!(requirement.to_string(), "lock_time of boom at least 1 and at most 2.5");
+    assert_eq!(requirement.bounds(), "at least 1 and at most 2.5");
 }
 
 #[test]

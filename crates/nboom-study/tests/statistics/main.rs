@@ -10,7 +10,7 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 /// A column of this name.
 fn field(name: &str, role: Role) -> Field {
-    Field::new(name, name, None, role)
+    Field { description: name.to_owned(), ..Field::new(name, name, None, role) }
 }
 
 /// Uniform numbers between 0 and 1.

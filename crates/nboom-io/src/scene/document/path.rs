@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use crate::diagnostic::quoted;
+use crate::scene::catalog::SCENE;
+use crate::scene::keys::TableKind;
 use crate::scene::suggest;
 use crate::scene::tree::{Entry, Node, Table, Value};
 
@@ -214,6 +216,24 @@ pub(super) fn text(root: &Table, slot: &Slot) -> String {
         node = next;
     }
     text
+}
+
+/// The unit of what is at a place, with T for that of times, if its key says one.
+pub(super) fn unit(root: &Table, slot: &Slot) -> Option<&'static str> {
+    let Entry { key, node, .. } = &root.0[slot.0[0]];
+    let (mut keys, mut node) = (vec![key.as_str()], node);
+    for &place in &slot.0[1..] {
+        if let Value::Table(table) = &node.value {
+            keys.push(&table.0[place].key);
+        }
+        node = inner(&node.value, place)?;
+    }
+    let below = |(kind, _): (&'static TableKind, _), name: &&str| match kind.key(name) {
+        Some(key) => (key.holds.table().unwrap_or(kind), key.unit(name)),
+        // A name that the scene chooses.
+        None => (kind, None),
+    };
+    keys.iter().fold((&SCENE, None), below).1
 }
 
 /// A key or name as a part of a path.
