@@ -66,10 +66,8 @@ pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), Cl
     if !(1..=cases).contains(&case) {
         return Err(CaseError::NoSuchCase { path: path.clone(), found: case, cases }.into());
     }
-    let file = study.scene_of(&study.case(case)).map_err(|rejection| CaseError::Rejected {
-        path: path.clone(),
-        case,
-        why: rejection.to_string(),
+    let file = study.named_scene_of(&study.case(case)).map_err(|rejection| {
+        CaseError::Rejected { path: path.clone(), case, why: rejection.to_string() }
     })?;
     let of_inputs = format!("{}{}", nboom_io::sha256(study.text.as_bytes()), file.sha256);
     let file = SceneFile { sha256: nboom_io::sha256(of_inputs.as_bytes()), ..file };

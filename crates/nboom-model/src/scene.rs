@@ -178,6 +178,13 @@ impl Scene {
         Ok(Self { labels, shapes, ..scene.with_departures(departures) })
     }
 
+    /// The scene under another name.
+    #[must_use]
+    pub fn called(mut self, name: String) -> Self {
+        self.description.name = name;
+        self
+    }
+
     /// Names the hinged bodies, for people.
     ///
     /// # Panics

@@ -2,8 +2,9 @@ use nboom_io::{SceneDocument, SceneFile, Slot};
 use nboom_model::{ModelError, Scene};
 use nboom_sim::{Form, Options, Path};
 
+use crate::case::Rejection;
 use crate::distribution::Distribution;
-use crate::plan::Plan;
+use crate::plan::{Case, Plan};
 use crate::requirement::Requirement;
 use crate::wanted::Wanted;
 
@@ -40,6 +41,19 @@ pub struct Study {
     pub trajectories: bool,
     /// What is drawn for each case.
     pub plan: Plan,
+}
+
+impl Study {
+    /// The scene of a case, called after the study, the case and its fault, for a run that somebody looks at.
+    ///
+    /// # Errors
+    /// As [`Self::scene_of`].
+    pub fn named_scene_of(&self, case: &Case) -> Result<SceneFile, Rejection> {
+        let file = self.scene_of(case)?;
+        let fault = case.fault.map(|fault| format!(", {}", self.faults[fault].name));
+        let name = format!("{}, case {}{}", self.name, case.number, fault.unwrap_or_default());
+        Ok(SceneFile { scene: file.scene.called(name), ..file })
+    }
 }
 
 /// How draws are made.

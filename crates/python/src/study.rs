@@ -127,7 +127,7 @@ impl Study {
                 "case: {number} found, a number from 1 to {cases} expected"
             )));
         };
-        let file = self.study.scene_of(&self.study.case(number));
+        let file = self.study.named_scene_of(&self.study.case(number));
         let file = file.map_err(|why| wrong_input(format!("case {number} is rejected: {why}")))?;
         let option = |word: String| {
             let word = word.trim_start_matches('-');

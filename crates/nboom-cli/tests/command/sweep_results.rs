@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use serde_json::Value;
+
 use crate::sweeps::{cases, sweep};
 use crate::{BOOM, Place, code, stderr, stdout};
 
@@ -257,6 +259,27 @@ fn a_sweep_that_grows_keeps_its_tables() {
     let output = place.nboom(&["sweep", "study.toml", "--no-report", "--resume"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert_eq!(cases(&place, "out/study").len(), 6);
+}
+
+#[test]
+fn a_run_of_a_case_says_of_which_study_case_and_fault_it_is() {
+    let place = Place::new();
+    place.write("panels.toml", PANELS);
+    let vary = "[[vary]]\nname = 'k'\npath = 'body.panel +x.hinge.spring.stiffness'\nvalues = [0.3, 0.4]\n";
+    let fault = "[[fault]]\nname = 'one spring out'\nbroken_spring = ['1,1']\n";
+    let study = "scene = 'panels.toml'\ndraws = 1\nresults = ['lock_time of 1,1']\n";
+    place.write("wings.toml", &format!("{study}{vary}{fault}"));
+    for (case, name) in [("1", "wings, case 1"), ("2", "wings, case 2, one spring out")] {
+        let output = place.nboom(&["run", "wings.toml", "--case", case, "-o", case]);
+        let (told, page) =
+            (stdout(&output), fs::read_to_string(place.path(case).join("report.html")));
+        assert!(told.starts_with(&format!("{name}: ")), "{told}");
+        assert!(page.expect("a page").contains(&format!("<title>{name}</title>")), "{name}");
+    }
+    // The page takes its heading from here.
+    let summary = fs::read_to_string(place.path("2/summary.json")).expect("a file");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    assert_eq!(summary["scene"], "wings, case 2, one spring out");
 }
 
 /// A stiffer spring closes the latch sooner, so a bound on the time is one on the spring.
