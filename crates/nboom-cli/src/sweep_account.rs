@@ -136,9 +136,8 @@ mod tests {
 
     #[test]
     fn numbers_that_lie_close_together_far_from_zero_are_told_apart() {
-        let label = "lock_time of boom".to_owned();
-        let (name, description) = (label.clone(), String::new());
-        let field = Field { name, label, description, unit: None, role: Role::Result };
+        let label = "lock_time of boom";
+        let field = Field::new(label, label, None, Role::Result);
         let mut statistics = Statistics::new(vec![field], &[]);
         // Percentiles of 0 to 100 in steps of one are themselves.
         let number = |i: u32| 5000.0 + 1e-3 * f64::from(i);
