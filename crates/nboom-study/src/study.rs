@@ -2,9 +2,9 @@ use nboom_io::{SceneDocument, SceneFile, Slot};
 use nboom_model::{ModelError, Scene};
 use nboom_sim::{Form, Options, Path};
 
-use crate::case::Rejection;
 use crate::distribution::Distribution;
 use crate::plan::{Case, Plan};
+use crate::rejection::Rejection;
 use crate::requirement::Requirement;
 use crate::wanted::Wanted;
 
