@@ -31,6 +31,9 @@ async function open(path, { width = 1280, height = 900, colorScheme = 'light' } 
   return page;
 }
 
+/** A count as pages tell it. */
+const whole = (count) => count.toLocaleString('en');
+
 const checks = {
   async 'each result has its histogram and its percentiles'(path) {
     const page = await open(path);
@@ -57,7 +60,7 @@ const checks = {
     const rows = points.cases.map((_, i) => i).filter((i) => points.values[a][i] !== null && points.values[b][i] !== null);
     assert.equal(before.length, rows.length);
     const told = await page.locator('#scatter > .note').textContent();
-    assert.match(told, new RegExp(`^${rows.length.toLocaleString('en')} of `), 'it says how many points there are');
+    assert.match(told, new RegExp(`^${whole(rows.length)} of `), 'it says how many points there are');
     // Places grow with numbers, upwards.
     const numbers = (column) => rows.map((i) => points.values[column][i]);
     const follows = (places, values) => places.every((place, i) => i === 0 || Math.abs(place - places[i - 1]) < 0.11 || (place > places[i - 1]) === (values[i] > values[i - 1]));
@@ -99,7 +102,7 @@ const checks = {
     for (const [count, first, words] of [[poor, firstPoor, /poor conservation/], [doubtful, firstDoubtful, /whether a hinge locks/]]) {
       const found = warnings.filter((text) => words.test(text));
       assert.equal(found.length, count > 0 ? 1 : 0);
-      if (count > 0) assert.match(found[0], new RegExp(`\\b${count}\\b.* case ${first}\\b`));
+      if (count > 0) assert.match(found[0], new RegExp(`\\b${whole(count)}\\b.* case ${first}\\b`));
     }
     await page.done();
   },
@@ -110,7 +113,7 @@ const checks = {
     const bare = faults.length > 0 ? / without fault/ : /cases?\b/;
     for (const [i, { by_end: [{ count, of }] }] of latches.entries()) {
       const told = await page.locator('#latches figure').nth(i).locator('.note').textContent();
-      assert.match(told, of === 0 ? /^No case.* ran\.$/ : new RegExp(`\\b${count === 0 ? 'none of' : `${count} of`} ${of} case`));
+      assert.match(told, of === 0 ? /^No case.* ran\.$/ : new RegExp(`\\b${count === 0 ? 'none of' : `${whole(count)} of`} ${whole(of)} case`));
       if (of > 0) assert.match(told, bare);
     }
     for (const [i, { spreads: [{ cases, count }] }] of columns.entries()) {
@@ -164,7 +167,7 @@ const checks = {
     assert.equal(await page.locator('#requirements tbody tr').count(), groups * (requirements.length + (requirements.length > 1 ? 1 : 0)));
     for (const { result, at_least: least, at_most: most, met, first_broken: [first] } of requirements) {
       const row = page.locator('#requirements tbody tr').filter({ hasText: result }).first();
-      assert.match(await row.textContent(), new RegExp(`${met[0].count} of ${met[0].of}`));
+      assert.match(await row.textContent(), new RegExp(`${whole(met[0].count)} of ${whole(met[0].of)}`));
       assert.equal(await row.locator('.case').count(), first ? 1 : 0);
       const { histogram, unit } = columns.find(({ label }) => label === result);
       assert.ok(unit === null || (await row.textContent()).includes(`[${unit}]`), 'its bound has a unit');
