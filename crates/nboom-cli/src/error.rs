@@ -77,6 +77,17 @@ pub enum CliError {
         /// The scene.
         scene: String,
     },
+    /// An option about pulses of latches is given for a scene whose loads have none.
+    #[error(
+        "{option}: found scene {scene} without pulses of latches, expected `pulse_constant` of each body that latches, \
+         or stations, in a deck stress groups with INSTR > 0"
+    )]
+    NoPulses {
+        /// The option.
+        option: &'static str,
+        /// The scene.
+        scene: String,
+    },
     /// A factor on stresses is given, but no strength to compare them with.
     #[error(
         "{option}: no {strength} stress found, one of a material of the scene{} expected",

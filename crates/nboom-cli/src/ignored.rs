@@ -41,6 +41,9 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
         Some((option, Idle::NoStations)) => {
             Err(CliError::NoStations { option, scene: file.scene.name.clone() })
         }
+        Some((option, Idle::NoPulses)) => {
+            Err(CliError::NoPulses { option, scene: file.scene.name.clone() })
+        }
         Some((option, Idle::NoYieldStress)) => {
             Err(CliError::NoStrength { option, strength: "yield" })
         }

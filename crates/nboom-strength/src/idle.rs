@@ -20,6 +20,8 @@ pub enum ActsOn {
 pub enum Idle {
     /// The scene has no stations.
     NoStations,
+    /// Loads have no pulses: a body that latches has no pulse constant, and there are no stations.
+    NoPulses,
     /// Stresses are left out of the run.
     NoStresses,
     /// No yield stress is known.
@@ -32,6 +34,7 @@ impl fmt::Display for Idle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NoStations => "the scene has no stations",
+            Self::NoPulses => "loads have no pulses, for want of pulse constants",
             Self::NoStresses => "stresses are not computed",
             Self::NoYieldStress => "no material has a yield stress",
             Self::NoUltimateStress => "no material has an ultimate stress",
@@ -55,7 +58,12 @@ pub struct Judged<'a> {
 impl Judged<'_> {
     /// Why a number that acts on this has no effect, if it has none.
     pub fn idle(&self, number: ActsOn) -> Option<Idle> {
-        let Some(structure) = self.structure else { return Some(Idle::NoStations) };
+        let Some(structure) = self.structure else {
+            return Some(match number {
+                ActsOn::Pulses => Idle::NoPulses,
+                _ => Idle::NoStations,
+            });
+        };
         let any = |of: fn(&Material) -> Option<f64>| {
             structure.materials().any(|material| of(material).is_some())
         };

@@ -176,7 +176,7 @@ fn options_that_act_on_nothing_are_refused_or_said() {
     place.write("sample.nml", SAMPLE);
     let cases: &[(&str, &[&str], &[&str])] = &[
         ("boom.nml", &["--yield-stress", "1e5"], &["--yield-stress", "without stations"]),
-        ("boom.nml", &["--amplification", "1.5"], &["--amplification", "without stations"]),
+        ("boom.nml", &["--amplification", "1.5"], &["--amplification", "`pulse_constant` of each body that latches"]),
         ("boom.nml", &["--report-signs"], &["--report-signs", "without stations"]),
         ("sample.nml", &["--safety-factor", "1.5"], &["--yield-stress"]),
         ("sample.nml", &["--amplification", "7"], &["--amplification", "from 1 to 2"]),
@@ -188,7 +188,7 @@ fn options_that_act_on_nothing_are_refused_or_said() {
         (
             "boom.nml",
             &["--hinge-loads", "--pulses", "all-at-once"],
-            &["--pulses", "without stations"],
+            &["--pulses", "without pulses of latches"],
         ),
     ];
     for (deck, options, words) in cases {
