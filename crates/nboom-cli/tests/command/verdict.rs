@@ -176,7 +176,11 @@ fn options_that_act_on_nothing_are_refused_or_said() {
     place.write("sample.nml", SAMPLE);
     let cases: &[(&str, &[&str], &[&str])] = &[
         ("boom.nml", &["--yield-stress", "1e5"], &["--yield-stress", "without stations"]),
-        ("boom.nml", &["--amplification", "1.5"], &["--amplification", "`pulse_constant` of each body that latches"]),
+        (
+            "boom.nml",
+            &["--amplification", "1.5"],
+            &["--amplification", "`pulse_constant` of each body that latches"],
+        ),
         ("boom.nml", &["--report-signs"], &["--report-signs", "without stations"]),
         ("sample.nml", &["--safety-factor", "1.5"], &["--yield-stress"]),
         ("sample.nml", &["--amplification", "7"], &["--amplification", "from 1 to 2"]),
