@@ -34,6 +34,7 @@ impl Account<'_> {
         lines.extend(self.worst.station().map(|worst| worst_line(self.scene, worst)));
         lines.extend(self.margin_lines());
         lines.extend(self.hinge_load_line());
+        lines.extend(self.run.judged_by.iter().map(|by| format!("judged by     {by}")));
         lines.push(self.conservation_line());
         lines.push(self.effort_line());
         lines.extend(self.certified.as_ref().map(trust_line));

@@ -105,6 +105,7 @@ impl RunArgs {
         let run = RunDescription {
             stresses: stresses.as_ref().and_then(|of| StressDescription::of(of, signs)),
             latch_pulses: stresses.as_ref().map(StressAnalysis::has_pulses),
+            judged_by: stresses.as_ref().and_then(|of| of.settings().in_words()),
             warnings,
             print_interval: file.legacy.print_interval.unwrap_or(1),
             input_sha256: Some(file.sha256),

@@ -209,6 +209,22 @@ fn a_run_says_what_its_stresses_leave_out() {
     assert_eq!(summary["stresses"]["pulses"], "half-sine");
 }
 
+#[test]
+fn a_run_says_by_what_its_margins_are_judged_that_the_scene_does_not_say() {
+    let (output, place) = run(&deck(), &["--yield-stress", "4e5", "--safety-factor", "1.5"]);
+    let told = String::from_utf8(output.stdout).expect("text");
+    let by = "a yield stress of 4e5 for all materials, safety factor 1.5";
+    assert!(told.contains(by), "{told}");
+    let read = |file: &str| fs::read_to_string(place.path().join("out").join(file));
+    let summary: serde_json::Value =
+        serde_json::from_str(&read("summary.json").expect("written")).expect("JSON");
+    assert_eq!(summary["judged_by"], by);
+    let (output, place) = run(&deck(), &[]);
+    assert!(!String::from_utf8_lossy(&output.stdout).contains("judged by"));
+    let text = fs::read_to_string(place.path().join("out/summary.json")).expect("written");
+    assert!(!text.contains("judged_by"));
+}
+
 /// The outer end of a segment whose outermost slice has no mass carries nothing.
 #[test]
 fn what_carries_nothing_says_so() {

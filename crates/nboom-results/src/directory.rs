@@ -142,6 +142,7 @@ impl RunDirectory {
         let headings = self.run.output.headings.clone();
         self.run.stresses = StressDescription::of(&analysis, tables.signs);
         self.run.latch_pulses = Some(analysis.has_pulses());
+        self.run.judged_by = analysis.settings().in_words();
         let stresses =
             StressWriter::create(self.place.partial(), hinges, analysis, tables, headings)?;
         self.stresses = Some(stresses);

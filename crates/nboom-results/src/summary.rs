@@ -33,6 +33,8 @@ pub struct RunDescription {
     pub stresses: Option<StressDescription>,
     /// Whether loads have the pulses of all hinges that latch; `None` if no loads are computed.
     pub latch_pulses: Option<bool>,
+    /// By what loads and margins are judged that is neither the scene's nor usual, in words.
+    pub judged_by: Option<String>,
     /// After the twentieth output time, the printout has one in this many: `IAX` of a deck.
     pub print_interval: usize,
     /// What is not computed since the scene lacks it.
@@ -67,6 +69,7 @@ impl RunDescription {
             units,
             stresses: None,
             latch_pulses: None,
+            judged_by: None,
             print_interval: 1,
             skipped: nboom_model::skipped(scene),
             warnings: Vec::new(),
@@ -117,6 +120,8 @@ pub struct SummaryFile<'a> {
     stresses: Option<StressKeys>,
     #[serde(skip_serializing_if = "Option::is_none")]
     latch_pulses: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    judged_by: Option<&'a str>,
     complete: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
@@ -250,6 +255,7 @@ impl<'a> SummaryFile<'a> {
             units: run.units.name(),
             stresses: run.stresses.map(StressKeys::from),
             latch_pulses: run.latch_pulses,
+            judged_by: run.judged_by.as_deref(),
             complete: false,
             error: Some("the run is going on or was interrupted"),
             end_time: None,

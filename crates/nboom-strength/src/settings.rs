@@ -35,6 +35,20 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// By what loads and margins are judged that is neither the scene's nor usual; `None` if nothing is.
+    pub fn in_words(&self) -> Option<String> {
+        let factor = |name: &str, factor: f64| (factor != 1.0).then(|| format!("{name} {factor}"));
+        let yield_stress = |stress: f64| format!("a yield stress of {stress:e} for all materials");
+        let said = [
+            factor("dynamic amplification of latch pulses", self.amplification),
+            self.yield_stress.map(yield_stress),
+            factor("safety factor", self.safety_factor),
+            factor("ultimate factor", self.ultimate_factor),
+        ];
+        let said: Vec<String> = said.into_iter().flatten().collect();
+        (!said.is_empty()).then(|| said.join(", "))
+    }
+
     /// # Errors
     /// When a number is not positive or not finite.
     pub(crate) fn check(&self) -> Result<(), StrengthError> {
