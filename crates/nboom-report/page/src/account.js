@@ -31,11 +31,12 @@ function count(number) {
 /** Modes that are listed; more would fill the page. */
 const MOST = 60;
 
-function routines({ summary, units }) {
+function routines(run) {
+  const { summary, units } = run;
   const { selections = [] } = summary;
   if (selections.length === 0) return null;
   const rows = selections.slice(0, MOST).map(({ since, path, formulation, reason, evaluations }) =>
-    [numeric(digits(since, 6)), path, formulation, reason, numeric(count(evaluations))]);
+    [numeric(run.time(since, 6)), path, formulation, reason, numeric(count(evaluations))]);
   const more = selections.length - rows.length;
   return element('div', {}, element('h3', {}, 'Routines by mode'),
     table([`Since [${units.time}]`, 'Path', 'Formulation', 'Why', 'Evaluations'], rows),
@@ -66,7 +67,7 @@ export function envelopes(run) {
   const tables = [];
   if (stresses.length > 0) {
     const rows = stresses.slice(0, MOST).map((row) => [label(row), numeric(String(row.station)), numeric(digits(row.von_mises)), row.driver,
-      cause(row), numeric(digits(row.t, 5)), margin(row.margin), margin(row.ultimate_margin)]);
+      cause(row), numeric(run.time(row.t)), margin(row.margin), margin(row.ultimate_margin)]);
     tables.push(element('h3', {}, 'Largest stresses'),
       table(['Segment', 'Station', `Von Mises [${units.stress}]`, 'Driver', 'By', `Time [${units.time}]`, 'Margin to yield', 'Margin to ultimate'], rows),
       rest(stresses.length - rows.length, 'stress_envelope.csv'));
@@ -80,7 +81,7 @@ export function envelopes(run) {
     const size = (row) => row?.magnitude ?? 0;
     const worst = [...hinges.values()].sort((a, b) => size(b.moment) - size(a.moment) || size(b.force) - size(a.force));
     const rows = worst.slice(0, MOST).map(({ force, moment }) =>
-      [label(force ?? moment), ...[force, moment].flatMap((row) => (row ? [numeric(digits(row.magnitude)), numeric(digits(row.t, 5)), cause(row)] : ['', '', '']))]);
+      [label(force ?? moment), ...[force, moment].flatMap((row) => (row ? [numeric(digits(row.magnitude)), numeric(run.time(row.t)), cause(row)] : ['', '', '']))]);
     tables.push(element('h3', {}, 'Largest hinge loads'),
       table(['Hinge', `Force [${units.force}]`, `Time [${units.time}]`, 'By', `Moment [${units.torque}]`, `Time [${units.time}]`, 'By'], rows),
       rest(worst.length - rows.length, 'hinge_load_envelope.csv'));

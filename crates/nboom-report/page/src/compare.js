@@ -5,6 +5,9 @@ import { Figure } from './plot.js';
 import { element } from './text.js';
 import { colours, isDark } from './theme.js';
 
+/** Marks of several runs would hide each other. */
+const UNMARKED = 'Peaks by latches are not drawn here: the verdicts have the largest.';
+
 /** Figures that several runs have; of each, one quantity is chosen. */
 export function comparedFigures(runs, place, shown, go) {
   const all = runs.map(figuresOf);
@@ -23,7 +26,8 @@ export function comparedFigures(runs, place, shown, go) {
         return curve && { ...curve, label: runs[i].name, dash: i > 0 ? [8, 3 + 2 * i] : undefined };
       }).filter(Boolean);
       const { unit, log, note } = found.find(Boolean);
-      const figure = new Figure({ title: labels.length > 1 ? `${title}: ${label}` : title, unit, log, note: log ? note : null, series, timeUnit: runs[0].units.time, go, events: [] });
+      const hasMarks = found.some((figure) => figure?.series.some(({ points }) => points));
+      const figure = new Figure({ title: labels.length > 1 ? `${title}: ${label}` : title, unit, log, note: [log && note, hasMarks && UNMARKED].filter(Boolean).join(' ') || null, series, timeUnit: runs[0].units.time, go, events: [] });
       const before = shown.figures[number];
       shown.figures[number] = figure;
       holder.replaceChildren(figure.element);

@@ -45,7 +45,7 @@ export function eventTable(run, go) {
     const change = event.after - event.before;
     return {
       attributes: { tabindex: 0, class: 'event', 'data-t': event.t, click: () => go(event.t), keydown: ({ key }) => key === 'Enter' && go(event.t) },
-      cells: [numeric(digits(event.t, 6)), hingeOf(event, run)?.label ?? '', happening(event),
+      cells: [numeric(run.time(event.t, 6)), hingeOf(event, run)?.label ?? '', happening(event),
         numeric(event.impulse === null ? '' : digits(event.impulse)),
         ...(shared ? [null, null, null] : [event.before, event.after, change]).map((value) => numeric(value === null ? '″' : digits(value, 5))),
         ...(momentum ? momentum(event.t, first) : [])],

@@ -1,7 +1,7 @@
 // Time: a slider, play at a chosen speed, events to go to, and keys for all of it.
 
 import { eventName } from './events.js';
-import { digits, element } from './text.js';
+import { element } from './text.js';
 
 /** Seconds that the whole motion takes at the usual speed, and the choices of speed. */
 const WHOLE = 12;
@@ -31,8 +31,8 @@ export class Player {
     const marks = this.instants.map((time) => {
       const names = this.run.events.filter(({ t }) => t === time).map((event) => eventName(event, this.run));
       const mark = element('button', {
-        type: 'button', class: 'mark', tabindex: -1, 'aria-label': `t = ${digits(time)}: ${names.join(', ')}`,
-        title: `t = ${digits(time)}: ${names.join(', ')}`, click: () => { this.pause(); this.go(time); },
+        type: 'button', class: 'mark', tabindex: -1, 'aria-label': `t = ${this.run.time(time, 4)}: ${names.join(', ')}`,
+        title: `t = ${this.run.time(time, 4)}: ${names.join(', ')}`, click: () => { this.pause(); this.go(time); },
       });
       mark.style.left = `${100 * this.share(time)}%`;
       return mark;
@@ -92,7 +92,7 @@ export class Player {
   go(time) {
     this.time = Math.min(Math.max(time, this.from), this.to);
     this.slider.value = this.share(this.time);
-    this.clock.textContent = `t = ${digits(this.time, 5)} ${this.run.units.time}`;
+    this.clock.textContent = `t = ${this.run.time(this.time)} ${this.run.units.time}`;
     const names = this.run.events.filter(({ t }) => t === this.time).map((event) => eventName(event, this.run));
     this.what.replaceChildren(names.length > 3 ? `${names.slice(0, 3).join(', ')} and ${names.length - 3} more` : names.join(', '));
     this.showTime(this.time);

@@ -2,7 +2,7 @@
 
 import uPlot from 'uplot';
 import { csv, save } from './save.js';
-import { digits, element, order, stepped } from './text.js';
+import { digits, element, moment, order, stepped } from './text.js';
 
 /** Curves beyond these have no legend of their own; the nearest one is named. */
 const LEGEND = 12;
@@ -82,7 +82,7 @@ export class Figure {
         { ...axis, label: `Time [${this.timeUnit}]`, labelSize: 18, size: 34 },
         { ...axis, size: widthOf, ...(this.log ? { splits: decades } : {}), values: (_, ticks, __, ___, step) => ticks.map((tick) => (tick === null ? '' : this.log ? order10(tick) : stepped(tick, step))) },
       ],
-      series: [{ label: `t [${this.timeUnit}]`, value: (_, x) => (x === null ? '' : digits(x, 5)) }, ...this.series.map(of)],
+      series: [{ label: `t [${this.timeUnit}]`, value: (_, x) => (x === null ? '' : moment(x, data[0][data[0].length - 1] - data[0][0], 5)) }, ...this.series.map(of)],
       hooks: {
         drawClear: [(plot) => this.markEvents(plot, line)],
         setSeries: [(_, i, { show }) => (show === undefined ? many && this.name(i) : this.showMarks(i, show))],

@@ -1,7 +1,7 @@
 // A run as the page sees it: what was computed, by name.
 
 import { Table } from './tables.js';
-import { visible } from './text.js';
+import { moment, visible } from './text.js';
 import { labels } from './units.js';
 
 export class Run {
@@ -26,6 +26,12 @@ export class Run {
   get span() {
     const { times } = this.motion;
     return [times[0], times[times.length - 1]];
+  }
+
+  /** A time of the run with at least so many digits, without its unit. */
+  time(value, least = 5) {
+    const told = this.motion?.times ?? this.events.map(({ t }) => t);
+    return moment(value, told.length > 0 ? told[told.length - 1] - told[0] : 0, least);
   }
 
   /** The hinge with these numbers, which count from 1. */

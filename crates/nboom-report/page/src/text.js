@@ -62,6 +62,13 @@ export function stepped(value, step) {
   return digits(value, Math.max(1, Math.min(14, needed)));
 }
 
+/** A time with `least` digits, and with more where a ten-thousandth of the run's length asks for them: runs may start late. */
+export function moment(time, length, least) {
+  const size = Math.abs(time ?? 0);
+  const needed = size > 0 && length > 0 ? Math.floor(Math.log10(size)) - Math.floor(Math.log10(length)) + 5 : 0;
+  return needed > least ? minus(Number(time.toPrecision(Math.min(needed, 15))).toString()) : digits(time, least);
+}
+
 /** A small number by its order. */
 export function order(value) {
   if (value === null || value === undefined || !Number.isFinite(value)) return '\u2013';

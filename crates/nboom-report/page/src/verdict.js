@@ -17,7 +17,7 @@ export function sentence(run) {
   const free = told.filter(({ state }) => state === 0).length;
   const held = told.length - locked.length - free;
   const times = locked.map(({ time }) => time).filter((time) => time !== null);
-  const by = times.length > 0 ? ` by ${digits(Math.max(...times), 5)} ${units.time}` : '';
+  const by = times.length > 0 ? ` by ${run.time(Math.max(...times))} ${units.time}` : '';
   const count = (number, what) => `${number} ${number === 1 ? 'joint' : 'joints'} ${what}`;
   if (told.length === 0) return 'A rigid body: no joints.';
   const all = ['', 'The joint', 'Both joints'][told.length] ?? `All ${told.length} joints`;
@@ -38,7 +38,7 @@ function place(at, run) {
   const hinge = run.hinge(at.appendage, at.segment);
   const station = at.station ? `, station ${at.station}` : '';
   const event = at.event === 'lock_up' ? ', by a latch' : '';
-  return [given(hinge?.label ?? `${at.appendage},${at.segment}`), `${station}, t = ${digits(at.time, 4)}${event}`];
+  return [given(hinge?.label ?? `${at.appendage},${at.segment}`), `${station}, t = ${run.time(at.time, 4)}${event}`];
 }
 
 /** The smallest margin to each limit that is known. */
@@ -56,7 +56,7 @@ export function keyFigures(run) {
   const add = (name, value, unit, where) => value !== null && value !== undefined && found.push({ name, value, unit, where });
   const locks = verdict.hinges.filter(({ state, time }) => state === 1 && time !== null);
   const last = locks.reduce((late, hinge) => (hinge.time > (late?.time ?? -Infinity) ? hinge : late), null);
-  if (last) add('Last lock-up', digits(last.time, 5), units.time, [given(run.hinge(last.appendage, last.segment)?.label ?? '')]);
+  if (last) add('Last lock-up', run.time(last.time), units.time, [given(run.hinge(last.appendage, last.segment)?.label ?? '')]);
   if (verdict.largest_impulse) {
     const at = verdict.largest_impulse_at;
     const hinge = run.hinge(at.appendage, at.segment);
@@ -89,6 +89,7 @@ export function verdictSection(run) {
     problems(run),
     negative ? element('p', { class: 'problem' }, 'A margin is negative: a section yields or breaks.') : null,
     element('dl', { class: 'keys' }, keys),
+    run.summary?.judged_by ? element('p', { class: 'note' }, `Loads and margins are judged by ${run.summary.judged_by}.`) : null,
     hingeList(run),
     warnings(run));
 }
@@ -119,18 +120,19 @@ function hingeList(run) {
     const { appendage, segment, state, time, angle } = joint;
     const hinge = run.hinge(appendage, segment);
     const amount = (of) => (hinge?.slides ? `${digits(of)} ${units.length}` : angleText(of));
-    const since = time === null ? '' : state === 1 ? `at ${digits(time, 6)} ${units.time}` : `since ${digits(time, 6)} ${units.time}`;
+    const since = time === null ? '' : state === 1 ? `at ${run.time(time, 6)} ${units.time}` : `since ${run.time(time, 6)} ${units.time}`;
     return element('li', {}, given(hinge?.label ?? ''), element('span', { class: `state state-${STATES[state]}` }, `${STATES[state] ?? state} ${since}`),
-      element('span', { class: 'position' }, amount(angle)), latch(joint, amount, units));
+      element('span', { class: 'position' }, amount(angle)), latch(joint, amount, run));
   });
   const list = element('ul', { class: 'hinges' }, items);
   return items.length > MOST ? element('details', {}, element('summary', {}, `All ${items.length} joints`), list) : list;
 }
 
 /** How fast a latch closed, or how near a free joint came to it; nothing in runs of older versions. */
-function latch({ closing_rate: rate, miss, miss_time: time }, amount, units) {
+function latch({ closing_rate: rate, miss, miss_time: time }, amount, run) {
+  const { units } = run;
   const told = Number.isFinite(rate) ? `its latch closed at ${amount(rate)}/${units.time}`
-    : Number.isFinite(miss) ? `nearest to its latch at ${digits(time, 6)} ${units.time}: ${amount(miss)} away` : null;
+    : Number.isFinite(miss) ? `nearest to its latch at ${run.time(time, 6)} ${units.time}: ${amount(miss)} away` : null;
   return told && element('span', { class: 'latch' }, told);
 }
 
@@ -139,8 +141,8 @@ export function comparison(runs) {
   const found = runs.map((run) => [
     { name: 'Verdict', value: sentence(run) }, ...keyFigures(run),
     ...(run.summary?.verdict?.hinges ?? []).filter(({ time }) => time !== null).map(({ appendage, segment, time, state }) => ({
-      name: `${run.hinge(appendage, segment)?.label}: ${STATES[state] === 'locked' ? 'locks' : 'free since'}`, value: digits(time, 6), unit: run.units.time })),
-    { name: 'Formulation', value: run.summary?.formulation }, { name: 'Integrator', value: run.summary?.integrator },
+      name: `${run.hinge(appendage, segment)?.label}: ${STATES[state] === 'locked' ? 'locks' : 'free since'}`, value: run.time(time, 6), unit: run.units.time })),
+    { name: 'Judged by', value: run.summary?.judged_by }, { name: 'Formulation', value: run.summary?.formulation }, { name: 'Integrator', value: run.summary?.integrator },
     { name: 'Evaluations', value: run.summary?.evaluations?.toLocaleString('en') },
   ]);
   const names = [...new Set(found.flat().map(({ name }) => name))];

@@ -230,6 +230,20 @@ const checks = {
     }
   },
 
+  async 'times have the digits that tell moments of the run apart, and the verdict says by what loads are judged'() {
+    const page = await open('epoch');
+    const events = table('epoch', 'events.csv').map(({ t }) => Number(t));
+    const told = await page.$$eval('tr.event td:first-child', (cells) => cells.map((cell) => Number(cell.textContent)));
+    assert.equal(told.length, events.length);
+    told.forEach((time, i) => assert.ok(Math.abs(time - events[i]) <= 1e-3, `${time}, ${events[i]}`));
+    await page.keyboard.press('n');
+    const shown = await page.$eval('.clock', (clock) => clock.textContent);
+    assert.ok(shown.startsWith('t = 2592001.25 '), shown);
+    const verdict = await page.$eval('#verdict', (section) => section.textContent);
+    assert.ok(verdict.includes('judged by dynamic amplification of latch pulses 1.5'), verdict);
+    await page.done();
+  },
+
   async 'it prints'() {
     const page = await open('1970');
     assert.ok((await page.pdf({ format: 'A4' })).length > 50_000);
@@ -250,6 +264,7 @@ const checks = {
     const page = await open('comparison.html');
     assert.equal(await page.locator('table.comparison thead th').count(), 3);
     const legends = await page.$$eval('.curve', (figures) => figures.map((figure) => figure.querySelectorAll('.u-legend .u-series').length));
+    assert.ok((await page.textContent('body')).includes('Peaks by latches are not drawn here'));
     assert.ok(legends.length > 5 && legends.filter((count) => count === 3).length > 4, `${legends}`);
     await page.done();
   },
