@@ -11,6 +11,9 @@ function figure(title, unit, series, extra = {}) {
   return { title, unit, series: series.filter(({ y }) => y), ...extra };
 }
 
+/** Events of kick-off springs, and whether a spring acts after them. */
+const ACTS = { kick_off_engage: true, kick_off_disengage: false };
+
 /** Share of the fastest joint's rate below which a rate is rounding. */
 const ROUNDING = 1e-9;
 
@@ -67,6 +70,10 @@ function directionCosines({ motion }) {
   return [figure('Direction cosines of the main body’s x axis', '', series, { note: 'With the inertial x, y and z axes.' })];
 }
 
+/**
+ * Forces of kick-off springs. A spring lets go and takes hold at its events: at its limit length only they say on which
+ * side the motion is.
+ */
 function kickOffs(run) {
   if (!run.scene?.bodies.some(({ kick_off: spring }) => spring)) return [];
   const tree = new Tree(run.scene);
@@ -74,11 +81,24 @@ function kickOffs(run) {
   const columns = hinges.map(({ key }) => motion.column(`beta_${key}`));
   if (!columns.every(Boolean)) return [];
   const forces = hinges.map(() => new Float64Array(motion.rows));
+  const acts = hinges.map(() => null);
+  const { times } = motion;
+  let next = 0;
   for (let row = 0; row < motion.rows; row++) {
+    // Of rows at one time the last is after what happens then.
+    const isAfter = times[row + 1] !== times[row];
+    for (; run.events[next]?.t < times[row] || (isAfter && run.events[next]?.t === times[row]); next++) {
+      const { kind, appendage, segment } = run.events[next];
+      if (kind in ACTS) acts[hinges.indexOf(run.hinge(appendage, segment))] = ACTS[kind];
+    }
     const found = tree.kickOffs(tree.places(columns.map((column) => column[row])));
-    found.forEach((spring, i) => { if (spring) forces[i][row] = spring.force; });
+    found.forEach((spring, i) => {
+      if (!spring) return;
+      acts[i] ??= spring.reaches;
+      forces[i][row] = acts[i] ? spring.force : 0;
+    });
   }
-  const sprung = hinges.map((hinge, i) => ({ label: hinge.label, x: motion.times, y: run.scene.bodies[i].kick_off ? forces[i] : null }));
+  const sprung = hinges.map((hinge, i) => ({ label: hinge.label, x: times, y: run.scene.bodies[i].kick_off ? forces[i] : null }));
   return [figure('Kick-off forces', units.force, sprung)];
 }
 

@@ -43,15 +43,14 @@ export class Tree {
     return sum.divideScalar(mass);
   }
 
-  /** Force and length of every kick-off spring; a spring beyond its limit has none. */
+  /** Of every kick-off spring its force where it acts, and whether its length lets it act. */
   kickOffs(places) {
     return this.scene.bodies.map(({ kick_off: spring }, i) => {
       if (!spring) return null;
       const outer = new Vector3(...spring.body_point).applyMatrix4(places[i]);
       const length = outer.sub(new Vector3(...spring.main_body_point)).length();
       const [a, b, c, d] = spring.coefficients;
-      const force = length <= spring.limit_length ? a + length * (b + length * (c + length * d)) : 0;
-      return { length, force };
+      return { force: a + length * (b + length * (c + length * d)), reaches: length <= spring.limit_length };
     });
   }
 }

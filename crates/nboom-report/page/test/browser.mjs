@@ -206,6 +206,20 @@ const checks = {
     await page.done();
   },
 
+  async 'a kick-off spring that lets go pushes until then, and not after'() {
+    const page = await open('1970');
+    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('[data-title="Kick-off forces"] .save').click()]);
+    const [head, ...saved] = readFileSync(await download.path(), 'utf8').trim().split('\n').map((line) => line.match(/"[^"]*"|[^,]+/g));
+    const ends = table('1970', 'events.csv').filter(({ kind }) => kind === 'kick_off_disengage');
+    assert.ok(ends.length > 0);
+    for (const { t, appendage, segment } of ends) {
+      const column = head.findIndex((name) => name.includes(`${appendage},${segment}`));
+      const forces = saved.filter(([time]) => Number(time) === Number(t)).map((row) => Number(row[column]));
+      assert.ok(forces[0] !== 0 && forces.at(-1) === 0, `${appendage},${segment}: ${forces} at ${t}`);
+    }
+    await page.done();
+  },
+
   async 'hinges with the largest moments come first'() {
     const page = await open('1970');
     const moments = table('1970', 'hinge_load_envelope.csv').filter(({ quantity }) => quantity === 'moment');
