@@ -5,8 +5,12 @@ import { Figure } from './plot.js';
 import { element } from './text.js';
 import { colours, isDark } from './theme.js';
 
-/** Marks of several runs would hide each other. */
-const UNMARKED = 'Peaks by latches are not drawn here: the verdicts have the largest.';
+/** What notes of runs say: once if all say the same, else by run. */
+function noteOf(figures, runs) {
+  const notes = figures.map((figure, i) => ({ run: runs[i], note: figure?.note })).filter(({ note }) => note);
+  const said = new Set(notes.map(({ note }) => note));
+  return said.size > 1 ? notes.map(({ run, note }) => `${run.name}: ${note}`).join(' ') : [...said].join('');
+}
 
 /** Figures that several runs have; of each, one quantity is chosen. */
 export function comparedFigures(runs, place, shown, go) {
@@ -20,14 +24,14 @@ export function comparedFigures(runs, place, shown, go) {
     const holder = element('div', {});
     const number = shown.figures.length;
     const choose = (label) => {
-      const series = found.map((figure, i) => {
-        const curve = curves(figure).find((candidate) => candidate.label === label);
-        // Dashes let a curve be seen below another.
-        return curve && { ...curve, label: runs[i].name, dash: i > 0 ? [8, 3 + 2 * i] : undefined };
-      }).filter(Boolean);
-      const { unit, log, note } = found.find(Boolean);
-      const hasMarks = found.some((figure) => figure?.series.some(({ points }) => points));
-      const figure = new Figure({ title: labels.length > 1 ? `${title}: ${label}` : title, unit, log, note: [log && note, hasMarks && UNMARKED].filter(Boolean).join(' ') || null, series, timeUnit: runs[0].units.time, go, events: [] });
+      const chosen = found.map((figure, i) => ({ figure, run: runs[i], i, at: curves(figure).findIndex((curve) => curve.label === label) }))
+        .filter(({ at }) => at >= 0);
+      // Dashes let a curve be seen below another.
+      const lines = chosen.map(({ figure, run, i, at }) => ({ ...curves(figure)[at], label: run.name, dash: i > 0 ? [8, 3 + 2 * i] : undefined }));
+      const marks = chosen.flatMap(({ figure, run, at }, line) => figure.series.filter(({ points, of }) => points && of === at)
+        .map((mark) => ({ ...mark, label: `${run.name}: ${mark.label}`, of: line })));
+      const { unit, log } = found.find(Boolean);
+      const figure = new Figure({ title: labels.length > 1 ? `${title}: ${label}` : title, unit, log, note: noteOf(found, runs), series: [...lines, ...marks], timeUnit: runs[0].units.time, go, events: [] });
       const before = shown.figures[number];
       shown.figures[number] = figure;
       holder.replaceChildren(figure.element);

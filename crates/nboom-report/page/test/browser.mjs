@@ -278,8 +278,15 @@ const checks = {
     const page = await open('comparison.html');
     assert.equal(await page.locator('table.comparison thead th').count(), 3);
     const legends = await page.$$eval('.curve', (figures) => figures.map((figure) => figure.querySelectorAll('.u-legend .u-series').length));
-    assert.ok((await page.textContent('body')).includes('Peaks by latches are not drawn here'));
     assert.ok(legends.length > 5 && legends.filter((count) => count === 3).length > 4, `${legends}`);
+    const loads = page.locator('.curve[data-title^="Hinge moments"]');
+    const [download] = await Promise.all([page.waitForEvent('download'), loads.locator('.save').click()]);
+    const saved = readFileSync(await download.path(), 'utf8');
+    for (const run of ['1970', 'as-1970']) {
+      const peak = table(run, 'hinge_load_envelope.csv').find(({ quantity }) => quantity === 'moment');
+      assert.ok(saved.includes(String(Number(peak.magnitude))), `${run}: the largest moment is drawn`);
+    }
+    assert.match(await loads.locator('.note').textContent(), /^Dots: the largest/);
     await page.done();
   },
 };
