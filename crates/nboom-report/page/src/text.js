@@ -56,16 +56,19 @@ export function digits(value, count = 4) {
   return minus(Number(value.toPrecision(count)).toString());
 }
 
+/** How many significant digits a number has down to a step of this size. */
+function digitsTo(step, value) {
+  return Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 1;
+}
+
 /** A number with the digits in which it differs from those a step away. */
 export function stepped(value, step) {
-  const needed = Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 1;
-  return digits(value, Math.max(1, Math.min(14, needed)));
+  return digits(value, Math.max(1, Math.min(14, digitsTo(step, value))));
 }
 
 /** A time with `least` digits, and with more where a ten-thousandth of the run's length asks for them: runs may start late. */
 export function moment(time, length, least) {
-  const size = Math.abs(time ?? 0);
-  const needed = size > 0 && length > 0 ? Math.floor(Math.log10(size)) - Math.floor(Math.log10(length)) + 5 : 0;
+  const needed = time && length > 0 ? digitsTo(1e-4 * length, time) : 0;
   return needed > least ? minus(Number(time.toPrecision(Math.min(needed, 15))).toString()) : digits(time, least);
 }
 
