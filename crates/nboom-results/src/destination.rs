@@ -8,6 +8,8 @@ use std::ffi::OsString;
 use std::fs;
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::{iter, thread};
 
 use crate::earlier::Earlier;
 use crate::kind::Kind;
@@ -22,6 +24,9 @@ const PARTIAL: &str = ".partial";
 
 /// Name of a summary that will replace another, within `DIR.partial`.
 const DRAFT_FILE: &str = "summary.json.new";
+
+/// How many files are waited for at once.
+const AT_ONCE: usize = 4;
 
 /// How much of a page is read to recognise it \[bytes\].
 const PAGE_START: u64 = 512;
@@ -88,9 +93,8 @@ impl Destination {
             return Ok(&self.partial);
         }
         if new.complete {
-            // Each file that is waited for takes as long as a short run.
-            let mut results = self.files().filter(|name| !COMPANIONS.contains(name));
-            results.try_for_each(|name| sync(&self.partial.join(name)))?;
+            let results = self.files().filter(|name| !COMPANIONS.contains(name));
+            sync_all(results.map(|name| self.partial.join(name)))?;
         }
         fs::create_dir_all(&self.finished).map_err(|error| self.misplaced("", error))?;
         // Figures are of the old results, and can be made again.
@@ -276,6 +280,23 @@ fn same_volume(finished: &Path, partial: &Path) -> Result<(), ResultsError> {
 #[cfg(not(unix))]
 fn same_volume(_: &Path, _: &Path) -> Result<(), ResultsError> {
     Ok(())
+}
+
+/// Waits until all of these files are on the disk.
+///
+/// Each file that is waited for alone takes as long as a short run, and far longer where others write
+/// too; the system brings several to the disk in hardly more time than one.
+fn sync_all(paths: impl Iterator<Item = PathBuf> + Send) -> Result<(), ResultsError> {
+    let paths = Mutex::new(paths);
+    let next = || paths.lock().expect("no thread panics here").next();
+    let sync_some = || iter::from_fn(next).try_for_each(|path| sync(&path));
+    thread::scope(|scope| {
+        // Where the system has no thread to give, the others do its work.
+        let others = (1..AT_ONCE).map(|_| thread::Builder::new().spawn_scoped(scope, sync_some));
+        let others: Vec<_> = others.flatten().collect();
+        let results = others.into_iter().map(|other| other.join().expect("a sync does not panic"));
+        iter::once(sync_some()).chain(results).collect()
+    })
 }
 
 /// Waits until a file is on the disk.

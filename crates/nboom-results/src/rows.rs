@@ -91,7 +91,8 @@ const PAGE: usize = 1 << 12;
 /// as another number.
 ///
 /// A kill leaves half a line only if the line lies across the end of a page and the kill comes
-/// between its two parts.
+/// between its two parts. So data is passed on in pieces of which only the first line lies across the end of
+/// a page.
 #[derive(Debug)]
 pub(crate) struct WholeLines {
     file: File,
@@ -114,7 +115,7 @@ impl WholeLines {
         self.check()?;
         while !lines.is_empty() {
             let room = PAGE - (self.length % PAGE as u64) as usize;
-            let (piece, rest) = lines.split_at(whole_lines_within(lines, room));
+            let (piece, rest) = lines.split_at(first_piece(lines, room));
             self.file.write_all(piece).map_err(|error| self.cut(error))?;
             self.length += piece.len() as u64;
             lines = rest;
@@ -136,13 +137,13 @@ impl WholeLines {
     }
 }
 
-/// Length of the lines that fit into `room`, of the first one if it does not.
-fn whole_lines_within(lines: &[u8], room: usize) -> usize {
+/// Length of the first line and of those after it that end in the same page, of which `room` is left.
+fn first_piece(lines: &[u8], room: usize) -> usize {
     let is_end = |byte: &u8| *byte == b'\n';
-    let within = lines.len().min(room);
-    let last = lines[..within].iter().rposition(is_end);
-    let end = last.or_else(|| lines.iter().position(is_end));
-    end.map_or(lines.len(), |newline| newline + 1)
+    let first = lines.iter().position(is_end).map_or(lines.len(), |newline| newline + 1);
+    let page_end = room + first.saturating_sub(room).next_multiple_of(PAGE);
+    let within = lines.len().min(page_end);
+    lines[..within].iter().rposition(is_end).map_or(first, |newline| newline + 1)
 }
 
 /// Another error that says the same.
@@ -171,11 +172,20 @@ mod tests {
     }
 
     #[test]
-    fn no_piece_but_a_line_lies_across_the_end_of_a_page() {
-        let lines = b"12\n4\n789\n";
-        for (room, piece) in [(10, 9), (9, 9), (8, 5), (5, 5), (4, 3), (3, 3), (2, 3), (1, 3)] {
-            assert_eq!(whole_lines_within(lines, room), piece, "{room}");
+    fn no_line_but_the_first_of_a_piece_lies_across_the_end_of_a_page() {
+        let lines = |count: usize| b"012345\n".repeat(count);
+        // With more room than there are lines, to the end of a line, within the second one.
+        for (room, pieces) in [(64, 8), (56, 8), (55, 7), (14, 2), (13, 1), (7, 1)] {
+            assert_eq!(first_piece(&lines(8), room), 7 * pieces, "{room}");
         }
+        // The first line fills the rest of one page and six bytes of the next, with 4090 left there.
+        assert_eq!(first_piece(&lines(1000), 1), 7 * (1 + 4090 / 7));
+        // A line alone is longer than a page.
+        let long = [b"x".repeat(2 * PAGE), b"\n12\n".to_vec()].concat();
+        assert_eq!(first_piece(&long, 100), long.len());
+        assert_eq!(first_piece(&long, 4), 2 * PAGE + 4);
+        assert_eq!(first_piece(&long, 3), 2 * PAGE + 1);
+        assert_eq!(first_piece(b"no end", 3), 6);
     }
 
     #[test]

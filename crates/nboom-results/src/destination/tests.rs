@@ -171,3 +171,14 @@ fn a_link_is_no_directory_for_results() {
     }
     assert_eq!(fs::read_dir(&target).expect("readable").count(), 0);
 }
+
+#[test]
+fn of_many_files_the_one_that_is_missing_is_named() {
+    let place = tempfile::tempdir().expect("a directory");
+    let paths: Vec<PathBuf> = (0..20).map(|i| place.path().join(format!("table-{i}"))).collect();
+    paths.iter().for_each(|path| fs::write(path, "1\n").expect("writable"));
+    sync_all(paths.clone().into_iter()).expect("all are there");
+    fs::remove_file(&paths[13]).expect("it was there");
+    let missing = sync_all(paths.into_iter()).expect_err("one is missing");
+    assert!(missing.to_string().contains("table-13"), "{missing}");
+}
