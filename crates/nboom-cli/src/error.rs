@@ -141,6 +141,13 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// A new scene would have a name by which it is taken for something else.
+    #[cfg(feature = "generator")]
+    #[error("{}: found a name with another ending, expected a scene NAME.toml", path.display())]
+    NoToml {
+        /// The file.
+        path: PathBuf,
+    },
     /// No deck can say the scene.
     #[error("a scene that no deck can say")]
     NoDeck(Vec<DeckObstacle>),
@@ -163,7 +170,17 @@ pub enum CliError {
         /// The file of the picture.
         path: PathBuf,
     },
-    /// A scene would take the place of a file that may have been edited.
+    /// Tables would be among results of a run that know nothing of them.
+    #[error(
+        "{}: found results of a run, expected a folder without; nboom run --tables writes tables among its \
+         results",
+        path.display()
+    )]
+    AmongResults {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file that may be somebody else's, or may have been edited, would be replaced.
     #[error("{}: found a file of this name, expected none; --force replaces it", path.display())]
     WouldReplace {
         /// The file.

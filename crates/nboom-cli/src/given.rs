@@ -3,8 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Command};
+use clap::{ArgMatches, Command, CommandFactory};
 use serde::{Deserialize, Serialize};
+
+use crate::Cli;
 
 /// The options that a run was given or has by default, by name and in words.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -41,8 +43,19 @@ impl Given {
         self
     }
 
-    /// With those that were given to `other`, in place of their own.
+    /// With those that were given to `other`, in place of their own and of those that they exclude.
     pub(crate) fn changed_by(mut self, other: &Self) -> Self {
+        let cli = Cli::command();
+        let run = cli.find_subcommand("run").expect("a command");
+        let exclude = |one: &str, another: &str| {
+            let mut all = run.get_arguments();
+            let one = all.find(|option| option.get_long() == Some(one));
+            let excluded = one.map_or_else(Vec::new, |one| run.get_arg_conflicts_with(one));
+            excluded.iter().any(|option| option.get_long() == Some(another))
+        };
+        self.options.retain(|name, _| {
+            !other.by_hand.iter().any(|given| exclude(given, name) || exclude(name, given))
+        });
         let by_hand = other.options.iter().filter(|(name, _)| other.by_hand.contains(*name));
         self.options.extend(by_hand.map(|(name, words)| (name.clone(), words.clone())));
         self
@@ -139,8 +152,7 @@ mod tests {
             "--as-1970=tube-shear",
             "--atol=1e-12",
             "--certify=tighter-tolerance",
-            "--columns=beta",
-            "--columns=v_x",
+            "--columns=beta,v_x",
             "--end-time=-1",
             "--integrator=auto",
             "--listing",

@@ -1,6 +1,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use nboom_io::Format;
 use nboom_results::write_file;
 
 use crate::CliError;
@@ -46,6 +47,9 @@ impl Kind {
 pub(crate) fn new(args: &NewArgs) -> Result<String, CliError> {
     let (name, text) = args.kind.template();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+    if Format::of(&path) != Some(Format::Toml) {
+        return Err(CliError::NoToml { path });
+    }
     if path.exists() {
         return Err(CliError::Exists { path });
     }

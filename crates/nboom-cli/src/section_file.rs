@@ -16,9 +16,12 @@ const MOST_SHOWN: usize = 40;
 /// Most defects that a message shows.
 const MOST_DEFECTS: usize = 50;
 
-/// The keys that a section may have: its description, a load, and keys that are only passed on.
-const KEYS: [&str; 11] =
-    ["id", "kind", "R", "t", "vertices", "thickness", "P", "Q", "name", "tags", "expect"];
+/// The keys that any section may have beside its description: a load, and keys that are only passed on.
+const KEYS: [&str; 7] = ["id", "kind", "P", "Q", "name", "tags", "expect"];
+
+/// The keys that describe a section of each kind.
+const OF_KIND: [(&str, [&str; 2]); 2] =
+    [("circular", ["R", "t"]), ("polygon", ["vertices", "thickness"])];
 
 /// Why sections cannot be computed.
 #[derive(Debug, thiserror::Error)]
@@ -74,10 +77,12 @@ pub enum Defect {
         expected: &'static str,
     },
     /// The key has no meaning here.
-    #[error("{key}: found a key without meaning, expected one of {}", KEYS.join(", "))]
+    #[error("{key}: found a key without meaning, expected one of {}", expected.join(", "))]
     Key {
         /// The key.
         key: String,
+        /// The keys of a section of its kind.
+        expected: Vec<&'static str>,
     },
     /// It is not a section of a known kind.
     #[error(
@@ -164,8 +169,14 @@ struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     fn check_keys(&mut self) {
-        let unknown = self.given.keys().filter(|key| !KEYS.contains(&key.as_str())).cloned();
-        self.defects.extend(unknown.map(|key| Defect::Key { key }));
+        let kind =
+            self.value("kind").as_str().filter(|kind| OF_KIND.iter().any(|of| of.0 == *kind));
+        let of_kind = OF_KIND.iter().filter(|of| kind.is_none_or(|kind| of.0 == kind));
+        let expected = || KEYS.into_iter().chain(of_kind.clone().flat_map(|of| of.1));
+        let unknown = self.given.keys().filter(|key| expected().all(|known| known != **key));
+        self.defects.extend(
+            unknown.map(|key| Defect::Key { key: key.clone(), expected: expected().collect() }),
+        );
         if !self.value("id").is_string() {
             self.expected("id", self.value("id"), "a text");
         }

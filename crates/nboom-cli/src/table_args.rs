@@ -22,8 +22,9 @@ pub struct TableArgs {
     pub times: Option<Times>,
 
     /// Columns of output.csv, a table of its own beside states.csv, with commas between them: omega,
-    /// "beta of boom" or omega_x; instead of those that the scene asks for. By default all.
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    /// "beta of boom" or omega_x; instead of those that the scene asks for. By default all. A name that has
+    /// commas itself stands alone: the option may be given several times.
+    #[arg(long, value_name = "NAMES")]
     pub columns: Vec<String>,
 
     /// Write output.csv, with angles and rates in degrees; in all other tables they are in radians.
@@ -168,15 +169,20 @@ impl TableArgs {
             let all = || Column::all(scene.bodies.len());
             table.columns = of_scene.map_or_else(all, |of_scene| of_scene.columns.clone());
         }
-        for name in &self.columns {
-            let named = Column::named(name.trim(), scene.labels(), scene.rotors.len()).map_err(
-                |unknown| {
+        let named = |name: &str| Column::named(name, scene.labels(), scene.rotors.len());
+        for names in &self.columns {
+            if let Ok(column) = named(names) {
+                table.add(column);
+                continue;
+            }
+            for name in names.split(',') {
+                let column = named(name).or_else(|_| named(name.trim()));
+                table.add(column.map_err(|unknown| {
                     let known = unknown.known.iter().map(String::as_str);
                     let meant = nearest(&unknown.found, known).map(str::to_owned);
                     CliError::Column { unknown, meant }
-                },
-            )?;
-            table.add(named);
+                })?);
+            }
         }
         if table.is_of_held_body() && !scene.base.is_held() {
             return Err(CliError::NoReaction);

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use nboom_results::{HDF5_FILE, Kept, PARQUET_FILES, make_file};
+use nboom_results::{HDF5_FILE, Kept, PARQUET_FILES, SUMMARY_FILE, make_file};
 use nboom_tables::{Format, Run, TablesError};
 
 use crate::{CliError, choice};
@@ -26,6 +26,10 @@ pub struct TablesArgs {
     /// Folder for the files, created if needed; by default DIR with -tables at its end.
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
+
+    /// Replace files of these names if they are there.
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// Writes the tables of a run, and returns the names of the files for standard output.
@@ -36,6 +40,13 @@ pub(crate) fn tables(args: &TablesArgs) -> Result<String, CliError> {
         Some(folder) => folder.clone(),
         None => beside(&args.directory)?,
     };
+    if folder.join(SUMMARY_FILE).exists() {
+        return Err(CliError::AmongResults { path: folder });
+    }
+    let there = || names(&args.formats).map(|name| folder.join(name)).find(|path| path.exists());
+    if let Some(path) = there().filter(|_| !args.force) {
+        return Err(CliError::WouldReplace { path });
+    }
     let mut names = String::new();
     for format in &args.formats {
         for output in run.outputs(*format)? {

@@ -185,7 +185,12 @@ fn bad_sections_are_named() {
         (
             "webs",
             json!([[1, 3]]),
-            "webs: found a key without meaning, expected one of id, kind, R, t, vertices, thickness, P, Q, name, tags, expect",
+            "webs: found a key without meaning, expected one of id, kind, P, Q, name, tags, expect, vertices, thickness",
+        ),
+        (
+            "R",
+            json!(3.0),
+            "R: found a key without meaning, expected one of id, kind, P, Q, name, tags, expect, vertices, thickness",
         ),
         ("P", json!([1, 2]), "P: found [1,2], expected three components"),
         ("Q", json!([1, 2, null]), "Q 3: found nothing, expected a number"),

@@ -96,6 +96,28 @@ fn options_given_now_take_the_place_of_recorded_ones() {
 }
 
 #[test]
+fn an_option_given_now_takes_the_place_of_one_that_it_excludes() {
+    let place = Place::new();
+    let run = |from: &str, into: &str, options: &[&str]| {
+        nboom(&place, &[&["run", from, "-o", into], options].concat());
+        record(&place, into)["options"].clone()
+    };
+    let times = run("boom.nml", "times", &["--times", "0.25,1"]);
+    assert_eq!(times["times"], "0.25,1");
+    let samples = run("times/run.json", "samples", &["--samples", "5"]);
+    assert_eq!((&samples["times"], &samples["samples"]), (&Value::Null, &"5".into()));
+    let times = run("samples/run.json", "again", &["--times", "0.25,1"]);
+    assert_eq!((&times["times"], &times["samples"]), (&"0.25,1".into(), &Value::Null));
+    let sample = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/n-boom-1970.nml");
+    let none = run(sample, "none", &["--no-stresses", "--listing"]);
+    assert_eq!(none["no-stresses"], true);
+    let some = run("none/run.json", "some", &["--report-signs"]);
+    assert_ne!(some["no-stresses"], true);
+    // What excludes nothing stays.
+    assert_eq!((&some["report-signs"], &some["listing"]), (&true.into(), &true.into()));
+}
+
+#[test]
 fn parameters_are_repeated_and_changed_like_options() {
     let place = Place::new();
     assert_eq!(code(&place.nboom(&["new", "wing"])), 0);

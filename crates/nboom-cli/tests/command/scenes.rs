@@ -8,7 +8,7 @@ use nboom_results::StatesWriter;
 use nboom_sim::{Options, Path as RunPath, Recorder, Snapshot, simulate};
 
 use crate::json_schema::JsonSchema;
-use crate::{Place, code, stderr, stdout};
+use crate::{Place, code, refused, stderr, stdout};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -193,6 +193,11 @@ fn every_kind_of_new_scene_runs() {
         let again = place.nboom(&["new", kind]);
         assert_eq!(code(&again), 2);
         assert!(stderr(&again).contains("-o names another one"), "{}", stderr(&again));
+    }
+    // Under these names nobody would read it as what it is.
+    for name in ["scene.nml", "scene", "scene.urdf"] {
+        refused(&place.nboom(&["new", "boom", "-o", name]), 2, &[name, "a scene NAME.toml"]);
+        assert!(!place.path(name).exists());
     }
 }
 

@@ -169,6 +169,24 @@ fn the_command_line_chooses_columns_degrees_and_times() {
 }
 
 #[test]
+fn names_with_commas_and_blanks_are_columns_too() {
+    let place = Place::new();
+    let text = fs::read_to_string(MAST).expect("an example");
+    let scene: Value = toml::from_str(&text).expect("TOML");
+    let name = scene["body"][0]["name"].as_str().expect("a name");
+    for odd in ["a,b", "  sp  ", "x, omega"] {
+        let quoted = |name: &str| format!("\"{name}\"");
+        place.write("odd.toml", &text.replace(&quoted(name), &quoted(odd)));
+        let column = format!("beta of {odd}");
+        let options = ["--columns", &column, "--columns", "omega_x,v_x"];
+        run(&place, "odd.toml", "odd", &options);
+        let header = rows(&place.path("odd/output.csv"))[0].clone();
+        assert_eq!(header, "t,beta_1_1,omega_x,v_x", "{odd}");
+        fs::remove_dir_all(place.path("odd")).expect("it is there");
+    }
+}
+
+#[test]
 fn columns_and_times_that_nobody_has_are_refused() {
     let place = Place::new();
     assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
