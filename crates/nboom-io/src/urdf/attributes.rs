@@ -3,6 +3,7 @@
 use roxmltree::{Attribute, Node};
 
 use super::left_out::LeftOut;
+use super::namespace::{is_foreign, tag};
 use super::reader::Reader;
 use crate::diagnostic::quoted;
 use crate::scene::suggest;
@@ -40,7 +41,6 @@ impl Known {
     }
 
     fn contains(&self, attribute: &Attribute<'_, '_>) -> bool {
-        // Those of a namespace are for the program that it belongs to.
         attribute.namespace().is_some()
             || self.read.contains(&attribute.name())
             || self.besides.contains(&attribute.name())
@@ -79,18 +79,18 @@ impl<'d> Reader<'_, 'd, '_> {
         let (name, at) = (part.tag_name().name(), part.range().start);
         let owner = part.parent().map_or("", |owner| owner.tag_name().name());
         let [read, besides] = parts(owner);
-        if read.contains(&name) {
+        let is_foreign = is_foreign(&part);
+        if read.contains(&name) && !is_foreign {
             return true;
         }
-        // Those of a namespace are for the program that it belongs to.
-        let is_foreign = part.tag_name().namespace().is_some() || besides.contains(&name);
-        match suggest::nearest(name, read.iter().copied()).filter(|_| !is_foreign) {
+        let is_known = is_foreign || besides.contains(&name);
+        match suggest::nearest(name, read.iter().copied()).filter(|_| !is_known) {
             Some(meant) => {
                 let found = format!("element {} in `{owner}`", quoted(name));
                 let expected = format!("{}; {}", listed(read, "and"), suggest::question(meant));
                 self.error_at(at, meant, found, expected);
             }
-            None => left_out.element(name, at),
+            None => left_out.element(&tag(part), at),
         }
         false
     }
@@ -109,7 +109,7 @@ impl<'d> Reader<'_, 'd, '_> {
         }
         let says = |part: &Node<'_, '_>| match part.text() {
             Some(text) if part.is_text() => !text.trim().is_empty(),
-            _ => part.is_element(),
+            _ => part.is_element() && !is_foreign(part),
         };
         if known.is_leaf && node.children().any(|part| says(&part)) {
             let expected = format!("{} as attributes", listed(known.read, "or"));

@@ -5,6 +5,7 @@ use nboom_scalar::Vec3;
 use roxmltree::{Document, Node};
 
 use super::left_out::{Kind, LeftOut};
+use super::namespace::{elements, value};
 use super::reader::{Inertial, Placement, Reader};
 use crate::axes::unit_vector;
 use crate::diagnostic::quoted;
@@ -72,7 +73,7 @@ impl<'d> Robot<'d> {
         reader.check_attributes(root);
         let mut robot = Self {
             at: root.range().start,
-            name: root.attribute("name").filter(|name| !name.trim().is_empty()),
+            name: value(root, "name").filter(|name| !name.trim().is_empty()),
             links: Vec::new(),
             joints: Vec::new(),
             left_out: LeftOut::default(),
@@ -124,16 +125,16 @@ impl<'d> Robot<'d> {
         let motion = motion(node, name.unwrap_or_default(), reader);
         if let (Some(name), Some(parent), Some(child), Some(motion)) = (name, parent, child, motion)
         {
-            let mimic = node.children().find(|part| part.has_tag_name("mimic"));
+            let mimic = elements(node).find(|part| part.tag_name().name() == "mimic");
             let mimics =
-                mimic.and_then(|mimic| Some((mimic.attribute("joint")?, mimic.range().start)));
+                mimic.and_then(|mimic| Some((value(mimic, "joint")?, mimic.range().start)));
             let joint = JointElement { name, at, motion, parent, child, placement, mimics };
             self.joints.push(joint);
         }
     }
 
     fn note_left_out(&mut self, node: Node<'d, 'd>, name: &str, reader: &mut Reader<'_, 'd, '_>) {
-        let has_limits = matches!(node.attribute("type"), Some("revolute" | "prismatic"));
+        let has_limits = matches!(value(node, "type"), Some("revolute" | "prismatic"));
         for part in node.children().filter(Node::is_element) {
             let (tag, at) = (part.tag_name().name(), part.range().start);
             match tag {

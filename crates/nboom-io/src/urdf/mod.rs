@@ -5,6 +5,7 @@ mod crowded;
 mod left_out;
 mod lines;
 mod links;
+mod namespace;
 mod reader;
 mod tree;
 

@@ -5,6 +5,7 @@ use nboom_scalar::{Mat3, Sym3, Vec3};
 use roxmltree::Node;
 
 use super::lines::Lines;
+use super::namespace::{attribute, elements, value};
 use crate::diagnostic::{Report, quoted};
 
 /// Reads elements of a document, and reports what is wrong with them.
@@ -63,7 +64,7 @@ impl<'d> Reader<'_, 'd, '_> {
 
     /// The child of this tag, with attributes that it has; a second one is an error.
     pub fn child(&mut self, node: Node<'d, 'd>, tag: &str) -> Option<Node<'d, 'd>> {
-        let mut children = node.children().filter(|child| child.has_tag_name(tag));
+        let mut children = elements(node).filter(|child| child.tag_name().name() == tag);
         let first = children.next();
         if let Some(second) = children.next() {
             self.error(second, tag, &format!("a second `{tag}`"), "one");
@@ -76,7 +77,7 @@ impl<'d> Reader<'_, 'd, '_> {
 
     /// An attribute that must be there.
     pub fn text(&mut self, node: Node<'d, 'd>, name: &str) -> Option<&'d str> {
-        let found = node.attribute(name);
+        let found = value(node, name);
         if found.is_none() {
             let tag = node.tag_name().name();
             self.error(node, name, &format!("`{tag}` without `{name}`"), "one");
@@ -86,7 +87,7 @@ impl<'d> Reader<'_, 'd, '_> {
 
     /// The numbers of an attribute, if it is there.
     pub fn numbers<const N: usize>(&mut self, node: Node<'d, 'd>, name: &str) -> Option<[f64; N]> {
-        let attribute = node.attribute_node(name)?;
+        let attribute = attribute(node, name)?;
         let words: Vec<&str> = attribute.value().split_ascii_whitespace().take(N + 1).collect();
         let number = |word: &&str| word.parse::<f64>().ok().filter(|x| x.is_finite());
         let numbers: Option<Vec<f64>> = words.iter().map(number).collect();

@@ -210,3 +210,49 @@ fn a_robot_has_the_name_of_a_folder() {
         assert_eq!(again.expect("a scene").scene.name, expected);
     }
 }
+
+fn warned(file: &SceneFile) -> Vec<&str> {
+    file.warnings.iter().map(|warning| warning.found.as_str()).collect()
+}
+
+#[test]
+fn elements_and_attributes_of_a_namespace_are_not_read() {
+    let foreign = "<gz:link name=\"ghost\"/><gz:joint name=\"ghost\" type=\"fixed\"/>";
+    let parts = "<gz:origin xyz=\"9 9 9\"/><origin gz:xyz=\"8 8 8\" xyz=\"1 2 3\"><gz:pose/></origin>\
+                 <gz:axis xyz=\"0 0 1\"/><gz:mimic joint=\"ghost\"/><gz:dynamics damping=\"5\"/>";
+    let joint = joint("continuous", "base", "arm", parts);
+    let joint = joint.replacen("name=", "gz:name=\"ghost\" name=", 1);
+    let body = BODY.replace("<mass", "<gz:mass value=\"-1\"/><gz:inertia/><mass gz:value=\"7\"");
+    let text = format!(
+        "<robot name=\"arm\" xmlns:gz=\"http://gazebosim.org/schema\"><link name=\"base\">\
+         <gz:inertial/>{body}</link><link name=\"arm\">{BODY}</link>{joint}{foreign}</robot>"
+    );
+    let file = parse_robot("arm.urdf", &text, "file", Base::Free).expect("a robot");
+    let scene = &file.scene;
+    assert_eq!((scene.main_body.mass, scene.bodies.len()), (2.0, 1));
+    assert!(is_near(scene.bodies[0].mount.point, [1.0, 2.0, 3.0]));
+    assert!(is_near(scene.bodies[0].axis, [1.0, 0.0, 0.0]));
+    assert_eq!(scene.bodies[0].hinge.dashpot.rate_linear, 0.0);
+    let left_out = "gz:axis, gz:dynamics, gz:inertia, gz:inertial, gz:joint, gz:link, gz:mass, gz:mimic, \
+                    gz:origin";
+    assert_eq!(warned(&file), [left_out]);
+}
+
+#[test]
+fn a_robot_may_have_a_namespace() {
+    let joint = joint("revolute", "base", "arm", "<origin xyz=\"1 2 3\"/><axis xyz=\"0 0 1\"/>");
+    let plain = robot(&joint);
+    for (name, prefix) in [("xmlns", ""), ("xmlns:urdf", "urdf:")] {
+        let links = ["base", "arm"].map(|link| format!("<link name=\"{link}\">{BODY}</link>"));
+        let inner = format!("{}{joint}", links.concat());
+        let inner = inner.replace("</", "\n/").replace('<', &format!("<{prefix}"));
+        let inner = inner.replace("\n/", &format!("</{prefix}"));
+        let text = format!(
+            "<{prefix}robot name=\"arm\" {name}=\"http://www.ros.org\">{inner}<gazebo xmlns=\"\"/>\
+             </{prefix}robot>"
+        );
+        let file = parse_robot("arm.urdf", &text, "file", Base::Free).expect("a robot");
+        assert_eq!(*file.scene, *plain.scene);
+        assert_eq!(warned(&file), ["gazebo"]);
+    }
+}
