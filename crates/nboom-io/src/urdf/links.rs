@@ -5,7 +5,7 @@ use nboom_scalar::Vec3;
 use roxmltree::{Document, Node};
 
 use super::left_out::{Kind, LeftOut};
-use super::namespace::{elements, value};
+use super::namespace::{elements, is_macro, tag, value};
 use super::reader::{Inertial, Placement, Reader};
 use crate::axes::unit_vector;
 use crate::diagnostic::quoted;
@@ -70,6 +70,11 @@ impl<'d> Robot<'d> {
             reader.error(root, "robot", &found, "the root element `robot` of URDF");
             return None;
         }
+        report_macros(root, reader);
+        if !reader.report.errors.is_empty() {
+            // The rest is known only when xacro has run.
+            return None;
+        }
         reader.check_attributes(root);
         let mut robot = Self {
             at: root.range().start,
@@ -83,10 +88,6 @@ impl<'d> Robot<'d> {
                 break;
             }
             match node.tag_name().name() {
-                _ if node.tag_name().namespace().is_some_and(|of| of.contains("xacro")) => {
-                    let found = format!("macro {}", quoted(node.tag_name().name()));
-                    reader.error(node, "robot", &found, "links and joints, as xacro writes them");
-                }
                 _ if !reader.is_read(node, &mut robot.left_out) => {}
                 "link" => robot.read_link(node, reader),
                 _ => robot.read_joint(node, reader),
@@ -159,6 +160,17 @@ impl<'d> Robot<'d> {
                 _ => {}
             }
         }
+    }
+}
+
+fn report_macros<'d>(root: Node<'d, 'd>, reader: &mut Reader<'_, 'd, '_>) {
+    for node in root.descendants().filter(|node| is_macro(*node)) {
+        if reader.report.is_full() {
+            break;
+        }
+        let owner = node.parent_element().unwrap_or(root).tag_name().name();
+        let found = format!("macro {}", quoted(&tag(node)));
+        reader.error(node, owner, &found, "a robot without macros, as xacro writes it");
     }
 }
 

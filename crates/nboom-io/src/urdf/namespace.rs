@@ -8,6 +8,14 @@ pub(super) fn is_foreign(part: &Node<'_, '_>) -> bool {
     part.parent().is_some_and(|owner| owner.tag_name().namespace() != part.tag_name().namespace())
 }
 
+/// Whether an element is a macro of xacro. Addresses of its namespace have changed, and xacro itself goes by the prefix.
+pub(super) fn is_macro(node: Node<'_, '_>) -> bool {
+    let of_xacro = |namespace: &str| {
+        namespace.contains("xacro") || node.lookup_prefix(namespace) == Some("xacro")
+    };
+    node.is_element() && node.tag_name().namespace().is_some_and(of_xacro)
+}
+
 /// The elements in this one that are no other program's.
 pub(super) fn elements<'d>(owner: Node<'d, 'd>) -> impl Iterator<Item = Node<'d, 'd>> {
     owner.children().filter(|part| part.is_element() && !is_foreign(part))
