@@ -8,6 +8,9 @@ use super::reader::Reader;
 use crate::diagnostic::quoted;
 use crate::scene::suggest;
 
+/// Attributes of `dynamics` by which other programs brake joints or make them springy.
+pub(super) const DYNAMICS_OF_OTHERS: [&str; 4] = ["D", "K", "mu_coulomb", "mu_viscous"];
+
 /// The attributes of an element.
 struct Known {
     read: &'static [&'static str],
@@ -27,7 +30,7 @@ impl Known {
             "parent" | "child" => (&["link"], &[]),
             "origin" => (&["xyz", "rpy"], &[]),
             "axis" => (&["xyz"], &[]),
-            "dynamics" => (&["damping", "friction"], &["D", "K", "mu_coulomb", "mu_viscous"]),
+            "dynamics" => (&["damping", "friction"], &DYNAMICS_OF_OTHERS),
             "limit" => (
                 &["lower", "upper", "effort", "velocity"],
                 &["acceleration", "deceleration", "jerk"],

@@ -7,8 +7,8 @@ use super::reader::Reader;
 /// What is left out of a robot, by kind.
 #[derive(Default)]
 pub(super) struct LeftOut {
-    /// For each kind of number, the byte at which it first stands and the joints that have it.
-    of_joints: BTreeMap<Kind, (usize, Vec<String>)>,
+    /// For each kind, and what of it joints have, the byte at which it first stands and these joints.
+    of_joints: BTreeMap<(Kind, String), (usize, Vec<String>)>,
     /// For each tag, the byte at which it first stands and how often.
     elements: BTreeMap<String, (usize, usize)>,
 }
@@ -17,24 +17,26 @@ pub(super) struct LeftOut {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
     Limits,
-    Friction,
+    Dynamics,
     Mimicry,
 }
 
 impl Kind {
-    /// Its tag, what it is of joints, and how they are taken.
-    fn words(self) -> (&'static str, &'static str, &'static str) {
+    /// Its tag, and how it is taken.
+    fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::Limits => ("limit", "limits", "none: joints move on beyond them"),
-            Self::Friction => ("dynamics", "friction", "none: joints move without it"),
-            Self::Mimicry => ("mimic", "mimicry", "none: each joint moves by itself"),
+            Self::Limits => ("limit", "none: joints move on beyond them"),
+            Self::Dynamics => ("dynamics", "`damping` alone: joints move without the rest"),
+            Self::Mimicry => ("mimic", "none: each joint moves by itself"),
         }
     }
 }
 
 impl LeftOut {
-    pub fn of_joint(&mut self, kind: Kind, at: usize, joint: &str) {
-        let (_, joints) = self.of_joints.entry(kind).or_insert((at, Vec::new()));
+    /// What a joint has of a kind, in the words of the warning.
+    pub fn of_joint(&mut self, kind: Kind, what: &str, at: usize, joint: &str) {
+        let of_kind = self.of_joints.entry((kind, what.to_owned()));
+        let (_, joints) = of_kind.or_insert((at, Vec::new()));
         joints.push(joint.replace(char::is_control, "\u{fffd}"));
     }
 
@@ -42,12 +44,12 @@ impl LeftOut {
         self.elements.entry(tag.to_owned()).or_insert((at, 0)).1 += 1;
     }
 
-    /// A warning for each kind, with all joints, and one with all elements.
+    /// A warning for each kind and what joints have of it, with all of these, and one with all elements.
     pub fn tell(&self, Reader { lines, report }: &mut Reader<'_, '_, '_>) {
-        for (kind, (at, joints)) in &self.of_joints {
-            let (tag, of_joints, taken) = kind.words();
+        for ((kind, what), (at, joints)) in &self.of_joints {
+            let (tag, taken) = kind.words();
             let joints = joints.join(", ");
-            report.warn(lines.position(*at), tag, format!("{of_joints} of {joints}"), taken);
+            report.warn(lines.position(*at), tag, format!("{what} of {joints}"), taken);
         }
         let Some((first, (at, _))) = self.elements.iter().min_by_key(|(_, (at, _))| *at) else {
             return;

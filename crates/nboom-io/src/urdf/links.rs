@@ -4,6 +4,7 @@ use nboom_model::Joint;
 use nboom_scalar::Vec3;
 use roxmltree::{Document, Node};
 
+use super::attributes::DYNAMICS_OF_OTHERS;
 use super::left_out::{Kind, LeftOut};
 use super::namespace::{elements, is_macro, tag, value};
 use super::reader::{Inertial, Placement, Reader};
@@ -145,16 +146,21 @@ impl<'d> Robot<'d> {
                     // Not taken over, but told if they are none.
                     let _: [Option<[f64; 1]>; 2] =
                         ["lower", "upper"].map(|end| reader.numbers(part, end));
-                    self.left_out.of_joint(Kind::Limits, at, name);
+                    self.left_out.of_joint(Kind::Limits, "limits", at, name);
                 }
                 "mimic" => {
                     reader.check_attributes(part);
-                    self.left_out.of_joint(Kind::Mimicry, at, name);
+                    self.left_out.of_joint(Kind::Mimicry, "mimicry", at, name);
                 }
                 "dynamics" => {
-                    let friction = reader.numbers(part, "friction");
-                    if friction.is_some_and(|[friction]| friction != 0.0) {
-                        self.left_out.of_joint(Kind::Friction, at, name);
+                    let _: Option<[f64; 1]> = reader.numbers(part, "friction");
+                    let has = |attribute: &&str| {
+                        value(part, attribute).is_some_and(|text| text.trim().parse() != Ok(0.0))
+                    };
+                    let left_out: Vec<&str> =
+                        ["friction"].into_iter().chain(DYNAMICS_OF_OTHERS).filter(has).collect();
+                    if !left_out.is_empty() {
+                        self.left_out.of_joint(Kind::Dynamics, &left_out.join(", "), at, name);
                     }
                 }
                 _ => {}

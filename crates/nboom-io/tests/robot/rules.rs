@@ -256,3 +256,23 @@ fn a_robot_may_have_a_namespace() {
         assert_eq!(warned(&file), ["gazebo"]);
     }
 }
+
+#[test]
+fn dynamics_that_are_left_out_are_named() {
+    let dynamics = "damping=\"0.2\" D=\"5\" K=\"3\" mu_viscous=\"4\" mu_coulomb=\"2\"";
+    let second = "friction=\"0\" D=\"0\" K=\"stiff\" mu_coulomb=\"0.0\"";
+    let file = robot(&format!(
+        "<link name=\"hand\">{BODY}</link><link name=\"tool\">{BODY}</link>{}{}{}",
+        joint("continuous", "base", "arm", &format!("<dynamics {dynamics}/>")),
+        joint("continuous", "arm", "hand", &format!("<dynamics {dynamics}/>")),
+        joint("continuous", "hand", "tool", &format!("<dynamics {second}/>")),
+    ));
+    assert_eq!(
+        warned(&file),
+        ["D, K, mu_coulomb, mu_viscous of base arm, arm hand", "K of hand tool"]
+    );
+    assert_eq!(file.warnings[0].symbol, "dynamics");
+    assert_eq!(file.warnings[0].expected, "`damping` alone: joints move without the rest");
+    let rates = file.scene.bodies.iter().map(|body| body.hinge.dashpot.rate_linear);
+    assert_eq!(rates.collect::<Vec<_>>(), [-0.2, -0.2, 0.0]);
+}
