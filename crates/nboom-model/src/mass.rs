@@ -5,6 +5,15 @@ use crate::shown;
 /// Share of the largest principal moment by which an inertia may miss the triangle inequality.
 pub const TRIANGLE_TOLERANCE: f64 = 1e-9;
 
+/// Share of the largest entry of the inertia about the origin, J + m r², below which moments about the mass centre
+/// may have any sign.
+///
+/// The equations take J + m r². Each entry of this sum is rounded by up to ½ ε of it; no symmetric 3×3 matrix has a
+/// moment above three times its largest entry, so its moments are rounded by up to 1½ ε of the largest. What is less in
+/// J is lost there, but for moments about the line from the origin to the mass centre. These decide nothing either: a
+/// run refuses a hinge about which there is less than 64 ε of all inertia at it.
+const ROUNDING_ABOUT_ORIGIN: f64 = 2.0 * f64::EPSILON;
+
 /// Mass, mass centre and inertia of one rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
@@ -145,8 +154,9 @@ impl MassProperties {
             return Some(MassDefect::Overflow { mass: self.mass, distance });
         }
         let moments = self.principal_moments();
-        let slack = TRIANGLE_TOLERANCE * moments[2].abs();
-        if moments[0] < -slack || moments[2] < 0.0 {
+        let slack = TRIANGLE_TOLERANCE * moments[2].abs()
+            + ROUNDING_ABOUT_ORIGIN * about_origin.about_origin.largest_entry();
+        if moments[0] < -slack {
             return Some(MassDefect::NegativeMoment(moments[0]));
         }
         if moments[2] - moments[1] - moments[0] > slack {
@@ -178,6 +188,30 @@ mod tests {
     #[test]
     fn a_point_mass_is_a_body() {
         assert_eq!(with_inertia(0.0, 0.0, 0.0), None);
+    }
+
+    /// The head of a humanoid, whose tensor is zero but for rounding, and what its mass centre lets pass.
+    #[test]
+    fn a_point_mass_may_have_rounding_of_its_moments_about_the_origin() {
+        let head = |x, share: f64, of: Sym3<f64>| {
+            let (mass, center) = (1.33687, Vec3::new(x, -0.1108, 0.0));
+            let about_origin = mass * center.dot(center);
+            MassProperties::new(mass, center, of * (share * f64::EPSILON * about_origin)).defect()
+        };
+        let product = Sym3 { xz: 1.0, ..Sym3::zero() };
+        let xz = Sym3 { xz: 2.40741e-35, ..Sym3::zero() };
+        let of_file = MassProperties::new(1.33687, Vec3::new(0.0185, -0.1108, 0.0), xz);
+        assert_eq!(of_file.defect(), None);
+        let one_moment = Sym3::diagonal(0.0, 0.0, 1.0);
+        let negative = Sym3::diagonal(-1.0, -1.0, -1.0);
+        for of in [product, one_moment, negative] {
+            assert_eq!(head(0.0185, 1.0, of), None);
+            assert!(head(0.0185, 10.0, of).is_some());
+        }
+        // Its moments about itself are all that a body has that is not away from the origin.
+        for of in [product, one_moment, negative] {
+            assert!(MassProperties::new(1.33687, Vec3::zero(), of * 2.4e-35).defect().is_some());
+        }
     }
 
     #[test]

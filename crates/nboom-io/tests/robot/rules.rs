@@ -276,3 +276,16 @@ fn dynamics_that_are_left_out_are_named() {
     let rates = file.scene.bodies.iter().map(|body| body.hinge.dashpot.rate_linear);
     assert_eq!(rates.collect::<Vec<_>>(), [-0.2, -0.2, 0.0]);
 }
+
+/// As in a file of a CAD program.
+#[test]
+fn rounding_of_a_point_mass_is_no_defect() {
+    let head = "<inertial><origin xyz=\"0.0185 -0.1108 0\"/><mass value=\"1.33687\"/>\
+        <inertia ixx=\"0\" ixy=\"0\" ixz=\"2.40741e-35\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>";
+    let file = robot(&format!(
+        "<link name=\"head\">{head}</link>{}{}",
+        joint("continuous", "base", "arm", ""),
+        joint("continuous", "arm", "head", "")
+    ));
+    assert_eq!(file.scene.bodies[1].mass_properties.mass, 1.33687);
+}
