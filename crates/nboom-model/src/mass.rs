@@ -140,7 +140,7 @@ impl MassProperties {
     }
 
     /// The first defect of the other numbers; the mass must be finite and not negative.
-    pub(crate) fn defect_apart_from_mass(&self) -> Option<MassDefect> {
+    pub fn defect_apart_from_mass(&self) -> Option<MassDefect> {
         if !self.center_of_mass.is_finite() {
             return Some(MassDefect::CenterOfMass(self.center_of_mass));
         }

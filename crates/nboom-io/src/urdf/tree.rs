@@ -222,8 +222,8 @@ fn known<'n>(what: &str, name: &str, names: impl Iterator<Item = &'n str>) -> St
 /// A rigid part: links that are fixed to each other, as one body in the frame of the first.
 struct Part {
     first: usize,
-    /// The links that say something of their mass.
-    links: Vec<usize>,
+    /// The links that say something of their mass, each in the frame of the first.
+    links: Vec<(usize, Inertial)>,
     joined: MassProperties,
     /// Whether another part hangs on it, and the ground holds it if it is the root.
     carries: bool,
@@ -236,39 +236,63 @@ impl Part {
     }
 
     fn add(&mut self, robot: &Robot<'_>, welded: &Welded) {
-        let Some(Inertial { body, .. }) = &robot.links[welded.link].inertial else { return };
-        self.joined = self.joined.joined_with(&welded.placement.of_body(body));
-        self.links.push(welded.link);
+        let Some(inertial) = &robot.links[welded.link].inertial else { return };
+        let body = welded.placement.of_body(&inertial.body);
+        self.joined = self.joined.joined_with(&body);
+        self.links.push((welded.link, Inertial { body, ..*inertial }));
     }
 
     /// Reports what no body is; a part on which another one hangs may be without mass.
     fn check(&self, robot: &Robot<'_>, reader: &mut Reader<'_, '_, '_>) {
-        let link = &robot.links[self.first];
-        if self.joined.is_nothing() {
-            if !self.carries {
-                let found = format!("link {} without mass", quoted(link.name));
-                let expected = "a mass, of the link or of one that is fixed to it";
-                reader.error_at(link.at, "link", found, expected);
-            }
+        let mut are_right = true;
+        for (link, inertial) in &self.links {
+            are_right &= self.check_link(robot.links[*link].name, inertial, reader);
+        }
+        if !are_right {
             return;
         }
-        let Some(defect) = self.joined.defect() else { return };
-        let own = |&link: &usize| {
-            let link = &robot.links[link];
-            let inertial = link.inertial.as_ref()?;
-            let defect = inertial.body.defect()?;
-            let (at, tag) = match defect {
-                MassDefect::Mass(_) | MassDefect::Overflow { .. } => (inertial.mass_at, "mass"),
-                _ => (inertial.inertia_at, "inertia"),
-            };
-            Some((at, tag, link, defect))
+        let (name, at) = (quoted(robot.links[self.first].name), robot.links[self.first].at);
+        if self.joined.is_nothing() {
+            if !self.carries {
+                let found = format!("link {name} without mass");
+                let expected = "a mass, of the link or of one that is fixed to it";
+                reader.error_at(at, "link", found, expected);
+            }
+        } else if let Some(defect) = self.joined.defect() {
+            let (found, expected) = phrases(&defect.to_string());
+            reader.error_at(at, "inertial", format!("{found} of link {name}"), expected);
+        }
+    }
+
+    /// Whether a link by itself may be of this part. Files of robots that others use have links with inertia but no
+    /// mass, and such that miss the triangle inequality; where the part is a body, these are warnings.
+    fn check_link(&self, name: &str, link: &Inertial, reader: &mut Reader<'_, '_, '_>) -> bool {
+        let Inertial { body, mass_at, inertia_at } = link;
+        let defect = match body.defect().filter(|_| !body.is_nothing()) {
+            Some(massless @ MassDefect::Mass(0.0)) => {
+                body.defect_apart_from_mass().or(Some(massless))
+            }
+            defect => defect,
         };
-        // What is wrong with one of several links is wrong with all.
-        let own = self.links.iter().find_map(own);
-        let (at, tag, link, defect) = own.unwrap_or((link.at, "inertial", link, defect));
+        let Some(defect) = defect else { return true };
+        let (at, tag) = match defect {
+            MassDefect::Mass(_) | MassDefect::Overflow { .. } => (mass_at, "mass"),
+            _ => (inertia_at, "inertia"),
+        };
         let (found, expected) = phrases(&defect.to_string());
-        let found = format!("{found} of link {}", quoted(link.name));
-        reader.error_at(at, tag, found, expected);
+        let found = format!("{found} of link {}", quoted(name));
+        let is_right = match defect {
+            MassDefect::Mass(0.0) => self.joined.mass > 0.0,
+            MassDefect::Triangle(_) => self.joined.defect().is_none(),
+            _ => false,
+        };
+        if is_right {
+            let expected = format!("{expected}: added as it is to the links that it is fixed to");
+            reader.report.warn(reader.lines.position(*at), tag, found, expected);
+        } else {
+            reader.error_at(*at, tag, found, expected);
+        }
+        is_right
     }
 }
 

@@ -289,3 +289,33 @@ fn rounding_of_a_point_mass_is_no_defect() {
     ));
     assert_eq!(file.scene.bodies[1].mass_properties.mass, 1.33687);
 }
+
+#[test]
+fn links_of_a_body_may_miss_the_triangle_inequality_or_mass_with_a_warning() {
+    let foot = "<inertial><mass value=\"0\"/>\
+        <inertia ixx=\"0.5\" ixy=\"0\" ixz=\"0\" iyy=\"0.5\" iyz=\"0\" izz=\"0.5\"/></inertial>";
+    let frame = foot.replace("0.5", "0");
+    let camera = foot
+        .replace("\"0\"/><in", "\"1\"/><in")
+        .replacen("0.5", "0.01", 1)
+        .replacen("0.5", "0.01", 1);
+    let file = robot(&format!(
+        "<link name=\"foot\">{foot}</link><link name=\"frame\">{frame}</link>\
+         <link name=\"camera\">{camera}</link>{}{}{}{}",
+        joint("continuous", "base", "arm", ""),
+        joint("fixed", "arm", "foot", ""),
+        joint("fixed", "arm", "frame", ""),
+        joint("fixed", "base", "camera", "")
+    ));
+    let body = &file.scene.bodies[0].mass_properties;
+    assert_eq!((body.mass, body.inertia.xx, body.inertia.yy), (2.0, 1.5, 2.5));
+    assert_eq!((file.scene.main_body.mass, file.scene.main_body.inertia.xx), (3.0, 1.01));
+    let told =
+        ["mass 0 of link `foot`", "principal moments of inertia 0.01, 0.01, 0.5 of link `camera`"];
+    assert_eq!(warned(&file), told);
+    let expected = "a positive finite mass: added as it is to the links that it is fixed to";
+    assert_eq!(
+        (file.warnings[0].symbol.as_str(), file.warnings[0].expected.as_str()),
+        ("mass", expected)
+    );
+}
