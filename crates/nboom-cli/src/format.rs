@@ -1,5 +1,7 @@
 //! Numbers and columns for people to read.
 
+use nboom_model::Scene;
+use nboom_results::time_digits;
 use nboom_scalar::Vec3;
 use nboom_verify::{Label, NotCovered};
 
@@ -14,6 +16,11 @@ pub(crate) fn short(value: f64, digits: usize) -> String {
         Some(places) => trimmed(&format!("{value:.*}", places as usize)),
         None => format!("{}e{exponent}", trimmed(mantissa)),
     }
+}
+
+/// A time of a scene's run with at least so many digits.
+pub(crate) fn moment(scene: &Scene, time: f64, least: usize) -> String {
+    short(time, time_digits(time, [scene.initial.time, scene.end_time], least))
 }
 
 fn trimmed(text: &str) -> String {

@@ -6,7 +6,7 @@ use nboom_sim::{CodeOfRun, Digits, Event, EventKind, LockUpImpulse, Reference, S
 use nboom_strength::{Cause, HingeQuantity, Limit, Worst, WorstHingeLoad};
 
 use crate::certify::Certified;
-use crate::format::{count, short};
+use crate::format::{count, moment, short};
 use crate::verdict;
 
 /// Most events that are printed; the file has all.
@@ -107,7 +107,7 @@ impl Account<'_> {
         let h = |totals: &Totals| totals.angular_momentum_inertial.norm();
         let p = |totals: &Totals| totals.linear_momentum_inertial.norm();
         let mut cells = vec![
-            short(event.time, 10),
+            moment(self.scene, event.time, 10),
             event.kind.name().replace('_', " "),
             event.hinge.map_or(String::new(), |i| self.scene.label(i).to_string()),
             event.impulse.map_or(String::new(), |impulse| self.impulse(event.hinge, impulse)),
@@ -133,7 +133,7 @@ impl Account<'_> {
             Joint::Revolute => units.angular_momentum(),
             Joint::Prismatic => units.momentum(),
         };
-        let (hinge, time) = (self.scene.label(hinge), short(time, 10));
+        let (hinge, time) = (self.scene.label(hinge), moment(self.scene, time, 10));
         let impulse = short(impulse, 8);
         Some(format!("worst impulse {impulse} {unit} in hinge {hinge}, at {time}"))
     }
@@ -145,7 +145,7 @@ impl Account<'_> {
             let has_it = |told: &Worst| told.margins.on_yield == Some(margin);
             let is_told = limit == Limit::Yield && self.worst.station().is_some_and(has_it);
             let (margin, limit, station) = (short(margin, 3), limit.name(), worst.station + 1);
-            let (segment, time) = (&worst.segment, short(worst.time, 10));
+            let (segment, time) = (&worst.segment, moment(self.scene, worst.time, 10));
             (!is_told).then(|| {
                 format!("least margin  {margin} to {limit} in segment {segment}, station {station}, at {time}")
             })
@@ -210,7 +210,7 @@ fn worst_line(scene: &Scene, worst: &Worst) -> String {
         short(worst.max_von_mises.stress.von_mises(), 5),
         worst.segment,
         worst.station + 1,
-        short(worst.time, 10),
+        moment(scene, worst.time, 10),
     )
 }
 

@@ -5,13 +5,13 @@ use nboom_model::{
 };
 use nboom_scalar::Vec3;
 
-use crate::format::{count, degrees, short, vector};
+use crate::format::{count, degrees, moment, short, vector};
 
 /// The content of a scene, for people to read; numbers to six digits.
 pub(crate) fn text(scene: &Scene) -> String {
     let mut lines = vec![heading(scene)];
     lines.push(format!("main body: {}", mass_properties(&scene.main_body)));
-    lines.extend(held(&scene.base).map(|held| format!("  {held}")));
+    lines.extend(held(scene).map(|held| format!("  {held}")));
     lines.extend(rotors(scene, None).map(|rotor| format!("  {rotor}")));
     let postures = [Posture::at_start(scene), Posture::locked(scene)];
     for branch in branches(scene) {
@@ -21,7 +21,7 @@ pub(crate) fn text(scene: &Scene) -> String {
         lines.push(PLACES.to_owned());
     }
     lines.extend(environment(scene));
-    let (start, end) = (short(scene.initial.time, 10), short(scene.end_time, 10));
+    let [start, end] = [scene.initial.time, scene.end_time].map(|time| moment(scene, time, 10));
     lines.push(format!("span: {start} to {end}"));
     lines.push(skipped(scene));
     lines.join("\n") + "\n"
@@ -40,14 +40,14 @@ fn mass_properties(body: &MassProperties) -> String {
     format!("mass {mass}, mass centre {center}, principal moments of inertia {a}, {b}, {c}")
 }
 
-fn held(base: &Base) -> Option<String> {
-    match base {
+fn held(scene: &Scene) -> Option<String> {
+    match &scene.base {
         Base::Free => None,
         Base::Fixed => Some("fixed to the ground".to_owned()),
         Base::Driven(drive) => {
             let point = |point: &DrivePoint| {
                 let (rate, speed) = (degrees(point.rate), short(point.speed, 6));
-                format!("{rate} and {speed} per time unit at {}", short(point.time, 6))
+                format!("{rate} and {speed} per time unit at {}", moment(scene, point.time, 6))
             };
             let points = drive.points.iter().map(point).collect::<Vec<_>>().join(", ");
             Some(format!("driven about and along {}: {points}", vector(drive.axis)))
@@ -62,7 +62,7 @@ fn rotors(scene: &Scene, body: Option<usize>) -> impl Iterator<Item = String> {
             RotorSpeed::Constant(speed) => format!("{} per time unit", degrees(*speed)),
             RotorSpeed::Table(points) => {
                 let point = |[time, speed]: &[f64; 2]| {
-                    format!("{} per time unit at {}", degrees(*speed), short(*time, 6))
+                    format!("{} per time unit at {}", degrees(*speed), moment(scene, *time, 6))
                 };
                 points.iter().map(point).collect::<Vec<_>>().join(", ")
             }
@@ -175,7 +175,7 @@ fn course(scene: &Scene, label: &HingeLabel, hinge: &Hinge) -> String {
 
 fn release(scene: &Scene, release: Release) -> String {
     match release {
-        Release::Time(time) => format!("released at time {}", short(time, 10)),
+        Release::Time(time) => format!("released at time {}", moment(scene, time, 10)),
         Release::Angle { hinge, angle } => {
             let trigger = scene.label(hinge);
             let passes = match trigger.joint {
@@ -285,12 +285,13 @@ pub(crate) fn outside(scene: &Scene, external: &External) -> String {
     let when = match &external.course {
         Course::Table(points) => {
             let ends = [points.first(), points.last()].map(|end| end.map_or(0.0, |end| end[0]));
-            let [from, to] = ends.map(|time| short(time, 10));
+            let [from, to] = ends.map(|time| moment(scene, time, 10));
             format!("by a table of {} points from {from} to {to}", points.len())
         }
         always if *always == Course::ALWAYS => "always on".to_owned(),
         Course::Pulse { on, off } => {
-            format!("on from {} to {}", short(*on, 10), short(*off, 10))
+            let [on, off] = [*on, *off].map(|time| moment(scene, time, 10));
+            format!("on from {on} to {off}")
         }
     };
     let (on, amount) = (on.unwrap_or_default(), vector(external.amount));

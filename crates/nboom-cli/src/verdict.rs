@@ -5,7 +5,7 @@ use nboom_results::WorstLoads;
 use nboom_sim::{Doubt, HingeVerdict, Miss, Summary, Verdict};
 use nboom_strength::{Limit, Worst};
 
-use crate::format::short;
+use crate::format::{moment, short};
 
 /// Hinges beyond these are only counted.
 const SHOWN: usize = 12;
@@ -42,7 +42,7 @@ fn listed(hinges: Vec<String>) -> Option<String> {
 fn locked_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     let label = scene.label(i);
     match hinge.since {
-        Some(time) => format!("{label} at {}", short(time, 10)),
+        Some(time) => format!("{label} at {}", moment(scene, time, 10)),
         None => format!("{label} from the start"),
     }
 }
@@ -57,7 +57,7 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     let told = format!("{label} {state} at {place}, locks at {}", label.coordinate(lock));
     match hinge.miss.filter(|miss| miss.by < (lock - hinge.angle).abs()) {
         Some(Miss { by, time }) => {
-            format!("{told}, nearest at {}: {} away", short(time, 6), label.coordinate(by))
+            format!("{told}, nearest at {}: {} away", moment(scene, time, 6), label.coordinate(by))
         }
         None => told,
     }
@@ -78,7 +78,7 @@ fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {
         Doubt::Missed(Miss { by, time }) => format!(
             "hinge {label} is {} from its lock angle at {} and does not lock: errors of the run may decide that",
             short(by, 2),
-            short(time, 6)
+            moment(scene, time, 6)
         ),
         Doubt::HardlyLocks(rate) => format!(
             "hinge {label} hardly locks, at a rate of {}: errors of the run may decide whether and when it locks",

@@ -92,7 +92,8 @@ impl RunDirectory {
         let events =
             open(path, EVENTS_FILE, |out| EventsWriter::new(out, labels.clone(), headings))?;
         let tables = package::tables(scene, &run);
-        let listing = run.output.listing.then(|| open_listing(path, &run, labels)).transpose()?;
+        let listing =
+            run.output.listing.then(|| open_listing(path, scene, &run, labels)).transpose()?;
         Ok(Self {
             place,
             run,
@@ -348,11 +349,13 @@ fn write_whole(directory: &Path, file: &str, text: &[u8]) -> Result<(), ResultsE
 
 fn open_listing(
     directory: &Path,
+    scene: &Scene,
     run: &RunDescription,
     hinges: Vec<HingeLabel>,
 ) -> Result<ListingWriter<Output>, ResultsError> {
     open(directory, LISTING_FILE, |out| {
-        let listing = ListingWriter::new(out, &run.scene, hinges, run.units.clone())?;
+        let span = [scene.initial.time, scene.end_time];
+        let listing = ListingWriter::new(out, &run.scene, hinges, run.units.clone(), span)?;
         Ok(listing.thinned(run.print_interval))
     })
 }

@@ -6,6 +6,9 @@ use nboom_model::{HingeLabel, Joint, UnitSystem};
 use nboom_scalar::Vec3;
 use nboom_sim::{Detail, EventKind, Snapshot};
 
+/// Digits of the numbers of the printout.
+pub(crate) const DIGITS: usize = 10;
+
 /// Unit labels: the original's capitals, and a scene's own as they are, since mN is no MN.
 pub(crate) struct Units {
     pub(crate) length: String,
@@ -55,7 +58,12 @@ impl Units {
 
 /// A number of ten digits with a signed exponent of at least two, as Fortran prints it.
 pub(crate) fn number(value: f64) -> String {
-    let text = format!("{value:.9E}");
+    number_to(value, DIGITS)
+}
+
+/// As [`number`], of so many digits.
+pub(crate) fn number_to(value: f64, digits: usize) -> String {
+    let text = format!("{value:.*E}", digits.saturating_sub(1));
     match text.split_once('E') {
         Some((digits, exponent)) => {
             let (sign, exponent) = match exponent.strip_prefix('-') {

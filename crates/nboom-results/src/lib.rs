@@ -7,7 +7,7 @@
 //! `"complete": false`. Each writer also works alone, on anything that is [`std::io::Write`].
 //!
 //! Angles in the tables are radians and numbers read back to the same `f64`; only the listing
-//! is for people, in degrees and with ten digits. Nothing is computed here but the Euler angles
+//! is for people, in degrees and with ten digits, of late times more. Nothing is computed here but the Euler angles
 //! of the listing, and no unit is converted.
 //!
 //! ```
@@ -34,6 +34,7 @@ mod ledger;
 mod listing;
 mod load_heads;
 mod lock;
+mod moment;
 mod names;
 mod number;
 mod package;
@@ -63,6 +64,7 @@ pub use kept::Kept;
 pub use kind::Kind;
 pub use listing::ListingWriter;
 pub use lock::{Holder, LOCK_FILE, Lock};
+pub use moment::time_digits;
 pub use names::{
     ENVELOPE_FILE, EVENTS_FILE, FILES, HDF5_FILE, HINGE_ENVELOPE_FILE, HINGE_LOADS_FILE,
     INSTANTS_FILE, LATCH_IMPULSES_FILE, LEDGER_FILE, LISTING_FILE, OUTPUT_FILE, PACKAGE_FILE,

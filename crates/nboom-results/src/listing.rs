@@ -4,15 +4,18 @@ use nboom_elements::Kind;
 use nboom_model::{HingeLabel, Joint, UnitSystem};
 use nboom_sim::{Detail, Event, Snapshot};
 
-use crate::layout::{Columns, Units, inertial_columns, inertial_vectors, number, row_name, title};
-use crate::{euler_angles, event_order};
+use crate::layout::{
+    Columns, DIGITS, Units, inertial_columns, inertial_vectors, number, number_to, row_name, title,
+};
+use crate::{euler_angles, event_order, time_digits};
 
 const HINGE_MOTION: Columns = Columns { first: 8, others: 20 };
 const HINGE_FORCES: Columns = Columns { first: 8, others: 30 };
 const SYSTEM: Columns = Columns { first: 6, others: 23 };
 
 /// Writes the printout in the form of the report's output, Table 18.1: a block for each output
-/// time and for each instant with events, angles in degrees, ten digits.
+/// time and for each instant with events, angles in degrees, ten digits, of times that are large
+/// beside the length of the run more.
 ///
 /// Snapshots must have [`Snapshot::detail`]; without it the writer panics.
 #[derive(Debug)]
@@ -20,6 +23,7 @@ pub struct ListingWriter<W> {
     out: W,
     hinges: Vec<HingeLabel>,
     units: UnitSystem,
+    span: [f64; 2],
     /// Time of the last block, so that an output time at an event is printed once.
     printed: Option<f64>,
     /// Output times so far.
@@ -32,7 +36,7 @@ pub struct ListingWriter<W> {
 const FIRST: usize = 20;
 
 impl<W: Write> ListingWriter<W> {
-    /// Writes the title; `hinges` has the label of every hinge of the scene.
+    /// Writes the title; `hinges` has the label of every hinge of the scene, which runs over `span` \[T\].
     ///
     /// # Errors
     /// When `out` refuses it.
@@ -41,9 +45,10 @@ impl<W: Write> ListingWriter<W> {
         scene: &str,
         hinges: Vec<HingeLabel>,
         units: UnitSystem,
+        span: [f64; 2],
     ) -> io::Result<Self> {
         writeln!(out, "N-BOOM DYNAMICS   SCENE {scene}   UNITS {}", units.name())?;
-        Ok(Self { out, hinges, units, printed: None, samples: 0, interval: 1 })
+        Ok(Self { out, hinges, units, span, printed: None, samples: 0, interval: 1 })
     }
 
     /// Prints only every `interval`th output time after the twentieth, as the original printed its
@@ -91,7 +96,8 @@ impl<W: Write> ListingWriter<W> {
     }
 
     fn write_time(&mut self, snapshot: &Snapshot) -> io::Result<()> {
-        let (time, step) = (number(snapshot.time), number(snapshot.next_step));
+        let digits = time_digits(snapshot.time, self.span, DIGITS);
+        let (time, step) = (number_to(snapshot.time, digits), number(snapshot.next_step));
         let steps = snapshot.steps;
         writeln!(self.out, "\nTIME {time}   NUMBER OF STEPS {steps}   TIME STEP {step}")
     }
@@ -247,10 +253,12 @@ mod tests {
 
     use crate::fixture::{self, event, snapshot};
 
+    const SPAN: [f64; 2] = [0.0, 30.0];
+
     fn listing(units: UnitSystem, write: impl Fn(&mut ListingWriter<&mut Vec<u8>>)) -> String {
         let mut bytes = Vec::new();
-        let mut writer =
-            ListingWriter::new(&mut bytes, "booms", fixture::labels(), units).expect("memory");
+        let mut writer = ListingWriter::new(&mut bytes, "booms", fixture::labels(), units, SPAN)
+            .expect("memory");
         write(&mut writer);
         String::from_utf8(bytes).expect("text")
     }
@@ -263,7 +271,7 @@ mod tests {
     fn of_output_times_after_the_twentieth_every_third_is_printed_and_all_instants() {
         let mut bytes = Vec::new();
         let units = UnitSystem::None;
-        let writer = ListingWriter::new(&mut bytes, "booms", fixture::labels(), units);
+        let writer = ListingWriter::new(&mut bytes, "booms", fixture::labels(), units, SPAN);
         let mut writer = writer.expect("memory").thinned(3);
         for time in (1..=30_u32).map(f64::from) {
             writer.write(&snapshot(time)).expect("memory");
@@ -332,7 +340,7 @@ mod tests {
     fn both_tables_of_hinges_say_what_slides_have() {
         let said = |hinges: Vec<HingeLabel>| -> Vec<String> {
             let (mut bytes, units) = (Vec::new(), UnitSystem::FtLbfS);
-            let writer = ListingWriter::new(&mut bytes, "masts", hinges, units);
+            let writer = ListingWriter::new(&mut bytes, "masts", hinges, units, SPAN);
             writer.expect("memory").write(&snapshot(0.5)).expect("memory");
             let text = String::from_utf8(bytes).expect("text");
             let lines = text.lines().filter_map(|l| l.strip_prefix("SEGMENTS THAT SLIDE HAVE "));

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{Place, code, refused, rows, stderr};
+use crate::{Place, code, refused, rows, stderr, stdout};
 
 /// Runs the scene of `nboom new boom`, which ends at 10, with this table of outputs.
 fn run(place: &Place, output: &str, options: &[&str]) {
@@ -98,4 +98,37 @@ fn columns_that_nobody_has_are_refused() {
     place.write("asked.toml", &format!("{boom}\n[output]\ncolumns = [\"betta of boom\"]\n"));
     let check = place.nboom(&["check", "asked.toml"]);
     refused(&check, 2, &["columns: found `betta of boom`", "did you mean `beta of boom`?"]);
+}
+
+#[test]
+fn times_that_count_from_long_ago_are_told_apart() {
+    let place = Place::new();
+    let boom = |name: &str, y: f64, release: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n\
+             hinge = {{ at = [0.0, {y}, 0.0], axis = \"x\", release = {{ at = {release} }}, spring = {{ stiffness = 2.0, \
+             rest_rad = 1.0 }} }}\n"
+        )
+    };
+    let releases = ["100000001.25", "100000001.75"];
+    let scene = format!(
+        "[run]\nstart = 1e8\nend = 100000004\n[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n{}{}",
+        boom("a", 2.0, releases[0]),
+        boom("b", -2.0, releases[1]),
+    );
+    place.write("late.toml", &scene);
+    let run = place.nboom(&["run", "late.toml", "--samples", "1", "--listing"]);
+    assert_eq!(code(&run), 0, "{}", stderr(&run));
+    let account = stdout(&run);
+    let told = account.lines().filter(|line| line.contains("  release  "));
+    let told: Vec<&str> = told.filter_map(|line| line.split(' ').next()).collect();
+    assert_eq!(told, releases, "{account}");
+    let listing = fs::read_to_string(place.path("out/late/listing.txt")).expect("a printout");
+    let times = listing.lines().filter_map(|line| line.strip_prefix("TIME ")?.split(' ').next());
+    let times: Vec<f64> = times.map(|time| time.parse().expect("a number")).collect();
+    assert_eq!(times, [1e8, 100_000_001.25, 100_000_001.75, 100_000_004.0], "{listing}");
+    let check = stdout(&place.nboom(&["check", "late.toml"]));
+    for words in ["released at time 100000001.25", "span: 100000000 to 100000004"] {
+        assert!(check.contains(words), "no {words:?} in {check}");
+    }
 }
