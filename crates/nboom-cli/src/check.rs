@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use nboom_io::{Format, NEVER, SceneFile};
+use nboom_io::{Format, NEVER, Sampling, SceneFile};
 use nboom_model::{Hinge, HingeState, Release, Scene};
 use nboom_results::with_causes;
 use nboom_sim::{Nobody, Options, simulate};
@@ -60,6 +60,16 @@ pub fn warnings(file: &SceneFile, scene: &Scene) -> Vec<String> {
     let of_scene = scene.warnings();
     let of_scene = of_scene.iter().map(ToString::to_string);
     of_file.chain(of_scene).chain(never_released(file, scene)).collect()
+}
+
+/// A warning if output times that the scene lists, and that are used, come after the end of its run.
+pub(crate) fn late_times(file: &SceneFile, scene: &Scene) -> Option<String> {
+    let Some(Sampling::At(times)) = &file.settings.sampling else { return None };
+    let late = &times[times.partition_point(|time| *time <= scene.end_time)..];
+    let (count, all, end, first) = (late.len(), times.len(), scene.end_time, late.first()?);
+    Some(format!(
+        "output times: {count} of {all} after the end of the run at {end:?} found, from {first:?} on; they are left out"
+    ))
 }
 
 /// A warning if the scene of a deck lasts longer than the deck says, and beyond release times that mean never; where the

@@ -88,6 +88,8 @@ impl RunArgs {
         let stresses = self.stresses.analysis(&file, slips, kernels)?;
         let scene = with_end_time(file.scene.clone(), self.end_time)?;
         let mut warnings = check::warnings(&file, &scene);
+        let lists_times = self.samples.is_none() && self.tables.times.is_none();
+        warnings.extend(lists_times.then(|| check::late_times(&file, &scene)).flatten());
         warnings.extend(self.slips.warning());
         let options = options(self, routines, &file.legacy);
         let samples = match file.settings.sampling {

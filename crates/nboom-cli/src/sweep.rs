@@ -163,6 +163,12 @@ fn warn_of_the_scene(study: &Study, quiet: bool) {
     let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
     let scene = study.document.as_read().unwrap_or(&study.nominal);
     warnings(scene).unwrap_or_default().iter().for_each(|warning| say("warning", warning));
+    if study.run.samples.is_none()
+        && let Ok(run) = study.run.scene(scene)
+        && let Some(late) = check::late_times(scene, &run)
+    {
+        say("warning", &late);
+    }
     // The cases of a draw are that without a fault, and those with each.
     let of_case = |number| warnings(&study.scene_of(&study.case(number)).ok()?);
     let without_fault = of_case(1).unwrap_or_default();

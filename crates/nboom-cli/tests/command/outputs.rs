@@ -1,11 +1,12 @@
 //! What a scene asks a run to write.
 
 use std::fs;
+use std::process::Output;
 
 use crate::{Place, code, refused, rows, stderr, stdout};
 
 /// Runs the scene of `nboom new boom`, which ends at 10, with this table of outputs.
-fn run(place: &Place, output: &str, options: &[&str]) {
+fn run(place: &Place, output: &str, options: &[&str]) -> Output {
     if !place.path("boom.toml").exists() {
         assert_eq!(code(&place.nboom(&["new", "boom"])), 0);
     }
@@ -13,6 +14,7 @@ fn run(place: &Place, output: &str, options: &[&str]) {
     place.write("asked.toml", &format!("{boom}\n[output]\n{output}\n"));
     let run = place.nboom(&[&["run", "asked.toml", "-o", "out"], options].concat());
     assert_eq!(code(&run), 0, "{}", stderr(&run));
+    run
 }
 
 /// Header and numbers of a table.
@@ -46,6 +48,46 @@ fn output_times_are_those_asked_for_and_both_ends() {
     // The command line counts more.
     run(&place, "every = 0.5", &["--end-time", "2", "--samples", "2"]);
     assert_eq!(times(&place, "states.csv"), [0.0, 1.0, 2.0]);
+}
+
+#[test]
+fn listed_output_times_after_the_end_are_told() {
+    let place = Place::new();
+    let told = "output times: 2 of 3 after the end of the run at 1.0 found, from 1.25 on; they are left out";
+    let listed = "times = [0.5, 1.25, 7.0]";
+    for (output, options, is_told) in [
+        (listed, &["--end-time", "1"][..], true),
+        (listed, &["--end-time", "7"], false),
+        (listed, &["--end-time", "1", "--samples", "3"], false),
+        (listed, &["--end-time", "1", "--times", "0.25"], false),
+        ("every = 0.75", &["--end-time", "1"], false),
+    ] {
+        let run = run(&place, output, options);
+        assert_eq!(stderr(&run).contains(told), is_told, "{options:?}: {}", stderr(&run));
+        assert_eq!(place.summary("out")["warnings"].to_string().contains(told), is_told);
+        let samples = options.iter().position(|option| *option == "--samples");
+        let samples = samples.map_or("", |_| "samples = 3\n");
+        let vary = "[[vary]]\npath = 'main_body.mass'\nas = 'factor'\nuniform = { from = 0.9, to = 1.1 }\n";
+        let end = options[1];
+        let of_runs = format!("[run]\nend_time = {end}\n{samples}");
+        place.write("study.toml", &format!("scene = 'asked.toml'\ndraws = 2\n{of_runs}{vary}"));
+        let sweep = place.nboom(&[
+            "sweep",
+            "study.toml",
+            "--no-report",
+            "-o",
+            &format!("{output}{options:?}"),
+        ]);
+        assert_eq!(code(&sweep), 0, "{}", stderr(&sweep));
+        if !options.contains(&"--times") {
+            assert_eq!(
+                stderr(&sweep).matches(told).count(),
+                usize::from(is_told),
+                "{}",
+                stderr(&sweep)
+            );
+        }
+    }
 }
 
 #[test]
