@@ -154,6 +154,14 @@ impl<'f> Report<'f> {
         push_bounded(&mut self.warnings, located(sources, at, symbol, found, expected));
     }
 
+    /// Whether an error or a warning of this symbol at this place is there already.
+    pub fn has(&self, sources: &Sources, at: &Place, symbol: &str) -> bool {
+        let (Position { line, column }, ..) = sources.locate(at);
+        let place = (sources.name(at.file), line, column, symbol);
+        let of = |told: &Diagnostic| (&*told.file, told.line, told.column, &*told.symbol) == place;
+        self.errors.iter().chain(&self.warnings).any(of)
+    }
+
     /// Warnings that were found before.
     pub fn warn_again(&mut self, warnings: &[Diagnostic]) {
         warnings.iter().for_each(|warning| push_bounded(&mut self.warnings, warning.clone()));

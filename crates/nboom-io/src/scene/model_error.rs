@@ -8,6 +8,7 @@ use nboom_model::{
 
 use super::externals::number_on_body;
 use super::fields::{Fields, Reader};
+use super::sources::Place;
 use super::suggest;
 use crate::deck::phrases;
 use crate::words::{external_table, joint_table};
@@ -90,8 +91,22 @@ impl Responsible<'_> {
             ModelError::Mass { defect, .. } => defect.to_string(),
             other => other.to_string(),
         };
+        let at = table.place(symbol);
+        if body_of(scene, error).is_some_and(|i| self.is_told(reader, i, &at, symbol)) {
+            return;
+        }
         let (found, expected) = phrases(&message);
-        reader.error(&table.place(symbol), symbol, &found, &expected);
+        reader.error(&at, symbol, &found, &expected);
+    }
+
+    /// Whether body number `i` is a copy, and what is wrong here of its table has been told of another one.
+    fn is_told(&self, reader: &Reader<'_, '_>, i: usize, at: &Place, symbol: &str) -> bool {
+        self.is_copy(i) && reader.report.has(reader.sources, at, symbol)
+    }
+
+    /// Whether a body before this one is of the same table.
+    fn is_copy(&self, i: usize) -> bool {
+        self.of_draft.get(i).is_some_and(|draft| self.of_draft[..i].contains(draft))
     }
 
     fn responsible(
@@ -111,13 +126,7 @@ impl Responsible<'_> {
                     BodyName::MainBody => outer("main_body"),
                     BodyName::Segment(label) => body(label),
                 };
-                let key = match defect {
-                    MassDefect::Mass(_) => "mass",
-                    MassDefect::CenterOfMass(_) | MassDefect::Overflow { .. } => "mass_centre",
-                    MassDefect::WheelSlides => "slide",
-                    _ => "inertia",
-                };
-                (table, key)
+                (table, mass_key(defect))
             }
             ModelError::NotFinite { body: BodyName::Segment(label), quantity } => match *quantity {
                 "hinge point or outer end" => (hinge(label), "at"),
@@ -223,18 +232,14 @@ impl Responsible<'_> {
             structures.iter().flatten().any(|structure| !structure.stations.is_empty());
         let found = "a body whose hinge latches without it";
         let mut has_all_pulses = true;
-        // Copies are of one table.
-        let mut told = Vec::new();
         for (i, body) in scene.bodies.iter().enumerate() {
             if body.hinge.lock_angle.is_none() || self.body(i).has("pulse_constant") {
                 continue;
             }
             has_all_pulses = false;
-            let table = self.of_draft.get(i);
-            if told.contains(&table) {
+            if self.is_copy(i) {
                 continue;
             }
-            told.push(table);
             let at = &self.body(i).at;
             if has_stations {
                 let expected = "its `pulse_constant`, since bodies of the scene have stations";
@@ -276,7 +281,8 @@ impl Responsible<'_> {
         report: Report,
     ) {
         let StructureError::Segment { place, defect } = error else { return };
-        let body = self.body(index_of(scene, &place.segment));
+        let i = index_of(scene, &place.segment);
+        let body = self.body(i);
         let may_differ = body.has("slices");
         let station = place.station.and_then(|number| body.nth("station", number));
         let (table, symbol) = match (defect, station) {
@@ -286,11 +292,15 @@ impl Responsible<'_> {
                 (table, "at")
             }
             (StructureDefect::SliceMass(_), Some(table)) => (table, "mass"),
+            (StructureDefect::Slice(defect), Some(table)) => (table, mass_key(defect)),
             (_, Some(table)) => (table, "section"),
             (_, None) => (body, "station"),
         };
-        let (found, expected) = phrases(&defect.to_string());
         let at = table.place(symbol);
+        if self.is_told(reader, i, &at, symbol) {
+            return;
+        }
+        let (found, expected) = phrases(&defect.to_string());
         match report {
             Report::Error => reader.error(&at, symbol, &found, &expected),
             Report::Difference if may_differ => {
@@ -307,6 +317,34 @@ impl Responsible<'_> {
 enum Report {
     Error,
     Difference,
+}
+
+/// The key of a table of a body or slice that a defect of its mass properties is of.
+fn mass_key(defect: &MassDefect) -> &'static str {
+    match defect {
+        MassDefect::Mass(_) => "mass",
+        MassDefect::CenterOfMass(_) | MassDefect::Overflow { .. } => "mass_centre",
+        MassDefect::WheelSlides => "slide",
+        _ => "inertia",
+    }
+}
+
+/// The hinged body of a scene whose table has what is wrong, if it is one's.
+fn body_of(scene: &SceneDescription, error: &ModelError) -> Option<usize> {
+    match error {
+        ModelError::Mass { body: BodyName::Segment(label), .. }
+        | ModelError::NotFinite { body: BodyName::Segment(label), .. }
+        | ModelError::Axis { label, .. }
+        | ModelError::MountRotation { label, .. }
+        | ModelError::Trigger { label, .. }
+        | ModelError::ReleaseDelay { label, .. }
+        | ModelError::HeldRate { label, .. }
+        | ModelError::Coupling { label, .. } => Some(index_of(scene, label)),
+        ModelError::TablePoints { table, .. } => Some(scene.torque_tables.get(table - 1)?.hinge),
+        ModelError::Rotor { body, .. } => *body,
+        ModelError::External { index, .. } => scene.externals[*index].body,
+        _ => None,
+    }
 }
 
 /// The table of a body's joint.

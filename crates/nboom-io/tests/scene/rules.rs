@@ -267,6 +267,41 @@ fn slices_add_up_to_their_body_unless_it_says_that_they_differ() {
     assert!(wrong(&scene("slices = \"alike\""))[0].contains("one of differ"));
 }
 
+/// A wrong number of a table that stands for several bodies is one mistake, at its own key.
+#[test]
+fn what_is_wrong_of_all_copies_is_told_once() {
+    let scene = |of_body: &str, of_slice: &str, more: &str| {
+        let boom = body("boom", &format!("repeat = {{ count = 3, about = \"x\" }}\n{more}"), "");
+        let boom = boom.replace("inertia = [1.0, 0.1, 1.0]", &format!("inertia = {of_body}"));
+        BUS.to_owned()
+            + "\n[materials.steel]\nyoungs_modulus = 1.0\n"
+            + &boom.replace("\n\n[body.hinge]", "\nmaterial = \"steel\"\n\n[body.hinge]")
+            + &format!(
+                "[[body.station]]\nat = 0.0\nmass = 3.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = {of_slice}\n\
+                 section = {{ tube = {{ radius = 0.1, thickness = 0.001 }} }}\n"
+            )
+    };
+    let (right, none) = ("[1.0, 0.1, 1.0]", "[1.0, 0.1, 3.0]");
+    for text in [scene(right, none, ""), scene(none, right, "")] {
+        let line = 1 + text.lines().position(|line| line.contains(none)).expect("it is there");
+        let told = wrong(&text);
+        assert_eq!(told.len(), 1, "{told:#?}");
+        assert!(
+            told[0].contains(&format!(":{line}:")) && told[0].contains(": inertia: "),
+            "{told:?}"
+        );
+    }
+    let wrong_body = "repeat = { count = 3, about = \"x\" }\nrotor = [{ axis = \"y\", inertia = -0.5, speed_rad = 4 }]";
+    let told =
+        wrong(&(BUS.to_owned() + &body("boom", wrong_body, "torque_deg = [[1, 2], [0, 3]]")));
+    assert_eq!(told.len(), 2, "{told:#?}");
+    let other = "[1.0, 0.1, 0.9]";
+    let told = wrong(&scene(right, other, ""));
+    assert!(told.len() == 1 && told[0].contains("slices with moments"), "{told:#?}");
+    let told = warnings(&scene(right, other, "slices = \"differ\"\n"), &[]);
+    assert!(told.len() == 1 && told[0].contains("slices with moments"), "{told:#?}");
+}
+
 fn warnings(text: &str, set: &[&str]) -> Vec<String> {
     let set = set.iter().map(|name| ((*name).to_owned(), 3.0)).collect();
     let options = ReadOptions { set, ..ReadOptions::default() };
