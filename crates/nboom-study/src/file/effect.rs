@@ -79,6 +79,23 @@ impl Runs<'_> {
     }
 }
 
+/// Whether a change leaves the number that it finds as it is: that of the scene, if no variable moves it.
+fn stays(
+    Change { slot, relation, number }: &Change,
+    variables: &[Variable],
+    document: &SceneDocument,
+) -> bool {
+    let is_moved = |Variable { slots, .. }: &Variable| {
+        let mut all = slots.iter();
+        all.any(|of| of == slot || moves(document, of, std::slice::from_ref(slot)))
+    };
+    match relation {
+        Relation::Factor => *number == 1.0,
+        Relation::Offset => *number == 0.0,
+        Relation::Value => *number == document.number(slot) && !variables.iter().any(is_moved),
+    }
+}
+
 impl<'t> Reader<'t> {
     /// Reports variables, and changes of faults, on which no run depends; nothing else is wrong.
     pub fn check_effects(
@@ -108,9 +125,7 @@ impl<'t> Reader<'t> {
                     let found = format!("a number that {} takes no notice of", quoted(name));
                     let expected = "the number that is varied, or a variable that follows from it";
                     self.error(&place, "path", found, expected);
-                } else if [(Relation::Factor, 1.0), (Relation::Offset, 0.0)]
-                    .contains(&(*relation, *number))
-                {
+                } else if stays(change, variables, runs.document) {
                     let expected = "a change";
                     self.error(&place, "change", "a number that stays as it is", expected);
                 } else if !runs.depend_on(std::slice::from_ref(slot), *relation, &[*number]) {

@@ -137,6 +137,13 @@ fn changes_of_faults_that_a_variable_undoes_or_that_are_none() {
         let none = change.replace("offset = 0.1", neutral);
         refused(SCENE, change, &none, 38, &["a number that stays as it is"]);
     }
+    let boom = "{ path = \"body.boom.hinge.start_deg\", value = 90.0 }";
+    refused(SCENE, change, boom, 38, &["a number that stays as it is"]);
+    // The scene's own numbers, but others are drawn in their place.
+    let own = ["body.tip.mass\", value = 1.0", "body.boom.hinge.spring.stiffness\", value = 2.0"];
+    for own in own.map(|own| format!("{{ path = \"{own} }}")) {
+        assert_eq!(errors(SCENE, &STUDY.replace(change, &own)), [], "{own}");
+    }
 }
 
 #[test]
