@@ -136,16 +136,12 @@ impl Wanted {
     /// When there is no such result.
     pub fn named(text: &str, file: &SceneFile, loads: Loads) -> Result<Self, UnknownResult> {
         // Names of bodies may begin and end with blanks.
-        let (whole, mut text) = (text.trim_start(), text.trim().to_owned());
+        let (whole, text) = (text.trim_start(), plain(text));
         let found = match (whole.split_once(' '), whole.split_once(" of ")) {
             (Some((word, column)), _) if motion::WORDS.contains(&word) => {
                 motion::named(word, column.trim_start(), file)
             }
-            (_, Some((word, body))) => {
-                let word = word.trim();
-                text = format!("{word} of {body}").trim_end().to_owned();
-                hinge::named(word, body, file, loads)
-            }
+            (_, Some((word, body))) => hinge::named(word.trim(), body, file, loads),
             _ => summary::named(&text, file, loads),
         };
         match found {
@@ -230,6 +226,18 @@ impl Wanted {
             }
         };
         all.iter().map(value).collect()
+    }
+}
+
+/// The text of a result without blanks that say nothing, as it is told and compared; those of a name stay.
+pub(crate) fn plain(text: &str) -> String {
+    let text = text.trim();
+    match (text.split_once(' '), text.split_once(" of ")) {
+        (Some((word, column)), _) if motion::WORDS.contains(&word) => {
+            format!("{word} {}", column.trim_start())
+        }
+        (_, Some((word, body))) => format!("{} of {body}", word.trim_end()),
+        _ => text.to_owned(),
     }
 }
 

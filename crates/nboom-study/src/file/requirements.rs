@@ -4,7 +4,7 @@ use nboom_io::nearest;
 
 use super::reader::{Fields, Reader, quoted};
 use crate::requirement::Requirement;
-use crate::wanted::Wanted;
+use crate::wanted::{Wanted, plain};
 
 impl<'t> Reader<'t> {
     /// Bounds of results that stand in the table.
@@ -25,17 +25,17 @@ impl<'t> Reader<'t> {
                 self.error(&of.place_of("at_most"), "at_most", found, expected);
             }
             let Some(result) = self.text(&of, "result") else { continue };
-            let text = result.value.trim();
+            let text = plain(result.value);
             if !wanted.iter().any(|wanted| wanted.text() == text) {
-                let meant = nearest(text, wanted.iter().map(Wanted::text));
+                let meant = nearest(&text, wanted.iter().map(Wanted::text));
                 let expected = "a result in the table of cases";
-                self.error_like(&result.place, "result", quoted(text), expected, meant);
+                self.error_like(&result.place, "result", quoted(&text), expected, meant);
             }
             if all.iter().any(|other| other.result == text) {
-                let found = format!("{}, which has a requirement before", quoted(text));
+                let found = format!("{}, which has a requirement before", quoted(&text));
                 self.error(&result.place, "result", found, "both bounds in one requirement");
             }
-            all.push(Requirement { result: text.to_owned(), at_least, at_most });
+            all.push(Requirement { result: text, at_least, at_most });
         }
         all
     }

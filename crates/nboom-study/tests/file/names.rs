@@ -56,3 +56,19 @@ fn results_with_one_name_are_told_how_to_be_told_apart() {
     let [(6, told)] = &errors(SCENE, &study)[..] else { panic!("one error") };
     assert!(told.contains("`final_omega_z`, twice") && told.contains("by their numbers"), "{told}");
 }
+
+/// Results and their requirements are told by words; how many blanks stand between them says nothing.
+#[test]
+fn results_and_requirements_have_one_grammar() {
+    let spelled = [" lock_time  of boom", "lock_time of boom ", "final  omega_z", " final omega_z"];
+    for wanted in spelled {
+        for required in spelled.iter().filter(|of| of.contains("omega") == wanted.contains("omega"))
+        {
+            let study =
+                STUDY.replace("\"lock_time of boom\", \"final omega_z\"", &format!("\"{wanted}\""));
+            let requirement =
+                format!("\n[[requirement]]\nresult = \"{required}\"\nat_most = 4.0\n");
+            assert_eq!(errors(SCENE, &(study + &requirement)), [], "{wanted:?}, {required:?}");
+        }
+    }
+}
