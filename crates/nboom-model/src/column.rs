@@ -80,7 +80,7 @@ impl Column {
     }
 
     /// Those that `text` names: a quantity (`omega`; of hinges that of all, `beta`), the quantity
-    /// of a hinge by its body's name (`beta of inner boom`), or one column as the table of states
+    /// of a hinge by its body's name or its numbers (`beta of inner boom`, `beta of 1,2`), or one column as the table of states
     /// calls it (`omega_x`, `beta_1_2`). There are so many `rotors`, which have columns too
     /// (`rotor_speed_1`).
     ///
@@ -125,7 +125,7 @@ impl Column {
     ) -> Result<Vec<Self>, UnknownColumn> {
         let of_hinges = Quantity::OF_A_HINGE;
         let quantity = of_hinges.into_iter().find(|known| known.name() == quantity);
-        let hinge = hinges.iter().position(|hinge| hinge.name.as_deref() == Some(body));
+        let hinge = HingeLabel::find(hinges, body);
         if let (Some(quantity), Some(hinge)) = (quantity, hinge) {
             return Ok(Self::of(quantity, Some(hinge)).collect());
         }
@@ -133,7 +133,7 @@ impl Column {
         let of_quantity =
             |quantity: Quantity| names().map(move |body| format!("{} of {body}", quantity.name()));
         let known = of_hinges.into_iter().flat_map(of_quantity).collect();
-        let expected = "beta, tau, alpha, sigma or state of a body by its name";
+        let expected = "beta, tau, alpha, sigma or state of a hinge, by the name of its body, or as `beta_1_2`";
         Err(UnknownColumn { found: text.to_owned(), expected, known })
     }
 

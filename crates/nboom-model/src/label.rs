@@ -31,6 +31,19 @@ impl HingeLabel {
         [self.appendage + 1, self.segment + 1]
     }
 
+    /// Which of these hinges a text names, by its body or by its numbers as `1,2`. Names come before numbers, since a
+    /// name may look like the numbers of another hinge.
+    pub fn find(hinges: &[Self], text: &str) -> Option<usize> {
+        let named =
+            |text: &str| hinges.iter().position(|label| label.name.as_deref() == Some(text));
+        let numbered = || {
+            let (appendage, segment) = text.split_once(',')?;
+            let numbers = [appendage.trim().parse().ok()?, segment.trim().parse().ok()?];
+            hinges.iter().position(|label| label.numbers() == numbers)
+        };
+        named(text).or_else(|| named(text.trim())).or_else(numbered)
+    }
+
     /// β or τ of the hinge for people, to six digits: degrees, or a length.
     pub fn coordinate(&self, beta: f64) -> String {
         let (value, unit) = match self.joint {

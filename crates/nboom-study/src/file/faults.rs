@@ -1,7 +1,7 @@
 //! What may be broken.
 
 use nboom_io::{SceneDocument, SceneFile, nearest};
-use nboom_model::{Hinge, HingeState, Release, Scene, Spring};
+use nboom_model::{Hinge, HingeLabel, HingeState, Release, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, parted, quoted};
@@ -132,7 +132,7 @@ impl<'t> Reader<'t> {
 
     /// A hinge by the name of its body or by its numbers.
     fn hinge(&mut self, name: &At<&str>, scene: &Scene) -> Option<usize> {
-        let found = hinges::find(scene.labels(), name.value);
+        let found = HingeLabel::find(scene.labels(), name.value);
         if found.is_none() {
             let known: Vec<String> = scene.labels().iter().map(hinges::name).collect();
             let meant = nearest(name.value, known.iter().map(String::as_str));

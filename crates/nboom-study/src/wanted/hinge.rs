@@ -1,12 +1,11 @@
 //! What became of a hinge, and what it and its segment carried.
 
 use nboom_io::{SceneFile, nearest};
-use nboom_model::{Hinge, HingeState};
+use nboom_model::{Hinge, HingeLabel, HingeState};
 use nboom_strength::{HingeQuantity, Worst, WorstHingeLoad};
 use nboom_tables::{Column, Kind as Holds};
 
 use super::{Found, Loads, Named, Needs, What, refused};
-use crate::hinges::find;
 use crate::statistics::Meaning;
 use crate::table::units;
 
@@ -131,7 +130,7 @@ pub(super) fn named(word: &str, body: &str, file: &SceneFile, loads: Loads) -> N
         return Err((expected, meant.map(|name| format!("{name} of {body}"))));
     };
     let hinges = file.scene.labels();
-    let Some(hinge) = find(hinges, body) else {
+    let Some(hinge) = HingeLabel::find(hinges, body) else {
         let meant = nearest(body, hinges.iter().filter_map(|label| label.name.as_deref()));
         let expected = "a hinge by the name of its body, or by its numbers as `1,2`".to_owned();
         return Err((expected, meant.map(|name| format!("{word} of {name}"))));

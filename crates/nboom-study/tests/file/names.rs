@@ -72,3 +72,21 @@ fn results_and_requirements_have_one_grammar() {
         }
     }
 }
+
+#[test]
+fn columns_of_hinges_go_by_names_and_by_numbers() {
+    let read = |column: &str| {
+        let place = place(&STUDY.replace("final omega_z", column));
+        Study::read(&place.path().join("study.toml")).expect("right")
+    };
+    let [by_name, by_numbers] = ["final beta of tip", "final beta of 1,2"].map(read);
+    let [named, numbered] = [&by_name, &by_numbers].map(|study| study.wanted[1].column());
+    assert_eq!(
+        (&named.body, &named.unit, &named.description),
+        (&numbered.body, &numbered.unit, &numbered.description)
+    );
+    assert_eq!(numbered.body.as_deref(), Some("tip"));
+    let wrong = STUDY.replace("final omega_z", "final beta of 1,3");
+    let [(6, told)] = &errors(SCENE, &wrong)[..] else { panic!("one error") };
+    assert!(told.contains("by the name of its body, or as `beta_1_2`"), "{told}");
+}

@@ -20,7 +20,7 @@ pub(super) static OUTPUT: TableKind = table(
             "columns",
             Texts,
             "Columns of output.csv, a table of its own beside states.csv: a quantity as \"omega\", that \
-             of a hinge as \"beta of NAME\", or a column of states.csv; by default all.",
+             of a hinge as \"beta of NAME\" or \"beta of 1,2\", or a column of states.csv; by default all.",
         ),
         optional(
             "angles",
