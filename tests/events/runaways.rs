@@ -4,15 +4,15 @@
 use std::cell::Cell;
 
 use nboom::model::{
-    Coupling, Dashpot, Hinge, HingeLabel, Rotor, RotorSpeed, Scene, SceneDescription, Spring,
-    TorqueTable,
+    Coupling, Dashpot, Hinge, HingeLabel, ModelWarning, Rotor, RotorSpeed, Scene, SceneDescription,
+    Spring, TorqueTable,
 };
 use nboom::scalar::Vec3;
 use nboom::sim::{Event, Feeds, Options, Recorder, SimError, Snapshot, Summary, simulate};
 
 use crate::collect::{run, try_run};
 use crate::random_scene::conservative;
-use crate::rotors::{description, free, growing, oscillating, scene};
+use crate::rotors::{description, free, growing, locking_at, oscillating, scene};
 
 const FIRST: HingeLabel = HingeLabel::new(0, 0);
 const SECOND: HingeLabel = HingeLabel::new(1, 0);
@@ -82,6 +82,50 @@ fn a_torque_table_that_pushes_away() {
     scene.torque_tables.push(TorqueTable { hinge: 0, points: vec![[0.0, 0.0], [0.1, 5.0]] });
     let (hinge, feeds, _) = given_up(&Scene::new(scene).expect("rotors are bodies"));
     assert_eq!((hinge, feeds), (FIRST, Feeds::Table));
+}
+
+/// What a table does beyond its ends is told before the run, of hinges that come there and of no others.
+#[test]
+fn tables_that_drive_hinges_on_are_warned_of() {
+    let rising = [[0.0, 0.0], [0.1, 5.0]];
+    let level = [[0.0, 1.0], [1.0, 1.0]];
+    let well = [[-1.0, 3.0], [0.0, 0.0], [1.0, -3.0], [2.0, 1.0]];
+    let pulled = |hinge: Hinge, linear: f64| Hinge {
+        spring: Spring { quadratic: 0.0, linear, preload_angle: 0.0 },
+        ..hinge
+    };
+    let mut warned = 0;
+    for (points, hinge) in [
+        (&rising[..], free(0.1, 0.0)),
+        (&rising, free(-0.1, 0.0)),
+        (&rising, locking_at(free(0.1, 0.0), 0.5)),
+        (&rising, locking_at(free(0.1, 0.0), -0.5)),
+        (&[[0.0, -5.0], [0.1, 0.0]], free(0.0, 0.0)),
+        (&[[-1.0, 2.0], [1.0, -2.0]], free(0.5, 0.0)),
+        (&level, free(0.5, 0.0)),
+        // Its end is beyond a hill that is too high from here, but not from there.
+        (&well, free(0.5, 0.0)),
+        (&well, free(-1.0, 0.0)),
+        (&well, free(-2.0, 0.0)),
+        (&well, free(3.0, 0.0)),
+        // A spring is stiffer than the end of the table, or is not.
+        (&rising, pulled(free(0.2, 0.0), -60.0)),
+        (&rising, pulled(free(0.2, 0.0), -40.0)),
+        (&level, pulled(free(0.5, 0.0), 1.0)),
+    ] {
+        let mut scene = description(&[hinge], 20.0);
+        scene.torque_tables.push(TorqueTable { hinge: 0, points: points.to_vec() });
+        let scene = Scene::new(scene).expect("rotors are bodies");
+        let (found, result) = try_run(&scene, &Options { samples: 1, ..Options::default() });
+        let is_far = result.is_err() || found.last().beta[0].abs() > 1e3;
+        let is_told = |warning: &ModelWarning| {
+            matches!(warning, ModelWarning::TableDrivesOn { hinge: FIRST, .. })
+        };
+        let told = scene.warnings();
+        assert_eq!(told.iter().any(is_told), is_far, "{points:?} from {:?}: {told:?}", hinge.start);
+        warned += usize::from(is_far);
+    }
+    assert_eq!(warned, 8);
 }
 
 /// In space and with other hinges about: one hinge of a random tree feeds.

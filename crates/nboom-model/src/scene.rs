@@ -4,8 +4,8 @@ use nboom_scalar::{Sym3, Vec3};
 
 use crate::{
     Appendage, Base, BodyName, Coupling, Departures, External, Gravity, Hinge, HingeLabel,
-    InitialMotion, Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Shapes, check,
-    warning,
+    InitialMotion, Joint, MassProperties, ModelError, ModelWarning, Mount, Rotor, Shapes,
+    TorqueTable, check, warning,
 };
 
 /// One body of the tree with the hinge that joins it to its inboard body.
@@ -29,17 +29,6 @@ pub struct Body {
     pub tip: Vec3<f64>,
     /// What acts about the hinge and when it is released and locks.
     pub hinge: Hinge,
-}
-
-/// A torque about a hinge as a function of its angle, given at points; `docs/equations.md` says how
-/// it runs between them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TorqueTable {
-    /// Index of the hinge, from 0.
-    pub hinge: usize,
-    /// Angles \[rad\], ascending, each with its torque, positive when it increases the angle; at
-    /// least two.
-    pub points: Vec<[f64; 2]>,
 }
 
 /// A scene as written, not yet checked.

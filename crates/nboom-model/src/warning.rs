@@ -4,6 +4,7 @@ mod masses;
 mod outside;
 mod releases;
 mod rotors;
+mod tables;
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -109,6 +110,18 @@ pub enum ModelWarning {
         hinge: HingeLabel,
         /// Where it starts \[rad\].
         start: f64,
+    },
+    /// Beyond an end of its torque table, where the hinge comes from rest, the torque drives it on, the harder the
+    /// farther, and it has no lock angle there.
+    TableDrivesOn {
+        /// The hinge.
+        hinge: HingeLabel,
+        /// Where it starts \[rad\].
+        start: f64,
+        /// The last point on that side \[rad\].
+        end: f64,
+        /// Torque per angle beyond, with that of the spring \[torque/rad\], positive.
+        stiffness: f64,
     },
     /// At the start the torque of spring and dashpot turns the hinge away from its lock angle, and no
     /// kick-off spring turns it back.
@@ -269,6 +282,15 @@ impl fmt::Display for ModelWarning {
                  stops it",
                 hinge.coordinate(*start)
             ),
+            Self::TableDrivesOn { hinge, start, end, stiffness } => write!(
+                f,
+                "{name} table of hinge {hinge} drives it on and on from {}: beyond its end at {} a {name} that grows \
+                 by {stiffness:?} for each {} found, one that does not grow or a lock angle expected",
+                hinge.coordinate(*start),
+                hinge.coordinate(*end),
+                hinge.joint.unit_name(),
+                name = hinge.joint.force_name()
+            ),
             Self::DrivenFromLock { hinge, start, lock } => write!(
                 f,
                 "spring torque of hinge {hinge} drives it away from its lock angle: from {}, not \
@@ -325,7 +347,14 @@ impl fmt::Display for ModelWarning {
 }
 
 pub(crate) fn find(scene: &Scene) -> Vec<ModelWarning> {
-    let all =
-        [releases::find, forces::find, outside::find, rotors::find, geometry::find, masses::find];
+    let all = [
+        releases::find,
+        forces::find,
+        tables::find,
+        outside::find,
+        rotors::find,
+        geometry::find,
+        masses::find,
+    ];
     all.map(|find| find(scene)).concat()
 }

@@ -20,7 +20,7 @@ pub(crate) const NAMES: Names = Names {
 /// One piece of the torque that a table gives: between two of its points the cubic that has their
 /// torques and slopes, before the first and beyond the last the tangent there.
 ///
-/// Slopes are those of Fritsch and Butland, so that the torque between two points lies between those
+/// By the [slopes](TorqueTable::slopes) that a table has, the torque between two points lies between those
 /// of the points. It and its slope are continuous.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TablePiece<R> {
@@ -38,7 +38,7 @@ impl<R: Real> TablePiece<R> {
     /// # Panics
     /// When the table has fewer points than pieces before this one.
     pub fn new(table: &TorqueTable, piece: usize) -> Self {
-        let (points, slopes) = (&table.points, slopes(&table.points));
+        let (points, slopes) = (&table.points, table.slopes());
         let start = piece.saturating_sub(1);
         let stored = (0..start).fold(0.0, |sum, k| {
             let (_, coefficients) = cubic(points, &slopes, k);
@@ -75,40 +75,6 @@ fn cubic(points: &[[f64; 2]], slopes: &[f64], k: usize) -> (f64, [f64; 4]) {
     let secant = (next - torque) / h;
     let (c2, c3) = ((3.0 * secant - 2.0 * d0 - d1) / h, (d0 + d1 - 2.0 * secant) / (h * h));
     (from, [torque, d0, c2, c3])
-}
-
-/// The slope at each point: zero at a turn, else between those of the two secants.
-fn slopes(points: &[[f64; 2]]) -> Vec<f64> {
-    let secant = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
-    let secants: Vec<f64> = points.windows(2).map(secant).collect();
-    let widths: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
-    let last = secants.len() - 1;
-    if last == 0 {
-        return vec![secants[0]; 2];
-    }
-    let inner = (0..last).map(|k| {
-        let ([a, b], [h, g]) = ([secants[k], secants[k + 1]], [widths[k], widths[k + 1]]);
-        let (of_a, of_b) = (2.0 * g + h, g + 2.0 * h);
-        if a * b <= 0.0 { 0.0 } else { (of_a + of_b) / (of_a / a + of_b / b) }
-    });
-    let mut slopes = vec![end_slope([secants[0], secants[1]], [widths[0], widths[1]])];
-    slopes.extend(inner);
-    let inward = |values: &[f64]| [values[last], values[last - 1]];
-    slopes.push(end_slope(inward(&secants), inward(&widths)));
-    slopes
-}
-
-/// The slope at an end by the parabola through three points, held to where the cubic is monotone;
-/// secants and widths from the end inward.
-fn end_slope([a, b]: [f64; 2], [h, g]: [f64; 2]) -> f64 {
-    let slope = ((2.0 * h + g) * a - h * b) / (h + g);
-    if slope * a <= 0.0 {
-        0.0
-    } else if a * b <= 0.0 && slope.abs() > 3.0 * a.abs() {
-        3.0 * a
-    } else {
-        slope
-    }
 }
 
 #[cfg(test)]

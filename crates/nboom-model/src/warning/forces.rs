@@ -7,7 +7,7 @@ use crate::hinge::SAME_ANGLE;
 use crate::{Hinge, KickOffSpring, Posture, Scene};
 
 /// Share of its terms below which a torque is none.
-const NO_TORQUE: f64 = 1e-9;
+pub(super) const NO_TORQUE: f64 = 1e-9;
 
 pub(super) fn find(scene: &Scene) -> Vec<ModelWarning> {
     let postures = [Posture::at_start(scene), Posture::locked(scene)];
@@ -95,14 +95,14 @@ fn dashpot(hinge: &Hinge) -> Option<((f64, u8), f64)> {
 }
 
 /// Torque A₂β² + A₁β + A₀ of spring and dashpot at rest, eq. (6.1) in powers of β.
-struct AngleTorque {
-    a2: f64,
-    a1: f64,
+pub(super) struct AngleTorque {
+    pub a2: f64,
+    pub a1: f64,
     a0: f64,
 }
 
 impl AngleTorque {
-    fn of(hinge: &Hinge) -> Self {
+    pub fn of(hinge: &Hinge) -> Self {
         let (spring, dashpot) = (&hinge.spring, &hinge.dashpot);
         let [q3, q4, gamma] =
             [dashpot.angle_quadratic, dashpot.angle_linear, dashpot.preload_angle];
@@ -115,7 +115,7 @@ impl AngleTorque {
     }
 
     /// Zero where nothing but rounding is left.
-    fn at(&self, beta: f64) -> f64 {
+    pub fn at(&self, beta: f64) -> f64 {
         let terms = [self.a2 * beta * beta, self.a1 * beta, self.a0];
         let (sum, scale) = terms.iter().fold((0.0, 0.0), |(s, a), t| (s + t, a + f64::abs(*t)));
         if f64::abs(sum) <= NO_TORQUE * scale { 0.0 } else { sum }

@@ -1,0 +1,48 @@
+/// A torque about a hinge as a function of its angle, given at points; `docs/equations.md` says how
+/// it runs between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueTable {
+    /// Index of the hinge, from 0.
+    pub hinge: usize,
+    /// Angles \[rad\], ascending, each with its torque, positive when it increases the angle; at
+    /// least two.
+    pub points: Vec<[f64; 2]>,
+}
+
+impl TorqueTable {
+    /// The slope of the torque at each point \[torque/rad\]: zero at a turn, else between those of the two secants, at
+    /// the ends that of a parabola (Fritsch and Butland). Before the first point and beyond the last one it stays.
+    pub fn slopes(&self) -> Vec<f64> {
+        let points = &self.points;
+        let secant = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+        let secants: Vec<f64> = points.windows(2).map(secant).collect();
+        let widths: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
+        let last = secants.len() - 1;
+        if last == 0 {
+            return vec![secants[0]; 2];
+        }
+        let inner = (0..last).map(|k| {
+            let ([a, b], [h, g]) = ([secants[k], secants[k + 1]], [widths[k], widths[k + 1]]);
+            let (of_a, of_b) = (2.0 * g + h, g + 2.0 * h);
+            if a * b <= 0.0 { 0.0 } else { (of_a + of_b) / (of_a / a + of_b / b) }
+        });
+        let mut slopes = vec![end_slope([secants[0], secants[1]], [widths[0], widths[1]])];
+        slopes.extend(inner);
+        let inward = |values: &[f64]| [values[last], values[last - 1]];
+        slopes.push(end_slope(inward(&secants), inward(&widths)));
+        slopes
+    }
+}
+
+/// The slope at an end by the parabola through three points, held to where the cubic is monotone;
+/// secants and widths from the end inward.
+fn end_slope([a, b]: [f64; 2], [h, g]: [f64; 2]) -> f64 {
+    let slope = ((2.0 * h + g) * a - h * b) / (h + g);
+    if slope * a <= 0.0 {
+        0.0
+    } else if a * b <= 0.0 && slope.abs() > 3.0 * a.abs() {
+        3.0 * a
+    } else {
+        slope
+    }
+}
