@@ -215,10 +215,9 @@ pub struct RunArgs {
     #[arg(long, value_name = "H", value_parser = choice::positive, allow_negative_numbers = true)]
     pub max_step: Option<f64>,
 
-    /// Steps after which the run is given up; of a deck under rkam LSTEP says it where this option does not.
-    #[arg(long, value_name = "N", default_value = "10000000", value_parser = count_parser(),
-          allow_negative_numbers = true)]
-    pub max_steps: usize,
+    /// Steps after which the run is given up; by default 10000000, of a deck under rkam as LSTEP says.
+    #[arg(long, value_name = "N", value_parser = count_parser(), allow_negative_numbers = true)]
+    pub max_steps: Option<usize>,
 
     /// Events after which the run is given up, since a spring at its limit length may chatter.
     #[arg(long, value_name = "N", default_value = "20000", value_parser = count_parser(),
@@ -365,7 +364,7 @@ mod tests {
         let args = run_args(&[]).expect("a scene is enough");
         let defaults = Options::default();
         assert_eq!((args.rtol, args.atol), (defaults.rtol, defaults.atol));
-        assert_eq!((args.max_step, args.max_steps), (None, defaults.max_steps));
+        assert_eq!((args.max_step, args.max_steps), (None, None));
         assert_eq!(args.max_events, defaults.max_events);
         assert_eq!((args.samples, args.units), (None, None));
     }

@@ -151,25 +151,25 @@ fn with_end_time(scene: Scene, end_time: Option<f64>) -> Result<Scene, CliError>
 fn options(args: &RunArgs, routines: &Routines, legacy: &LegacySettings) -> Options {
     let RunArgs { integrator, rtol, atol, max_steps, max_events, formulation, lanes, .. } = *args;
     let (kernels, batches) = (routines.for_runs, routines.right_sides_of_eight);
+    let defaults = Options::default();
     let mut options = Options {
         integrator,
         rtol,
         atol,
         max_step: args.max_step.unwrap_or(f64::INFINITY),
-        max_steps,
+        max_steps: max_steps.unwrap_or(defaults.max_steps),
         max_events,
         path: args.path.into(),
         formulation,
         kernels,
         batches,
         lanes,
-        ..Options::default()
+        ..defaults
     };
     if integrator == Method::Rkam {
         options.rkam = Some(rkam(legacy, options.tolerance()));
         // What the command line says comes before the deck.
-        let is_given = max_steps != Options::default().max_steps;
-        if let Some(of_deck) = legacy.max_steps.filter(|_| !is_given) {
+        if let Some(of_deck) = legacy.max_steps.filter(|_| max_steps.is_none()) {
             (options.max_steps, options.max_steps_by) = (of_deck, "LSTEP");
         }
     }

@@ -118,4 +118,8 @@ fn what_1970_saw() {
         assert_eq!(code(&output), 3, "{message}");
         assert!(message.contains("the 20 steps that max_steps allows are used up"), "{message}");
     }
+    // Also where it says what holds without it.
+    let usual = ["run", "deck.nml", "--max-steps", "10000000", "--integrator", "rkam"];
+    let output = place.nboom(&[&usual[..], &["--no-stresses"]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
 }
