@@ -4,11 +4,11 @@
 use std::cell::Cell;
 
 use nboom::model::{
-    Coupling, Dashpot, Hinge, HingeLabel, ModelWarning, Rotor, RotorSpeed, Scene, SceneDescription,
-    Spring, TorqueTable,
+    Base, Coupling, Dashpot, Gravity, Hinge, HingeLabel, ModelWarning, Rotor, RotorSpeed, Scene,
+    SceneDescription, Spring, TorqueTable,
 };
 use nboom::scalar::Vec3;
-use nboom::sim::{Event, Feeds, Options, Recorder, SimError, Snapshot, Summary, simulate};
+use nboom::sim::{Event, Feeds, Options, Recorder, Runaway, SimError, Snapshot, Summary, simulate};
 
 use crate::collect::{run, try_run};
 use crate::random_scene::conservative;
@@ -23,7 +23,8 @@ const FEW: usize = 30_000;
 fn given_up(scene: &Scene) -> (HingeLabel, Feeds, Summary) {
     let options = Options { samples: 1, ..Options::default() };
     let failure = try_run(scene, &options).1.expect_err("it has no end");
-    let SimError::Runaway { hinge, feeds, growth, time } = failure.error else {
+    let SimError::Runaway { time, runaway: Runaway { hinge, feeds, growth } } = failure.error
+    else {
         panic!("{}", failure.error)
     };
     assert!(growth > 1e4 && time < scene.end_time, "{growth:e} at {time}");
@@ -154,6 +155,27 @@ fn a_growing_motion_with_an_end_is_followed() {
     assert!(growth > 1e7, "{growth:e}");
     let off = (found.last().tau[0] / end.exp() - 1.0).abs();
     assert!(off < summary.steps_accepted as f64 * 1e-9, "{off:e}");
+    // Its end is told of, though it was reached.
+    let Some(Runaway { hinge, feeds, growth: told }) = summary.runaway else {
+        panic!("{summary:?}")
+    };
+    assert_eq!((hinge, feeds), (FIRST, Feeds::Dashpot));
+    assert!((told / growth - 1.0).abs() < 1e-6, "{told:e}, {growth:e}");
+    // Ten times its rate is a hundred times its energy.
+    let (_, summary) = run(&scene(&[growing(free(0.0, 1.0), 0.5)], 2.3), &Options::default());
+    assert_eq!(summary.runaway, None);
+}
+
+/// A pendulum falls from rest: gravity feeds it, and not without end.
+#[test]
+fn a_pendulum_on_the_ground_does_not_run_away() {
+    let mut scene = description(&[free(0.0, 0.0)], 3.0);
+    scene.base = Base::Fixed;
+    scene.gravity = Some(Gravity { up: Vec3::unit_z(), acceleration: 9.8 });
+    scene.bodies[0].mass_properties.center_of_mass = Vec3::unit_y();
+    let (found, summary) = run(&Scene::new(scene).expect("a body"), &Options::default());
+    assert!(found.samples.iter().any(|sample| sample.kinetic_energy > 1.0));
+    assert_eq!(summary.runaway, None);
 }
 
 /// Two booms at rest beside each other that only a coupling moves.

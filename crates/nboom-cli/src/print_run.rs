@@ -327,6 +327,7 @@ mod tests {
                 }],
                 largest_impulse: Some(LockUpImpulse { hinge: 0, time: 0.25, impulse: -0.125 }),
             },
+            runaway: None,
         };
         let outcome = Outcome { summary, wall_seconds: 0.012345, error: None };
         Account {

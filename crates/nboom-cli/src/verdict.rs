@@ -63,13 +63,14 @@ fn other_hinge(scene: &Scene, i: usize, hinge: &HingeVerdict) -> String {
     }
 }
 
-/// Why the results of a run at this tolerance are not to be trusted, or not to be liked: laws that do not hold, latches of
-/// which errors of the run may decide, and parts that fail.
+/// Why the results of a run at this tolerance are not to be trusted, or not to be liked: a motion that runs away, laws
+/// that do not hold, latches of which errors of the run may decide, and parts that fail.
 pub fn troubles(scene: &Scene, summary: &Summary, rtol: f64, worst: &WorstLoads) -> Vec<String> {
     let poor = summary.conservation.poor(rtol).map(|law| law.to_string());
     let doubtful = summary.verdict.doubts(scene, rtol).map(|(i, doubt)| in_doubt(scene, i, doubt));
     let negative = worst.weakest_of_each().filter_map(negative_margin);
-    poor.chain(doubtful).chain(negative).collect()
+    let runaway = summary.runaway.iter().map(ToString::to_string);
+    runaway.chain(poor).chain(doubtful).chain(negative).collect()
 }
 
 fn in_doubt(scene: &Scene, i: usize, doubt: Doubt) -> String {

@@ -293,6 +293,7 @@ impl<'a> SummaryFile<'a> {
     ) -> Self {
         let CodeOfRun { path, formulation, generated_share } = summary.code();
         let poor = summary.conservation.poor(run.rtol).map(|law| law.to_string());
+        let runaway = summary.runaway.iter().map(ToString::to_string);
         Self {
             path,
             formulation,
@@ -313,7 +314,7 @@ impl<'a> SummaryFile<'a> {
             wall_seconds,
             conservation: summary.conservation.into(),
             attitude_drift: summary.attitude_drift,
-            warnings: run.warnings.iter().cloned().chain(poor).collect(),
+            warnings: run.warnings.iter().cloned().chain(runaway).chain(poor).collect(),
             files,
             ..Self::unfinished(run)
         }

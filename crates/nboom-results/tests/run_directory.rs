@@ -23,10 +23,8 @@ fn scene() -> Scene {
     let hub = MassProperties::new(100.0, Vec3::zero(), Sym3::diagonal(40.0, 30.0, 20.0));
     let boom = MassProperties::new(3.0, Vec3::unit_y(), Sym3::diagonal(1.0, 0.1, 1.0));
     let mut description = SceneDescription::at_rest("one boom", hub, 10.0);
-    description.attach(&Appendage::Regular {
-        mount: Mount::at(Vec3::zero()),
-        segments: vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }],
-    });
+    let segments = vec![Segment { length: 2.0, mass_properties: boom, hinge: Hinge::free() }];
+    description.attach(&Appendage::Regular { mount: Mount::at(Vec3::zero()), segments });
     Scene::new(description).expect("the bodies are physical")
 }
 
@@ -119,6 +117,7 @@ fn outcome(error: Option<&str>) -> Outcome {
             hinges: vec![HingeVerdict { since: Some(5.0), closing_rate: Some(-0.5), ..hinge }],
             largest_impulse: Some(LockUpImpulse { hinge: 0, time: 5.0, impulse: -1.5 }),
         },
+        runaway: None,
     };
     Outcome { summary, wall_seconds: 0.25, error: error.map(str::to_owned) }
 }

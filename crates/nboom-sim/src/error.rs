@@ -128,17 +128,12 @@ pub enum SimError {
         hinge: HingeLabel,
     },
     /// Something feeds energy without end.
-    #[error("at time {}, hinge {hinge}: the motion runs away, with {growth:.0e} times the energy of its \
-             beginning; {feeds}", moment(.time))]
+    #[error("at time {}, {runaway}", moment(.time))]
     Runaway {
         /// Time reached.
         time: f64,
-        /// The hinge that feeds most.
-        hinge: HingeLabel,
-        /// What of it.
-        feeds: Feeds,
-        /// Kinetic energy in units of what the scene has of energy at the initial time.
-        growth: f64,
+        /// What does.
+        runaway: Runaway,
     },
     /// The steps that are allowed are used up.
     #[error("at time {}: the {steps} steps that {by} allows are used up", moment(.time))]
@@ -190,6 +185,27 @@ pub enum SimError {
         /// Why not.
         source: io::Error,
     },
+}
+
+/// A motion that something feeds without end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Runaway {
+    /// The hinge that feeds most.
+    pub hinge: HingeLabel,
+    /// What of it.
+    pub feeds: Feeds,
+    /// Kinetic energy in units of what the scene has of energy at the initial time.
+    pub growth: f64,
+}
+
+impl fmt::Display for Runaway {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { hinge, feeds, growth } = self;
+        write!(
+            f,
+            "hinge {hinge}: the motion runs away, with {growth:.0e} times the energy of its beginning; {feeds}"
+        )
+    }
 }
 
 /// What of a hinge feeds energy.

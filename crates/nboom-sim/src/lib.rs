@@ -51,7 +51,7 @@ pub use code::fit::{Fit, Repertoire, SharedRepertoire};
 pub use code::generated::{NoRoutine, Unmet};
 pub use code::selection::{CodeOfRun, Selection};
 pub use equations::totals::Totals;
-pub use error::{Feeds, SimError};
+pub use error::{Feeds, Runaway, SimError};
 pub use events::event::{Event, EventKind, Jump};
 pub use lanes::{Lanes, Task};
 pub use nboom_elements::{Commands, OwnLaw};

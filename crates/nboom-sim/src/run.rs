@@ -311,6 +311,7 @@ impl<'a> Run<'a> {
     }
 
     fn finish(&mut self) -> Result<(), SimError> {
+        self.summary.runaway = self.runaway();
         let found = self.invariants();
         let now = Totals::of(&self.situation.state, &found);
         let end = Event {

@@ -264,3 +264,29 @@ fn hinge_loads_say_whether_they_have_the_pulses_of_latches() {
     // The latch stops the panel, I about 0.7, in a millisecond: its moment is far above that of the spring.
     assert!(moments[1] > 100.0 * moments[0], "{moments:?}");
 }
+
+/// A force table that rises beyond its last point drives a slide out by itself: its travel grows as an exponential.
+#[test]
+fn a_motion_that_runs_away_is_told_of_though_its_end_is_reached() {
+    let place = Place::new();
+    let scene = |end: f64| {
+        format!(
+            "[run]\nend = {end}\n[main_body]\nmass = 100.0\ninertia = [40.0, 30.0, 20.0]\n[[body]]\nname = \"mast\"\n\
+             mass = 2.0\nmass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n[body.slide]\nat = [0.0, 1.0, 0.0]\n\
+             axis = \"y\"\nstart = 0.1\nforce = [[0.0, 0.0], [0.1, 5.0]]\n"
+        )
+    };
+    let told = "hinge 1,1 (mast): the motion runs away, with";
+    for (end, is_told) in [(0.5, false), (3.0, true)] {
+        place.write("mast.toml", &scene(end));
+        let run = place.nboom(&["run", "mast.toml", "--quiet"]);
+        assert_eq!(code(&run), 0, "{}", stderr(&run));
+        assert_eq!(stderr(&run).contains(told), is_told, "{}", stderr(&run));
+        let warnings = place.summary("out/mast")["warnings"].to_string();
+        assert_eq!(warnings.contains(told), is_told, "{warnings}");
+        assert!(
+            warnings.contains("force table of hinge 1,1 (mast) drives it on and on"),
+            "{warnings}"
+        );
+    }
+}

@@ -41,7 +41,7 @@ impl Run<'_> {
         let crawls = steps - steps_then >= PACE_STEPS && time - since < PACE_SPAN * span;
         let used_up = steps >= self.options.max_steps;
         if let Some(runaway) = (crawls || used_up).then(|| self.runaway()).flatten() {
-            return Err(runaway);
+            return Err(SimError::Runaway { time, runaway });
         }
         if used_up {
             let Options { max_steps: steps, max_steps_by: by, .. } = self.options;
@@ -61,7 +61,10 @@ impl Run<'_> {
     /// Why the stepper does not go on.
     pub(super) fn stopped(&mut self, error: StepError) -> SimError {
         let hinge = self.hinge_to_blame(error);
-        self.runaway().unwrap_or(SimError::from_step(error, hinge))
+        match self.runaway() {
+            Some(runaway) => SimError::Runaway { time: self.situation.state.time, runaway },
+            None => SimError::from_step(error, hinge),
+        }
     }
 
     /// The hinge with the largest error in the last step.

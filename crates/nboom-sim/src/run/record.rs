@@ -6,7 +6,7 @@ use nboom_ode::Choice;
 use nboom_scalar::{Quaternion, Vec3, Wrench};
 
 use crate::code::selection::{CodeOfRun, Selection};
-use crate::error::SimError;
+use crate::error::{Runaway, SimError};
 use crate::events::event::{Event, Jump};
 use crate::run::account::Account;
 use crate::run::conservation::Conservation;
@@ -262,6 +262,8 @@ pub struct Summary {
     pub selections: Vec<Selection>,
     /// What became of the hinges.
     pub verdict: Verdict,
+    /// That something feeds the motion without end, if a run comes to its end all the same.
+    pub runaway: Option<Runaway>,
 }
 
 impl Summary {
@@ -282,6 +284,7 @@ impl Summary {
             integrations: Vec::new(),
             selections: Vec::new(),
             verdict: Verdict { hinges: Vec::new(), largest_impulse: None },
+            runaway: None,
         }
     }
 
@@ -290,6 +293,7 @@ impl Summary {
         self.events = 0;
         self.integrations.clear();
         self.selections.clear();
+        self.runaway = None;
         self.verdict.begin(hinges, beta);
     }
 

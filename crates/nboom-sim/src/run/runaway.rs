@@ -5,7 +5,7 @@ use nboom_elements::stored;
 use nboom_model::{Scene, Spring};
 
 use super::Run;
-use crate::error::{Feeds, SimError};
+use crate::error::{Feeds, Runaway, SimError};
 use crate::events::situation::Situation;
 
 /// Kinetic energy beyond this many times what the scene has is fed without end: rates have grown a
@@ -53,14 +53,14 @@ impl Run<'_> {
         self.resources.looked_at = steps;
         let is_far = self.equations.scene.end_time - window.time > TOO_FAR * window.next_step;
         match self.runaway().filter(|_| is_far) {
-            Some(runaway) => Err(runaway),
+            Some(runaway) => Err(SimError::Runaway { time: self.situation.state.time, runaway }),
             None => Ok(()),
         }
     }
 
     /// That the motion runs away, if it does, and what feeds it most. Laws of a program's own may
     /// feed it as they like.
-    pub(super) fn runaway(&mut self) -> Option<SimError> {
+    pub(super) fn runaway(&mut self) -> Option<Runaway> {
         if self.sampling.is_some() || !self.equations.own.is_empty() {
             return None;
         }
@@ -69,7 +69,8 @@ impl Run<'_> {
         let scene = &equations.scene;
         let Resources { energy, rotor_energy, .. } = self.resources;
         let motors = found.rotor_energy - rotor_energy + state.work.spin_up;
-        let growth = turning(scene, &found) / (energy + state.work.thrust.abs() + motors.abs());
+        let had = energy + state.work.thrust.abs() + motors.abs();
+        let growth = turning(scene, &found) / had;
         if growth.is_nan() || growth <= GROWTH {
             return None;
         }
@@ -95,11 +96,13 @@ impl Run<'_> {
         let larger = |a: &(usize, f64, Feeds), b: &(usize, f64, Feeds)| a.1.total_cmp(&b.1);
         let (spring, from_spring, by_spring) = from_spring.chain(by_coupling).max_by(larger)?;
         let (dashpot, _, by_dashpot) = from_dashpot.chain(by_damping).max_by(larger)?;
-        let (hinge, feeds) = if state.work.dashpots > from_spring {
-            (dashpot, by_dashpot)
+        let (fed, hinge, feeds) = if state.work.dashpots > from_spring {
+            (state.work.dashpots, dashpot, by_dashpot)
         } else {
-            (spring, by_spring)
+            (from_spring, spring, by_spring)
         };
-        Some(SimError::Runaway { time: state.time, hinge: scene.label(hinge), feeds, growth })
+        // Else gravity has, as it feeds a pendulum on the ground that falls from rest.
+        let is_fed = fed > GROWTH * had;
+        is_fed.then(|| Runaway { hinge: scene.label(hinge), feeds, growth })
     }
 }
