@@ -23,16 +23,13 @@ pub enum InputError {
         source: std::io::Error,
     },
     /// The path names a directory, a pipe or a device.
-    #[error("{}: found a directory or a device, expected a file", path.display())]
+    #[error("{}", told(self.bad_file()))]
     NotAFile {
         /// The path.
         path: PathBuf,
     },
     /// The file's name does not say what it is.
-    #[error(
-        "{}: found a name without a known ending, expected a scene NAME.toml, a deck NAME.nml or a robot NAME.urdf",
-        path.display()
-    )]
+    #[error("{}", told(self.bad_file()))]
     NotAScene {
         /// The file.
         path: PathBuf,
@@ -52,7 +49,7 @@ pub enum InputError {
         file: String,
     },
     /// The file is too long.
-    #[error("{}: found more than {limit} bytes, expected at most that many", path.display())]
+    #[error("{}", told(self.bad_file()))]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -60,7 +57,7 @@ pub enum InputError {
         limit: u64,
     },
     /// The file contains a zero byte, so it is not text.
-    #[error("{}: found a zero byte at offset {offset}, expected text", path.display())]
+    #[error("{}", told(self.bad_file()))]
     Binary {
         /// The file.
         path: PathBuf,
@@ -68,7 +65,7 @@ pub enum InputError {
         offset: usize,
     },
     /// The file is not UTF-8.
-    #[error("{}:{line}: found the byte 0x{byte:02X} at offset {offset}, expected text in UTF-8", path.display())]
+    #[error("{}", told(self.bad_file()))]
     NotUtf8 {
         /// The file.
         path: PathBuf,
@@ -85,7 +82,45 @@ pub enum InputError {
     Content(Vec<Diagnostic>),
 }
 
+/// A file that is not what is to be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadFile {
+    /// The file, with the line if one is wrong.
+    pub place: String,
+    /// What is there.
+    pub found: String,
+    /// What would be right.
+    pub expected: &'static str,
+}
+
 impl InputError {
+    /// What is wrong with the file as a whole, if it is that.
+    pub fn bad_file(&self) -> Option<BadFile> {
+        let (path, found, expected) = match self {
+            Self::NotAFile { path } => (path, "a directory or a device".to_owned(), "a file"),
+            Self::NotAScene { path } => (
+                path,
+                "a name without a known ending".to_owned(),
+                "a scene NAME.toml, a deck NAME.nml or a robot NAME.urdf",
+            ),
+            Self::TooLarge { path, limit } => {
+                (path, format!("more than {limit} bytes"), "at most that many")
+            }
+            Self::Binary { path, offset } => {
+                (path, format!("a zero byte at offset {offset}"), "text")
+            }
+            Self::NotUtf8 { path, offset, byte, .. } => {
+                (path, format!("the byte 0x{byte:02X} at offset {offset}"), "text in UTF-8")
+            }
+            _ => return None,
+        };
+        let place = match self {
+            Self::NotUtf8 { line, .. } => format!("{}:{line}", path.display()),
+            _ => path.display().to_string(),
+        };
+        Some(BadFile { place, found, expected })
+    }
+
     /// The message, in pieces: one for each of the first errors of the content, and how many more there
     /// are. The first ten come with their lines.
     pub fn messages(&self) -> Vec<String> {
@@ -94,6 +129,12 @@ impl InputError {
             other => vec![other.to_string()],
         }
     }
+}
+
+fn told(bad: Option<BadFile>) -> String {
+    bad.map_or_else(String::new, |BadFile { place, found, expected }| {
+        format!("{place}: found {found}, expected {expected}")
+    })
 }
 
 fn listing(diagnostics: &[Diagnostic]) -> Vec<String> {

@@ -90,7 +90,7 @@ pub use deck::{
     SYMBOLS, Symbol, WrittenDeck, parse_deck, write_deck,
 };
 pub use diagnostic::{Diagnostic, Excerpt};
-pub use error::InputError;
+pub use error::{BadFile, InputError};
 pub use legacy::LegacySettings;
 pub use sampling::{Sampling, TooManyTimes};
 pub use scene::suggest::nearest;

@@ -14,8 +14,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use nboom_io::{
-    Diagnostic, FOLDER_NAME, InputError, ReadOptions, SceneDocument, SceneFile, folder_name,
-    read_text,
+    BadFile, Diagnostic, FOLDER_NAME, InputError, ReadOptions, SceneDocument, SceneFile,
+    folder_name, read_text,
 };
 use nboom_results::with_causes;
 use toml::de::DeTable;
@@ -183,13 +183,12 @@ impl<'t> Reader<'t> {
             Ok(found) => Ok(Some(found)),
             Err(InputError::Content(errors)) => Err(errors),
             Err(error) => {
-                let told = with_causes(&error);
-                let parts = told.split_once(": found ");
-                let parts = parts.and_then(|(file, found)| {
-                    let (found, expected) = found.split_once(", expected ")?;
-                    Some((format!("{}, {found}", quoted(file)), expected))
-                });
-                let (found, expected) = parts.unwrap_or((told.clone(), "the file of a scene"));
+                let (found, expected) = match error.bad_file() {
+                    Some(BadFile { place, found, expected }) => {
+                        (format!("{}, {found}", quoted(&place)), expected)
+                    }
+                    None => (with_causes(&error), "the file of a scene"),
+                };
                 self.error(&scene.place, "scene", found, expected);
                 Ok(None)
             }

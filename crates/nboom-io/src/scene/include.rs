@@ -9,6 +9,7 @@ use super::catalog::{PART, SCENE};
 use super::keys::TableKind;
 use super::sources::{Place, Sources};
 use super::tree::{self, Entry, Node, Table, Value};
+use crate::BadFile;
 use crate::diagnostic::{Report, quoted};
 use crate::source::{LARGEST, read_text};
 
@@ -174,8 +175,12 @@ fn admitted(
         return Err(("one more file".to_owned(), format!("at most {MOST_FILES} files")));
     }
     let text = read_text(&canonical, LARGEST).map_err(|error| {
-        let told = error.to_string();
-        let (found, expected) = told.split_once(", expected ").unwrap_or((&told, "a text file"));
+        let (found, expected) = match error.bad_file() {
+            Some(BadFile { place, found, expected }) => {
+                (format!("{place}: found {found}"), expected)
+            }
+            None => (error.to_string(), "a text file"),
+        };
         (format!("which cannot be read: {found}"), expected.to_owned())
     })?;
     Ok((canonical, text))

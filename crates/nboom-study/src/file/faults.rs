@@ -4,7 +4,7 @@ use nboom_io::{SceneDocument, SceneFile, nearest};
 use nboom_model::{Hinge, HingeLabel, HingeState, Release, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
-use super::reader::{At, Fields, Reader, parted, quoted};
+use super::reader::{At, Fields, Reader, quoted};
 use crate::fault::FaultError;
 use crate::hinges;
 use crate::study::{Change, Fault, LateRelease, Relation};
@@ -101,8 +101,8 @@ impl<'t> Reader<'t> {
             self.error(&of.place(), "fault", error.found(), FaultError::EXPECTED);
         } else if let Err(errors) = Scene::new(description) {
             let why = errors.first().map_or_else(String::new, ToString::to_string);
-            let (found, expected) = parted(&why, "a fault that leaves a scene");
-            self.error(&of.place(), "fault", found, expected);
+            let found = format!("no scene ({why})");
+            self.error(&of.place(), "fault", found, "a fault that leaves one");
         }
     }
 

@@ -292,14 +292,6 @@ fn kind(value: &DeValue<'_>) -> String {
     }
 }
 
-/// What a message of the form `… found, … expected` says was found and expected; `otherwise` of another form.
-pub(super) fn parted<'m>(message: &'m str, otherwise: &'m str) -> (&'m str, &'m str) {
-    match message.split_once(" found, ") {
-        Some((found, expected)) => (found, expected.trim_end_matches(" expected")),
-        None => (message, otherwise),
-    }
-}
-
 /// A piece of the text in quotes, shortened if it is long.
 pub(super) fn quoted(text: &str) -> String {
     format!("`{}`", short(text))

@@ -4,7 +4,7 @@ use nboom_io::SceneFile;
 use nboom_sim::{Form, IdleChoice, Method as Integrator, OptionError, Path as Code};
 use nboom_strength::{ActsOn, Judged, PulseShape, Settings};
 
-use super::reader::{Fields, Reader, parted};
+use super::reader::{Fields, Reader};
 use crate::study::RunSettings;
 
 impl<'t> Reader<'t> {
@@ -116,9 +116,9 @@ impl<'t> Reader<'t> {
             }
         }
         let Some(end_time) = run.end_time else { return };
-        if let Err(errors) = nominal.scene.ending_at(end_time) {
-            let text = errors.first().map_or_else(String::new, ToString::to_string);
-            let (found, expected) = parted(&text, "a time after the start");
+        if nominal.scene.ending_at(end_time).is_err() {
+            let (found, start) = (format!("end time {end_time}"), nominal.scene.initial.time);
+            let expected = format!("a time not before the initial time {start}");
             self.error(&of.place_of("end_time"), "end_time", found, expected);
         }
     }
