@@ -22,7 +22,7 @@ const UNIT: f64 = 1e-6;
 /// States from which on a call lets other threads of Python run.
 const MANY: usize = 64;
 
-/// Accelerations, and where a formulation forms them mass matrix and forcing, of one scene in one mode.
+/// Accelerations, and where a formulation forms them mass matrix and forcing, of a scene with the same hinges held.
 #[pyclass(frozen, module = "nboom")]
 pub(crate) struct Dynamics {
     evaluator: Mutex<Evaluator>,
@@ -123,6 +123,9 @@ impl Dynamics {
 impl Dynamics {
     /// Accelerations of the main body and of the free hinges.
     ///
+    /// All forces of the scene act as in a run that is in the state: thrusters as they burn at `time`, springs and
+    /// tables as they are at `beta`.
+    ///
     /// Parameters
     /// ----------
     /// omega : array (3,) or (N, 3)
@@ -132,12 +135,12 @@ impl Dynamics {
     /// tau : array (n,) or (N, n)
     ///     Their rates [rad/T, L/T].
     /// torque : array (n,) or (N, n), optional
-    ///     Torques about the hinges, of slides forces, beside those of springs and dashpots.
+    ///     Torques about the hinges, of slides forces, beside those of the scene.
     /// attitude : array (4,) or (N, 4), optional
     ///     Unit quaternion, scalar first, that turns main-body components into inertial ones; needed only
     ///     for forces that depend on it. By default 1.
     /// time : float, optional
-    ///     For forces that depend on it. By default 0.
+    ///     For what depends on it: thrusters and torques, a driven main body, rotors. By default 0.
     ///
     /// Returns
     /// -------
@@ -163,7 +166,7 @@ impl Dynamics {
         torque: Option<&Bound<'py, PyAny>>,
         attitude: Option<&Bound<'py, PyAny>>,
         time: f64,
-    ) -> PyResult<[Bound<'py, PyAny>; 3]> {
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let arguments = self.arguments(omega, beta, tau, torque, attitude, time)?;
         let (count, free) = (arguments.count, self.free);
         let (states, lists) = (count.unwrap_or(1), arguments.lists(free));
@@ -180,11 +183,11 @@ impl Dynamics {
             }
             Ok(())
         })?;
-        Ok([
+        Ok((
             arrays::rows(py, omega_dot, count, 3)?,
             arrays::rows(py, origin, count, 3)?,
             arrays::rows(py, tau_dot, count, free)?,
-        ])
+        ))
     }
 
     /// Matrix and right side of the formulation's system for the accelerations.
@@ -213,7 +216,7 @@ impl Dynamics {
         torque: Option<&Bound<'py, PyAny>>,
         attitude: Option<&Bound<'py, PyAny>>,
         time: f64,
-    ) -> PyResult<[Bound<'py, PyAny>; 2]> {
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let arguments = self.arguments(omega, beta, tau, torque, attitude, time)?;
         let (count, size) = (arguments.count, 6 + self.free);
         let (states, lists) = (count.unwrap_or(1), arguments.lists(self.free));
@@ -238,7 +241,7 @@ impl Dynamics {
         formed.map_err(|why| {
             PyValueError::new_err(format!("formulation {}: {why}", self.formulation))
         })?;
-        Ok([arrays::matrices(py, matrices, count, size)?, arrays::rows(py, forcing, count, size)?])
+        Ok((arrays::matrices(py, matrices, count, size)?, arrays::rows(py, forcing, count, size)?))
     }
 
     fn __repr__(&self) -> String {

@@ -1,19 +1,20 @@
-//! Accelerations, mass matrix and forcing of a scene in one mode, at any states.
+//! Accelerations, mass matrix and forcing of a scene with the same hinges held, at any states.
 
 use nboom_dynamics::{Accelerations, Motion, Recursive};
 use nboom_formulation::{
     Coordinates, Formulation, HingeCoordinates, Recognised, Uncovered, recognise, symmetric,
 };
-use nboom_model::{HingeState, Mode, Scene};
+use nboom_model::Scene;
 use nboom_scalar::{Batch, Quaternion, Twist, Vec3};
 use nboom_sim::{Form, NoRoutine, Options, Path, Repertoire};
 
+use crate::at_state::AtState;
 use crate::routine::{LANES, Routine};
 
-/// Code for the equations of motion of a scene in one mode.
+/// Code for the equations of motion of a scene, the same at all states.
 #[derive(Clone)]
 pub(crate) struct Evaluator {
-    recursion: Recursive<f64>,
+    at_state: AtState,
     code: Code,
     torques: Vec<f64>,
     found: Accelerations<f64>,
@@ -32,7 +33,7 @@ pub(crate) struct State<'a> {
     pub omega: Vec3<f64>,
     pub beta: &'a [f64],
     pub tau: &'a [f64],
-    /// Torques beside those of springs and dashpots.
+    /// Torques beside those of the scene.
     pub added: Option<&'a [f64]>,
 }
 
@@ -82,24 +83,16 @@ impl Evaluator {
         options: &Options,
         batches: &[Batch],
     ) -> Result<Self, String> {
-        let state = |angle: &Option<f64>| match angle {
-            Some(_) => HingeState::Locked,
-            None => HingeState::Free,
-        };
-        let hinges = held.iter().map(state).collect();
-        let mode = Mode { hinges, ..Mode::at_start(scene) };
-        let beta: Vec<f64> = held.iter().map(|angle| angle.unwrap_or(0.0)).collect();
-        let mut recursion = Recursive::new(scene);
-        recursion.set_mode(&mode, &beta);
-        let code = Code::choose(scene, &recursion, options, batches)?;
-        let free = recursion.free_hinges().len();
+        let at_state = AtState::new(scene, held);
+        let code = Code::choose(scene, &at_state, options, batches)?;
+        let free = at_state.recursion().free_hinges().len();
         let found = Accelerations::for_hinges(free);
-        Ok(Self { recursion, code, torques: vec![0.0; free], found })
+        Ok(Self { at_state, code, torques: vec![0.0; free], found })
     }
 
     /// The free hinges, in the scene's order.
     pub fn free_hinges(&self) -> &[usize] {
-        self.recursion.free_hinges()
+        self.at_state.recursion().free_hinges()
     }
 
     /// `generated` or `generic`, the formulation, and what more there is to say.
@@ -113,15 +106,16 @@ impl Evaluator {
         }
     }
 
-    /// Says at which attitude and when the next states are, for what depends on that.
+    /// Says at which attitude and when the next states are.
     pub fn set_outside(&mut self, attitude: Quaternion<f64>, time: f64) {
-        self.recursion.set_outside(attitude, time);
+        self.at_state.set_outside(attitude, time);
     }
 
     /// Writes the accelerations of a state, which has number `i`: ω̇ and a_O without gravity, main-body axes,
     /// and τ̇.
     pub fn accelerations(&mut self, state: &State<'_>, out: &mut Found<'_>, i: usize) {
-        let Self { recursion, code, torques, found } = self;
+        let Self { at_state, code, torques, found } = self;
+        let recursion = at_state.at(state.beta);
         let [omega_dot, origin, tau_dot] = out.row(i, torques.len());
         let motion = Motion { omega_body: state.omega, beta: state.beta, tau: state.tau };
         match code {
@@ -166,7 +160,7 @@ impl Evaluator {
     ) -> bool {
         match &mut self.code {
             Code::Routine(routine) => {
-                let found = routine.accelerations_of_eight(&mut self.recursion, states, out, first);
+                let found = routine.accelerations_of_eight(&mut self.at_state, states, out, first);
                 (first..first + LANES).filter(|_| found).for_each(|i| self.hold(out, i));
                 found
             }
@@ -176,7 +170,7 @@ impl Evaluator {
 
     /// Sets the accelerations of a main body that is held, of state number `i`, to what they are but for rounding.
     fn hold(&self, out: &mut Found<'_>, i: usize) {
-        if let Some(held) = self.recursion.tree().held {
+        if let Some(held) = self.at_state.recursion().tree().held {
             let [omega_dot, origin, _] = out.row(i, self.torques.len());
             omega_dot.copy_from_slice(&held.angular.to_array());
             origin.copy_from_slice(&held.linear.to_array());
@@ -194,7 +188,8 @@ impl Evaluator {
         matrix: &mut [f64],
         right: &mut [f64],
     ) -> Result<(), &'static str> {
-        let Self { recursion, code, torques, .. } = self;
+        let Self { at_state, code, torques, .. } = self;
+        let recursion = at_state.at(state.beta);
         let motion = Motion { omega_body: state.omega, beta: state.beta, tau: state.tau };
         let (formulation, recognised) = match code {
             Code::ClosedForm { formulation, recognised } => (*formulation, recognised.as_deref()),
@@ -235,12 +230,12 @@ impl Evaluator {
 impl Code {
     fn choose(
         scene: &Scene,
-        recursion: &Recursive<f64>,
+        at_state: &AtState,
         options: &Options,
         batches: &[Batch],
     ) -> Result<Self, String> {
+        let (recursion, pushed) = (at_state.recursion(), at_state.may_act_on_main_body());
         let recognised = recognise(recursion.tree());
-        let pushed = recursion.acts_on_main_body();
         let library = || match options.formulation {
             None | Some(Form::Recursive) => Ok(Self::Recursion),
             Some(Form::Closed(formulation)) => {

@@ -4,6 +4,7 @@
 //! same to the last bit.
 
 mod arrays;
+mod at_state;
 mod columns;
 mod command;
 mod dynamics;

@@ -5,6 +5,7 @@ use nboom_formulation::{Layout, Recognised};
 use nboom_scalar::{Batch, Eight, Kernel, Vec3};
 use nboom_sim::Fit;
 
+use crate::at_state::AtState;
 use crate::evaluator::{EightStates, Found, add};
 
 /// How many states a batch takes.
@@ -101,13 +102,13 @@ impl Routine {
     /// Writes the accelerations of eight states, the first of which has number `first`, if it can.
     pub fn accelerations_of_eight(
         &mut self,
-        recursion: &mut Recursive<f64>,
+        at_state: &mut AtState,
         states: &EightStates<'_>,
         out: &mut Found<'_>,
         first: usize,
     ) -> bool {
         let Self { eight: Some(eight), places, .. } = self else { return false };
-        eight.write(recursion, states, places);
+        eight.write(at_state, states, places);
         eight.batch.evaluate(&eight.constants, &eight.coordinates, &mut eight.outputs);
         eight.read(out, first, places);
         true
@@ -117,11 +118,9 @@ impl Routine {
     fn write(&mut self, recursion: &Recursive<f64>, motion: &Motion<'_, f64>, torques: &[f64]) {
         let x = &mut self.coordinates;
         x[OMEGA..EXTERNAL].copy_from_slice(&motion.omega_body.to_array());
-        if recursion.acts_on_main_body() {
-            let acting = recursion.acting_on_main_body(motion.omega_body);
-            x[EXTERNAL..EXTERNAL + 3].copy_from_slice(&acting.moment.to_array());
-            x[EXTERNAL + 3..EXTERNAL + 6].copy_from_slice(&acting.force.to_array());
-        }
+        let acting = recursion.acting_on_main_body(motion.omega_body);
+        x[EXTERNAL..EXTERNAL + 3].copy_from_slice(&acting.moment.to_array());
+        x[EXTERNAL + 3..EXTERNAL + 6].copy_from_slice(&acting.force.to_array());
         for (j, &([beta, tau, torque], _)) in self.places.iter().enumerate() {
             (x[beta], x[tau], x[torque]) = (motion.beta[j], motion.tau[j], torques[j]);
         }
@@ -130,27 +129,21 @@ impl Routine {
 
 impl RoutineOfEight {
     /// Puts states where the routine takes them.
-    fn write(
-        &mut self,
-        recursion: &mut Recursive<f64>,
-        states: &EightStates<'_>,
-        places: &[Place],
-    ) {
+    fn write(&mut self, at_state: &mut AtState, states: &EightStates<'_>, places: &[Place]) {
         let Self { coordinates: x, torques, .. } = self;
-        let (free, acts) = (places.len(), recursion.acts_on_main_body());
+        let free = places.len();
         for lane in 0..LANES {
             let omega = &states.omega[3 * lane..3 * lane + 3];
             (0..3).for_each(|i| x[OMEGA + i].0[lane] = omega[i]);
             let omega_body = Vec3::new(omega[0], omega[1], omega[2]);
             let own = lane * free..(lane + 1) * free;
             let (beta, tau) = (&states.beta[own.clone()], &states.tau[own.clone()]);
+            let recursion = at_state.at(beta);
             recursion.hinge_forces(&Motion { omega_body, beta, tau }, &mut torques[own]);
-            if acts {
-                let acting = recursion.acting_on_main_body(omega_body);
-                let [m, f] = [acting.moment.to_array(), acting.force.to_array()];
-                (0..3).for_each(|i| x[EXTERNAL + i].0[lane] = m[i]);
-                (0..3).for_each(|i| x[EXTERNAL + 3 + i].0[lane] = f[i]);
-            }
+            let acting = recursion.acting_on_main_body(omega_body);
+            let [m, f] = [acting.moment.to_array(), acting.force.to_array()];
+            (0..3).for_each(|i| x[EXTERNAL + i].0[lane] = m[i]);
+            (0..3).for_each(|i| x[EXTERNAL + 3 + i].0[lane] = f[i]);
         }
         add(states.added, torques);
         for (j, &([beta, tau, torque], _)) in places.iter().enumerate() {

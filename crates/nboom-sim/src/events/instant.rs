@@ -7,6 +7,7 @@ use crate::equations::totals::Totals;
 use crate::error::SimError;
 use crate::events::event::{Event, EventKind, Jump};
 use crate::events::guard::{Bound, GuardKind, Guards, read};
+use crate::events::pieces::set_pieces_at_time;
 use crate::events::schedule::Schedule;
 
 /// Angle \[rad\] through which the fastest arriving hinge turns in one instant; where it slides,
@@ -271,18 +272,14 @@ impl<R: Number> Outcome<R> {
             let kind = GuardKind::Bound(bound);
             events.push(event(kind.event(), Some(kind.hinge()), None, after));
         }
-        mode.drive = scene.base.piece_at(end);
-        for (rotor, piece) in scene.rotors.iter().zip(&mut mode.rotors) {
-            *piece = rotor.speed.piece_at(end);
-        }
-        for (one, piece) in scene.externals.iter().zip(&mut mode.externals) {
-            let next = one.course.piece_at(end);
-            let before = one.course.acts(std::mem::replace(piece, next));
-            if one.course.acts(next) != before {
+        for (one, &piece) in scene.externals.iter().zip(&mode.externals) {
+            let before = one.course.acts(piece);
+            if one.course.acts(one.course.piece_at(end)) != before {
                 let kind = if before { EventKind::ThrustOff } else { EventKind::ThrustOn };
                 events.push(event(kind, one.body, None, after));
             }
         }
+        set_pieces_at_time(mode, scene, end);
         Ok(Some(found))
     }
 

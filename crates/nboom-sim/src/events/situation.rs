@@ -6,6 +6,7 @@ use crate::equations::state::State;
 use crate::error::SimError;
 use crate::events::guard::{GuardKind, Guards};
 use crate::events::instant::{Arrivals, Outcome};
+use crate::events::pieces::{set_pieces_at_posture, set_pieces_at_time};
 use crate::events::schedule::Schedule;
 use crate::events::side::LockSide;
 
@@ -52,17 +53,8 @@ impl<R: Number> Situation<R> {
         mode.hinges.clone_from(&start.hinges);
         mode.pieces.clone_from(&start.pieces);
         state.put_center(dynamics, state.center);
-        for (piece, element) in mode.pieces.iter_mut().zip(dynamics.elements().switched()) {
-            let [value, _] = state.coordinate(dynamics, element.coordinate);
-            *piece = element.piece_at(value);
-        }
-        for (piece, external) in mode.externals.iter_mut().zip(&scene.externals) {
-            *piece = external.course.piece_at(scene.initial.time);
-        }
-        mode.drive = scene.base.piece_at(scene.initial.time);
-        for (piece, rotor) in mode.rotors.iter_mut().zip(&scene.rotors) {
-            *piece = rotor.speed.piece_at(scene.initial.time);
-        }
+        set_pieces_at_posture(mode, dynamics, &state.beta);
+        set_pieces_at_time(mode, scene, scene.initial.time);
         for (i, side) in lock_sides.iter_mut().enumerate() {
             *side = LockSide::of(scene, i, state.beta[i]);
         }

@@ -68,7 +68,7 @@ class Run:
     def seconds(self) -> float: ...
 
 class Dynamics:
-    """Accelerations, and where a formulation forms them mass matrix and forcing, of one scene in one mode."""
+    """Accelerations, and where a formulation forms them mass matrix and forcing, of a scene with the same hinges held."""
 
     @property
     def hinges(self) -> list[str]: ...
