@@ -6,6 +6,7 @@ use numpy::{
     Element, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayDescrMethods, PyArrayDyn,
     PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
 };
+use pyo3::PyTypeInfo;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -29,8 +30,8 @@ impl<'py> Rows<'py> {
         of: &str,
     ) -> PyResult<Self> {
         let array = match argument.cast::<PyArrayDyn<f64>>() {
-            Ok(array) => array.clone(),
-            Err(_) => numbers(name, argument)?,
+            Ok(array) if is_plain(array) => array.clone(),
+            _ => numbers(name, argument)?,
         };
         let shape = array.shape();
         let count = match *shape {
@@ -75,12 +76,26 @@ pub(crate) fn count(rows: &[&Rows<'_>]) -> PyResult<Option<usize>> {
     }
 }
 
-/// Anything that numpy makes an array of real numbers of.
+/// Whether an array is of numpy's own class, and its numbers stand where a processor takes numbers from: those of a
+/// field of records may not.
+fn is_plain(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
+    let size = size_of::<f64>() as isize;
+    array.get_type().is(PyArrayDyn::<f64>::type_object(array.py()))
+        && array.data().is_aligned()
+        && array.strides().iter().all(|stride| stride % size == 0)
+}
+
+/// Anything that numpy makes an array of real numbers of, as an array of its own.
 fn numbers<'py>(
     name: &'static str,
     argument: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let numpy = argument.py().import("numpy")?;
+    if argument.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
+        return Err(PyTypeError::new_err(format!(
+            "{name}: a masked array found, an array of numpy without a mask expected"
+        )));
+    }
     let found = numpy.call_method1("asarray", (argument,))?;
     let array = found.cast::<PyUntypedArray>()?;
     let kind = array.dtype().kind();
