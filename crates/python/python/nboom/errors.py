@@ -5,7 +5,10 @@ from __future__ import annotations
 import sys
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .run import Run
 
 __all__ = ["ComparisonFailed", "Error", "InputError", "SceneWarning", "SimulationError", "TrustWarning"]
 
@@ -21,10 +24,14 @@ class InputError(Error, ValueError):
 class SimulationError(Error, RuntimeError):
     """A run or a sweep cannot be finished.
 
-    ``run`` is the run up to where it failed, where there is one.
+    ``run`` is the run up to where it failed, where there is one; an error that comes from another process has none.
     """
 
-    run = None
+    run: Run | None = None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # The memory of a run stays in its process.
+        return type(self), self.args, {name: value for name, value in vars(self).items() if name != "run"}
 
 
 class ComparisonFailed(Error, AssertionError):

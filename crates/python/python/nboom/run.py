@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _nboom
+from .errors import SimulationError
 from .options import words
 from .tables import Table
 
@@ -88,7 +89,14 @@ class Run:
     def report(self) -> str:
         """The page that shows the run: HTML that needs no other file and no network."""
         with tempfile.TemporaryDirectory() as folder:
-            return (self.save(Path(folder) / "run") / "report.html").read_text(encoding="utf-8")
+            page = Path(folder) / "run" / "report.html"
+            try:
+                self.save(page.parent)
+            except SimulationError:
+                # A run that failed fails again, and leaves its page.
+                if self.complete or not page.exists():
+                    raise
+            return page.read_text(encoding="utf-8")
 
     def __repr__(self) -> str:
         end = "" if self.complete else ", not complete"
