@@ -1,3 +1,5 @@
+use std::borrow::Borrow;
+
 use nboom_scalar::Kernel;
 use serde::Serialize;
 
@@ -90,10 +92,10 @@ impl Rows {
     /// Takes all code through the states of a test case, the first of which has the number `first`.
     fn compare(
         &mut self,
+        interrupted: &dyn Fn() -> bool,
         test_case: &TestCase,
         first: usize,
-        kernels: &'static [Kernel],
-        of_equations: &[Kernel],
+        (kernels, of_equations): (&'static [Kernel], &[Kernel]),
     ) -> Result<(), VerifyError> {
         let all_free = test_case.held().iter().all(Option::is_none);
         let hinges = if all_free { Hinges::Free } else { Hinges::Held };
@@ -101,6 +103,9 @@ impl Rows {
         let equations = EquationsCode::all(test_case, of_equations)?;
         let mut referee = Referee::new(test_case, first);
         for (i, state) in test_case.coordinates().enumerate() {
+            if interrupted() {
+                return Err(VerifyError::Interrupted);
+            }
             let (reference, number) = (referee.reference(i)?, first + i);
             self.largest_condition = self.largest_condition.max(reference.condition);
             for (label, code) in &mut codes {
@@ -189,11 +194,28 @@ pub fn compare(
     of_equations: &[Kernel],
     tolerance: f64,
 ) -> Result<Comparison, VerifyError> {
+    compare_unless(&|| false, free, held.iter().map(Ok), (kernels, of_equations), tolerance)
+}
+
+/// [Compares](compare) unless it is `interrupted`, which it asks at each state; `routines` are those for accelerations
+/// and those of equations.
+///
+/// # Errors
+/// As [`compare`], and [`VerifyError::Interrupted`].
+pub fn compare_unless<T: Borrow<TestCase>>(
+    interrupted: &dyn Fn() -> bool,
+    free: &TestCase,
+    held: impl Iterator<Item = Result<T, VerifyError>>,
+    routines: (&'static [Kernel], &[Kernel]),
+    tolerance: f64,
+) -> Result<Comparison, VerifyError> {
     let mut found = Rows { rows: Vec::new(), largest_condition: 1.0 };
-    let mut states = 0;
-    for test_case in [free].into_iter().chain(held) {
-        found.compare(test_case, states + 1, kernels, of_equations)?;
-        states += test_case.states().len();
+    found.compare(interrupted, free, 1, routines)?;
+    let mut states = free.states().len();
+    for test_case in held {
+        let test_case = test_case?;
+        found.compare(interrupted, test_case.borrow(), states + 1, routines)?;
+        states += test_case.borrow().states().len();
     }
     found.rows.sort_by_key(|row| (row.hinges, row.quantity));
     Ok(Comparison {
@@ -205,6 +227,6 @@ pub fn compare(
         tolerance,
         largest_condition: found.largest_condition,
         rows: found.rows,
-        not_covered: free.not_covered(kernels),
+        not_covered: free.not_covered(routines.0),
     })
 }

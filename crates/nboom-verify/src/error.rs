@@ -42,6 +42,9 @@ pub enum VerifyError {
         /// How many there are.
         expected_outputs: usize,
     },
+    /// Somebody wants it to end.
+    #[error("interrupted")]
+    Interrupted,
     /// A routine for a matrix is of a formulation that has none.
     #[error("a routine gives a matrix of {formulation}, which has none")]
     NoEquations {

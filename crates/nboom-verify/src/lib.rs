@@ -52,7 +52,7 @@ mod work_precision;
 
 pub use certificate::{Certificate, Truth, certify, certify_equations, drives, truth};
 pub use code::ComparedCode;
-pub use comparison::{Comparison, Row, compare};
+pub use comparison::{Comparison, Row, compare, compare_unless};
 pub use dense::Dense;
 pub use error::VerifyError;
 pub use floor::Floor;

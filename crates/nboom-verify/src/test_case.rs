@@ -87,10 +87,19 @@ impl TestCase {
         states: usize,
         seed: u64,
     ) -> Result<Vec<Self>, VerifyError> {
+        Self::each_with_held_hinges(scene, states, seed).collect()
+    }
+
+    /// The same [test cases](Self::with_held_hinges), each made when it is asked for.
+    pub fn each_with_held_hinges(
+        scene: &Scene,
+        states: usize,
+        seed: u64,
+    ) -> impl ExactSizeIterator<Item = Result<Self, VerifyError>> {
         let hinges = scene.bodies.len();
         let states = if hinges > 0 { states } else { 0 };
         let mut dice = Rng::new(!seed);
-        let one = |_| {
+        (0..states).map(move |_| {
             let surely = dice.below(hinges);
             let mut held = |i| {
                 let angle = |dice: &mut Rng| scene.coordinate_scale(i) * dice.angle();
@@ -98,8 +107,7 @@ impl TestCase {
             };
             let held = (0..hinges).map(&mut held).collect();
             Self::in_mode(scene.clone(), held, 1, seed, &mut dice)
-        };
-        (0..states).map(one).collect()
+        })
     }
 
     /// One random state of `scene` with hinges held at these angles.

@@ -8,7 +8,7 @@ use nboom_formulation::Formulation;
 use nboom_io::{Format, ReadOptions, SceneDocument, SceneFile, Slot, parse, write_scene};
 use nboom_package::{Build, Loaded, library, load};
 use nboom_sim::Options;
-use nboom_verify::{TestCase, compare};
+use nboom_verify::{TestCase, compare_unless};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -230,12 +230,16 @@ impl Scene {
     /// Compares all code that computes accelerations on random states: `verify.json`.
     fn verify(&self, py: Python<'_>, states: usize, seed: u64, tolerance: f64) -> PyResult<String> {
         let (scene, routines) = (self.file.scene.clone(), self.routines);
+        let signals = Signals::new();
         let compared = py.detach(|| {
-            let held = TestCase::with_held_hinges(&scene, states / 2, seed)?;
-            let free = TestCase::new(scene, states - held.len(), seed)?;
-            compare(&free, &held, routines.for_runs, routines.equations, tolerance)
+            let held = TestCase::each_with_held_hinges(&scene, states / 2, seed);
+            let free = TestCase::new(scene.clone(), states - held.len(), seed)?;
+            let routines = (routines.for_runs, routines.equations);
+            compare_unless(&|| signals.came(), &free, held, routines, tolerance)
         });
-        Ok(compared.map_err(|error| raised(&error.into()))?.json())
+        let compared =
+            compared.map_err(|error| signals.taken().unwrap_or_else(|| raised(&error.into())))?;
+        Ok(compared.json())
     }
 
     /// The same scene with routines that cargo compiles for it now.

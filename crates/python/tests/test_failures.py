@@ -2,6 +2,9 @@
 
 import copy
 import pickle
+import signal
+import threading
+import time
 from concurrent.futures import ProcessPoolExecutor
 
 import pytest
@@ -37,3 +40,13 @@ def test_a_failed_run_shows_itself(cubesat):
     assert "not complete" in repr(caught.value.run)
     assert caught.value.run.report().startswith("<!")
     assert caught.value.run._repr_html_().startswith("<iframe")
+
+
+def test_ctrl_c_ends_a_comparison(cubesat):
+    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        cubesat.verify(300_000)
+    timer.cancel()
+    assert time.monotonic() - began < 4
