@@ -87,10 +87,7 @@ impl Run {
         let numbers = |of: &dyn Fn(&Event) -> f64| list(py, events.iter().map(of).collect());
         let label = |event: &Event| event.hinge.map(|hinge| &hinges[hinge]);
         let place = |i: usize| {
-            let number = |event: &Event| {
-                label(event).map_or(0, |label| i64::try_from(label.numbers()[i]).unwrap_or(0))
-            };
-            list(py, events.iter().map(number).collect::<Vec<i64>>())
+            move |event: &Event| label(event).map_or(f64::NAN, |label| label.numbers()[i] as f64)
         };
         let kinds: Vec<String> = events.iter().map(|event| event.kind.name().to_string()).collect();
         let body =
@@ -99,8 +96,8 @@ impl Run {
         let columns = PyDict::new(py);
         columns.set_item("t", numbers(&|event| event.time))?;
         columns.set_item("kind", kinds)?;
-        columns.set_item("appendage", place(0))?;
-        columns.set_item("segment", place(1))?;
+        columns.set_item("appendage", numbers(&place(0)))?;
+        columns.set_item("segment", numbers(&place(1)))?;
         columns.set_item("body", bodies)?;
         columns.set_item("impulse", numbers(&|event| event.impulse.unwrap_or(f64::NAN)))?;
         columns.set_item("energy_before", numbers(&|event| event.before.kinetic_energy))?;

@@ -6,7 +6,7 @@ import html
 import json
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,6 +67,13 @@ class Run:
     def __getitem__(self, name: str) -> Any:
         """A column of :attr:`states`."""
         return self.states[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.states
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the columns of :attr:`states`."""
+        return iter(self.states)
 
     def save(self, directory: str | os.PathLike[str], **options: Any) -> Path:
         """Writes all files of the run, report.html included, and returns the directory.

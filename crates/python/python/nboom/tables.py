@@ -68,6 +68,12 @@ class Table(Mapping[str, np.ndarray]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether names and cells are the same, those that are missing too."""
+        if not isinstance(other, Table):
+            return NotImplemented
+        return list(self) == list(other) and all(_are_same(self[name], other[name]) for name in self)
+
     @property
     def rows(self) -> int:
         """How many rows there are."""
@@ -97,6 +103,8 @@ class Table(Mapping[str, np.ndarray]):
         fields, columns = [], []
         for name, cells in self._columns.items():
             array = pyarrow.array(np.ascontiguousarray(cells), from_pandas=cells.dtype == object)
+            # What is always missing would have no type.
+            array = array.cast(pyarrow.string()) if pyarrow.types.is_null(array.type) else array
             notes = {"unit": self.units.get(name), "description": self.about.get(name)}
             notes = {key: note for key, note in notes.items() if note}
             fields.append(pyarrow.field(name, array.type, metadata=notes or None))
@@ -130,6 +138,10 @@ def _column(cells: Any) -> np.ndarray:
     if isinstance(cells, np.ndarray):
         return cells
     return np.array(cells, dtype=object)
+
+
+def _are_same(a: np.ndarray, b: np.ndarray) -> bool:
+    return np.array_equal(a, b, equal_nan=a.dtype.kind == b.dtype.kind == "f")
 
 
 def _cell(value: Any) -> str:
