@@ -1,7 +1,8 @@
 //! The command line of nboom: reads arguments, runs the command and prints the outcome.
 //!
 //! Other programs may use its parts: [`RunArgs::prepare`] makes a run of options and a scene, [`finish_sweep`] the
-//! pages of a sweep. Whoever calls them says by an [`Interrupt`] when they shall stop.
+//! pages of a sweep. Whoever calls them says by an [`Interrupt`] when they shall stop, and [hears](hear()) what they
+//! warn of.
 //!
 //! Results go to standard output, everything else to standard error. Options are defined once, in
 //! [`Cli`]; the help texts and `docs/cli.md` are made from them. The crates below read, simulate
@@ -108,10 +109,10 @@ pub use section_file::{Defect, SectionDefect, SectionFileError};
 pub use simulator::simulator;
 pub use slips::SlipArgs;
 pub use stresses::StressArgs;
-pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep};
+pub use sweep::{SweepArgs, SweepError, SweepOutputs, finish_sweep, warn_of_the_scene};
 pub use table_args::{TableArgs, Times};
 pub use tables::TablesArgs;
-pub use terminal::refuse;
+pub use terminal::{hear, refuse};
 pub use verdict::troubles;
 
 use terminal::{print, say};

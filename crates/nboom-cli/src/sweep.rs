@@ -158,8 +158,8 @@ pub(crate) fn sweep(args: &SweepArgs, routines: &Routines) -> Result<String, Cli
 }
 
 /// Warns of the scene as it stands, as a run of it does, of what each fault makes of it, and of loads that leave latches
-/// out; cases repeat its troubles.
-fn warn_of_the_scene(study: &Study, quiet: bool) {
+/// out; cases repeat its troubles. Notes what of it studies leave out, unless it shall be `quiet`.
+pub fn warn_of_the_scene(study: &Study, quiet: bool) {
     let warnings = |file: &SceneFile| Some(check::warnings(file, &study.run.scene(file).ok()?));
     let scene = study.document.as_read().unwrap_or(&study.nominal);
     warnings(scene).unwrap_or_default().iter().for_each(|warning| say("warning", warning));

@@ -1,6 +1,7 @@
 //! Output for a terminal: text, without control characters that came in a name.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -17,9 +18,25 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
     }
 }
 
-/// Prints to standard error, with the colour of its kind on a terminal that wants some. An error in that
-/// cannot be reported, and is ignored.
+thread_local! {
+    /// What was said in this thread, while somebody hears it.
+    static HEARD: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
+}
+
+/// Does work, and returns beside its result the warnings and notes that would else go to standard error.
+pub fn hear<T>(work: impl FnOnce() -> T) -> (T, Vec<String>) {
+    HEARD.set(Some(Vec::new()));
+    let done = work();
+    (done, HEARD.take().unwrap_or_default())
+}
+
+/// Prints to standard error, with the colour of its kind on a terminal that wants some, unless somebody
+/// [hears](hear) it. An error in that cannot be reported, and is ignored.
 pub(crate) fn say(kind: &str, line: &str) {
+    let heard = |said: &mut Option<Vec<String>>| said.as_mut().map(|said| said.push(line.into()));
+    if HEARD.with_borrow_mut(heard).is_some() {
+        return;
+    }
     let colour = match kind {
         "error" => AnsiColor::Red,
         "warning" => AnsiColor::Yellow,
@@ -62,6 +79,12 @@ fn turns_text_around(c: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_heard_is_said_once() {
+        assert_eq!(hear(|| say("warning", "a slip")), ((), vec!["a slip".to_owned()]));
+        assert!(HEARD.take().is_none());
+    }
 
     #[test]
     fn orders_are_shown_and_not_sent() {

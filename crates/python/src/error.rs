@@ -1,6 +1,6 @@
-//! Errors as exceptions of `nboom.errors`, with the messages of the command.
+//! Errors and warnings as those of `nboom.errors`, with the messages of the command.
 
-use nboom_cli::CliError;
+use nboom_cli::{CliError, hear};
 use nboom_io::InputError;
 use nboom_study::StudyError;
 use pyo3::prelude::*;
@@ -15,6 +15,51 @@ fn exception(class: &str, message: String) -> PyErr {
             Err(error) => error,
         }
     })
+}
+
+/// What a warning is about.
+#[derive(Clone, Copy)]
+pub(crate) enum About {
+    /// A scene, which is probably wrong.
+    Scene,
+    /// Results, which are not to be trusted.
+    Results,
+}
+
+/// Warns of each line that is not `known` yet.
+///
+/// # Errors
+/// Where warnings are errors.
+pub(crate) fn warn(
+    py: Python<'_>,
+    about: About,
+    lines: impl IntoIterator<Item = String>,
+    known: &[String],
+) -> PyResult<()> {
+    let errors = py.import("nboom.errors")?;
+    let category = errors.getattr(match about {
+        About::Scene => "SceneWarning",
+        About::Results => "TrustWarning",
+    })?;
+    for line in lines.into_iter().filter(|line| !known.contains(line)) {
+        errors.call_method1("warn", (line, &category))?;
+    }
+    Ok(())
+}
+
+/// Does work without Python's lock, and [warns](warn) of what the command would write to standard error.
+///
+/// # Errors
+/// Where warnings are errors.
+pub(crate) fn warned<T: Send>(
+    py: Python<'_>,
+    about: About,
+    known: &[String],
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let (done, said) = py.detach(|| hear(work));
+    warn(py, about, said, known)?;
+    Ok(done)
 }
 
 /// A scene, a study or an option is wrong.

@@ -36,7 +36,17 @@ pub(crate) struct Numbers {
     pub error: Option<String>,
 }
 
+/// What a run warns of before it begins.
+pub(crate) fn told_before(prepared: &PreparedRun) -> Vec<String> {
+    prepared.run.warnings.iter().chain(&prepared.ignored).cloned().collect()
+}
+
 impl Run {
+    /// All that it has warned of.
+    pub fn warnings(&self) -> Vec<String> {
+        [told_before(&self.prepared), self.troubles()].concat()
+    }
+
     pub fn new(py: Python<'_>, prepared: Arc<PreparedRun>, numbers: Numbers) -> PyResult<Self> {
         let Numbers { states, wanted, mut events, summary, worst, seconds, error } = numbers;
         let table = |table: MotionTable| -> PyResult<(MotionTable, Py<PyArray2<f64>>)> {

@@ -13,9 +13,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::dynamics::Dynamics;
-use crate::error::{of_input, raised, wrong_input};
+use crate::error::{About, of_input, raised, warn, warned, wrong_input};
 use crate::evaluator::Evaluator;
 use crate::patience::Signals;
+use crate::run::{Run, told_before};
 use crate::simulator::Simulator;
 use crate::words::run_args;
 
@@ -197,11 +198,15 @@ impl Scene {
         Ok(Simulator::new(prepared))
     }
 
-    /// Runs the scene with these options of `nboom run` into the directory that they name.
-    fn write(&self, py: Python<'_>, words: Vec<String>) -> PyResult<()> {
+    /// Runs the scene with these options of `nboom run` into the directory that they name; warns of what the run
+    /// `before` has not warned of.
+    fn write(&self, py: Python<'_>, words: Vec<String>, before: &Run) -> PyResult<()> {
         let (args, prepared) = self.prepared(&words)?;
+        let known = [self.warnings(), before.warnings()].concat();
+        warn(py, About::Scene, told_before(&prepared), &known)?;
         let signals = Signals::new();
-        let written = py.detach(|| prepared.write(&args, &signals.interrupt()));
+        let write = || prepared.write(&args, &signals.interrupt());
+        let written = warned(py, About::Results, &known, write)?;
         written.map(|_| ()).map_err(|error| signals.taken().unwrap_or_else(|| raised(&error)))
     }
 

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use crate::columns::MotionTable;
 use crate::error::raised;
 use crate::patience::Signals;
-use crate::run::{Numbers, Run};
+use crate::run::{Numbers, Run, told_before};
 
 /// A scene with options, prepared to be run as often as wanted.
 #[pyclass(frozen, module = "nboom._nboom")]
@@ -89,16 +89,10 @@ impl Simulator {
         Err(raised)
     }
 
-    /// What is ignored of the scene and of the options, in one line.
-    #[getter]
-    fn ignored(&self) -> Option<&str> {
-        self.prepared.ignored.as_deref()
-    }
-
-    /// What is probably a mistake, known before it begins.
+    /// What is probably a mistake, and what is ignored of the scene and of the options.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.prepared.run.warnings.clone()
+        told_before(&self.prepared)
     }
 }
 

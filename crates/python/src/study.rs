@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use nboom_cli::{SweepOutputs, finish_sweep, words_of_settings};
+use nboom_cli::{SweepOutputs, finish_sweep, warn_of_the_scene, words_of_settings};
 use nboom_io::ReadOptions;
 use nboom_study::{End, Maker, Report, Shard, Sweep, SweepDirectory, Watcher};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyString};
 
-use crate::error::{of_input, of_study, raised, wrong_input};
+use crate::error::{About, of_input, of_study, raised, warned, wrong_input};
 use crate::gathering::Gathering;
 use crate::patience::Signals;
 use crate::scene::{Scene, stock};
@@ -96,6 +96,11 @@ impl Study {
         nboom_study::require_as_swept(&path).map_err(of_study)?;
         let study = nboom_study::Study::read_with(&path, &options).map_err(of_input)?;
         Ok(Self { study: Arc::new(study) })
+    }
+
+    /// Warns of what in its scene is probably a mistake.
+    fn warn(&self, py: Python<'_>) -> PyResult<()> {
+        warned(py, About::Scene, &[], || warn_of_the_scene(&self.study, false))
     }
 
     #[getter]
@@ -277,7 +282,7 @@ impl Ended {
         self.report.end != End::Interrupted
     }
 
-    /// Makes the page, with runs of the worst cases; returns the account that the command prints.
+    /// Makes the page, with runs of the worst cases, and warns of results; returns the account that the command prints.
     fn finish(&self, py: Python<'_>, with_report: bool) -> PyResult<String> {
         let outputs = SweepOutputs {
             csv: false,
@@ -286,10 +291,10 @@ impl Ended {
             quiet: false,
         };
         let signals = Signals::new();
-        let finished = py.detach(|| {
+        let finished = warned(py, About::Results, &[], || {
             let interrupts = || Ok(signals.interrupt());
             finish_sweep(&self.directory, &self.report, &outputs, &stock(), &interrupts)
-        });
+        })?;
         finished.map_err(|error| signals.taken().unwrap_or_else(|| raised(&error)))
     }
 }

@@ -90,7 +90,7 @@ class Run:
         """
         directory = Path(directory)
         all_words = words({**self.options, **options, "output": directory})
-        self.scene._inner.write(all_words)
+        self.scene._inner.write(all_words, self._inner)
         return directory
 
     def report(self) -> str:

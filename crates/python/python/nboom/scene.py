@@ -240,8 +240,6 @@ class Simulator:
         for warning in self._inner.warnings:
             if warning not in known:
                 warn(warning, SceneWarning)
-        if self._inner.ignored is not None:
-            warn(self._inner.ignored, SceneWarning)
 
     def run(self) -> Run:
         """Runs it, as :meth:`Scene.run` does."""

@@ -131,7 +131,9 @@ def study(path: str | os.PathLike[str], include_anywhere: bool = False) -> Study
     InputError
         With file, line, key, what was found and expected, of all that is wrong.
     """
-    return Study(_nboom.Study.load(os.fspath(path), include_anywhere))
+    inner = _nboom.Study.load(os.fspath(path), include_anywhere)
+    inner.warn()
+    return Study(inner)
 
 
 def sweep(
@@ -209,8 +211,7 @@ def sweep(
         bar.close()
     if not ended.complete:
         raise SimulationError(f"{directory}: the sweep is not finished; resume=True goes on")
-    if shard is None:
-        ended.finish(report)
+    ended.finish(report)
     return Sweep(directory)
 
 
