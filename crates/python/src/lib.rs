@@ -44,6 +44,8 @@ mod _nboom {
     use crate::study::{Ended, Study, SweepOptions, cases, maker, merge};
     #[pymodule_export]
     use crate::toml_text::toml_text;
+    #[pymodule_export]
+    use crate::words::options;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

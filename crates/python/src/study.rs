@@ -123,15 +123,8 @@ impl Study {
         self.study.method.name()
     }
 
-    /// The scene of a case, and the options of its run by name.
-    fn case(&self, number: i64) -> PyResult<(Scene, Vec<Choice>)> {
-        let cases = self.study.cases();
-        let found = u64::try_from(number).ok().filter(|number| (1..=cases).contains(number));
-        let Some(number) = found else {
-            return Err(wrong_input(format!(
-                "case: {number} found, a number from 1 to {cases} expected"
-            )));
-        };
+    /// The scene of a case, from 1 to the last one, and the options of its run by name.
+    fn case(&self, number: u64) -> PyResult<(Scene, Vec<Choice>)> {
         let file = self.study.named_scene_of(&self.study.case(number));
         let file = file.map_err(|why| wrong_input(format!("case {number} is rejected: {why}")))?;
         let option = |word: String| {

@@ -1,9 +1,7 @@
 //! Options of runs: keyword arguments in Python, words of the command here.
 
-use clap::Parser;
-use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 use nboom_cli::{Cli, Command, RunArgs};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::error::wrong_input;
@@ -11,7 +9,7 @@ use crate::error::wrong_input;
 /// The options of a run of the scene `name`, without messages on standard error.
 ///
 /// # Errors
-/// `TypeError` of an option that there is not, `InputError` of a wrong value.
+/// `InputError` of a wrong value.
 pub(crate) fn run_args(name: &str, words: &[String]) -> PyResult<RunArgs> {
     let fixed = ["nboom", "run", "--quiet"].into_iter();
     let words = fixed.chain(words.iter().map(String::as_str)).chain(["--", name]);
@@ -24,12 +22,21 @@ pub(crate) fn run_args(name: &str, words: &[String]) -> PyResult<RunArgs> {
             let reason = text.split("\n\nUsage").next().unwrap_or(text);
             let reason = reason.split("\n\nFor more").next().unwrap_or(reason);
             // Words of a command line have other ways out.
-            let reason =
-                reason.split("\n\n  tip: to pass").next().unwrap_or(reason).trim().to_owned();
-            Err(match error.kind() {
-                ErrorKind::UnknownArgument => PyTypeError::new_err(reason),
-                _ => wrong_input(reason),
-            })
+            let reason = reason.split("\n\n  tip: to pass").next().unwrap_or(reason).trim();
+            // What the standard library says of numbers.
+            let reason = reason
+                .replace("invalid digit found in string", "a whole number expected")
+                .replace("invalid float literal", "a number expected");
+            Err(wrong_input(reason))
         }
     }
+}
+
+/// The names of all options of a run.
+#[pyfunction]
+pub(crate) fn options() -> Vec<String> {
+    let command = Cli::command();
+    let run = command.find_subcommand("run").map(clap::Command::get_arguments);
+    let long = run.into_iter().flatten().filter_map(clap::Arg::get_long);
+    long.map(|name| name.replace('-', "_")).collect()
 }

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
 
+from . import _nboom
+from .checks import scalar
 from .errors import InputError
 
 #: Options of ``nboom run`` that concern its files or its terminal alone.
@@ -37,16 +40,24 @@ _NOT_HERE = {
 }
 
 
+#: All options of ``nboom run``.
+_KNOWN = frozenset(_nboom.options())
+
+
 def words(options: Mapping[str, Any]) -> list[str]:
     """The words of a command line that say these options."""
     said = []
     for name, value in options.items():
         if name in _NOT_HERE:
             raise TypeError(f"{name}: not an option here; {_NOT_HERE[name]} is what says it")
-        option = "--" + name.replace("_", "-")
-        if value is None or value is False:
-            continue
-        said.append(option if value is True else f"{option}={_word(name, value)}")
+        if name not in _KNOWN:
+            near = get_close_matches(name, _KNOWN - _NOT_HERE.keys(), 1)
+            raise TypeError(f"{name}: no such option" + "".join(f", did you mean {known}?" for known in near))
+        option, value = "--" + name.replace("_", "-"), scalar(value)
+        if isinstance(value, (bool, np.bool_)):
+            said += [option] if value else []
+        elif value is not None:
+            said.append(f"{option}={_word(name, value)}")
     return said
 
 
@@ -58,7 +69,9 @@ def _word(name: str, value: Any) -> str:
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
-        return repr(float(value))
+        number = float(value)
+        # Counts may come as 400.0.
+        return f"{number:.0f}" if number.is_integer() and abs(number) < 1e15 else repr(number)
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 0:
             raise InputError(f"{name}: an empty list found, one or more elements expected")

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _nboom
+from .checks import path_text
 from .errors import SimulationError
 from .options import words
 from .tables import Table
@@ -88,10 +89,11 @@ class Run:
         **options
             More options of ``nboom run``: ``tables=["parquet"]``, ``plots="svg"``, ``certify=True``, ...
         """
-        directory = Path(directory)
-        all_words = words({**self.options, **options, "output": directory})
-        self.scene._inner.write(all_words, self._inner)
-        return directory
+        folder = Path(path_text("directory", directory))
+        if "output" in options:
+            raise TypeError(f"output: {options['output']!r} found beside the directory, one of them expected")
+        self.scene._inner.write(words({**self.options, **options, "output": folder}), self._inner)
+        return folder
 
     def report(self) -> str:
         """The page that shows the run: HTML that needs no other file and no network."""

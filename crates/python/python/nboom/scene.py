@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _nboom
+from .checks import number, path_text, whole
 from .errors import ComparisonFailed, InputError, SceneWarning, TrustWarning, warn
 from .options import in_memory, words
 from .run import Run
@@ -103,7 +104,7 @@ class Scene:
         InputError
             If the scene has no number there, or becomes unphysical.
         """
-        return Scene(self._inner.with_numbers([(path, float(value)) for path, value in values.items()]))
+        return Scene(self._inner.with_numbers([(path, number(path, value)) for path, value in values.items()]))
 
     def simulator(self, **options: Any) -> Simulator:
         """The scene prepared to be run as often as wanted.
@@ -158,14 +159,14 @@ class Scene:
         numbers |= {hinge.body: i for i, hinge in enumerate(self.hinges) if hinge.body is not None}
         # As `Dynamics.hinges` has them.
         numbers |= {f"{hinge.label} ({hinge.body})": i for i, hinge in enumerate(self.hinges)}
-        at = []
+        at: list[tuple[int, float]] = []
         for name, angle in (held or {}).items():
             if name not in numbers:
                 known = ", ".join(hinge.body or hinge.label for hinge in self.hinges)
                 raise InputError(f"held: `{name}` found, a hinge of the scene expected: {known}")
             if numbers[name] in dict(at):
                 raise InputError(f"held: `{name}` found for the second time, each hinge once expected")
-            at.append((numbers[name], float(angle)))
+            at.append((numbers[name], number(f"held: {name}", angle)))
         return self._inner.dynamics(words({"formulation": formulation, "path": path}), at)
 
     def verify(self, states: int = 100, seed: int = 1970, tol: float = 1e-11) -> dict[str, Any]:
@@ -178,11 +179,8 @@ class Scene:
         ComparisonFailed
             If one is above ``tol``; its ``found`` has all of them.
         """
-        if not 1 <= states <= 1_000_000:
-            raise ValueError(f"states: {states} found, a number from 1 to 1000000 expected")
-        if not 0 <= seed < 1 << 64:
-            raise ValueError(f"seed: {seed} found, a number from 0 to 2**64 - 1 expected")
-        found = json.loads(self._inner.verify(states, seed, tol))
+        count, start = whole("states", states, 1, 1_000_000), whole("seed", seed, 0, 2**64 - 1)
+        found = json.loads(self._inner.verify(count, start, number("tol", tol)))
         if not found["passed"]:
             raise ComparisonFailed(f"{self.name}: codes deviate by more than {tol:g}", found)
         return found
@@ -212,7 +210,8 @@ class Scene:
         SimulationError
             If cargo, which comes with Rust, is not there or fails.
         """
-        return Scene(self._inner.compiled(formulation, None if work is None else os.fspath(work), offline))
+        where = None if work is None else path_text("work", work)
+        return Scene(self._inner.compiled(formulation, where, offline))
 
     def __repr__(self) -> str:
         return f"<nboom.Scene {self.name}: {len(self.hinges)} hinges, {self.degrees_of_freedom} degrees of freedom>"
@@ -279,8 +278,8 @@ def load(
     InputError
         With file, line, key, what was found and expected, of all that is wrong.
     """
-    values = [(name, float(value)) for name, value in (parameters or {}).items()]
-    return Scene(_nboom.Scene.load(os.fspath(path), values, include_anywhere, fixed_base))
+    values = [(name, number(f"parameters: {name}", value)) for name, value in (parameters or {}).items()]
+    return Scene(_nboom.Scene.load(path_text("path", path), values, include_anywhere, fixed_base))
 
 
 def parse(
@@ -294,7 +293,7 @@ def parse(
 
     ``folder`` is where files lie that the scene includes. ``fixed_base`` fixes the main body of a robot to the ground.
     """
-    where = None if folder is None else os.fspath(folder)
+    where = None if folder is None else path_text("folder", folder)
     return Scene(_nboom.Scene.parse(text, name, format, where, fixed_base))
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _nboom
+from .checks import path_text, whole
 from .errors import InputError, SimulationError
 from .progress import shown
 from .run import framed
@@ -46,7 +47,7 @@ class Study:
         InputError
             If there is no such case, or its numbers make no scene.
         """
-        scene, options = self._inner.case(number)
+        scene, options = self._inner.case(whole("case", number, 1, self.cases))
         return Simulator(Scene(scene), dict(options))
 
     def __repr__(self) -> str:
@@ -63,7 +64,7 @@ class Sweep:
     """
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
-        self.directory = Path(directory)
+        self.directory = Path(path_text("directory", directory))
         self._cases: Table | None = None
 
     @property
@@ -131,7 +132,7 @@ def study(path: str | os.PathLike[str], include_anywhere: bool = False) -> Study
     InputError
         With file, line, key, what was found and expected, of all that is wrong.
     """
-    inner = _nboom.Study.load(os.fspath(path), include_anywhere)
+    inner = _nboom.Study.load(path_text("path", path), include_anywhere)
     inner.warn()
     return Study(inner)
 
@@ -192,15 +193,15 @@ def sweep(
     """
     if strangers not in ("refuse", "apart", "accept"):
         raise ValueError(f"strangers: `{strangers}` found, refuse, apart or accept expected")
-    if jobs is not None and not 1 <= jobs <= 65535:
-        raise ValueError(f"jobs: {jobs} found, a number from 1 to 65535 expected")
+    threads = None if jobs is None else whole("jobs", jobs, 1, 65535)
+    part = None if shard is None else _part(shard)
     what = study if isinstance(study, Study) else globals()["study"](study)
-    directory = Path(output) if output is not None else Path("out") / what.name
+    directory = Path("out", what.name) if output is None else Path(path_text("output", output))
     options = _nboom.SweepOptions(os.fspath(directory), resume, csv, accept_difference or strangers == "accept")
     bar = shown(progress, what.name)
     try:
         if client is None:
-            ended = what._inner.run(options, jobs, shard, bar)
+            ended = what._inner.run(options, threads, part, bar)
         elif shard is not None or jobs is not None:
             raise TypeError("shard and jobs found, neither of them expected with a client")
         else:
@@ -213,6 +214,14 @@ def sweep(
         raise SimulationError(f"{directory}: the sweep is not finished; resume=True goes on")
     ended.finish(report)
     return Sweep(directory)
+
+
+def _part(shard: tuple[int, int]) -> tuple[int, int]:
+    """Which of how many parts."""
+    if not isinstance(shard, (tuple, list)) or len(shard) != 2:
+        raise TypeError(f"shard: {shard!r} found, two whole numbers expected")
+    parts = whole("shard", shard[1], 1, 2**63 - 1)
+    return whole("shard", shard[0], 1, parts), parts
 
 
 def merge(
@@ -230,7 +239,10 @@ def merge(
     InputError
         If one is no finished shard of the same sweep, or not each shard is there once.
     """
-    ended = _nboom.merge([os.fspath(shard) for shard in shards], os.fspath(output), csv, accept_difference)
+    if isinstance(shards, (str, bytes, os.PathLike)):
+        raise TypeError(f"shards: {shards!r} found, a list of directories expected")
+    parts = [path_text("shards", shard) for shard in shards]
+    ended = _nboom.merge(parts, path_text("output", output), csv, accept_difference)
     ended.finish(report)
     return Sweep(output)
 

@@ -1,0 +1,45 @@
+"""Arguments that are numbers or paths; others are refused by name."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError
+
+__all__ = ["number", "path_text", "scalar", "whole"]
+
+
+def scalar(value: Any) -> Any:
+    """What an array without dimensions holds; anything else as it is."""
+    return value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
+
+
+def number(name: str, value: Any) -> float:
+    """A number, of Python or of numpy."""
+    found = scalar(value)
+    if isinstance(found, (int, float, np.integer, np.floating)) and not isinstance(found, bool):
+        return float(found)
+    raise TypeError(f"{name}: {value!r} found, a number expected")
+
+
+def whole(name: str, value: Any, least: int, most: int) -> int:
+    """A whole number of a range."""
+    found = scalar(value)
+    if not isinstance(found, (int, np.integer)) or isinstance(found, bool):
+        raise TypeError(f"{name}: {value!r} found, a whole number expected")
+    if not least <= found <= most:
+        raise InputError(f"{name}: {found} found, a number from {least} to {most} expected")
+    return int(found)
+
+
+def path_text(name: str, value: Any) -> str:
+    """A path as a text."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"{name}: {value!r} found, a path expected")
+    text = os.fsdecode(value)
+    if not text:
+        raise InputError(f"{name}: an empty text found, a path expected")
+    return text

@@ -1,0 +1,91 @@
+"""What is wrong is named: the argument, what was found, and what would be right."""
+
+import numpy as np
+import pytest
+
+import nboom
+
+
+@pytest.fixture
+def cubesat(examples):
+    return nboom.load(examples / "cubesat.toml")
+
+
+def test_options_that_there_are_not_are_refused_whatever_they_are(cubesat):
+    for nothing in (None, False, 1e-9):
+        with pytest.raises(TypeError, match="^rtoll: no such option, did you mean rtol"):
+            cubesat.run(rtoll=nothing)
+    with pytest.raises(TypeError, match="^bogus: no such option$"):
+        cubesat.run(bogus=True)
+    assert cubesat.run(rtol=None, no_stresses=False).complete
+
+
+def test_two_directories_are_refused(cubesat, tmp_path):
+    with pytest.raises(TypeError, match="output: .* found beside the directory"):
+        cubesat.run().save(tmp_path / "one", output=tmp_path / "two")
+    with pytest.raises(ValueError, match="directory: an empty text found, a path expected"):
+        cubesat.run().save("")
+
+
+def test_numbers_and_truth_values_of_numpy_are_options(cubesat):
+    assert cubesat.run(samples=7.0).states.rows == cubesat.run(samples=np.array(7)).states.rows == 8
+    assert cubesat.run(end_time=np.array(0.75))["t"][-1] == 0.75
+    assert "beta_1_1_deg" in cubesat.run(columns="beta_1_1", degrees=np.True_).output
+    assert "beta_1_1" in cubesat.run(columns="beta_1_1", degrees=np.False_).output
+
+
+def test_options_of_another_kind_say_which_is_expected(cubesat):
+    with pytest.raises(nboom.InputError, match="10.5.*--samples.*a whole number expected"):
+        cubesat.run(samples=10.5)
+    with pytest.raises(nboom.InputError, match="abc.*--end-time.*a number expected"):
+        cubesat.run(end_time="abc")
+
+
+@pytest.mark.parametrize("wrong", ["x", "0.1", None, True, np.array([1.0, 2.0]), [1.0]])
+def test_numbers_of_a_scene_are_numbers(cubesat, examples, wrong):
+    with pytest.raises(TypeError, match="^parameters.stiffness: .* found, a number expected"):
+        cubesat.with_values({"parameters.stiffness": wrong})
+    with pytest.raises(TypeError, match="^parameters: stiffness: .* found, a number expected"):
+        nboom.load(examples / "cubesat.toml", parameters={"stiffness": wrong})
+    with pytest.raises(TypeError, match="^held: y panel 1: .* found, a number expected"):
+        cubesat.dynamics(held={"y panel 1": wrong})
+
+
+def test_numbers_of_numpy_are_numbers(cubesat):
+    for number in (np.float32(0.5), np.int64(2), np.array(0.5), 2):
+        assert cubesat.with_values({"parameters.stiffness": number})["parameters.stiffness"] == number
+
+
+def test_arguments_of_sweeps_say_what_is_expected(few, tmp_path, cubesat):
+    for wrong in ("2", 1.5, True):
+        with pytest.raises(TypeError, match="^jobs: .* found, a whole number expected"):
+            nboom.sweep(few, tmp_path / "out", jobs=wrong)
+    for wrong in ([1, 2, 3], "1/2", 1):
+        with pytest.raises(TypeError, match="^shard: .* found, two whole numbers expected"):
+            nboom.sweep(few, tmp_path / "out", shard=wrong)
+    for wrong in ((1.0, 2), (True, 2)):
+        with pytest.raises(TypeError, match="^shard: .* found, a whole number expected"):
+            nboom.sweep(few, tmp_path / "out", shard=wrong)
+    for wrong in ((-1, 2), (0, 2), (3, 2), (1, 10**30)):
+        with pytest.raises(nboom.InputError, match="^shard: .* found"):
+            nboom.sweep(few, tmp_path / "out", shard=wrong)
+    with pytest.raises(nboom.InputError, match="case: 1180591620717411303424 found, a number from 1 to 40 expected"):
+        nboom.study(few).case(2**70)
+    with pytest.raises(TypeError, match="case: '1' found, a whole number expected"):
+        nboom.study(few).case("1")
+    with pytest.raises(TypeError, match="states: 'a' found, a whole number expected"):
+        cubesat.verify("a")
+    with pytest.raises(TypeError, match="tol: 'a' found, a number expected"):
+        cubesat.verify(4, tol="a")
+    assert nboom.sweep(few, tmp_path / "out", shard=[1, np.int64(2)], progress=False).directory.exists()
+
+
+def test_paths_are_named(few, tmp_path):
+    with pytest.raises(TypeError, match="^path: None found, a path expected"):
+        nboom.load(None)
+    with pytest.raises(TypeError, match="^path: 3 found, a path expected"):
+        nboom.study(3)
+    with pytest.raises(TypeError, match="^shards: 'sw/s1' found, a list of directories expected"):
+        nboom.merge("sw/s1", tmp_path / "out")
+    with pytest.raises(TypeError, match="^shards: .* found, a path expected"):
+        nboom.merge([3], tmp_path / "out")
