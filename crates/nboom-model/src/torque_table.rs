@@ -32,6 +32,19 @@ impl TorqueTable {
         slopes.push(end_slope(inward(&secants), inward(&widths)));
         slopes
     }
+
+    /// The cubic from point `k` to the next one by these [slopes](Self::slopes): the angle \[rad\] from which it counts,
+    /// and its coefficients, that of the torque itself first.
+    ///
+    /// # Panics
+    /// When there is no next point.
+    pub fn cubic(&self, slopes: &[f64], k: usize) -> (f64, [f64; 4]) {
+        let ([from, torque], [to, next]) = (self.points[k], self.points[k + 1]);
+        let (h, d0, d1) = (to - from, slopes[k], slopes[k + 1]);
+        let secant = (next - torque) / h;
+        let (c2, c3) = ((3.0 * secant - 2.0 * d0 - d1) / h, (d0 + d1 - 2.0 * secant) / (h * h));
+        (from, [torque, d0, c2, c3])
+    }
 }
 
 /// The slope at an end by the parabola through three points, held to where the cubic is monotone;

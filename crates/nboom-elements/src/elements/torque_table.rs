@@ -41,11 +41,11 @@ impl<R: Real> TablePiece<R> {
         let (points, slopes) = (&table.points, table.slopes());
         let start = piece.saturating_sub(1);
         let stored = (0..start).fold(0.0, |sum, k| {
-            let (_, coefficients) = cubic(points, &slopes, k);
+            let (_, coefficients) = table.cubic(&slopes, k);
             sum - integral(coefficients, points[k + 1][0] - points[k][0])
         });
         let (from, coefficients) = if (1..points.len()).contains(&piece) {
-            cubic(points, &slopes, start)
+            table.cubic(&slopes, start)
         } else {
             (points[start][0], [points[start][1], slopes[start], 0.0, 0.0])
         };
@@ -66,15 +66,6 @@ pub(crate) fn stored(table: &TorqueTable) -> f64 {
 /// The integral of a polynomial from zero to `s`.
 fn integral([c0, c1, c2, c3]: [f64; 4], s: f64) -> f64 {
     (((c3 / 4.0 * s + c2 / 3.0) * s + c1 / 2.0) * s + c0) * s
-}
-
-/// The cubic from point `k` to the next one: the angle it starts from, and its coefficients.
-fn cubic(points: &[[f64; 2]], slopes: &[f64], k: usize) -> (f64, [f64; 4]) {
-    let ([from, torque], [to, next]) = (points[k], points[k + 1]);
-    let (h, d0, d1) = (to - from, slopes[k], slopes[k + 1]);
-    let secant = (next - torque) / h;
-    let (c2, c3) = ((3.0 * secant - 2.0 * d0 - d1) / h, (d0 + d1 - 2.0 * secant) / (h * h));
-    (from, [torque, d0, c2, c3])
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ fn of_table(scene: &Scene, table: &TorqueTable) -> Option<ModelWarning> {
         return None;
     }
     let (spring, slopes, start) = (AngleTorque::of(hinge), table.slopes(), hinge.start.angle);
-    let law = Law { spring, points: &table.points, slopes };
+    let law = Law { spring, table, slopes };
     let sides = [(-1.0, 0), (1.0, table.points.len() - 1)].into_iter();
     let mut open =
         sides.filter(|(side, _)| hinge.lock_angle.is_none_or(|lock| (lock - start) * side <= 0.0));
@@ -37,7 +37,7 @@ fn of_table(scene: &Scene, table: &TorqueTable) -> Option<ModelWarning> {
 /// The torque of spring, dashpot and table of a hinge at rest.
 struct Law<'t> {
     spring: AngleTorque,
-    points: &'t [[f64; 2]],
+    table: &'t TorqueTable,
     slopes: Vec<f64>,
 }
 
@@ -49,17 +49,16 @@ impl Law<'_> {
     }
 
     fn at(&self, beta: f64) -> f64 {
-        let (after, points) = (self.points.partition_point(|point| point[0] < beta), self.points);
+        let points = &self.table.points;
+        let after = points.partition_point(|point| point[0] < beta);
         let tangent = |k: usize| points[k][1] + self.slopes[k] * (beta - points[k][0]);
         let of_table = match after {
             0 => tangent(0),
             after if after == points.len() => tangent(after - 1),
             after => {
-                let ([from, m0], [to, m1]) = (points[after - 1], points[after]);
-                let (h, s) = (to - from, (beta - from) / (to - from));
-                let (d0, d1) = (h * self.slopes[after - 1], h * self.slopes[after]);
-                let r = 1.0 - s;
-                r * r * ((1.0 + 2.0 * s) * m0 + s * d0) + s * s * ((1.0 + 2.0 * r) * m1 - r * d1)
+                let (from, [c0, c1, c2, c3]) = self.table.cubic(&self.slopes, after - 1);
+                let x = beta - from;
+                ((c3 * x + c2) * x + c1) * x + c0
             }
         };
         self.spring.at(beta) + of_table
@@ -69,7 +68,7 @@ impl Law<'_> {
     /// beyond `end`.
     fn drives_on(&self, start: f64, end: f64, stiffness: f64, side: f64) -> bool {
         let straight = if (start - end) * side > 0.0 { start } else { end };
-        let on_the_way = self.points.iter().map(|point| point[0]);
+        let on_the_way = self.table.points.iter().map(|point| point[0]);
         let mut stops: Vec<f64> = on_the_way
             .filter(|at| (at - start) * side > 0.0 && (straight - at) * side > 0.0)
             .chain([start, straight])
