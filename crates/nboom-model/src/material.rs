@@ -1,9 +1,9 @@
 /// An isotropic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Young's modulus \[F/L²\], positive.
+    /// Young's modulus \[F/L²\], positive. No result depends on it.
     pub youngs_modulus: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio, above -1 and at most 0.5. No result depends on it.
     pub poissons_ratio: f64,
     /// Stress at which it yields \[F/L²\], positive; `None` where it is not known.
     pub yield_stress: Option<f64>,
@@ -18,8 +18,8 @@ pub enum MaterialDefect {
     /// Young's modulus is zero, negative or not finite.
     #[error("Young's modulus {0} found, a positive finite modulus expected")]
     YoungsModulus(f64),
-    /// Poisson's ratio is infinite or not a number.
-    #[error("Poisson's ratio {0} found, a finite number expected")]
+    /// Poisson's ratio is none of an isotropic material.
+    #[error("Poisson's ratio {0} found, a number above -1 and at most 0.5 expected")]
     PoissonsRatio(f64),
     /// The yield stress is zero, negative or not finite.
     #[error("yield stress {0} found, a positive finite stress expected")]
@@ -49,7 +49,9 @@ impl Material {
         let is_positive = |value: &f64| *value > 0.0 && value.is_finite();
         let wrong = |value: Option<f64>| value.filter(|value| !is_positive(value));
         let modulus = wrong(Some(youngs_modulus)).map(MaterialDefect::YoungsModulus);
-        let ratio = Some(poissons_ratio).filter(|ratio| !ratio.is_finite());
+        // Beyond these a material would gain energy when it is sheared or compressed.
+        let is_isotropic = poissons_ratio > -1.0 && poissons_ratio <= 0.5;
+        let ratio = (!is_isotropic).then_some(poissons_ratio);
         let yields = wrong(yield_stress).map(MaterialDefect::YieldStress);
         let breaks = wrong(ultimate_stress).map(MaterialDefect::UltimateStress);
         let first = yield_stress.zip(ultimate_stress).filter(|(least, ultimate)| ultimate < least);

@@ -84,7 +84,7 @@ fn a_structure_without_stations_has_none() {
 #[test]
 fn what_is_wrong_is_named_with_its_place() {
     type Change = fn(&mut SegmentStructure);
-    let table: [(Change, &str); 12] = [
+    let table: [(Change, &str); 14] = [
         (
             |s| s.pulse_constant = 0.0,
             "segment 1,2: pulse constant 0 found, a positive finite time expected",
@@ -99,7 +99,15 @@ fn what_is_wrong_is_named_with_its_place() {
         ),
         (
             |s| s.material.poissons_ratio = f64::NAN,
-            "segment 1,2: Poisson's ratio NaN found, a finite number expected",
+            "segment 1,2: Poisson's ratio NaN found, a number above -1 and at most 0.5 expected",
+        ),
+        (
+            |s| s.material.poissons_ratio = 0.7,
+            "segment 1,2: Poisson's ratio 0.7 found, a number above -1 and at most 0.5 expected",
+        ),
+        (
+            |s| s.material.poissons_ratio = -1.0,
+            "segment 1,2: Poisson's ratio -1 found, a number above -1 and at most 0.5 expected",
         ),
         (
             |s| s.stations[1].distance_from_hinge = 1.9,

@@ -5,7 +5,6 @@ use nboom_scalar::Vec3;
 
 use super::catalog::ALONG;
 use super::fields::{Fields, Reader};
-use super::tree::{Node, Value};
 use crate::words::{self, ExternalWords, external_table};
 
 impl Reader<'_, '_> {
@@ -28,23 +27,14 @@ impl Reader<'_, '_> {
                 words.point(point.unwrap_or_else(Vec3::zero))
             }
         };
-        self.check_amount(kind, table);
-        let is_inertial = self.choice(table, "axes", ALONG) == Some("inertial");
-        let words = if is_inertial { words.along_inertial_axes() } else { words };
-        self.course(words, table).map(Into::into)
-    }
-
-    /// Warns of a force or torque of zero in numbers; parameters may have other values.
-    fn check_amount(&mut self, kind: ExternalKind, table: &Fields<'_>) {
-        let key = match kind {
+        let amount = match kind {
             ExternalKind::Force => "force",
             ExternalKind::Torque => "torque",
         };
-        let Some(Node { value: Value::List(nodes), at }) = table.node(key) else { return };
-        if nodes.iter().all(|node| matches!(node.value, Value::Number(0.0))) {
-            let found = format!("a {key} of zero");
-            self.report.warn_at(self.sources, at, key, &found, "one that acts, or none");
-        }
+        self.warn_if_zero(table, amount);
+        let is_inertial = self.choice(table, "axes", ALONG) == Some("inertial");
+        let words = if is_inertial { words.along_inertial_axes() } else { words };
+        self.course(words, table).map(Into::into)
     }
 
     fn course(&mut self, mut words: ExternalWords, table: &Fields<'_>) -> Option<ExternalWords> {
@@ -53,6 +43,7 @@ impl Reader<'_, '_> {
                 let found = format!("`{vain}` beside over_time");
                 self.error(&table.place(vain), vain, &found, "one of them");
             }
+            self.warn_if_zero_throughout(table, "over_time");
             return Some(words.over_time(self.rows(table, "over_time")));
         }
         if table.has("from") {

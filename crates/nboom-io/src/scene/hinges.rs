@@ -29,7 +29,10 @@ pub(super) fn read(
         Joint::Revolute => reader.angle_pairs(table, "torque"),
         Joint::Prismatic => reader.rows(table, "force"),
     };
-    ["torque", "force"].iter().for_each(|key| reader.warn_if_idle(table, key, &[]));
+    for key in ["torque", "force"] {
+        reader.warn_if_idle(table, key, &[]);
+        reader.warn_if_zero_throughout(table, key);
+    }
     for (key, found, expected) in words.contradictions() {
         reader.error(&table.place(key), key, &found, expected);
     }
@@ -108,6 +111,14 @@ impl Reader<'_, '_> {
             Joint::Prismatic => ["speed_squared", "travel", "travel_squared"],
         };
         self.warn_if_idle(of, "damper", &["damping", rate_squared, angle, angle_squared]);
+        let has_rest = [angle, angle_squared].iter().any(|key| damper.has(key));
+        if let (Some((rest, _)), false, true) =
+            (damper.entry("rest"), has_rest, damper.has("damping") || damper.has(rate_squared))
+        {
+            let expected = format!("{angle} or {angle_squared} beside it");
+            let found = "a rest on which nothing depends";
+            self.report.warn_at(self.sources, &rest.node.at, &rest.key, found, &expected);
+        }
         let mut words = words::damper(self.number(&damper, "damping").unwrap_or(0.0));
         let mut set = |key, to: fn(DamperWords, f64) -> DamperWords| {
             if let Some(number) = self.number(&damper, key) {

@@ -3,7 +3,7 @@
 use super::fields::{Fields, Reader};
 use super::include::Parts;
 use super::sources::Sources;
-use super::tree::{Table, Value};
+use super::tree::{Node, Table, Value};
 use crate::deck::shown;
 use crate::diagnostic::Report;
 
@@ -61,6 +61,33 @@ impl Reader<'_, '_> {
         };
         self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, &expected);
     }
+
+    /// Warns of a force or torque of zero in numbers; parameters may have other values.
+    pub fn warn_if_zero(&mut self, fields: &Fields<'_>, key: &'static str) {
+        let Some(Node { value: Value::List(numbers), at }) = fields.node(key) else { return };
+        if numbers.iter().all(is_zero) {
+            let found = format!("a {key} of zero");
+            self.report.warn_at(self.sources, at, key, &found, "one that acts, or none");
+        }
+    }
+
+    /// Warns of a table of rows in which all is zero behind the first number, likewise.
+    pub fn warn_if_zero_throughout(&mut self, fields: &Fields<'_>, key: &'static str) {
+        let Some((entry, _)) = fields.entry(key) else { return };
+        let Value::List(rows) = &entry.node.value else { return };
+        let is_idle = |row: &Node| match &row.value {
+            Value::List(numbers) => numbers.len() > 1 && numbers[1..].iter().all(is_zero),
+            _ => false,
+        };
+        if !rows.is_empty() && rows.iter().all(is_idle) {
+            let (found, expected) = ("a table that is zero throughout", "one that acts, or none");
+            self.report.warn_at(self.sources, &entry.node.at, &entry.key, found, expected);
+        }
+    }
+}
+
+fn is_zero(node: &Node) -> bool {
+    matches!(node.value, Value::Number(0.0))
 }
 
 /// Whether a body of a file is of this material.

@@ -60,6 +60,7 @@ impl Reader<'_, '_> {
     fn thrust(&mut self, fields: &Fields<'_>) -> Option<External> {
         let (force, point) = (self.vector(fields, "force"), self.vector(fields, "point"));
         let (on, off) = (self.number(fields, "from"), self.number(fields, "until"));
+        self.warn_if_zero(fields, "force");
         Some(External::thrust(force?, point?, [on?, off?]))
     }
 }

@@ -346,6 +346,8 @@ fn a_parameter_that_is_set_twice_is_told() {
 fn what_is_said_in_vain_is_told() {
     let alloy = "[materials.alloy]\nyoungs_modulus = 7e10\n";
     let force = "[[main_body.thruster]]\npoint = [0.0, 0.0, 0.0]\nforce = [0, 0.0, 0.0]\n";
+    let thrust = "[thrust]\nforce = [0, 0.0, 0.0]\npoint = [0.0, 0.0, 0.0]\nfrom = 0\nuntil = 1\n";
+    let torque = "[[main_body.torque]]\ntorque = [1, 0.0, 0.0]\nover_time = [[0, 0], [1, 0]]\n";
     let joint = |line: &str| body("one", "", line);
     for (text, words) in [
         (format!("{alloy}{}", joint("")), "alloy: found a material that nothing uses"),
@@ -357,6 +359,16 @@ fn what_is_said_in_vain_is_told() {
         (joint("damper = { rest_deg = 10 }"), "damper: found a table that has no effect"),
         (format!("[output]\ncolumns = []\n{}", joint("")), "columns: found an empty list"),
         (format!("{force}{}", joint("")), "force: found a force of zero"),
+        (format!("{thrust}{}", joint("")), "force: found a force of zero"),
+        (format!("{torque}{}", joint("")), "over_time: found a table that is zero throughout"),
+        (
+            joint("torque_deg = [[0.0, 0.0], [90.0, 0]]"),
+            "torque_deg: found a table that is zero throughout",
+        ),
+        (
+            joint("damper = { damping = 1.0, rest_deg = 30 }"),
+            "rest_deg: found a rest on which nothing depends, expected angle or angle_squared",
+        ),
     ] {
         let told = warnings(&format!("{BUS}{text}"), &[]);
         assert!(told.len() == 1 && told[0].contains(words), "{words}: {told:?}");

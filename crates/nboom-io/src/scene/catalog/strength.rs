@@ -8,8 +8,12 @@ pub(super) static MATERIAL: TableKind = table(
     "material",
     "An isotropic material. Where its strength is known, so are margins of the bodies made of it.",
     &[
-        required("youngs_modulus", Number, "Young's modulus, positive."),
-        optional("poissons_ratio", Number, "Poisson's ratio; by default 0.3."),
+        required("youngs_modulus", Number, "Young's modulus, positive; no result depends on it."),
+        optional(
+            "poissons_ratio",
+            Number,
+            "Poisson's ratio, above -1 and at most 0.5; by default 0.3. No result depends on it.",
+        ),
         optional("yield_stress", Number, "Stress at which it yields, for margins."),
         optional("ultimate_stress", Number, "Stress at which it breaks, for margins."),
     ],
