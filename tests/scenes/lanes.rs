@@ -1,6 +1,10 @@
 //! Runs side by side, whose steps are taken in lanes: each is what it is alone.
 
 use std::cell::RefCell;
+use std::future::poll_fn;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::pin::{Pin, pin};
+use std::task::{Context, Poll, Waker};
 
 use nboom::model::{Scene, SceneDescription};
 use nboom::scalar::{InstructionSet, Kernel};
@@ -127,4 +131,48 @@ fn only_code_that_leaves_registers_empty_has_lanes() {
     };
     assert!(steps_by(false) > 1000, "{} steps", steps_by(false));
     assert_eq!(steps_by(true), 0);
+}
+
+/// Tasks that are not runs alone: what an engineer's own future may do beside one.
+#[test]
+fn lanes_outlast_tasks_that_are_given_up_wait_for_others_or_panic() {
+    let reference = Reference::load("report_testcase");
+    let scenes: Vec<Scene> = (0..6).map(|seed| dispersed(&reference.scene(), seed)).collect();
+    let alone: Vec<Summary> = scenes.iter().map(|scene| run(scene, &options(1)).1).collect();
+    let lanes = Lanes::new();
+    let run_in = async |lanes: &Lanes, number: usize| {
+        let mut simulator = Simulator::new(&scenes[number], options(1));
+        let found = simulator.run_in(lanes, &mut Collected::default()).await.expect("it runs");
+        assert_eq!(*found, alone[number]);
+    };
+    // Some are polled once and dropped, and some twice in a row; some wait for something else first, and some run in
+    // lanes in which nobody else does.
+    let task = async |number: usize| {
+        let given_up = poll_some(pin!(run_in(&lanes, number)), number % 3);
+        assert!(given_up.is_pending());
+        let mut rounds = number;
+        poll_fn(|_| {
+            rounds = rounds.saturating_sub(1);
+            if rounds == 0 { Poll::Ready(()) } else { Poll::Pending }
+        })
+        .await;
+        run_in(&Lanes::new(), number).await;
+        run_in(&lanes, number).await;
+    };
+    lanes.carry_out((0..6).map(|i| -> Task<'_> { Box::pin(task(i)) }).collect());
+
+    let falls = async |number: usize| {
+        run_in(&lanes, number).await;
+        assert!(number != 2, "a recorder's panic");
+    };
+    let tasks = || (0..6).map(|i| -> Task<'_> { Box::pin(falls(i)) }).collect();
+    assert!(catch_unwind(AssertUnwindSafe(|| lanes.carry_out(tasks()))).is_err());
+    lanes.carry_out((0..2).map(|i| -> Task<'_> { Box::pin(run_in(&lanes, i)) }).collect());
+    lanes.finish(run_in(&lanes, 5));
+}
+
+fn poll_some(mut future: Pin<&mut impl Future<Output = ()>>, again: usize) -> Poll<()> {
+    let mut context = Context::from_waker(Waker::noop());
+    let polls = (0..=again).map(|_| future.as_mut().poll(&mut context));
+    polls.last().expect("it is polled at least once")
 }

@@ -166,7 +166,8 @@ impl Config {
     /// file cannot be written.
     pub fn write(&self, file: &str) -> Result<(), BuildError> {
         let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
-        if !Path::new(file).components().all(inside) {
+        let file_of = Path::new(file);
+        if file_of.file_name().is_none() || !file_of.components().all(inside) {
             return Err(BuildError::NotInOutDir { file: file.to_owned() });
         }
         let folder = env::var_os("OUT_DIR").ok_or(BuildError::NoOutDir)?;
@@ -223,7 +224,9 @@ impl Config {
         if !may(found) {
             return Err(BuildError::NotCurrent { path: path.to_owned(), standing: found });
         }
-        fs::write(path, module.text()?).map_err(io)
+        let text = module.text()?;
+        path.parent().map_or(Ok(()), fs::create_dir_all).map_err(io)?;
+        fs::write(path, text).map_err(io)
     }
 
     /// One request for each routine; a routine that several scenes have in common comes once.
@@ -310,7 +313,8 @@ mod tests {
     #[test]
     fn a_blessed_check_writes_what_is_missing_or_stale_only() {
         let folder = tempfile::tempdir().expect("a folder for the test");
-        let path = folder.path().join("routines.rs");
+        // The folder in between is made.
+        let path = folder.path().join("generated").join("routines.rs");
         let (old, new) = (Config::new().topology("Old", "M"), Config::new().topology("New", "M"));
         for config in [&old, &new] {
             assert!(config.check_or_bless(&path, false).is_err());

@@ -8,7 +8,8 @@ use nboom_formulation::Formulation;
 use nboom_io::{Format, write_scene};
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::{LitStr, Result};
+use syn::parse::{ParseStream, Parser};
+use syn::{LitStr, Result, Token};
 
 use crate::SCALAR;
 
@@ -18,7 +19,7 @@ use crate::SCALAR;
 /// # Errors
 /// At the literal: everything that is wrong with the file, or why nothing can be generated.
 pub(crate) fn expand(input: TokenStream, folder: &Path) -> Result<TokenStream> {
-    let literal: LitStr = syn::parse2(input)?;
+    let literal = only_literal.parse2(input)?;
     let refused = |message: String| syn::Error::new(literal.span(), message);
     let path = folder.join(literal.value());
     let read = nboom_io::read_scene(&path).map_err(|error| refused(with_causes(&error)))?;
@@ -46,6 +47,13 @@ pub(crate) fn expand(input: TokenStream, folder: &Path) -> Result<TokenStream> {
         mod routines { #routines }
         ::nboom::CompiledScene::new(#literal, #name, #text, routines::kernels)
     }})
+}
+
+/// As `include_str!` takes it, a comma behind it or none.
+fn only_literal(input: ParseStream<'_>) -> Result<LitStr> {
+    let literal = input.parse()?;
+    input.parse::<Option<Token![,]>>()?;
+    Ok(literal)
 }
 
 fn with_causes(error: &dyn Error) -> String {

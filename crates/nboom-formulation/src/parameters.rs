@@ -89,6 +89,7 @@ pub struct Solution<R> {
 ///
 /// Parameters are written appendage by appendage. In a state and in accelerations the hinges
 /// of equal appendages stand side by side, so that they can be taken together.
+#[derive(Clone, Copy, Debug)]
 pub struct Layout;
 
 impl Layout {

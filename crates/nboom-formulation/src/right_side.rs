@@ -17,6 +17,7 @@ use crate::parameters::{Coordinates, HingeCoordinates, Layout, Parameters, Solut
 /// (a quaternion that turns main-body components into inertial ones, of any norm), ω along main-body
 /// axes, β of each hinge, τ of each hinge. ẏ has the same order, and after it follows the power of the
 /// parts of the hinge torques that depend on rates.
+#[derive(Clone, Copy, Debug)]
 pub struct RightSideLayout;
 
 impl RightSideLayout {

@@ -64,7 +64,11 @@ fn find_in_couplings(
             errors.push(ModelError::Coupling { label: label.clone(), defect, expected });
         };
         if first.max(second) >= labels.len() || first == second {
-            let defect = format!("of hinges number {} and {}", first + 1, second + 1);
+            let defect = format!(
+                "of hinges number {} and {}",
+                first.saturating_add(1),
+                second.saturating_add(1)
+            );
             error(defect, "one of two hinges of the scene");
         }
         let Coupling { ratio, stiffness, rest, damping, .. } = *coupling;
@@ -83,7 +87,8 @@ fn find_in_tables(scene: &SceneDescription, errors: &mut Vec<ModelError>) {
     for (i, table) in tables.iter().enumerate() {
         let hinge = table.hinge;
         if hinge >= count || tables[..i].iter().any(|other| other.hinge == hinge) {
-            errors.push(ModelError::TableHinge { table: i + 1, hinge: hinge + 1, count });
+            let hinge = hinge.saturating_add(1);
+            errors.push(ModelError::TableHinge { table: i + 1, hinge, count });
         }
         let defect = match &table.points[..] {
             few @ ([] | [_]) => Some(format!("{} points", few.len())),

@@ -91,7 +91,11 @@ impl Package {
 /// The folder to build in.
 fn work(build: &Build) -> Result<PathBuf, PackageError> {
     let set = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let cache = || set("XDG_CACHE_HOME").or_else(|| Some(set("HOME")?.join(".cache")));
+    let cache = || {
+        set("XDG_CACHE_HOME")
+            .filter(|path| path.is_absolute())
+            .or_else(|| Some(set("HOME")?.join(".cache")))
+    };
     let work = match &build.work {
         Some(work) => work.clone(),
         None => cache().ok_or(PackageError::NoFolder)?.join("nboom"),

@@ -11,6 +11,13 @@ pub enum InstructionSet {
     Avx512,
 }
 
+/// Whether nothing is optimised. Work on registers is inlined as a whole; each value of it then has a place of its
+/// own on the stack, which runs out of megabytes.
+const UNOPTIMISED: bool = match option_env!("NBOOM_OPT_LEVEL") {
+    Some(level) => matches!(level.as_bytes(), b"0"),
+    None => false,
+};
+
 impl InstructionSet {
     /// All, the smallest first.
     pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
@@ -20,12 +27,13 @@ impl InstructionSet {
     pub const VARIABLE: &'static str = "NBOOM_INSTRUCTIONS";
 
     /// The largest that this processor has, or the one that [`VARIABLE`](Self::VARIABLE) names if that is
-    /// smaller.
+    /// smaller. Compiled without optimisation, only the portable one is used.
     pub fn of_this_processor() -> Self {
         static FOUND: OnceLock<InstructionSet> = OnceLock::new();
         *FOUND.get_or_init(|| {
             let limit = std::env::var(Self::VARIABLE).ok().and_then(|name| Self::named(&name));
-            limit.map_or(Self::detected(), |limit| limit.min(Self::detected()))
+            let largest = if UNOPTIMISED { Self::Portable } else { Self::detected() };
+            limit.map_or(largest, |limit| limit.min(largest))
         })
     }
 

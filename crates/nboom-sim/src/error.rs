@@ -110,6 +110,12 @@ pub enum SimError {
         /// How many hinges there are.
         count: usize,
     },
+    /// A control law commands hinges and rotors of another scene.
+    #[error("at time {}: commands for another scene found, those handed to the control law expected", moment(.time))]
+    OtherCommands {
+        /// Time reached.
+        time: f64,
+    },
     /// No impulse locks these hinges.
     #[error("at time {}, {}: no impulse locks this hinge; the mass matrix is singular", moment(.time), place(.hinge))]
     LockUp {

@@ -1,10 +1,12 @@
 //! Where runs meet that take their steps side by side, one in each lane of a register.
 
 use std::cell::RefCell;
+use std::fmt;
 use std::future::{Future, poll_fn};
-use std::mem::{replace, take};
+use std::mem::take;
 use std::pin::{Pin, pin};
 use std::task::{Context, Poll, Waker};
+use std::thread::yield_now;
 
 use nboom_ode::{EightSteps, RungeKutta};
 use nboom_scalar::Eight;
@@ -16,14 +18,27 @@ use crate::equations::layout::VariableLayout;
 ///
 /// A run that has a step to take puts it into a lane and waits. Eight steps that the same code
 /// evaluates are taken together, and when all runs wait, as many as there are. A step does not depend
-/// on those beside it, so neither does a run.
+/// on those beside it, so neither does a run. Where no task is carried out, each step is taken at once.
 #[derive(Default)]
 pub struct Lanes {
     meeting: RefCell<Meeting>,
 }
 
+impl fmt::Debug for Lanes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let meeting = self.meeting.borrow();
+        let [steps, packs] = meeting.taken;
+        f.debug_struct("Lanes")
+            .field("steps", &steps)
+            .field("packs", &packs)
+            .finish_non_exhaustive()
+    }
+}
+
 #[derive(Default)]
 struct Meeting {
+    /// Whether tasks are carried out here.
+    is_open: bool,
     packs: Vec<Pack>,
     /// The task that goes on at present.
     task: usize,
@@ -38,10 +53,12 @@ struct Pack {
     right_side: RightSide<Eight>,
     layout: VariableLayout,
     steps: EightSteps,
-    /// Whose steps they are, lane by lane.
-    tasks: Vec<usize>,
+    /// Whose steps they are, lane by lane; of one that was given up, nobody's.
+    tasks: Vec<Option<usize>>,
     /// How many have still to be fetched, once they are taken.
     waiting: Option<usize>,
+    /// How often its lanes were all made free.
+    round: usize,
     /// How often others came first.
     passed_over: usize,
 }
@@ -49,7 +66,8 @@ struct Pack {
 /// How often a pack is passed over until that counts as much as one more step in it.
 const PATIENCE: usize = 8;
 
-/// A run, or several one after the other, that may take steps beside others.
+/// A run, or several one after the other, that may take steps beside others. What else a task waits for is asked again
+/// and again while no step is to be taken.
 pub type Task<'a> = Pin<Box<dyn Future<Output = ()> + 'a>>;
 
 impl Lanes {
@@ -59,24 +77,39 @@ impl Lanes {
     }
 
     /// Brings tasks to their ends, which meet here.
-    pub fn carry_out(&self, mut tasks: Vec<Task<'_>>) {
+    ///
+    /// # Panics
+    /// Where one of the tasks carries out others in the same lanes.
+    pub fn carry_out(&self, tasks: Vec<Task<'_>>) {
+        let _open = Opened::new(self);
         let mut context = Context::from_waker(Waker::noop());
-        let mut left = tasks.len();
-        let mut awake: Vec<usize> = (0..left).collect();
+        let mut awake: Vec<usize> = (0..tasks.len()).collect();
+        let mut tasks: Vec<Option<Task<'_>>> = tasks.into_iter().map(Some).collect();
         loop {
-            for task in awake.drain(..) {
-                self.meeting.borrow_mut().task = task;
-                left -= usize::from(tasks[task].as_mut().poll(&mut context).is_ready());
+            for number in awake.drain(..) {
+                self.meeting.borrow_mut().task = number;
+                let polled = tasks[number].as_mut().map(|task| task.as_mut().poll(&mut context));
+                if polled.is_some_and(|polled| polled.is_ready()) {
+                    tasks[number] = None;
+                }
             }
-            if left == 0 {
+            if tasks.iter().all(Option::is_none) {
                 return;
             }
             awake = self.meeting.borrow_mut().advance(awake);
+            if awake.is_empty() {
+                yield_now();
+                awake.extend(0..tasks.len());
+            }
         }
     }
 
     /// Brings one task to its end, beside which there is none.
+    ///
+    /// # Panics
+    /// As [`carry_out`](Self::carry_out).
     pub fn finish<T>(&self, task: impl Future<Output = T>) -> T {
+        let _open = Opened::new(self);
         let mut context = Context::from_waker(Waker::noop());
         let mut task = pin!(task);
         loop {
@@ -86,6 +119,9 @@ impl Lanes {
             let mut meeting = self.meeting.borrow_mut();
             let woken = take(&mut meeting.woken);
             meeting.woken = meeting.advance(woken);
+            if meeting.woken.is_empty() {
+                yield_now();
+            }
             meeting.woken.clear();
         }
     }
@@ -111,19 +147,60 @@ impl Lanes {
     ) -> usize {
         let joined = self.meeting.borrow_mut().join(explicit, right_sides, layout, with_dense);
         let Some(pack) = joined else { return 0 };
-        let lane = self.meeting.borrow_mut().packs[pack].put(explicit, right_sides, length);
-        turn().await;
-        self.meeting.borrow_mut().packs[pack].fetch(lane, explicit)
+        let lane = self.meeting.borrow_mut().put(pack, explicit, right_sides, length);
+        let round = self.meeting.borrow().packs[pack].round;
+        let place = Lane { lanes: self, pack, round, lane };
+        poll_fn(|_| if place.is_taken() { Poll::Ready(()) } else { Poll::Pending }).await;
+        let Pack { steps, .. } = &self.meeting.borrow().packs[pack];
+        steps.get(lane, explicit);
+        steps.evaluations()
     }
 }
 
-/// Waits until the task goes on.
-async fn turn() {
-    let mut has_waited = false;
-    let wait = |_: &mut Context<'_>| {
-        if replace(&mut has_waited, true) { Poll::Ready(()) } else { Poll::Pending }
-    };
-    poll_fn(wait).await;
+/// Lanes in which tasks are carried out. Nothing of them is left there at the end, however it comes.
+struct Opened<'a>(&'a Lanes);
+
+impl<'a> Opened<'a> {
+    fn new(lanes: &'a Lanes) -> Self {
+        let was_open = std::mem::replace(&mut lanes.meeting.borrow_mut().is_open, true);
+        assert!(!was_open, "a task carries out others in the lanes in which it is carried out");
+        Self(lanes)
+    }
+}
+
+impl Drop for Opened<'_> {
+    fn drop(&mut self) {
+        let mut meeting = self.0.meeting.borrow_mut();
+        meeting.is_open = false;
+        meeting.packs.iter_mut().for_each(Pack::clear);
+    }
+}
+
+/// A lane that has a step, until it is fetched or given up.
+struct Lane<'a> {
+    lanes: &'a Lanes,
+    pack: usize,
+    /// The round of the pack.
+    round: usize,
+    lane: usize,
+}
+
+impl Lane<'_> {
+    /// Whether the step is taken. Who asks too early asks again.
+    fn is_taken(&self) -> bool {
+        let pack = &self.lanes.meeting.borrow().packs[self.pack];
+        assert!(pack.round == self.round, "a run goes on after the tasks that it was one of");
+        pack.waiting.is_some()
+    }
+}
+
+impl Drop for Lane<'_> {
+    fn drop(&mut self) {
+        let pack = &mut self.lanes.meeting.borrow_mut().packs[self.pack];
+        if pack.round == self.round {
+            pack.leave(self.lane);
+        }
+    }
 }
 
 impl Meeting {
@@ -154,6 +231,7 @@ impl Meeting {
                     steps: EightSteps::like(explicit, with_dense),
                     tasks: Vec::with_capacity(8),
                     waiting: None,
+                    round: 0,
                     passed_over: 0,
                 };
                 self.packs.push(pack);
@@ -161,12 +239,32 @@ impl Meeting {
             }
         };
         let pack = &mut self.packs[place];
-        if pack.waiting.take().is_some() {
-            pack.tasks.clear();
-            pack.passed_over = 0;
+        if pack.waiting.is_some() {
+            pack.clear();
+            pack.waiting = None;
         }
-        pack.tasks.push(self.task);
+        pack.tasks.push(Some(self.task));
         Some(place)
+    }
+
+    /// Puts a step into the lane that was kept for it last; returns which. Nobody waits for others where no task is
+    /// carried out.
+    fn put(
+        &mut self,
+        pack: usize,
+        explicit: &RungeKutta,
+        right_sides: &RightSides,
+        length: f64,
+    ) -> usize {
+        let Self { packs, is_open, taken, .. } = self;
+        let pack = &mut packs[pack];
+        let lane = pack.put(explicit, right_sides, length);
+        if !*is_open {
+            pack.take();
+            taken[0] += 1;
+            taken[1] += 1;
+        }
+        lane
     }
 
     /// Takes the steps of one pack, the fullest unless others have waited for long; adds to `woken` whose they
@@ -178,7 +276,7 @@ impl Meeting {
             next.take();
             self.taken[0] += next.tasks.len();
             self.taken[1] += 1;
-            woken.extend(&next.tasks);
+            woken.extend(next.tasks.iter().flatten());
         }
         self.packs.iter_mut().for_each(|pack| pack.passed_over += 1);
         woken
@@ -207,13 +305,22 @@ impl Pack {
                 *work = power;
             }
         });
-        *waiting = Some(tasks.len());
+        *waiting = Some(tasks.iter().flatten().count());
     }
 
-    /// Gives `explicit` the step in a lane; returns how many evaluations it took.
-    fn fetch(&mut self, lane: usize, explicit: &mut RungeKutta) -> usize {
-        self.steps.get(lane, explicit);
-        self.waiting = self.waiting.map(|waiting| waiting - 1);
-        self.steps.evaluations()
+    /// Waits no longer for a lane.
+    fn leave(&mut self, lane: usize) {
+        match &mut self.waiting {
+            Some(waiting) => *waiting -= 1,
+            None => self.tasks[lane] = None,
+        }
+    }
+
+    /// Makes all lanes free.
+    fn clear(&mut self) {
+        self.tasks.clear();
+        self.waiting = Some(0);
+        self.round += 1;
+        self.passed_over = 0;
     }
 }

@@ -1,7 +1,7 @@
 use std::fmt;
 
 use nboom_formulation::Formulation;
-use nboom_ode::{Method, Rkam, RkamSettings, Stepper, Tolerance};
+use nboom_ode::{Bound, Method, Rkam, RkamSettings, Stepper, Tolerance};
 use nboom_scalar::{Batch, Kernel};
 
 /// Whether generated or library code computes accelerations.
@@ -147,26 +147,52 @@ pub enum IdleChoice {
 /// Below this a relative error is smaller than the rounding of a step.
 const SMALLEST_RTOL: f64 = 1e-14;
 
+/// Whether a number is right, which one it is, itself, and what is expected.
+type NumberCheck = (bool, &'static str, f64, &'static str);
+
+fn checks_of_rkam(settings: RkamSettings) -> [NumberCheck; 6] {
+    let RkamSettings { first_step, shortest, longest, upper, lower } = settings;
+    let first_step = first_step.unwrap_or(f64::MIN_POSITIVE);
+    let [upper, lower] = [upper, lower].map(|bound| match bound {
+        Bound::Number(number) => number,
+        Bound::Within(Tolerance { relative, absolute }) => relative.max(absolute),
+    });
+    let bound = "a finite number above zero";
+    [
+        (longest > 0.0, "longest step (HMAX)", longest, "a number above zero"),
+        (shortest >= 0.0, "shortest step (HMIN)", shortest, "a number not below zero"),
+        (
+            shortest <= longest,
+            "shortest step (HMIN)",
+            shortest,
+            "a number at most the longest (HMAX)",
+        ),
+        (first_step > 0.0 && first_step.is_finite(), "first step (HZO)", first_step, bound),
+        (upper > 0.0 && upper.is_finite(), "difference that halves steps (EU1)", upper, bound),
+        (lower >= 0.0, "difference that doubles steps (EL1)", lower, "a number not below zero"),
+    ]
+}
+
 impl Options {
     /// Refuses numbers with which no run can be made.
     ///
     /// # Errors
     /// The first of them.
     pub fn check(&self) -> Result<(), OptionError> {
-        let Self { rtol, atol, max_step, samples, .. } = *self;
+        let Self { rtol, atol, max_step, max_steps, samples, .. } = *self;
         let has_digits = (SMALLEST_RTOL..1.0).contains(&rtol);
-        let checks = [
+        let checks: [NumberCheck; 5] = [
             (has_digits, "relative error", rtol, "a number from 1e-14 to below 1"),
             (atol > 0.0 && atol.is_finite(), "absolute error", atol, "a finite number above zero"),
             (max_step > 0.0, "longest step", max_step, "a number above zero"),
             (samples > 0, "output intervals", samples as f64, "at least 1"),
+            (max_steps > 0, "most steps", max_steps as f64, "at least 1"),
         ];
-        let shortest = self.rkam.filter(|_| self.integrator == Method::Rkam);
-        let of_rkam = shortest.map(|RkamSettings { shortest, longest, .. }| {
-            let expected = "a number at most the longest (HMAX)";
-            (shortest <= longest, "shortest step (HMIN)", shortest, expected)
-        });
-        let wrong = checks.into_iter().chain(of_rkam).find(|(is_right, ..)| !is_right);
+        let of_rkam = self.rkam.filter(|_| self.integrator == Method::Rkam).map(checks_of_rkam);
+        let wrong = checks
+            .into_iter()
+            .chain(of_rkam.into_iter().flatten())
+            .find(|(is_right, ..)| !is_right);
         wrong.map_or(Ok(()), |(_, option, value, expected)| {
             Err(OptionError { option, value, expected })
         })
@@ -218,5 +244,42 @@ impl Options {
         };
         stepper.limit_steps(self.max_step);
         stepper
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_of_rkam_with_which_no_run_can_be_made_are_refused() {
+        let usual = RkamSettings::meeting(Bound::Number(1e-6));
+        let check = |settings| {
+            let rkam = Some(settings);
+            Options { integrator: Method::Rkam, rkam, ..Options::default() }.check()
+        };
+        assert_eq!(check(usual), Ok(()));
+        for wrong in [
+            RkamSettings { shortest: -5.0, longest: -5.0, ..usual },
+            RkamSettings { longest: 0.0, ..usual },
+            RkamSettings { longest: f64::NAN, ..usual },
+            RkamSettings { shortest: -1.0, ..usual },
+            RkamSettings { shortest: 2.0, longest: 1.0, ..usual },
+            RkamSettings { first_step: Some(0.0), ..usual },
+            RkamSettings { first_step: Some(f64::NAN), ..usual },
+            RkamSettings { upper: Bound::Number(f64::NAN), ..usual },
+            RkamSettings { upper: Bound::Number(-1.0), ..usual },
+            RkamSettings { upper: Bound::Number(f64::INFINITY), ..usual },
+            RkamSettings { lower: Bound::Number(-1.0), ..usual },
+        ] {
+            assert!(check(wrong).is_err(), "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn a_run_of_no_steps_is_refused_by_what_says_so() {
+        let options = Options { max_steps: 0, ..Options::default() };
+        let error = options.check_span(1.0).expect_err("no step");
+        assert_eq!(error.to_string(), "most steps 0e0 found, at least 1 expected");
     }
 }

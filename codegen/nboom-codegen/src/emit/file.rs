@@ -23,7 +23,8 @@ pub(crate) fn standing(text: &str, key: u64) -> Standing {
     let Some((first, rest)) = text.split_once('\n') else { return Standing::Foreign };
     let first = first.trim_end_matches('\r');
     let Some(keys) = first.strip_prefix(MARK) else { return Standing::Foreign };
-    let of_text = hash(rest.as_bytes());
+    // Some checkouts end lines otherwise.
+    let of_text = hash(rest.replace("\r\n", "\n").as_bytes());
     if first == head(key, of_text) {
         Standing::Current
     } else if keys.ends_with(&format!("{of_text:016x}")) {

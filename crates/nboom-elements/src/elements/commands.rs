@@ -22,6 +22,12 @@ impl Commands {
         }
     }
 
+    /// Whether they are of as many hinges and rotors as `scene` has.
+    pub fn are_for(&self, scene: &Scene) -> bool {
+        self.hinge_torques.len() == scene.bodies.len()
+            && self.rotor_accelerations.len() == scene.rotors.len()
+    }
+
     /// Commands nothing.
     pub fn clear(&mut self) {
         self.hinge_torques.fill(0.0);

@@ -102,6 +102,9 @@ impl NoRoutine {
     /// What to do about it.
     pub fn remedy(&self) -> &'static str {
         match self {
+            Self::Tree { form: Some(Form::Recursive), .. }
+            | Self::Topology { form: Some(Form::Recursive), .. }
+            | Self::Unmet { form: Some(Form::Recursive), .. } => "the recursion is library code",
             Self::Tree { .. } => "the generic path computes it",
             Self::Topology { .. } | Self::Unmet { .. } => {
                 "routines can be generated, or the generic path used"

@@ -24,7 +24,7 @@ impl Run<'_> {
     pub(super) fn check_own_laws(&self) -> Result<(), SimError> {
         let (options, count) = (&self.options, self.equations.scene.bodies.len());
         if let Some(law) = self.equations.own.iter().find(|law| law.hinge >= count) {
-            return Err(SimError::OwnLawHinge { hinge: law.hinge + 1, count });
+            return Err(SimError::OwnLawHinge { hinge: law.hinge.saturating_add(1), count });
         }
         let demanded = match options.formulation {
             _ if self.equations.own.is_empty() => None,

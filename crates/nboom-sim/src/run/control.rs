@@ -1,5 +1,7 @@
 //! Control laws of a program's own.
 
+use std::fmt;
+
 use nboom_elements::Commands;
 
 use super::Run;
@@ -18,6 +20,12 @@ pub struct Control<'a> {
     /// Sees the motion after all events of the instant, and changes the commands. They begin with
     /// nothing.
     pub law: &'a mut dyn FnMut(&Snapshot, &mut Commands),
+}
+
+impl fmt::Debug for Control<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Control").field("period", &self.period).finish_non_exhaustive()
+    }
 }
 
 /// A control law, and how often it was asked.
@@ -58,6 +66,10 @@ impl Run<'_> {
         let Self { equations, situation, sampling, seen, ledger, variables, .. } = self;
         let Some(Sampling { control, samples }) = sampling else { return Ok(()) };
         (control.law)(seen, &mut equations.commands);
+        if !equations.commands.are_for(&equations.scene) {
+            equations.commands = Commands::none(&equations.scene);
+            return Err(SimError::OtherCommands { time: seen.time });
+        }
         let Commands { main_body, .. } = &equations.commands;
         let check = Check { scene: &equations.scene, time: seen.time };
         let torques = equations.commands.hinge_torques();

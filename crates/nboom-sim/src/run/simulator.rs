@@ -1,3 +1,4 @@
+use std::fmt;
 use std::sync::Arc;
 
 use nboom_elements::{Elements, OwnLaw, OwnLaws};
@@ -27,6 +28,15 @@ pub struct Simulator {
     equations: Equations,
     stepper: Box<dyn Stepper>,
     workspace: Workspace,
+}
+
+impl fmt::Debug for Simulator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { options, equations, .. } = self;
+        let mut shown = f.debug_struct("Simulator");
+        shown.field("scene", &equations.scene.name).field("options", options);
+        shown.finish_non_exhaustive()
+    }
 }
 
 /// What runs write to; nothing in it lasts from one run to the next but its room.
@@ -152,7 +162,7 @@ impl Simulator {
         let completed = run.complete().await;
         run.sum_up();
         let summary = &mut self.workspace.summary;
-        if let Err(SimError::Interrupted { time }) = completed {
+        if let Err(SimError::Interrupted { time } | SimError::Record { time, .. }) = completed {
             // An output time within a step, whose end is not the state yet.
             summary.end_time = time;
         }

@@ -255,3 +255,17 @@ fn periods_and_commands_that_are_none_are_refused() {
     let wrench = told(&mut |_, commands| commands.main_body.force.y = f64::INFINITY);
     assert!(wrench.starts_with("at time 0: commanded wrench is not finite"), "{wrench}");
 }
+
+#[test]
+fn commands_for_another_scene_are_refused_and_not_kept() {
+    let two = scene(rotors(&[free(0.0, 0.0), free(0.0, 0.0)], 1.0));
+    let one = scene(rotors(&[free(0.0, 0.0)], 1.0));
+    let mut simulator = Simulator::new(&two, tight(1));
+    let mut law = |_: &Snapshot, commands: &mut Commands| *commands = Commands::none(&one);
+    let control = Control { period: 0.1, law: &mut law };
+    let failure = simulator.run_controlled(control, &mut Nobody).expect_err("another scene's");
+    assert!(matches!(failure.error, SimError::OtherCommands { time: 0.0 }), "{failure}");
+    let mut law = |_: &Snapshot, commands: &mut Commands| commands.hinge_torques_mut()[1] = 1.0;
+    let control = Control { period: 0.1, law: &mut law };
+    simulator.run_controlled(control, &mut Nobody).expect("its own commands");
+}
