@@ -77,16 +77,21 @@ fn parts(tag: &str) -> [&'static [&'static str]; 2] {
 
 impl<'d> Reader<'_, 'd, '_> {
     /// Whether a part of an element is one that is read. One that seems to be meant for such a part is an error,
-    /// for without it the robot is another one; what is neither is `left_out`.
+    /// for without it the robot is another one; what is neither is `left_out`, and so is what stands in one that says
+    /// all by attributes.
     pub fn is_read(&mut self, part: Node<'d, 'd>, left_out: &mut LeftOut) -> bool {
         let (name, at) = (part.tag_name().name(), part.range().start);
         let owner = part.parent().map_or("", |owner| owner.tag_name().name());
         let [read, besides] = parts(owner);
-        let is_foreign = is_foreign(&part);
-        if read.contains(&name) && !is_foreign {
+        let is_others = is_foreign(&part);
+        if read.contains(&name) && !is_others {
+            if Known::of(name).is_some_and(|known| known.is_leaf) {
+                let inside = part.children().filter(Node::is_element).filter(is_foreign);
+                inside.for_each(|inner| left_out.element(&tag(inner), inner.range().start));
+            }
             return true;
         }
-        let is_known = is_foreign || besides.contains(&name);
+        let is_known = is_others || besides.contains(&name);
         match suggest::nearest(name, read.iter().copied()).filter(|_| !is_known) {
             Some(meant) => {
                 let found = format!("element {} in `{owner}`", quoted(name));

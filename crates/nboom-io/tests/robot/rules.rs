@@ -234,7 +234,7 @@ fn elements_and_attributes_of_a_namespace_are_not_read() {
     assert!(is_near(scene.bodies[0].axis, [1.0, 0.0, 0.0]));
     assert_eq!(scene.bodies[0].hinge.dashpot.rate_linear, 0.0);
     let left_out = "gz:axis, gz:dynamics, gz:inertia, gz:inertial, gz:joint, gz:link, gz:mass, gz:mimic, \
-                    gz:origin";
+                    gz:origin, gz:pose";
     assert_eq!(warned(&file), [left_out]);
 }
 
