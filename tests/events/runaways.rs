@@ -85,6 +85,30 @@ fn a_torque_table_that_pushes_away() {
     assert_eq!((hinge, feeds), (FIRST, Feeds::Table));
 }
 
+/// Where a hinge has both, that is told which feeds more, and not the one that holds back.
+#[test]
+fn of_spring_and_table_the_one_that_feeds() {
+    let linear = |linear| Hinge {
+        spring: Spring { quadratic: 0.0, linear, preload_angle: 0.0 },
+        ..free(0.1, 0.0)
+    };
+    let by_dashpot =
+        Hinge { dashpot: Dashpot { angle_linear: 40.0, ..Dashpot::default() }, ..free(0.1, 0.0) };
+    let (rising, falling) = ([[0.0, 0.0], [0.1, 5.0]], [[0.0, 0.0], [0.1, -1.0]]);
+    for (points, hinge, cause) in [
+        (rising, linear(-40.0), Feeds::Table),
+        (rising, linear(20.0), Feeds::Table),
+        (rising, linear(90.0), Feeds::Spring),
+        (falling, linear(20.0), Feeds::Spring),
+        (falling, by_dashpot, Feeds::Spring),
+    ] {
+        let mut scene = description(&[hinge], 1e4);
+        scene.torque_tables.push(TorqueTable { hinge: 0, points: points.to_vec() });
+        let (hinge, feeds, _) = given_up(&Scene::new(scene).expect("rotors are bodies"));
+        assert_eq!((hinge, feeds), (FIRST, cause), "{points:?}");
+    }
+}
+
 /// What a table does beyond its ends is told before the run, of hinges that come there and of no others.
 #[test]
 fn tables_that_drive_hinges_on_are_warned_of() {

@@ -1,8 +1,8 @@
 //! When a motion runs away: its energy grows beyond all that the scene has, and its end is out of reach.
 
 use nboom_dynamics::Invariants;
-use nboom_elements::stored;
-use nboom_model::{Scene, Spring};
+use nboom_elements::{HingeLaw, stored};
+use nboom_model::Scene;
 
 use super::Run;
 use crate::error::{Feeds, Runaway, SimError};
@@ -78,11 +78,14 @@ impl Run<'_> {
         let laws = || elements.torques().iter().enumerate();
         let at_start: Vec<f64> = scene.bodies.iter().map(|body| body.hinge.start.angle).collect();
         let from_spring = laws().map(|(i, law)| {
-            let Spring { quadratic, linear, .. } = scene.bodies[i].hinge.spring;
-            let has_spring = quadratic != 0.0 || linear != 0.0;
-            let has_table = scene.torque_tables.iter().any(|table| table.hinge == i);
-            let feeds = if has_table && !has_spring { Feeds::Table } else { Feeds::Spring };
-            (i, law.potential(at_start[i]) - law.potential(state.beta[i]), feeds)
+            let hinge = &scene.bodies[i].hinge;
+            let spring = HingeLaw::<f64>::new(&hinge.spring, &hinge.dashpot);
+            let [before, now] = [at_start[i], state.beta[i]];
+            let fed = law.potential(before) - law.potential(now);
+            let by_spring = spring.potential(before) - spring.potential(now);
+            // The rest is of the table.
+            let feeds = if by_spring < 0.5 * fed { Feeds::Table } else { Feeds::Spring };
+            (i, fed, feeds)
         });
         let potentials = |beta| elements.coupling_potentials(beta);
         let by_coupling = potentials(&at_start)
