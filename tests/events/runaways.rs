@@ -115,6 +115,11 @@ fn tables_that_drive_hinges_on_are_warned_of() {
     let rising = [[0.0, 0.0], [0.1, 5.0]];
     let level = [[0.0, 1.0], [1.0, 1.0]];
     let well = [[-1.0, 3.0], [0.0, 0.0], [1.0, -3.0], [2.0, 1.0]];
+    let falling = [[0.0, 0.0], [0.1, -5.0]];
+    let squared = |hinge: Hinge, quadratic: f64| Hinge {
+        spring: Spring { quadratic, linear: 0.0, preload_angle: 0.0 },
+        ..hinge
+    };
     let pulled = |hinge: Hinge, linear: f64| Hinge {
         spring: Spring { quadratic: 0.0, linear, preload_angle: 0.0 },
         ..hinge
@@ -137,6 +142,14 @@ fn tables_that_drive_hinges_on_are_warned_of() {
         (&rising, pulled(free(0.2, 0.0), -60.0)),
         (&rising, pulled(free(0.2, 0.0), -40.0)),
         (&level, pulled(free(0.5, 0.0), 1.0)),
+        // The square of a spring drives one way and holds the other, whatever the table.
+        (&rising, squared(free(0.1, 0.0), 1.0)),
+        (&rising, squared(free(0.1, 0.0), -1.0)),
+        (&rising, locking_at(squared(free(0.1, 0.0), 1.0), 0.5)),
+        (&falling, squared(free(0.1, 0.0), 1.0)),
+        (&falling, squared(free(60.0, 0.0), 1.0)),
+        (&level, squared(free(0.5, 0.0), -10.0)),
+        (&level, squared(free(-0.5, 0.0), -10.0)),
     ] {
         let mut scene = description(&[hinge], 20.0);
         scene.torque_tables.push(TorqueTable { hinge: 0, points: points.to_vec() });
@@ -144,13 +157,17 @@ fn tables_that_drive_hinges_on_are_warned_of() {
         let (found, result) = try_run(&scene, &Options { samples: 1, ..Options::default() });
         let is_far = result.is_err() || found.last().beta[0].abs() > 1e3;
         let is_told = |warning: &ModelWarning| {
-            matches!(warning, ModelWarning::TableDrivesOn { hinge: FIRST, .. })
+            matches!(
+                warning,
+                ModelWarning::TableDrivesOn { hinge: FIRST, .. }
+                    | ModelWarning::SpringDrivesOn { hinge: FIRST, .. }
+            )
         };
         let told = scene.warnings();
         assert_eq!(told.iter().any(is_told), is_far, "{points:?} from {:?}: {told:?}", hinge.start);
         warned += usize::from(is_far);
     }
-    assert_eq!(warned, 8);
+    assert_eq!(warned, 11);
 }
 
 /// In space and with other hinges about: one hinge of a random tree feeds.

@@ -95,10 +95,11 @@ fn dashpot(hinge: &Hinge) -> Option<((f64, u8), f64)> {
 }
 
 /// Torque A₂β² + A₁β + A₀ of spring and dashpot at rest, eq. (6.1) in powers of β.
+#[derive(Clone, Copy)]
 pub(super) struct AngleTorque {
     pub a2: f64,
     pub a1: f64,
-    a0: f64,
+    pub a0: f64,
 }
 
 impl AngleTorque {
@@ -133,17 +134,31 @@ impl AngleTorque {
     /// Whether a hinge that starts at rest turns for ever: on the side to which a quadratic torque
     /// pushes far out, no potential is above that of the start, and there is no lock angle.
     fn drives_on(&self, start: f64, lock: Option<f64>) -> bool {
-        if self.a2 == 0.0 || lock.is_some_and(|lock| (lock - start) * self.a2 > 0.0) {
-            return false;
-        }
-        let discriminant = self.a1 * self.a1 - 4.0 * self.a2 * self.a0;
-        if discriminant < 0.0 {
-            return true;
-        }
-        // Beyond its root farther out the torque points outward; the potential is largest there.
-        let summit = (-self.a1 + discriminant.sqrt().copysign(self.a2)) / (2.0 * self.a2);
-        let is_beyond = (start - summit) * self.a2 > 0.0;
-        is_beyond || self.potential(summit) < self.potential(start)
+        let side = self.a2.signum();
+        self.a2 != 0.0
+            && lock.is_none_or(|lock| (lock - start) * side <= 0.0)
+            && self.hill(start, side).is_some_and(|height| height < 0.0)
+    }
+
+    /// The height above `from` of the last summit of the potential on one side, beyond which the torque points
+    /// outward and grows; without end below where `from` is beyond it. None if far out it does not.
+    pub fn hill(&self, from: f64, side: f64) -> Option<f64> {
+        let Self { a2, a1, a0 } = *self;
+        let summit = if a2 == 0.0 {
+            (a1 > 0.0).then(|| -a0 / a1)?
+        } else if a2 * side < 0.0 {
+            return None;
+        } else {
+            // Without roots it points outward all along.
+            let discriminant = a1 * a1 - 4.0 * a2 * a0;
+            if discriminant < 0.0 {
+                return Some(f64::NEG_INFINITY);
+            }
+            (-a1 + discriminant.sqrt().copysign(a2)) / (2.0 * a2)
+        };
+        let is_beyond = (from - summit) * side > 0.0;
+        let height = || self.potential(summit) - self.potential(from);
+        Some(if is_beyond { f64::NEG_INFINITY } else { height() })
     }
 }
 

@@ -23,13 +23,12 @@ fn of_table(scene: &Scene, table: &TorqueTable) -> Option<ModelWarning> {
     let mut open =
         sides.filter(|(side, _)| hinge.lock_angle.is_none_or(|lock| (lock - start) * side <= 0.0));
     open.find_map(|(side, last)| {
-        let (end, stiffness) = (table.points[last][0], law.stiffness_beyond(last)?);
+        let (end, beyond) = (table.points[last][0], law.beyond(last));
         let hinge = scene.label(i);
-        law.drives_on(start, end, stiffness, side).then_some(ModelWarning::TableDrivesOn {
-            hinge,
-            start,
-            end,
-            stiffness,
+        law.drives_on(start, end, &beyond, side).then_some(match beyond.a2 {
+            0.0 => ModelWarning::TableDrivesOn { hinge, start, end, stiffness: beyond.a1 },
+            // Far out the square is more than any table.
+            _ => ModelWarning::SpringDrivesOn { hinge, start },
         })
     })
 }
@@ -42,10 +41,11 @@ struct Law<'t> {
 }
 
 impl Law<'_> {
-    /// By how much the torque grows for each unit of the angle beyond an end of the table, if it does.
-    fn stiffness_beyond(&self, last: usize) -> Option<f64> {
-        let stiffness = self.spring.a1 + self.slopes[last];
-        (self.spring.a2 == 0.0 && stiffness > 0.0).then_some(stiffness)
+    /// The torque beyond an end of the table.
+    fn beyond(&self, last: usize) -> AngleTorque {
+        let (AngleTorque { a2, a1, a0 }, slope) = (self.spring, self.slopes[last]);
+        let [end, torque] = self.table.points[last];
+        AngleTorque { a2, a1: a1 + slope, a0: a0 + torque - slope * end }
     }
 
     fn at(&self, beta: f64) -> f64 {
@@ -64,14 +64,15 @@ impl Law<'_> {
         self.spring.at(beta) + of_table
     }
 
-    /// Whether the hinge comes from rest at `start` over all hills on one side, up or down, where the torque is straight
-    /// beyond `end`.
-    fn drives_on(&self, start: f64, end: f64, stiffness: f64, side: f64) -> bool {
-        let straight = if (start - end) * side > 0.0 { start } else { end };
+    /// Whether the hinge comes from rest at `start` over all hills on one side, up or down, where the torque is that
+    /// `beyond` from `end` on.
+    fn drives_on(&self, start: f64, end: f64, beyond: &AngleTorque, side: f64) -> bool {
+        let outer = if (start - end) * side > 0.0 { start } else { end };
+        let Some(hill) = beyond.hill(outer, side) else { return false };
         let on_the_way = self.table.points.iter().map(|point| point[0]);
         let mut stops: Vec<f64> = on_the_way
-            .filter(|at| (at - start) * side > 0.0 && (straight - at) * side > 0.0)
-            .chain([start, straight])
+            .filter(|at| (at - start) * side > 0.0 && (outer - at) * side > 0.0)
+            .chain([start, outer])
             .collect();
         stops.sort_by(f64::total_cmp);
         if side < 0.0 {
@@ -90,7 +91,6 @@ impl Law<'_> {
                 }
             }
         }
-        let inward = (-self.at(straight) * side).max(0.0);
-        work >= inward * inward / (2.0 * stiffness) - NO_TORQUE * scale
+        work >= hill - NO_TORQUE * scale
     }
 }
