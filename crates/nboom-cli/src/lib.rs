@@ -68,6 +68,7 @@ mod sweep_account;
 mod table_args;
 mod tables;
 mod terminal;
+mod unique_keys;
 mod verdict;
 mod verify;
 mod watch;

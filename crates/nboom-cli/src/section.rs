@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::section_file::{Case, read};
+use crate::section_file::{Case, OF_FILE, SectionFile, read};
 use crate::{CliError, output, say, section_answer};
 
 /// Options of `nboom section`.
@@ -20,8 +20,9 @@ pub struct SectionArgs {
 
 /// Computes the sections of a file and returns the answer, or its path, for standard output.
 pub(crate) fn section(args: &SectionArgs) -> Result<String, CliError> {
-    let cases = read(&args.sections)?;
-    warnings(&args.sections, &cases);
+    let file = read(&args.sections)?;
+    warnings(&args.sections, &file);
+    let SectionFile { cases, .. } = file;
     let count = cases.len();
     let answers: Vec<Value> = cases.into_iter().map(answer).collect();
     let document = json!({ "convention": section_answer::CONVENTION, "cases": answers });
@@ -32,10 +33,15 @@ pub(crate) fn section(args: &SectionArgs) -> Result<String, CliError> {
     Ok(format!("{sections}, results in {}\n", path.display()))
 }
 
-fn warnings(path: &Path, cases: &[Case]) {
-    for case in cases {
+fn warnings(path: &Path, file: &SectionFile) {
+    let (path, expected) = (path.display(), OF_FILE.join(" or "));
+    for key in &file.ignored {
+        let found = format!("key {key} without meaning found, {expected} expected; it is ignored");
+        say("warning", &format!("{path}: {found}"));
+    }
+    for case in &file.cases {
         for warning in case.section.warnings() {
-            let (path, id) = (path.display(), case.given["id"].as_str().unwrap_or_default());
+            let id = case.given["id"].as_str().unwrap_or_default();
             say("warning", &format!("{path}: section {id}: {warning}"));
         }
     }

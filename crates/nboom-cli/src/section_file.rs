@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 use nboom_io::{InputError, read_text};
 use nboom_scalar::{Vec3, Wrench};
 use nboom_sections::{Point, Polygon, Section, SectionError, Tube};
+use serde_json::error::Category;
 use serde_json::{Map, Value};
+
+use crate::unique_keys::UniqueKeys;
 
 /// The longest file that is read \[bytes\].
 const LARGEST_FILE: u64 = 4 << 20;
@@ -15,6 +18,9 @@ const MOST_SHOWN: usize = 40;
 
 /// Most defects that a message shows.
 const MOST_DEFECTS: usize = 50;
+
+/// The keys of a file: its sections, and what an answer says of itself.
+pub(crate) const OF_FILE: [&str; 2] = ["cases", "convention"];
 
 /// The keys that any section may have beside its description: a load, and keys that are only passed on.
 const KEYS: [&str; 7] = ["id", "kind", "P", "Q", "name", "tags", "expect"];
@@ -36,6 +42,15 @@ pub enum SectionFileError {
         /// The file.
         path: PathBuf,
         /// What is wrong, and where.
+        #[source]
+        source: serde_json::Error,
+    },
+    /// An object of the file has a key more than once.
+    #[error("{}: a key that stands twice", path.display())]
+    RepeatedKey {
+        /// The file.
+        path: PathBuf,
+        /// Which, and where.
         #[source]
         source: serde_json::Error,
     },
@@ -119,14 +134,27 @@ pub(crate) struct Case {
     pub(crate) load: Option<Wrench<f64>>,
 }
 
+/// What a file has.
+pub(crate) struct SectionFile {
+    pub(crate) cases: Vec<Case>,
+    /// Keys beside its sections that have no meaning.
+    pub(crate) ignored: Vec<String>,
+}
+
 /// All sections of a file.
-pub(crate) fn read(path: &Path) -> Result<Vec<Case>, SectionFileError> {
+pub(crate) fn read(path: &Path) -> Result<SectionFile, SectionFileError> {
     let text = read_text(path, LARGEST_FILE)?;
-    let json = |source| SectionFileError::Json { path: path.to_owned(), source };
-    let mut file: Value = serde_json::from_str(&text).map_err(json)?;
+    let path_of = || path.to_owned();
+    let UniqueKeys(mut file) =
+        serde_json::from_str(&text).map_err(|source| match source.classify() {
+            Category::Data => SectionFileError::RepeatedKey { path: path_of(), source },
+            _ => SectionFileError::Json { path: path_of(), source },
+        })?;
     let Some(Value::Array(list)) = file.get_mut("cases").map(Value::take) else {
-        return Err(SectionFileError::NoCases { path: path.to_owned() });
+        return Err(SectionFileError::NoCases { path: path_of() });
     };
+    let keys = file.as_object().into_iter().flat_map(Map::keys);
+    let ignored = keys.filter(|key| !OF_FILE.contains(&key.as_str())).cloned().collect();
     let (mut cases, mut defects) = (Vec::new(), Vec::new());
     for (i, value) in list.into_iter().enumerate() {
         let id = value["id"].as_str().map_or_else(|| format!("number {}", i + 1), str::to_owned);
@@ -139,7 +167,11 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Case>, SectionFileError> {
             })),
         }
     }
-    if defects.is_empty() { Ok(cases) } else { Err(SectionFileError::Sections(defects)) }
+    if defects.is_empty() {
+        Ok(SectionFile { cases, ignored })
+    } else {
+        Err(SectionFileError::Sections(defects))
+    }
 }
 
 fn case(value: Value) -> Result<Case, Vec<Defect>> {

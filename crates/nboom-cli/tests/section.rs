@@ -111,6 +111,18 @@ fn without_a_load_there_are_properties_only() {
 }
 
 #[test]
+fn a_key_beside_the_sections_that_has_no_meaning_is_told() {
+    let text = r#"{"cases": [{"id": "a", "kind": "circular", "R": 2, "t": 0.05}], "P": [0, 0, 1]}"#;
+    let (output, _) = nboom(text, &[]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(
+        String::from_utf8_lossy(&output.stderr),
+        "warning: sections.json: key P without meaning found, cases or convention expected; it is \
+         ignored\n"
+    );
+}
+
+#[test]
 fn the_answer_goes_where_it_is_asked_for() {
     let text = r#"{"cases": [{"id": "a", "kind": "circular", "R": 2, "t": 0.3}]}"#;
     let (output, directory) = nboom(text, &["-o", "new/out.json"]);
@@ -229,6 +241,21 @@ fn files_without_sections_are_refused() {
     ] {
         let found = refused(text);
         assert!(found.len() == 1 && found[0].contains(words), "{found:?}");
+    }
+    for (text, place) in [
+        (
+            "{\"cases\": [],\n\"cases\": []}",
+            "cases found again, each key once expected at line 2 column 7",
+        ),
+        (
+            "{\"cases\": [{\"R\": 2,\n  \"R\": 3}]}",
+            "R found again, each key once expected at line 2 column 5",
+        ),
+    ] {
+        assert_eq!(
+            refused(text),
+            [format!("error: sections.json: a key that stands twice: {place}")]
+        );
     }
     let (output, _) = nboom("{}", &["--output"]);
     assert_eq!(output.status.code(), Some(2));
