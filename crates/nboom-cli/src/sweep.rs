@@ -233,16 +233,16 @@ pub fn finish_sweep(
 
 /// Warns also under `--quiet`, since results are not what they seem.
 fn warn_of_poor_cases(counts: Counts) {
-    let Counts { ok, poor, first_poor, doubtful, first_doubtful, .. } = counts;
-    if let Some(first) = first_poor {
-        let told = format!("poor conservation in {poor} of {ok} cases that ran");
-        say("warning", &format!("{told}, first in case {first}; do not trust their motion"));
-    }
-    if let Some(first) = first_doubtful {
-        let told = format!(
-            "errors of the run may decide whether a hinge locks in {doubtful} of {ok} cases"
-        );
-        say("warning", &format!("{told} that ran, first in case {first}"));
+    let doubt = "errors of the run may decide whether a hinge locks";
+    for (what, count, first, so) in [
+        ("the motion runs away", counts.runaway, counts.first_runaway, ""),
+        ("poor conservation", counts.poor, counts.first_poor, "; do not trust their motion"),
+        (doubt, counts.doubtful, counts.first_doubtful, ""),
+    ] {
+        if let Some(first) = first {
+            let of = format!("{count} of {} cases that ran", counts.ok);
+            say("warning", &format!("{what} in {of}, first in case {first}{so}"));
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use nboom_strength::{StrengthError, StressAnalysis};
 use crate::observer::Observer;
 use crate::plan::Case;
 use crate::rejection::{Rejection, in_one_line};
-use crate::row::{DOUBTFUL, OK, Outcome, POOR, Row, Value};
+use crate::row::{DOUBTFUL, OK, Outcome, POOR, RUNAWAY, Row, Value};
 use crate::study::{Change, Fault, Relation, RunSettings, Study};
 use crate::table::units;
 use crate::wanted::{Extreme, Found, Happened, Wanted};
@@ -245,7 +245,9 @@ impl<'s> Runner<'s> {
             error => Stop::Failed(in_one_line(&with_causes(&error))),
         })?;
         let rtol = prepared.options.rtol;
-        let status = if summary.conservation.poor(rtol).next().is_some() {
+        let status = if summary.runaway.is_some() {
+            RUNAWAY
+        } else if summary.conservation.poor(rtol).next().is_some() {
             POOR
         } else if summary.verdict.doubts(scene, rtol).next().is_some() {
             DOUBTFUL

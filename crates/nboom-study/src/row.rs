@@ -3,6 +3,9 @@ use nboom_tables::Cell;
 /// The status of a case that was run.
 pub(crate) const OK: &str = "ok";
 
+/// The status of a case that was run to its end, with energy that grew beyond all that its scene has.
+pub(crate) const RUNAWAY: &str = "ok, runs away";
+
 /// The status of a case that was run, but did not keep a conservation law. It stands in the row because a journal has
 /// nothing else of a case.
 pub(crate) const POOR: &str = "ok, poor conservation";

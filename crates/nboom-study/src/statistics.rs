@@ -22,7 +22,7 @@ mod summary;
 use nboom_tables::Cell;
 
 use crate::Requirement;
-use crate::row::{DOUBTFUL, OK, POOR};
+use crate::row::{DOUBTFUL, OK, POOR, RUNAWAY};
 use crate::wanted::Wanted;
 use compliance::{Met, Required};
 use extremes::Extremes;
@@ -176,8 +176,9 @@ impl Statistics {
 
     /// Counts a case, and says whether it ran.
     fn count(&mut self, head: &Head<'_>, group: usize) -> bool {
-        let (is_poor, is_doubtful) = (head.status == POOR, head.status == DOUBTFUL);
-        let ran = head.status == OK || is_poor || is_doubtful;
+        let [is_runaway, is_poor, is_doubtful] =
+            [RUNAWAY, POOR, DOUBTFUL].map(|status| head.status == status);
+        let ran = head.status == OK || is_runaway || is_poor || is_doubtful;
         self.counts.cases += 1;
         self.groups[group].cases += 1;
         if !ran {
@@ -191,6 +192,10 @@ impl Statistics {
         }
         self.counts.ok += 1;
         self.groups[group].ran += 1;
+        if is_runaway {
+            self.counts.runaway += 1;
+            self.counts.first_runaway.get_or_insert(head.case);
+        }
         if is_poor {
             self.counts.poor += 1;
             self.counts.first_poor.get_or_insert(head.case);

@@ -15,7 +15,7 @@ pub fn columns(study: &Study) -> Vec<Column> {
     }
     columns.extend(study.variables.iter().map(|variable| of_variable(variable, study)));
     columns.extend(study.wanted.iter().map(|wanted| wanted.column().clone()));
-    let about = "`ok`, `ok, poor conservation`, `ok, latch in doubt`, or why there are no results";
+    let about = "`ok`, `ok, runs away`, `ok, poor conservation`, `ok, latch in doubt`, or why there are no results";
     columns.push(Column::new("status", Kind::Text, about));
     columns
 }

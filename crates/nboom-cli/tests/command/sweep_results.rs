@@ -346,6 +346,26 @@ fn a_latch_that_does_not_close_in_half_of_the_cases_locks_never() {
     assert!(!row("1,1").contains("of 40 cases"), "{told}");
 }
 
+/// A table of forces that rises beyond its last point drives a slide out ever faster.
+const RUNAWAY: &str = "[run]\nend = 3.0\n[parameters]\npush = 1.0\n[main_body]\nmass = 100.0\n\
+    inertia = [40.0, 30.0, 20.0]\n[[body]]\nname = 'mast'\nmass = 2.0\nmass_centre = [0.0, 1.0, 0.0]\n\
+    inertia = [1.0, 0.1, 1.0]\n[body.slide]\nat = [0.0, 1.0, 0.0]\naxis = 'y'\nstart = 0.1\n\
+    force = [[0.0, 0.0], [0.1, '$push']]\n";
+
+#[test]
+fn cases_that_run_away_are_counted_and_told() {
+    let place = Place::new();
+    place.write("mast.toml", RUNAWAY);
+    let vary = "[[vary]]\npath = 'parameters.push'\nvalues = [0.1, 5.0, 6.0]\n";
+    place.write("study.toml", &format!("scene = 'mast.toml'\nmethod = 'grid'\n{vary}"));
+    let output = sweep(&place, &["-o", "out", "--no-report", "--quiet"]);
+    let told = "warning: the motion runs away in 2 of 3 cases that ran, first in case 2\n";
+    assert!(stderr(&output).ends_with(told), "{}", stderr(&output));
+    let found = cases(&place, "out");
+    let statuses: Vec<_> = found.iter().map(|case| case["status"].as_str()).collect();
+    assert_eq!(statuses, ["ok", "ok, runs away", "ok, runs away"]);
+}
+
 /// With such an absolute tolerance the laws of conservation are off by more than a thousandth.
 const POOR: &str = "scene = 'cubesat.toml'\ndraws = 3\nresults = ['final omega_x']\n\
     [run]\nintegrator = 'taylor'\natol = 1e-3\n\

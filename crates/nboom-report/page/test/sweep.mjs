@@ -97,9 +97,9 @@ const checks = {
 
   async 'it warns of cases that are not to be trusted, with the first of them'(path) {
     const page = await open(path);
-    const { poor, first_poor: firstPoor, doubtful, first_doubtful: firstDoubtful } = page.data.summary.counts;
+    const { runaway, first_runaway: firstRunaway, poor, first_poor: firstPoor, doubtful, first_doubtful: firstDoubtful } = page.data.summary.counts;
     const warnings = await page.$$eval('#account .warning', (found) => found.map((one) => one.textContent));
-    for (const [count, first, words] of [[poor, firstPoor, /poor conservation/], [doubtful, firstDoubtful, /whether a hinge locks/]]) {
+    for (const [count, first, words] of [[runaway, firstRunaway, /runs away/], [poor, firstPoor, /poor conservation/], [doubtful, firstDoubtful, /whether a hinge locks/]]) {
       const found = warnings.filter((text) => words.test(text));
       assert.equal(found.length, count > 0 ? 1 : 0);
       if (count > 0) assert.match(found[0], new RegExp(`\\b${whole(count)}\\b.* case ${first}\\b`));

@@ -71,12 +71,13 @@ function header() {
 }
 
 function account() {
-  const { cases, ok, rejected, failed, poor, first_poor: firstPoor, doubtful, first_doubtful: firstDoubtful } = counts;
+  const { cases, ok, rejected, failed, runaway, first_runaway: firstRunaway, poor, first_poor: firstPoor, doubtful, first_doubtful: firstDoubtful } = counts;
   const said = ok === cases ? `${cases === 1 ? 'The only case' : `All ${whole(cases)} cases`} ran.` : `${whole(ok)} of ${whole(cases)} cases ran; ${whole(rejected)} were rejected, ${whole(failed)} failed.`;
   const keys = [['Draws', facts.draws], ['Faults', summary.faults.length], ['Ran', ok], ['Rejected', rejected], ['Failed', failed]];
   return element('section', { id: 'account' }, element('p', { class: 'sentence' }, said),
     element('dl', { class: 'keys' }, keys.map(([name, number]) => element('div', { class: 'key' }, element('dt', {}, name), element('dd', {}, whole(number))))),
     summary.share > 1 ? note(`Counts, means, deviations and extreme cases are of all cases. Percentiles, histograms, drivers and curves are of ${whole(summary.held)} cases: those of a random one of ${whole(summary.share)} draws.`) : null,
+    runaway > 0 ? element('p', { class: 'warning' }, `In ${whole(runaway)} of the cases that ran the motion runs away, the first is `, caseButton(firstRunaway), '.') : null,
     poor > 0 ? element('p', { class: 'warning' }, `${whole(poor)} of the cases that ran ${poor === 1 ? 'has' : 'have'} poor conservation, the first is `, caseButton(firstPoor), '. Do not trust their motion.') : null,
     doubtful > 0 ? element('p', { class: 'warning' }, `In ${whole(doubtful)} of the cases that ran errors of the run may decide whether a hinge locks, the first is `, caseButton(firstDoubtful), '.') : null,
     facts.method === 'grid' ? element('p', { class: 'warning' }, 'Points of a grid are chosen, not drawn. Percentiles and shares describe the grid, not how likely anything is.') : null,

@@ -54,6 +54,12 @@ pub struct Counts {
     pub rejected: u64,
     /// Those that could not be followed.
     pub failed: u64,
+    /// Those that ran to their end with energy that grew beyond all that their scenes have.
+    #[serde(default)]
+    pub runaway: u64,
+    /// The first of these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_runaway: Option<u64>,
     /// Those that ran without keeping a conservation law, which is why their motion is not to be trusted.
     #[serde(default)]
     pub poor: u64,

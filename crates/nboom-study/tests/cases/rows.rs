@@ -210,6 +210,23 @@ fn a_study_says_how_its_cases_are_run() {
     assert!(more != steps && matches!(more, Value::Integer(steps) if steps >= 300));
 }
 
+/// A force table that rises beyond its last point drives a slide out ever faster, as an exponential.
+#[test]
+fn a_case_that_runs_away_says_so_and_has_results() {
+    let scene = "[run]\nend = 3.0\n[parameters]\npush = 1.0\n[main_body]\nmass = 100.0\n\
+        inertia = [40.0, 30.0, 20.0]\n[[body]]\nname = 'mast'\nmass = 2.0\n\
+        mass_centre = [0.0, 1.0, 0.0]\ninertia = [1.0, 0.1, 1.0]\n[body.slide]\n\
+        at = [0.0, 1.0, 0.0]\naxis = 'y'\nstart = 0.1\nforce = [[0.0, 0.0], [0.1, '$push']]\n";
+    fs::write(folder("runaway").join("mast.toml"), scene).expect("writable");
+    let vary = "[[vary]]\nname = 'push'\npath = 'parameters.push'\nvalues = [0.1, 5.0]\n";
+    let study = study("runaway", "mast.toml", vary);
+    let rows = rows(&study, 1..=2);
+    assert_eq!(rows.iter().map(status).collect::<Vec<_>>(), ["ok", "ok, runs away"]);
+    assert!(rows.iter().all(|row| row.outcome == Outcome::Ok));
+    let residual = cell(&study, &rows[1], "conservation_energy");
+    assert!(matches!(residual, Value::Number(_)), "{residual:?}");
+}
+
 #[test]
 fn an_interrupted_case_has_no_row() {
     let study = study("interrupt", &example("cubesat.toml"), SPRINGS);

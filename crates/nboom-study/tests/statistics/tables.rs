@@ -307,6 +307,7 @@ fn cases_that_are_not_to_be_trusted_are_counted_among_those_that_ran() {
         let status = match case {
             4 | 8 => "ok, poor conservation",
             3 | 5 | 7 => "ok, latch in doubt",
+            6 | 9 => "ok, runs away",
             _ => "ok",
         };
         let number = Cell::Number(f64::from(case));
@@ -315,6 +316,7 @@ fn cases_that_are_not_to_be_trusted_are_counted_among_those_that_ran() {
     }
     let found = statistics.finish();
     assert_eq!((found.counts.ok, found.counts.failed), (10, 0));
+    assert_eq!((found.counts.runaway, found.counts.first_runaway), (2, Some(6)));
     assert_eq!((found.counts.poor, found.counts.first_poor), (2, Some(4)));
     assert_eq!((found.counts.doubtful, found.counts.first_doubtful), (3, Some(3)));
     assert_eq!(found.columns[1].spreads[0].count, 10);
