@@ -31,8 +31,7 @@ const MOST_LABELS: usize = 100;
 
 /// The drawing, as a file in SVG; none of a scene too large or too small to be drawn.
 pub fn svg(scene: &Scene, units: &UnitSystem) -> Option<String> {
-    let latches = |body: &Body| body.hinge.can_turn() && body.hinge.lock_angle.is_some();
-    let deployed = match scene.bodies.iter().filter(|body| latches(body)).count() {
+    let deployed = match scene.bodies.iter().filter(|body| body.hinge.can_latch()).count() {
         0 => "nothing latches",
         count if count < scene.bodies.len() => "deployed, what latches is latched",
         _ => "deployed, all is latched",

@@ -166,4 +166,9 @@ impl Hinge {
             HingeState::Unreleased => self.release != Release::Never,
         }
     }
+
+    /// Whether it may lock: it has a latch and turns.
+    pub fn can_latch(&self) -> bool {
+        self.lock_angle.is_some() && self.can_turn()
+    }
 }

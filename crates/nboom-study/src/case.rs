@@ -91,7 +91,7 @@ impl Study {
 }
 
 /// The scene with a fault of its hinges.
-fn broken(file: SceneFile, fault: &Fault) -> Result<SceneFile, Rejection> {
+pub(crate) fn broken(file: SceneFile, fault: &Fault) -> Result<SceneFile, Rejection> {
     let mut description = (*file.scene).clone();
     fault.apply(&mut description)?;
     let labels = file.scene.labels().iter();

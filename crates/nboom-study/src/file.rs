@@ -5,6 +5,7 @@ mod faults;
 mod keys;
 mod overlap;
 mod reader;
+mod relevant;
 mod requirements;
 mod run;
 mod vary;
@@ -24,7 +25,6 @@ use crate::directory::SWEPT_SCENE_FILE;
 use crate::plan::{Case, Plan, PlanError};
 use crate::study::{Fault, Method, RunSettings, Study, Variable};
 use crate::wanted::{Loads, UnknownResult, Wanted};
-use effect::Runs;
 use keys::STUDY;
 pub use keys::schema;
 use reader::{Fields, Reader, quoted};
@@ -134,8 +134,8 @@ impl<'t> Reader<'t> {
         }
         let variables: Vec<Variable> = variables.into_iter().filter_map(|(of, _)| of).collect();
         let faults: Vec<Fault> = faults.into_iter().map(|(fault, _)| fault).collect();
-        let runs = Runs { document: &document, nominal: &nominal, run: &run };
-        self.check_effects([&varied, &tables], (&variables, &faults), &runs);
+        let of_runs = (&document, &nominal, &run);
+        self.check_effects([&varied, &tables], (&variables, &faults), of_runs);
         if !self.errors.is_empty() {
             return Ok(None);
         }

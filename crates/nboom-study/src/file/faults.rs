@@ -1,7 +1,7 @@
 //! What may be broken.
 
 use nboom_io::{SceneDocument, SceneFile, nearest};
-use nboom_model::{Hinge, HingeLabel, HingeState, Release, Scene, Spring};
+use nboom_model::{HingeLabel, HingeState, Release, Scene, Spring};
 
 use super::overlap::{Changed, overlaps};
 use super::reader::{At, Fields, Reader, quoted};
@@ -12,15 +12,6 @@ use crate::study::{Change, Fault, LateRelease, Relation};
 /// Keys of what a fault breaks.
 const BREAKS: [&str; 6] =
     ["stuck", "missed_release", "late_release", "failed_latch", "broken_spring", "change"];
-
-/// Whether a hinge is free at the start, or becomes so.
-fn can_move(hinge: &Hinge) -> bool {
-    match hinge.start.state {
-        HingeState::Free => true,
-        HingeState::Unreleased => hinge.release != Release::Never,
-        HingeState::Locked => false,
-    }
-}
 
 impl<'t> Reader<'t> {
     /// A fault of a scene.
@@ -49,7 +40,7 @@ impl<'t> Reader<'t> {
             ("failed_latch", &failed_latch),
             ("broken_spring", &broken_spring),
         ] {
-            if named.iter().any(|&i| !can_move(&nominal.scene.bodies[i].hinge)) {
+            if named.iter().any(|&i| !nominal.scene.bodies[i].hinge.can_turn()) {
                 let found = "a hinge that is held or locked all the time";
                 self.error(&of.place_of(key), key, found, "hinges that move");
             }

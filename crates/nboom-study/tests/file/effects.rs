@@ -37,7 +37,7 @@ fn faults_that_break_nothing_or_one_thing_twice() {
         (
             "broken_spring = [\"boom\"]",
             "broken_spring = []",
-            45,
+            44,
             ["broken_spring", "an empty list"],
         ),
         (
@@ -55,7 +55,7 @@ fn faults_that_break_nothing_or_one_thing_twice() {
         (
             "failed_latch = [\"boom\"]",
             "failed_latch = [\"boom\", \"1,1\"]",
-            44,
+            43,
             ["`1,1`", "each hinge once"],
         ),
     ] {
@@ -209,4 +209,97 @@ fn strengths_of_materials_beside_one_of_the_runs() {
     let found = errors(scene, &study("[run]\nyield_stress = 1e8\n"));
     let [(7, told)] = &found[..] else { panic!("{found:#?}") };
     assert!(told.contains("without effect"), "{told}");
+}
+
+/// What is only drawn, what stands for a law that is not there, and what moves nothing.
+#[test]
+fn numbers_that_move_nothing() {
+    let scene = SCENE
+        .replace("[parameters]", "[output]\nstress_every = 2\n\n[parameters]")
+        .replace(
+            "mass = 100.0",
+            "mass = 100.0\nbase = \"fixed\"\nshape = { box = [1.0, 1.0, 1.0] }",
+        )
+        .replace("mass = 3.0", "mass = 3.0\ntip = [2.0, 0.0, 0.0]\npulse_constant = 0.01")
+        .replace("mass = 1.0\n", "mass = 1.0\npulse_constant = 0.01\n")
+        .replace(
+            "rest_deg = -10.0 }",
+            "rest_deg = -10.0 }\ndamper = { damping = 1.0, rest_deg = 5.0 }",
+        );
+    let path = "path = \"main_body.mass\"\nvalues = [100.0, 110.0]\nweights = [3, 1]";
+    for of in [
+        "main_body.shape.box[1]",
+        "main_body.inertia[1]",
+        "body.boom.tip[1]",
+        "body.tip.pulse_constant",
+        "body.boom.hinge.damper.rest_deg",
+        "output.stress_every",
+    ] {
+        let varied = format!("path = \"{of}\"\nuniform = {{ from = 30.0, to = 40.0 }}");
+        refused(&scene, path, &varied, 27, &["without effect", "`spin`"]);
+        let changed = format!("path = \"{of}\", offset");
+        refused(&scene, "path = \"body.tip.mass\", offset", &changed, 38, &["without effect"]);
+    }
+    // They have an effect where the law is there, the main body moves and the hinge latches.
+    let free = scene.replace("base = \"fixed\"\n", "").replace("damping = 1.0", "angle = -0.1");
+    for of in
+        ["main_body.inertia[1]", "body.boom.pulse_constant", "body.boom.hinge.damper.rest_deg"]
+    {
+        let varied = format!("path = \"{of}\"\nuniform = {{ from = 30.0, to = 40.0 }}");
+        assert_eq!(errors(&free, &STUDY.replace(path, &varied)), [], "{of}");
+    }
+}
+
+#[test]
+fn elasticity_of_materials_and_strengths_of_bodies_without_stations() {
+    let scene = include_str!("../../../../examples/solar-array.toml");
+    let idle = "\n[materials.idle]\nyoungs_modulus = 1e10\nyield_stress = 1e8\n";
+    let scene = scene.replacen("on = \"yoke\"", "on = \"yoke\"\nmaterial = \"idle\"", 1) + idle;
+    for (path, is_refused) in [
+        ("materials.aluminium.youngs_modulus", true),
+        ("materials.idle.yield_stress", true),
+        ("materials.aluminium.yield_stress", false),
+    ] {
+        let study = format!(
+            "scene = 'scene.toml'\ndraws = 2\n[[vary]]\npath = '{path}'\nuniform = {{ from = 1e8, to = 2e8 }}\n"
+        );
+        let lines: Vec<usize> = errors(&scene, &study).iter().map(|(line, _)| *line).collect();
+        assert_eq!(lines, if is_refused { vec![4] } else { vec![] }, "{path}");
+    }
+}
+
+/// Each part of a fault breaks something that the rest of it leaves whole.
+#[test]
+fn parts_of_faults_of_which_others_leave_nothing() {
+    let faults = |fault: &str| {
+        let study = STUDY.split("[[fault]]").next().expect("text");
+        errors(SCENE, &format!("{study}[[fault]]\nname = 'it'\n{fault}\n"))
+    };
+    let change =
+        |path: &str| format!("change = [{{ path = 'body.boom.hinge.{path}', offset = -5.0 }}]");
+    let [stiffness, rest, latch] = ["spring.stiffness", "spring.rest_deg", "latch_deg"].map(change);
+    for (fault, lines) in [
+        (format!("{stiffness}\nbroken_spring = ['boom']"), &[37][..]),
+        (format!("{rest}\nbroken_spring = ['boom']"), &[37]),
+        (format!("{rest}\nbroken_spring = ['boom']\nfailed_latch = ['boom']"), &[37]),
+        (format!("{latch}\nfailed_latch = ['boom']"), &[37]),
+        (format!("{latch}\nbroken_spring = ['boom']"), &[]),
+        (format!("{latch}\nstuck = ['boom']"), &[37]),
+        ("stuck = ['boom']\nmissed_release = ['boom']".to_owned(), &[38]),
+        (
+            "stuck = ['boom']\nbroken_spring = ['boom']\nfailed_latch = ['boom']".to_owned(),
+            &[38, 39],
+        ),
+        ("missed_release = ['boom', 'tip']\nbroken_spring = ['boom']".to_owned(), &[38]),
+        (format!("{}\nstuck = ['boom']", change("start_deg")), &[]),
+        (format!("{}\nmissed_release = ['boom']", change("release.at")), &[37]),
+    ] {
+        let found = faults(&fault);
+        let at: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+        assert_eq!(at, lines, "{fault}: {found:#?}");
+    }
+    let [(_, told)] = &faults("stuck = ['boom']\nbroken_spring = ['boom']")[..] else {
+        panic!("one")
+    };
+    assert!(told.contains("`boom`, of which the rest of the fault"), "{told}");
 }

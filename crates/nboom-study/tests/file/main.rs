@@ -93,9 +93,12 @@ change = [{ path = "body.tip.mass", offset = 0.1 }]
 [[fault]]
 name = "stuck"
 stuck = ["1,2"]
-missed_release = ["boom"]
 failed_latch = ["boom"]
 broken_spring = ["boom"]
+
+[[fault]]
+name = "missed"
+missed_release = ["boom"]
 "#;
 
 fn place(study: &str) -> TempDir {
@@ -130,7 +133,7 @@ fn columns_of_variables_say_what_becomes_of_their_numbers() {
 fn a_study_is_read_as_it_says() {
     let study = read(STUDY).expect("right");
     assert_eq!((study.name.as_str(), study.seed, study.draws), ("all of it", 7, 20));
-    assert_eq!((study.method, study.trajectories, study.cases()), (Method::MonteCarlo, true, 60));
+    assert_eq!((study.method, study.trajectories, study.cases()), (Method::MonteCarlo, true, 80));
     let names: Vec<_> = study.variables.iter().map(|variable| variable.name.as_str()).collect();
     assert_eq!(names, ["k", "body_tip_mass", "spin"]);
     let [k, masses, spin] = &study.variables[..] else { panic!("three") };
@@ -224,10 +227,10 @@ fn what_is_wrong_is_told_with_its_line() {
             35,
             "each pair once",
         ),
-        ("failed_latch = [\"boom\"]", "failed_latch = [\"tip\"]", 44, "hinges with latch"),
-        ("broken_spring = [\"boom\"]", "broken_spring = [\"1,2\"]", 45, "hinges with spring"),
+        ("failed_latch = [\"boom\"]", "failed_latch = [\"tip\"]", 43, "hinges with latch"),
+        ("broken_spring = [\"boom\"]", "broken_spring = [\"1,2\"]", 44, "hinges with spring"),
         (
-            "stuck = [\"1,2\"]\nmissed_release = [\"boom\"]\nfailed_latch = [\"boom\"]\nbroken_spring = [\"boom\"]",
+            "stuck = [\"1,2\"]\nfailed_latch = [\"boom\"]\nbroken_spring = [\"boom\"]",
             "",
             40,
             "nothing that is broken",
