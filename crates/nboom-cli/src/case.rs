@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 use nboom_io::SceneFile;
 use nboom_sim::Path as Code;
-use nboom_strength::Settings;
+use nboom_strength::{ActsOn, Judged, Settings};
 use nboom_study::{RunSettings, Study, require_as_swept};
 
 use crate::scene_args::{SceneArgs, read_options};
@@ -71,7 +71,7 @@ pub(crate) fn case(args: &RunArgs, case: u64) -> Result<(RunArgs, SceneFile), Cl
     })?;
     let of_inputs = format!("{}{}", nboom_io::sha256(study.text.as_bytes()), file.sha256);
     let file = SceneFile { sha256: nboom_io::sha256(of_inputs.as_bytes()), ..file };
-    let again = with_settings(args, &study.run, file.settings.hinge_loads)?;
+    let again = with_settings(args, &study.run, &file)?;
     let by_default = || Path::new("out").join(format!("{}-case-{case}", study.name));
     let output = again.output.clone().unwrap_or_else(by_default);
     Ok((RunArgs { output: Some(output), ..again }, file))
@@ -83,14 +83,14 @@ pub(crate) fn read_study(path: &Path, include_anywhere: bool) -> Result<Study, C
     Ok(Study::read_with(path, &read_options(include_anywhere))?)
 }
 
-/// The arguments with the settings of a study in place of defaults; its scene may ask for `hinge_loads`.
+/// The arguments with the settings of a study in place of defaults for a case with this scene.
 ///
 /// # Errors
 /// When an option acts on stresses that the study leaves out.
 fn with_settings(
     args: &RunArgs,
     settings: &RunSettings,
-    hinge_loads: bool,
+    file: &SceneFile,
 ) -> Result<RunArgs, CliError> {
     let stresses = &args.stresses;
     let on_stresses = [
@@ -103,14 +103,13 @@ fn with_settings(
         return Err(CliError::NoStresses { option });
     }
     let mut settings = settings.clone();
+    settings.hinge_loads |= stresses.hinge_loads;
     if stresses.no_stresses {
         let Settings { amplification, pulses, .. } = settings.strength;
-        let has_pulses = hinge_loads || settings.hinge_loads || stresses.hinge_loads;
-        let usual = Settings::default();
-        settings.strength =
-            if has_pulses { Settings { amplification, pulses, ..usual } } else { usual };
+        settings.strength = Settings { amplification, pulses, ..Settings::default() };
+        settings.stresses = false;
     }
-    let of_study = arguments(args, words_of_settings(&settings)).given;
+    let of_study = arguments(args, words_of_settings(&settings, file)).given;
     Ok(arguments(args, of_study.changed_by(&args.given).words()))
 }
 
@@ -125,8 +124,9 @@ fn arguments(args: &RunArgs, options: Vec<String>) -> RunArgs {
     }
 }
 
-/// The settings of a study as options of `nboom run`.
-pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
+/// The settings of a study as options of `nboom run`, as far as they act on the scene of a case: a fault may leave no
+/// latch whose pulses could be amplified.
+pub fn words_of_settings(settings: &RunSettings, file: &SceneFile) -> Vec<String> {
     let RunSettings { stresses, hinge_loads, lanes, .. } = *settings;
     let path = settings.path.map(|path| match path {
         Code::Auto => "auto",
@@ -134,6 +134,16 @@ pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
         Code::Generic => "generic",
     });
     let (strength, usual) = (&settings.strength, Settings::default());
+    let judged = Judged {
+        scene: &file.scene,
+        structure: file.structure.as_ref(),
+        stresses,
+        hinge_loads: hinge_loads || file.settings.hinge_loads,
+        has_yield_stress: strength.yield_stress.is_some(),
+    };
+    let has_pulses = judged.idle(ActsOn::Pulses).is_none();
+    let amplification = Some(strength.amplification).filter(|_| has_pulses);
+    let pulses = Some(strength.pulses).filter(|&shape| has_pulses && shape != usual.pulses);
     let other = |factor: f64, usual: f64| (factor != usual).then(|| factor.to_string());
     let options = [
         ("rtol", settings.rtol.map(|rtol| rtol.to_string())),
@@ -149,8 +159,8 @@ pub fn words_of_settings(settings: &RunSettings) -> Vec<String> {
         ("yield-stress", strength.yield_stress.map(|stress| stress.to_string())),
         ("safety-factor", other(strength.safety_factor, usual.safety_factor)),
         ("ultimate-factor", other(strength.ultimate_factor, usual.ultimate_factor)),
-        ("amplification", other(strength.amplification, usual.amplification)),
-        ("pulses", (strength.pulses != usual.pulses).then(|| strength.pulses.name().to_owned())),
+        ("amplification", amplification.and_then(|of| other(of, usual.amplification))),
+        ("pulses", pulses.map(|shape| shape.name().to_owned())),
     ];
     let given = options.into_iter().filter_map(|(name, word)| Some(format!("--{name}={}", word?)));
     let flags = [("--no-stresses", !stresses), ("--hinge-loads", hinge_loads), ("--lanes", lanes)];

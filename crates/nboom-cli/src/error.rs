@@ -77,6 +77,16 @@ pub enum CliError {
         /// The scene.
         scene: String,
     },
+    /// An option about pulses of latches is given for a scene in which nothing latches.
+    #[error(
+        "{option}: found scene {scene} in which no hinge latches, expected a latch angle of one that turns"
+    )]
+    NoLatch {
+        /// The option.
+        option: &'static str,
+        /// The scene.
+        scene: String,
+    },
     /// An option about pulses of latches is given for a scene whose loads have none.
     #[error(
         "{option}: found scene {scene} without pulses of latches, expected `pulse_constant` of each body that latches, \

@@ -19,6 +19,7 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
     })?;
     let stresses = &args.stresses;
     let judged = Judged {
+        scene: &file.scene,
         structure: file.structure.as_ref(),
         stresses: !stresses.no_stresses,
         hinge_loads: stresses.of_hinges(file),
@@ -40,6 +41,9 @@ pub(crate) fn refuse_idle(args: &RunArgs, file: &SceneFile) -> Result<(), CliErr
         Some((option, Idle::NoStresses)) => Err(CliError::NoStresses { option }),
         Some((option, Idle::NoStations)) => {
             Err(CliError::NoStations { option, scene: file.scene.name.clone() })
+        }
+        Some((option, Idle::NoLatch)) => {
+            Err(CliError::NoLatch { option, scene: file.scene.name.clone() })
         }
         Some((option, Idle::NoPulses)) => {
             Err(CliError::NoPulses { option, scene: file.scene.name.clone() })

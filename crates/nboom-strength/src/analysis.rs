@@ -106,7 +106,7 @@ impl StressAnalysis {
         let mut gauges: Vec<Gauge> = stations.iter().enumerate().map(of_station).collect();
         gauges.extend((0..labels.len()).flat_map(|hinge| Gauge::of_hinge(hinge, &loads)));
         let records = Records::new(&gauges);
-        let latches = scene.bodies.iter().any(|body| body.hinge.lock_angle.is_some());
+        let latches = scene.bodies.iter().any(|body| body.hinge.can_latch());
         Ok(Self {
             settings,
             labels,

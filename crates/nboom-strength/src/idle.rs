@@ -1,6 +1,6 @@
 use std::fmt;
 
-use nboom_model::{Material, Structure};
+use nboom_model::{Material, Scene, Structure};
 
 /// What a number of [`Settings`](crate::Settings) acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +20,8 @@ pub enum ActsOn {
 pub enum Idle {
     /// The scene has no stations.
     NoStations,
+    /// No hinge latches.
+    NoLatch,
     /// Loads have no pulses: a body that latches has no pulse constant, and there are no stations.
     NoPulses,
     /// Stresses are left out of the run.
@@ -34,6 +36,7 @@ impl fmt::Display for Idle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NoStations => "the scene has no stations",
+            Self::NoLatch => "no hinge latches",
             Self::NoPulses => "loads have no pulses, for want of pulse constants",
             Self::NoStresses => "stresses are not computed",
             Self::NoYieldStress => "no material has a yield stress",
@@ -45,6 +48,8 @@ impl fmt::Display for Idle {
 /// The loads that a run finds, and what they are judged by.
 #[derive(Clone, Copy, Debug)]
 pub struct Judged<'a> {
+    /// The scene: which of its hinges latch.
+    pub scene: &'a Scene,
     /// Of the scene: its stations, and the constants of its latches' pulses.
     pub structure: Option<&'a Structure>,
     /// Whether stresses are computed where there are stations.
@@ -58,19 +63,13 @@ pub struct Judged<'a> {
 impl Judged<'_> {
     /// Why a number that acts on this has no effect, if it has none.
     pub fn idle(&self, number: ActsOn) -> Option<Idle> {
-        let Some(structure) = self.structure else {
-            return Some(match number {
-                ActsOn::Pulses => Idle::NoPulses,
-                _ => Idle::NoStations,
-            });
-        };
+        if number == ActsOn::Pulses {
+            return self.without_pulses();
+        }
+        let Some(structure) = self.structure else { return Some(Idle::NoStations) };
         let any = |of: fn(&Material) -> Option<f64>| {
             structure.materials().any(|material| of(material).is_some())
         };
-        if number == ActsOn::Pulses {
-            let has_pulses = self.stresses || self.hinge_loads;
-            return (!has_pulses).then_some(Idle::NoStresses);
-        }
         if !structure.has_stations() {
             return Some(Idle::NoStations);
         }
@@ -88,5 +87,16 @@ impl Judged<'_> {
                 (!is_known).then_some(Idle::NoUltimateStress)
             }
         }
+    }
+
+    /// Why loads have no pulses of latches, if they have none.
+    fn without_pulses(&self) -> Option<Idle> {
+        if !self.scene.bodies.iter().any(|body| body.hinge.can_latch()) {
+            return Some(Idle::NoLatch);
+        }
+        if self.structure.is_none() {
+            return Some(Idle::NoPulses);
+        }
+        (!self.stresses && !self.hinge_loads).then_some(Idle::NoStresses)
     }
 }

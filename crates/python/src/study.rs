@@ -137,7 +137,8 @@ impl Study {
             });
             (name.replace('-', "_"), value)
         };
-        Ok((Scene::of(file), words_of_settings(&self.study.run).into_iter().map(option).collect()))
+        let options = words_of_settings(&self.study.run, &file).into_iter().map(option).collect();
+        Ok((Scene::of(file), options))
     }
 
     /// The text of the study as it stands beside its scene, and that of the scene, both as files of a sweep.

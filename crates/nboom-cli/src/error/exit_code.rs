@@ -36,7 +36,7 @@ impl CliError {
             Self::PlotsOfSweep { .. } | Self::SweepBesideOthers { .. } => 2,
             Self::Tables(error) if error.is_of_input() => 2,
             Self::Sections(_) | Self::Stresses(_) => 2,
-            Self::NoStations { .. } | Self::NoPulses { .. } => 2,
+            Self::NoStations { .. } | Self::NoPulses { .. } | Self::NoLatch { .. } => 2,
             Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,
             Self::NoRecord { .. } | Self::NoArguments { .. } | Self::NothingToRepeat { .. } => 2,
             Self::Simulation {

@@ -265,6 +265,38 @@ fn hinge_loads_say_whether_they_have_the_pulses_of_latches() {
     assert!(moments[1] > 100.0 * moments[0], "{moments:?}");
 }
 
+/// A pulse constant is none of a pulse where nothing latches, be it for want of a latch or of a release.
+#[test]
+fn options_of_pulses_are_refused_where_no_hinge_latches() {
+    let place = Place::new();
+    let with = PANEL.replace("mass = 2.0", "mass = 2.0\npulse_constant = 0.001");
+    for idle in [
+        with.replace("latch_deg = 0.0\n", ""),
+        with.replace("release = { at = 0.0 }", "state = \"held\""),
+    ] {
+        place.write("panel.toml", &idle);
+        for option in [["--amplification", "1.5"], ["--pulses", "all-at-once"]] {
+            let output = place.nboom(&[&["run", "panel.toml"][..], &option].concat());
+            refused(&output, 2, &[option[0], "no hinge latches"]);
+        }
+    }
+    assert!(!place.path("out").exists());
+    place.write("panel.toml", &with);
+    let output = place.nboom(&["run", "panel.toml", "--amplification", "1.5"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    // A fault of a study may leave no latch; that is no mistake of its options.
+    place.write(
+        "study.toml",
+        "scene = 'panel.toml'\ndraws = 1\n[run]\namplification = 1.5\n\
+         [[fault]]\nname = 'failed'\nfailed_latch = ['panel']\n",
+    );
+    for case in ["1", "2"] {
+        let output = place.nboom(&["run", "study.toml", "--case", case]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert_eq!(stdout(&output).contains("judged by"), case == "1", "{}", stdout(&output));
+    }
+}
+
 /// A force table that rises beyond its last point drives a slide out by itself: its travel grows as an exponential.
 #[test]
 fn a_motion_that_runs_away_is_told_of_though_its_end_is_reached() {

@@ -98,6 +98,7 @@ impl<'t> Reader<'t> {
     ) {
         let Some(of) = of else { return };
         let judged = Judged {
+            scene: &nominal.scene,
             structure: nominal.structure.as_ref(),
             stresses: run.stresses,
             hinge_loads: run.hinge_loads || nominal.settings.hinge_loads,

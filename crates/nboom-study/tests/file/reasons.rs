@@ -101,6 +101,22 @@ fn choices_of_code_that_others_leave_nothing_to_are_refused() {
 }
 
 #[test]
+fn options_of_pulses_are_refused_where_nothing_latches() {
+    let scene = SCENE.replace("mass = 3.0", "mass = 3.0\npulse_constant = 0.01");
+    let run = "samples = 10\nhinge_loads = true\namplification = 1.5";
+    assert_eq!(errors(&scene, &STUDY.replace("samples = 10", run)), []);
+    let unlatched = scene.replace("latch_deg = 0.0\n", "");
+    let study = STUDY
+        .replace("lock_time of boom", "final omega_x")
+        .replace("failed_latch = [\"boom\"]\n", "")
+        .replace("samples = 10", run);
+    let [(14, told)] = &errors(&unlatched, &study)[..] else {
+        panic!("{:#?}", errors(&unlatched, &study))
+    };
+    assert!(told.contains("amplification") && told.contains("no hinge latches"), "{told}");
+}
+
+#[test]
 fn a_scene_that_is_no_file_is_told_once() {
     let wrong = STUDY.replace("\"scene.toml\"", "\"../.\"");
     let [(1, told)] = &errors(SCENE, &wrong)[..] else { panic!("one error") };
