@@ -14,7 +14,7 @@ use nboom_strength::StrengthError;
 use nboom_tables::TablesError;
 use nboom_verify::VerifyError;
 
-use crate::{CaseError, Left, SectionFileError, SweepError};
+use crate::{CaseError, Left, RecordError, SectionFileError, SweepError};
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -309,35 +309,9 @@ pub enum CliError {
     /// A column is asked for that a free main body does not have.
     #[error("--columns: a reaction found, columns of a main body that moves freely expected")]
     NoReaction,
-    /// A file is no record of a run.
-    #[error("{}: found no record of a run, one that nboom run has written, run.json, expected", path.display())]
-    NoRecord {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        source: serde_json::Error,
-    },
-    /// The options of a record are not those of this command.
-    #[error("{}: options that this version has expected: {found}", path.display())]
-    NoArguments {
-        /// The record.
-        path: PathBuf,
-        /// Why they are refused.
-        found: String,
-    },
-    /// Neither the input of a run nor the scene beside its record is as it was.
-    #[error(
-        "{}: found neither {input} nor {} as they were read, one of them expected", path.display(),
-        scene.display()
-    )]
-    NothingToRepeat {
-        /// The record.
-        path: PathBuf,
-        /// What the run was made from.
-        input: String,
-        /// The scene as it was read.
-        scene: PathBuf,
-    },
+    /// A run cannot be repeated.
+    #[error(transparent)]
+    Record(#[from] RecordError),
     /// Standard output cannot be written.
     #[error("cannot write to standard output")]
     Stdout(#[source] io::Error),

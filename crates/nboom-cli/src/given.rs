@@ -43,6 +43,11 @@ impl Given {
         self
     }
 
+    /// The first of these options that is no default.
+    pub(crate) fn first_by_hand<'n>(&self, names: &[&'n str]) -> Option<&'n str> {
+        names.iter().find(|&&name| self.by_hand.contains(name)).copied()
+    }
+
     /// With those that were given to `other`, in place of their own and of those that they exclude.
     pub(crate) fn changed_by(mut self, other: &Self) -> Self {
         let cli = Cli::command();

@@ -100,6 +100,7 @@ pub use merge::MergeArgs;
 pub use new::{Kind, NewArgs};
 pub use picture::svg;
 pub use plots::PlotArgs;
+pub use record::RecordError;
 pub use reference::reference;
 pub use report::ReportArgs;
 pub use run::PreparedRun;

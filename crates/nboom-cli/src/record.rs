@@ -1,7 +1,7 @@
 //! `run.json`: all that repeats a run.
 
 use std::env;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use nboom_io::read_text;
 use nboom_results::SCENE_FILE;
@@ -13,6 +13,50 @@ use crate::{CliError, RunArgs};
 
 /// The longest record that is read \[bytes\].
 pub(crate) const LONGEST: u64 = 64 << 20;
+
+/// Why a run cannot be repeated from its record.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// A file is no record of a run.
+    #[error("{}: found no record of a run, one that nboom run has written, run.json, expected", path.display())]
+    NoRecord {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: serde_json::Error,
+    },
+    /// The options of a record are not those of this command.
+    #[error("{}: options that this version has expected: {found}", path.display())]
+    NoArguments {
+        /// The record.
+        path: PathBuf,
+        /// Why they are refused.
+        found: String,
+    },
+    /// An option is for the input of a run, of which there is only the scene that was kept.
+    #[error("--{option}: found {} alone, expected the input that was read; {why}", scene.display())]
+    InputHasChanged {
+        /// The option.
+        option: &'static str,
+        /// The scene beside the record.
+        scene: PathBuf,
+        /// Why it is not the input.
+        why: String,
+    },
+    /// Neither the input of a run nor the scene beside its record is as it was.
+    #[error(
+        "{}: found neither {input} nor {} as they were read, one of them expected", path.display(),
+        scene.display()
+    )]
+    NothingToRepeat {
+        /// The record.
+        path: PathBuf,
+        /// What the run was made from.
+        input: String,
+        /// The scene as it was read.
+        scene: PathBuf,
+    },
+}
 
 /// What a run was made by and from.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -100,7 +144,7 @@ impl Record {
     pub fn read(path: &Path) -> Result<Self, CliError> {
         let text = read_text(path, LONGEST)?;
         serde_json::from_str(&text)
-            .map_err(|source| CliError::NoRecord { path: path.to_owned(), source })
+            .map_err(|source| RecordError::NoRecord { path: path.to_owned(), source }.into())
     }
 
     /// The text of the file.

@@ -5,11 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Parser;
-use nboom_io::{InputError, SceneFile, read_text, sha256};
+use nboom_io::{Format, InputError, SceneFile, read_text, sha256};
 use nboom_results::SCENE_FILE;
 
 use crate::given::Given;
-use crate::record::{LONGEST, Maker, Record};
+use crate::record::{LONGEST, Maker, Record, RecordError, Source};
 use crate::scene_args::STANDARD_INPUT;
 use crate::{Cli, CliError, Command, RunArgs, case, say};
 
@@ -22,6 +22,9 @@ const REPEATED: &str = "-repeated";
 /// Options that concern only where a scene is read.
 const OF_THE_INPUT: [&str; 5] = ["set", "format", "include-anywhere", "fixed-base", "case"];
 
+/// Options of the input that the scene beside a record has no place for.
+const NOT_OF_THE_KEPT: [&str; 2] = ["set", "case"];
+
 /// Whether a run is asked to repeat another.
 pub(crate) fn is_record(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(RECORD))
@@ -31,8 +34,8 @@ pub(crate) fn is_record(path: &Path) -> bool {
 /// options of `args`. Says what is not as it was.
 ///
 /// # Errors
-/// When the record is none or has options that this version does not, and when neither the input nor the
-/// scene beside the record is what was read.
+/// When the record is none or has options that this version does not, when what is given now does not fit, and when
+/// neither the input nor the scene beside the record is what was read.
 pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError> {
     let path = &args.scene.scene;
     let record = Record::read(path)?;
@@ -43,33 +46,28 @@ pub(crate) fn repeated(args: &RunArgs) -> Result<(RunArgs, SceneFile), CliError>
         say(&format!("{difference}; results may differ"));
     }
     let input = Path::new(&record.input.path);
-    let original = arguments(args, record.options.clone(), input)?;
     let is_there = input != Path::new(STANDARD_INPUT);
-    let is_as_it_was = || hash_of(input).as_ref() == Some(&record.input.sha256);
-    let found = match is_there.then(|| input_of(original)) {
-        // What is given now does not fit what was read then.
-        Some(Err(error)) if is_as_it_was() => return Err(error),
-        found => found.and_then(Result::ok),
-    };
-    let (again, file) = match found.filter(|(_, file)| file.sha256 == record.input.sha256) {
-        Some(found) => found,
-        None => {
-            let scene = folder.join(SCENE_FILE);
-            if hash_of(&scene).as_ref() != Some(&record.scene.sha256) {
-                let (path, input) = (path.clone(), record.input.path);
-                return Err(CliError::NothingToRepeat { path, input, scene });
-            }
-            let (path, hash) = (&record.input.path, &record.input.sha256);
-            let how = match (is_there, input.exists()) {
-                (false, _) => "standard input is not read again".to_owned(),
-                (true, false) => format!("{path} is not there"),
-                (true, true) => format!("{path} is not what was read then, SHA-256 {hash}"),
-            };
-            say(&format!("{how}; this is a run of {}", scene.display()));
-            let again = arguments(args, record.options.without(&OF_THE_INPUT), &scene)?;
-            let file = again.scene.read()?;
-            (again, file)
+    let as_recorded = arguments(path, record.options.clone(), input)?;
+    let is_case = as_recorded.case.is_some();
+    let read = is_there.then(|| input_of(as_recorded).ok()).flatten();
+    let is_as_it_was = read.is_some_and(|(_, file)| file.sha256 == record.input.sha256);
+    let (again, file) = if is_as_it_was {
+        input_of(arguments(path, record.options.changed_by(&args.given), input)?)?
+    } else {
+        let scene = folder.join(SCENE_FILE);
+        if hash_of(&scene).as_ref() != Some(&record.scene.sha256) {
+            let (path, input) = (path.clone(), record.input.path);
+            return Err(RecordError::NothingToRepeat { path, input, scene }.into());
         }
+        let why = what_changed(&record.input, is_case);
+        if let Some(option) = args.given.first_by_hand(&NOT_OF_THE_KEPT) {
+            return Err(RecordError::InputHasChanged { option, scene, why }.into());
+        }
+        say(&format!("{why}; this is a run of {}", scene.display()));
+        let options = record.options.without(&OF_THE_INPUT).changed_by(&args.given);
+        let again = arguments(path, options, &scene)?;
+        let file = again.scene.read()?;
+        (again, file)
     };
     let output = args.output.clone().map_or_else(|| beside(folder), Ok)?;
     Ok((RunArgs { output: Some(output), ..again }, file))
@@ -80,6 +78,21 @@ fn hash_of(path: &Path) -> Option<String> {
     read_text(path, LONGEST).ok().map(|text| sha256(text.as_bytes()))
 }
 
+/// Why the input of a run, maybe of a case of a study, is not what was read then.
+fn what_changed(Source { path, sha256 }: &Source, is_case: bool) -> String {
+    let input = Path::new(path);
+    let with_others = match Format::of(input) {
+        _ if input == Path::new(STANDARD_INPUT) => {
+            return "standard input is not read again".to_owned();
+        }
+        _ if !input.exists() => return format!("{path} is not there"),
+        _ if is_case => format!("the study {path} or its scene"),
+        Some(Format::Toml) => format!("{path} or what it includes"),
+        _ => path.clone(),
+    };
+    format!("{with_others} is not what was read then, SHA-256 {sha256}")
+}
+
 /// The arguments of a run, and its scene, or that of a case of its study.
 fn input_of(args: RunArgs) -> Result<(RunArgs, SceneFile), CliError> {
     match args.case {
@@ -88,13 +101,13 @@ fn input_of(args: RunArgs) -> Result<(RunArgs, SceneFile), CliError> {
     }
 }
 
-/// The arguments of a run of `scene` with `options`, changed by those that are given now.
-fn arguments(args: &RunArgs, options: Given, scene: &Path) -> Result<RunArgs, CliError> {
+/// The arguments of a run of `scene` with the options of the record at `path`, or with others.
+fn arguments(path: &Path, options: Given, scene: &Path) -> Result<RunArgs, CliError> {
     let mut words: Vec<OsString> = vec!["nboom".into(), "run".into()];
-    words.extend(options.changed_by(&args.given).words().into_iter().map(OsString::from));
+    words.extend(options.words().into_iter().map(OsString::from));
     words.extend(["--".into(), scene.into()]);
-    let path = &args.scene.scene;
-    let refused = |found: String| CliError::NoArguments { path: path.clone(), found };
+    let refused =
+        |found: String| CliError::from(RecordError::NoArguments { path: path.to_owned(), found });
     match Cli::try_parse_from(words).map(|cli| cli.command) {
         Ok(Command::Run(args)) => Ok(*args),
         Ok(_) => Err(refused("another command".to_owned())),

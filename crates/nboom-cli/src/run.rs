@@ -28,14 +28,11 @@ pub(crate) fn run(
     routines: &Routines,
     interrupts: Interrupts<'_>,
 ) -> Result<String, CliError> {
-    if let Some(number) = args.case {
-        let (args, file) = case::case(args, number)?;
-        return run_scene(&args, file, routines, interrupts);
-    }
-    if !is_record(&args.scene.scene) {
-        return run_scene(args, args.scene.read()?, routines, interrupts);
-    }
-    let (args, file) = repeated(args)?;
+    let (args, file) = match args.case {
+        _ if is_record(&args.scene.scene) => repeated(args)?,
+        Some(number) => case::case(args, number)?,
+        None => return run_scene(args, args.scene.read()?, routines, interrupts),
+    };
     run_scene(&args, file, routines, interrupts)
 }
 

@@ -38,7 +38,7 @@ impl CliError {
             Self::Sections(_) | Self::Stresses(_) => 2,
             Self::NoStations { .. } | Self::NoPulses { .. } | Self::NoLatch { .. } => 2,
             Self::Times { .. } | Self::Column { .. } | Self::NoReaction => 2,
-            Self::NoRecord { .. } | Self::NoArguments { .. } | Self::NothingToRepeat { .. } => 2,
+            Self::Record(_) => 2,
             Self::Simulation {
                 error: SimError::NoRoutine { .. } | SimError::NotCovered { .. },
                 ..

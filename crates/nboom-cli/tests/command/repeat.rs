@@ -212,3 +212,50 @@ fn a_scene_from_standard_input_is_repeated_from_the_directory() {
         |directory: &str| fs::read(place.path(directory).join("states.csv")).expect("a table");
     assert!(table("first") == table("first-repeated"));
 }
+
+/// A scene of two parameters, in a file that includes another.
+const MAIN: &str = "include = [\"laws.toml\"]\n\n[run]\nend = \"$end\"\n\n[main_body]\nmass = \"$mass\"\n\
+                    inertia = [9.0, 9.0, 9.0]\n";
+const LAWS: &str = "[parameters]\nend = 3.0\nmass = 4.0\n";
+
+#[test]
+fn an_included_file_that_changed_is_not_taken_for_the_scene_that_names_it() {
+    let place = Place::new();
+    place.write("main.toml", MAIN);
+    place.write("laws.toml", LAWS);
+    nboom(&place, &["run", "main.toml", "-o", "first"]);
+    // What is given now does not fit, though nothing has changed.
+    let wrong = place.nboom(&["run", "first/run.json", "--set", "ende=1"]);
+    refused(&wrong, 2, &["did you mean `end`"]);
+    assert!(!stderr(&wrong).contains("read then"), "{}", stderr(&wrong));
+    place.write("laws.toml", &LAWS.replace("4.0", "5.0"));
+    let told = nboom(&place, &["run", "first/run.json"]);
+    assert!(told.contains("main.toml or what it includes is not what was read then"), "{told}");
+    let wrong = place.nboom(&["run", "first/run.json", "--set", "end=1"]);
+    refused(&wrong, 2, &["--set: found first/scene.toml alone", "main.toml or what it includes"]);
+}
+
+#[test]
+fn a_case_is_repeated_with_what_is_given_now() {
+    let place = Place::new();
+    place.write("scene.toml", &format!("{LAWS}{}", MAIN.split_once("\n\n").expect("two").1));
+    let study = "scene = 'scene.toml'\ndraws = 6\n[[vary]]\npath = 'parameters.mass'\n\
+                 uniform = { from = 4, to = 5 }\n";
+    place.write("study.toml", study);
+    let case = |number: &str, into: &str| {
+        nboom(&place, &["run", "study.toml", "--case", number, "-o", into]);
+    };
+    case("5", "five");
+    case("6", "six");
+    nboom(&place, &["run", "five/run.json", "--case", "6", "-o", "again"]);
+    assert_same(&place, ["six", "again"]);
+    let wrong = place.nboom(&["run", "five/run.json", "--set", "mass=3"]);
+    refused(&wrong, 2, &["--set with --case: found an option of scenes"]);
+    assert!(!stderr(&wrong).contains("read then"), "{}", stderr(&wrong));
+    place.write("study.toml", &study.replace("to = 5", "to = 6"));
+    let told = nboom(&place, &["run", "five/run.json"]);
+    assert!(told.contains("the study study.toml or its scene is not what was read then"), "{told}");
+    assert_same(&place, ["five", "five-repeated"]);
+    let wrong = place.nboom(&["run", "five/run.json", "--case", "6"]);
+    refused(&wrong, 2, &["--case: found five/scene.toml alone", "or its scene is not what"]);
+}
