@@ -27,6 +27,20 @@ enum Words {
     Several(Vec<String>),
 }
 
+impl Words {
+    /// All of them; none of a flag.
+    fn all(&self) -> &[String] {
+        match self {
+            Self::Flag(_) => &[],
+            Self::One(word) => std::slice::from_ref(word),
+            Self::Several(words) => words,
+        }
+    }
+}
+
+/// The option whose words each give a parameter of the scene, as NAME=VALUE.
+const SET: &str = "set";
+
 /// The argument that is no option.
 const SCENE: &str = "scene";
 
@@ -48,7 +62,8 @@ impl Given {
         names.iter().find(|&&name| self.by_hand.contains(name)).copied()
     }
 
-    /// With those that were given to `other`, in place of their own and of those that they exclude.
+    /// With those that were given to `other`, in place of their own and of those that they exclude; a parameter that
+    /// `other` does not give keeps the value that it had.
     pub(crate) fn changed_by(mut self, other: &Self) -> Self {
         let cli = Cli::command();
         let run = cli.find_subcommand("run").expect("a command");
@@ -61,17 +76,27 @@ impl Given {
         self.options.retain(|name, _| {
             !other.by_hand.iter().any(|given| exclude(given, name) || exclude(name, given))
         });
+        let parameters = self.parameters_with(other);
         let by_hand = other.options.iter().filter(|(name, _)| other.by_hand.contains(*name));
         self.options.extend(by_hand.map(|(name, words)| (name.clone(), words.clone())));
+        self.options.extend(parameters.map(|words| (SET.to_owned(), words)));
         self
+    }
+
+    /// The words of both for parameters; of one that both give those of `other`.
+    fn parameters_with(&self, other: &Self) -> Option<Words> {
+        let given = other.options.get(SET)?.all();
+        let name = |word: &str| word.split('=').next().map(|name| name.trim().to_owned());
+        let is_kept = |word: &&String| !given.iter().any(|given| name(given) == name(word));
+        let kept = self.options.get(SET).map_or(&[][..], Words::all).iter().filter(is_kept);
+        Some(Words::Several(kept.chain(given).cloned().collect()))
     }
 
     /// Words of a command line.
     pub(crate) fn words(&self) -> Vec<String> {
         let option = |(name, words): (&String, &Words)| match words {
             Words::Flag(is_given) => is_given.then(|| format!("--{name}")).into_iter().collect(),
-            Words::One(word) => vec![format!("--{name}={word}")],
-            Words::Several(words) => words.iter().map(|word| format!("--{name}={word}")).collect(),
+            words => words.all().iter().map(|word| format!("--{name}={word}")).collect(),
         };
         self.options.iter().flat_map(option).collect()
     }
@@ -187,8 +212,10 @@ mod tests {
 
     #[test]
     fn what_is_given_later_replaces_what_was_given() {
-        let [was, now] =
-            [&["--rtol=1e-5", "--set=a=1", "--quiet"][..], &["--set=a=2", "--listing"]];
+        let [was, now] = [
+            &["--rtol=1e-5", "--set=a=1", "--set=b=3", "--quiet"][..],
+            &["--set=a=2", "--listing"],
+        ];
         let said = run(was).given.changed_by(&run(now).given).words();
         for (word, is_there) in [
             ("--rtol=1e-5", true),
@@ -196,6 +223,7 @@ mod tests {
             ("--listing", true),
             ("--set=a=2", true),
             ("--set=a=1", false),
+            ("--set=b=3", true),
             ("--rtol=1e-9", false),
         ] {
             assert_eq!(said.iter().any(|said| said == word), is_there, "{word}: {said:?}");

@@ -219,6 +219,20 @@ const MAIN: &str = "include = [\"laws.toml\"]\n\n[run]\nend = \"$end\"\n\n[main_
 const LAWS: &str = "[parameters]\nend = 3.0\nmass = 4.0\n";
 
 #[test]
+fn a_parameter_given_now_leaves_the_others_as_they_were() {
+    let place = Place::new();
+    place.write("main.toml", MAIN);
+    place.write("laws.toml", LAWS);
+    let both = ["--set", "end=2", "--set", "mass=5"];
+    nboom(&place, &[&["run", "main.toml", "-o", "first"][..], &both].concat());
+    nboom(&place, &["run", "first/run.json", "-o", "second", "--set", "end=1"]);
+    let parameters = place.summary("second")["parameters"].clone();
+    assert_eq!(parameters, serde_json::json!({ "end": 1.0, "mass": 5.0 }));
+    let twice = ["run", "main.toml", "--set", "end=1", "--set", "mass=5", "--set", "end=2"];
+    refused(&place.nboom(&twice), 2, &["--set: found end=1 and end=2", "each parameter once"]);
+}
+
+#[test]
 fn an_included_file_that_changed_is_not_taken_for_the_scene_that_names_it() {
     let place = Place::new();
     place.write("main.toml", MAIN);
