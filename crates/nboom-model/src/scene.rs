@@ -162,9 +162,23 @@ impl Scene {
     /// # Errors
     /// When that time is not finite or before the initial one.
     pub fn ending_at(&self, end_time: f64) -> Result<Self, Vec<ModelError>> {
-        let scene = Self::new(SceneDescription { end_time, ..self.description.clone() })?;
-        let Self { labels, shapes, departures, .. } = self.clone();
-        Ok(Self { labels, shapes, ..scene.with_departures(departures) })
+        self.with_description(SceneDescription { end_time, ..self.description.clone() })
+    }
+
+    /// The scene with another description of the same bodies, whose names, shapes and departures stay.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, not only the first.
+    ///
+    /// # Panics
+    /// When it has not as many bodies.
+    pub fn with_description(&self, description: SceneDescription) -> Result<Self, Vec<ModelError>> {
+        assert_eq!(description.bodies.len(), self.bodies.len(), "the bodies are the same");
+        let Self { mut labels, adding, description, .. } = Self::new(description)?;
+        for (label, named) in labels.iter_mut().zip(&self.labels) {
+            label.name.clone_from(&named.name);
+        }
+        Ok(Self { description, labels, adding, ..self.clone() })
     }
 
     /// The scene under another name.

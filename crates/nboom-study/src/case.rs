@@ -94,10 +94,7 @@ impl Study {
 pub(crate) fn broken(file: SceneFile, fault: &Fault) -> Result<SceneFile, Rejection> {
     let mut description = (*file.scene).clone();
     fault.apply(&mut description)?;
-    let labels = file.scene.labels().iter();
-    let names = labels.filter_map(|label| label.name.as_deref()).map(str::to_owned).collect();
-    let scene = Scene::new(description)?.with_names(names);
-    let scene = scene.with_shapes(file.scene.shapes().clone());
+    let scene = file.scene.with_description(description)?;
     Ok(SceneFile { scene, ..file })
 }
 
