@@ -8,8 +8,10 @@ use nboom::model::{
     SceneDescription, SectionShape, SegmentStructure, Station, Structure,
 };
 use nboom::scalar::{Mat3, Sym3, Vec3};
-use nboom::sim::{Options, simulate};
-use nboom::strength::{Cause, HingeQuantity, PulseShape, Settings, StressAnalysis, WorstHingeLoad};
+use nboom::sim::{Options, SimError, simulate};
+use nboom::strength::{
+    Cause, HingeQuantity, PulseShape, Settings, StrengthError, StressAnalysis, WorstHingeLoad,
+};
 
 const MASS: f64 = 2.0;
 const LENGTH: f64 = 1.5;
@@ -309,5 +311,21 @@ fn a_pendulum_is_pulled_most_in_the_middle_of_its_swing() {
         let passes = [1.0, 3.0].map(|quarters| (force.time - quarters * quarter).abs());
         // A flat top again.
         assert!(passes[0].min(passes[1]) < 1e-3, "{force:?}");
+    }
+}
+
+#[test]
+fn a_pulse_so_short_that_stresses_overflow_ends_the_run() {
+    // The first makes moments whose squares overflow, the second stresses that do.
+    for pulse_constant in [1e-200, 1e-302] {
+        let latch = Latch { time: 0.1, rate: 2.0, pulse_constant };
+        let (scene, structure) = scene(&[latch], 0.2);
+        let mut analysis =
+            StressAnalysis::new(&scene, &structure, Settings::default()).expect("tubes");
+        let failure = simulate(&scene, &Options::default(), &mut analysis).expect_err("overflow");
+        let SimError::Record { source, .. } = &failure.error else { panic!("{failure}") };
+        let cause = source.get_ref().and_then(|source| source.downcast_ref());
+        let Some(StrengthError::NotFinite { time }) = cause else { panic!("{failure}") };
+        is_near(*time, latch.time);
     }
 }

@@ -169,10 +169,9 @@ impl StressAnalysis {
     pub fn motion(&mut self, snapshot: &Snapshot, detail: &Detail) -> Result<(), StrengthError> {
         self.finder.write(&MotionAt::of(snapshot, detail), &mut self.row)?;
         if self.reached == f64::NEG_INFINITY {
-            let acting = self.pulses.acting(snapshot.time);
-            acting.for_each(|acting| {
-                self.worst.look(&self.search.gauges, (acting, snapshot.time), &self.row);
-            });
+            for acting in self.pulses.acting(snapshot.time) {
+                self.worst.look(&self.search.gauges, (acting, snapshot.time), &self.row)?;
+            }
         }
         let Self { search, stations, row, station_loads, hinge_loads, .. } = self;
         let (of_stations, of_hinges) = search.gauges.split_at(stations.iter().len());
@@ -215,7 +214,7 @@ impl StressAnalysis {
             for acting in self.pulses.acting(u) {
                 self.row.copy_from_slice(&row);
                 acting.add_to(&mut self.row, u);
-                self.worst.look(&self.search.gauges, (acting, u), &self.row);
+                self.worst.look(&self.search.gauges, (acting, u), &self.row)?;
             }
             sides.push(row);
         }
@@ -285,7 +284,7 @@ impl StressAnalysis {
     /// Continues the pulses that still last to their ends, after the last step of a run.
     ///
     /// # Errors
-    /// None are to be expected.
+    /// When a load or stress is infinite.
     pub fn finish(&mut self) -> Result<(), StrengthError> {
         self.settle(self.pulses.end())
     }

@@ -40,8 +40,8 @@ pub enum StrengthError {
         /// The difference that rounding explains.
         most: f64,
     },
-    /// A load is infinite or not a number.
-    #[error("the loads are no finite numbers")]
+    /// A load, or a stress under it, is infinite or not a number.
+    #[error("the loads or their stresses are no finite numbers")]
     NotFinite {
         /// When.
         time: f64,
@@ -58,6 +58,6 @@ mod tests {
     fn the_time_is_said_once() {
         let source = std::io::Error::other(StrengthError::NotFinite { time: 0.025 });
         let told = SimError::Record { time: 0.025, source }.to_string();
-        assert_eq!(told, "at time 0.025: the loads are no finite numbers");
+        assert_eq!(told, "at time 0.025: the loads or their stresses are no finite numbers");
     }
 }

@@ -47,8 +47,15 @@ impl Loaded for Piece<'_> {
         self.records.largest_of_kind(g)
     }
 
-    fn keep(&mut self, g: usize, gauge: &Gauge, value: f64, u: f64, row: &[f64]) {
-        self.records.keep((g, gauge), value, (self.acting, u), row);
+    fn keep(
+        &mut self,
+        g: usize,
+        gauge: &Gauge,
+        value: f64,
+        u: f64,
+        row: &[f64],
+    ) -> Result<(), StrengthError> {
+        self.records.keep((g, gauge), value, (self.acting, u), row)
     }
 }
 
@@ -76,7 +83,7 @@ pub(crate) fn search_step(
 /// loads that represent the motion.
 ///
 /// # Errors
-/// None are to be expected.
+/// When a load or stress is infinite.
 pub(crate) fn search_pulses(
     search: &mut Search,
     end: f64,

@@ -4,7 +4,7 @@ use nboom_scalar::Wrench;
 
 use crate::gauge::{Gauge, Measure};
 use crate::pulse::Acting;
-use crate::{Cause, StationLoad};
+use crate::{Cause, StationLoad, StrengthError};
 
 /// The largest value of one gauge, and its cause.
 #[derive(Clone, Copy, Debug)]
@@ -82,16 +82,24 @@ impl Records {
 
     /// Keeps the value of gauge `g`, which is `gauge`, at `u` under the loads in `row`, those of
     /// pulses included.
+    ///
+    /// # Errors
+    /// When it is infinite.
     pub fn keep(
         &mut self,
         (g, gauge): (usize, &Gauge),
         value: f64,
         (acting, u): (Acting<'_>, f64),
         row: &[f64],
-    ) {
-        let (time, cause) = (acting.time(u), cause(gauge, row, (acting, u)));
+    ) -> Result<(), StrengthError> {
+        let time = acting.time(u);
+        if !value.is_finite() {
+            return Err(StrengthError::NotFinite { time });
+        }
+        let cause = cause(gauge, row, (acting, u));
         let (load, numbers) = (gauge.load(row), gauge.numbers(row));
         self.set(g, Record { value, time, cause, load, numbers });
+        Ok(())
     }
 
     fn set(&mut self, g: usize, record: Record) {
@@ -110,12 +118,21 @@ impl Records {
     }
 
     /// Keeps each value at `u` under the loads in `row` that is larger than before.
-    pub fn look(&mut self, gauges: &[Gauge], (acting, u): (Acting<'_>, f64), row: &[f64]) {
+    ///
+    /// # Errors
+    /// When one is infinite.
+    pub fn look(
+        &mut self,
+        gauges: &[Gauge],
+        (acting, u): (Acting<'_>, f64),
+        row: &[f64],
+    ) -> Result<(), StrengthError> {
         for (g, gauge) in gauges.iter().enumerate() {
             if let Some(value) = gauge.above(self.largest(g), &gauge.numbers(row)) {
-                self.keep((g, gauge), value, (acting, u), row);
+                self.keep((g, gauge), value, (acting, u), row)?;
             }
         }
+        Ok(())
     }
 }
 

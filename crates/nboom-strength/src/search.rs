@@ -43,7 +43,17 @@ pub(crate) trait Loaded {
     fn largest_of_kind(&self, g: usize) -> f64;
 
     /// Keeps a larger one of gauge `g`, which is `gauge`, at `u` under the loads in `row`.
-    fn keep(&mut self, g: usize, gauge: &Gauge, value: f64, u: f64, row: &[f64]);
+    ///
+    /// # Errors
+    /// When it is infinite.
+    fn keep(
+        &mut self,
+        g: usize,
+        gauge: &Gauge,
+        value: f64,
+        u: f64,
+        row: &[f64],
+    ) -> Result<(), StrengthError>;
 }
 
 /// Searches largest values; allocates nothing after it is made.
@@ -108,7 +118,7 @@ impl Search {
             loaded.write(u, &mut self.between)?;
             for (g, gauge) in self.gauges.iter().enumerate() {
                 if let Some(value) = gauge.above(loaded.largest(g), &gauge.numbers(&self.between)) {
-                    loaded.keep(g, gauge, value, u, &self.between);
+                    loaded.keep(g, gauge, value, u, &self.between)?;
                 }
             }
         }
@@ -127,13 +137,14 @@ impl Search {
             for k in (0..FINE).step_by(STRIDE) {
                 loaded.write(time(k, &self.places), row_mut(&mut self.rows, self.width, k))?;
             }
-            open.retain(|&g| {
+            retain(&mut open, |g| {
                 if self.is_below(g, loaded) {
-                    return false;
+                    return Ok(false);
                 }
-                let is_raised = self.keep_largest(g, (0..FINE).step_by(STRIDE), [from, to], loaded);
-                !(is_raised && self.is_below(g, loaded))
-            });
+                let coarse = (0..FINE).step_by(STRIDE);
+                let is_raised = self.keep_largest(g, coarse, [from, to], loaded)?;
+                Ok(!(is_raised && self.is_below(g, loaded)))
+            })?;
             if open.is_empty() {
                 return Ok(());
             }
@@ -141,9 +152,9 @@ impl Search {
                 loaded.write(time(k, &self.places), row_mut(&mut self.rows, self.width, k))?;
             }
             for &g in &open {
-                self.keep_largest(g, (1..FINE).step_by(STRIDE), [from, to], loaded);
+                self.keep_largest(g, (1..FINE).step_by(STRIDE), [from, to], loaded)?;
             }
-            open.retain(|&g| self.climb(g, [from, to], loaded) == Verdict::TooLong);
+            retain(&mut open, |g| Ok(self.climb(g, [from, to], loaded)? == Verdict::TooLong))?;
             let middle = 0.5 * (from + to);
             if open.is_empty() || level == MOST_HALVINGS || middle <= from || to <= middle {
                 return Ok(());
@@ -171,7 +182,7 @@ impl Search {
         points: impl Iterator<Item = usize>,
         [from, to]: [f64; 2],
         loaded: &mut dyn Loaded,
-    ) -> bool {
+    ) -> Result<bool, StrengthError> {
         let gauge = &self.gauges[g];
         let (mut largest, mut at) = (loaded.largest(g), None);
         for k in points {
@@ -181,9 +192,9 @@ impl Search {
         }
         if let Some(k) = at {
             let u = from + (to - from) * self.places[k];
-            loaded.keep(g, gauge, largest, u, self.row(k));
+            loaded.keep(g, gauge, largest, u, self.row(k))?;
         }
-        at.is_some()
+        Ok(at.is_some())
     }
 
     /// The level below which a gauge need not be searched.
@@ -202,16 +213,21 @@ impl Search {
 
     /// Keeps the largest value of gauge `g` by nine points, if they are enough and it is larger
     /// than before.
-    fn climb(&mut self, g: usize, [from, to]: [f64; 2], loaded: &mut dyn Loaded) -> Verdict {
+    fn climb(
+        &mut self,
+        g: usize,
+        [from, to]: [f64; 2],
+        loaded: &mut dyn Loaded,
+    ) -> Result<Verdict, StrengthError> {
         let gauge = &self.gauges[g];
         let values: [[f64; 6]; FINE] = std::array::from_fn(|k| gauge.numbers(self.row(k)));
         let (coefficients, tails) = (self.fine.coefficients(&values), self.fine.tails(&values));
         let enough = Self::enough(g, loaded);
         if stays_below(gauge, &coefficients, &tails, enough) {
-            return Verdict::Done;
+            return Ok(Verdict::Done);
         }
         if left_out(gauge, &tails) > enough - loaded.largest(g) {
-            return Verdict::TooLong;
+            return Ok(Verdict::TooLong);
         }
         let curve = Curve { basis: &self.fine, places: &self.places, gauge };
         let (mut largest, mut at) = (loaded.largest(g), None);
@@ -224,10 +240,26 @@ impl Search {
             for (weight, row) in weights.iter().zip(self.rows.chunks_exact(self.width)) {
                 self.between.iter_mut().zip(row).for_each(|(sum, number)| *sum += weight * number);
             }
-            loaded.keep(g, gauge, largest, from + (to - from) * x, &self.between);
+            loaded.keep(g, gauge, largest, from + (to - from) * x, &self.between)?;
         }
-        Verdict::Done
+        Ok(Verdict::Done)
     }
+}
+
+/// Keeps the gauges of which `is_kept` says so, until it fails.
+fn retain(
+    gauges: &mut Vec<usize>,
+    mut is_kept: impl FnMut(usize) -> Result<bool, StrengthError>,
+) -> Result<(), StrengthError> {
+    let mut outcome = Ok(());
+    gauges.retain(|&g| {
+        outcome.is_ok()
+            && is_kept(g).unwrap_or_else(|error| {
+                outcome = Err(error);
+                false
+            })
+    });
+    outcome
 }
 
 fn row_mut(rows: &mut [f64], width: usize, k: usize) -> &mut [f64] {
@@ -287,7 +319,9 @@ impl Curve<'_> {
         let unit = *found.0;
         let squares = values.map(|value| [(value / unit).powi(2)]);
         let left_out: f64 = basis.tails(&squares).iter().map(|[tail]| tail.abs()).sum();
-        if left_out <= TOLERANCE || cuts == MOST_CUTS {
+        // Where numbers overflow it is none, and halves would be no better.
+        let is_rough = left_out > TOLERANCE;
+        if !is_rough || cuts == MOST_CUTS {
             let of_squares = basis.coefficients(&squares).map(|[c]| c);
             if let Some(x) = peak(&of_squares, 1.0 + TOLERANCE) {
                 raise(gauge.value(&nodes::value(coefficients, x)), x, found);
@@ -301,5 +335,34 @@ impl Curve<'_> {
                 self.climb(half, &numbers, part, cuts + 1, slack, found);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nboom_loads::{LoadEquations, Loads};
+    use nboom_model::{Appendage, Hinge, MassProperties, Mount, Scene, SceneDescription, Segment};
+    use nboom_scalar::{Sym3, Vec3};
+
+    use super::*;
+
+    #[test]
+    fn a_curve_that_overflows_is_not_halved() {
+        let ball = MassProperties::new(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+        let mut description = SceneDescription::at_rest("a ball on a ball", ball, 1.0);
+        let segments = vec![Segment { length: 1.0, mass_properties: ball, hinge: Hinge::free() }];
+        description.attach(&Appendage::Regular { mount: Mount::at(Vec3::zero()), segments });
+        let scene = Scene::new(description).expect("balls are bodies");
+        let loads = Loads::by(LoadEquations::new(&scene, None)).load_set();
+        let [gauge, _] = Gauge::of_hinge(0, &loads);
+        let (basis, places) = (Basis::new(), nodes::places());
+        let numbers = places.map(|x| [1e308 * (0.5 + x); 6]);
+        let coefficients = basis.coefficients(&numbers);
+        assert!(coefficients.iter().flatten().any(|number| number.is_nan()));
+        let (mut largest, mut at) = (1.0, None);
+        let curve = Curve { basis: &basis, places: &places, gauge: &gauge };
+        let found = &mut (&mut largest, &mut at);
+        curve.climb(&coefficients, &numbers, [0.0, 1.0], 0, 0.0, found);
+        assert_eq!((largest, at), (f64::INFINITY, Some(0.0)));
     }
 }
